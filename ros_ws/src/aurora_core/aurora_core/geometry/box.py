@@ -1,0 +1,170 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Oriented rectangles in the plane: bodies of vehicles and persons, and the gap between two."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from aurora_core.errors import AuroraError
+from aurora_core.geometry.arrays import FloatArray, FloatOrArray
+from aurora_core.geometry.kernel import norm2_array
+
+_UNIT_TOLERANCE = 1e-6
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class OrientedBox:
+    """A rectangle on the ground, ENU map frame.
+
+    Attributes:
+        x_m: Centre, metres east.
+        y_m: Centre, metres north.
+        heading_x: Unit vector of the heading, east component.
+        heading_y: North component.
+        length_m: Extent along the heading.
+        width_m: Extent across it.
+    """
+
+    x_m: float
+    y_m: float
+    heading_x: float
+    heading_y: float
+    length_m: float
+    width_m: float
+
+    def __post_init__(self) -> None:
+        """Check the values.
+
+        Raises:
+            AuroraError: A heading that is no unit vector, a size that is not positive, or a
+                value that is not finite.
+        """
+        square = self.heading_x * self.heading_x + self.heading_y * self.heading_y
+        sound = (
+            math.isfinite(self.x_m)
+            and math.isfinite(self.y_m)
+            and abs(square - 1.0) <= _UNIT_TOLERANCE
+            and 0.0 < self.length_m < math.inf
+            and 0.0 < self.width_m < math.inf
+        )
+        if not sound:
+            raise AuroraError(
+                f'geometry: a finite box of positive size with a unit heading expected, '
+                f'found {self}',
+                component='geometry',
+            )
+
+    def corners(self) -> FloatArray:
+        """Return the corners (4, 2): front left, rear left, rear right, front right."""
+        ux, uy = self.heading_x * self.length_m / 2.0, self.heading_y * self.length_m / 2.0
+        vx, vy = -self.heading_y * self.width_m / 2.0, self.heading_x * self.width_m / 2.0
+        return np.array(
+            [
+                (self.x_m + ux + vx, self.y_m + uy + vy),
+                (self.x_m - ux + vx, self.y_m - uy + vy),
+                (self.x_m - ux - vx, self.y_m - uy - vy),
+                (self.x_m + ux - vx, self.y_m + uy - vy),
+            ]
+        )
+
+
+def box_gap(a: OrientedBox, b: OrientedBox) -> float:
+    """Return the signed gap of two boxes, bit for bit that of `box_gap_series`.
+
+    Returns:
+        Metres: above 0 the least distance, below 0 how deep they overlap.
+    """
+    gap = box_gap_series(
+        np.array([a.x_m]),
+        np.array([a.y_m]),
+        np.array([a.heading_x]),
+        np.array([a.heading_y]),
+        a.length_m,
+        a.width_m,
+        np.array([b.x_m]),
+        np.array([b.y_m]),
+        np.array([b.heading_x]),
+        np.array([b.heading_y]),
+        b.length_m,
+        b.width_m,
+    )
+    return float(gap[0])
+
+
+def box_gap_series(
+    a_x: FloatArray,
+    a_y: FloatArray,
+    a_hx: FloatArray,
+    a_hy: FloatArray,
+    a_length: FloatOrArray,
+    a_width: FloatOrArray,
+    b_x: FloatArray,
+    b_y: FloatArray,
+    b_hx: FloatArray,
+    b_hy: FloatArray,
+    b_length: FloatOrArray,
+    b_width: FloatOrArray,
+) -> FloatArray:
+    """Return the signed gap of two moving rectangles.
+
+    Args:
+        a_x: (T,) centre of the first one, metres east.
+        a_y: (T,) metres north.
+        a_hx: (T,) unit vector of its heading, east component.
+        a_hy: (T,) north component.
+        a_length: Its extent along the heading, metres; a scalar or (T,).
+        a_width: Its extent across.
+        b_x: The same for the second one, to `b_width`.
+        b_y: (T,).
+        b_hx: (T,).
+        b_hy: (T,).
+        b_length: Metres.
+        b_width: Metres.
+
+    Returns:
+        (T,) metres: above 0 the least distance; 0 on touch; below 0 the least shift along a side
+        of either rectangle that would part them (separating axes). Any shapes that broadcast.
+    """
+    half_al, half_aw = np.asarray(a_length) / 2.0, np.asarray(a_width) / 2.0
+    half_bl, half_bw = np.asarray(b_length) / 2.0, np.asarray(b_width) / 2.0
+    dx, dy = b_x - a_x, b_y - a_y
+    cos = a_hx * b_hx + a_hy * b_hy
+    sin = a_hx * b_hy - a_hy * b_hx
+    abs_cos, abs_sin = np.abs(cos), np.abs(sin)
+    # centre of the other rectangle along and across each one's heading
+    a_along, a_across = dx * a_hx + dy * a_hy, dy * a_hx - dx * a_hy
+    b_along, b_across = dx * b_hx + dy * b_hy, dy * b_hx - dx * b_hy
+    axes = (
+        np.abs(a_along) - (half_al + half_bl * abs_cos + half_bw * abs_sin),
+        np.abs(a_across) - (half_aw + half_bl * abs_sin + half_bw * abs_cos),
+        np.abs(b_along) - (half_bl + half_al * abs_cos + half_aw * abs_sin),
+        np.abs(b_across) - (half_bw + half_al * abs_sin + half_aw * abs_cos),
+    )
+    overlap = np.maximum(np.maximum(axes[0], axes[1]), np.maximum(axes[2], axes[3]))
+
+    # Two rectangles that do not overlap are closest at a corner of one of them.
+    corners = []
+    for sl, sw in ((1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)):
+        al, aw, bl, bw = sl * half_al, sw * half_aw, sl * half_bl, sw * half_bw
+        b_along_a, b_across_a = bl * cos - bw * sin, bl * sin + bw * cos
+        corners.append(_outside(a_along + b_along_a, a_across + b_across_a, half_al, half_aw))
+        a_along_b, a_across_b = al * cos + aw * sin, aw * cos - al * sin
+        corners.append(_outside(a_along_b - b_along, a_across_b - b_across, half_bl, half_bw))
+    least = corners[0]
+    for distance in corners[1:]:
+        least = np.minimum(least, distance)
+    gap: FloatArray = np.where(overlap > 0.0, least, overlap + 0.0)
+    return gap
+
+
+def _outside(
+    along: FloatArray, across: FloatArray, half_length: FloatArray, half_width: FloatArray
+) -> FloatArray:
+    """Return the distance of a point to a rectangle about the origin, 0 inside."""
+    return norm2_array(
+        np.maximum(np.abs(along) - half_length, 0.0), np.maximum(np.abs(across) - half_width, 0.0)
+    )

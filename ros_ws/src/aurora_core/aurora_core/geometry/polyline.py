@@ -1,0 +1,220 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""A route in the plane: position by arc length, arc length by position."""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_left, bisect_right
+
+import numpy as np
+
+from aurora_core.errors import MapError
+from aurora_core.geometry.arrays import FloatArray, FloatLike, as_rows, frozen
+
+_START_TIE_M = 2.0  # branches this much farther than the nearest one compete for the start
+DEFAULT_WINDOW_M = 10.0
+_WAY_ON_ROUTE = 2.0  # a curve may be longer than its chord
+_WAY_OFF_ROUTE = 4.0  # a way across a block cuts three of its sides
+
+
+class Polyline:
+    """Straight segments through points; arc length s = 0 at the first point.
+
+    Attributes:
+        points: (K, 2) metres, repeated points dropped, read-only.
+        cumulative_m: (K,) arc length of each point.
+        length_m: Arc length of the last point.
+    """
+
+    def __init__(self, points: FloatLike) -> None:
+        """Measure the polyline.
+
+        Args:
+            points: (K, 2) metres; at least two different points.
+
+        Raises:
+            MapError: A point is not finite, or fewer than two points differ.
+        """
+        rows = as_rows('points', points, 2)
+        if not np.isfinite(rows).all():
+            raise MapError('polyline: finite coordinates expected')
+        x: list[float] = []
+        y: list[float] = []
+        self._s: list[float] = []
+        self._tx: list[float] = []
+        self._ty: list[float] = []
+        self._step: list[float] = []
+        for px, py in rows.tolist():
+            if not x:
+                self._s.append(0.0)
+            else:
+                dx, dy = px - x[-1], py - y[-1]
+                step = math.sqrt(dx * dx + dy * dy)
+                if step == 0.0:
+                    continue
+                self._tx.append(dx / step)
+                self._ty.append(dy / step)
+                self._step.append(step)
+                self._s.append(self._s[-1] + step)
+            x.append(px)
+            y.append(py)
+        if len(x) < 2:
+            raise MapError(f'polyline: at least two different points expected, found {len(x)}')
+        self._x, self._y = x, y
+        self.points: FloatArray = frozen(np.array([x, y]).T.copy())
+        self.cumulative_m: FloatArray = frozen(np.array(self._s))
+        self.length_m = self._s[-1]
+
+    def at(self, s_m: float) -> tuple[float, float, float, float]:
+        """Return the place at an arc length.
+
+        Args:
+            s_m: Metres from the start; limited to [0, length_m].
+
+        Returns:
+            x, y in metres and the unit tangent; at an inner point that of the segment after it.
+        """
+        s = min(max(s_m, 0.0), self.length_m)
+        k = min(bisect_right(self._s, s) - 1, len(self._step) - 1)
+        rest = s - self._s[k]
+        tx, ty = self._tx[k], self._ty[k]
+        return self._x[k] + rest * tx, self._y[k] + rest * ty, tx, ty
+
+    def project(
+        self,
+        x_m: float,
+        y_m: float,
+        near_s: float | None = None,
+        window_m: float | None = None,
+        *,
+        extend: bool = False,
+    ) -> tuple[float, float]:
+        """Return the place of the polyline nearest to a point.
+
+        Args:
+            x_m: Metres east.
+            y_m: Metres north.
+            near_s: Arc length about which to search; the whole polyline if omitted.
+            window_m: Reach of that search to both sides; DEFAULT_WINDOW_M if omitted.
+            extend: Prolong the first and the last segment without end, so that a point before
+                the start has an arc length below 0 and one after the end one above `length_m`.
+
+        Returns:
+            Arc length in metres (limited to [0, length_m] unless extended), and the distance to
+            that place, positive to the left. Of equally near places the one nearest to `near_s`,
+            without `near_s` the first.
+        """
+        if near_s is None:
+            low, high, anchor = -math.inf, math.inf, -math.inf
+        else:
+            reach = DEFAULT_WINDOW_M if window_m is None else window_m
+            low, high, anchor = near_s - reach, near_s + reach, near_s
+        return self._nearest(x_m, y_m, low, high, anchor, extend)
+
+    def project_series(
+        self,
+        xy: FloatLike,
+        start_s: float = 0.0,
+        *,
+        window_m: float = DEFAULT_WINDOW_M,
+        extend: bool = False,
+    ) -> FloatArray:
+        """Return the progress of a body along a route that may cross or repeat itself.
+
+        Each sample is searched near the previous one: within the window plus twice the distance
+        moved (a curve is longer than its chord). A body farther from the route than the window
+        has left it; the reach then grows by four times its way until it is back, so it may
+        rejoin farther on but does not jump to a lap far away. The first sample lies on whichever
+        branch is nearest to it; of branches about equally near (2 m) the one nearest to
+        `start_s`.
+
+        Args:
+            xy: (T, 2) metres; rows that are not finite (body absent) are skipped.
+            start_s: Where the body is expected at first, metres.
+            window_m: Reach of the search.
+            extend: As in `project`.
+
+        Returns:
+            (T,) arc length in metres; NaN in skipped rows.
+        """
+        rows = as_rows('xy', xy, 2)
+        out = np.full(len(rows), np.nan)
+        anchor, travelled = start_s, 0.0
+        last: tuple[float, float] | None = None
+        on_route = True
+        for k, (x, y) in enumerate(rows.tolist()):
+            if not (math.isfinite(x) and math.isfinite(y)):
+                continue
+            if last is None:
+                s, lateral = self._first(x, y, start_s, extend)
+            else:
+                dx, dy = x - last[0], y - last[1]
+                travelled += math.sqrt(dx * dx + dy * dy)
+                reach = window_m + (_WAY_ON_ROUTE if on_route else _WAY_OFF_ROUTE) * travelled
+                s, lateral = self._nearest(x, y, anchor - reach, anchor + reach, anchor, extend)
+            out[k] = s
+            last = (x, y)
+            on_route = abs(lateral) <= window_m
+            if on_route:
+                anchor, travelled = s, 0.0
+        return out
+
+    def _first(self, x: float, y: float, start_s: float, extend: bool) -> tuple[float, float]:
+        """Return the best of the local nearest places by distance to the expected start."""
+        found = [
+            self._on_segment(k, x, y, -math.inf, math.inf, extend) for k in range(len(self._step))
+        ]
+        limit = math.sqrt(min(square for _, square, _ in found)) + _START_TIE_M
+        runs: list[tuple[float, float, float]] = []  # nearest place of each run of segments
+        joined = False
+        for candidate in found:
+            if candidate[1] > limit * limit:
+                joined = False
+                continue
+            if joined and candidate[1] < runs[-1][1]:
+                runs[-1] = candidate
+            elif not joined:
+                runs.append(candidate)
+            joined = True
+        s, square, side = min(runs, key=lambda run: abs(run[0] - start_s))
+        return s, _signed(square, side)
+
+    def _nearest(
+        self, x: float, y: float, low: float, high: float, anchor: float, extend: bool
+    ) -> tuple[float, float]:
+        count = len(self._step)
+        if not extend:
+            low, high = min(low, self.length_m), max(high, 0.0)
+        first = max(bisect_right(self._s, low) - 1, 0)
+        last = min(max(bisect_left(self._s, high), 1), count)
+        first = min(first, count - 1)
+        best = self._on_segment(first, x, y, low, high, extend)
+        for k in range(first + 1, last):
+            candidate = self._on_segment(k, x, y, low, high, extend)
+            if candidate[1] < best[1] or (
+                candidate[1] == best[1] and abs(candidate[0] - anchor) < abs(best[0] - anchor)
+            ):
+                best = candidate
+        return best[0], _signed(best[1], best[2])
+
+    def _on_segment(
+        self, k: int, x: float, y: float, low: float, high: float, extend: bool
+    ) -> tuple[float, float, float]:
+        """Return arc length, squared distance and side of the nearest place of one segment."""
+        tx, ty, start = self._tx[k], self._ty[k], self._s[k]
+        wx, wy = x - self._x[k], y - self._y[k]
+        rest = wx * tx + wy * ty
+        least, most = low - start, high - start
+        if not (extend and k == 0):
+            least = max(least, 0.0)
+        if not (extend and k == len(self._step) - 1):
+            most = min(most, self._step[k])
+        rest = max(min(rest, most), least)
+        rx, ry = wx - rest * tx, wy - rest * ty
+        return start + rest, rx * rx + ry * ry, tx * wy - ty * wx
+
+
+def _signed(square: float, side: float) -> float:
+    distance = math.sqrt(square)
+    return 0.0 - distance if side < 0.0 else distance  # never -0.0
