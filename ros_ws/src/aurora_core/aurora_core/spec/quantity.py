@@ -1,0 +1,50 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Names of the quantities that conditions speak about (defined over traces in `quantities`)."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+
+
+class QuantityName(StrEnum):
+    """Stated by prompts (contract) or implied by every run."""
+
+    DISTANCE = 'distance'
+    HORIZONTAL_DISTANCE = 'horizontal_distance'
+    SEPARATION = 'separation'
+    ALTITUDE = 'altitude'
+    SPEED = 'speed'
+    TRACKED_FRACTION = 'tracked_fraction'
+    VISIBLE_TIME = 'visible_time'
+    VISIBLE_FRACTION = 'visible_fraction'
+    DELIVERY_LATENCY = 'delivery_latency'
+    DELIVERED = 'delivered'
+    DELIVERY_RATIO = 'delivery_ratio'
+    EVENT_TIME = 'event_time'
+    HOVER_DRIFT = 'hover_drift'
+    WAYPOINTS_VISITED = 'waypoints_visited'
+    MISSION_COMPLETED = 'mission_completed'
+    LANDED = 'landed'
+    CAPTURE_TIME = 'capture_time'
+    ALTITUDE_FRACTION = 'altitude_fraction'
+    ROUTE_CLOSED = 'route_closed'
+    OVER_CARRIAGEWAY = 'over_carriageway'
+    PATTERN_CENTRE = 'pattern_centre'
+    PHASE_DURATION = 'phase_duration'
+    PLACEMENT = 'placement'
+    RELATION_FRACTION = 'relation_fraction'
+    FOLLOW_FRACTION = 'follow_fraction'
+    TIME_GAP = 'time_gap'
+    DISTANCE_TRAVELLED = 'distance_travelled'
+    EVENT_DELAY = 'event_delay'
+    SENT_AFTER_CAPTURE = 'sent_after_capture'
+    VISIBLE_AT_SEND = 'visible_at_send'
+    COLLISION_CLEARANCE = 'collision_clearance'
+    OBSTACLE_CLEARANCE = 'obstacle_clearance'
+    PRESENCE = 'presence'
+    JUMP = 'jump'
+    CLIMB_RATE = 'climb_rate'
+    NO_FLY_DISTANCE = 'no_fly_distance'
+    ROUTE_SPEED = 'route_speed'
+    ENDURANCE = 'endurance'

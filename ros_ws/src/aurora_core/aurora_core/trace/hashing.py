@@ -1,0 +1,160 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The trace hash: sha256 over decoded values in one canonical encoding.
+
+Covered: roster, world, states, commands, comm, sensing and events, ordered by tick, topic, id.
+Not covered: run id, wall times, heartbeat, diagnostics, margins. float64 little-endian, integers
+as int64 little-endian, strings UTF-8 with their length in front.
+"""
+
+from __future__ import annotations
+
+import hashlib
+
+import numpy as np
+
+from aurora_core.knowledge.world import WorldModel
+from aurora_core.trace.roster import Roster, RosterEntry
+from aurora_core.trace.trace import Trace
+
+
+class _Encoder:
+    """Feeds a sha256 with typed, self-delimiting values."""
+
+    def __init__(self) -> None:
+        self._digest = hashlib.sha256()
+
+    def add(self, value: object) -> None:
+        if isinstance(value, str):
+            data = value.encode('utf-8')
+            self._tagged(b's', len(data), data)
+        elif isinstance(value, bool | int | np.integer | np.bool_):
+            self._tagged(b'i', 1, int(value).to_bytes(8, 'little', signed=True))
+        elif isinstance(value, float):
+            self._tagged(b'f', 1, np.array([value], dtype='<f8').tobytes())
+        elif isinstance(value, np.ndarray):
+            array = np.ascontiguousarray(value, dtype='<f8')
+            self._tagged(b'a', array.size, array.tobytes())
+        elif isinstance(value, tuple | list):
+            self._tagged(b't', len(value), b'')
+            for item in value:
+                self.add(item)
+        else:
+            raise TypeError(f'cannot encode {type(value).__name__}')
+
+    def _tagged(self, tag: bytes, size: int, data: bytes) -> None:
+        self._digest.update(tag + size.to_bytes(8, 'little'))
+        self._digest.update(data)
+
+    def hexdigest(self) -> str:
+        return self._digest.hexdigest()
+
+
+def world_sha256(world: WorldModel) -> str:
+    """Return the digest (hex) of a world."""
+    encoder = _Encoder()
+    encoder.add(_world_values(world))
+    return encoder.hexdigest()
+
+
+def trace_sha256(trace: Trace, world: WorldModel) -> str:
+    """Return the trace hash (hex)."""
+    encoder = _Encoder()
+    encoder.add(_roster_values(trace.roster))
+    encoder.add(_world_values(world))
+    links: dict[int, list[object]] = {}
+    sights: dict[int, list[object]] = {}
+    events: dict[int, list[object]] = {}
+    for link in trace.links:
+        links.setdefault(link.tick, []).append(
+            (
+                link.sequence,
+                link.message,
+                link.link,
+                link.event,
+                link.sender,
+                link.receiver,
+                int(link.kind),
+                link.attempt,
+                int(link.reason),
+                link.distance_m,
+                link.line_of_sight,
+            )
+        )
+    for sight in sorted(trace.sights, key=lambda s: (s.tick, s.observer, s.target)):
+        sights.setdefault(sight.tick, []).append(
+            (sight.observer, sight.target, sight.visible, sight.slant_range_m)
+        )
+    for event in trace.events:
+        events.setdefault(event.tick, []).append(
+            (event.sequence, int(event.kind), event.subject, event.detail)
+        )
+    for tick in range(trace.ticks):
+        encoder.add(tick)
+        encoder.add(tuple(links.get(tick, ())))
+        encoder.add(tuple(events.get(tick, ())))
+        encoder.add(
+            tuple(
+                (c.agent, int(c.kind), c.value, c.value2, c.text)
+                for c in trace.ground_commands[tick]
+            )
+        )
+        encoder.add(trace.ground[tick])
+        encoder.add(tuple(sights.get(tick, ())))
+        encoder.add(trace.uav_commands[tick])
+        encoder.add(trace.uav[tick])
+    return encoder.hexdigest()
+
+
+def _roster_values(roster: Roster) -> object:
+    return (
+        roster.dt_s,
+        tuple(_entry_values(e) for e in roster.agents),
+        tuple(_entry_values(e) for e in roster.uavs),
+    )
+
+
+def _entry_values(e: RosterEntry) -> object:
+    return (
+        e.body_id,
+        e.type_name,
+        e.is_person,
+        e.system_id,
+        e.length_m,
+        e.width_m,
+        e.height_m,
+        e.route_edges,
+        np.array(e.route_xy_m),
+        e.role,
+    )
+
+
+def _world_values(w: WorldModel) -> object:
+    return (
+        w.map_name,
+        w.map_digest,
+        w.origin_lat_deg,
+        w.origin_lon_deg,
+        w.weather,
+        w.time_of_day,
+        (w.wind.mean_east_mps, w.wind.mean_north_mps, w.wind.gust_mps),
+        tuple(
+            (
+                b.id,
+                np.array(b.ring),
+                tuple(np.array(h) for h in b.holes),
+                b.height_m,
+                b.height_source,
+                b.kind,
+                b.name,
+            )
+            for b in w.buildings
+        ),
+        tuple((z.id, z.name, np.array(z.ring), z.floor_m, z.ceiling_m) for z in w.no_fly_zones),
+        tuple((s.surface_id, int(s.kind), s.ring, s.holes) for s in w.surfaces),
+        tuple((c.lane_id, c.street_name, c.points, c.width_m, c.speed_limit_mps) for c in w.lanes),
+        tuple((p.junction_id, p.x_m, p.y_m) for p in w.signals),
+        tuple((p.name, p.x_m, p.y_m) for p in w.places),
+        w.limits.canonical_json(),
+        w.conditions_json,
+    )

@@ -1,0 +1,65 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Who takes part in a run; the index in the tuples is the row in the packed arrays."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RosterEntry:
+    """One body.
+
+    Attributes:
+        body_id: Id of the specification.
+        type_name: Vocabulary type (`car`, ...) or `uav`.
+        is_person: Pedestrian.
+        system_id: MAVLink system id of a UAV, else 0.
+        length_m: Box along the heading.
+        width_m: Box across.
+        height_m: Box height.
+        route_edges: Planned edges (ground agents).
+        route_xy_m: Planned path of the reference point, ENU map frame.
+        role: ego, target, background, other.
+    """
+
+    body_id: str
+    type_name: str
+    is_person: bool
+    system_id: int
+    length_m: float
+    width_m: float
+    height_m: float
+    route_edges: tuple[str, ...] = ()
+    route_xy_m: tuple[tuple[float, float], ...] = ()
+    role: str = 'other'
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Roster:
+    """All bodies of a run in row order.
+
+    Attributes:
+        dt_s: Time step of the lockstep.
+        agents: Ground agents, rows of the ground arrays.
+        uavs: UAVs, rows of the UAV arrays.
+    """
+
+    dt_s: float
+    agents: tuple[RosterEntry, ...]
+    uavs: tuple[RosterEntry, ...]
+
+    def agent_index(self, body_id: str) -> int | None:
+        """Return the row of a ground agent, or None when the id is not one."""
+        for index, entry in enumerate(self.agents):
+            if entry.body_id == body_id:
+                return index
+        return None
+
+    def uav_index(self, body_id: str) -> int | None:
+        """Return the row of a UAV, or None when the id is not one."""
+        for index, entry in enumerate(self.uavs):
+            if entry.body_id == body_id:
+                return index
+        return None
