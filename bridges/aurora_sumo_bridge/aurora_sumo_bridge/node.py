@@ -1,0 +1,67 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The `sumo_bridge` node: `SumoClient` as a participant of the lockstep."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+from aurora_core.trace.messages import read_ground_commands
+from aurora_msgs.msg import GroundCommand, GroundState
+from aurora_msgs.srv import LoadGround
+from aurora_ros import interfaces as on
+from aurora_ros.bridge import BridgeInterfaces, LockstepBridge
+from aurora_ros.conversions.loads import ground_load
+from aurora_ros.conversions.states import ground_state
+from aurora_ros.main import run_node
+from aurora_ros.parameters import declare
+from aurora_sumo_bridge.sumo_client import SumoClient
+
+
+@dataclass(frozen=True, kw_only=True)
+class SumoBridgeSettings:
+    """See `config/sumo_bridge.param.yaml`."""
+
+    autostart: bool
+
+
+class SumoBridgeNode(LockstepBridge):
+    """Ground traffic."""
+
+    def __init__(self) -> None:
+        super().__init__(
+            'sumo_bridge',
+            BridgeInterfaces(
+                load=on.GROUND_LOAD, command=on.GROUND_COMMAND, state=on.GROUND_STATE
+            ),
+        )
+        self.wants_autostart = declare(self, 'sumo_bridge', SumoBridgeSettings).autostart
+
+    @cached_property
+    def _client(self) -> SumoClient:
+        return SumoClient()
+
+    def open_run(self, request: LoadGround.Request) -> None:
+        """Load map and agents."""
+        self._client.load(ground_load(request))
+
+    def state(self, run_number: int, dt_s: float) -> GroundState:
+        """Return the spawned state."""
+        return ground_state(run_number, 0, dt_s, self._client.state())
+
+    def advance(
+        self, tick: int, command: GroundCommand, run_number: int, dt_s: float
+    ) -> GroundState:
+        """Advance the traffic by one tick."""
+        rows = self._client.advance(tick, read_ground_commands(command))
+        return ground_state(run_number, tick, dt_s, rows)
+
+    def cleanup(self) -> None:
+        """Free the simulation."""
+        self._client.close()
+
+
+def main() -> int:
+    """Run the node until it is told to end."""
+    return run_node(SumoBridgeNode)

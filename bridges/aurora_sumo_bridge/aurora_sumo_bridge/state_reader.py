@@ -1,0 +1,141 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Reading the packed state: plain getters, which are libsumo's fastest way out."""
+
+from __future__ import annotations
+
+import libsumo
+import numpy as np
+
+from aurora_core.errors import GroundSimulatorError
+from aurora_core.ports.simulators import FloatArray
+from aurora_core.trace.layout import GROUND_WIDTH, GroundColumn
+from aurora_sumo_bridge.conversions import centre_from_front, heading_from_sumo_angle
+from aurora_sumo_bridge.placement import Body
+from aurora_sumo_bridge.polyline import Box
+
+# SUMO's own mark for "no value" is -2^30; no map is that large.
+_FARTHEST_M = 1e8
+_UNKNOWN = 'is not known'
+
+# Bound once: these four calls are most of what a tick costs outside SUMO.
+_position_of = libsumo.vehicle.getPosition
+_angle_of = libsumo.vehicle.getAngle
+_speed_of = libsumo.vehicle.getSpeed
+_acceleration_of = libsumo.vehicle.getAcceleration
+
+
+class StateReader:
+    """Reads every agent of a run; one that left keeps its last values with PRESENT 0."""
+
+    def __init__(self, bodies: tuple[Body, ...], dt_s: float) -> None:
+        self._bodies = bodies
+        self._dt_s = dt_s
+        self._rows: list[list[float]] = [[0.0] * GROUND_WIDTH for _ in bodies]
+        self._present = [True] * len(bodies)
+
+    def is_present(self, agent: int) -> bool:
+        return self._present[agent]
+
+    def mark_gone(self, agent: int) -> None:
+        """Note that an agent was taken out on command."""
+        self._present[agent] = False
+        self._rows[agent][GroundColumn.PRESENT] = 0.0
+
+    def read(self) -> FloatArray:
+        """Return the state (N, GROUND_WIDTH) after a step.
+
+        Raises:
+            GroundSimulatorError: A value is not finite or an agent is nowhere on the map.
+        """
+        for index, body in enumerate(self._bodies):
+            if not self._present[index]:
+                continue
+            try:
+                if body.walker is None:
+                    self._rows[index] = _vehicle_row(body.agent_id, body.length_m)
+                else:
+                    before_mps = self._rows[index][GroundColumn.SPEED]
+                    self._rows[index] = _person_row(body.agent_id, before_mps, self._dt_s)
+            except libsumo.TraCIException as err:
+                if _UNKNOWN not in str(err):
+                    raise GroundSimulatorError(
+                        f"agent '{body.agent_id}' cannot be read: {err}"
+                    ) from err
+                self.mark_gone(index)
+        return self._packed()
+
+    def read_spawned(self) -> FloatArray:
+        """Return the state of tick 0.
+
+        What SUMO cannot know yet is set by definition: accelerations are 0 (nothing has moved),
+        and a walker has the asked speed and faces the way it will walk.
+
+        Raises:
+            GroundSimulatorError: As `read`, or a vehicle does not have the asked speed.
+        """
+        self.read()
+        for body, row in zip(self._bodies, self._rows, strict=True):
+            asked_mps = body.agent.speed_mps
+            if body.heading is not None:
+                row[GroundColumn.HEADING_X], row[GroundColumn.HEADING_Y] = body.heading
+                row[GroundColumn.SPEED] = asked_mps
+            elif row[GroundColumn.SPEED] != asked_mps:
+                raise GroundSimulatorError(
+                    f"agent '{body.agent_id}' starts at {row[GroundColumn.SPEED]:g} m/s, "
+                    f'asked for {asked_mps:g} m/s'
+                )
+            row[GroundColumn.ACCELERATION] = 0.0
+        return self._packed()
+
+    def boxes(self) -> tuple[Box, ...]:
+        """Return the footprints of the last state, roster order."""
+        return tuple(
+            Box(
+                x_m=row[GroundColumn.X],
+                y_m=row[GroundColumn.Y],
+                heading_x=row[GroundColumn.HEADING_X],
+                heading_y=row[GroundColumn.HEADING_Y],
+                length_m=body.length_m,
+                width_m=body.width_m,
+            )
+            for body, row in zip(self._bodies, self._rows, strict=True)
+        )
+
+    def _packed(self) -> FloatArray:
+        state = np.array(self._rows, dtype=np.float64).reshape(len(self._rows), GROUND_WIDTH)
+        # Comparisons with NaN are false, so this finds it too.
+        good = np.abs(state) < _FARTHEST_M
+        if not good.all():
+            agent, column = (int(i) for i in np.argwhere(~good)[0])
+            raise GroundSimulatorError(
+                f"agent '{self._bodies[agent].agent_id}': SUMO gives "
+                f'{GroundColumn(column).name} = {state[agent, column]!r}'
+            )
+        return state
+
+
+def _vehicle_row(vehicle: str, length_m: float) -> list[float]:
+    front_x_m, front_y_m = _position_of(vehicle)
+    heading_x, heading_y = heading_from_sumo_angle(_angle_of(vehicle))
+    x_m, y_m = centre_from_front(front_x_m, front_y_m, heading_x, heading_y, length_m)
+    return [
+        x_m,
+        y_m,
+        heading_x,
+        heading_y,
+        _speed_of(vehicle),
+        _acceleration_of(vehicle),
+        1.0,
+    ]
+
+
+def _person_row(person: str, before_mps: float, dt_s: float) -> list[float]:
+    # SUMO's point of a person is taken as its centre: a body of 0.2 m that turns on the spot would
+    # otherwise jump by its own length.
+    x_m, y_m = libsumo.person.getPosition(person)
+    heading_x, heading_y = heading_from_sumo_angle(libsumo.person.getAngle(person))
+    speed_mps = libsumo.person.getSpeed(person)
+    # SUMO has no acceleration of persons.
+    acceleration_mps2 = (speed_mps - before_mps) / dt_s
+    return [x_m, y_m, heading_x, heading_y, speed_mps, acceleration_mps2, 1.0]

@@ -1,0 +1,186 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The real sumo_bridge node as a process on the junction map; the test plays sync and executor."""
+
+from __future__ import annotations
+
+import json
+from array import array
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+pytest.importorskip('rclpy')
+
+from aurora_core.errors import ExecutionError, GroundSimulatorError, MapError
+from aurora_core.knowledge.map_model import load_map
+from aurora_core.trace.layout import GROUND_WIDTH, GroundColumn, GroundCommandKind
+from aurora_core.trace.messages import read_rows
+from aurora_msgs.msg import GroundCommand, Tick
+from aurora_ros import interfaces as on
+from aurora_ros.matching import wait_until
+from aurora_ros.testing.domains import own_domain
+from aurora_ros.testing.partner import Partner, partner
+from aurora_ros.testing.processes import NodeProcess, nodes
+
+pytestmark = pytest.mark.ros
+
+MAP = load_map('junction')
+LANE = max(MAP.network.driving_lanes('passenger'), key=lambda lane: (lane.length_m, lane.id))
+
+
+def agents_json(**changes: Any) -> str:
+    agent = {
+        'agent_id': 'ego',
+        'type_name': 'car',
+        'is_person': False,
+        'edges': [LANE.edge_id],
+        'lane_id': LANE.id,
+        'lane_position_m': 20.0,
+        'speed_mps': 5.0,
+        **changes,
+    }
+    return json.dumps([agent])
+
+
+class Graph:
+    def __init__(self, process: NodeProcess, play: Partner) -> None:
+        self.process = process
+        self.play = play
+        self.states = play.collect(on.GROUND_STATE)
+        self.dones = play.collect(on.TICK_DONE)
+        self.faults = play.collect(on.FAULT)
+        self.tick = play.publisher(on.TICK)
+        self.command = play.publisher(on.GROUND_COMMAND)
+
+    def load(self, run_number: int = 1, **changes: Any) -> None:
+        fields = {
+            'run_id': 'r',
+            'run_number': run_number,
+            'map_name': MAP.name,
+            'map_digest': MAP.digest,
+            'seed': 1,
+            'dt_s': 0.05,
+            'horizon_s': 60.0,
+            'weather': 'clear',
+            'agents_json': agents_json(),
+            **changes,
+        }
+        self.play.call(on.GROUND_LOAD, **fields)
+
+    def send_tick(self, tick: int, run_number: int = 1) -> None:
+        self.tick.publish(Tick(run_number=run_number, tick=tick, time_s=tick * 0.05))
+
+    def send_command(self, tick: int, run_number: int = 1, **arrays: Any) -> None:
+        self.command.publish(GroundCommand(run_number=run_number, tick=tick, **arrays))
+
+    def await_states(self, count: int) -> np.ndarray:
+        assert wait_until(lambda: len(self.states) >= count, 10.0), self.process.log
+        return read_rows(self.states[count - 1], GROUND_WIDTH)
+
+
+@pytest.fixture
+def graph(tmp_path: Path) -> Iterator[Graph]:
+    with own_domain() as domain, partner(domain) as play:
+        process = NodeProcess('aurora_sumo_bridge.node', domain, tmp_path)
+        with nodes(process):
+            yield Graph(process, play)
+            assert process.end() == 0
+            assert 'Traceback' not in process.log
+
+
+def test_states_follow_tick_and_command(graph: Graph) -> None:
+    graph.load()
+    graph.send_tick(0)
+    spawned = graph.await_states(1)
+    assert spawned[0, GroundColumn.SPEED] == pytest.approx(5.0)
+    graph.send_command(
+        1,
+        agent=array('H', [0]),
+        kind=array('B', [GroundCommandKind.SET_SPEED]),
+        value=array('d', [5.0]),
+        value2=array('d', [0.0]),
+        text=[''],
+    )
+    graph.send_tick(1)
+    moved = graph.await_states(2)
+    way_m = np.linalg.norm(moved[0, :2] - spawned[0, :2])
+    assert way_m == pytest.approx(0.25, abs=0.02)
+    assert [(s.run_number, s.tick) for s in graph.states] == [(1, 0), (1, 1)]
+    assert graph.states[1].header.stamp.nanosec == 50_000_000
+    assert wait_until(lambda: len(graph.dones) == 2, 5.0)
+    assert [(d.participant, d.tick) for d in graph.dones] == [
+        ('sumo_bridge', 0),
+        ('sumo_bridge', 1),
+    ]
+
+
+def test_a_tick_waits_for_its_own_command_whatever_comes_first(graph: Graph) -> None:
+    graph.load(run_number=5)
+    graph.send_tick(0, run_number=5)
+    graph.await_states(1)
+    graph.send_tick(1, run_number=5)
+    graph.send_command(1, run_number=4)
+    graph.send_command(2, run_number=5)
+    assert not wait_until(lambda: len(graph.states) > 1, 0.3), 'advanced without command 1'
+    graph.send_command(1, run_number=5)
+    graph.await_states(2)
+    graph.send_tick(2, run_number=5)
+    graph.await_states(3)
+    assert not graph.faults
+
+
+def test_a_second_load_starts_again_at_tick_zero_with_the_same_states(graph: Graph) -> None:
+    for run_number in (1, 2):
+        graph.load(run_number=run_number)
+        first = len(graph.states)
+        for tick in range(20):
+            graph.send_command(tick, run_number=run_number)
+            graph.send_tick(tick, run_number=run_number)
+            graph.await_states(first + tick + 1)
+    assert graph.states[19].data == graph.states[39].data
+    assert graph.states[19].data != graph.states[18].data
+
+
+def test_a_command_that_sumo_refuses_becomes_a_fault_with_the_name(graph: Graph) -> None:
+    graph.load()
+    graph.send_tick(0)
+    graph.await_states(1)
+    graph.send_command(
+        1,
+        agent=array('H', [7]),
+        kind=array('B', [GroundCommandKind.SET_SPEED]),
+        value=array('d', [5.0]),
+        value2=array('d', [0.0]),
+        text=[''],
+    )
+    graph.send_tick(1)
+    assert wait_until(lambda: bool(graph.faults), 10.0), graph.process.log
+    assert graph.faults[0].node == 'sumo_bridge'
+    assert graph.faults[0].run_number == 1
+    assert graph.faults[0].error_code == GroundSimulatorError.default_code
+    assert len(graph.dones) == 1, 'no TickDone for a tick that failed'
+
+
+def test_a_lost_tick_becomes_a_fault(graph: Graph) -> None:
+    graph.load()
+    graph.send_tick(0)
+    graph.await_states(1)
+    graph.send_tick(2)
+    assert wait_until(lambda: bool(graph.faults), 10.0)
+    assert 'expected tick 1, found tick 2' in graph.faults[0].error_msg
+    assert graph.faults[0].error_code == ExecutionError.default_code
+
+
+def test_a_load_that_cannot_be_is_refused_with_code_and_reason(graph: Graph) -> None:
+    with pytest.raises(MapError, match='expected digest 00'):
+        graph.load(map_digest='00' * 32)
+    with pytest.raises(GroundSimulatorError, match='agents_json is not valid'):
+        graph.load(agents_json='[{"agent_id": 3}]')
+    with pytest.raises(GroundSimulatorError, match='ego') as caught:
+        graph.load(agents_json=agents_json(lane_position_m=1e6))
+    assert caught.value.component == 'sumo_bridge'
+    graph.load()
