@@ -1,0 +1,321 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Questions and answers in lockstep, over a link that may lose anything.
+
+One question is under way at a time. It is repeated, as new frames, until every piece of its
+answer is there or the time limit ends; a repeated question has no second effect on the other
+side (`aurora_uav_sim.protocol`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from pymavlink.dialects.v20 import common as mavlink
+
+from aurora_core.errors import AirSimulatorError
+from aurora_core.ports.simulators import UavHome
+from aurora_uav_bridge import conversions
+from aurora_uav_bridge.errors import (
+    CommandRefusedError,
+    SessionLostError,
+    SimulatorSilentError,
+)
+from aurora_uav_bridge.transports import Transport
+from aurora_uav_sim.autopilot import Result
+from aurora_uav_sim.protocol import AUTOPILOT_COMPONENT, CMD_LOCKSTEP, CMD_STEP, unpack_status
+from aurora_uav_sim.wire import (
+    ATTITUDE,
+    COMMAND_ACK,
+    COMMAND_LONG,
+    LOCAL_POSITION,
+    NAMED_INT,
+    SET_POINT,
+    Decoder,
+    Frame,
+    Newer,
+    Sequence,
+    split,
+)
+
+# The identity that companion computers use by custom.
+OWN_SYSTEM = 245
+OWN_COMPONENT = int(mavlink.MAV_COMP_ID_ONBOARD_COMPUTER)
+# An answer takes 0.1 ms; ask again after this, then after twice as long, up to the last.
+_FIRST_RETRY_S = 0.01
+_LAST_RETRY_S = 0.25
+# A step answered so often with "no such session" means it; fewer may be leftovers.
+_DISOWNED_LIMIT = 3
+_STATUS_TEXT = int(mavlink.MAVLINK_MSG_ID_STATUSTEXT)
+_POSITION, _ATTITUDE, _STATUS, _COMPLETE = 1, 2, 4, 7
+
+Packer = Callable[[], bytes]
+
+
+class LockstepLink:
+    """The fleet's end of the link.
+
+    Args:
+        transport: Way to the simulator.
+        timeout_s: Longest wait for the answer to one question.
+        homes: The fleet in roster order, at least one.
+        nonce: Number of the session.
+        sequence: Frame counter, shared by all links over the same transport.
+
+    Attributes:
+        rows: State rows in roster order, filled by `step`.
+        first: System id of the vehicle that answers for the fleet: the smallest.
+    """
+
+    def __init__(
+        self,
+        transport: Transport,
+        timeout_s: float,
+        homes: tuple[UavHome, ...],
+        nonce: int,
+        sequence: Sequence,
+    ) -> None:
+        self._transport = transport
+        self._timeout_s = timeout_s
+        self._homes = homes
+        self._index = {home.system_id: i for i, home in enumerate(homes)}
+        self.first = min(self._index)
+        self.rows = [conversions.empty_row() for _ in homes]
+        self._nonce = nonce
+        self._sequence = sequence
+        self._newer = Newer()
+        self._decoder = Decoder()
+        # What the present question waits for: an acknowledgement ...
+        self._ack_of = (-1, -1)
+        self._acks: list[int] = []
+        self._text = ''
+        # ... or a tick.
+        self._tick = -1
+        self._pieces: list[int] = []
+        self._missing = 0
+        self._acknowledged = False
+        self._disowned = 0
+
+    # Questions ----------------------------------------------------------------------------------
+
+    def command(
+        self,
+        system_id: int,
+        what: str,
+        command: int,
+        *parameters: float,
+        limit_s: float | None = None,
+    ) -> None:
+        """Send a COMMAND_LONG until it is acknowledged.
+
+        Args:
+            system_id: The vehicle.
+            what: The command in words, for messages.
+            command: MAV_CMD.
+            parameters: Its parameters, the rest is 0.
+            limit_s: Another time limit than the link's.
+
+        Raises:
+            CommandRefusedError: The answer is not ACCEPTED.
+            SimulatorSilentError: No answer within the time limit.
+        """
+        filled = (*parameters, *(0.0 for _ in range(7 - len(parameters))))
+        confirmations = iter(range(256))
+
+        def packer() -> bytes:
+            confirmation = next(confirmations, 255)
+            return self._sequence.fast(
+                COMMAND_LONG, *filled, command, system_id, AUTOPILOT_COMPONENT, confirmation
+            )
+
+        self._ask(packer, system_id, command, what, limit_s)
+
+    def message(self, system_id: int, what: str, command: int, message: Any) -> None:
+        """Send a pymavlink message that carries a command until it is acknowledged.
+
+        Raises:
+            CommandRefusedError: The answer is not ACCEPTED.
+            SimulatorSilentError: No answer within the time limit.
+        """
+        self._ask(lambda: self._sequence.encode(message), system_id, command, what, None)
+
+    def step(self, tick: int, set_points: list[tuple[Any, ...]]) -> None:
+        """Ask for a tick until every vehicle's state and the acknowledgement are there.
+
+        Args:
+            tick: The tick, 0 for the spawned state.
+            set_points: Fields of SET_POSITION_TARGET_LOCAL_NED per vehicle.
+
+        Raises:
+            SimulatorSilentError: No answer within the time limit.
+            SessionLostError: The simulator restarted or serves another client.
+            AirSimulatorError: A state is not finite.
+        """
+        sequence = self._sequence
+        confirmation = 0
+
+        def packer() -> bytes:
+            nonlocal confirmation
+            out = b''
+            for fields in set_points:
+                out += sequence.fast(SET_POINT, *fields)
+            out += sequence.fast(
+                COMMAND_LONG, float(tick), 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
+                CMD_STEP, self.first, AUTOPILOT_COMPONENT, confirmation,
+            )  # fmt: skip
+            confirmation = min(confirmation + 1, 255)
+            return out
+
+        self._tick = tick
+        self._pieces = [0] * len(self.rows)
+        self._missing = len(self.rows)
+        self._acknowledged = False
+        self._disowned = 0
+        try:
+            self._exchange(packer, self._has_tick, f'step to tick {tick}', self._timeout_s)
+        finally:
+            self._tick = -1
+        if not conversions.all_finite(self.rows):
+            raise AirSimulatorError(f'uav_sim reported a number that is not finite at tick {tick}')
+
+    def _has_tick(self) -> bool:
+        return self._missing == 0 and self._acknowledged
+
+    def _has_ack(self) -> bool:
+        return bool(self._acks)
+
+    def _ask(
+        self, packer: Packer, system_id: int, command: int, what: str, limit_s: float | None
+    ) -> None:
+        name = f'{what} of {self._homes[self._index[system_id]].uav_id}'
+        self._acks, self._ack_of, self._text = [], (system_id, command), ''
+        limit_s = self._timeout_s if limit_s is None else limit_s
+        try:
+            self._exchange(packer, self._has_ack, name, limit_s)
+        finally:
+            self._ack_of = (-1, -1)
+        result = self._acks[0]
+        if result != Result.ACCEPTED:
+            word = Result(result).name if result in tuple(Result) else f'result {result}'
+            reason = f': {self._text}' if self._text else ''
+            raise CommandRefusedError(f'{name}: expected ACCEPTED, found {word}{reason}')
+
+    def _exchange(
+        self, packer: Packer, done: Callable[[], bool], what: str, limit_s: float
+    ) -> None:
+        transport = self._transport
+        start_s = -1.0
+        wait_s = _FIRST_RETRY_S
+        while True:
+            transport.send(packer())
+            left_s = wait_s
+            resend_s = -1.0
+            while left_s > 0.0:
+                datagram = transport.receive(left_s)
+                if datagram is None:
+                    break
+                self._take(datagram)
+                if done():
+                    return
+                now_s = transport.steady_time_s()
+                if resend_s < 0.0:
+                    resend_s = now_s + wait_s
+                left_s = resend_s - now_s
+            now_s = transport.steady_time_s()
+            if start_s < 0.0:
+                # The first wait is over; the clock is not read on the fast path.
+                start_s = now_s - wait_s
+            if now_s - start_s >= limit_s:
+                raise SimulatorSilentError(
+                    f'{transport.peer} did not answer within {limit_s:g} s ({what})',
+                    hint='is it running? ros2 run aurora_uav_sim uav_sim',
+                )
+            wait_s = min(2.0 * wait_s, _LAST_RETRY_S)
+
+    # Answers ------------------------------------------------------------------------------------
+
+    def _take(self, datagram: bytes) -> None:
+        """Take what a datagram brings for the question under way."""
+        for frame in split(datagram):
+            if frame.component_id != AUTOPILOT_COMPONENT:
+                continue
+            if frame.message_id == COMMAND_ACK.message_id:
+                self._take_ack(frame)
+                continue
+            i = self._index.get(frame.system_id)
+            if i is None or not self._newer.accept(frame):
+                continue
+            if self._tick >= 0:
+                self._take_state(i, frame)
+            if frame.message_id == _STATUS_TEXT:
+                message = self._decoder.decode(frame)
+                if message is not None:
+                    self._text = str(message.text)
+
+    def _take_state(self, i: int, frame: Frame) -> None:
+        """Take a piece of a vehicle's state at the tick that was asked for."""
+        message_id = frame.message_id
+        row = self.rows[i]
+        if message_id == LOCAL_POSITION.message_id:
+            fields = LOCAL_POSITION.unpack(frame.payload)
+            if fields[0] != self._tick:
+                return
+            conversions.fill_position(row, self._homes[i], fields)
+            piece = _POSITION
+        elif message_id == ATTITUDE.message_id:
+            fields = ATTITUDE.unpack(frame.payload)
+            if fields[0] != self._tick:
+                return
+            conversions.fill_attitude(row, fields)
+            piece = _ATTITUDE
+        elif message_id == NAMED_INT.message_id:
+            fields = NAMED_INT.unpack(frame.payload)
+            status = unpack_status(fields[1], self._nonce)
+            if fields[0] != self._tick or status is None:
+                return
+            conversions.fill_status(row, *status)
+            piece = _STATUS
+        else:
+            return
+        if self._pieces[i] != _COMPLETE:
+            self._pieces[i] |= piece
+            if self._pieces[i] == _COMPLETE:
+                self._missing -= 1
+
+    def _take_ack(self, frame: Frame) -> None:
+        # `number` is the tick of a step and the nonce of everything else.
+        command, result, _, number, target_system, _ = COMMAND_ACK.unpack(frame.payload)
+        if target_system != OWN_SYSTEM:
+            return
+        if command == CMD_STEP and result == Result.DENIED and self._tick >= 0:
+            self._check_disowned(number)
+        if command == CMD_LOCKSTEP and number == self._nonce and self._waits_for(frame, command):
+            # The simulator may be a new process that counts its frames from 0.
+            self._newer = Newer()
+        if not self._newer.accept(frame):
+            return
+        if command != CMD_STEP:
+            if number == self._nonce and self._waits_for(frame, command):
+                self._acks.append(int(result))
+        elif number == self._tick and result == Result.ACCEPTED:
+            self._acknowledged = True
+        # Otherwise a set-point is missing (the question will be repeated) or the answer is old.
+
+    def _waits_for(self, frame: Frame, command: int) -> bool:
+        return not self._acks and self._ack_of == (frame.system_id, command)
+
+    def _check_disowned(self, number: int) -> None:
+        """Notice a simulator that knows no session of ours (stale frames are looked at too).
+
+        Raises:
+            SessionLostError: It has said so several times.
+        """
+        if number not in (0, self._tick):
+            return
+        self._disowned += 1
+        if self._disowned >= _DISOWNED_LIMIT:
+            raise SessionLostError(
+                f'{self._transport.peer} no longer knows this run at tick {self._tick}',
+                hint='it was restarted or taken over by another client; run again',
+            )

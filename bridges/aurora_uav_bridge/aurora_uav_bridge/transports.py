@@ -1,0 +1,227 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""How datagrams reach the simulator and come back: UDP, memory, and a bad link for tests."""
+
+from __future__ import annotations
+
+import itertools
+import socket
+import time
+from collections import deque
+from collections.abc import Hashable
+from math import nan
+from typing import Protocol
+
+import numpy as np
+
+_RECEIVE_BUFFER_BYTES = 1 << 20
+
+
+class Transport(Protocol):
+    """Datagrams to one simulator; any of them may be lost, doubled, late or cut."""
+
+    @property
+    def peer(self) -> str:
+        """Name of the simulator for messages."""
+
+    def send(self, datagram: bytes) -> None:
+        """Send a datagram; a lost one is not an error."""
+
+    def receive(self, timeout_s: float) -> bytes | None:
+        """Return the next datagram, or None when none came within the time."""
+
+    def steady_time_s(self) -> float:
+        """Return a time that never jumps, for time limits."""
+
+    def close(self) -> None:
+        """Free the transport; safe to call twice."""
+
+
+class UdpTransport:
+    """UDP to a simulator process.
+
+    Args:
+        port: UDP port of the simulator (`aurora_uav_sim.protocol.mavlink_port`).
+        host: Its address.
+    """
+
+    def __init__(self, port: int, host: str = '127.0.0.1') -> None:
+        self._socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self._socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, _RECEIVE_BUFFER_BYTES)
+        # A connected socket takes datagrams from this peer alone.
+        self._socket.connect((host, port))
+        self._timeout_s = nan
+        self._peer = f'uav_sim at {host}:{port}'
+
+    @property
+    def peer(self) -> str:
+        """Name of the simulator for messages."""
+        return self._peer
+
+    def send(self, datagram: bytes) -> None:
+        """Send a datagram; nobody listening yet is the same as a lost one."""
+        try:
+            self._socket.send(datagram)
+        except ConnectionRefusedError:
+            return
+
+    def receive(self, timeout_s: float) -> bytes | None:
+        """Return the next datagram, or None when none came within the time."""
+        if timeout_s != self._timeout_s:
+            self._timeout_s = timeout_s
+            self._socket.settimeout(max(timeout_s, 1e-4))
+        deadline_s = 0.0
+        while True:
+            try:
+                return self._socket.recv(65536)
+            except TimeoutError:
+                return None
+            except ConnectionRefusedError:
+                # An earlier datagram met a closed port. Wait as if nothing had come, or the
+                # caller would send again in a tight loop.
+                now_s = time.monotonic()
+                if deadline_s == 0.0:
+                    deadline_s = now_s + timeout_s
+                if now_s >= deadline_s:
+                    return None
+                self._timeout_s = nan
+                self._socket.settimeout(max(deadline_s - now_s, 1e-4))
+
+    def steady_time_s(self) -> float:
+        """Return the system's monotonic time."""
+        return time.monotonic()
+
+    def close(self) -> None:
+        """Close the socket; safe to call twice."""
+        self._socket.close()
+
+
+class DatagramServer(Protocol):
+    """A simulator in the same process (`aurora_uav_sim.mavlink_server.SimServer`)."""
+
+    def handle(self, datagram: bytes, source: Hashable) -> list[bytes]:
+        """Act on a datagram and return the answers."""
+
+
+class LoopbackTransport:
+    """The same bytes without sockets: a datagram is answered while it is being sent.
+
+    Time is counted in waits: an empty wait passes at once and adds its length, so that time
+    limits still end, without anybody waiting.
+
+    Args:
+        server: The simulator.
+    """
+
+    _numbers = itertools.count(1)
+
+    def __init__(self, server: DatagramServer) -> None:
+        self._server = server
+        self._source = ('loopback', next(self._numbers))
+        self._inbox: deque[bytes] = deque()
+        self._time_s = 0.0
+
+    @property
+    def peer(self) -> str:
+        """Name of the simulator for messages."""
+        return 'uav_sim in this process'
+
+    def send(self, datagram: bytes) -> None:
+        """Hand a datagram to the simulator and keep its answers."""
+        self._inbox.extend(self._server.handle(datagram, self._source))
+
+    def receive(self, timeout_s: float) -> bytes | None:
+        """Return the next answer, or None at once."""
+        if self._inbox:
+            return self._inbox.popleft()
+        self._time_s += max(timeout_s, 1e-4)
+        return None
+
+    def steady_time_s(self) -> float:
+        """Return the sum of all empty waits."""
+        return self._time_s
+
+    def close(self) -> None:
+        """Forget what was not read."""
+        self._inbox.clear()
+
+
+class LossyTransport:
+    """A bad link in both directions, for tests: loses, doubles, delays and cuts datagrams.
+
+    Args:
+        inner: The good transport.
+        rng: Decides what happens to each datagram.
+        loss: Share that is lost.
+        duplication: Share that arrives twice.
+        reordering: Share that is overtaken by up to three later datagrams of its direction.
+        truncation: Share that arrives cut at a random place.
+    """
+
+    def __init__(
+        self,
+        inner: Transport,
+        rng: np.random.Generator,
+        *,
+        loss: float = 0.2,
+        duplication: float = 0.2,
+        reordering: float = 0.2,
+        truncation: float = 0.05,
+    ) -> None:
+        self._inner = inner
+        self._rng = rng
+        self._loss = loss
+        self._duplication = duplication
+        self._reordering = reordering
+        self._truncation = truncation
+        self._held_out: list[tuple[int, bytes]] = []
+        self._held_in: list[tuple[int, bytes]] = []
+        self._inbox: deque[bytes] = deque()
+
+    @property
+    def peer(self) -> str:
+        """Name of the simulator for messages."""
+        return self._inner.peer
+
+    def send(self, datagram: bytes) -> None:
+        """Send what the link makes of a datagram."""
+        for arriving in self._suffer(datagram, self._held_out):
+            self._inner.send(arriving)
+
+    def receive(self, timeout_s: float) -> bytes | None:
+        """Return the next datagram that survived, or None when none came within the time."""
+        deadline_s = self._inner.steady_time_s() + timeout_s
+        while not self._inbox:
+            left_s = deadline_s - self._inner.steady_time_s()
+            datagram = self._inner.receive(left_s) if left_s > 0.0 else None
+            if datagram is None:
+                return None
+            self._inbox.extend(self._suffer(datagram, self._held_in))
+        return self._inbox.popleft()
+
+    def steady_time_s(self) -> float:
+        """Return the inner transport's time."""
+        return self._inner.steady_time_s()
+
+    def close(self) -> None:
+        """Close the inner transport."""
+        self._inner.close()
+
+    def _suffer(self, datagram: bytes, held: list[tuple[int, bytes]]) -> list[bytes]:
+        """Return what arrives now, given that `datagram` was sent now."""
+        rng = self._rng
+        due = [late for wait, late in held if wait <= 1]
+        held[:] = [(wait - 1, late) for wait, late in held if wait > 1]
+        copies = 2 if rng.random() < self._duplication else 1
+        now: list[bytes] = []
+        for _ in range(copies):
+            if rng.random() < self._loss:
+                continue
+            arriving = datagram
+            if rng.random() < self._truncation:
+                arriving = datagram[: int(rng.integers(0, len(datagram) + 1))]
+            if rng.random() < self._reordering:
+                held.append((int(rng.integers(1, 4)), arriving))
+            else:
+                now.append(arriving)
+        return now + due

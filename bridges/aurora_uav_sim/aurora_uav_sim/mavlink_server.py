@@ -1,0 +1,381 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The simulator as a MAVLink endpoint without sockets: datagrams in, datagrams out.
+
+Stand-alone, `poll` lets time pass and streams telemetry, and any ground station may command. In
+a lockstep session (`protocol`) only its owner commands and only its steps move time; everyone
+else may look.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Hashable, Iterable
+
+from pymavlink.dialects.v20 import common as mavlink
+
+from aurora_uav_sim.autopilot import ACCEPTED, Answer, Result
+from aurora_uav_sim.commands import (
+    HANDLERS,
+    Request,
+    request_of_int,
+    request_of_long,
+    whole,
+)
+from aurora_uav_sim.link import Link
+from aurora_uav_sim.lockstep import Session
+from aurora_uav_sim.lockstep_commands import PREPARATIONS, prepare, read_session
+from aurora_uav_sim.parameters import MAX_SUBSTEP_S
+from aurora_uav_sim.protocol import (
+    CMD_LOCKSTEP,
+    CMD_STEP,
+    MAX_NONCE,
+)
+from aurora_uav_sim.services import Services
+from aurora_uav_sim.set_point import SetPointReader
+from aurora_uav_sim.vehicle import Vehicle
+from aurora_uav_sim.wire import (
+    COMMAND_ACK,
+    COMMAND_LONG,
+    SET_POINT,
+    Decoder,
+    Frame,
+    split,
+)
+
+_SET_POINT_ID = SET_POINT.message_id
+_COMMAND_LONG_ID = COMMAND_LONG.message_id
+
+MAX_LINKS = 32
+# A peer that says nothing for so long gets no more telemetry. Heartbeats come every second.
+_LINK_SILENCE_S = 10.0
+# A session whose owner is gone ends, so that the simulator serves ground stations again.
+_SESSION_SILENCE_S = 60.0
+# After a stall, simulated time goes on from here instead of catching up.
+_MAX_CATCH_UP_S = 0.25
+# Old nonces, to tell a late duplicate of an old session from a new one.
+_REMEMBERED_NONCES = 64
+
+
+class SimServer:
+    """Several vehicles behind one endpoint.
+
+    Args:
+        system_ids: MAVLink system ids of the stand-alone vehicles.
+        watchers: Destinations that get telemetry without having asked.
+    """
+
+    def __init__(
+        self, system_ids: Iterable[int] = (1,), watchers: Iterable[Hashable] = ()
+    ) -> None:
+        self._vehicles: dict[int, Vehicle] = {}
+        for seat, system_id in enumerate(system_ids):
+            self._vehicles[system_id] = Vehicle(system_id, seat)
+        self._standalone = tuple(self._vehicles)
+        self._links: dict[Hashable, Link] = {w: Link(permanent=True) for w in watchers}
+        self._session: Session | None = None
+        self._session_heard_s = 0.0
+        self._nonces: deque[int] = deque(maxlen=_REMEMBERED_NONCES)
+        self._decoder = Decoder()
+        self._services = Services()
+        self._reader = SetPointReader()
+        self._wall_s: float | None = None
+        self._lag_s = 0.0
+
+    @property
+    def vehicles(self) -> dict[int, Vehicle]:
+        """The vehicles in the air space now: the session's fleet or the stand-alone ones."""
+        if self._session is not None:
+            return self._session.fleet
+        return {i: self._vehicles[i] for i in self._standalone}
+
+    @property
+    def in_lockstep(self) -> bool:
+        """Whether a session is open."""
+        return self._session is not None
+
+    # Datagrams --------------------------------------------------------------------------------
+
+    def handle(self, datagram: bytes, source: Hashable) -> list[bytes]:
+        """Act on a datagram.
+
+        Args:
+            datagram: Any bytes; what is no intact frame is skipped.
+            source: Where it came from.
+
+        Returns:
+            Datagrams to send back to `source`.
+        """
+        out: list[bytes] = []
+        for frame in split(datagram):
+            link = self._links.get(source)
+            if link is None:
+                link = self._new_link(source)
+            link.heard = True
+            session = self._session
+            if session is not None and session.source == source:
+                if not session.newer.accept(frame):
+                    # A new client may count from 0 again on the same port.
+                    if frame.message_id == _COMMAND_LONG_ID and _is_lockstep(frame):
+                        self._message(frame, source, link, out)
+                    continue
+                if frame.message_id == _SET_POINT_ID:
+                    session.take_set_point(frame.payload)
+                    continue
+                if frame.message_id == _COMMAND_LONG_ID:
+                    fields = COMMAND_LONG.unpack(frame.payload)
+                    if fields[7] == CMD_STEP:
+                        self._step(session, fields[0], frame, link, out)
+                        continue
+            self._message(frame, source, link, out)
+        return _datagrams(out)
+
+    def _new_link(self, source: Hashable) -> Link:
+        if len(self._links) >= MAX_LINKS:
+            owner = self._session.source if self._session is not None else None
+            oldest = min(
+                (s for s, link in self._links.items() if not link.permanent and s != owner),
+                key=lambda s: self._links[s].heard_s,
+                default=None,
+            )
+            if oldest is not None:
+                del self._links[oldest]
+        link = self._links[source] = Link(permanent=False)
+        link.heard_s = self._wall_s or 0.0
+        return link
+
+    def _step(
+        self, session: Session, param1: float, frame: Frame, link: Link, out: list[bytes]
+    ) -> None:
+        tick = whole(param1)
+        result = Result.DENIED if tick is None else session.step(tick)
+        if result is Result.ACCEPTED:
+            out.append(session.states(link.sequences))
+        first = next(iter(session.fleet))
+        out.append(
+            link.sequence(first).fast(
+                COMMAND_ACK, CMD_STEP, result, 0, tick if tick is not None else -1,
+                frame.system_id, frame.component_id,
+            )
+        )  # fmt: skip
+
+    def _message(self, frame: Frame, source: Hashable, link: Link, out: list[bytes]) -> None:
+        """Act on a message off the tick path."""
+        m = self._decoder.decode(frame)
+        if m is None:
+            return
+        kind = m.get_type()
+        sender = (frame.system_id, frame.component_id)
+        if kind in ('COMMAND_LONG', 'COMMAND_INT'):
+            read = request_of_long if kind == 'COMMAND_LONG' else request_of_int
+            self._command(read(m, sender), m.target_system, m.target_component, source, link, out)
+        elif kind == 'SET_POSITION_TARGET_LOCAL_NED':
+            if self._session is None:
+                self._stream_set_point(frame.payload)
+        else:
+            may_change = self._session is None or self._session.source == source
+            out.extend(self._services.answer(m, kind, sender, self.vehicles, link, may_change))
+
+    def _stream_set_point(self, payload: bytes) -> None:
+        fields = SET_POINT.unpack(payload)
+        target = self._reader.read(fields)
+        if target is None:
+            return
+        for vehicle in self._addressed(fields[13], fields[14]):
+            vehicle.autopilot.set_target(target)
+
+    def _addressed(self, system_id: int, component_id: int) -> list[Vehicle]:
+        """Return the vehicles that a message is for (0 means all)."""
+        if component_id not in (0, mavlink.MAV_COMP_ID_AUTOPILOT1):
+            return []
+        vehicles = self.vehicles
+        if system_id == 0:
+            return list(vehicles.values())
+        return [vehicles[system_id]] if system_id in vehicles else []
+
+    # Commands -----------------------------------------------------------------------------------
+
+    def _command(
+        self,
+        request: Request,
+        system_id: int,
+        component_id: int,
+        source: Hashable,
+        link: Link,
+        out: list[bytes],
+    ) -> None:
+        if request.command == CMD_LOCKSTEP:
+            answer = self._lockstep(request, source)
+            # The nonce says which session this is about.
+            number = max(whole(request.p2) or 0, 0) & 0xFFFFFF
+            answers = [(vehicle, answer) for vehicle in self._addressed(0, 0)[:1]]
+        elif request.command == CMD_STEP:
+            # Whatever vehicle is meant: a client whose session is gone must learn it.
+            number = 0
+            denial = Answer(Result.DENIED, 'No such session')
+            answers = [(vehicle, denial) for vehicle in self._addressed(0, 0)[:1]]
+        else:
+            session = self._session
+            owned = session is not None and session.source == source
+            number = session.nonce if session is not None and owned else 0
+            answers = [
+                (vehicle, self._vehicle_command(vehicle, request, source, link, out))
+                for vehicle in self._addressed(system_id, component_id)
+            ]
+        for vehicle, answer in answers:
+            sequence = link.sequence(vehicle.system_id)
+            out.append(
+                sequence.fast(
+                    COMMAND_ACK, request.command, answer.result, 0, number, *request.sender
+                )
+            )
+            if answer.reason:
+                out.append(self._services.text(sequence, answer.reason))
+
+    def _vehicle_command(
+        self,
+        vehicle: Vehicle,
+        request: Request,
+        source: Hashable,
+        link: Link,
+        out: list[bytes],
+    ) -> Answer:
+        asked = self._services.request(vehicle, request, link, out)
+        if asked is not None:
+            return asked
+        session = self._session
+        if session is not None:
+            if session.source != source:
+                return Answer(Result.TEMPORARILY_REJECTED, 'In lockstep with another client')
+            if request.command in PREPARATIONS:
+                if session.tick > 0:
+                    return Answer(Result.DENIED, 'Only before the first step')
+                return prepare(vehicle, request)
+        handler = HANDLERS.get(request.command)
+        if handler is None:
+            # Wind and seed too: they belong to lockstep.
+            return Answer(Result.UNSUPPORTED)
+        return handler(vehicle, request)
+
+    def _lockstep(self, request: Request, source: Hashable) -> Answer:
+        """Open or close a session."""
+        nonce = whole(request.p2)
+        if nonce is None or not 1 <= nonce <= MAX_NONCE:
+            return Answer(Result.DENIED, 'Lockstep denied: nonce')
+        session = self._session
+        if request.p1 == 0.0:
+            if session is not None and session.nonce == nonce and session.source == source:
+                self._leave()
+                return ACCEPTED
+            # Left already: the answer was lost.
+            return ACCEPTED if nonce in self._nonces else Answer(Result.DENIED, 'No such session')
+        if request.p1 != 1.0:
+            return Answer(Result.DENIED, 'Lockstep denied: enter or leave')
+        if session is not None and session.nonce == nonce:
+            same = session.source == source
+            return ACCEPTED if same else Answer(Result.DENIED, 'Nonce is taken')
+        if nonce in self._nonces:
+            return Answer(Result.DENIED, 'Lockstep denied: old session')
+        wanted = read_session(request)
+        if isinstance(wanted, Answer):
+            return wanted
+        tick_us, system_ids = wanted
+        fleet = []
+        for system_id in system_ids:
+            if system_id not in self._vehicles:
+                self._vehicles[system_id] = Vehicle(system_id, system_id - 1)
+            vehicle = self._vehicles[system_id]
+            vehicle.place_default()
+            fleet.append(vehicle)
+        self._session = Session(nonce, source, tick_us, fleet)
+        self._nonces.append(nonce)
+        self._session_heard_s = self._wall_s or 0.0
+        return ACCEPTED
+
+    def _leave(self) -> None:
+        self._session = None
+        for system_id in self._standalone:
+            self._vehicles[system_id].place_default()
+
+    # Time ---------------------------------------------------------------------------------------
+
+    def poll(self, wall_time_s: float) -> list[tuple[Hashable, bytes]]:
+        """Let time pass and return the telemetry that is due, with its destinations.
+
+        Args:
+            wall_time_s: Steady time; differences count.
+        """
+        elapsed_s = 0.0 if self._wall_s is None else max(wall_time_s - self._wall_s, 0.0)
+        self._wall_s = wall_time_s
+        self._forget(wall_time_s)
+        session = self._session
+        if session is None:
+            self._run(elapsed_s)
+        owner = session.source if session is not None else None
+        vehicles = self.vehicles
+        out: list[tuple[Hashable, bytes]] = []
+        for destination, link in self._links.items():
+            if session is not None and destination == owner:
+                continue
+            frames: list[bytes] = []
+            for vehicle in vehicles.values():
+                frames.extend(link.due(vehicle, wall_time_s))
+            out.extend((destination, datagram) for datagram in _datagrams(frames))
+        return out
+
+    def _run(self, elapsed_s: float) -> None:
+        self._lag_s = min(self._lag_s + elapsed_s, _MAX_CATCH_UP_S)
+        steps = int(self._lag_s / MAX_SUBSTEP_S)
+        self._lag_s -= steps * MAX_SUBSTEP_S
+        for vehicle in self.vehicles.values():
+            vehicle.run(steps, MAX_SUBSTEP_S)
+
+    def _forget(self, wall_time_s: float) -> None:
+        """Drop silent peers and a session without an owner."""
+        session = self._session
+        for link in self._links.values():
+            if link.heard:
+                link.heard = False
+                link.heard_s = wall_time_s
+        if session is not None:
+            link = self._links[session.source]
+            if wall_time_s - max(link.heard_s, self._session_heard_s) > _SESSION_SILENCE_S:
+                self._leave()
+                session = None
+        owner = session.source if session is not None else None
+        silent = [
+            source
+            for source, link in self._links.items()
+            if not link.permanent
+            and wall_time_s - link.heard_s > _LINK_SILENCE_S
+            and (session is None or source != owner)
+        ]
+        for source in silent:
+            del self._links[source]
+
+
+def _is_lockstep(frame: Frame) -> bool:
+    return bool(COMMAND_LONG.unpack(frame.payload)[7] == CMD_LOCKSTEP)
+
+
+# Frames are joined into datagrams up to this size, below any Ethernet MTU. A tick's states are
+# one element and stay whole, which the loopback interface carries.
+_JOIN_BYTES = 1200
+
+
+def _datagrams(frames: list[bytes]) -> list[bytes]:
+    """Join frames into datagrams."""
+    if len(frames) < 2:
+        return frames
+    if len(frames) == 2:
+        # States and acknowledgement of a tick.
+        return [frames[0] + frames[1]]
+    out: list[bytes] = []
+    current = b''
+    for frame in frames:
+        if current and len(current) + len(frame) > _JOIN_BYTES:
+            out.append(current)
+            current = b''
+        current += frame
+    out.append(current)
+    return out

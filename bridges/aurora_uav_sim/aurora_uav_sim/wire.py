@@ -1,0 +1,232 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""MAVLink frames as bytes: split a datagram, and pack and unpack the messages of every tick.
+
+pymavlink needs 4 us to pack and 8 us to parse a message. A tick carries at least six, so these
+few are packed with `struct` here, byte for byte as pymavlink does it (a test compares them);
+everything else goes through pymavlink (`decode`).
+
+A datagram is a whole: a frame that does not end inside it is lost, and never waits for the next
+datagram as a stream parser would let it.
+
+Source: MAVLink guide, "Packet Serialization" (MAVLink 1 and 2, checksum CRC-16/MCRF4XX).
+"""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
+from pymavlink.dialects.v20 import common as mavlink
+
+# Longer datagrams are not ours (ten vehicles need 0.7 kB to us, 1.2 kB from us).
+MAX_DATAGRAM = 16384
+
+_MARKER_V2 = 0xFD
+_MARKER_V1 = 0xFE
+_SIGNED = 0x01
+_SIGNATURE_LENGTH = 13
+
+_CRC_EXTRA: dict[int, bytes] = {
+    int(number): bytes([kind.crc_extra]) for number, kind in mavlink.mavlink_map.items()
+}
+
+# fastcrc (a dependency of pymavlink) in C; pymavlink's own Python code where it is missing.
+_fast_crc = mavlink.mcrf4xx
+
+
+def crc16(data: bytes) -> int:
+    """Return CRC-16/MCRF4XX of `data`."""
+    if _fast_crc is not None:
+        return int(_fast_crc(data))
+    return int(mavlink.x25crc(data).crc)
+
+
+class Frame(NamedTuple):
+    """A frame whose checksum is right.
+
+    Attributes:
+        message_id: Which message.
+        sequence: 0 to 255, counts the sender's frames.
+        system_id: Of the sender.
+        component_id: Of the sender.
+        payload: Without the zeros that MAVLink 2 cuts off.
+        raw: The whole frame.
+    """
+
+    message_id: int
+    sequence: int
+    system_id: int
+    component_id: int
+    payload: bytes
+    raw: bytes
+
+
+def split(datagram: bytes) -> Iterator[Frame]:
+    """Yield the intact frames of a datagram; anything else between them is skipped."""
+    end = len(datagram)
+    if end > MAX_DATAGRAM:
+        return
+    start = 0
+    while end - start >= 8:
+        marker = datagram[start]
+        length = datagram[start + 1]
+        if marker == _MARKER_V2 and end - start >= 12:
+            flags = datagram[start + 2]
+            body = start + 10
+            message_id = int.from_bytes(datagram[start + 7 : body], 'little')
+            sender = start + 4
+            after = body + length + 2 + (_SIGNATURE_LENGTH if flags & _SIGNED else 0)
+            known = flags & ~_SIGNED == 0
+        elif marker == _MARKER_V1:
+            body = start + 6
+            message_id = datagram[start + 5]
+            sender = start + 2
+            after = body + length + 2
+            known = True
+        else:
+            start += 1
+            continue
+        extra = _CRC_EXTRA.get(message_id)
+        if known and extra is not None and after <= end:
+            stop = body + length
+            crc = crc16(datagram[start + 1 : stop] + extra)
+            if crc == datagram[stop] | datagram[stop + 1] << 8:
+                yield Frame(
+                    message_id,
+                    datagram[sender],
+                    datagram[sender + 1],
+                    datagram[sender + 2],
+                    datagram[body:stop],
+                    datagram[start:after],
+                )
+                start = after
+                continue
+        start += 1
+
+
+class Decoder:
+    """pymavlink for the messages that are not on the tick path."""
+
+    def __init__(self) -> None:
+        self._parser = mavlink.MAVLink(None)
+        # Without this, one bad frame blocks the parser for ever.
+        self._parser.robust_parsing = True
+
+    def decode(self, frame: Frame) -> Any | None:
+        """Return the pymavlink message of a frame, None when pymavlink refuses it."""
+        messages = self._parser.parse_buffer(bytearray(frame.raw))
+        if not messages or messages[0].get_type() == 'BAD_DATA':
+            # Nothing of a refused frame may wait for the next one.
+            self._parser.buf = bytearray()
+            self._parser.buf_index = 0
+            return None
+        return messages[0]
+
+
+_HEADER = struct.Struct('<BBBBBBHB')
+
+
+def pack(
+    sequence: int, system_id: int, component_id: int, message_id: int, payload: bytes
+) -> bytes:
+    """Return a MAVLink 2 frame.
+
+    Args:
+        sequence: 0 to 255.
+        system_id: Of the sender.
+        component_id: Of the sender.
+        message_id: Which message; the dialect must know it.
+        payload: Full payload; its trailing zeros are cut off here.
+    """
+    payload = payload.rstrip(b'\0') or b'\0'
+    body = (
+        _HEADER.pack(
+            len(payload), 0, 0, sequence, system_id, component_id,
+            message_id & 0xFFFF, message_id >> 16,
+        )
+        + payload
+    )  # fmt: skip
+    return b'\xfd' + body + crc16(body + _CRC_EXTRA[message_id]).to_bytes(2, 'little')
+
+
+class Layout:
+    """A message of the tick path: its id and its packed fields in wire order."""
+
+    __slots__ = ('message_id', 'size', 'structure')
+
+    def __init__(self, kind: Any) -> None:
+        self.message_id = int(kind.id)
+        self.structure: struct.Struct = kind.unpacker
+        self.size: int = self.structure.size
+
+    def unpack(self, payload: bytes) -> tuple[Any, ...]:
+        """Return the fields; cut-off zeros are put back, unknown extensions are cut off."""
+        missing = self.size - len(payload)
+        if missing > 0:
+            payload += bytes(missing)
+        elif missing < 0:
+            payload = payload[: self.size]
+        return self.structure.unpack(payload)
+
+
+LOCAL_POSITION = Layout(mavlink.MAVLink_local_position_ned_message)
+ATTITUDE = Layout(mavlink.MAVLink_attitude_quaternion_message)
+NAMED_INT = Layout(mavlink.MAVLink_named_value_int_message)
+COMMAND_ACK = Layout(mavlink.MAVLink_command_ack_message)
+COMMAND_LONG = Layout(mavlink.MAVLink_command_long_message)
+SET_POINT = Layout(mavlink.MAVLink_set_position_target_local_ned_message)
+
+
+class Sequence:
+    """A sender's frame counter and packer.
+
+    Attributes:
+        seq: Number of the next frame (pymavlink's name: its messages are packed with it too).
+        srcSystem: System id of the sender (pymavlink's name).
+        srcComponent: Component id of the sender (pymavlink's name).
+        signing: pymavlink's signing state, off.
+    """
+
+    __slots__ = ('seq', 'signing', 'srcComponent', 'srcSystem')
+
+    def __init__(self, system_id: int, component_id: int) -> None:
+        self.seq = 0
+        self.srcSystem = system_id
+        self.srcComponent = component_id
+        self.signing = mavlink.MAVLinkSigning()
+
+    def fast(self, layout: Layout, *fields: Any) -> bytes:
+        """Pack a message of the tick path from its fields in wire order."""
+        sequence = self.seq
+        self.seq = (sequence + 1) & 0xFF
+        payload = layout.structure.pack(*fields)
+        return pack(sequence, self.srcSystem, self.srcComponent, layout.message_id, payload)
+
+    def encode(self, message: Any) -> bytes:
+        """Pack a pymavlink message."""
+        frame = bytes(message.pack(self))
+        self.seq = (self.seq + 1) & 0xFF
+        return frame
+
+
+class Newer:
+    """Lets each sender's frames through once and in order: stale duplicates stop here.
+
+    The counter wraps at 256, so of two frames the one less than half a turn ahead is newer.
+    """
+
+    __slots__ = ('_last',)
+
+    def __init__(self) -> None:
+        self._last: dict[tuple[int, int], int] = {}
+
+    def accept(self, frame: Frame) -> bool:
+        """Return whether the frame is newer than all of its sender so far."""
+        key = (frame.system_id, frame.component_id)
+        last = self._last.get(key)
+        if last is not None and not 0 < (frame.sequence - last) & 0xFF < 128:
+            return False
+        self._last[key] = frame.sequence
+        return True
