@@ -1,0 +1,161 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Runs the events of a scenario: trigger, delay, the sight rule of alerts, action."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from aurora_core.comm.link import MessageLink, whole_ticks
+from aurora_core.execution.observe import Observation
+from aurora_core.execution.triggers import Progress, actors, holds
+from aurora_core.mission.machine import MissionMachine
+from aurora_core.spec.scenario import AgentAction, Event, ScenarioSpec, SendMessage, UavAction
+from aurora_core.spec.vocabulary import MissionMode
+from aurora_core.trace.commands import GroundCommand
+from aurora_core.trace.layout import GroundCommandKind
+from aurora_core.trace.records import ScenarioEventKind
+from aurora_core.trace.roster import Roster
+
+# Deceleration of a commanded braking (m/s^2): above the 4 m/s^2 that "brake" asks for.
+BRAKING_MPS2 = 6.0
+
+Note = Callable[[int, ScenarioEventKind, str, str], None]
+
+_SPEED_ACTIONS = frozenset({'brake', 'stop', 'yield'})
+
+
+@dataclass(slots=True)
+class _EventState:
+    event: Event
+    triggered_tick: int | None = None
+    done: bool = False
+
+
+class EventRunner:
+    """All events of one run.
+
+    Args:
+        spec: The request.
+        roster: Row order.
+        links: Message links.
+    """
+
+    def __init__(self, spec: ScenarioSpec, roster: Roster, links: Sequence[MessageLink]) -> None:
+        self._roster = roster
+        self._links = links
+        self._states = [_EventState(event=e) for e in spec.events]
+        self._progress = Progress()
+        self._messages = 0
+
+    @property
+    def done(self) -> bool:
+        """Whether every event has happened."""
+        return all(s.done for s in self._states)
+
+    def received(self, receiver: str, sender: str) -> None:
+        """Note a delivered message."""
+        self._progress.received.add((receiver, sender))
+
+    def step(
+        self,
+        tick: int,
+        dt_s: float,
+        seen: Observation,
+        machines: Sequence[MissionMachine],
+        note: Note,
+    ) -> list[GroundCommand]:
+        """Evaluate triggers at `tick`, start due actions, return their ground commands."""
+        for machine in machines:
+            if machine.ascended_tick is not None:
+                self._progress.ascended.add(machine.plan.id)
+            if machine.missions_done:
+                self._progress.missions_done.add(machine.plan.id)
+        commands: list[GroundCommand] = []
+        for state in self._states:
+            if state.done:
+                continue
+            event = state.event
+            if state.triggered_tick is None and holds(event, tick, dt_s, seen, self._progress):
+                state.triggered_tick = tick
+                note(tick, ScenarioEventKind.TRIGGERED, event.id, '')
+            if state.triggered_tick is None:
+                continue
+            delay_s = 0.0 if event.delay_s is None else event.delay_s.value
+            due = tick >= state.triggered_tick + whole_ticks(delay_s, dt_s)
+            if due and self._allowed(event, seen, machines):
+                commands += self._act(tick, event, seen, machines)
+                state.done = True
+                self._progress.done_tick[event.id] = tick
+                note(tick, ScenarioEventKind.ACTION, event.id, '')
+        return commands
+
+    def _allowed(
+        self, event: Event, seen: Observation, machines: Sequence[MissionMachine]
+    ) -> bool:
+        """A UAV reports only what it sees: after its ascent, when tracking after capture."""
+        if not isinstance(event.action, SendMessage):
+            return True
+        sender = event.action.sender
+        machine = next((m for m in machines if m.plan.id == sender), None)
+        if machine is None:
+            return True
+        if machine.ascended_tick is None:
+            return False
+        tracks = any(m.mode is MissionMode.TRACK for m in machine.plan.missions)
+        if tracks and machine.first_capture_tick is None:
+            return False
+        return all(
+            seen.visible(sender, actor) for actor in actors(event).values() if actor != sender
+        )
+
+    def _act(
+        self,
+        tick: int,
+        event: Event,
+        seen: Observation,
+        machines: Sequence[MissionMachine],
+    ) -> list[GroundCommand]:
+        action = event.action
+        if isinstance(action, SendMessage):
+            for link in self._links:
+                pair = (link.settings.sender, link.settings.receiver)
+                if pair == (action.sender, action.receiver):
+                    self._messages += 1
+                    link.send(tick, self._messages, event.id)
+            return []
+        if isinstance(action, UavAction):
+            for machine in machines:
+                if machine.plan.id == action.uav and action.do == 'land':
+                    machine.land_now()
+            return []
+        if isinstance(action, AgentAction):
+            return self._agent_commands(action, seen)
+        return []
+
+    def _agent_commands(self, action: AgentAction, seen: Observation) -> list[GroundCommand]:
+        row = self._roster.agent_index(action.agent)
+        if row is None:
+            return []
+        value = None if action.value_mps is None else action.value_mps.value
+        if action.do in _SPEED_ACTIONS:
+            commands = []
+            if action.do == 'brake':
+                commands.append(
+                    GroundCommand(
+                        agent=row, kind=GroundCommandKind.SET_DECELERATION, value=BRAKING_MPS2
+                    )
+                )
+            stop = 0.0 if value is None else value
+            return [
+                *commands,
+                GroundCommand(agent=row, kind=GroundCommandKind.SET_SPEED, value=stop),
+            ]
+        if action.do in ('slow', 'accelerate'):
+            now = seen.speed_mps(action.agent)
+            wanted = value if value is not None else now * (0.5 if action.do == 'slow' else 1.3)
+            return [GroundCommand(agent=row, kind=GroundCommandKind.SET_SPEED, value=wanted)]
+        if action.do == 'start':
+            return [GroundCommand(agent=row, kind=GroundCommandKind.RELEASE_SPEED)]
+        return []

@@ -1,0 +1,83 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""What the executor reads off the packed states of one tick: the signals of `quantities`."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from aurora_core.mission.machine import TargetMotion
+from aurora_core.quantities import instant
+from aurora_core.quantities.world_geometry import WorldGeometry
+from aurora_core.trace.layout import GroundColumn
+from aurora_core.trace.roster import Roster
+
+FloatArray = npt.NDArray[np.float64]
+Point3 = tuple[float, float, float]
+
+
+class Observation:
+    """States of one tick, by body id or place.
+
+    Args:
+        roster: Row order.
+        ground: (N, GROUND_WIDTH).
+        uav: (M, UAV_WIDTH).
+        geometry: Solids and places of the world.
+    """
+
+    def __init__(
+        self, roster: Roster, ground: FloatArray, uav: FloatArray, geometry: WorldGeometry
+    ) -> None:
+        self._roster = roster
+        self._ground = ground
+        self._uav = uav
+        self._geometry = geometry
+
+    def position(self, name: str) -> Point3 | None:
+        """Return the reference point (x, y, z in m, ENU), None when the body is gone."""
+        point = instant.body_point(self._roster, self._ground, self._uav, name)
+        if point is None and self._roster.agent_index(name) is None:
+            place = self._geometry.place_point(name)
+            return None if place is None else (place[0], place[1], 0.0)
+        return point
+
+    def speed_mps(self, body_id: str) -> float:
+        """Return the speed of a body."""
+        row = self._roster.agent_index(body_id)
+        if row is not None:
+            return instant.ground_speed_mps(self._ground[row])
+        index = self._roster.uav_index(body_id)
+        assert index is not None
+        return instant.uav_speed_mps(self._uav[index])
+
+    def distance_m(self, a: str, b: str) -> float | None:
+        """Return the 3-D distance of two reference points, None when one of them is gone."""
+        p, q = self.position(a), self.position(b)
+        return None if p is None or q is None else instant.distance_m(p, q)
+
+    def motion(self, body_id: str) -> TargetMotion | None:
+        """Return position and velocity of a ground agent, None when it is gone."""
+        row = self._roster.agent_index(body_id)
+        if row is None or not instant.present(self._ground[row]):
+            return None
+        x, y, hx, hy, speed = self._ground[row, : GroundColumn.SPEED + 1].tolist()
+        return TargetMotion(x_m=x, y_m=y, vx_mps=hx * speed, vy_mps=hy * speed)
+
+    def line_of_sight(self, a: str, b: str) -> bool:
+        """Whether no building and no third vehicle stands between two bodies."""
+        return instant.radio_sight(self._geometry, self._roster, self._ground, self._uav, a, b)
+
+    def sight(self, observer: str, target: str) -> tuple[bool, float]:
+        """Return whether a UAV sees a target, and the slant range to its sight point in metres."""
+        index = self._roster.uav_index(observer)
+        assert index is not None
+        series = instant.sight(
+            self._geometry, self._roster, self._ground, self._uav[index], target
+        )
+        return bool(series.visible[0]), float(series.slant_range_m[0])
+
+    def visible(self, observer: str, target: str) -> bool:
+        """Whether a UAV sees a target: present, in range and in sight."""
+        return self.sight(observer, target)[0]

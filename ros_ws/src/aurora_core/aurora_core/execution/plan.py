@@ -1,0 +1,315 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""From a grounded graph to what an engine needs: loads, roster, world and executor."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from aurora_core.agsg.graph import Agsg
+from aurora_core.comm.link import LinkSettings, MessageLink
+from aurora_core.errors import ExecutionError
+from aurora_core.execution.fault_port import FaultPort, loss_with_faults
+from aurora_core.execution.faults import Fault
+from aurora_core.execution.scenario_executor import ExecutionSetup, ScenarioExecutor
+from aurora_core.execution.step_output import Stepper
+from aurora_core.grounding.airspace import Airspace
+from aurora_core.grounding.grounded import GroundedAgent, GroundedScenario
+from aurora_core.grounding.places import place_positions
+from aurora_core.knowledge.config_files import config_path
+from aurora_core.knowledge.limits import Limits
+from aurora_core.knowledge.map_model import MapModel
+from aurora_core.knowledge.settings import Settings
+from aurora_core.knowledge.world import (
+    CentreLine,
+    NamedPlace,
+    SignalPost,
+    Surface,
+    SurfaceKind,
+    Wind,
+    WorldModel,
+)
+from aurora_core.mission.machine import MissionMachine
+from aurora_core.mission.setpoint import FlightSettings
+from aurora_core.ports.random_streams import stream
+from aurora_core.ports.simulators import AirLoad, GroundAgentLoad, GroundLoad, UavHome
+from aurora_core.quantities.world_geometry import WorldGeometry
+from aurora_core.spec.scenario import Link, ScenarioSpec
+from aurora_core.temporal.schedule import Schedule
+from aurora_core.trace.roster import Roster, RosterEntry
+
+# Box of the multirotor in the roster (m): motor to motor with propellers, and its height.
+UAV_SIZE_M = (0.7, 0.7, 0.3)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Execution:
+    """Everything an engine needs to run a grounded scenario once.
+
+    Attributes:
+        stepper: The executor (behind its faults); stateful, for one run.
+        horizon_s: Hard end.
+    """
+
+    stepper: Stepper
+    ground_load: GroundLoad
+    air_load: AirLoad
+    roster: Roster
+    world: WorldModel
+    horizon_s: float
+
+
+def build_execution(
+    agsg: Agsg,
+    map_model: MapModel,
+    *,
+    limits: Limits,
+    settings: Settings,
+    seed: int,
+    faults: tuple[Fault, ...] = (),
+) -> Execution:
+    """Build the execution of a grounded graph.
+
+    Args:
+        agsg: Grounded, with schedule and conditions.
+        map_model: The map it was grounded on.
+        limits: Limits in force.
+        settings: Execution settings.
+        seed: Seed of the run.
+        faults: Faults to inject.
+
+    Raises:
+        ExecutionError: The graph is not grounded, or on another map.
+    """
+    if not agsg.grounding_json or not agsg.schedule_json:
+        raise ExecutionError('the graph is not grounded', hint='call ground_scenario first')
+    grounded = GroundedScenario.model_validate_json(agsg.grounding_json)
+    schedule = Schedule.model_validate_json(agsg.schedule_json)
+    if grounded.map_digest != map_model.digest:
+        raise ExecutionError(
+            f'grounded on map digest {grounded.map_digest[:12]}, loaded {map_model.digest[:12]}',
+            hint='ground the scenario again on this map',
+        )
+    dt_s = settings.run.dt_s
+    roster = _roster(grounded, dt_s)
+    places = place_positions(agsg.spec, map_model, grounded)
+    world = build_world(map_model, grounded, limits, places, agsg.conditions_json)
+    airspace = Airspace(map_model.buildings, map_model.zones)
+    flight = FlightSettings(**settings.flight.model_dump())
+    links = tuple(_link(link, limits, dt_s, seed, faults) for link in agsg.spec.links)
+    executor = ScenarioExecutor(
+        ExecutionSetup(
+            spec=agsg.spec,
+            roster=roster,
+            agents=grounded.agents,
+            machines=tuple(MissionMachine(u, flight, dt_s) for u in grounded.uavs),
+            links=links,
+            airspace=airspace,
+            geometry=WorldGeometry(world),
+            landing_clearance_m=limits.clearance_min_m + 1.0,
+            horizon_ticks=round(schedule.horizon_s / dt_s),
+            stated_horizon=schedule.stated_horizon,
+            earliest_end_ticks=round(limits.horizon_inferred_min_s / dt_s),
+            settle_ticks=round(settings.run.settle_s / dt_s),
+            sight_period_ticks=max(1, round(settings.run.sight_period_s / dt_s)),
+        )
+    )
+    stepper: Stepper = executor
+    if faults:
+        stepper = FaultPort(executor, faults, roster, tuple(x.id for x in agsg.spec.links))
+    return Execution(
+        stepper=stepper,
+        ground_load=_ground_load(grounded, map_model, dt_s, seed),
+        air_load=_air_load(grounded, map_model, dt_s, seed),
+        roster=roster,
+        world=world,
+        horizon_s=schedule.horizon_s,
+    )
+
+
+def build_world(
+    map_model: MapModel,
+    grounded: GroundedScenario,
+    limits: Limits,
+    places: Mapping[str, tuple[float, float]],
+    conditions_json: str,
+) -> WorldModel:
+    """Return the world of a run, self-contained, from the map and the scenario's weather."""
+    network = map_model.network
+    surfaces = [
+        Surface(
+            surface_id=f'carriageway_{k}',
+            kind=SurfaceKind.DRIVING,
+            ring=np.array(polygon.exterior.coords)[:-1],
+            holes=tuple(np.array(hole.coords)[:-1] for hole in polygon.interiors),
+        )
+        for k, polygon in enumerate(network.carriageway.geoms)
+    ]
+    surfaces += [
+        Surface(surface_id=c.id, kind=SurfaceKind.CROSSING, ring=np.array(c.polygon))
+        for c in network.crossings
+    ]
+    return WorldModel(
+        map_name=map_model.name,
+        map_digest=map_model.digest,
+        origin_lat_deg=map_model.origin_lat_deg,
+        origin_lon_deg=map_model.origin_lon_deg,
+        weather=grounded.weather,
+        time_of_day=grounded.time_of_day,
+        wind=Wind(
+            mean_east_mps=grounded.wind_mean_east_mps,
+            mean_north_mps=grounded.wind_mean_north_mps,
+            gust_mps=grounded.wind_gust_mps,
+        ),
+        buildings=map_model.buildings,
+        no_fly_zones=map_model.zones,
+        surfaces=tuple(surfaces),
+        lanes=tuple(
+            CentreLine(
+                lane_id=lane.id,
+                street_name=network.edge(lane.edge_id).street_name,
+                points=np.array(lane.polyline),
+                width_m=lane.width_m,
+                speed_limit_mps=lane.speed_limit_mps,
+            )
+            for lane in network.driving_lanes('passenger')
+        ),
+        signals=tuple(
+            SignalPost(junction_id=j.id, x_m=j.x_m, y_m=j.y_m)
+            for j in sorted(network.junctions.values(), key=lambda j: j.id)
+            if j.has_signal
+        ),
+        places=_named_places(map_model, places),
+        limits=limits,
+        conditions_json=conditions_json,
+    )
+
+
+def _named_places(
+    map_model: MapModel, resolved: Mapping[str, tuple[float, float]]
+) -> tuple[NamedPlace, ...]:
+    points = {f'landmark:{mark.name}': (mark.x_m, mark.y_m) for mark in map_model.landmarks}
+    points |= resolved
+    return tuple(NamedPlace(name=n, x_m=x, y_m=y) for n, (x, y) in sorted(points.items()))
+
+
+def _roster(grounded: GroundedScenario, dt_s: float) -> Roster:
+    agents = tuple(
+        RosterEntry(
+            body_id=a.id,
+            type_name=a.type_name,
+            is_person=a.is_person,
+            system_id=0,
+            length_m=a.length_m,
+            width_m=a.width_m,
+            height_m=a.height_m,
+            route_edges=a.edges,
+            route_xy_m=a.route_xy_m,
+            role=a.role,
+        )
+        for a in grounded.agents
+    )
+    uavs = tuple(
+        RosterEntry(
+            body_id=u.id,
+            type_name='uav',
+            is_person=False,
+            system_id=u.system_id,
+            length_m=UAV_SIZE_M[0],
+            width_m=UAV_SIZE_M[1],
+            height_m=UAV_SIZE_M[2],
+        )
+        for u in grounded.uavs
+    )
+    return Roster(dt_s=dt_s, agents=agents, uavs=uavs)
+
+
+def _ground_load(
+    grounded: GroundedScenario, map_model: MapModel, dt_s: float, seed: int
+) -> GroundLoad:
+    return GroundLoad(
+        map_name=map_model.name,
+        net_path=map_model.net_path,
+        vtypes_path=config_path('maps', 'vtypes.add.xml'),
+        map_digest=map_model.digest,
+        dt_s=dt_s,
+        seed=seed,
+        agents=tuple(_agent_load(a) for a in grounded.agents),
+        weather=grounded.weather,
+    )
+
+
+def _agent_load(agent: GroundedAgent) -> GroundAgentLoad:
+    return GroundAgentLoad(
+        agent_id=agent.id,
+        type_name=agent.type_name,
+        is_person=agent.is_person,
+        edges=agent.edges,
+        lane_id=agent.lane_id,
+        lane_position_m=agent.lane_position_m,
+        speed_mps=agent.speed_mps,
+        arrival_position_m=agent.arrival_position_m,
+        speed_factor=agent.speed_factor,
+        time_gap_s=agent.time_gap_s,
+        min_gap_m=agent.min_gap_m,
+        lane_change_mode=agent.lane_change_mode,
+    )
+
+
+def _air_load(grounded: GroundedScenario, map_model: MapModel, dt_s: float, seed: int) -> AirLoad:
+    return AirLoad(
+        dt_s=dt_s,
+        seed=seed,
+        homes=tuple(
+            UavHome(
+                uav_id=u.id,
+                system_id=u.system_id,
+                x_m=u.home_x_m,
+                y_m=u.home_y_m,
+                yaw_enu_rad=u.home_yaw_enu_rad,
+            )
+            for u in grounded.uavs
+        ),
+        origin_lat_deg=map_model.origin_lat_deg,
+        origin_lon_deg=map_model.origin_lon_deg,
+        wind_mean_east_mps=grounded.wind_mean_east_mps,
+        wind_mean_north_mps=grounded.wind_mean_north_mps,
+        wind_gust_mps=grounded.wind_gust_mps,
+    )
+
+
+def _link(
+    link: Link, limits: Limits, dt_s: float, seed: int, faults: tuple[Fault, ...]
+) -> MessageLink:
+    stated = None if link.range_m is None else link.range_m.value
+    return MessageLink(
+        LinkSettings(
+            link_id=link.id,
+            sender=link.sender,
+            receiver=link.receiver,
+            loss=link.loss.value,
+            latency_s=link.latency_s.value,
+            retransmissions=round(link.retransmissions.value),
+            interval_s=link.retransmission_interval_s.value,
+            range_sight_m=limits.link_range_sight_m if stated is None else stated,
+            range_blocked_m=limits.link_range_blocked_m if stated is None else stated,
+        ),
+        dt_s,
+        stream(seed, f'link:{link.id}'),
+        loss_with_faults(link.id, link.loss.value, faults, dt_s),
+    )
+
+
+def unsupported(spec: ScenarioSpec, grounded: GroundedScenario) -> tuple[str, ...]:
+    """Return what the specification says and the executor cannot do yet, in words."""
+    found = list(grounded.unsupported)
+    for event in spec.events:
+        action = event.action
+        if action is None or event.trigger is None:
+            continue
+        if action.do in ('change_lane', 'cross', 'ascend', 'change_mission'):
+            found.append(f'{event.id}: {action.do}')
+    return tuple(found)

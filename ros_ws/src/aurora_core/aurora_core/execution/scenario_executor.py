@@ -1,0 +1,265 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The managed executor: a pure step from the states of a tick to the commands of the next.
+
+Both engines call it, so there is one executor. It never reads a clock and draws chance only from
+the generators it was given.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import partial
+from itertools import count
+
+import numpy as np
+import numpy.typing as npt
+
+from aurora_core.comm.link import MessageLink, Path
+from aurora_core.execution.events import EventRunner
+from aurora_core.execution.observe import Observation
+from aurora_core.execution.step_output import StepOutput
+from aurora_core.geometry.kernel import norm2
+from aurora_core.grounding.airspace import Airspace
+from aurora_core.grounding.grounded import GroundedAgent, ReleaseOn
+from aurora_core.mission.machine import MissionMachine
+from aurora_core.quantities.world_geometry import WorldGeometry
+from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.spec.vocabulary import MissionMode
+from aurora_core.trace.commands import GroundCommand
+from aurora_core.trace.layout import UAV_COMMAND_WIDTH, GroundCommandKind, UavColumn, UavPhase
+from aurora_core.trace.records import (
+    EventRecord,
+    LinkEventKind,
+    LinkRecord,
+    ScenarioEventKind,
+    SightRecord,
+)
+from aurora_core.trace.roster import Roster
+
+FloatArray = npt.NDArray[np.float64]
+
+# Distance recorded for a transmission to or from a body that is gone (m).
+GONE_M = 1e6
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ExecutionSetup:
+    """Everything the executor works with.
+
+    Attributes:
+        geometry: Solids and places of the world, the same that the monitor judges with.
+        landing_clearance_m: The way to a landing spot keeps this clearance.
+        earliest_end_ticks: Runs with an inferred horizon do not end before.
+        settle_ticks: Time between the last thing done and the end.
+    """
+
+    spec: ScenarioSpec
+    roster: Roster
+    agents: tuple[GroundedAgent, ...]
+    machines: tuple[MissionMachine, ...]
+    links: tuple[MessageLink, ...]
+    airspace: Airspace
+    geometry: WorldGeometry
+    landing_clearance_m: float
+    horizon_ticks: int
+    stated_horizon: bool
+    earliest_end_ticks: int
+    settle_ticks: int
+    sight_period_ticks: int
+
+
+class ScenarioExecutor:
+    """Runs one grounded scenario.
+
+    Args:
+        setup: What to run.
+    """
+
+    def __init__(self, setup: ExecutionSetup) -> None:
+        self._setup = setup
+        self._sequence = count()
+        self._link_sequence = count()
+        self._events: list[EventRecord] = []
+        self._held = {i for i, a in enumerate(setup.agents) if a.release is not ReleaseOn.START}
+        self._phases = [int(UavPhase.IDLE)] * len(setup.machines)
+        self._seen: dict[tuple[str, str], bool] = {}
+        self._runner = EventRunner(setup.spec, setup.roster, setup.links)
+        self._done_tick: int | None = None
+
+    def step(self, tick: int, ground: FloatArray, uav: FloatArray) -> StepOutput:
+        """Evaluate the states of `tick`, return the commands for tick + 1.
+
+        Args:
+            tick: k >= 0; called once for every tick in order.
+            ground: (N, GROUND_WIDTH).
+            uav: (M, UAV_WIDTH).
+        """
+        s = self._setup
+        self._events = []
+        seen = Observation(s.roster, ground, uav, s.geometry)
+        commands = self._initial_commands() if tick == 0 else []
+        rows = self._fly(tick, uav, seen)
+        commands += self._release(tick)
+        commands += self._runner.step(tick, s.roster.dt_s, seen, s.machines, self.note)
+        links = self._step_links(tick, seen)
+        sights = self._sights(tick, seen)
+        outcome = self._outcome(tick)
+        if outcome:
+            self.note(tick, ScenarioEventKind.FINISHED, 'run', outcome)
+        return StepOutput(
+            ground_commands=tuple(commands),
+            uav_commands=rows,
+            links=tuple(links),
+            sights=tuple(sights),
+            events=tuple(self._events),
+            finished=bool(outcome),
+            outcome=outcome,
+        )
+
+    def note(self, tick: int, kind: ScenarioEventKind, subject: str, detail: str = '') -> None:
+        """Add a scenario event to the records of this tick."""
+        self._events.append(
+            EventRecord(
+                tick=tick, sequence=next(self._sequence), kind=kind, subject=subject, detail=detail
+            )
+        )
+
+    def next_sequence(self) -> int:
+        """Return the number of the next scenario event (for records added by fault ports)."""
+        return next(self._sequence)
+
+    def _initial_commands(self) -> list[GroundCommand]:
+        commands = []
+        for index, agent in enumerate(self._setup.agents):
+            if index in self._held:
+                commands.append(
+                    GroundCommand(agent=index, kind=GroundCommandKind.SET_SPEED, value=0.0)
+                )
+            else:
+                commands += self._start_commands(index, agent)
+        return commands
+
+    def _start_commands(self, index: int, agent: GroundedAgent) -> list[GroundCommand]:
+        if agent.drive_speed_mps is not None:
+            return [
+                GroundCommand(
+                    agent=index, kind=GroundCommandKind.SET_SPEED, value=agent.drive_speed_mps
+                )
+            ]
+        return [GroundCommand(agent=index, kind=GroundCommandKind.RELEASE_SPEED)]
+
+    def _release(self, tick: int) -> list[GroundCommand]:
+        machines = {m.plan.id: m for m in self._setup.machines}
+        commands = []
+        for index in sorted(self._held):
+            agent = self._setup.agents[index]
+            machine = machines.get(agent.release_uav)
+            ready = machine is not None and (
+                (agent.release is ReleaseOn.ASCENDED and machine.ascended_tick is not None)
+                or (agent.release is ReleaseOn.CAPTURED and machine.first_capture_tick is not None)
+            )
+            if ready:
+                self._held.discard(index)
+                self.note(tick, ScenarioEventKind.RELEASED, agent.id)
+                commands += self._start_commands(index, agent)
+        return commands
+
+    def _fly(self, tick: int, uav: FloatArray, seen: Observation) -> FloatArray:
+        rows = np.zeros((len(self._setup.machines), UAV_COMMAND_WIDTH))
+        for index, machine in enumerate(self._setup.machines):
+            if tick == 0:
+                machine.start()
+            mission = machine.mission
+            target = None
+            if mission is not None and mission.mode is MissionMode.TRACK:
+                assert mission.target is not None
+                target = seen.motion(mission.target)
+            row = machine.step(tick, uav[index], target)
+            if machine.needs_landing_spot():
+                spot, altitude_m = self._landing_spot(index, uav[index])
+                machine.set_landing_spot(spot, altitude_m)
+            rows[index] = row
+            if machine.phase != self._phases[index]:
+                self._phases[index] = machine.phase
+                self.note(tick, ScenarioEventKind.PHASE, machine.plan.id, machine.phase_name)
+        return rows
+
+    def _landing_spot(self, index: int, state: FloatArray) -> tuple[tuple[float, float], float]:
+        plan = self._setup.machines[index].plan
+        x, y, z = state[UavColumn.X : UavColumn.Z + 1].tolist()
+        taken = [m.landing_spot for k, m in enumerate(self._setup.machines) if k != index]
+        spots = sorted(
+            (s for s in plan.landing_spots if s not in taken),
+            key=lambda s: (norm2(s[0] - x, s[1] - y), s),
+        ) or [(plan.home_x_m, plan.home_y_m)]
+        for spot in spots:
+            way = ((x, y, z), (spot[0], spot[1], z))
+            if self._setup.airspace.way_clearance_m(way) >= self._setup.landing_clearance_m:
+                return spot, z
+        return spots[0], max(z, plan.safe_altitude_m)
+
+    def _step_links(self, tick: int, seen: Observation) -> list[LinkRecord]:
+        records: list[LinkRecord] = []
+        for link in self._setup.links:
+            if link.idle:
+                continue
+            sender, receiver = link.settings.sender, link.settings.receiver
+            records += link.step(
+                tick, partial(_path, seen, sender, receiver), self._next_link_sequence
+            )
+        for record in records:
+            if record.kind is LinkEventKind.DELIVERED:
+                self._runner.received(record.receiver, record.sender)
+        return records
+
+    def _next_link_sequence(self) -> int:
+        return next(self._link_sequence)
+
+    def _sights(self, tick: int, seen: Observation) -> list[SightRecord]:
+        records = []
+        for machine in self._setup.machines:
+            mission = machine.mission
+            if mission is None or mission.target is None:
+                continue
+            pair = (machine.plan.id, mission.target)
+            visible, slant_range_m = seen.sight(*pair)
+            if visible != self._seen.get(pair) or tick % self._setup.sight_period_ticks == 0:
+                self._seen[pair] = visible
+                records.append(
+                    SightRecord(
+                        tick=tick,
+                        observer=pair[0],
+                        target=pair[1],
+                        visible=visible,
+                        slant_range_m=slant_range_m,
+                    )
+                )
+        return records
+
+    def _outcome(self, tick: int) -> str:
+        s = self._setup
+        if tick >= s.horizon_ticks:
+            return 'horizon'
+        if s.stated_horizon or not s.machines:
+            return ''
+        done = (
+            all(m.landed for m in s.machines)
+            and self._runner.done
+            and all(link.idle for link in s.links)
+        )
+        if not done:
+            self._done_tick = None
+            return ''
+        if self._done_tick is None:
+            self._done_tick = tick
+        settled = tick - self._done_tick >= s.settle_ticks
+        return 'finished' if settled and tick >= s.earliest_end_ticks else ''
+
+
+def _path(seen: Observation, sender: str, receiver: str) -> Path:
+    """Return the geometry of a transmission; a body that is gone is out of any range."""
+    distance_m = seen.distance_m(sender, receiver)
+    if distance_m is None:
+        return Path(distance_m=GONE_M, line_of_sight=False)
+    return Path(distance_m=distance_m, line_of_sight=seen.line_of_sight(sender, receiver))

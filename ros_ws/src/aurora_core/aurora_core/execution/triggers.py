@@ -1,0 +1,103 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Whether the trigger of an event holds at a tick, on recomputed quantities only."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from aurora_core.execution.observe import Observation
+from aurora_core.quantities.triggers import NEEDS_CHANGE
+from aurora_core.spec.scenario import (
+    AltitudeTrigger,
+    ArrivalTrigger,
+    DistanceTrigger,
+    Event,
+    EventDoneTrigger,
+    MessageTrigger,
+    MissionDoneTrigger,
+    SpeedTrigger,
+    TimeTrigger,
+    VisibilityTrigger,
+)
+
+# An agent has arrived at a place when it is this close to it (m).
+ARRIVAL_M = 15.0
+
+
+@dataclass(slots=True)
+class Progress:
+    """What has happened so far, for triggers that follow other events."""
+
+    done_tick: dict[str, int] = field(default_factory=dict)
+    received: set[tuple[str, str]] = field(default_factory=set)  # (receiver, sender)
+    missions_done: set[str] = field(default_factory=set)  # UAV ids
+    was_false: set[str] = field(default_factory=set)  # event ids
+    ascended: set[str] = field(default_factory=set)  # UAV ids
+
+
+def holds(
+    event: Event, tick: int, dt_s: float, observation: Observation, progress: Progress
+) -> bool:
+    """Return whether the event's trigger is true at `tick`; an event without one starts at 0."""
+    trigger = event.trigger
+    if trigger is None:
+        return True
+    if isinstance(trigger, TimeTrigger):
+        return tick * dt_s >= trigger.at_s.value - 1e-9
+    if isinstance(trigger, EventDoneTrigger):
+        done = progress.done_tick.get(trigger.event)
+        wait = 0.0 if trigger.after_s is None else trigger.after_s.value
+        return done is not None and (tick - done) * dt_s >= wait - 1e-9
+    if isinstance(trigger, MissionDoneTrigger):
+        return trigger.uav in progress.missions_done
+    if isinstance(trigger, MessageTrigger):
+        return any(
+            receiver == trigger.by and trigger.sender in (None, sender)
+            for receiver, sender in progress.received
+        )
+    now = _state_holds(trigger, observation, progress)
+    if not now:
+        progress.was_false.add(event.id)
+    # Getting far, getting slow and losing sight are changes: what held from the start is none.
+    return now and (trigger.on not in NEEDS_CHANGE or event.id in progress.was_false)
+
+
+def _state_holds(
+    trigger: DistanceTrigger | AltitudeTrigger | SpeedTrigger | ArrivalTrigger | VisibilityTrigger,
+    observation: Observation,
+    progress: Progress,
+) -> bool:
+    if isinstance(trigger, DistanceTrigger):
+        distance = observation.distance_m(trigger.a, trigger.b)
+        if distance is None:
+            return False
+        if trigger.on == 'distance_below':
+            return distance <= trigger.value_m.value
+        return distance >= trigger.value_m.value
+    if isinstance(trigger, AltitudeTrigger):
+        point = observation.position(trigger.uav)
+        return point is not None and point[2] >= trigger.value_m.value
+    if isinstance(trigger, SpeedTrigger):
+        speed = observation.speed_mps(trigger.who)
+        if trigger.on == 'speed_below':
+            return speed <= trigger.value_mps.value
+        return speed >= trigger.value_mps.value
+    if isinstance(trigger, ArrivalTrigger):
+        distance = observation.distance_m(trigger.who, trigger.place)
+        return distance is not None and distance <= ARRIVAL_M
+    if trigger.observer not in progress.ascended:
+        return False  # a camera on the ground has not lost sight of anything
+    seen = observation.visible(trigger.observer, trigger.target)
+    return seen if trigger.on == 'visible' else not seen
+
+
+def actors(event: Event) -> Mapping[str, str]:
+    """Return the bodies that the trigger is about, by role, for the sight rule of alerts."""
+    trigger = event.trigger
+    if isinstance(trigger, DistanceTrigger):
+        return {'actor': trigger.a}
+    if isinstance(trigger, SpeedTrigger | ArrivalTrigger):
+        return {'actor': trigger.who}
+    return {}

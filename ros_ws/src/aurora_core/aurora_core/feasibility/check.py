@@ -1,0 +1,173 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Refuse what a limit rules out: a stated number beyond a limit is refused, never clamped."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from aurora_core.feasibility.verdict import Certificate, Feasibility, FeasibilityVerdict
+from aurora_core.knowledge.limits import Limits
+from aurora_core.spec.parameter import Bound, Parameter, Provenance
+from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.spec.vocabulary import AgentType
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Rule:
+    """A stated number and the limit it has to keep (low or high)."""
+
+    path: str
+    parameter: Parameter
+    reason: str
+    limit_name: str
+    low: float | None = None
+    high: float | None = None
+    high_is_excluded: bool = False
+
+
+def check_limits(spec: ScenarioSpec, limits: Limits) -> FeasibilityVerdict:
+    """Check every stated number and count against the limits.
+
+    Args:
+        spec: The request.
+        limits: Limits in force; a value equal to a limit is inside it.
+
+    Returns:
+        `infeasible` with one certificate per broken limit, else `feasible`.
+    """
+    certificates = [c for rule in _rules(spec, limits) for c in _broken(rule)]
+    certificates += _counts(spec, limits)
+    if certificates:
+        return FeasibilityVerdict(result=Feasibility.INFEASIBLE, certificates=tuple(certificates))
+    return FeasibilityVerdict(result=Feasibility.FEASIBLE)
+
+
+def _rules(spec: ScenarioSpec, limits: Limits) -> Iterator[_Rule]:
+    for mission in spec.missions:
+        base = f'missions/{mission.id}'
+        yield _Rule(
+            path=f'{base}/altitude_m',
+            parameter=mission.altitude_m,
+            reason='altitude_limit',
+            limit_name='uav_altitude_m',
+            low=limits.uav_altitude_min_m,
+            high=limits.uav_altitude_max_m,
+        )
+        if mission.standoff_m is not None:
+            yield _Rule(
+                path=f'{base}/standoff_m',
+                parameter=mission.standoff_m,
+                reason='standoff',
+                limit_name='uav_standoff_max_m',
+                low=0.0,
+                high=limits.uav_standoff_max_m,
+            )
+        if mission.speed_mps is not None:
+            yield _Rule(
+                path=f'{base}/speed_mps',
+                parameter=mission.speed_mps,
+                reason='speed_limit',
+                limit_name='uav_speed_max_mps',
+                low=0.0,
+                high=limits.uav_speed_max_mps,
+            )
+        if mission.duration_s is not None:
+            yield _Rule(
+                path=f'{base}/duration_s',
+                parameter=mission.duration_s,
+                reason='endurance',
+                limit_name='uav_endurance_s',
+                low=0.0,
+                high=limits.uav_endurance_s,
+            )
+    for agent in spec.agents:
+        walks = agent.type is AgentType.PEDESTRIAN
+        top = limits.pedestrian_speed_max_mps if walks else limits.vehicle_speed_max_mps
+        name = 'pedestrian_speed_max_mps' if walks else 'vehicle_speed_max_mps'
+        for k, behavior in enumerate(agent.behaviors):
+            if behavior.speed_mps is not None:
+                yield _Rule(
+                    path=f'agents/{agent.id}/behaviors/{k}/speed_mps',
+                    parameter=behavior.speed_mps,
+                    reason='speed_limit',
+                    limit_name=name,
+                    low=0.0,
+                    high=top,
+                )
+    for link in spec.links:
+        yield _Rule(
+            path=f'links/{link.id}/loss',
+            parameter=link.loss,
+            reason='comm_range',
+            limit_name='link_loss',
+            low=0.0,
+            high=1.0,
+            high_is_excluded=True,
+        )
+    if spec.world.duration_s is not None:
+        yield _Rule(
+            path='world/duration_s',
+            parameter=spec.world.duration_s,
+            reason='duration',
+            limit_name='duration_s',
+            low=limits.duration_min_s,
+            high=limits.duration_max_s,
+        )
+
+
+def _broken(rule: _Rule) -> Iterator[Certificate]:
+    parameter = rule.parameter
+    if parameter.provenance is not Provenance.EXPLICIT:
+        return
+    value, limit = parameter.value, None
+    over = rule.high is not None and (
+        value > rule.high or (rule.high_is_excluded and value >= rule.high)
+    )
+    # "at most 150 m" can be met below the limit, "at least 1 m" above it.
+    if over and parameter.bound is not Bound.AT_MOST:
+        limit = rule.high
+    if rule.low is not None and value < rule.low and parameter.bound is not Bound.AT_LEAST:
+        limit = rule.low
+    if limit is None:
+        return
+    word = 'below' if rule.high_is_excluded else ('at most' if limit == rule.high else 'at least')
+    yield Certificate(
+        kind='limit_exceeded',
+        reason=rule.reason,
+        path=rule.path,
+        requested=value,
+        unit=parameter.unit.value,
+        limit_name=rule.limit_name,
+        limit=limit,
+        nearest=None if rule.high_is_excluded else limit,
+        span=parameter.span,
+        sentence=(
+            f'{rule.path} asks for {value:g} {parameter.unit.value}; '
+            f'it has to be {word} {limit:g} {parameter.unit.value} ({rule.limit_name}).'
+        ),
+    )
+
+
+def _counts(spec: ScenarioSpec, limits: Limits) -> list[Certificate]:
+    found = []
+    for path, count, top in (
+        ('uavs', len(spec.uavs), limits.uavs_max),
+        ('agents', len(spec.agents), limits.agents_max),
+    ):
+        if count > top:
+            found.append(
+                Certificate(
+                    kind='limit_exceeded',
+                    reason='count',
+                    path=path,
+                    requested=float(count),
+                    unit='1',
+                    limit_name=f'{path}_max',
+                    limit=float(top),
+                    nearest=float(top),
+                    sentence=f'{count} {path} are asked for; at most {top} are possible.',
+                )
+            )
+    return found

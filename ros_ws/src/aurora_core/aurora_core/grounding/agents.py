@@ -1,0 +1,242 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Turn seats and free vehicles into grounded agents with routes, style and release."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import sqrt
+
+import numpy as np
+
+from aurora_core.errors import MapError
+from aurora_core.geometry.kernel import norm2
+from aurora_core.grounding.convoy import STILL, SceneSplit
+from aurora_core.grounding.grounded import GroundedAgent, ReleaseOn
+from aurora_core.grounding.routes import RouteFinder
+from aurora_core.grounding.sites import Site, tied_way_m
+from aurora_core.knowledge.agent_types import AgentTypeRecord
+from aurora_core.knowledge.map_model import MapModel
+from aurora_core.knowledge.route_path import RoutePath
+from aurora_core.knowledge.settings import Settings
+from aurora_core.spec.scenario import GroundAgent, ScenarioSpec
+from aurora_core.spec.vocabulary import BehaviorKind, MissionMode
+
+# Tries at random places before a free vehicle is given up.
+_TRIES = 400
+
+
+class AgentPlacer:
+    """Places agents on one map.
+
+    Args:
+        map_model: Map.
+        types: Agent sizes.
+        settings: Style of driving.
+    """
+
+    def __init__(
+        self, map_model: MapModel, types: Mapping[str, AgentTypeRecord], settings: Settings
+    ) -> None:
+        self._map = map_model
+        self._types = types
+        self._settings = settings
+
+    def convoy(self, spec: ScenarioSpec, split: SceneSplit, site: Site) -> list[GroundedAgent]:
+        """Return the convoy's members in the order of the specification."""
+        factor = self._convoy_factor(spec, split, site)
+        release, uav = _release(spec, split)
+        seats = {s.member.agent.id: s for s in site.seated}
+        front_m = max((s.arc_m for s in site.seated), default=0.0)
+        placed = []
+        for agent in spec.agents:
+            seat = seats.get(agent.id)
+            if seat is None:
+                continue
+            style = self._style(agent, factor, is_front=seat.arc_m >= front_m)
+            still = any(b.kind in STILL for b in agent.behaviors)
+            placed.append(
+                self._grounded(
+                    agent,
+                    seat.path,
+                    seat.arc_m,
+                    release=ReleaseOn.START if release is None else release,
+                    release_uav=uav,
+                    still=still,
+                    style=style,
+                    tied=len(site.seated) > 1,
+                )
+            )
+        return placed
+
+    def free(
+        self,
+        spec: ScenarioSpec,
+        split: SceneSplit,
+        site: Site,
+        placed: list[GroundedAgent],
+        run_m: float,
+        generator: np.random.Generator,
+    ) -> tuple[list[GroundedAgent], tuple[str, ...]]:
+        """Add the free vehicles on random lanes around, apart from everybody else.
+
+        Returns:
+            All agents in the order of the specification, and what found no place.
+        """
+        x0, y0, _, _ = site.origin()
+        found = {a.id: a for a in placed}
+        missing = []
+        for agent in split.free:
+            grounded = self._free_agent(agent, (x0, y0), list(found.values()), run_m, generator)
+            if grounded is None:
+                missing.append(f'{agent.id}: no free lane within reach')
+            else:
+                found[agent.id] = grounded
+        return [found[a.id] for a in spec.agents if a.id in found], tuple(missing)
+
+    def _free_agent(
+        self,
+        agent: GroundAgent,
+        centre: tuple[float, float],
+        others: list[GroundedAgent],
+        run_m: float,
+        generator: np.random.Generator,
+    ) -> GroundedAgent | None:
+        record = self._types[agent.type.value]
+        network = self._map.network
+        finder = RouteFinder(network, record.vclass)
+        low, high = self._settings.grounding.background_radius_m
+        lanes = [
+            lane
+            for lane in network.driving_lanes(record.vclass)
+            if finder.endless(lane.edge_id) and lane.length_m > 2.0 * record.length_m + 4.0
+        ]
+        if not lanes:
+            return None
+        for _ in range(_TRIES):
+            lane = lanes[int(generator.integers(len(lanes)))]
+            margin = record.length_m / 2.0 + 1.0
+            position = margin + float(generator.random()) * (lane.length_m - 2.0 * margin)
+            x, y, _, _ = network.position_on_lane(lane.id, position)
+            away = sqrt((x - centre[0]) ** 2 + (y - centre[1]) ** 2)
+            if not low <= away <= high or not self._apart(x, y, others):
+                continue
+            edges = finder.wandering_route(lane.edge_id, run_m, generator)
+            try:
+                path = network.route_path(
+                    edges, record.vclass, start_lane_id=lane.id, start_pos_m=position
+                )
+            except MapError:
+                continue
+            return self._grounded(
+                agent,
+                path,
+                path.arc_of(lane.id, position),
+                release=ReleaseOn.START,
+                release_uav='',
+                still=any(b.kind in STILL for b in agent.behaviors),
+                style={},
+                tied=False,
+            )
+        return None
+
+    def _apart(self, x: float, y: float, others: list[GroundedAgent]) -> bool:
+        gap = self._settings.grounding.background_gap_m
+        return all(sqrt((x - o.x_m) ** 2 + (y - o.y_m) ** 2) >= gap for o in others)
+
+    def _grounded(
+        self,
+        agent: GroundAgent,
+        path: RoutePath,
+        arc_m: float,
+        *,
+        release: ReleaseOn,
+        release_uav: str,
+        still: bool,
+        style: dict[str, float],
+        tied: bool,
+    ) -> GroundedAgent:
+        record = self._types[agent.type.value]
+        lane_id, position_m = path.lane_position_at(arc_m)
+        first = self._map.network.lane(lane_id).edge_id
+        edges = path.edge_ids[path.edge_ids.index(first) :]
+        x, y, hx, hy = path.position_at(arc_m)
+        route_xy_m = _line_from(path, arc_m)
+        speeds = [b.speed_mps.value for b in agent.behaviors if b.speed_mps is not None]
+        return GroundedAgent(
+            id=agent.id,
+            type_name=agent.type.value,
+            is_person=False,
+            length_m=record.length_m,
+            width_m=record.width_m,
+            height_m=record.height_m,
+            role=agent.role.value,
+            edges=edges,
+            route_xy_m=route_xy_m,
+            lane_id=lane_id,
+            lane_position_m=position_m,
+            x_m=x,
+            y_m=y,
+            heading_x=hx,
+            heading_y=hy,
+            speed_factor=style.get('speed_factor', 1.0),
+            time_gap_s=style.get('time_gap_s'),
+            min_gap_m=style.get('min_gap_m'),
+            lane_change_mode=self._settings.run.convoy_lane_change_mode if tied else None,
+            release=ReleaseOn.NEVER if still else release,
+            release_uav=release_uav,
+            drive_speed_mps=speeds[0] if speeds else None,
+        )
+
+    def _convoy_factor(self, spec: ScenarioSpec, split: SceneSplit, site: Site) -> float:
+        """Slow a tracked or tied convoy to a speed that a UAV follows easily."""
+        tracked = any(
+            m.mode is MissionMode.TRACK and site.seat(m.target or '') is not None
+            for m in spec.missions
+        )
+        if not tracked and len(site.seated) < 2:
+            return 1.0
+        fastest = site.fastest_mps(self._map.network, tied_way_m(spec, self._settings.grounding))
+        return min(1.0, self._settings.grounding.target_speed_mps / fastest)
+
+    def _style(self, agent: GroundAgent, factor: float, *, is_front: bool) -> dict[str, float]:
+        kinds = {b.kind for b in agent.behaviors}
+        run = self._settings.run
+        if BehaviorKind.TAILGATE in kinds:
+            return {
+                'speed_factor': factor * run.tailgate_speed_factor,
+                'time_gap_s': run.tailgate_time_gap_s,
+                'min_gap_m': run.tailgate_min_gap_m,
+            }
+        behind = self._settings.grounding.convoy_speed_factor_behind
+        return {'speed_factor': factor if is_front else factor * behind}
+
+
+def _line_from(path: RoutePath, arc_m: float) -> tuple[tuple[float, float], ...]:
+    """Return the path from `arc_m` on as points (x, y), metres."""
+    x, y, _, _ = path.position_at(arc_m)
+    points = [(x, y)]
+    passed_m = 0.0
+    for a, b in zip(path.polyline[:-1], path.polyline[1:], strict=True):
+        passed_m += norm2(b[0] - a[0], b[1] - a[1])
+        if passed_m > arc_m + 0.01:
+            points.append(b)
+    return tuple(points)
+
+
+def _release(spec: ScenarioSpec, split: SceneSplit) -> tuple[ReleaseOn | None, str]:
+    """Hold the convoy until the UAV that tracks one of its members has captured it."""
+    members = {m.agent.id for m in split.convoy}
+    for mission in spec.missions:
+        if mission.mode is MissionMode.TRACK and mission.target in members:
+            return ReleaseOn.CAPTURED, mission.uav
+    involved = {
+        reference
+        for event in spec.events
+        for reference in (getattr(event.trigger, 'a', None), getattr(event.trigger, 'b', None))
+        if reference is not None
+    }
+    for mission in spec.missions:
+        if involved & members:
+            return ReleaseOn.ASCENDED, mission.uav
+    return None, ''

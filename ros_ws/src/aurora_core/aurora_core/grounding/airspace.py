@@ -1,0 +1,85 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Clearance and sight along planned flights, over the buildings and no-fly zones of a map."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+from functools import lru_cache
+
+import numpy as np
+import numpy.typing as npt
+
+from aurora_core.geometry.obstacles import ObstacleField
+from aurora_core.geometry.prism import Prism
+from aurora_core.geometry.sight import SightModel
+from aurora_core.knowledge.map_types import Building, NoFlyZone
+
+FloatArray = npt.NDArray[np.float64]
+
+
+def building_prisms(buildings: Sequence[Building]) -> tuple[Prism, ...]:
+    """Return the buildings as prisms standing on the ground."""
+    return tuple(
+        Prism(
+            prism_id=b.id,
+            ring_xy=np.asarray(b.ring, dtype=np.float64),
+            holes_xy=tuple(np.asarray(h, dtype=np.float64) for h in b.holes),
+            base_m=0.0,
+            top_m=b.height_m,
+        )
+        for b in buildings
+    )
+
+
+def zone_prisms(zones: Sequence[NoFlyZone]) -> tuple[Prism, ...]:
+    """Return the no-fly zones as prisms between floor and ceiling."""
+    return tuple(
+        Prism(
+            prism_id=z.id,
+            ring_xy=np.asarray(z.ring, dtype=np.float64),
+            holes_xy=(),
+            base_m=z.floor_m,
+            top_m=z.ceiling_m,
+        )
+        for z in zones
+    )
+
+
+class Airspace:
+    """What stands in the way of a flight, and of a view.
+
+    Args:
+        buildings: Of the map.
+        zones: No-fly zones; they block flights, not views.
+    """
+
+    def __init__(self, buildings: Sequence[Building], zones: Sequence[NoFlyZone]) -> None:
+        prisms = building_prisms(buildings)
+        self.obstacles = ObstacleField((*prisms, *zone_prisms(zones)))
+        self.sight = SightModel(prisms)
+        self.highest_m = max((b.height_m for b in buildings), default=0.0)
+        self._segment = lru_cache(maxsize=4096)(self._segment_clearance)
+
+    def points_clearance_m(self, points: FloatArray) -> float:
+        """Return the least clearance of points (T, 3), metres."""
+        return float(np.min(self.obstacles.clearance_series(points)))
+
+    def way_clearance_m(self, points: Sequence[tuple[float, float, float]]) -> float:
+        """Return the least clearance along the straight legs between points (x, y, z in m)."""
+        if len(points) == 1:
+            return self.points_clearance_m(np.array([points[0]]))
+        return min(self._segment(a, b) for a, b in itertools.pairwise(points))
+
+    def _segment_clearance(
+        self, a: tuple[float, float, float], b: tuple[float, float, float]
+    ) -> float:
+        return float(self.obstacles.segment_clearance(np.array(a), np.array(b)))
+
+    def seen_share(self, observers: FloatArray, targets: FloatArray, range_m: float) -> float:
+        """Return the share of samples (T, 3) at which a target is in range and in sight."""
+        d = targets - observers
+        in_range = np.sqrt(d[:, 0] * d[:, 0] + d[:, 1] * d[:, 1] + d[:, 2] * d[:, 2]) <= range_m
+        free = self.sight.clearance_series(observers, targets) > 0.0
+        return float(np.count_nonzero(in_range & free)) / len(observers)

@@ -1,0 +1,354 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Plan the flights of a site: offsets, patterns and hover points that are clear and can see."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from math import cos, pi, sin
+
+import numpy as np
+import numpy.typing as npt
+import shapely
+
+from aurora_core.grounding.airspace import Airspace
+from aurora_core.grounding.patterns import pattern_points, place_pattern
+from aurora_core.grounding.sites import Site, samples_along
+from aurora_core.grounding.spots import SpotFinder
+from aurora_core.knowledge.agent_types import AgentTypeRecord
+from aurora_core.knowledge.limits import Limits, Tolerances
+from aurora_core.knowledge.map_model import MapModel
+from aurora_core.knowledge.settings import GroundingSettings
+from aurora_core.mission.plan import MissionPlan, UavPlan
+from aurora_core.spec.parameter import Provenance
+from aurora_core.spec.scenario import ScenarioSpec, UavMission
+from aurora_core.spec.vocabulary import MissionMode, Pattern
+
+FloatArray = npt.NDArray[np.float64]
+Point3 = tuple[float, float, float]
+
+# Planned share of a leg over a carriageway for "over the streets"; a little above what is asked.
+LEG_SHARE = 0.85
+
+_SIGHT_HEIGHT_PLACE_M = 1.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlannedFlight:
+    """A mission with its scores: clearance (m), share of samples seen."""
+
+    plan: MissionPlan
+    clearance_m: float
+    seen: float
+    over_street: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Rejected:
+    """Why a site does not do."""
+
+    reason: str
+
+
+class FlightPlanner:
+    """Plans flights over one map.
+
+    Args:
+        map_model: Map.
+        airspace: Its obstacles.
+        spots: Its free spots.
+        types: Agent sizes.
+        limits: Limits in force.
+        tolerances: Tolerances in force.
+        settings: Search settings.
+        sensing_range_m: Of the weather and time of day.
+    """
+
+    def __init__(
+        self,
+        *,
+        map_model: MapModel,
+        airspace: Airspace,
+        spots: SpotFinder,
+        types: Mapping[str, AgentTypeRecord],
+        limits: Limits,
+        tolerances: Tolerances,
+        settings: GroundingSettings,
+        sensing_range_m: float,
+    ) -> None:
+        self._map = map_model
+        self._air = airspace
+        self._spots = spots
+        self._types = types
+        self._limits = limits
+        self._tolerances = tolerances
+        self._settings = settings
+        self._range = sensing_range_m
+        self._carriageway = map_model.network.carriageway
+        shapely.prepare(self._carriageway)
+
+    def plan_mission(
+        self, spec: ScenarioSpec, mission: UavMission, site: Site, speed_mps: float
+    ) -> PlannedFlight | Rejected:
+        """Plan one mission at a site; `speed_mps` is the speed its target will drive."""
+        if mission.mode is MissionMode.TRACK:
+            return self._track(mission, site, speed_mps)
+        centre = self._centre(mission, site)
+        if centre is None:
+            return Rejected(reason='target_place')
+        if mission.mode is MissionMode.HOVER:
+            return self._hover(mission, centre, site)
+        return self._navigate(mission, centre)
+
+    def plan_uav(
+        self,
+        uav_id: str,
+        system_id: int,
+        flights: list[PlannedFlight],
+        site: Site,
+        taken: list[tuple[float, float]],
+    ) -> UavPlan | Rejected:
+        """Choose the start of a UAV whose missions are planned; it could land there again."""
+        first = _first_point(flights[0].plan, site)
+        home = None
+        for spot in self._spots.near(first[0], first[1], 6 + len(taken)):
+            far = all(abs(spot[0] - x) + abs(spot[1] - y) >= 10.0 for x, y in taken)
+            top = (spot[0], spot[1], first[2])
+            if far and self._air.way_clearance_m((top, first)) >= self._settings.clearance_m:
+                home = spot
+                break
+        if home is None:
+            return Rejected(reason='start_spot')
+        highest = max(f.plan.altitude_m for f in flights)
+        over_all = self._air.highest_m + 2.0 * self._settings.clearance_m
+        return UavPlan(
+            id=uav_id,
+            system_id=system_id,
+            home_x_m=home[0],
+            home_y_m=home[1],
+            landing_spots=(home,),
+            missions=tuple(f.plan for f in flights),
+            safe_altitude_m=min(self._limits.uav_altitude_max_m, max(highest, over_all)),
+        )
+
+    def with_landing_spots(self, plan: UavPlan, site: Site) -> UavPlan:
+        """Add the free spots along everything that the UAV flies over."""
+        spots = list(plan.landing_spots)
+        for mission in plan.missions:
+            for x, y in self._landing_areas(mission, site):
+                spots += [s for s in self._spots.near(x, y) if s not in spots]
+        return UavPlan.model_validate({**plan.model_dump(), 'landing_spots': tuple(spots)})
+
+    def _track(
+        self, mission: UavMission, site: Site, speed_mps: float
+    ) -> PlannedFlight | Rejected:
+        seat = site.seat(mission.target or '')
+        if seat is None:
+            return Rejected(reason='target_not_in_convoy')
+        assert mission.standoff_m is not None
+        assert mission.duration_s is not None
+        record = self._types[seat.member.agent.type.value]
+        way_m = speed_mps * (mission.duration_s.value + 6.0)
+        samples = samples_along(seat.path, seat.arc_m, way_m, self._settings.sample_spacing_m)
+        targets = np.column_stack(
+            (samples[:, 0], samples[:, 1], np.full(len(samples), record.height_m / 2.0))
+        )
+        best: PlannedFlight | None = None
+        for offset in self._offsets(mission, samples[0]):
+            points = np.column_stack(
+                (
+                    samples[:, 0] + offset[0],
+                    samples[:, 1] + offset[1],
+                    np.full(len(samples), mission.altitude_m.value),
+                )
+            )
+            clearance = self._air.points_clearance_m(points)
+            if clearance < self._settings.clearance_m:
+                continue
+            seen = self._air.seen_share(points, targets, self._range)
+            if best is None or (round(seen, 3), clearance) > (
+                round(best.seen, 3),
+                best.clearance_m,
+            ):
+                plan = self._hold_plan(mission, offset_m=offset)
+                best = PlannedFlight(plan=plan, clearance_m=clearance, seen=seen, over_street=0.0)
+        if best is None:
+            return Rejected(reason='clearance')
+        if best.seen < self._tolerances.visible_fraction:
+            return Rejected(reason='sight')
+        return best
+
+    def _offsets(self, mission: UavMission, start: FloatArray) -> Iterator[tuple[float, float]]:
+        assert mission.standoff_m is not None
+        standoff = mission.standoff_m.value
+        if standoff == 0.0:
+            yield (0.0, 0.0)
+            return
+        if mission.bearing_deg is not None:
+            compass = mission.bearing_deg.value * pi / 180.0
+            yield (standoff * sin(compass), standoff * cos(compass))
+            return
+        hx, hy = float(start[2]), float(start[3])
+        # Behind the target first, then round it; the first of equal ones is taken.
+        for k in range(self._settings.bearings):
+            angle = 2.0 * pi * k / self._settings.bearings
+            c, s = cos(angle), sin(angle)
+            yield (-standoff * (hx * c - hy * s), -standoff * (hx * s + hy * c))
+
+    def _hold_plan(
+        self,
+        mission: UavMission,
+        *,
+        offset_m: tuple[float, float] = (0.0, 0.0),
+        hover_point: Point3 | None = None,
+    ) -> MissionPlan:
+        standoff = 0.0 if mission.standoff_m is None else mission.standoff_m.value
+        horizontal = self._limits.tracking_horizontal_m
+        if mission.mode is MissionMode.HOVER:
+            horizontal = self._tolerances.hover_drift_calm_m / 2.0
+        elif mission.standoff_m is not None and (
+            mission.standoff_m.provenance is Provenance.EXPLICIT
+        ):
+            horizontal = self._tolerances.standoff_m.of(
+                standoff, approximate=mission.standoff_m.approximate
+            )
+        assert mission.duration_s is not None
+        return MissionPlan(
+            id=mission.id,
+            mode=mission.mode,
+            target=mission.target,
+            altitude_m=mission.altitude_m.value,
+            standoff_m=standoff,
+            offset_m=offset_m,
+            capture_horizontal_m=horizontal,
+            capture_altitude_m=self._tolerances.altitude_m.of(mission.altitude_m.value),
+            hover_point=hover_point,
+            duration_s=mission.duration_s.value,
+        )
+
+    def _hover(
+        self, mission: UavMission, centre: tuple[float, float, float, float], site: Site
+    ) -> PlannedFlight | Rejected:
+        standoff = 0.0 if mission.standoff_m is None else mission.standoff_m.value
+        height = _SIGHT_HEIGHT_PLACE_M
+        seat = site.seat(mission.target or '')
+        if seat is not None:
+            height = self._types[seat.member.agent.type.value].height_m / 2.0
+        target = np.array([[centre[0], centre[1], height]])
+        bearings = 1 if standoff == 0.0 else self._settings.bearings
+        for k in range(bearings):
+            angle = 2.0 * pi * k / bearings
+            point = (
+                centre[0] + standoff * cos(angle),
+                centre[1] + standoff * sin(angle),
+                mission.altitude_m.value,
+            )
+            clearance = self._air.points_clearance_m(np.array([point]))
+            seen = self._air.seen_share(np.array([point]), target, self._range)
+            if clearance >= self._settings.clearance_m and seen > 0.0:
+                return PlannedFlight(
+                    plan=self._hold_plan(mission, hover_point=point),
+                    clearance_m=clearance,
+                    seen=seen,
+                    over_street=0.0,
+                )
+        return Rejected(reason='clearance')
+
+    def _navigate(
+        self, mission: UavMission, centre: tuple[float, float, float, float]
+    ) -> PlannedFlight | Rejected:
+        assert mission.pattern is not None
+        assert mission.speed_mps is not None
+        length, width = (p.value for p in mission.size_m) if mission.size_m else (100.0, 60.0)
+        points = pattern_points(
+            mission.pattern,
+            length_m=length,
+            width_m=width,
+            radius_m=30.0 if mission.radius_m is None else mission.radius_m.value,
+            waypoint_count=4
+            if mission.waypoint_count is None
+            else round(mission.waypoint_count.value),
+        )
+        hx, hy = centre[2], centre[3]
+        shifts = self._settings.pattern_shifts_m
+        best: PlannedFlight | None = None
+        headings = ((hx, hy), (-hy, hx)) if mission.pattern is not Pattern.ORBIT else ((hx, hy),)
+        for heading in headings:
+            for along in shifts if mission.over_streets else (0.0,):
+                middle = (centre[0] + along * hx, centre[1] + along * hy)
+                placed = place_pattern(points, middle, heading)
+                way = tuple((x, y, mission.altitude_m.value) for x, y in placed)
+                clearance = self._air.way_clearance_m(way)
+                if clearance < self._settings.clearance_m:
+                    continue
+                over = self._over_street(placed)
+                if mission.over_streets and over < LEG_SHARE:
+                    continue
+                if best is None or over > best.over_street:
+                    plan = MissionPlan(
+                        id=mission.id,
+                        mode=mission.mode,
+                        target=mission.target,
+                        altitude_m=mission.altitude_m.value,
+                        capture_altitude_m=self._tolerances.altitude_m.of(
+                            mission.altitude_m.value
+                        ),
+                        waypoints=way,
+                        speed_mps=mission.speed_mps.value,
+                    )
+                    best = PlannedFlight(
+                        plan=plan, clearance_m=clearance, seen=1.0, over_street=over
+                    )
+        return best if best is not None else Rejected(reason='clearance')
+
+    def _over_street(self, placed: tuple[tuple[float, float], ...]) -> float:
+        legs = [shapely.LineString([a, b]) for a, b in itertools.pairwise(placed)]
+        return max(
+            float(leg.intersection(self._carriageway).length) / float(leg.length) for leg in legs
+        )
+
+    def _centre(self, mission: UavMission, site: Site) -> tuple[float, float, float, float] | None:
+        target = mission.target
+        x, y, hx, hy = site.origin()
+        if target is None:
+            return x, y, hx, hy
+        seat = site.seat(target)
+        if seat is not None:
+            return seat.path.position_at(seat.arc_m)
+        if target.startswith('landmark:'):
+            mark = self._map.landmark(target.removeprefix('landmark:'))
+            return mark.x_m, mark.y_m, 1.0, 0.0
+        if target == 'intersection':
+            junctions = [
+                j
+                for j in self._map.network.junctions.values()
+                if j.kind in ('traffic_light', 'priority', 'allway_stop', 'right_before_left')
+            ]
+            near = min(junctions, key=lambda j: ((j.x_m - x) ** 2 + (j.y_m - y) ** 2, j.id))
+            return near.x_m, near.y_m, hx, hy
+        if target in ('main_road', 'roadside'):
+            return x, y, hx, hy
+        return None
+
+    def _landing_areas(self, plan: MissionPlan, site: Site) -> list[tuple[float, float]]:
+        if plan.mode is MissionMode.TRACK:
+            seat = site.seat(plan.target or '')
+            assert seat is not None
+            way = samples_along(seat.path, seat.arc_m, 900.0, 60.0)
+            return [(float(p[0]), float(p[1])) for p in way]
+        last = plan.waypoints[-1] if plan.waypoints else plan.hover_point
+        assert last is not None
+        return [(last[0], last[1])]
+
+
+def _first_point(plan: MissionPlan, site: Site) -> Point3:
+    if plan.mode is MissionMode.TRACK:
+        seat = site.seat(plan.target or '')
+        assert seat is not None
+        x, y, _, _ = seat.path.position_at(seat.arc_m)
+        return x + plan.offset_m[0], y + plan.offset_m[1], plan.altitude_m
+    if plan.hover_point is not None:
+        return plan.hover_point
+    return plan.waypoints[0]

@@ -1,0 +1,113 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""`GroundedScenario`: every relation of the request turned into places, routes and settings."""
+
+from __future__ import annotations
+
+import json
+from enum import StrEnum
+
+from pydantic import FiniteFloat
+
+from aurora_core.mission.plan import UavPlan
+from aurora_core.spec.parameter import Document, Provenance
+
+GROUNDING_VERSION = 1
+
+
+class ReleaseOn(StrEnum):
+    """What lets a held agent start to move."""
+
+    START = 'start'  # at t = 0
+    ASCENDED = 'ascended'  # a UAV has reached its mission altitude
+    CAPTURED = 'captured'  # a UAV has captured its target
+    NEVER = 'never'  # stands still
+
+
+class AnchorScore(Document):
+    """Terms of the joint anchor score, each in [0, 1].
+
+    Source: paper, eq. (2).
+    """
+
+    road: FiniteFloat
+    air: FiniteFloat
+    sense: FiniteFloat
+    comm: FiniteFloat
+    joint: FiniteFloat
+
+
+class GroundedAgent(Document):
+    """A ground agent at t = 0 and what it will do.
+
+    Attributes:
+        edges: Planned route.
+        route_xy_m: Path of its reference point along the route, ENU map frame.
+        lane_id: Lane of the reference point ('' for persons).
+        lane_position_m: Arc length of the reference point (vehicles: box centre) on that lane.
+        release: When it may start to move.
+        release_uav: The UAV whose state releases it.
+        drive_speed_mps: Stated speed, held from the release on (None: drives with the traffic).
+    """
+
+    id: str
+    type_name: str
+    is_person: bool
+    length_m: FiniteFloat
+    width_m: FiniteFloat
+    height_m: FiniteFloat
+    role: str
+    edges: tuple[str, ...]
+    route_xy_m: tuple[tuple[FiniteFloat, FiniteFloat], ...]
+    lane_id: str
+    lane_position_m: FiniteFloat
+    x_m: FiniteFloat
+    y_m: FiniteFloat
+    heading_x: FiniteFloat
+    heading_y: FiniteFloat
+    speed_mps: FiniteFloat = 0.0
+    speed_factor: FiniteFloat = 1.0
+    time_gap_s: FiniteFloat | None = None
+    min_gap_m: FiniteFloat | None = None
+    lane_change_mode: int | None = None
+    arrival_position_m: FiniteFloat | None = None
+    release: ReleaseOn = ReleaseOn.START
+    release_uav: str = ''
+    drive_speed_mps: FiniteFloat | None = None
+
+
+class RealisedValue(Document):
+    """Requested and realised value of a parameter, by its path in the specification."""
+
+    path: str
+    requested: FiniteFloat
+    realised: FiniteFloat
+    provenance: Provenance
+
+
+class GroundedScenario(Document):
+    """The grounded scenario of one iteration."""
+
+    schema_version: int = GROUNDING_VERSION
+    map_name: str
+    map_digest: str
+    anchor_lane: str
+    anchor_position_m: FiniteFloat
+    score: AnchorScore
+    candidates: int
+    agents: tuple[GroundedAgent, ...]
+    uavs: tuple[UavPlan, ...]
+    realised: tuple[RealisedValue, ...] = ()
+    unsupported: tuple[str, ...] = ()
+    weather: str
+    time_of_day: str
+    wind_mean_east_mps: FiniteFloat = 0.0
+    wind_mean_north_mps: FiniteFloat = 0.0
+    wind_gust_mps: FiniteFloat = 0.0
+    seed: int = 1
+
+    def canonical_json(self) -> str:
+        """Return the byte-exact JSON text that travels in the graph."""
+        return json.dumps(
+            self.model_dump(mode='json'), sort_keys=True, separators=(',', ':'), ensure_ascii=False
+        )

@@ -1,0 +1,69 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Way points of the flight patterns around a centre (ENU map frame, metres)."""
+
+from __future__ import annotations
+
+from math import ceil, cos, pi, sin
+
+from aurora_core.spec.vocabulary import Pattern
+
+Point2 = tuple[float, float]
+
+# Legs of an orbit are chords; this many degrees keep the chord within 0.4 % of the radius.
+_ORBIT_STEP_DEG = 10.0
+# Distance between the lines of a lawnmower pattern.
+_LAWNMOWER_SPACING_M = 20.0
+
+
+def pattern_points(
+    pattern: Pattern,
+    *,
+    length_m: float,
+    width_m: float,
+    radius_m: float,
+    waypoint_count: int,
+) -> tuple[Point2, ...]:
+    """Return the points of a pattern around (0, 0), its length along +x.
+
+    Args:
+        pattern: Kind. Rectangles and orbits are closed (the first point is repeated).
+        length_m: Extent along x (rectangle, lawnmower, line).
+        width_m: Extent along y (rectangle, lawnmower).
+        radius_m: Orbit.
+        waypoint_count: `waypoints`: number of points on a ring of `radius_m`.
+
+    Returns:
+        Points (x, y) in flight order.
+    """
+    a, b = length_m / 2.0, width_m / 2.0
+    if pattern is Pattern.RECTANGLE:
+        return ((-a, -b), (a, -b), (a, b), (-a, b), (-a, -b))
+    if pattern is Pattern.LINE:
+        return ((-a, 0.0), (a, 0.0))
+    if pattern is Pattern.LAWNMOWER:
+        lines = max(2, ceil(width_m / _LAWNMOWER_SPACING_M) + 1)
+        points: list[Point2] = []
+        for k in range(lines):
+            y = -b + k * width_m / (lines - 1)
+            points += [(-a, y), (a, y)] if k % 2 == 0 else [(a, y), (-a, y)]
+        return tuple(points)
+    if pattern is Pattern.ORBIT:
+        return _ring(radius_m, round(360.0 / _ORBIT_STEP_DEG), closed=True)
+    return _ring(radius_m, max(2, waypoint_count), closed=False)
+
+
+def place_pattern(
+    points: tuple[Point2, ...], centre: Point2, heading: Point2
+) -> tuple[Point2, ...]:
+    """Turn a pattern so that +x points along `heading` (unit vector) and move it to `centre`."""
+    hx, hy = heading
+    return tuple((centre[0] + x * hx - y * hy, centre[1] + x * hy + y * hx) for x, y in points)
+
+
+def _ring(radius_m: float, count: int, *, closed: bool) -> tuple[Point2, ...]:
+    ring = [
+        (radius_m * cos(2.0 * pi * k / count), radius_m * sin(2.0 * pi * k / count))
+        for k in range(count)
+    ]
+    return tuple([*ring, ring[0]] if closed else ring)

@@ -1,0 +1,40 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Positions of the places that a scenario names, on the grounded map."""
+
+from __future__ import annotations
+
+from aurora_core.geometry.kernel import norm2
+from aurora_core.grounding.grounded import GroundedScenario
+from aurora_core.knowledge.map_model import MapModel
+from aurora_core.spec.scenario import ScenarioSpec
+
+
+def place_positions(
+    spec: ScenarioSpec, map_model: MapModel, grounded: GroundedScenario
+) -> dict[str, tuple[float, float]]:
+    """Return x, y (m, ENU) of every place that a placement, mission or trigger refers to."""
+    x, y, _, _ = map_model.network.position_on_lane(
+        grounded.anchor_lane, grounded.anchor_position_m
+    )
+    names = {p.of for a in spec.agents for p in a.placements}
+    names |= {b.target for a in spec.agents for b in a.behaviors}
+    names |= {m.target for m in spec.missions}
+    for event in spec.events:
+        names |= {getattr(event.trigger, name, None) for name in ('b', 'place', 'target')}
+    bodies = {a.id for a in spec.agents} | {u.id for u in spec.uavs}
+    return {
+        name: _position(name, map_model, (x, y))
+        for name in sorted(n for n in names if n is not None and n not in bodies)
+    }
+
+
+def _position(name: str, map_model: MapModel, anchor: tuple[float, float]) -> tuple[float, float]:
+    if name.startswith('landmark:'):
+        mark = map_model.landmark(name.removeprefix('landmark:'))
+        return mark.x_m, mark.y_m
+    if name == 'intersection':
+        junctions = [j for j in map_model.network.junctions.values() if j.kind != 'dead_end']
+        near = min(junctions, key=lambda j: (norm2(j.x_m - anchor[0], j.y_m - anchor[1]), j.id))
+        return near.x_m, near.y_m
+    return anchor

@@ -1,0 +1,207 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Candidate sites: where on the road network a convoy could stand, and the road ahead of it."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from aurora_core.errors import MapError
+from aurora_core.grounding.convoy import ConvoyMember
+from aurora_core.grounding.routes import RouteFinder
+from aurora_core.knowledge.agent_types import AgentTypeRecord
+from aurora_core.knowledge.map_model import MapModel
+from aurora_core.knowledge.road_network import RoadNetwork
+from aurora_core.knowledge.route_path import RoutePath
+from aurora_core.knowledge.settings import GroundingSettings
+from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.spec.vocabulary import MissionMode
+
+FloatArray = npt.NDArray[np.float64]
+
+# Class of a site without vehicles (a mission over a place needs a road only as an anchor).
+ANY_CLASS = 'passenger'
+
+# Clear road in front of the first and behind the last bumper at t = 0.
+_END_GAP_M = 2.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SeatedAgent:
+    """A convoy member at its place: on `path` at `arc_m` (its reference point)."""
+
+    member: ConvoyMember
+    path: RoutePath
+    arc_m: float
+    lane_id: str
+    lane_position_m: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Site:
+    """A place for the convoy.
+
+    Attributes:
+        origin_path: Route of the convoy's origin.
+        origin_arc_m: Where the origin stands on it.
+        seated: All members.
+        free_run_m: Way of the front member to the first signal (or the length of the route).
+        steady: No member needs a lane change.
+    """
+
+    origin_path: RoutePath
+    origin_arc_m: float
+    seated: tuple[SeatedAgent, ...]
+    free_run_m: float
+    steady: bool
+
+    def seat(self, agent_id: str) -> SeatedAgent | None:
+        """Return the place of a member, None when it is not in the convoy."""
+        for seat in self.seated:
+            if seat.member.agent.id == agent_id:
+                return seat
+        return None
+
+    def origin(self) -> tuple[float, float, float, float]:
+        """Return x, y (m) and the unit heading of the origin."""
+        return self.origin_path.position_at(self.origin_arc_m)
+
+    def fastest_mps(self, network: RoadNetwork, way_m: float) -> float:
+        """Return the highest speed limit on the first `way_m` of the origin's way."""
+        end_m = self.origin_arc_m + way_m
+        return max(
+            network.lane(s.lane_id).speed_limit_mps
+            for s in self.origin_path.segments
+            if s.end_m > self.origin_arc_m and s.start_m < end_m and not s.is_internal
+        )
+
+    def turns(self, way_m: float, settings: GroundingSettings) -> int:
+        """Count the turns on the first `way_m` of the origin's way."""
+        samples = samples_along(self.origin_path, self.origin_arc_m, way_m, settings.turn_sample_m)
+        cosine = (samples[1:, 2:] * samples[:-1, 2:]).sum(axis=1)
+        turning = cosine < settings.turn_cosine
+        # A turn may spread over two samples: count where turning begins.
+        return int(turning[0]) + int((turning[1:] & ~turning[:-1]).sum())
+
+
+def tied_way_m(spec: ScenarioSpec, settings: GroundingSettings) -> float:
+    """Return how far a convoy gets while it is tracked or has to stay together (metres)."""
+    tracked = [
+        m.duration_s.value
+        for m in spec.missions
+        if m.mode is MissionMode.TRACK and m.duration_s is not None
+    ]
+    return (max([30.0, *tracked]) + 10.0) * settings.target_speed_mps
+
+
+def sites(
+    map_model: MapModel,
+    convoy: tuple[ConvoyMember, ...],
+    types: Mapping[str, AgentTypeRecord],
+    route_length_m: float,
+    settings: GroundingSettings,
+) -> Iterator[Site]:
+    """Yield every site of the map in a fixed order, `anchor_spacing_m` apart."""
+    network = map_model.network
+    classes = sorted({types[m.agent.type.value].vclass for m in convoy}) or [ANY_CLASS]
+    lanes = [
+        lane
+        for lane in network.driving_lanes(classes[0])
+        if all(c in lane.allows for c in classes)
+    ]
+    finder = RouteFinder(network, min(classes, key=lambda c: (len(network.driving_lanes(c)), c)))
+    back_m = max(
+        (types[m.agent.type.value].length_m / 2.0 - m.offset_m for m in convoy), default=0.0
+    )
+    for lane in lanes:
+        right = lane.right_lane_id
+        has_right = right is not None and all(c in network.lane(right).allows for c in classes)
+        shifted = any(m.lane_shift < 0 for m in convoy)
+        # The right lane is where one drives; another only when a member has to be right of it.
+        if has_right and not shifted:
+            continue
+        edges = finder.straight_route(lane.edge_id, route_length_m)
+        if not edges:
+            continue
+        paths: dict[tuple[str, int], RoutePath | None] = {}
+        arc_m = back_m + _END_GAP_M
+        end_m = lane.arc_length_m + max(0.0, back_m)
+        while arc_m < end_m:
+            site = _site(map_model, convoy, types, edges, lane.id, arc_m, paths)
+            if site is not None:
+                yield site
+            arc_m += settings.anchor_spacing_m
+
+
+def _site(
+    map_model: MapModel,
+    convoy: tuple[ConvoyMember, ...],
+    types: Mapping[str, AgentTypeRecord],
+    edges: tuple[str, ...],
+    lane_id: str,
+    origin_arc_m: float,
+    paths: dict[tuple[str, int], RoutePath | None],
+) -> Site | None:
+    network = map_model.network
+    index = network.lane(lane_id).index
+    lane_ids = network.edge(edges[0]).lane_ids
+
+    def path_of(vclass: str, shift: int) -> RoutePath | None:
+        # The paths of a lane serve all positions on it: `paths` outlives this call.
+        if (vclass, shift) not in paths:
+            paths[vclass, shift] = None
+            if 0 <= index + shift < len(lane_ids):
+                with contextlib.suppress(MapError):
+                    paths[vclass, shift] = network.route_path(
+                        edges, vclass, start_lane_id=lane_ids[index + shift]
+                    )
+        return paths[vclass, shift]
+
+    seated = []
+    for member in convoy:
+        record = types[member.agent.type.value]
+        path = path_of(record.vclass, member.lane_shift)
+        if path is None:
+            return None
+        arc_m = origin_arc_m + member.offset_m
+        half_m = record.length_m / 2.0
+        if arc_m - half_m < 0.0 or arc_m + half_m > path.length_m:
+            return None
+        places = [path.lane_position_at(a) for a in (arc_m - half_m, arc_m, arc_m + half_m)]
+        if any(network.lane(place[0]).is_internal for place in places):
+            return None  # nobody starts inside a junction
+        seated.append(
+            SeatedAgent(
+                member=member,
+                path=path,
+                arc_m=arc_m,
+                lane_id=places[1][0],
+                lane_position_m=places[1][1],
+            )
+        )
+    origin = path_of(types[convoy[0].agent.type.value].vclass if convoy else ANY_CLASS, 0)
+    if origin is None or origin_arc_m > origin.length_m:
+        return None
+    rear = min((s.arc_m for s in seated), default=origin_arc_m)
+    front = max((s.arc_m for s in seated), default=origin_arc_m)
+    signals = [s[0] for s in origin.signals() if s[0] >= rear]
+    return Site(
+        origin_path=origin,
+        origin_arc_m=origin_arc_m,
+        seated=tuple(seated),
+        free_run_m=(signals[0] if signals else origin.length_m) - front,
+        steady=not any(s.path.has_lane_change for s in seated),
+    )
+
+
+def samples_along(path: RoutePath, start_m: float, way_m: float, spacing_m: float) -> FloatArray:
+    """Return points (K, 4) x, y and unit heading along a path, from `start_m` on."""
+    end_m = min(path.length_m, start_m + way_m)
+    count = max(2, int((end_m - start_m) / spacing_m) + 1)
+    step = (end_m - start_m) / (count - 1)
+    return np.array([path.position_at(min(end_m, start_m + k * step)) for k in range(count)])

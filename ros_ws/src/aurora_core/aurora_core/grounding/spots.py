@@ -1,0 +1,72 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Free spots on the ground where a UAV may start and land: off the street, clear of buildings."""
+
+from __future__ import annotations
+
+from math import sqrt
+
+import numpy as np
+import shapely
+
+from aurora_core.knowledge.map_model import MapModel
+from aurora_core.knowledge.settings import GroundingSettings
+
+Point2 = tuple[float, float]
+
+
+class SpotFinder:
+    """Finds the free spot next to a point, in a fixed order of candidates.
+
+    Args:
+        map_model: Map.
+        settings: Clearance and search radius.
+    """
+
+    def __init__(self, map_model: MapModel, settings: GroundingSettings) -> None:
+        self._settings = settings
+        prisms = [b.ring for b in map_model.buildings] + [z.ring for z in map_model.zones]
+        blocks = [shapely.make_valid(shapely.Polygon(ring)) for ring in prisms]
+        self._blocked = shapely.union_all([*blocks, map_model.network.street_surface])
+        shapely.prepare(self._blocked)
+        west, south, east, north = map_model.bounds_m
+        self._bounds = (west, south, east, north)
+        steps = int(settings.spot_search_m / settings.spot_spacing_m)
+        offsets = [
+            (i * settings.spot_spacing_m, j * settings.spot_spacing_m)
+            for i in range(-steps, steps + 1)
+            for j in range(-steps, steps + 1)
+        ]
+        offsets.sort(key=lambda o: (o[0] * o[0] + o[1] * o[1], o))
+        self._offsets = np.array(offsets)
+
+    def near(self, x_m: float, y_m: float, count: int = 1) -> tuple[Point2, ...]:
+        """Return up to `count` free spots, nearest first, at least two clearances apart.
+
+        Args:
+            x_m: ENU map frame.
+            y_m: ENU map frame.
+            count: How many.
+        """
+        # A fixed grid, so that the same place is found from every query point around.
+        spacing = self._settings.spot_spacing_m
+        base = np.array([round(x_m / spacing) * spacing, round(y_m / spacing) * spacing])
+        found: list[Point2] = []
+        apart = 2.0 * self._settings.spot_clearance_m
+        for start in range(0, len(self._offsets), 400):
+            points = self._offsets[start : start + 400] + base
+            free = ~shapely.dwithin(
+                shapely.points(points), self._blocked, self._settings.spot_clearance_m
+            )
+            for x, y in points[free].tolist():
+                inside = (
+                    self._bounds[0] <= x <= self._bounds[2]
+                    and self._bounds[1] <= y <= self._bounds[3]
+                )
+                if inside and all(
+                    sqrt((x - a) * (x - a) + (y - b) * (y - b)) >= apart for a, b in found
+                ):
+                    found.append((x, y))
+                    if len(found) == count:
+                        return tuple(found)
+        return tuple(found)

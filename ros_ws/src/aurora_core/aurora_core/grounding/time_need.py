@@ -1,0 +1,61 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""How long a scenario may take: an upper bound from slow, but possible, speeds.
+
+Runs end when everything is done, so a generous bound costs nothing; it only caps a run that does
+not get there.
+"""
+
+from __future__ import annotations
+
+from math import ceil
+
+from aurora_core.knowledge.limits import Limits
+from aurora_core.spec.scenario import ScenarioSpec, TimeTrigger, UavMission
+from aurora_core.spec.vocabulary import MissionMode, Pattern
+
+# Slow speeds and times used for the bound, each below what the multirotor does.
+_CLIMB_MPS = 1.5
+_SINK_MPS = 0.8
+_CORNER_S = 8.0
+_TRANSIT_S = 40.0
+_EVENT_S = 45.0
+
+
+def horizon_s(spec: ScenarioSpec, limits: Limits) -> float:
+    """Return the stated duration, else an upper bound of the time needed (whole seconds)."""
+    if spec.world.duration_s is not None:
+        return spec.world.duration_s.value
+    by_uav: dict[str, float] = {}
+    for mission in spec.missions:
+        first = mission.uav not in by_uav
+        need = by_uav.get(mission.uav, 0.0) + _mission_s(mission)
+        if first:
+            need += mission.altitude_m.value * (1.0 / _CLIMB_MPS + 1.0 / _SINK_MPS) + _TRANSIT_S
+        by_uav[mission.uav] = need
+    latest = max(
+        (e.trigger.at_s.value for e in spec.events if isinstance(e.trigger, TimeTrigger)),
+        default=0.0,
+    )
+    need = max(by_uav.values(), default=0.0) + _EVENT_S * len(spec.events) + latest
+    return float(min(limits.duration_max_s, max(limits.horizon_inferred_min_s, ceil(need))))
+
+
+def _mission_s(mission: UavMission) -> float:
+    if mission.mode is not MissionMode.NAVIGATE:
+        assert mission.duration_s is not None
+        return _TRANSIT_S + mission.duration_s.value
+    assert mission.speed_mps is not None
+    return _TRANSIT_S + 1.5 * _route_m(mission) / mission.speed_mps.value + 4.0 * _CORNER_S
+
+
+def _route_m(mission: UavMission) -> float:
+    length, width = (p.value for p in mission.size_m) if mission.size_m else (100.0, 60.0)
+    radius = mission.radius_m.value if mission.radius_m is not None else 30.0
+    if mission.pattern is Pattern.RECTANGLE:
+        return 2.0 * (length + width)
+    if mission.pattern is Pattern.LINE:
+        return length
+    if mission.pattern is Pattern.LAWNMOWER:
+        return length * (width / 20.0 + 2.0) + width
+    return 6.3 * radius

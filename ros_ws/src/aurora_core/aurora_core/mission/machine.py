@@ -1,0 +1,294 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The mission state machine of one UAV: ascend, missions in order, land.
+
+Every transition waits for a realised predicate (altitude reached, captured, route flown, landed),
+never for a fixed delay. Source: paper, "Temporal planning".
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import ceil
+
+import numpy as np
+import numpy.typing as npt
+
+from aurora_core.geometry.kernel import norm2
+from aurora_core.mission.plan import MissionPlan, UavPlan
+from aurora_core.mission.setpoint import FlightSettings, PursuitReference, RouteReference
+from aurora_core.spec.vocabulary import MissionMode
+from aurora_core.trace.layout import (
+    UAV_COMMAND_WIDTH,
+    UavColumn,
+    UavCommandColumn,
+    UavMode,
+    UavPhase,
+)
+
+FloatArray = npt.NDArray[np.float64]
+
+# The UAV counts as arrived when it is this close to the last point of a way (m).
+ARRIVED_M = 1.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TargetMotion:
+    """What a mission needs to know of its target: position and velocity, ENU."""
+
+    x_m: float
+    y_m: float
+    vx_mps: float
+    vy_mps: float
+
+
+class MissionMachine:
+    """State machine of one UAV; `step` is called once a tick and returns the command row.
+
+    Args:
+        plan: What to fly.
+        settings: Limits of the reference motion.
+        dt_s: Time step.
+    """
+
+    def __init__(self, plan: UavPlan, settings: FlightSettings, dt_s: float) -> None:
+        self._plan = plan
+        self._settings = settings
+        self._dt = dt_s
+        self.phase = int(UavPhase.IDLE)
+        self.ascended_tick: int | None = None
+        self.capture_tick: int | None = None
+        self.first_capture_tick: int | None = None
+        self.landed = False
+        self._pursuit = PursuitReference(plan.home_x_m, plan.home_y_m, 0.0)
+        self._route: RouteReference | None = None
+        self._landing_spot: tuple[float, float] | None = None
+        self._return_altitude_m = 0.0
+        self._descending = False
+
+    @property
+    def plan(self) -> UavPlan:
+        """The plan this machine flies."""
+        return self._plan
+
+    @property
+    def mission(self) -> MissionPlan | None:
+        """The mission that is flown now, None before and after."""
+        index = self.phase - int(UavPhase.MISSION)
+        if self.phase < int(UavPhase.LANDING) and 0 <= index < len(self._plan.missions):
+            return self._plan.missions[index]
+        return None
+
+    @property
+    def missions_done(self) -> bool:
+        """Whether the last mission has ended (landing may go on)."""
+        return self.phase == int(UavPhase.LANDING)
+
+    @property
+    def captured(self) -> bool:
+        """Whether the present mission's tolerance has been met since its ascent."""
+        return self.capture_tick is not None
+
+    def start(self) -> None:
+        """Leave the ground with the next command."""
+        self.phase = int(UavPhase.ASCENT) if self._plan.missions else int(UavPhase.IDLE)
+
+    @property
+    def landing_spot(self) -> tuple[float, float] | None:
+        """Where it will land, once that is chosen."""
+        return self._landing_spot
+
+    @property
+    def phase_name(self) -> str:
+        """The present phase in words: idle, ascent, the mission's id, or landing."""
+        mission = self.mission
+        if mission is not None:
+            return mission.id
+        return UavPhase(self.phase).name.lower()
+
+    def land_now(self) -> None:
+        """End the missions; the landing begins with the next step."""
+        if int(UavPhase.IDLE) < self.phase < int(UavPhase.LANDING):
+            self._begin(int(UavPhase.LANDING))
+
+    def needs_landing_spot(self) -> bool:
+        """Whether the executor has to choose a landing spot now."""
+        return self.missions_done and self._landing_spot is None
+
+    def set_landing_spot(self, spot: tuple[float, float], altitude_m: float) -> None:
+        """Fly to `spot` (x, y in m, ENU) at `altitude_m` above ground and land there."""
+        self._landing_spot = spot
+        self._return_altitude_m = altitude_m
+
+    def step(self, tick: int, state: FloatArray, target: TargetMotion | None) -> FloatArray:
+        """Evaluate the predicates on the state of `tick`, return the command row for tick + 1.
+
+        Args:
+            tick: Tick of the state.
+            state: (UAV_WIDTH,) row of this UAV.
+            target: Motion of the present mission's target, None when there is none.
+
+        Returns:
+            (UAV_COMMAND_WIDTH,) command row.
+        """
+        if self.phase == int(UavPhase.ASCENT):
+            self._check_ascended(tick, state)
+        mission = self.mission
+        if mission is not None:
+            self._fly(mission, tick, state, target)
+        if self.missions_done:
+            self._fly_home(state)
+        return self._command(state)
+
+    def _first_altitude_m(self) -> float:
+        return float(self._plan.missions[0].altitude_m)
+
+    def _check_ascended(self, tick: int, state: FloatArray) -> None:
+        z = float(state[UavColumn.Z])
+        if abs(z - self._first_altitude_m()) <= self._plan.missions[0].capture_altitude_m:
+            self.ascended_tick = tick
+            self._pursuit = PursuitReference(
+                float(state[UavColumn.X]), float(state[UavColumn.Y]), z
+            )
+            self._pursuit.vz = float(state[UavColumn.VZ])
+            self._begin(int(UavPhase.MISSION))
+
+    def _begin(self, phase: int) -> None:
+        self.phase = phase
+        self._route = None
+        if phase != int(UavPhase.LANDING):
+            self.capture_tick = None
+
+    def _next_phase(self) -> int:
+        index = self.phase - int(UavPhase.MISSION) + 1
+        if index < len(self._plan.missions):
+            return int(UavPhase.MISSION) + index
+        return int(UavPhase.LANDING)
+
+    def _fly(
+        self, mission: MissionPlan, tick: int, state: FloatArray, target: TargetMotion | None
+    ) -> None:
+        if mission.mode is MissionMode.NAVIGATE:
+            finished = self._fly_route(mission, tick, state)
+        else:
+            finished = self._fly_hold(mission, tick, state, target)
+        if finished:
+            self._begin(self._next_phase())
+
+    def _fly_hold(
+        self, mission: MissionPlan, tick: int, state: FloatArray, target: TargetMotion | None
+    ) -> bool:
+        if mission.mode is MissionMode.HOVER:
+            assert mission.hover_point is not None
+            goal = mission.hover_point
+            velocity = (0.0, 0.0)
+        elif target is not None:
+            goal = (
+                target.x_m + mission.offset_m[0],
+                target.y_m + mission.offset_m[1],
+                mission.altitude_m,
+            )
+            velocity = (target.vx_mps, target.vy_mps)
+        else:  # The target is gone: hold where the reference is.
+            goal = (self._pursuit.x, self._pursuit.y, mission.altitude_m)
+            velocity = (0.0, 0.0)
+        if self.capture_tick is None and self._meets(mission, state, goal, target):
+            self._capture(tick)
+        if self._phase_over(mission, tick):
+            return True
+        self._pursuit.step(goal, velocity, self._settings, self._dt)
+        return False
+
+    def _capture(self, tick: int) -> None:
+        self.capture_tick = tick
+        if self.first_capture_tick is None:
+            self.first_capture_tick = tick
+
+    def _meets(
+        self,
+        mission: MissionPlan,
+        state: FloatArray,
+        goal: tuple[float, float, float],
+        target: TargetMotion | None,
+    ) -> bool:
+        x, y, z = (float(state[c]) for c in (UavColumn.X, UavColumn.Y, UavColumn.Z))
+        if abs(z - mission.altitude_m) > mission.capture_altitude_m:
+            return False
+        if mission.mode is MissionMode.TRACK:
+            if target is None:
+                return False
+            away = norm2(x - target.x_m, y - target.y_m)
+            return abs(away - mission.standoff_m) <= mission.capture_horizontal_m
+        return norm2(x - goal[0], y - goal[1]) <= mission.capture_horizontal_m
+
+    def _phase_over(self, mission: MissionPlan, tick: int) -> bool:
+        """Whether the command for tick + 1 is the first of the next phase."""
+        if self.capture_tick is None or mission.duration_s is None:
+            return False
+        return (tick + 1) - self.capture_tick >= ceil(mission.duration_s / self._dt - 1e-9)
+
+    def _fly_route(self, mission: MissionPlan, tick: int, state: FloatArray) -> bool:
+        first = mission.waypoints[0]
+        x, y, z = (float(state[c]) for c in (UavColumn.X, UavColumn.Y, UavColumn.Z))
+        if self._route is None:
+            near = norm2(x - first[0], y - first[1]) <= ARRIVED_M
+            if near and abs(z - first[2]) <= ARRIVED_M:
+                self._capture(tick)
+                self._route = RouteReference(mission.waypoints, mission.speed_mps)
+            else:
+                self._pursuit.step(first, (0.0, 0.0), self._settings, self._dt)
+                return False
+        self._route.step(self._settings, self._dt)
+        self._pursuit.x, self._pursuit.y, self._pursuit.z = (
+            self._route.x,
+            self._route.y,
+            self._route.z,
+        )
+        self._pursuit.vx, self._pursuit.vy = self._route.vx, self._route.vy
+        self._pursuit.vz = self._route.vz
+        last = mission.waypoints[-1]
+        return self._route.done and norm2(x - last[0], y - last[1]) <= ARRIVED_M
+
+    def _fly_home(self, state: FloatArray) -> None:
+        if self._landing_spot is None:
+            return
+        x, y = float(state[UavColumn.X]), float(state[UavColumn.Y])
+        spot = self._landing_spot
+        if not self._descending:
+            climbing = float(state[UavColumn.Z]) < self._return_altitude_m - ARRIVED_M
+            # Climb first, then across: the way was checked at the return altitude.
+            across = (self._pursuit.x, self._pursuit.y) if climbing else spot
+            goal = (across[0], across[1], self._return_altitude_m)
+            self._pursuit.step(goal, (0.0, 0.0), self._settings, self._dt)
+        slow = norm2(float(state[UavColumn.VX]), float(state[UavColumn.VY])) <= 0.5
+        if not self._descending and norm2(x - spot[0], y - spot[1]) <= 0.5 and slow:
+            self._descending = True
+        if self._descending and state[UavColumn.LANDED] > 0.5 and state[UavColumn.ARMED] < 0.5:
+            self.landed = True
+
+    def _command(self, state: FloatArray) -> FloatArray:
+        row = np.zeros(UAV_COMMAND_WIDTH)
+        row[UavCommandColumn.PHASE] = self.phase
+        row[UavCommandColumn.YAW] = self._plan.home_yaw_enu_rad
+        if self.phase == int(UavPhase.IDLE) or self.landed:
+            row[UavCommandColumn.MODE] = UavMode.IDLE
+            row[UavCommandColumn.X : UavCommandColumn.Z + 1] = state[UavColumn.X : UavColumn.Z + 1]
+            return row
+        if self.phase == int(UavPhase.ASCENT):
+            row[UavCommandColumn.MODE] = UavMode.TAKEOFF
+            row[UavCommandColumn.X] = self._plan.home_x_m
+            row[UavCommandColumn.Y] = self._plan.home_y_m
+            row[UavCommandColumn.Z] = self._first_altitude_m()
+            row[UavCommandColumn.TAKEOFF_ALTITUDE] = self._first_altitude_m()
+            return row
+        row[UavCommandColumn.MODE] = UavMode.LAND if self._descending else UavMode.OFFBOARD
+        reference = self._pursuit
+        row[UavCommandColumn.X : UavCommandColumn.VZ + 1] = (
+            reference.x,
+            reference.y,
+            reference.z,
+            reference.vx,
+            reference.vy,
+            reference.vz,
+        )
+        return row

@@ -1,0 +1,58 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""What one UAV has to fly, as grounding decided it (ENU map frame, metres above ground)."""
+
+from __future__ import annotations
+
+from pydantic import FiniteFloat
+
+from aurora_core.spec.parameter import Document
+from aurora_core.spec.vocabulary import MissionMode
+
+Point3 = tuple[FiniteFloat, FiniteFloat, FiniteFloat]
+
+
+class MissionPlan(Document):
+    """A mission with its geometry.
+
+    Attributes:
+        target: Agent id that is tracked, or observed from the hover point.
+        offset_m: Track: horizontal vector from the target to the UAV, ENU.
+        capture_horizontal_m: Track: tolerance on the standoff at capture.
+        capture_altitude_m: Tolerance on the altitude at capture.
+        waypoints: Navigate: the points to visit, first repeated at the end when closed.
+        hover_point: Hover: where to hold.
+        duration_s: Track and hover: length of the phase from capture on.
+        speed_mps: Navigate: speed on the legs.
+    """
+
+    id: str
+    mode: MissionMode
+    target: str | None = None
+    altitude_m: FiniteFloat
+    standoff_m: FiniteFloat = 0.0
+    offset_m: tuple[FiniteFloat, FiniteFloat] = (0.0, 0.0)
+    capture_horizontal_m: FiniteFloat = 10.0
+    capture_altitude_m: FiniteFloat = 2.0
+    waypoints: tuple[Point3, ...] = ()
+    hover_point: Point3 | None = None
+    duration_s: FiniteFloat | None = None
+    speed_mps: FiniteFloat = 8.0
+
+
+class UavPlan(Document):
+    """A UAV with its take-off and landing spots (on the ground).
+
+    Attributes:
+        landing_spots: Free spots; the executor takes the nearest one with a free way.
+        safe_altitude_m: Above every obstacle around, used when no way at mission altitude is free.
+    """
+
+    id: str
+    system_id: int
+    home_x_m: FiniteFloat
+    home_y_m: FiniteFloat
+    home_yaw_enu_rad: FiniteFloat = 0.0
+    landing_spots: tuple[tuple[FiniteFloat, FiniteFloat], ...]
+    missions: tuple[MissionPlan, ...]
+    safe_altitude_m: FiniteFloat

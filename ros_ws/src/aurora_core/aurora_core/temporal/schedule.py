@@ -1,0 +1,95 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Plan the time of a grounded scenario: the horizon and the facts that conditions quote."""
+
+from __future__ import annotations
+
+import json
+
+from pydantic import FiniteFloat
+
+from aurora_core.conditions.plan_facts import MissionFacts, PlanFacts
+from aurora_core.geometry.kernel import norm2
+from aurora_core.grounding.grounded import GroundedScenario
+from aurora_core.grounding.time_need import horizon_s
+from aurora_core.knowledge.limits import Limits
+from aurora_core.mission.plan import MissionPlan, UavPlan
+from aurora_core.spec.parameter import Document
+from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.spec.vocabulary import MissionMode
+
+SCHEDULE_VERSION = 1
+
+
+class Schedule(Document):
+    """When things have to be done.
+
+    Attributes:
+        horizon_s: Hard end of the run.
+        stated_horizon: The prompt states the duration: the run lasts exactly that long.
+        facts: What conditions quote.
+    """
+
+    schema_version: int = SCHEDULE_VERSION
+    horizon_s: FiniteFloat
+    stated_horizon: bool
+    facts: PlanFacts
+
+    def canonical_json(self) -> str:
+        """Return the byte-exact JSON text that travels in the graph."""
+        return json.dumps(
+            self.model_dump(mode='json'), sort_keys=True, separators=(',', ':'), ensure_ascii=False
+        )
+
+
+def plan_time(spec: ScenarioSpec, grounded: GroundedScenario, limits: Limits) -> Schedule:
+    """Return the schedule of a grounded scenario."""
+    horizon = horizon_s(spec, limits)
+    missions = tuple(
+        _facts(uav, mission, k, grounded)
+        for uav in grounded.uavs
+        for k, mission in enumerate(uav.missions)
+    )
+    order = {m.id: k for k, m in enumerate(spec.missions)}
+    facts = PlanFacts(
+        horizon_s=horizon, missions=tuple(sorted(missions, key=lambda f: order[f.mission]))
+    )
+    return Schedule(
+        horizon_s=horizon, stated_horizon=spec.world.duration_s is not None, facts=facts
+    )
+
+
+def _facts(
+    uav: UavPlan, mission: MissionPlan, index: int, grounded: GroundedScenario
+) -> MissionFacts:
+    start = (uav.home_x_m, uav.home_y_m) if index == 0 else _end(uav.missions[index - 1], grounded)
+    first = _first(mission, grounded)
+    return MissionFacts(
+        mission=mission.id,
+        uav=uav.id,
+        mode=mission.mode,
+        altitude_m=mission.altitude_m,
+        standoff_m=mission.standoff_m if mission.mode is MissionMode.TRACK else None,
+        waypoints=mission.waypoints,
+        hover_point=mission.hover_point,
+        duration_s=mission.duration_s,
+        transit_m=norm2(first[0] - start[0], first[1] - start[1]),
+        transit_speed_mps=mission.speed_mps,
+    )
+
+
+def _first(mission: MissionPlan, grounded: GroundedScenario) -> tuple[float, float]:
+    if mission.waypoints:
+        return mission.waypoints[0][0], mission.waypoints[0][1]
+    if mission.hover_point is not None:
+        return mission.hover_point[0], mission.hover_point[1]
+    for agent in grounded.agents:
+        if agent.id == mission.target:
+            return agent.x_m + mission.offset_m[0], agent.y_m + mission.offset_m[1]
+    return 0.0, 0.0
+
+
+def _end(mission: MissionPlan, grounded: GroundedScenario) -> tuple[float, float]:
+    if mission.waypoints:
+        return mission.waypoints[-1][0], mission.waypoints[-1][1]
+    return _first(mission, grounded)
