@@ -1,0 +1,262 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""A success condition: what has to hold on the trace, frozen before the run.
+
+A condition carries everything that its evaluation needs (thresholds, tolerances, waypoints,
+horizon), so that it can be judged from the bag alone and nothing that happens later moves it.
+"""
+
+from __future__ import annotations
+
+import json
+from enum import StrEnum
+from typing import Literal, Self
+
+from pydantic import FiniteFloat, TypeAdapter, ValidationError, model_validator
+
+from aurora_core.errors import VerificationError
+from aurora_core.quantities.kernels import TrackRule
+from aurora_core.quantities.phases import CaptureRule
+from aurora_core.spec.parameter import Bound, Document, Provenance, Span
+from aurora_core.spec.quantity import QuantityName
+from aurora_core.spec.vocabulary import MissionMode, Relation
+from aurora_core.stl.formula import predicates
+from aurora_core.stl.syntax import parse_formula
+
+Point3 = tuple[FiniteFloat, FiniteFloat, FiniteFloat]
+Op = Literal['<=', '<', '>=', '>', '==']
+
+
+class Window(StrEnum):
+    """Which samples a condition is about."""
+
+    RUN = 'run'  # every tick
+    START = 'start'  # t = 0
+    MISSIONS = 'missions'  # from t = 0 until the last mission ends
+    PHASE = 'phase'  # of the mission in the arguments: from capture to its end
+    ON_MISSION = 'on_mission'  # all mission phases of the UAV
+    AIRBORNE = 'airborne'  # while the UAV flies
+    MOMENT = 'moment'  # moments that the quantity itself names (events, messages, waypoints)
+
+
+class MissionArguments(Document):
+    """A mission as its conditions measure it.
+
+    Attributes:
+        mission: Id.
+        index: Place among the missions of its UAV, from 0.
+        altitude_m: Wanted altitude; `altitude_bound` says how it binds.
+        altitude_tolerance_m: Tolerance on it: ends the ascent, keeps the altitude.
+        capture_altitude_m: Tolerance on it at capture.
+        capture_horizontal_m: Hover, navigate: distance from the first point at capture.
+        point_m: Hover point or first waypoint.
+        standoff_m: Track: wanted horizontal distance from `target`.
+        standoff_tolerance_m: Track: tolerance on it.
+        tracking_altitude_m: Track: tolerance on the altitude while tracking.
+        first_altitude_m: Altitude of the UAV's first mission; ends the ascent.
+        first_altitude_tolerance_m: Tolerance on it.
+        planned_s: Planned length of the phase (None: ends with the route).
+        waypoints: Route of a navigate mission.
+        waypoint_horizontal_m: Tolerance at a waypoint.
+    """
+
+    mission: str
+    uav: str
+    index: int
+    mode: MissionMode
+    target: str | None = None
+    altitude_m: FiniteFloat
+    altitude_bound: Bound = Bound.EXACTLY
+    altitude_tolerance_m: FiniteFloat
+    capture_altitude_m: FiniteFloat
+    capture_horizontal_m: FiniteFloat
+    point_m: tuple[FiniteFloat, FiniteFloat] | None = None
+    standoff_m: FiniteFloat = 0.0
+    standoff_bound: Bound = Bound.EXACTLY
+    standoff_tolerance_m: FiniteFloat = 0.0
+    tracking_altitude_m: FiniteFloat = 0.0
+    first_altitude_m: FiniteFloat
+    first_altitude_tolerance_m: FiniteFloat
+    planned_s: FiniteFloat | None = None
+    waypoints: tuple[Point3, ...] = ()
+    waypoint_horizontal_m: FiniteFloat = 3.0
+
+    @property
+    def track_rule(self) -> TrackRule | None:
+        """The tracking tolerance, None when the mission does not track."""
+        if self.mode is not MissionMode.TRACK:
+            return None
+        return TrackRule(
+            standoff_m=self.standoff_m,
+            standoff_bound=self.standoff_bound,
+            horizontal_m=self.standoff_tolerance_m,
+            altitude_m=self.altitude_m,
+            vertical_m=self.tracking_altitude_m,
+        )
+
+    @property
+    def capture_rule(self) -> CaptureRule:
+        """When the mission has captured."""
+        return CaptureRule(
+            altitude_m=self.altitude_m,
+            altitude_tolerance_m=self.capture_altitude_m,
+            horizontal_tolerance_m=self.capture_horizontal_m,
+            point_m=self.point_m,
+            track=self.track_rule,
+            target=self.target,
+        )
+
+
+class Arguments(Document):
+    """What the evaluation of a condition needs beside its threshold.
+
+    Attributes:
+        horizon_s: Time by which the run has to be over; a trace that ends earlier without having
+            been finished is too short.
+        window: Which samples count.
+        touchdown_m: Height below which a UAV that reports landed is down.
+        aspect: Which of several readings of the quantity is meant, see its evaluator.
+        mission: The mission it belongs to.
+        missions: All missions of the UAV that it is about (alerts: of the sender).
+        event: Event id.
+        link: Link id.
+        relation: Of a placement.
+        after_s: Samples before this time do not count.
+        low: Lower end of what counts per sample (gap, share of a leg, ...); see the evaluator.
+        high: Upper end.
+        slow_low: Follow: lower end while slow.
+        slow_high: Follow: upper end while slow.
+        slow_mps: Speed that separates slow from moving.
+        offset_m: How far from a route a body may be.
+        bound: How the number binds per sample.
+        wanted: Number that each sample is compared with.
+        sample_tolerance: Tolerance on it.
+        brake_mps2: Events: loss of speed that counts as braking.
+        onset_mps2: Events: change of speed that counts as slowing down or speeding up.
+        arrival_m: Events: distance from a place at which an agent is there.
+        phase_change_s: Time within which the states have to show a change of phase.
+        phase_follow_m: How close a UAV is to its set-point by then.
+        statistics_from: Attempts before a link's losses are compared with its model.
+    """
+
+    horizon_s: FiniteFloat
+    window: Window
+    touchdown_m: FiniteFloat
+    aspect: str = ''
+    mission: MissionArguments | None = None
+    missions: tuple[MissionArguments, ...] = ()
+    event: str | None = None
+    link: str | None = None
+    relation: Relation | None = None
+    after_s: FiniteFloat = 0.0
+    low: FiniteFloat = 0.0
+    high: FiniteFloat = 0.0
+    slow_low: FiniteFloat = 0.0
+    slow_high: FiniteFloat = 0.0
+    slow_mps: FiniteFloat = 0.0
+    offset_m: FiniteFloat = 0.0
+    bound: Bound = Bound.EXACTLY
+    wanted: FiniteFloat = 0.0
+    sample_tolerance: FiniteFloat = 0.0
+    brake_mps2: FiniteFloat = 0.0
+    onset_mps2: FiniteFloat = 0.0
+    arrival_m: FiniteFloat = 0.0
+    phase_change_s: FiniteFloat = 0.0
+    phase_follow_m: FiniteFloat = 0.0
+    statistics_from: int = 0
+
+
+class Condition(Document):
+    """One success condition.
+
+    Attributes:
+        id: Unique in the run, `<element>.<what>`.
+        sentence: English.
+        formula: STL text over the one signal `signal`; its robustness is the margin.
+        signal: Name of the signal in the formula.
+        quantity: What the signal measures.
+        of: Bodies it is about.
+        op: Comparison with the threshold; `==` means within the tolerance.
+        threshold: In `unit`.
+        tolerance: In `unit`, None where the request leaves none.
+        scale: The margin divided by it compares across conditions.
+        hold_s: How long it has to hold in one stretch.
+        by_s: Deadline from scenario start.
+        fraction: Share of samples asked for, when the threshold is one.
+        arguments: What the evaluation needs beside the threshold.
+        spec_ids: Elements of the specification it comes from.
+        spans: Where the prompt asks for it.
+        provenance: Of the threshold.
+        implied: Follows from the request; False when the prompt states it.
+    """
+
+    id: str
+    sentence: str
+    formula: str
+    signal: str
+    quantity: QuantityName
+    of: tuple[str, ...]
+    op: Op
+    threshold: FiniteFloat
+    tolerance: FiniteFloat | None = None
+    unit: str
+    scale: FiniteFloat
+    hold_s: FiniteFloat | None = None
+    by_s: FiniteFloat | None = None
+    fraction: FiniteFloat | None = None
+    arguments: Arguments
+    spec_ids: tuple[str, ...] = ()
+    spans: tuple[Span, ...] = ()
+    provenance: Provenance
+    implied: bool = True
+
+    @model_validator(mode='after')
+    def _formula_is_about_the_signal(self) -> Self:
+        try:
+            names = {predicate.signal for predicate in predicates(parse_formula(self.formula))}
+        except VerificationError as err:
+            raise ValueError(str(err)) from err
+        if names != {self.signal}:
+            raise ValueError(f'formula of {self.id} is over {sorted(names)}, not {self.signal!r}')
+        if not self.scale > 0.0:
+            raise ValueError(f'scale of {self.id} must be above 0, found {self.scale}')
+        return self
+
+    @property
+    def strict(self) -> bool:
+        """Whether a margin of zero violates."""
+        return self.op in ('<', '>')
+
+    def satisfied(self, margin: float) -> bool:
+        """Tell whether a margin satisfies the condition."""
+        return margin > 0.0 or (margin == 0.0 and not self.strict)
+
+
+_CONDITIONS: TypeAdapter[tuple[Condition, ...]] = TypeAdapter(tuple[Condition, ...])
+
+
+def conditions_to_json(conditions: tuple[Condition, ...]) -> str:
+    """Return the one byte-exact JSON text of conditions (sorted keys, no blanks)."""
+    return json.dumps(
+        _CONDITIONS.dump_python(conditions, mode='json'),
+        sort_keys=True,
+        separators=(',', ':'),
+        ensure_ascii=False,
+    )
+
+
+def conditions_from_json(text: str) -> tuple[Condition, ...]:
+    """Read conditions.
+
+    Raises:
+        VerificationError: The text is not JSON of conditions, or ids repeat.
+    """
+    try:
+        conditions = _CONDITIONS.validate_json(text, strict=False)
+    except ValidationError as err:
+        raise VerificationError(f'conditions cannot be read: {err}') from err
+    ids = [condition.id for condition in conditions]
+    repeated = sorted({i for i in ids if ids.count(i) > 1})
+    if repeated:
+        raise VerificationError(f'condition ids must be unique, repeated: {", ".join(repeated)}')
+    return conditions

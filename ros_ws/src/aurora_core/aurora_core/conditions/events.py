@@ -1,0 +1,272 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Conditions implied by events, alerts and links."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from aurora_core.conditions.build import Inputs, Source, Target, Underivable, condition, number
+from aurora_core.conditions.condition import Condition, MissionArguments, Window
+from aurora_core.conditions.missions import mission_arguments
+from aurora_core.spec.parameter import Provenance
+from aurora_core.spec.quantity import QuantityName
+from aurora_core.spec.scenario import (
+    AgentAction,
+    ArrivalTrigger,
+    DistanceTrigger,
+    Event,
+    Link,
+    MessageTrigger,
+    SendMessage,
+    SpeedTrigger,
+    TimeTrigger,
+    UavAction,
+    VisibilityTrigger,
+)
+from aurora_core.spec.vocabulary import MissionMode
+
+# Actions whose moment can be recomputed from the states.
+_SEEN_ACTIONS = frozenset({'brake', 'stop', 'slow', 'accelerate', 'start', 'land', 'ascend'})
+
+
+def actor_of(event: Event) -> str | None:
+    """Return the body whose behaviour triggers an event, None when there is no such body.
+
+    Of a distance it is the one that is not told about it.
+    """
+    trigger = event.trigger
+    match trigger:
+        case DistanceTrigger():
+            told = event.action.receiver if isinstance(event.action, SendMessage) else None
+            return trigger.b if trigger.a == told else trigger.a
+        case SpeedTrigger() | ArrivalTrigger():
+            return trigger.who
+        case VisibilityTrigger():
+            return trigger.target if trigger.on == 'visible' else None
+        case _:
+            return None
+
+
+def event_conditions(inputs: Inputs) -> Iterator[Condition | Underivable]:
+    """Yield the conditions of all events and of the messages that they send."""
+    used: set[str] = set()
+    for event in inputs.spec.events:
+        missing = _missing(event)
+        if missing:
+            yield Underivable(element=event.id, what=missing, span=event.span)
+            continue
+        source = Source(ids=(event.id,), spans=(event.span,))
+        yield from _moment(inputs, event, source)
+        if isinstance(event.action, SendMessage):
+            link = _link(inputs, event.action)
+            if link is None:
+                yield Underivable(
+                    element=event.id,
+                    what=f'message from {event.action.sender} to {event.action.receiver}: no link',
+                    span=event.span,
+                )
+                continue
+            used.add(link.id)
+            yield from _alert(inputs, event, event.action, source)
+            yield from _message(inputs, event, link)
+    for link in inputs.spec.links:
+        if link.id not in used:
+            yield Underivable(element=link.id, what='a link without a message', span=link.span)
+
+
+def _missing(event: Event) -> str:
+    """Return what of an event cannot be recomputed yet, empty when everything can."""
+    action = event.action
+    if isinstance(action, AgentAction | UavAction) and action.do not in _SEEN_ACTIONS:
+        return f'action {action.do}'
+    if event.trigger is None and action is None:
+        return 'an event without trigger and action'
+    return ''
+
+
+def _moment(inputs: Inputs, event: Event, source: Source) -> Iterator[Condition]:
+    if event.trigger is None or event.action is None:
+        part = 'action' if event.trigger is None else 'trigger'
+        horizon = inputs.facts.horizon_s
+        yield condition(
+            id=f'{event.id}.happens',
+            sentence=f'{event.id} happens by {number(horizon)} s',
+            quantity=QuantityName.EVENT_TIME,
+            of=(event.id,),
+            target=Target(op='<=', threshold=horizon, unit='s'),
+            arguments=inputs.arguments(Window.MOMENT, aspect=part, event=event.id),
+            source=source,
+            every_sample=False,
+        )
+        return
+    delay_s, provenance = 0.0, Provenance.DEFAULT
+    earliest_s = 0.0
+    if event.delay_s is not None:
+        delay_s, provenance = event.delay_s.value, event.delay_s.provenance
+        if provenance is Provenance.EXPLICIT:
+            slack = inputs.tolerances.duration_s.of(delay_s, approximate=event.delay_s.approximate)
+            earliest_s = max(0.0, delay_s - slack)
+    latest_s = delay_s + inputs.tolerances.event_delay_s
+    source = Source(ids=source.ids, spans=source.spans, provenance=provenance)
+    after = 'its trigger' if earliest_s == 0.0 else f'{number(earliest_s)} s after its trigger'
+    bounds = [
+        ('within', f'within {number(latest_s)} s of its trigger', _at_most(latest_s)),
+        ('not_before', f'not before {after}', _at_least(earliest_s)),
+    ]
+    if isinstance(event.action, AgentAction):
+        # Drivers slow down and speed up for many reasons: what was before says nothing.
+        bounds.pop()
+    for name, words, target in bounds:
+        yield condition(
+            id=f'{event.id}.{name}',
+            sentence=f'{event.id} happens {words}',
+            quantity=QuantityName.EVENT_DELAY,
+            of=(event.id,),
+            target=target,
+            arguments=inputs.arguments(Window.MOMENT, aspect=name, event=event.id),
+            source=source,
+            every_sample=False,
+        )
+    if isinstance(event.trigger, TimeTrigger):
+        at = event.trigger.at_s
+        if at.provenance is Provenance.EXPLICIT:
+            wanted = at.value + delay_s
+            slack = inputs.tolerances.duration_s.of(wanted, approximate=at.approximate)
+            yield condition(
+                id=f'{event.id}.time',
+                sentence=f'{event.id} happens at {number(wanted)} s',
+                quantity=QuantityName.EVENT_TIME,
+                of=(event.id,),
+                target=Target(op='==', threshold=wanted, unit='s', tolerance=slack),
+                arguments=inputs.arguments(Window.MOMENT, aspect='action', event=event.id),
+                source=Source(ids=source.ids, spans=(at.span,), provenance=at.provenance),
+                every_sample=False,
+            )
+
+
+def _at_most(seconds: float) -> Target:
+    return Target(op='<=', threshold=seconds, unit='s')
+
+
+def _at_least(seconds: float) -> Target:
+    return Target(op='>=', threshold=seconds, unit='s')
+
+
+def _link(inputs: Inputs, action: SendMessage) -> Link | None:
+    return next(
+        (
+            link
+            for link in inputs.spec.links
+            if (link.sender, link.receiver) == (action.sender, action.receiver)
+        ),
+        None,
+    )
+
+
+def _sender_missions(inputs: Inputs, uav: str) -> tuple[MissionArguments, ...]:
+    return tuple(
+        mission_arguments(inputs, mission)
+        for mission in inputs.spec.missions
+        if mission.uav == uav
+    )
+
+
+def _alert(
+    inputs: Inputs, event: Event, action: SendMessage, source: Source
+) -> Iterator[Condition]:
+    """Yield the conditions of an alert by a UAV: after ascent or capture, actor in sight."""
+    missions = _sender_missions(inputs, action.sender)
+    if not missions:
+        return
+    tracks = any(mission.mode is MissionMode.TRACK for mission in missions)
+    after = 'capture' if tracks else 'ascent'
+    yield condition(
+        id=f'{event.id}.after_{after}',
+        sentence=f'{action.sender} sends {event.id} only after its {after}',
+        quantity=QuantityName.SENT_AFTER_CAPTURE,
+        signal=f'sent_after_{after}({event.id})',
+        of=(action.sender,),
+        target=Target(op='>=', threshold=0.0, unit='s'),
+        arguments=inputs.arguments(Window.MOMENT, aspect=after, event=event.id, missions=missions),
+        source=source,
+        every_sample=False,
+    )
+    actor = actor_of(event)
+    if actor is not None and actor != action.sender:
+        yield condition(
+            id=f'{event.id}.actor_visible',
+            sentence=f'{action.sender} sees {actor} when it sends {event.id}',
+            quantity=QuantityName.VISIBLE_AT_SEND,
+            signal=f'sight_margin({action.sender},{actor})',
+            of=(action.sender, actor),
+            target=Target(op='>', threshold=0.0, unit='m'),
+            arguments=inputs.arguments(Window.MOMENT, event=event.id),
+            source=source,
+        )
+
+
+def _needed(inputs: Inputs, link: Link) -> bool:
+    """Tell whether an event waits for a message of the link."""
+    return any(
+        isinstance(event.trigger, MessageTrigger)
+        and event.trigger.by == link.receiver
+        and event.trigger.sender in (None, link.sender)
+        for event in inputs.spec.events
+    )
+
+
+def _message(inputs: Inputs, event: Event, link: Link) -> Iterator[Condition | Underivable]:
+    forbidden = (
+        link.retransmissions.provenance is Provenance.EXPLICIT
+        and link.retransmissions.value == 0.0
+        and link.loss.value > 0.0
+    )
+    of = (link.sender, link.receiver)
+    stated_latency = link.latency_s.provenance is Provenance.EXPLICIT
+    realised_s = link.latency_s.value
+    if forbidden and not _needed(inputs, link):
+        yield Underivable(
+            element=link.id,
+            what='delivery ratio of a lossy link without retransmissions',
+            span=link.span,
+        )
+    else:
+        deadline_s = inputs.tolerances.delivery_s
+        if stated_latency:
+            again_s = link.retransmissions.value * link.retransmission_interval_s.value
+            deadline_s = realised_s + again_s
+        yield condition(
+            id=f'{event.id}.delivered',
+            sentence=f'the message of {event.id} reaches {link.receiver}',
+            quantity=QuantityName.DELIVERED,
+            signal=f'delivery_time({event.id})',
+            of=of,
+            target=Target(op='<=', threshold=deadline_s, unit='s'),
+            arguments=inputs.arguments(
+                Window.MOMENT, aspect='delivered', event=event.id, link=link.id
+            ),
+            source=Source(
+                ids=(event.id, link.id),
+                spans=(event.span, link.span),
+                provenance=link.latency_s.provenance,
+            ),
+        )
+    if stated_latency:
+        yield condition(
+            id=f'{event.id}.latency',
+            sentence=(
+                f'what passes the link to {link.receiver} takes {number(realised_s)} s '
+                f'(within {inputs.tolerances.latency_steps} steps)'
+            ),
+            quantity=QuantityName.DELIVERY_LATENCY,
+            signal=f'excess_latency({link.id})',
+            of=of,
+            target=Target(op='<=', threshold=float(inputs.tolerances.latency_steps), unit='1'),
+            arguments=inputs.arguments(
+                Window.MOMENT, aspect='steps', event=event.id, link=link.id, wanted=realised_s
+            ),
+            source=Source(
+                ids=(link.id,), spans=(link.latency_s.span,), provenance=Provenance.EXPLICIT
+            ),
+        )

@@ -1,0 +1,54 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The facts of a grounded plan that conditions quote: horizon, waypoints, hover points.
+
+Grounding fills them in; conditions are derived from the specification and these facts before the
+run and travel in the bag, so nothing that happens later can move a threshold.
+"""
+
+from __future__ import annotations
+
+from pydantic import FiniteFloat
+
+from aurora_core.spec.parameter import Document
+from aurora_core.spec.vocabulary import MissionMode
+
+Point3 = tuple[FiniteFloat, FiniteFloat, FiniteFloat]
+
+
+class MissionFacts(Document):
+    """What a mission was grounded to.
+
+    Attributes:
+        altitude_m: Realised altitude above ground.
+        standoff_m: Realised horizontal distance from the target (track).
+        waypoints: Navigate: route points in order, ENU map frame, z above ground. A closed
+            pattern repeats its first point at the end.
+        hover_point: Hover: where the UAV holds.
+        duration_s: Realised duration of the phase (None: navigate ends with its route).
+        transit_m: Length of the way from the end of ascent to the mission's first point.
+        transit_speed_mps: Speed of that way.
+    """
+
+    mission: str
+    uav: str
+    mode: MissionMode
+    altitude_m: FiniteFloat
+    standoff_m: FiniteFloat | None = None
+    waypoints: tuple[Point3, ...] = ()
+    hover_point: Point3 | None = None
+    duration_s: FiniteFloat | None = None
+    transit_m: FiniteFloat = 0.0
+    transit_speed_mps: FiniteFloat = 8.0
+
+
+class PlanFacts(Document):
+    """Facts of the whole plan.
+
+    Attributes:
+        horizon_s: Simulated time by which everything, landing included, has to be done.
+        missions: In the order of the specification.
+    """
+
+    horizon_s: FiniteFloat
+    missions: tuple[MissionFacts, ...] = ()

@@ -1,0 +1,216 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Samples of event, alert and message conditions."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from aurora_core.conditions.condition import Condition
+from aurora_core.errors import VerificationError
+from aurora_core.monitor.evaluation import Context, Evaluation, Measured, Missing, at_tick
+from aurora_core.monitor.verdict import Reason
+from aurora_core.quantities.ledger import LinkModel, Message
+from aurora_core.spec.scenario import DistanceTrigger
+from aurora_core.spec.vocabulary import MissionMode
+from aurora_core.stl.syntax import format_number
+from aurora_core.trace.records import LinkEventKind
+
+
+def _event_id(condition: Condition) -> str:
+    if condition.arguments.event is None:
+        raise VerificationError(f'condition {condition.id} names no event')
+    return condition.arguments.event
+
+
+def _never(context: Context, condition: Condition, story: str) -> Missing:
+    if not context.complete(condition):
+        return context.short(condition)
+    return Missing(reason=Reason.PREMISE_NEVER, story=story)
+
+
+def trigger_story(context: Context, event_id: str, tick: int) -> str:
+    """Return what happened when an event was triggered, as the beginning of a sentence."""
+    event = context.events.event(event_id)
+    trigger = None if event is None else event.trigger
+    when = f'at {context.time_s(tick):.2f} s'
+    if isinstance(trigger, DistanceTrigger):
+        within = 'within' if trigger.on == 'distance_below' else 'beyond'
+        metres = format_number(trigger.value_m.value)
+        return f'{trigger.a} came {within} {metres} m of {trigger.b} {when}'
+    return f'{event_id} was triggered {when}'
+
+
+def measure_event_delay(context: Context, condition: Condition) -> Evaluation:
+    """Seconds from trigger to action; `not_before`: of the first action at all."""
+    event_id = _event_id(condition)
+    trigger = context.events.trigger_tick(event_id)
+    if trigger is None:
+        return _never(context, condition, f'the trigger of {event_id} never happened')
+    first = 0 if condition.arguments.aspect == 'not_before' else trigger
+    action = context.events.action_tick(event_id, first)
+    begin = trigger_story(context, event_id, trigger)
+    topics = ('ground/state', 'uav/state', 'comm')
+    if action is not None:
+        value = context.time_s(action - trigger)
+        story = f'{begin}; {event_id} was carried out {value:.2f} s later'
+        return at_tick(action, value, story, topics)
+    if condition.arguments.aspect == 'not_before':
+        return _never(context, condition, f'{begin}; {event_id} was never carried out')
+    waited_s = context.time_s(context.view.ticks - trigger)
+    if waited_s > condition.threshold:
+        story = f'{begin}; {event_id} was not carried out in the {waited_s:.2f} s after it'
+        return at_tick(trigger, waited_s, story, topics)
+    return context.short(condition)
+
+
+def measure_event_time(context: Context, condition: Condition) -> Evaluation:
+    """Seconds from scenario start to the `trigger` or the `action` of an event."""
+    event_id = _event_id(condition)
+    trigger = context.events.trigger_tick(event_id)
+    tick = trigger
+    if condition.arguments.aspect == 'action':
+        event = context.events.event(event_id)
+        if event is not None and event.action is not None:
+            tick = context.events.action_tick(event_id, trigger or 0)
+    if tick is None:
+        return _never(context, condition, f'{event_id} never happened')
+    value = context.time_s(tick)
+    return at_tick(tick, value, f'{event_id} happened at {value:.2f} s', ('events',))
+
+
+def _messages(context: Context, condition: Condition) -> tuple[Message, ...]:
+    event_id = _event_id(condition)
+    return tuple(message for message in context.messages if message.event == event_id)
+
+
+def measure_sent_after_capture(context: Context, condition: Condition) -> Evaluation:
+    """Seconds from the sender's `ascent` or `capture` to the first message of an event."""
+    event_id = _event_id(condition)
+    sent = _messages(context, condition)
+    if not sent:
+        return _never(context, condition, f'no message of {event_id} was sent')
+    touchdown_m = condition.arguments.touchdown_m
+    missions = condition.arguments.missions
+    if condition.arguments.aspect == 'capture':
+        tracking = [m for m in missions if m.mode is MissionMode.TRACK]
+        ready = context.phase(tracking[0], touchdown_m).capture_tick
+    else:
+        ready = context.flight(missions[0], touchdown_m).ascent_end_tick
+    first = min(message.sent_tick for message in sent)
+    after = condition.arguments.aspect
+    if ready is None:
+        story = f'{event_id} was sent, but {condition.of[0]} never finished its {after}'
+        return Missing(reason=Reason.EMPTY_PHASE, story=story, tick=first)
+    value = context.time_s(first - ready)
+    story = (
+        f'{condition.of[0]} sent {event_id} at {context.time_s(first):.2f} s, {value:.2f} s after '
+        f'its {after}'
+    )
+    return at_tick(first, value, story, ('comm', f'uav/state[{condition.of[0]}]'))
+
+
+def measure_visible_at_send(context: Context, condition: Condition) -> Evaluation:
+    """Metres of sight margin to the actor at each first transmission."""
+    event_id = _event_id(condition)
+    sent = _messages(context, condition)
+    if not sent:
+        return _never(context, condition, f'no message of {event_id} was sent')
+    ticks = np.array([message.sent_tick for message in sent], dtype=np.intp)
+    ticks = ticks[ticks < context.view.ticks]
+    if len(ticks) == 0:
+        return context.short(condition)
+    gone = context.gone(condition, ticks)
+    if gone is not None:
+        return gone
+    margin = context.sight(condition.of[0], condition.of[1]).margin_m
+    return Measured(ticks=ticks, values=margin[ticks], evidence=('comm', 'ground/state', 'world'))
+
+
+def measure_delivered(context: Context, condition: Condition) -> Evaluation:
+    """Seconds from sending to receipt, per message of an event; the latest one decides.
+
+    A message that was given up counts as received one tick after its deadline, or one tick after
+    the end of the record if that is later.
+    """
+    event_id = _event_id(condition)
+    sent = _messages(context, condition)
+    if not sent:
+        return _never(context, condition, f'no message of {event_id} was sent')
+    model = _link_model(context, condition)
+    ticks, values, stories = [], [], []
+    for message in sent:
+        value = _delivery_s(context, condition, message, model)
+        if value is None:
+            return context.short(condition)
+        trigger = context.events.trigger_tick(event_id)
+        begin = (
+            trigger_story(context, event_id, trigger)
+            if trigger is not None and trigger <= message.sent_tick
+            else f'{event_id} was sent at {context.time_s(message.sent_tick):.2f} s'
+        )
+        arrived = message.delivered_tick
+        if arrived is not None and arrived < context.view.ticks:
+            since = trigger if trigger is not None else message.sent_tick
+            later_s = context.time_s(arrived - min(since, message.sent_tick))
+            stories.append(
+                f'{begin}; the message reached {message.receiver} {later_s:.2f} s later'
+            )
+            ticks.append(arrived)
+        else:
+            lost = sum(not attempt.passed for attempt in message.attempts)
+            stories.append(
+                f'{begin}; the message never reached {message.receiver}, {lost} attempts were lost'
+            )
+            ticks.append(message.attempts[-1].tick if message.attempts else message.sent_tick)
+        values.append(value)
+    worst = int(np.argmax(values))
+    return Measured(
+        ticks=np.array(ticks, dtype=np.intp),
+        values=np.array(values),
+        story=stories[worst],
+        place_of=condition.of[-1],
+        evidence=('comm',),
+    )
+
+
+def _link_model(context: Context, condition: Condition) -> LinkModel:
+    for model in context.links:
+        if model.link_id == condition.arguments.link:
+            return model
+    raise VerificationError(f'condition {condition.id} names no link of the specification')
+
+
+def _delivery_s(
+    context: Context, condition: Condition, message: Message, model: LinkModel
+) -> float | None:
+    """Return seconds from sending to receipt, None when the record ends before it is known."""
+    arrived = message.delivered_tick
+    if arrived is not None and arrived < context.view.ticks:
+        return context.time_s(arrived - message.sent_tick)
+    waited_s = context.time_s(context.view.ticks - message.sent_tick)
+    given_up = arrived is None and len(message.attempts) > model.retransmissions
+    if given_up:
+        return max(waited_s, condition.threshold + context.view.dt_s)
+    return waited_s if waited_s > condition.threshold else None
+
+
+def measure_delivery_latency(context: Context, condition: Condition) -> Evaluation:
+    """Ticks by which recorded receipts are off the stated latency, per message that passed."""
+    model = _link_model(context, condition)
+    numbers = {m.number: m for m in context.messages if m.link_id == model.link_id}
+    ticks, values = [], []
+    for record in context.view.trace.links:
+        message = numbers.get(record.message)
+        if record.kind is not LinkEventKind.DELIVERED or message is None:
+            continue
+        passed = next((a.tick for a in message.attempts if a.passed), None)
+        if passed is not None:
+            ticks.append(record.tick)
+            took = float(record.tick - passed)
+            values.append(abs(took - condition.arguments.wanted / context.view.dt_s))
+    if not values:
+        return _never(context, condition, f'nothing passed {model.link_id}')
+    return Measured(
+        ticks=np.array(ticks, dtype=np.intp), values=np.array(values), evidence=('comm',)
+    )

@@ -1,0 +1,151 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Samples of distance, altitude, speed: a value at every tick of the window."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from aurora_core.conditions.condition import Condition
+from aurora_core.errors import VerificationError
+from aurora_core.monitor.evaluation import (
+    Context,
+    Evaluation,
+    FloatArray,
+    Measured,
+    Missing,
+    at_tick,
+)
+from aurora_core.monitor.shares import share_of
+from aurora_core.monitor.verdict import Reason
+from aurora_core.quantities import motion
+from aurora_core.quantities.kernels import bound_error, distance_2d
+from aurora_core.quantities.ticks import first_tick
+from aurora_core.quantities.waypoints import pattern_centre
+from aurora_core.trace.layout import UavCommandColumn
+
+_Series = Callable[[Context, Condition], FloatArray]
+
+
+def _distance(context: Context, condition: Condition) -> FloatArray:
+    return motion.distance(context.view, condition.of[0], condition.of[1])
+
+
+def _horizontal(context: Context, condition: Condition) -> FloatArray:
+    if condition.arguments.aspect == 'centre':
+        mission = condition.arguments.mission
+        if mission is None:
+            raise VerificationError(f'condition {condition.id} names no mission')
+        x, y = pattern_centre(mission.waypoints)
+        point = context.view.reference(condition.of[0])
+        return distance_2d(point[:, 0] - x, point[:, 1] - y)
+    return motion.horizontal_distance(context.view, condition.of[0], condition.of[1])
+
+
+def _altitude(context: Context, condition: Condition) -> FloatArray:
+    uav = context.view.body(condition.of[0])
+    if condition.arguments.aspect == 'commanded':
+        return context.view.commands(uav)[:, UavCommandColumn.Z]
+    return motion.altitude(context.view, uav)
+
+
+def _speed(context: Context, condition: Condition) -> FloatArray:
+    view, aspect = context.view, condition.arguments.aspect
+    body = view.body(condition.of[0])
+    if aspect == 'horizontal':
+        return motion.horizontal_speed(view, body)
+    if aspect == 'commanded':
+        return motion.commanded_speed(view, body)
+    if aspect == 'greatest':
+        each = np.stack([motion.speed(view, view.body(name)) for name in condition.of])
+        greatest: FloatArray = np.max(each, axis=0)
+        return greatest
+    return motion.speed(view, body)
+
+
+def _climb(context: Context, condition: Condition) -> FloatArray:
+    return motion.climb_rate(context.view, context.view.body(condition.of[0]))
+
+
+def _measure(context: Context, condition: Condition, series: _Series) -> Evaluation:
+    ticks = context.window(condition)
+    if isinstance(ticks, Missing):
+        return ticks
+    gone = None
+    if condition.arguments.aspect != 'greatest':
+        gone = context.gone(condition, ticks)
+    if gone is not None:
+        return gone
+    values = series(context, condition)
+    arguments = condition.arguments
+    if arguments.aspect == 'share':
+        inside = bound_error(values, arguments.wanted, arguments.bound)
+        return share_of(context, ticks, inside <= arguments.sample_tolerance, values)
+    return Measured(ticks=ticks, values=values[ticks], evidence=_topics(condition))
+
+
+def _topics(condition: Condition) -> tuple[str, ...]:
+    commanded = condition.arguments.aspect == 'commanded'
+    return tuple(f'{"uav/command" if commanded else "state"}[{name}]' for name in condition.of)
+
+
+def measure_distance(context: Context, condition: Condition) -> Evaluation:
+    """Samples of the 3-D distance; `closed_in`: how much it fell below the one at t = 0."""
+    if condition.arguments.aspect == 'closed_in':
+        ticks = context.window(condition)
+        if isinstance(ticks, Missing):
+            return ticks
+        values = _distance(context, condition)
+        both = context.view.present(condition.of[0]) & context.view.present(condition.of[1])
+        # Only the time before one of them is gone counts.
+        end = first_tick(~both)
+        if end == 0:
+            return Missing(reason=Reason.TARGET_GONE, story='not both are there at t = 0', tick=0)
+        nearest = int(np.argmin(values[:end]))
+        return at_tick(nearest, float(values[0] - values[nearest]), evidence=_topics(condition))
+    return _measure(context, condition, _distance)
+
+
+def measure_horizontal_distance(context: Context, condition: Condition) -> Evaluation:
+    """Samples of the distance in the plane; `centre`: from the centre of the pattern."""
+    return _measure(context, condition, _horizontal)
+
+
+def measure_altitude(context: Context, condition: Condition) -> Evaluation:
+    """Samples of the altitude; `commanded`: of the set-point."""
+    return _measure(context, condition, _altitude)
+
+
+def measure_climb_rate(context: Context, condition: Condition) -> Evaluation:
+    """Samples of the vertical speed, upwards positive."""
+    return _measure(context, condition, _climb)
+
+
+def measure_speed(context: Context, condition: Condition) -> Evaluation:
+    """Samples of the speed.
+
+    Aspects: `horizontal`, `commanded`, `greatest` (of several bodies), `after_moving` (from when
+    it first moved), `greatest_deceleration` (one number).
+    """
+    aspect = condition.arguments.aspect
+    if aspect not in ('after_moving', 'greatest_deceleration'):
+        return _measure(context, condition, _speed)
+    ticks = context.window(condition)
+    if isinstance(ticks, Missing):
+        return ticks
+    gone = context.gone(condition, ticks)
+    if gone is not None:
+        return gone
+    body = context.view.body(condition.of[0])
+    if aspect == 'greatest_deceleration':
+        loss = motion.deceleration(context.view, body)
+        hardest = int(np.argmax(loss))
+        return at_tick(hardest, float(loss[hardest]), evidence=_topics(condition))
+    values = motion.speed(context.view, body)
+    moved = first_tick(values >= condition.arguments.slow_mps)
+    if moved is None:
+        return Missing(reason=Reason.PREMISE_NEVER, story=f'{body.body_id} never moved')
+    later = ticks[ticks >= moved]
+    return Measured(ticks=later, values=values[later], evidence=_topics(condition))

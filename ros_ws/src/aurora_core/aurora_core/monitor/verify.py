@@ -1,0 +1,203 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Judge a recorded run: one signed margin per condition, from the trace and the world alone."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from aurora_core.conditions.condition import Condition
+from aurora_core.errors import VerificationError
+from aurora_core.knowledge.world import WorldModel
+from aurora_core.monitor.cross_check import cross_check
+from aurora_core.monitor.evaluation import Context, Measured, Missing
+from aurora_core.monitor.measure import measure
+from aurora_core.monitor.sentences import explain, explain_missing
+from aurora_core.monitor.verdict import ConditionResult, Finding, Reason, Verdict, VerdictStatus
+from aurora_core.quantities.view import RunView
+from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.stl.critical import critical_sample
+from aurora_core.stl.formula import Formula
+from aurora_core.stl.robustness import SampledSignals, robustness
+from aurora_core.stl.syntax import parse_formula
+from aurora_core.trace.trace import Integrity, Trace
+
+
+def verify(
+    trace: Trace, world: WorldModel, conditions: Sequence[Condition], spec: ScenarioSpec
+) -> Verdict:
+    """Recompute every margin.
+
+    Ticks without a complete set of states end what can be judged: only what is decided before
+    the first of them has a margin.
+
+    Args:
+        trace: The run.
+        world: The world it happened in.
+        conditions: What has to hold.
+        spec: The request (links and events).
+
+    Raises:
+        VerificationError: The conditions do not fit the trace: a body or an event is missing in
+            the roster or the specification, or the trace has no tick.
+    """
+    if trace.ticks == 0:
+        raise VerificationError('the trace has no tick', hint='the run ended before t = 0')
+    view = RunView(trace, world)
+    missing = view.first_missing_tick
+    notes: list[str] = []
+    if missing is not None:
+        notes.append(f'states or commands are missing from tick {missing} on')
+        view = view.up_to(missing)
+    if trace.integrity is not Integrity.INTACT:
+        notes.append(
+            f'the recording is {trace.integrity.value}: {trace.integrity_note}'.rstrip(': ')
+        )
+    context = Context(view, spec, tuple(conditions))
+    if missing == 0:
+        lost = Missing(reason=Reason.SAMPLES_MISSING, story='the first tick is missing')
+        results = tuple(_without_margin(condition, lost, context) for condition in conditions)
+        findings: tuple[Finding, ...] = ()
+    else:
+        results = tuple(judge(context, condition, cut=missing) for condition in conditions)
+        findings = cross_check(context)
+    return Verdict(
+        status=_status(trace.integrity, results, len(findings)),
+        results=results,
+        cross_check=findings,
+        integrity=trace.integrity,
+        notes=tuple(notes),
+    )
+
+
+def judge(context: Context, condition: Condition, *, cut: int | None = None) -> ConditionResult:
+    """Return the result of one condition.
+
+    Args:
+        context: The run.
+        condition: What has to hold.
+        cut: First missing tick, where the run was cut because of it.
+    """
+    measured = measure(context, condition)
+    if isinstance(measured, Measured):
+        formula = parse_formula(condition.formula)
+        signals = sampled(context, condition, measured)
+        margin = robustness(formula, signals).at(0)
+        if margin is not None:
+            return _with_margin(context, condition, measured, formula, signals, margin)
+        measured = _too_few(context, condition)
+    if cut is not None and measured.reason is Reason.TRACE_SHORT:
+        measured = Missing(
+            reason=Reason.SAMPLES_MISSING,
+            story=f'samples are missing from {context.time_s(cut):.2f} s on',
+            tick=cut,
+        )
+    return _without_margin(condition, measured, context)
+
+
+def sampled(context: Context, condition: Condition, measured: Measured) -> SampledSignals:
+    """Return the samples of a condition as STL signals.
+
+    A deadline may lie beyond the end of a run that was finished before it.
+    """
+    deadline_only = condition.by_s is not None and condition.hold_s is None
+    return SampledSignals(
+        values={condition.signal: measured.values},
+        dt_s=context.view.dt_s,
+        clip=deadline_only and context.complete(condition),
+    )
+
+
+def _too_few(context: Context, condition: Condition) -> Missing:
+    if not context.complete(condition):
+        return context.short(condition)
+    held_s = condition.hold_s if condition.hold_s is not None else 0.0
+    return Missing(reason=Reason.EMPTY_PHASE, story=f'there is no stretch of {held_s} s to judge')
+
+
+def _with_margin(
+    context: Context,
+    condition: Condition,
+    measured: Measured,
+    formula: Formula,
+    signals: SampledSignals,
+    margin: float,
+) -> ConditionResult:
+    sample = critical_sample(formula, signals).sample
+    tick = int(measured.ticks[sample])
+    if measured.worst_tick is not None:
+        tick = measured.worst_tick
+    tick = min(tick, context.view.ticks - 1)
+    return ConditionResult(
+        id=condition.id,
+        sentence=condition.sentence,
+        explanation=explain(
+            context, condition, measured, tick, float(measured.values[sample]), margin
+        ),
+        formula=condition.formula,
+        source_spans=condition.spans,
+        spec_ids=condition.spec_ids,
+        op=condition.op,
+        threshold=condition.threshold,
+        tolerance=condition.tolerance,
+        margin=margin,
+        unit=condition.unit,
+        normalised=margin / condition.scale,
+        satisfied=condition.satisfied(margin),
+        exercised=True,
+        worst_time_s=context.time_s(tick),
+        worst_place_m=_place(context, condition, measured, tick),
+        evidence=(*measured.evidence, _tick_range(measured)),
+        provenance=condition.provenance,
+        implied=condition.implied,
+    )
+
+
+def _tick_range(measured: Measured) -> str:
+    ticks = measured.plot[0] if measured.plot is not None else measured.ticks
+    first, last = int(ticks.min()), int(ticks.max())
+    return f'tick {first}' if first == last else f'ticks {first} to {last}'
+
+
+def _place(
+    context: Context, condition: Condition, measured: Measured, tick: int
+) -> tuple[float, float, float] | None:
+    name = measured.place_of
+    if name is None:
+        name = next((body for body in condition.of if context.view.has(body)), None)
+    if name is None or not context.view.has(name):
+        return None
+    x, y, z = context.view.reference(name)[tick].tolist()
+    return float(x), float(y), float(z)
+
+
+def _without_margin(condition: Condition, missing: Missing, context: Context) -> ConditionResult:
+    return ConditionResult(
+        id=condition.id,
+        sentence=condition.sentence,
+        explanation=explain_missing(condition, missing.reason, missing.story),
+        formula=condition.formula,
+        source_spans=condition.spans,
+        spec_ids=condition.spec_ids,
+        op=condition.op,
+        threshold=condition.threshold,
+        tolerance=condition.tolerance,
+        reason=missing.reason,
+        unit=condition.unit,
+        satisfied=False,
+        exercised=False,
+        worst_time_s=None if missing.tick is None else context.time_s(missing.tick),
+        provenance=condition.provenance,
+        implied=condition.implied,
+    )
+
+
+def _status(
+    integrity: Integrity, results: tuple[ConditionResult, ...], findings: int
+) -> VerdictStatus:
+    undecided = any(r.reason is not None and r.reason.undecided for r in results)
+    if integrity is not Integrity.INTACT or findings or undecided:
+        return VerdictStatus.INCONCLUSIVE
+    if all(result.satisfied for result in results):
+        return VerdictStatus.VERIFIED
+    return VerdictStatus.VIOLATED

@@ -1,0 +1,162 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Overlap of bodies, clearance from obstacles, separation of UAVs, no-fly zones."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+import numpy.typing as npt
+
+from aurora_core.geometry.box import box_gap_series
+from aurora_core.geometry.obstacles import point_box_distance
+from aurora_core.quantities.kernels import distance_2d
+from aurora_core.quantities.motion import distance
+from aurora_core.quantities.view import Body, RunView
+from aurora_core.trace.layout import GroundColumn
+
+FloatArray = npt.NDArray[np.float64]
+BoolArray = npt.NDArray[np.bool_]
+
+# Clearances beyond this are not told apart.
+CLEARANCE_CUTOFF_M = 50.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LeastSeries:
+    """The least of several signals at each sample, and which one it is.
+
+    Attributes:
+        values: (T,).
+        which: (T,) index into `names`, -1 where none applies.
+        names: What the index stands for.
+    """
+
+    values: FloatArray
+    which: npt.NDArray[np.intp]
+    names: tuple[str, ...]
+
+    def name_at(self, tick: int) -> str:
+        """Return the name of the least signal at a tick, empty when none applies."""
+        index = int(self.which[tick])
+        return self.names[index] if index >= 0 else ''
+
+
+class _Least:
+    """Collects the least of signals, the earlier one of equals."""
+
+    def __init__(self, ticks: int, ceiling: float) -> None:
+        self.values = np.full(ticks, ceiling)
+        self.which: npt.NDArray[np.intp] = np.full(ticks, -1, dtype=np.intp)
+        self.names: list[str] = []
+
+    def add(self, name: str, ticks: npt.NDArray[np.intp], values: FloatArray) -> None:
+        less = values < self.values[ticks]
+        if less.any():
+            self.values[ticks[less]] = values[less]
+            self.which[ticks[less]] = len(self.names)
+        self.names.append(name)
+
+    def result(self) -> LeastSeries:
+        return LeastSeries(values=self.values, which=self.which, names=tuple(self.names))
+
+
+def _reach(body: Body) -> float:
+    """Return a radius around the reference point that holds the whole box."""
+    return (body.entry.length_m + body.entry.width_m) / 2.0
+
+
+def body_gap(view: RunView) -> LeastSeries:
+    """Return the least gap of any two ground bodies, and of any UAV and ground body.
+
+    Two ground bodies: signed gap of their boxes in the plane, below 0 the depth of the overlap.
+    UAV and ground body: distance of the UAV's centre from the box in space less half the UAV's
+    greatest extent, below 0 when they overlap. At most CLEARANCE_CUTOFF_M.
+    """
+    least = _Least(view.ticks, CLEARANCE_CUTOFF_M)
+    for a, b in combinations(view.agents, 2):
+        ra, rb = view.rows(a), view.rows(b)
+        apart = distance_2d(
+            rb[:, GroundColumn.X] - ra[:, GroundColumn.X],
+            rb[:, GroundColumn.Y] - ra[:, GroundColumn.Y],
+        )
+        both = view.present(a.body_id) & view.present(b.body_id)
+        # Only where the boxes can be closer than the least so far is the exact gap needed.
+        k = np.flatnonzero(both & (apart - _reach(a) - _reach(b) < least.values))
+        gap = box_gap_series(
+            *_box(ra[k]),
+            a.entry.length_m,
+            a.entry.width_m,
+            *_box(rb[k]),
+            b.entry.length_m,
+            b.entry.width_m,
+        )
+        least.add(f'{a.body_id} and {b.body_id}', k, gap)
+    for uav in view.uavs:
+        half = max(uav.entry.length_m, uav.entry.width_m, uav.entry.height_m) / 2.0
+        for body in view.agents:
+            k, away = _to_box(view, uav, body, least.values + half)
+            least.add(f'{uav.body_id} and {body.body_id}', k, away - half)
+    return least.result()
+
+
+def _box(rows: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    return (
+        rows[:, GroundColumn.X],
+        rows[:, GroundColumn.Y],
+        rows[:, GroundColumn.HEADING_X],
+        rows[:, GroundColumn.HEADING_Y],
+    )
+
+
+def _to_box(
+    view: RunView, uav: Body, body: Body, below: FloatArray
+) -> tuple[npt.NDArray[np.intp], FloatArray]:
+    """Return ticks at which a UAV may be nearer to a body than `below`, and how near it is."""
+    rows = view.rows(body)
+    point = view.reference(uav.body_id)
+    apart = distance_2d(
+        point[:, 0] - rows[:, GroundColumn.X], point[:, 1] - rows[:, GroundColumn.Y]
+    )
+    k = np.flatnonzero(view.present(body.body_id) & (apart - _reach(body) < below))
+    if len(k) == 0:
+        return k, np.zeros(0)
+    away = point_box_distance(
+        point[k],
+        rows[k, GroundColumn.X : GroundColumn.Y + 1],
+        rows[k, GroundColumn.HEADING_X : GroundColumn.HEADING_Y + 1],
+        body.entry.length_m,
+        body.entry.width_m,
+        body.entry.height_m,
+    )
+    return k, away
+
+
+def obstacle_clearance(view: RunView, uav: Body) -> LeastSeries:
+    """Return the distance of a UAV's centre from the nearest building, vehicle or person.
+
+    Never from the ground. Metres, at most CLEARANCE_CUTOFF_M.
+    """
+    least = _Least(view.ticks, CLEARANCE_CUTOFF_M)
+    every = np.arange(view.ticks, dtype=np.intp)
+    point = view.reference(uav.body_id)
+    least.add(
+        'a building', every, view.geometry.obstacles.clearance_series(point, CLEARANCE_CUTOFF_M)
+    )
+    for body in view.agents:
+        k, away = _to_box(view, uav, body, least.values)
+        least.add(body.body_id, k, away)
+    return least.result()
+
+
+def separation(view: RunView, a: str, b: str) -> FloatArray:
+    """Return the 3-D distance of two UAVs, (T,) metres."""
+    return distance(view, a, b)
+
+
+def no_fly_distance(view: RunView, uav: Body) -> FloatArray:
+    """Return the signed distance from the nearest no-fly zone, negative inside, (T,) metres."""
+    point = view.reference(uav.body_id)
+    return view.geometry.zones.distance_series(point, CLEARANCE_CUTOFF_M)

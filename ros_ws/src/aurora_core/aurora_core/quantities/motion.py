@@ -1,0 +1,117 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Distance, altitude, speed and what follows from them, over a whole run.
+
+Each function returns a series (T,); samples at which a body is absent hold its last values, see
+`RunView.present`.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from aurora_core.quantities.kernels import distance_2d, distance_3d
+from aurora_core.quantities.view import Body, RunView
+from aurora_core.trace.layout import GroundColumn, UavColumn, UavCommandColumn, UavMode
+
+FloatArray = npt.NDArray[np.float64]
+BoolArray = npt.NDArray[np.bool_]
+
+
+def distance(view: RunView, a: str, b: str) -> FloatArray:
+    """Return the 3-D distance of two reference points in metres."""
+    delta = view.reference(a) - view.reference(b)
+    return distance_3d(delta[:, 0], delta[:, 1], delta[:, 2])
+
+
+def horizontal_distance(view: RunView, a: str, b: str) -> FloatArray:
+    """Return the distance of two reference points in the plane, metres."""
+    delta = view.reference(a) - view.reference(b)
+    return distance_2d(delta[:, 0], delta[:, 1])
+
+
+def altitude(view: RunView, body: Body) -> FloatArray:
+    """Return the height of the reference point above ground, metres."""
+    return view.reference(body.body_id)[:, 2]
+
+
+def speed(view: RunView, body: Body) -> FloatArray:
+    """Return the speed in m/s: along the heading, for a UAV in space."""
+    rows = view.rows(body)
+    if body.is_uav:
+        return distance_3d(rows[:, UavColumn.VX], rows[:, UavColumn.VY], rows[:, UavColumn.VZ])
+    return rows[:, GroundColumn.SPEED]
+
+
+def horizontal_speed(view: RunView, uav: Body) -> FloatArray:
+    """Return the speed of a UAV over ground in m/s."""
+    rows = view.rows(uav)
+    return distance_2d(rows[:, UavColumn.VX], rows[:, UavColumn.VY])
+
+
+def commanded_speed(view: RunView, uav: Body) -> FloatArray:
+    """Return the commanded horizontal speed in m/s, 0 where no velocity is commanded."""
+    rows = view.commands(uav)
+    offboard = rows[:, UavCommandColumn.MODE] == UavMode.OFFBOARD
+    wanted = distance_2d(rows[:, UavCommandColumn.VX], rows[:, UavCommandColumn.VY])
+    return np.where(offboard, wanted, 0.0)
+
+
+def climb_rate(view: RunView, uav: Body) -> FloatArray:
+    """Return the vertical speed in m/s, upwards positive."""
+    return view.rows(uav)[:, UavColumn.VZ]
+
+
+def airborne(view: RunView, uav: Body, touchdown_m: float) -> BoolArray:
+    """Return where a UAV flies: not reported landed, or higher than at rest."""
+    rows = view.rows(uav)
+    in_air: BoolArray = (rows[:, UavColumn.LANDED] < 0.5) | (rows[:, UavColumn.Z] > touchdown_m)
+    return in_air
+
+
+def on_ground(view: RunView, uav: Body, touchdown_m: float) -> BoolArray:
+    """Return where a UAV is reported landed and is as low as at rest."""
+    return ~airborne(view, uav, touchdown_m)
+
+
+def deceleration(view: RunView, body: Body) -> FloatArray:
+    """Return the loss of speed per second up to each tick, m/s^2; 0 at tick 0."""
+    values = speed(view, body)
+    result = np.zeros(view.ticks)
+    result[1:] = (values[:-1] - values[1:]) / view.dt_s
+    return result
+
+
+def jump_speed(view: RunView, body: Body) -> FloatArray:
+    """Return displacement per second up to each tick, m/s; 0 at tick 0 and while absent."""
+    point = view.reference(body.body_id)
+    delta = point[1:] - point[:-1]
+    moved = distance_3d(delta[:, 0], delta[:, 1], delta[:, 2]) / view.dt_s
+    present = view.present(body.body_id)
+    result = np.zeros(view.ticks)
+    result[1:] = np.where(present[1:] & present[:-1], moved, 0.0)
+    return result
+
+
+def travelled(view: RunView, body: Body) -> FloatArray:
+    """Return the way covered since tick 0 in metres (running sum, one sample after the other)."""
+    point = view.reference(body.body_id)
+    delta = point[1:] - point[:-1]
+    steps = distance_3d(delta[:, 0], delta[:, 1], delta[:, 2])
+    present = view.present(body.body_id)
+    result = np.zeros(view.ticks)
+    result[1:] = np.add.accumulate(np.where(present[1:] & present[:-1], steps, 0.0))
+    return result
+
+
+def closing_start_tick(view: RunView, body: Body, still_mps: float) -> int | None:
+    """Return the last tick at which a body stood before it first moved.
+
+    A body that moves at tick 0 has been closing from tick 0 on; one that never moves has no
+    start (None).
+    """
+    moving = np.flatnonzero(speed(view, body) > still_mps)
+    if len(moving) == 0:
+        return None
+    return max(int(moving[0]) - 1, 0)

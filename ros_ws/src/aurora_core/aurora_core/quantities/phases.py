@@ -1,0 +1,180 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Phases of a flight, from recorded commands and states.
+
+Commands say when a phase is left (PHASE column: ascent, mission k, landing); states say when the
+ascent has ended, when the mission has captured, when the UAV is down. A phase ends at the tick of
+the first command of the next one; sample k was flown under command k, so the samples of a phase
+are those from capture up to before that tick.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from aurora_core.quantities.kernels import TrackRule, distance_2d, track_errors
+from aurora_core.quantities.motion import on_ground
+from aurora_core.quantities.ticks import first_tick
+from aurora_core.quantities.view import Body, RunView
+from aurora_core.trace.layout import UavColumn, UavCommandColumn, UavPhase
+
+BoolArray = npt.NDArray[np.bool_]
+FloatArray = npt.NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CaptureRule:
+    """When a mission has captured: tolerance on altitude, and on a point or a tracked target.
+
+    Attributes:
+        altitude_m: Wanted altitude above ground.
+        altitude_tolerance_m: Tolerance on it.
+        horizontal_tolerance_m: Tolerance on the distance from `point_m` (not used by `track`).
+        point_m: Hover: the hover point; navigate: the first waypoint.
+        track: Track: the tracking tolerance; then `target` is set.
+        target: Body that is tracked.
+    """
+
+    altitude_m: float
+    altitude_tolerance_m: float
+    horizontal_tolerance_m: float = 0.0
+    point_m: tuple[float, float] | None = None
+    track: TrackRule | None = None
+    target: str | None = None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FlightPhases:
+    """Ticks at which the flight of one UAV changes; None where it never did.
+
+    Attributes:
+        takeoff_tick: First command of the ascent.
+        ascent_end_tick: First sample inside the altitude tolerance of the first mission.
+        landing_tick: First command of the landing phase.
+        landed_tick: First sample on the ground after it.
+    """
+
+    takeoff_tick: int | None
+    ascent_end_tick: int | None
+    landing_tick: int | None
+    landed_tick: int | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MissionPhase:
+    """One mission of a UAV.
+
+    Attributes:
+        command_tick: First command of the mission.
+        ready_tick: From when on it can capture: end of the ascent, or `command_tick` of a later
+            mission.
+        capture_tick: First sample inside the phase's tolerance.
+        end_tick: First command of the next phase; None while the mission lasts.
+        stop_tick: `end_tick`, or the end of the trace.
+    """
+
+    command_tick: int | None
+    ready_tick: int | None
+    capture_tick: int | None
+    end_tick: int | None
+    stop_tick: int
+
+
+def flight_phases(
+    view: RunView, uav: Body, first_altitude_m: float, tolerance_m: float, touchdown_m: float
+) -> FlightPhases:
+    """Return the phases of a flight.
+
+    Args:
+        view: The run.
+        uav: Which UAV.
+        first_altitude_m: Altitude of its first mission.
+        tolerance_m: Tolerance on it that ends the ascent.
+        touchdown_m: Height below which a UAV that reports landed is down.
+    """
+    phase = view.commands(uav)[:, UavCommandColumn.PHASE]
+    takeoff = first_tick(phase == UavPhase.ASCENT)
+    ascent_end = None
+    if takeoff is not None:
+        z = view.rows(uav)[:, UavColumn.Z]
+        ascent_end = first_tick(np.abs(z - first_altitude_m) <= tolerance_m, takeoff)
+    landing = first_tick(phase == UavPhase.LANDING)
+    landed = None
+    if landing is not None:
+        landed = first_tick(on_ground(view, uav, touchdown_m), landing)
+    return FlightPhases(
+        takeoff_tick=takeoff,
+        ascent_end_tick=ascent_end,
+        landing_tick=landing,
+        landed_tick=landed,
+    )
+
+
+def mission_phase(
+    view: RunView, uav: Body, index: int, flight: FlightPhases, rule: CaptureRule
+) -> MissionPhase:
+    """Return the phase of the `index`-th mission of a UAV (from 0)."""
+    phase = view.commands(uav)[:, UavCommandColumn.PHASE]
+    wanted = UavPhase.MISSION + index
+    command = first_tick(phase == wanted)
+    end = None if command is None else first_tick(phase != wanted, command)
+    stop = view.ticks if end is None else end
+    ready = flight.ascent_end_tick if index == 0 else command
+    capture = None
+    if command is not None and ready is not None:
+        capture = first_tick(captured(view, uav, rule), ready, stop)
+    return MissionPhase(
+        command_tick=command,
+        ready_tick=ready,
+        capture_tick=capture,
+        end_tick=end,
+        stop_tick=stop,
+    )
+
+
+def captured(view: RunView, uav: Body, rule: CaptureRule) -> BoolArray:
+    """Return where a UAV is inside the tolerance of its mission."""
+    point = view.reference(uav.body_id)
+    if rule.track is not None and rule.target is not None:
+        horizontal, vertical = tracking_errors(view, uav, rule.target, rule.track)
+        ok = (horizontal <= rule.track.horizontal_m) & (vertical <= rule.track.vertical_m)
+        ok &= view.present(rule.target)
+    else:
+        x, y = rule.point_m if rule.point_m is not None else (0.0, 0.0)
+        off = distance_2d(point[:, 0] - x, point[:, 1] - y)
+        ok = off <= rule.horizontal_tolerance_m
+    inside: BoolArray = ok & (np.abs(point[:, 2] - rule.altitude_m) <= rule.altitude_tolerance_m)
+    return inside
+
+
+def tracking_errors(
+    view: RunView, uav: Body, target: str, rule: TrackRule
+) -> tuple[FloatArray, FloatArray]:
+    """Return horizontal and altitude error of a tracking UAV, (T,) metres each."""
+    point = view.reference(uav.body_id)
+    away = point - view.reference(target)
+    return track_errors(rule, away[:, 0], away[:, 1], point[:, 2])
+
+
+def tracked(view: RunView, uav: Body, target: str, rule: TrackRule) -> BoolArray:
+    """Return where a UAV tracks its target (never while the target is absent)."""
+    horizontal, vertical = tracking_errors(view, uav, target, rule)
+    ok = (horizontal <= rule.horizontal_m) & (vertical <= rule.vertical_m)
+    result: BoolArray = ok & view.present(target)
+    return result
+
+
+def missions_end_tick(view: RunView) -> int:
+    """Return the tick at which the last mission of all UAVs ends, the trace's end while one lasts.
+
+    Without UAVs that is the end of the trace.
+    """
+    ends = []
+    for uav in view.uavs:
+        phase = view.commands(uav)[:, UavCommandColumn.PHASE]
+        landing = first_tick(phase == UavPhase.LANDING)
+        ends.append(view.ticks if landing is None else landing)
+    return max(ends, default=view.ticks)

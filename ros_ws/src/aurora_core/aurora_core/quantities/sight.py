@@ -1,0 +1,180 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Visible: in range, and the straight line crosses no building and no other vehicle.
+
+The camera is gimballed; there is no field of view. One function serves a whole run and a single
+tick (a series of one), so both give the same bits.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from aurora_core.geometry.sight import SIGHT_CLEAR_M, box_sight_series
+from aurora_core.quantities.kernels import distance_3d
+from aurora_core.quantities.view import RunView
+from aurora_core.quantities.world_geometry import WorldGeometry
+from aurora_core.trace.layout import GroundColumn
+from aurora_core.trace.roster import RosterEntry
+
+FloatArray = npt.NDArray[np.float64]
+BoolArray = npt.NDArray[np.bool_]
+
+# A line that stays this much farther from a box's centre than its corners cannot meet it.
+_MISS_M = 1.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SightSeries:
+    """Sight of one target over T samples.
+
+    Attributes:
+        slant_range_m: (T,) from the observer to the sight point.
+        clearance_m: (T,) height by which the line clears what is in its way, above 0 = free.
+        margin_m: (T,) the lesser of the clearance and what is left of the range.
+        visible: (T,).
+    """
+
+    slant_range_m: FloatArray
+    clearance_m: FloatArray
+    margin_m: FloatArray
+    visible: BoolArray
+
+
+def vehicle_clearance(
+    observer: FloatArray,
+    target: FloatArray,
+    ground: FloatArray,
+    entries: Sequence[RosterEntry],
+    exclude: frozenset[int],
+) -> FloatArray:
+    """Return the margin of lines over all vehicles that are present.
+
+    Args:
+        observer: (T, 3) ENU metres.
+        target: (T, 3) ENU metres.
+        ground: (T, N, GROUND_WIDTH) states.
+        entries: N roster entries.
+        exclude: Rows that do not occlude (the target itself, the sender of a message).
+
+    Returns:
+        (T,) metres, at most SIGHT_CLEAR_M.
+    """
+    out = np.full(len(observer), SIGHT_CLEAR_M)
+    start, step = observer[:, :2], target[:, :2] - observer[:, :2]
+    square = step[:, 0] * step[:, 0] + step[:, 1] * step[:, 1]
+    safe = np.where(square > 0.0, square, 1.0)
+    for row, entry in enumerate(entries):
+        if entry.is_person or row in exclude:
+            continue
+        states = ground[:, row, :]
+        centre = states[:, GroundColumn.X : GroundColumn.Y + 1]
+        to = centre - start
+        along = (to[:, 0] * step[:, 0] + to[:, 1] * step[:, 1]) / safe
+        along = np.minimum(np.maximum(along, 0.0), 1.0)
+        rest = to - along[:, None] * step
+        reach = (entry.length_m + entry.width_m) / 2.0 + _MISS_M
+        near = rest[:, 0] * rest[:, 0] + rest[:, 1] * rest[:, 1] <= reach * reach
+        near &= states[:, GroundColumn.PRESENT] > 0.5
+        k = np.flatnonzero(near)
+        if len(k) == 0:
+            continue
+        margin = box_sight_series(
+            observer[k],
+            target[k],
+            centre[k],
+            states[k][:, GroundColumn.HEADING_X : GroundColumn.HEADING_Y + 1],
+            entry.length_m,
+            entry.width_m,
+            entry.height_m,
+        )
+        out[k] = np.minimum(out[k], margin)
+    return out
+
+
+def sight_of(
+    geometry: WorldGeometry,
+    observer: FloatArray,
+    target: FloatArray,
+    ground: FloatArray,
+    entries: Sequence[RosterEntry],
+    exclude: frozenset[int],
+    present: BoolArray,
+) -> SightSeries:
+    """Return the sight of a target; arguments as in `vehicle_clearance`.
+
+    Args:
+        geometry: Solids and sensing range of the world.
+        observer: (T, 3) UAV centres.
+        target: (T, 3) sight points.
+        ground: (T, N, GROUND_WIDTH) states.
+        entries: N roster entries.
+        exclude: Rows that do not occlude.
+        present: (T,) where the target exists; elsewhere it is not visible.
+    """
+    delta = target - observer
+    slant = distance_3d(delta[:, 0], delta[:, 1], delta[:, 2])
+    clearance = np.minimum(
+        geometry.sight.clearance_series(observer, target),
+        vehicle_clearance(observer, target, ground, entries, exclude),
+    )
+    left = geometry.world.sensing_range_m - slant
+    return SightSeries(
+        slant_range_m=slant,
+        clearance_m=clearance,
+        margin_m=np.minimum(clearance, left),
+        visible=present & (left >= 0.0) & (clearance > 0.0),
+    )
+
+
+def sight_series(view: RunView, observer: str, target: str) -> SightSeries:
+    """Return the sight of a body or place from a UAV over the whole run."""
+    exclude = frozenset(
+        view.body(name).row
+        for name in (observer, target)
+        if view.has(name) and not view.body(name).is_uav
+    )
+    return sight_of(
+        view.geometry,
+        view.sight_point(observer),
+        view.sight_point(target),
+        view.trace.ground,
+        view.trace.roster.agents,
+        exclude,
+        view.present(target),
+    )
+
+
+def radio_sight_series(view: RunView, a: str, b: str) -> BoolArray:
+    """Return where two radios have line of sight: no building, no third vehicle between."""
+    exclude = frozenset(
+        view.body(name).row for name in (a, b) if view.has(name) and not view.body(name).is_uav
+    )
+    return radio_sight_of(
+        view.geometry,
+        view.sight_point(a),
+        view.sight_point(b),
+        view.trace.ground,
+        view.trace.roster.agents,
+        exclude,
+    )
+
+
+def radio_sight_of(
+    geometry: WorldGeometry,
+    a: FloatArray,
+    b: FloatArray,
+    ground: FloatArray,
+    entries: Sequence[RosterEntry],
+    exclude: frozenset[int],
+) -> BoolArray:
+    """Return (T,) where the line between two sight points is free; see `vehicle_clearance`."""
+    clear = np.minimum(
+        geometry.sight.clearance_series(a, b), vehicle_clearance(a, b, ground, entries, exclude)
+    )
+    free: BoolArray = clear > 0.0
+    return free

@@ -1,0 +1,35 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Durations in whole ticks and searches in time."""
+
+from __future__ import annotations
+
+from math import ceil
+
+import numpy as np
+import numpy.typing as npt
+
+FloatArray = npt.NDArray[np.float64]
+BoolArray = npt.NDArray[np.bool_]
+
+# A duration this close to a whole number of ticks is that number: 0.15 / 0.05 is above 3.
+TICK_GUARD = 1e-9
+
+
+def whole_ticks(duration_s: float, dt_s: float) -> int:
+    """Return the least number of ticks that lasts `duration_s`."""
+    return ceil(duration_s / dt_s - TICK_GUARD)
+
+
+def first_tick(mask: BoolArray, start: int = 0, stop: int | None = None) -> int | None:
+    """Return the first tick in [start, stop) at which the mask is true, None if there is none."""
+    part = mask[start:stop]
+    index = int(np.argmax(part)) if len(part) else 0
+    return start + index if len(part) and bool(part[index]) else None
+
+
+def last_tick(mask: BoolArray, start: int = 0, stop: int | None = None) -> int | None:
+    """Return the last tick in [start, stop) at which the mask is true, None if there is none."""
+    part = mask[start:stop][::-1]
+    index = int(np.argmax(part)) if len(part) else 0
+    return start + len(part) - 1 - index if len(part) and bool(part[index]) else None

@@ -1,0 +1,208 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""When events are triggered and carried out, recomputed from states and ledger.
+
+A trigger fires at the first tick at which its predicate holds. "Falls below", "loses sight" and
+"gets farther than" ask for a change: their predicate must have been false before. Sight triggers
+count from the end of the observer's ascent on.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+import numpy.typing as npt
+
+from aurora_core.quantities import motion
+from aurora_core.quantities.ledger import LinkModel, messages
+from aurora_core.quantities.phases import FlightPhases
+from aurora_core.quantities.sight import sight_series
+from aurora_core.quantities.ticks import first_tick, whole_ticks
+from aurora_core.quantities.view import RunView
+from aurora_core.spec.scenario import (
+    AgentAction,
+    AltitudeTrigger,
+    ArrivalTrigger,
+    DistanceTrigger,
+    Event,
+    EventDoneTrigger,
+    MessageTrigger,
+    MissionDoneTrigger,
+    ScenarioSpec,
+    SendMessage,
+    SpeedTrigger,
+    TimeTrigger,
+    VisibilityTrigger,
+)
+
+BoolArray = npt.NDArray[np.bool_]
+
+# Triggers that ask for a change: the predicate must have been false at an earlier tick.
+NEEDS_CHANGE = frozenset({'distance_above', 'speed_below', 'occluded'})
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EventRules:
+    """What the moments of events are measured with.
+
+    Attributes:
+        brake_mps2: Loss of speed that counts as braking.
+        arrival_m: Distance from a place at which an agent is there.
+        onset_mps2: Change of speed with which slowing down or speeding up begins.
+        flights: Phases of each UAV's flight.
+        links: Links of the specification.
+    """
+
+    brake_mps2: float
+    onset_mps2: float
+    arrival_m: float
+    flights: dict[str, FlightPhases]
+    links: tuple[LinkModel, ...]
+
+
+@dataclass(slots=True)
+class EventTimes:
+    """Recomputed ticks of the events of a run.
+
+    Args:
+        view: The run.
+        spec: Its specification.
+        rules: What the moments are measured with.
+    """
+
+    view: RunView
+    spec: ScenarioSpec
+    rules: EventRules
+    _open: set[str] = field(default_factory=set)
+
+    def event(self, event_id: str) -> Event | None:
+        """Return an event of the specification."""
+        return next((event for event in self.spec.events if event.id == event_id), None)
+
+    def trigger_tick(self, event_id: str) -> int | None:
+        """Return the first tick at which the trigger of an event holds, None if it never does."""
+        event = self.event(event_id)
+        if event is None or event.trigger is None or event_id in self._open:
+            return None
+        self._open.add(event_id)
+        try:
+            return self._first(event)
+        finally:
+            self._open.discard(event_id)
+
+    def action_tick(self, event_id: str, start: int = 0) -> int | None:
+        """Return the first tick from `start` on at which the action of an event shows."""
+        event = self.event(event_id)
+        if event is None or event.action is None:
+            return None
+        if isinstance(event.action, SendMessage):
+            sent = [
+                message.sent_tick
+                for message in messages(self.view, self.rules.links)
+                if message.event == event_id and message.sent_tick >= start
+            ]
+            return min(sent, default=None)
+        if isinstance(event.action, AgentAction):
+            return self._agent_action(event.action, start)
+        flight = self.rules.flights.get(event.action.uav)
+        if flight is None or event.action.do == 'change_mission':
+            return None
+        tick = flight.landing_tick if event.action.do == 'land' else flight.takeoff_tick
+        return tick if tick is not None and tick >= start else None
+
+    def _agent_action(self, action: AgentAction, start: int) -> int | None:
+        body = self.view.body(action.agent)
+        if action.do in ('brake', 'stop', 'slow'):
+            loss = motion.deceleration(self.view, body)
+            least = self.rules.brake_mps2 if action.do == 'brake' else self.rules.onset_mps2
+            return first_tick(loss >= least, start)
+        if action.do in ('start', 'accelerate'):
+            gain = -motion.deceleration(self.view, body)
+            return first_tick(gain >= self.rules.onset_mps2, start)
+        return None
+
+    def _first(self, event: Event) -> int | None:
+        trigger = event.trigger
+        view = self.view
+        match trigger:
+            case EventDoneTrigger():
+                done = self.action_tick(trigger.event, self.trigger_tick(trigger.event) or 0)
+                if done is None:
+                    return None
+                after_s = trigger.after_s.value if trigger.after_s is not None else 0.0
+                tick = done + whole_ticks(after_s, view.dt_s)
+                return tick if tick < view.ticks else None
+            case MissionDoneTrigger():
+                flight = self.rules.flights.get(trigger.uav)
+                return None if flight is None else flight.landing_tick
+            case MessageTrigger():
+                received = [
+                    message.delivered_tick
+                    for message in messages(view, self.rules.links)
+                    if message.receiver == trigger.by
+                    and trigger.sender in (None, message.sender)
+                    and message.delivered_tick is not None
+                    and message.delivered_tick < view.ticks
+                ]
+                return min(received, default=None)
+            case None:
+                return None
+            case _:
+                mask = trigger_series(view, trigger, self.rules)
+                if mask is None:
+                    return None
+                start = 0
+                if trigger.on in NEEDS_CHANGE:
+                    before = first_tick(~mask)
+                    if before is None:
+                        return None
+                    start = before
+                return first_tick(mask, start)
+
+
+def trigger_series(
+    view: RunView,
+    trigger: DistanceTrigger
+    | TimeTrigger
+    | AltitudeTrigger
+    | VisibilityTrigger
+    | SpeedTrigger
+    | ArrivalTrigger,
+    rules: EventRules,
+) -> BoolArray | None:
+    """Return where the predicate of a state trigger holds, (T,); None for an unknown place."""
+    match trigger:
+        case DistanceTrigger():
+            apart = motion.distance(view, trigger.a, trigger.b)
+            near = trigger.on == 'distance_below'
+            mask = apart <= trigger.value_m.value if near else apart >= trigger.value_m.value
+            return mask & view.present(trigger.a) & view.present(trigger.b)
+        case TimeTrigger():
+            first = whole_ticks(trigger.at_s.value, view.dt_s)
+            return np.arange(view.ticks) >= first
+        case AltitudeTrigger():
+            return motion.altitude(view, view.body(trigger.uav)) >= trigger.value_m.value
+        case VisibilityTrigger():
+            sight = sight_series(view, trigger.observer, trigger.target).visible
+            mask = sight if trigger.on == 'visible' else ~sight
+            flight = rules.flights.get(trigger.observer)
+            ready = None if flight is None else flight.ascent_end_tick
+            if ready is None:
+                return np.zeros(view.ticks, dtype=np.bool_)
+            counted = np.arange(view.ticks) >= ready
+            # Before the ascent has ended neither "visible" nor "occluded" can have been seen.
+            return mask & counted
+        case SpeedTrigger():
+            body = view.body(trigger.who)
+            values = motion.speed(view, body)
+            below = trigger.on == 'speed_below'
+            mask = (
+                values <= trigger.value_mps.value if below else values >= trigger.value_mps.value
+            )
+            return mask & view.present(trigger.who)
+        case ArrivalTrigger():
+            if view.geometry.place_point(trigger.place) is None:
+                return None
+            apart = motion.distance(view, trigger.who, trigger.place)
+            return (apart <= rules.arrival_m) & view.present(trigger.who)

@@ -1,0 +1,96 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The solids of a world in the form that the signals need, built once per world."""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+
+from aurora_core.geometry.no_fly import ZoneField
+from aurora_core.geometry.obstacles import ObstacleField
+from aurora_core.geometry.polygon import Polygon, PolygonSet
+from aurora_core.geometry.prism import Prism
+from aurora_core.geometry.sight import SightModel
+from aurora_core.knowledge.world import SurfaceKind, WorldModel
+
+FloatArray = npt.NDArray[np.float64]
+
+
+class WorldGeometry:
+    """Sight, obstacles, zones and ground of one world; shared by executor and monitor.
+
+    Args:
+        world: The measured world.
+    """
+
+    def __init__(self, world: WorldModel) -> None:
+        self.world = world
+
+    @cached_property
+    def _buildings(self) -> tuple[Prism, ...]:
+        return tuple(
+            Prism(
+                building.id,
+                np.asarray(building.ring, dtype=np.float64),
+                tuple(np.asarray(hole, dtype=np.float64) for hole in building.holes),
+                0.0,
+                building.height_m,
+            )
+            for building in self.world.buildings
+        )
+
+    @cached_property
+    def sight(self) -> SightModel:
+        """Buildings as occluders."""
+        return SightModel(self._buildings)
+
+    @cached_property
+    def obstacles(self) -> ObstacleField:
+        """Buildings as obstacles."""
+        return ObstacleField(self._buildings)
+
+    @cached_property
+    def zones(self) -> ZoneField:
+        """No-fly zones."""
+        return ZoneField(
+            Prism(
+                zone.id,
+                np.asarray(zone.ring, dtype=np.float64),
+                (),
+                zone.floor_m,
+                zone.ceiling_m,
+            )
+            for zone in self.world.no_fly_zones
+        )
+
+    def surfaces(self, kind: SurfaceKind) -> PolygonSet:
+        """Ground of one kind."""
+        return self._surfaces[kind]
+
+    @cached_property
+    def _surfaces(self) -> dict[SurfaceKind, PolygonSet]:
+        return {
+            kind: PolygonSet(
+                Polygon(
+                    np.asarray(surface.ring, dtype=np.float64),
+                    tuple(np.asarray(hole, dtype=np.float64) for hole in surface.holes),
+                )
+                for surface in self.world.surfaces
+                if surface.kind is kind
+            )
+            for kind in SurfaceKind
+        }
+
+    def place_point(self, place: str) -> tuple[float, float] | None:
+        """Return the position of a place of this world, None when it has none of that name.
+
+        Args:
+            place: `landmark:<name>`, or a kind of place as the scenario was grounded.
+        """
+        for known in self.world.places:
+            if known.name == place:
+                return known.x_m, known.y_m
+        return None
