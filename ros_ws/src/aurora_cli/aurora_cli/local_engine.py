@@ -1,0 +1,61 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The local engine: every stage as a plain function call in this process."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from aurora_core.agsg.graph import Agsg
+from aurora_core.feasibility.verdict import FeasibilityVerdict
+from aurora_core.grounding.outcome import GroundingOutcome
+from aurora_core.monitor.verdict import Verdict
+from aurora_core.parsing.outcome import ParseOutcome
+from aurora_core.pipeline import functions
+from aurora_core.pipeline.stages import ExecutionResult, RunControl, RunRequest
+from aurora_core.trace.definitions import message_definitions
+
+
+class LocalStages:
+    """`Stages` in one process: the clients of the bridges, the simulator's bytes in memory."""
+
+    def parse(self, request: RunRequest) -> ParseOutcome:
+        """Read the prompt."""
+        return functions.parse_stage(request.prompt, request.map_name, request.seed)
+
+    def ground(self, agsg: Agsg, request: RunRequest) -> GroundingOutcome:
+        """Ground the graph."""
+        return functions.ground_stage(agsg, request.seed)
+
+    def check(self, agsg: Agsg, request: RunRequest) -> FeasibilityVerdict:
+        """Judge feasibility."""
+        return functions.check_stage(agsg)
+
+    def execute(
+        self, agsg: Agsg, bag_directory: Path, request: RunRequest, control: RunControl
+    ) -> ExecutionResult:
+        """Run in lockstep and record."""
+        # Imported here: `aurora check` and `aurora verify` need no simulator.
+        from aurora_cli.local_run import run_lockstep
+        from aurora_sumo_bridge.sumo_client import SumoClient
+        from aurora_uav_bridge.mavlink_client import MavlinkClient
+        from aurora_uav_bridge.transports import LoopbackTransport
+        from aurora_uav_sim.mavlink_server import SimServer
+
+        execution = functions.execution_stage(agsg, request.seed, request.faults)
+        system_ids = tuple(entry.system_id for entry in execution.roster.uavs)
+        air = MavlinkClient(LoopbackTransport(SimServer(system_ids or (1,))))
+        return run_lockstep(
+            run_id=bag_directory.parent.name,
+            agsg=agsg,
+            execution=execution,
+            ground=SumoClient(),
+            air=air,
+            bag_directory=bag_directory,
+            definitions=message_definitions(),
+            control=control,
+        )
+
+    def verify(self, agsg: Agsg, bag: Path) -> Verdict:
+        """Recompute every margin from the bag."""
+        return functions.verify_stage(bag)

@@ -1,0 +1,139 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The stages as plain functions: called by the local engine, and by each ROS node for its own."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from pathlib import Path
+
+from aurora_core.agsg.build import build_agsg, derived
+from aurora_core.agsg.graph import Agsg, Stage
+from aurora_core.agsg.message import read_agsg
+from aurora_core.conditions.condition import conditions_from_json, conditions_to_json
+from aurora_core.conditions.derive import derive_conditions
+from aurora_core.errors import VerificationError
+from aurora_core.execution.faults import Fault
+from aurora_core.execution.plan import Execution, build_execution, unsupported
+from aurora_core.feasibility.check import check_limits
+from aurora_core.feasibility.verdict import FeasibilityVerdict
+from aurora_core.grounding.ground import Grounder
+from aurora_core.grounding.outcome import GroundingFailure, GroundingOutcome
+from aurora_core.knowledge.agent_types import load_agent_types
+from aurora_core.knowledge.config_files import config_path
+from aurora_core.knowledge.limits import Limits, Tolerances, load_limits, load_tolerances
+from aurora_core.knowledge.map_model import MapModel, load_map
+from aurora_core.knowledge.settings import Settings, load_settings
+from aurora_core.monitor.verdict import Verdict
+from aurora_core.monitor.verify import verify
+from aurora_core.parsing.outcome import ParseContext, ParseOutcome
+from aurora_core.parsing.parser import parse_offline
+from aurora_core.temporal.schedule import plan_time
+from aurora_core.trace.bag_reader import BagContent, read_bag
+from aurora_core.trace.definitions import message_definitions
+
+
+class Knowledge:
+    """Maps, limits, tolerances and settings, loaded once per process."""
+
+    def __init__(self) -> None:
+        self.limits: Limits = load_limits(config_path('limits.json'))
+        self.tolerances: Tolerances = load_tolerances(config_path('tolerances.json'))
+        self.settings: Settings = load_settings()
+        self.types = load_agent_types()
+        self._maps: dict[str, MapModel] = {}
+        self._grounders: dict[str, Grounder] = {}
+
+    def map(self, name: str) -> MapModel:
+        """Return a map by name (verified against its digest when first loaded)."""
+        if name not in self._maps:
+            self._maps[name] = load_map(name)
+        return self._maps[name]
+
+    def grounder(self, name: str) -> Grounder:
+        """Return the grounder of a map."""
+        if name not in self._grounders:
+            self._grounders[name] = Grounder(
+                self.map(name), self.types, self.limits, self.tolerances, self.settings
+            )
+        return self._grounders[name]
+
+
+@lru_cache(maxsize=1)
+def knowledge() -> Knowledge:
+    """Return the knowledge of this process."""
+    return Knowledge()
+
+
+def parse_stage(prompt: str, map_name: str, seed: int) -> ParseOutcome:
+    """Read a prompt against a map."""
+    marks = tuple(mark.name for mark in knowledge().map(map_name).landmarks)
+    context = ParseContext(map_name=map_name, landmark_names=marks, seed=seed)
+    return parse_offline(prompt, context)
+
+
+def check_stage(agsg: Agsg) -> FeasibilityVerdict:
+    """Judge feasibility of a specification against the limits."""
+    return check_limits(agsg.spec, knowledge().limits)
+
+
+def ground_stage(agsg: Agsg, seed: int) -> GroundingOutcome:
+    """Ground a graph: places, routes, schedule, conditions."""
+    known = knowledge()
+    spec = agsg.spec
+    grounded = known.grounder(spec.world.map_name).ground(spec, seed)
+    if isinstance(grounded, GroundingFailure):
+        return GroundingOutcome(failure=grounded)
+    schedule = plan_time(spec, grounded, known.limits)
+    derivation = derive_conditions(spec, schedule.facts, known.limits, known.tolerances)
+    graph = build_agsg(
+        spec,
+        map_digest=known.map(spec.world.map_name).digest,
+        stage=Stage.GROUNDED,
+        iteration=agsg.iteration,
+        grounding_json=grounded.canonical_json(),
+        schedule_json=schedule.canonical_json(),
+        conditions=derivation.conditions,
+        conditions_json=conditions_to_json(derivation.conditions),
+        realised={r.path: r.realised for r in grounded.realised},
+    )
+    missing = (
+        *unsupported(spec, grounded),
+        *(f'{u.element}: {u.what}' for u in derivation.underivable),
+    )
+    return GroundingOutcome(agsg=graph, unsupported=missing)
+
+
+def execution_stage(agsg: Agsg, seed: int, faults: tuple[Fault, ...]) -> Execution:
+    """Build the execution of a grounded graph."""
+    known = knowledge()
+    return build_execution(
+        agsg,
+        known.map(agsg.map_name),
+        limits=known.limits,
+        settings=known.settings,
+        seed=seed,
+        faults=faults,
+    )
+
+
+def load_bag(bag: Path) -> tuple[BagContent, Agsg]:
+    """Read a bag and the graph in it.
+
+    Raises:
+        BagError: There is nothing to judge.
+        VerificationError: The bag holds no graph.
+    """
+    content = read_bag(bag, message_definitions())
+    if content.agsg_message is None:
+        raise VerificationError(
+            f'{bag} holds no scenario graph', hint='record /aurora/agsg with the run'
+        )
+    return content, read_agsg(content.agsg_message, derived)
+
+
+def verify_stage(bag: Path) -> Verdict:
+    """Recompute every margin from a bag alone."""
+    content, agsg = load_bag(bag)
+    conditions = conditions_from_json(content.world.conditions_json)
+    return verify(content.trace, content.world, conditions, agsg.spec)

@@ -1,0 +1,214 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Run a prompt through all stages: the only file that knows their order.
+
+Every stage's document is written when the stage ends: a crash leaves all finished ones readable.
+Whatever breaks becomes the run's status `error`; the folder always ends with a report.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import replace
+from types import MappingProxyType
+from typing import Any
+
+from aurora_core.agsg.build import build_agsg
+from aurora_core.agsg.graph import Agsg
+from aurora_core.errors import AuroraError
+from aurora_core.feasibility.verdict import Feasibility
+from aurora_core.pipeline.functions import knowledge
+from aurora_core.pipeline.stages import ExecutionResult, RunControl, RunRequest, Stages
+from aurora_core.ports.clock import SteadyClock
+from aurora_core.report.build import build_report
+from aurora_core.report.facts import ExecutionFacts, RunFacts
+from aurora_core.report.outputs import write_outputs
+from aurora_core.report.run_folder import MANIFEST, PROMPT, RunFolder, StageFile
+from aurora_core.report.run_report import RunReport
+
+_LOG = logging.getLogger(__name__)
+
+# Share of a run's progress at which each stage begins.
+_BEGINS = {
+    'parse': 0.0,
+    'check': 0.05,
+    'ground': 0.08,
+    'execute': 0.2,
+    'verify': 0.9,
+    'report': 0.95,
+    'done': 1.0,
+}
+
+
+class _Cancelled(Exception):  # noqa: N818  (control flow inside this file only)
+    pass
+
+
+class _Run:
+    """One run in progress: the facts so far and the folder they go to."""
+
+    def __init__(
+        self,
+        request: RunRequest,
+        stages: Stages,
+        folder: RunFolder,
+        control: RunControl,
+        clock: SteadyClock,
+        facts: RunFacts,
+    ) -> None:
+        self.request = request
+        self.stages = stages
+        self.folder = folder
+        self.control = control
+        self.clock = clock
+        self.facts = facts
+        self._dt_s = 0.0
+        self._timing: dict[str, float] = {}
+
+    def note(self, **changes: Any) -> None:
+        """Add facts."""
+        self.facts = replace(self.facts, **changes)
+
+    @contextmanager
+    def stage(self, name: str) -> Iterator[None]:
+        """Time a stage; a cancel takes effect before it begins."""
+        if self.control.cancelled():
+            raise _Cancelled
+        self.control.progress(name, _BEGINS[name], 0.0)
+        begin = self.clock.seconds()
+        try:
+            yield
+        finally:
+            spent = self.clock.seconds() - begin
+            self._timing[name] = self._timing.get(name, 0.0) + spent
+            self.note(timing=dict(self._timing))
+
+    def prepare(self) -> None:
+        """Load what the report quotes: limits, time step, digest of the map."""
+        known = knowledge()
+        self._dt_s = known.settings.run.dt_s
+        self.note(limits=known.limits)
+        self.note(map_digest=known.map(self.request.map_name).digest)
+
+    def through(self) -> None:
+        """Take the prompt as far as it gets."""
+        graph = self.understand()
+        if graph is None:
+            return
+        grounded = self.ground(graph)
+        if grounded is None:
+            return
+        self.execute(grounded, iteration=0)
+
+    def understand(self) -> Agsg | None:
+        """Parse and check the stated numbers; None when the run ends here."""
+        with self.stage('parse'):
+            outcome = self.stages.parse(self.request)
+            self.note(parse=outcome)
+        if outcome.spec is None:
+            return None
+        self.folder.write_stage(StageFile.SPEC, 0, outcome.spec)
+        graph = build_agsg(outcome.spec, map_digest=self.facts.map_digest)
+        self.folder.write_stage(StageFile.AGSG, 0, graph)
+        with self.stage('check'):
+            feasibility = self.stages.check(graph, self.request)
+            self.note(feasibility=feasibility)
+        self.folder.write_stage(StageFile.FEASIBILITY, 0, feasibility)
+        return None if feasibility.result is Feasibility.INFEASIBLE else graph
+
+    def ground(self, graph: Agsg) -> Agsg | None:
+        """Find places, schedule and conditions; None when there is no place."""
+        with self.stage('ground'):
+            outcome = self.stages.ground(graph, self.request)
+            self.note(grounding=outcome)
+        if outcome.agsg is None:
+            return None
+        grounded = outcome.agsg
+        self.folder.write_stage(StageFile.AGSG, grounded.iteration, grounded)
+        self.folder.write_stage(StageFile.GROUNDING, grounded.iteration, grounded.grounding_json)
+        self.folder.write_stage(StageFile.SCHEDULE, grounded.iteration, grounded.schedule_json)
+        return grounded
+
+    def execute(self, graph: Agsg, iteration: int) -> None:
+        """Run in lockstep and judge the trace."""
+        bag = self.folder.bag_path(iteration)
+        share = _BEGINS['verify'] - _BEGINS['execute']
+        inner = RunControl(
+            progress=lambda name, done, sim_s: self.control.progress(
+                name, _BEGINS['execute'] + share * done, sim_s
+            ),
+            cancelled=self.control.cancelled,
+        )
+        with self.stage('execute'):
+            result = self.stages.execute(graph, bag, self.request, inner)
+            self.note(execution=self._execution(result, bag.name), iterations=iteration + 1)
+        if result.outcome == 'cancelled':
+            raise _Cancelled
+        with self.stage('verify'):
+            verdict = self.stages.verify(graph, bag)
+            self.note(verdict=verdict)
+        self.folder.write_stage(StageFile.VERDICT, iteration, verdict)
+
+    def _execution(self, result: ExecutionResult, name: str) -> ExecutionFacts:
+        return ExecutionFacts(
+            bag=name, ticks=result.ticks, dt_s=self._dt_s, trace_sha256=result.trace_sha256
+        )
+
+
+def run(
+    request: RunRequest,
+    stages: Stages,
+    folder: RunFolder,
+    control: RunControl,
+    clock: SteadyClock,
+    *,
+    versions: Mapping[str, str] = MappingProxyType({}),
+    manifest: Mapping[str, Any] = MappingProxyType({}),
+) -> RunReport:
+    """Run a prompt and return its report, which is also written to the folder.
+
+    Args:
+        request: Prompt and options.
+        stages: The engine.
+        folder: Where everything is written; created here.
+        control: Progress and cancel.
+        clock: For the timings.
+        versions: Versions of the product and of what decides results.
+        manifest: Facts about the process, written first (an unfinished run is found by them).
+
+    Raises:
+        ReportError: The folder cannot be written.
+        KeyboardInterrupt: Never: an interrupt becomes the status `cancelled`.
+    """
+    folder.create()
+    folder.write_json(MANIFEST, {**manifest, 'request': request.model_dump(mode='json')})
+    folder.write_text(PROMPT, request.prompt)
+    facts = RunFacts(
+        run_id=folder.run_id,
+        prompt=request.prompt,
+        engine=request.engine,
+        model=request.model,
+        map_name=request.map_name,
+        seed=request.seed,
+        versions=versions,
+        faults=request.faults,
+    )
+    state = _Run(request, stages, folder, control, clock, facts)
+    try:
+        state.prepare()
+        state.through()
+    except (_Cancelled, KeyboardInterrupt):
+        state.note(cancelled=True)
+    except AuroraError as err:
+        state.note(error=err)
+    except Exception as err:  # noqa: BLE001  (a defect of ours must not lose the run's report)
+        _LOG.exception('run %s broke', folder.run_id)
+        text = f'{type(err).__name__}: {err}'
+        state.note(error=AuroraError(text, hint='this is a defect of AURORA: please report it'))
+    control.progress('report', _BEGINS['report'], 0.0)
+    report = build_report(state.facts)
+    write_outputs(report, folder)
+    control.progress('done', _BEGINS['done'], 0.0)
+    return report

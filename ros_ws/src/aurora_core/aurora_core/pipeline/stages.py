@@ -1,0 +1,90 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The `Stages` protocol: what the pipeline asks of an engine, one blocking call per stage.
+
+Implemented twice: by plain functions in one process (local engine, bench, tests) and by clients of
+the ROS services (orchestrator, in a worker thread).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Literal, Protocol
+
+from aurora_core.agsg.graph import Agsg
+from aurora_core.execution.faults import Fault
+from aurora_core.feasibility.verdict import FeasibilityVerdict
+from aurora_core.grounding.outcome import GroundingOutcome
+from aurora_core.monitor.verdict import Verdict
+from aurora_core.parsing.outcome import ParseOutcome
+from aurora_core.spec.parameter import Document
+
+
+class RunRequest(Document):
+    """What the user asked for, beside the prompt itself.
+
+    Attributes:
+        prompt: Byte-identical to what was typed.
+        model: `offline` or a litellm model name.
+        faults: Injected run-time faults; invisible to feasibility and monitor.
+    """
+
+    prompt: str
+    map_name: str = 'downtown'
+    seed: int = 1
+    engine: Literal['local', 'ros'] = 'local'
+    model: str = 'offline'
+    allow_relax: bool = False
+    faults: tuple[Fault, ...] = ()
+
+
+class ExecutionResult(Document):
+    """What the execution left behind.
+
+    Attributes:
+        bag: Folder of the rosbag2 bag.
+        ticks: Number of recorded ticks.
+        trace_sha256: Trace hash (hex).
+        outcome: finished, horizon or cancelled.
+    """
+
+    bag: Path
+    ticks: int
+    trace_sha256: str
+    outcome: Literal['finished', 'horizon', 'cancelled']
+
+
+@dataclass(slots=True)
+class RunControl:
+    """Progress out, cancel in.
+
+    Attributes:
+        progress: Called with stage, fraction of the run in 0..1 and simulated seconds.
+        cancelled: Asked between stages and at every tick.
+    """
+
+    progress: Callable[[str, float, float], None] = field(default=lambda _s, _f, _t: None)
+    cancelled: Callable[[], bool] = field(default=lambda: False)
+
+
+class Stages(Protocol):
+    """One engine; every call blocks and raises `AuroraError` when something breaks."""
+
+    def parse(self, request: RunRequest) -> ParseOutcome:
+        """Read the prompt."""
+
+    def ground(self, agsg: Agsg, request: RunRequest) -> GroundingOutcome:
+        """Find places, routes, a schedule and the conditions."""
+
+    def check(self, agsg: Agsg, request: RunRequest) -> FeasibilityVerdict:
+        """Judge feasibility; called before grounding and again after it."""
+
+    def execute(
+        self, agsg: Agsg, bag_directory: Path, request: RunRequest, control: RunControl
+    ) -> ExecutionResult:
+        """Run the grounded scenario in lockstep and record it into `bag_directory`."""
+
+    def verify(self, agsg: Agsg, bag: Path) -> Verdict:
+        """Recompute every margin from the bag."""
