@@ -1,0 +1,41 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""What stands around a predicate: `at 30 m altitude`, `20 m ahead of it`, `the bus`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+from aurora_core.parsing.atoms import NounPhrase
+from aurora_core.parsing.measures import Measure
+
+
+class AdjunctKind(StrEnum):
+    ATTRIBUTE = 'attribute'  # a measure with the name of what it measures
+    MEASURE = 'measure'  # a measure with or without a preposition
+    PLACE = 'place'  # a relation, what it relates to, how far
+    PHRASE = 'phrase'  # preposition and nouns
+    OBJECT = 'object'  # nouns without a preposition
+    MARK = 'mark'  # any other word
+
+
+@dataclass(slots=True, kw_only=True)
+class Adjunct:
+    """One complement of a clause; `used` is set by the construction that understood it.
+
+    Attributes:
+        key: Attribute name, relation, preposition or the kind of a mark.
+        prep: Preposition in front of an attribute or measure.
+        value: Key of a mark (`weather:clear`, `rectangle`, …).
+    """
+
+    kind: AdjunctKind
+    key: str
+    start: int
+    end: int
+    prep: str = ''
+    value: str = ''
+    measure: Measure | None = None
+    nouns: tuple[NounPhrase, ...] = ()
+    used: bool = field(default=False)

@@ -1,0 +1,121 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""What an event does: send a message, a change of a ground agent, a change of a UAV."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from aurora_core.parsing import values
+from aurora_core.parsing.adjuncts import AdjunctKind
+from aurora_core.parsing.constructions import missions
+from aurora_core.parsing.constructions.flight_values import take_flight_values
+from aurora_core.parsing.constructions.flyers import flyers
+from aurora_core.parsing.constructions.messages import message
+from aurora_core.parsing.constructions.places import add_placement, placements_of
+from aurora_core.parsing.frames import Frame
+from aurora_core.parsing.pronouns import airborne, ground
+from aurora_core.parsing.scene import Scene
+from aurora_core.spec.scenario import AgentAction, EventAction, SendMessage, UavAction
+from aurora_core.spec.vocabulary import MissionMode
+
+AgentDo = Literal['brake', 'stop', 'slow', 'accelerate', 'change_lane', 'yield', 'start', 'cross']
+_AGENT_DO: dict[str, AgentDo] = {
+    'brake': 'brake',
+    'stop': 'stop',
+    'slow': 'slow',
+    'accelerate': 'accelerate',
+    'change_lane': 'change_lane',
+    'yield': 'yield',
+    'start': 'start',
+    'cross': 'cross',
+    'wait': 'stop',
+    'drive': 'start',
+    'walk': 'start',
+}
+# Only as the effect of an event: a plain `drives` is a behaviour.
+_ONLY_TRIGGERED = frozenset({'wait', 'drive', 'walk'})
+
+
+def action(frame: Frame) -> EventAction | None:
+    """Read the effect of an event."""
+    return message(frame) or agent_action(frame, triggered=True) or _uav_action(frame)
+
+
+def agent_action(frame: Frame, *, triggered: bool = False) -> AgentAction | None:
+    """Read `brakes`, `stops`, `slows to 5 m/s`, `changes lanes`."""
+    if frame.negated or frame.key not in _AGENT_DO:
+        return None
+    if frame.key in _ONLY_TRIGGERED and not triggered:
+        return None
+    who = frame.subjects(ground)
+    if len(who) != 1:
+        return None
+    speed = None
+    adjunct = frame.attribute('speed')
+    if adjunct is not None and adjunct.measure is not None:
+        if not values.accepts('ground_speed', adjunct.measure):
+            return None
+        adjunct.used = True
+        speed = values.explicit('ground_speed', adjunct.measure)
+    if frame.key == 'yield':
+        for other in frame.free(AdjunctKind.PHRASE, 'to') + frame.free(AdjunctKind.OBJECT):
+            other.used = False  # whom it yields to has no place in an action
+    if frame.key == 'cross':
+        for crossed in frame.free(AdjunctKind.OBJECT):
+            crossed.used = all(n.kind.value in ('street', 'place') for n in crossed.nouns)
+    placed = frame.key in ('cross', 'start', 'walk', 'drive')
+    if placed or _fronted_place(frame):
+        for placement in placements_of(frame, who, kept=False):
+            add_placement(who[0], placement)
+    frame.scene.became(who[0].id)
+    return AgentAction(do=_AGENT_DO[frame.key], agent=who[0].id, value_mps=speed)
+
+
+def _fronted_place(frame: Frame) -> bool:
+    """`the car in front of the ego brakes`."""
+    return frame.verb is not None and any(
+        a.end <= frame.verb.start for a in frame.free(AdjunctKind.PLACE)
+    )
+
+
+def _uav_action(frame: Frame) -> UavAction | None:
+    if frame.negated:
+        return None
+    if frame.key in ('ascend', 'descend', 'land'):
+        uavs = flyers(frame)
+        if len(uavs) != 1:
+            return None
+        found = take_flight_values(frame, MissionMode.HOVER, None)
+        if frame.key != 'land' and found.altitude is None:
+            found.release()
+            return None
+        frame.scene.became(uavs[0].id)
+        return UavAction(
+            do='land' if frame.key == 'land' else 'ascend',
+            uav=uavs[0].id,
+            altitude_m=found.altitude,
+        )
+    scene: Scene = frame.scene
+    before = len(scene.missions)
+    if frame.key in ('drive', 'be', '') or not missions.mission(frame):
+        return None
+    new = scene.missions[before:]
+    if len(new) != 1:
+        return None
+    return UavAction(do='change_mission', uav=new[0].uav.id, mission=new[0].id)
+
+
+def is_action(frame: Frame) -> bool:
+    """Return whether a clause can be the effect of an event without a trigger of its own."""
+    return frame.key in ('alert', 'send', 'report', 'accelerate')
+
+
+def sends(action_value: EventAction | None) -> SendMessage | None:
+    """Return the action when it is a message."""
+    return action_value if isinstance(action_value, SendMessage) else None
+
+
+def acts_on_air(frame: Frame) -> bool:
+    """Return whether the subject of a clause flies."""
+    return any(airborne(e) for e in frame.subjects())

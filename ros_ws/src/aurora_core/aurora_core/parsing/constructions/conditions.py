@@ -1,0 +1,279 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Conditions that the prompt states: `stays within 20 m of`, `never goes above 60 m`."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from aurora_core.parsing import values
+from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
+from aurora_core.parsing.atoms import ACTORS, AtomKind
+from aurora_core.parsing.frames import Frame
+from aurora_core.parsing.measures import LENGTH
+from aurora_core.parsing.scene import Entity
+from aurora_core.spec.parameter import Bound, Parameter
+from aurora_core.spec.scenario import StatedCondition
+from aurora_core.spec.vocabulary import MissionMode
+
+Op = Literal['<=', '<', '>=', '>', '==']
+_STAYING = frozenset({'keep', 'be', 'fly', 'drive', 'track', 'follow', 'hover', 'come', 'trail'})
+
+
+def condition(frame: Frame) -> bool:
+    """Read a clause that is nothing but a condition."""
+    return (
+        _gap_limit(frame)
+        or _limit(frame)
+        or _apart(frame)
+        or _in_view(frame)
+        or _delivery(frame)
+        or _near(frame)
+    )
+
+
+def distance_conditions(frame: Frame) -> bool:
+    """Take `within 20 m of the bus` from a clause that says more."""
+    return frame.key in _STAYING and not frame.negated and _near(frame)
+
+
+def _add(
+    frame: Frame,
+    quantity: str,
+    of: tuple[str, ...],
+    op: Op,
+    value: Parameter,
+    *,
+    hold: Parameter | None = None,
+) -> None:
+    made = StatedCondition(
+        id=frame.scene.new_id('c'),
+        quantity=quantity,
+        of=of,
+        op=op,
+        value=value,
+        hold_s=hold,
+        span=frame.span,
+    )
+    frame.scene.conditions.append(made)
+    frame.scene.became(made.id)
+
+
+def _near(frame: Frame) -> bool:
+    """`stays within 20 m of the bus`, `keeps at least 10 m away from it`."""
+    if frame.negated or frame.key not in _STAYING:
+        return False
+    for adjunct in frame.free(AdjunctKind.ATTRIBUTE, 'away', 'gap', 'standoff'):
+        measure = adjunct.measure
+        if measure is None or not values.accepts('condition_distance', measure):
+            continue
+        near = adjunct.prep in ('within', 'below') or measure.bound is Bound.AT_MOST
+        far = adjunct.prep == 'beyond' or measure.bound is Bound.AT_LEAST
+        if not (near or far) or not adjunct.nouns:
+            continue
+        subjects = frame.subjects()
+        other = _reference(frame, adjunct)
+        if len(subjects) != 1 or other is None:
+            continue
+        adjunct.used = True
+        _track_it(frame, subjects[0], other)
+        _add(
+            frame,
+            'distance',
+            (subjects[0].id, other),
+            '<=' if near else '>=',
+            values.explicit('condition_distance', measure),
+        )
+        return True
+    return False
+
+
+def _track_it(frame: Frame, subject: Entity, other: str) -> None:
+    """The clause's own mission may have named the target only here."""
+    for draft in frame.scene.missions_of(subject)[-1:]:
+        if draft.needs_target and draft.mode is MissionMode.TRACK and draft.target is None:
+            draft.target, draft.needs_target = other, False
+
+
+def _reference(frame: Frame, adjunct: Adjunct) -> str | None:
+    for noun in adjunct.nouns:
+        place = frame.resolver.place(noun)
+        if place is not None:
+            return place
+    found = frame.objects([n for n in adjunct.nouns if n.kind in ACTORS])
+    return found[0].id if found else None
+
+
+def _gap_limit(frame: Frame) -> bool:
+    """`the distance between them never exceeds 50 m`."""
+    upper = frame.key == 'exceed' and frame.negated
+    lower = frame.key == 'fall_below' and frame.negated
+    words = [
+        m
+        for m in frame.free(AdjunctKind.MARK, 'thing')
+        if m.value in ('gap', 'standoff', 'separation')
+    ]
+    length = frame.length('', 'below')
+    if upper == lower or not words or length is None or length.measure is None:
+        return False
+    phrases = frame.free(AdjunctKind.PHRASE, 'between', 'to', 'from', 'of')
+    nouns = [*words[0].nouns, *(n for p in phrases for n in p.nouns)]
+    ends = frame.objects([n for n in nouns if n.kind in ACTORS])
+    if len(ends) != 2 or not values.accepts('condition_distance', length.measure):
+        return False
+    for taken in (words[0], length, *phrases):
+        taken.used = True
+    _add(
+        frame,
+        'distance',
+        (ends[0].id, ends[1].id),
+        '<=' if upper else '>=',
+        values.explicit('condition_distance', length.measure),
+    )
+    return True
+
+
+def _limit(frame: Frame) -> bool:
+    """`never goes above 60 m`, `must not exceed 10 m/s`, `stays below 60 m`."""
+    upper = frame.key == 'exceed' and frame.negated
+    lower = frame.key == 'fall_below' and frame.negated
+    if frame.key in ('keep', 'fly', 'be', 'drive') and not frame.negated:
+        preps = {a.prep for a in frame.adjuncts if not a.used and a.measure is not None}
+        upper = bool(preps & {'below', 'within'})
+        lower = 'beyond' in preps or (frame.key == 'keep' and frame.length('over') is not None)
+    if upper == lower:
+        return False
+    if frame.has_mark('thing', 'gap', 'standoff', 'separation'):
+        return False
+    op: Op = '<=' if upper else '>='
+    speed = frame.attribute('speed')
+    if speed is not None and speed.measure is not None:
+        return _each(frame, 'speed', op, speed, 'condition_speed')
+    height = frame.attribute('altitude') or frame.length('', 'below', 'beyond', 'within', 'over')
+    if height is not None and height.measure is not None and not height.nouns:
+        subjects = frame.subjects(lambda e: e.is_uav)
+        if subjects:
+            return _each(frame, 'altitude', op, height, 'condition_distance')
+    return False
+
+
+def _each(frame: Frame, quantity: str, op: Op, adjunct: Adjunct, name: str) -> bool:
+    subjects = frame.subjects()
+    if not subjects or adjunct.measure is None or not values.accepts(name, adjunct.measure):
+        return False
+    adjunct.used = True
+    for entity in subjects:
+        _add(frame, quantity, (entity.id,), op, values.explicit(name, adjunct.measure))
+    return True
+
+
+def _apart(frame: Frame) -> bool:
+    """`the drones stay at least 15 m apart`."""
+    if frame.key not in ('keep', 'be', 'fly') or frame.negated:
+        return False
+    subjects = frame.subjects()
+    if len(subjects) < 2 and frame.attribute('separation') is not None:
+        subjects = tuple(frame.scene.uavs)
+    if len(subjects) < 2:
+        return False
+    adjunct = frame.attribute('separation', 'gap', 'standoff') or frame.measure(
+        LENGTH, '', 'beyond', 'at'
+    )
+    if adjunct is None or adjunct.measure is None:
+        return False
+    if not values.accepts('condition_distance', adjunct.measure):
+        return False
+    text = frame.scene.prompt[frame.piece.start : frame.piece.end].lower()
+    if not any(w in text for w in ('apart', 'each other', 'separation', 'one another', 'between')):
+        return False
+    near = adjunct.prep == 'within' or adjunct.measure.bound is Bound.AT_MOST
+    adjunct.used = True
+    _add(
+        frame,
+        'separation',
+        tuple(e.id for e in subjects),
+        '<=' if near else '>=',
+        values.explicit('condition_distance', adjunct.measure),
+    )
+    return True
+
+
+def _in_view(frame: Frame) -> bool:
+    """`keeps the bus in view for at least 20 s`."""
+    if (
+        frame.key not in ('keep', 'see', 'be')
+        or frame.negated
+        or not frame.has_mark(AtomKind.IN_VIEW.value)
+    ):
+        return False
+    pair = _watcher_and_watched(frame)
+    if pair is None:
+        return False
+    observer, target = pair
+    frame.mark(AtomKind.IN_VIEW.value)
+    span_time = frame.time('for', '')
+    if span_time is not None and span_time.measure is not None:
+        if not values.accepts('condition_time', span_time.measure):
+            return False
+        span_time.used = True
+        _add(
+            frame,
+            'visible_time',
+            (observer.id, target),
+            '>=',
+            values.explicit('condition_time', span_time.measure),
+        )
+        return True
+    _add(
+        frame,
+        'visible_fraction',
+        (observer.id, target),
+        '>=',
+        values.default('condition_ratio'),
+    )
+    return True
+
+
+def _watcher_and_watched(frame: Frame) -> tuple[Entity, str] | None:
+    """`the drone keeps the bus in view`, `the bus stays visible`."""
+    taken = frame.free(AdjunctKind.OBJECT)
+    if taken:
+        observers = frame.subjects(lambda e: e.is_uav)
+        target = _reference(frame, taken[0])
+        if len(observers) != 1 or target is None:
+            return None
+        taken[0].used = True
+        return observers[0], target
+    seen = frame.subjects(lambda e: not e.is_uav)
+    if len(seen) != 1 or len(frame.scene.uavs) != 1:
+        return None
+    return frame.scene.uavs[0], seen[0].id
+
+
+def _delivery(frame: Frame) -> bool:
+    """`the alert must arrive within 1 s`."""
+    if frame.key not in ('reach', 'receive', 'come', 'last') or frame.negated:
+        return False
+    owned = [link for link in frame.scene.links if link.sender and link.receiver]
+    limit = frame.time('within', '')
+    told = frame.has_mark(AtomKind.MESSAGE.value)
+    if not owned or limit is None or limit.measure is None or not told:
+        return False
+    if not values.accepts('condition_time', limit.measure):
+        return False
+    limit.used = True
+    for mark in frame.free(AdjunctKind.MARK, AtomKind.MESSAGE.value):
+        mark.used = True
+    for adjunct in frame.free(AdjunctKind.OBJECT) + frame.free(AdjunctKind.PHRASE, 'at', 'to'):
+        adjunct.used = bool(frame.objects([n for n in adjunct.nouns if n.kind in ACTORS]))
+    link = owned[-1]
+    assert link.sender is not None
+    assert link.receiver is not None
+    _add(
+        frame,
+        'delivery_latency',
+        (link.sender, link.receiver),
+        '<=',
+        values.explicit('condition_time', limit.measure),
+    )
+    return True

@@ -1,0 +1,180 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The numbers of a flight: altitude, standoff, bearing, duration, speed, pattern size."""
+
+from __future__ import annotations
+
+from aurora_core.parsing import values
+from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
+from aurora_core.parsing.atoms import AtomKind, NounKind
+from aurora_core.parsing.constructions.flight_types import (
+    FlightValues,
+    bounded,
+    noun_target,
+    ranged_value,
+    stated_value,
+    use,
+)
+from aurora_core.parsing.constructions.pattern_values import take_pattern_values
+from aurora_core.parsing.frames import Frame
+from aurora_core.parsing.measures import COUNT, LENGTH
+from aurora_core.spec.vocabulary import MissionMode, Pattern
+
+
+def take_flight_values(
+    frame: Frame, mode: MissionMode | None, pattern: Pattern | None, *, above: bool = False
+) -> FlightValues:
+    """Take every number of a clause that belongs to the flight.
+
+    Args:
+        frame: The clause.
+        mode: Decides whether a length without a name is a standoff or the altitude.
+        pattern: The flown pattern, if any.
+        above: `from above`: such a length is the altitude.
+    """
+    found = FlightValues()
+    _altitude(frame, found, mode)
+    _standoff(frame, found, mode, pattern)
+    _bearing(frame, found)
+    take_pattern_values(frame, found, pattern)
+    _bare_length(frame, found, MissionMode.HOVER if above else mode)
+    _duration_and_speed(frame, found)
+    _streets(frame, found)
+    if frame.mark(AtomKind.IN_FLIGHT.value) is not None:
+        found.ends_in_flight = True
+    return found
+
+
+def _altitude(frame: Frame, found: FlightValues, mode: MissionMode | None) -> None:
+    adjunct = frame.attribute('altitude')
+    if adjunct is not None and adjunct.measure is not None:
+        parameter = ranged_value(found, 'altitude', adjunct.measure) or stated_value(
+            'altitude', adjunct.measure
+        )
+        if parameter is not None:
+            found.altitude = bounded(parameter, adjunct.prep)
+            use(found, adjunct)
+            if adjunct.nouns:
+                found.target = noun_target(frame, adjunct)
+                found.over_streets = any(n.kind is NounKind.STREET for n in adjunct.nouns)
+            return
+    plain = frame.length('to')
+    climbs = frame.key in ('ascend', 'descend', 'fly', 'reach')
+    if plain is not None and climbs and plain.measure is not None:
+        parameter = stated_value('altitude', plain.measure)
+        if parameter is not None:
+            found.altitude = parameter
+            use(found, plain)
+
+
+def _standoff(
+    frame: Frame, found: FlightValues, mode: MissionMode | None, pattern: Pattern | None
+) -> None:
+    adjunct = frame.attribute('standoff', 'gap', 'away')
+    if adjunct is not None and adjunct.measure is not None:
+        if adjunct.prep == 'within':
+            return  # `within 20 m of it` is a condition
+        name = 'orbit_radius' if pattern is Pattern.ORBIT else 'standoff'
+        parameter = stated_value(name, adjunct.measure)
+        if name == 'standoff':
+            parameter = ranged_value(found, name, adjunct.measure) or parameter
+        if parameter is not None:
+            if pattern is Pattern.ORBIT:
+                found.radius = parameter
+            else:
+                found.standoff = bounded(parameter, adjunct.prep)
+            use(found, adjunct)
+            if adjunct.nouns:
+                found.target = noun_target(frame, adjunct)
+        return
+    for place in frame.free(AdjunctKind.PLACE):
+        if place.key in ('compass', 'oncoming') or place.measure is None:
+            continue
+        parameter = stated_value('standoff', place.measure)
+        if parameter is None:
+            continue
+        found.standoff = parameter
+        use(found, place)
+        if place.nouns:
+            found.target = noun_target(frame, place)
+        if place.key in ('behind', 'ahead', 'left', 'right'):
+            before = place.measure.end < place.end
+            start, end = (
+                (place.measure.end, place.end) if before else (place.start, place.measure.start)
+            )
+            text = frame.scene.prompt[start:end]
+            frame.flag(start + len(text) - len(text.lstrip()), start + len(text.rstrip()))
+            frame.scene.clause.notes.append(
+                f'a UAV has a standoff in metres and a compass bearing, not {place.key!r}'
+            )
+        return
+
+
+def _bearing(frame: Frame, found: FlightValues) -> None:
+    compass = frame.free(AdjunctKind.PLACE, 'compass')
+    if compass:
+        place = compass[0]
+        found.bearing = values.stated('bearing', float(place.value), place.start, place.end)
+        if place.measure is not None:
+            found.standoff = stated_value('standoff', place.measure)
+        if place.measure is None or found.standoff is not None:
+            use(found, place)
+        if place.nouns:
+            found.target = noun_target(frame, place)
+        return
+    adjunct = frame.attribute('bearing')
+    if adjunct is not None and adjunct.measure is not None:
+        found.bearing = stated_value('bearing', adjunct.measure)
+        if found.bearing is not None:
+            use(found, adjunct)
+
+
+def _bare_length(frame: Frame, found: FlightValues, mode: MissionMode | None) -> None:
+    """A length without a name: a standoff when tracking, else the altitude."""
+    for adjunct in frame.free(AdjunctKind.MEASURE, LENGTH):
+        measure = adjunct.measure
+        if measure is None or measure.second is not None:
+            continue
+        keeps = frame.key == 'keep' and mode is None
+        tracking = mode is MissionMode.TRACK or keeps
+        if tracking and adjunct.prep in ('from', 'at', '', 'by', 'with'):
+            if found.standoff is None:
+                found.standoff = ranged_value(found, 'standoff', measure) or values.explicit(
+                    'standoff', measure
+                )
+                use(found, adjunct)
+        elif (
+            not tracking
+            and adjunct.prep in ('at', '', 'to', 'from', 'in', 'with', 'below', 'beyond')
+            and found.altitude is None
+        ):
+            found.altitude = ranged_value(found, 'altitude', measure) or bounded(
+                values.explicit('altitude', measure), adjunct.prep
+            )
+            use(found, adjunct)
+
+
+def _duration_and_speed(frame: Frame, found: FlightValues) -> None:
+    adjunct = frame.time('for', '', 'of', 'over') or frame.attribute('duration')
+    if adjunct is not None and adjunct.measure is not None and _not_after(frame, adjunct):
+        found.duration = stated_value('mission_duration', adjunct.measure)
+        if found.duration is not None:
+            use(found, adjunct)
+    speed = frame.attribute('speed')
+    if speed is not None and speed.measure is not None and speed.measure.dimension != COUNT:
+        found.speed = stated_value('uav_speed', speed.measure)
+        if found.speed is not None:
+            use(found, speed)
+
+
+def _not_after(frame: Frame, adjunct: Adjunct) -> bool:
+    return not frame.has_mark(AtomKind.FROM_START.value) or adjunct.prep == 'for'
+
+
+def _streets(frame: Frame, found: FlightValues) -> None:
+    if frame.mark(AtomKind.STREETS_FLAG.value) is not None:
+        found.over_streets = True
+    for adjunct in frame.free(AdjunctKind.PHRASE, 'over', 'along'):
+        if any(n.kind is NounKind.STREET for n in adjunct.nouns):
+            found.over_streets = True
+            use(found, adjunct)

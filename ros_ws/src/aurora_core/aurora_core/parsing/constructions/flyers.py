@@ -1,0 +1,71 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Which UAVs a clause is about."""
+
+from __future__ import annotations
+
+from aurora_core.parsing.adjuncts import AdjunctKind
+from aurora_core.parsing.atoms import NounKind
+from aurora_core.parsing.frames import Frame
+from aurora_core.parsing.pronouns import airborne
+from aurora_core.parsing.scene import Entity
+
+# Predicates that only a UAV has: without a subject they ask for one.
+_AERIAL_ONLY = frozenset({'hover', 'orbit', 'fly', 'navigate'})
+
+
+# Predicates whose object may be the UAV: `fly a drone`, `hover a quadcopter`.
+_LAUNCHED = frozenset(
+    {'keep', 'fly', 'ascend', 'be', 'exist', 'put', 'hover', 'orbit', 'land', 'descend'}
+)
+
+
+def flyers(frame: Frame) -> tuple[Entity, ...]:
+    """Return the UAVs that act in a clause; a clause that needs one and names none gets one."""
+    scene = frame.scene
+    nouns = frame.subject_nouns
+    if frame.key in _LAUNCHED and (
+        not nouns or (nouns[0].kind is NounKind.PRONOUN and nouns[0].key == 'there')
+    ):
+        launched = next(
+            (a for a in frame.free(AdjunctKind.OBJECT) if a.nouns[0].kind is NounKind.UAV), None
+        )
+        if launched is not None:
+            launched.used = True
+            frame.subject_nouns = launched.nouns
+    found = frame.subjects(airborne)
+    if found:
+        return found
+    if frame.subject_nouns and not frame.passive:
+        return ()
+    for adjunct in frame.free(AdjunctKind.PHRASE, 'with', 'using', 'by', 'from'):
+        if adjunct.nouns[0].kind is NounKind.UAV:
+            adjunct.used = True
+            found = frame.resolver.actors(adjunct.nouns, accept=airborne)
+            scene.clause.subjects = found
+            return found
+    if frame.verb is None or frame.key in ('be', 'keep', 'drive', 'start', 'reach', 'wait'):
+        return ()
+    if frame.inherited():
+        return ()
+    if len(scene.uavs) == 1:
+        scene.clause.subjects = (scene.uavs[0],)
+        return (scene.uavs[0],)
+    if not scene.uavs and (frame.key in _AERIAL_ONLY or frame.attribute('altitude') is not None):
+        created = new_uav(frame)
+        scene.clause.subjects = (created,)
+        return (created,)
+    if frame.key in ('track', 'observe', 'follow') and not scene.uavs:
+        scene.questions.append('Who should do that: a UAV, or which vehicle? ' + _quote(frame))
+    return ()
+
+
+def _quote(frame: Frame) -> str:
+    return f'"{frame.scene.prompt[frame.piece.start : frame.piece.end]}"'
+
+
+def new_uav(frame: Frame) -> Entity:
+    """Add the UAV that a clause implies."""
+    entity = Entity(id=frame.scene.new_id('uav'), is_uav=True, span=frame.span)
+    frame.scene.entities.append(entity)
+    return entity

@@ -1,0 +1,334 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Ground agents: where they are and what they do."""
+
+from __future__ import annotations
+
+from aurora_core.parsing import values
+from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
+from aurora_core.parsing.atoms import ACTORS, AtomKind, NounKind
+from aurora_core.parsing.constructions.places import (
+    add_placement,
+    gap,
+    named_reference,
+    place_of,
+    placements_of,
+)
+from aurora_core.parsing.frames import Frame
+from aurora_core.parsing.morphology import VerbForm
+from aurora_core.parsing.pronouns import ground
+from aurora_core.parsing.scene import Entity
+from aurora_core.spec.parameter import Parameter
+from aurora_core.spec.scenario import Behavior, Placement
+from aurora_core.spec.vocabulary import BehaviorKind, Relation
+
+# Predicates that name a behaviour in other words.
+_BEHAVIORS = {kind.value: kind for kind in BehaviorKind} | {
+    'trail': BehaviorKind.FOLLOW,
+    'lead': BehaviorKind.DRIVE,
+    'start': BehaviorKind.DRIVE,
+    'track': BehaviorKind.FOLLOW,
+    'come': BehaviorKind.APPROACH,
+    'visit': BehaviorKind.DRIVE,
+}
+
+
+PLACING = frozenset({'be', 'put', 'exist', 'contain', 'appear', 'keep', 'start', ''})
+
+
+_TARGETED = frozenset(
+    {
+        'follow',
+        'trail',
+        'tailgate',
+        'overtake',
+        'approach',
+        'yield',
+        'lead',
+        'track',
+        'change_lane',
+    }
+)
+
+
+_BEHIND_ITS_TARGET = frozenset({'follow', 'trail', 'tailgate', 'overtake', 'approach', 'track'})
+
+
+_AT_PLACES = frozenset(
+    {'stop', 'wait', 'brake', 'slow', 'yield', 'park', 'turn_left', 'turn_right'}
+)
+
+
+_MOVING = frozenset(
+    {'drive', 'follow', 'trail', 'lead', 'circulate', 'walk', 'emergency_run', 'track'}
+)
+
+
+def is_behavior(key: str) -> bool:
+    """Return whether a predicate is something that ground agents do."""
+    return key in _BEHAVIORS
+
+
+def behavior(frame: Frame) -> bool:
+    """Read what ground agents do, with the place that is stated in the same breath."""
+    if frame.negated or frame.key not in _BEHAVIORS:
+        return False
+    if frame.key == 'start' and frame.free(AdjunctKind.PLACE):
+        return False  # `starts 45 m behind the ego` is a place
+    _commanded(frame)
+    subjects = frame.subjects(ground)
+    if not subjects or any(e.is_uav for e in subjects):
+        return False
+    if _closing(frame, subjects):
+        return True
+    kind = _BEHAVIORS[frame.key]
+    target = _target(frame, subjects)
+    speed = _speed(frame)
+    closing = _closing_distance(frame) if frame.key in ('tailgate', 'approach', 'come') else None
+    placements = _placements(frame, subjects, target, closing)
+    made = Behavior(
+        kind=kind, target=target, speed_mps=speed, closing_from_m=closing, span=frame.span
+    )
+    for entity in subjects:
+        own = tuple(p for p in placements if p.of != entity.id)
+        _add(entity, made, own)
+    frame.scene.became(*(e.id for e in subjects))
+    return True
+
+
+# Predicates whose object acts when they stand without a subject: `drive the ego car …`.
+_COMMANDS = frozenset(
+    {'drive', 'circulate', 'stop', 'brake', 'slow', 'park', 'walk', 'wait', 'start'}
+)
+
+
+def _commanded(frame: Frame) -> None:
+    if frame.key not in _COMMANDS or frame.subject_nouns or frame.verb is None:
+        return
+    if frame.verb.form is not VerbForm.BASE or frame.piece.head is not None:
+        return
+    for adjunct in frame.free(AdjunctKind.OBJECT):
+        if _names_actor(adjunct):
+            adjunct.used = True
+            frame.subject_nouns = adjunct.nouns
+            return
+
+
+def _add(entity: Entity, made: Behavior, placements: tuple[Placement, ...]) -> None:
+    for i, known in enumerate(entity.behaviors):
+        same = known.kind is made.kind and (known.target == made.target or made.target is None)
+        if same and (known.speed_mps is None or made.speed_mps is None):
+            entity.behaviors[i] = Behavior(
+                kind=known.kind,
+                target=known.target or made.target,
+                speed_mps=known.speed_mps or made.speed_mps,
+                closing_from_m=known.closing_from_m or made.closing_from_m,
+                span=known.span,
+            )
+            break
+    else:
+        entity.behaviors.append(made)
+    for placement in placements:
+        add_placement(entity, placement)
+
+
+def _target(frame: Frame, subjects: tuple[Entity, ...]) -> str | None:
+    for adjunct in frame.free(AdjunctKind.OBJECT) + frame.free(
+        AdjunctKind.PHRASE, 'to', 'of', 'with'
+    ):
+        if frame.key not in _TARGETED and any(n.kind in ACTORS for n in adjunct.nouns):
+            continue
+        named = named_reference(frame, adjunct)
+        if named is not None:
+            adjunct.used = True
+            return named
+    if frame.key in _TARGETED:
+        for adjunct in frame.free(AdjunctKind.PLACE, 'behind', 'ahead', 'near'):
+            if adjunct.nouns:
+                return named_reference(frame, adjunct)
+        away = frame.attribute('away', 'gap', 'standoff')
+        if away is not None and away.nouns:
+            return named_reference(frame, away)
+        if (
+            frame.key in ('tailgate', 'follow', 'trail', 'overtake')
+            and frame.scene.ego is not None
+        ):
+            ego = frame.scene.ego
+            return ego.id if ego not in subjects else None
+        return None
+    if frame.key in _AT_PLACES:
+        for adjunct in frame.free(AdjunctKind.PHRASE, 'at', 'on', 'in', 'before', 'for'):
+            place = place_of(frame, adjunct)
+            if place is not None:
+                adjunct.used = frame.key not in ('wait', 'park')
+                return place
+    if frame.key in ('drive', 'cross', 'walk', 'visit'):
+        for adjunct in frame.free(AdjunctKind.PHRASE, 'through', 'along', 'at', 'over', 'on'):
+            place = place_of(frame, adjunct)
+            if place is not None and (frame.key != 'walk' or adjunct.key != 'on'):
+                adjunct.used = frame.key != 'drive' or adjunct.key in ('through', 'along')
+                return place if adjunct.used else None
+    return None
+
+
+def _speed(frame: Frame) -> Parameter | None:
+    adjunct = frame.attribute('speed')
+    if adjunct is None or adjunct.measure is None:
+        return None
+    if adjunct.measure.dimension == 'count' or not values.accepts('ground_speed', adjunct.measure):
+        return None
+    adjunct.used = True
+    return values.explicit('ground_speed', adjunct.measure)
+
+
+def _closing_distance(frame: Frame) -> Parameter | None:
+    adjunct = frame.length('from')
+    if adjunct is None or adjunct.measure is None:
+        return None
+    if not values.accepts('closing_from', adjunct.measure):
+        return None
+    adjunct.used = True
+    return values.explicit('closing_from', adjunct.measure)
+
+
+def _closing(frame: Frame, subjects: tuple[Entity, ...]) -> bool:
+    """`…, closing from 45 m` adds the distance to what the agent is doing already."""
+    if frame.key != 'approach' or frame.free(AdjunctKind.OBJECT):
+        return False
+    behaviors = subjects[0].behaviors
+    if len(subjects) != 1 or not behaviors:
+        return False
+    last = behaviors[-1]
+    if last.kind not in (
+        BehaviorKind.TAILGATE,
+        BehaviorKind.FOLLOW,
+        BehaviorKind.APPROACH,
+        BehaviorKind.OVERTAKE,
+    ):
+        return False
+    distance = _closing_distance(frame)
+    if distance is None:
+        return False
+    behaviors[-1] = Behavior(
+        kind=last.kind,
+        target=last.target,
+        speed_mps=last.speed_mps,
+        closing_from_m=distance,
+        span=last.span,
+    )
+    if last.target is not None:
+        add_placement(
+            subjects[0],
+            Placement(
+                relation=Relation.BEHIND, of=last.target, distance_m=distance, span=frame.span
+            ),
+        )
+    for adjunct in frame.free(AdjunctKind.PLACE, 'behind'):
+        adjunct.used = not adjunct.nouns and adjunct.measure is None
+    frame.scene.became(subjects[0].id)
+    return True
+
+
+def _is_placed(frame: Frame, subjects: tuple[Entity, ...], target: str) -> bool:
+    """`a truck is 40 m ahead of the ego, and the ego approaches it`: said already."""
+    other = frame.scene.by_id(target)
+    return other is not None and any(p.of == e.id for e in subjects for p in other.placements)
+
+
+def _placements(
+    frame: Frame, subjects: tuple[Entity, ...], target: str | None, closing: Parameter | None
+) -> tuple[Placement, ...]:
+    kept = frame.key in _MOVING
+    made = list(placements_of(frame, subjects, kept=kept))
+    wanted = None
+    if target is not None and not made and ':' not in target:
+        if frame.key in _BEHIND_ITS_TARGET:
+            wanted = Relation.BEHIND
+        elif frame.key == 'lead':
+            wanted = Relation.AHEAD
+    if target is not None and _is_placed(frame, subjects, target):
+        wanted = None
+    if wanted is not None and target is not None and frame.scene.by_id(target) is not None:
+        distance = closing or gap(frame)
+        made.append(
+            Placement(
+                relation=wanted,
+                of=target,
+                distance_m=distance or values.default('placement_distance'),
+                kept_in_motion=kept,
+                span=frame.span,
+            )
+        )
+    elif closing is not None and made:
+        first = made[0]
+        made[0] = Placement(
+            relation=first.relation,
+            of=first.of,
+            distance_m=closing,
+            kept_in_motion=first.kept_in_motion,
+            span=first.span,
+        )
+    return tuple(made)
+
+
+def placing(frame: Frame) -> bool:
+    """`a bus is 20 m ahead of the ego`, `put a van behind it`, `an ambulance behind it`."""
+    if frame.negated or frame.key not in PLACING:
+        return False
+    nouns = frame.subject_nouns
+    if not nouns or all(n.kind is NounKind.PRONOUN and n.key == 'there' for n in nouns):
+        lead = next((a for a in frame.free(AdjunctKind.OBJECT) if _names_actor(a)), None)
+        if lead is not None:
+            lead.used = True
+            nouns = lead.nouns
+    elif frame.key == 'contain':
+        return _having(frame)
+    if not nouns and frame.piece.head is not None and frame.piece.head.noun is not None:
+        nouns = (frame.piece.head.noun,)
+    nouns = tuple(n for n in nouns if n.kind in ACTORS)
+    if nouns:
+        subjects = frame.resolver.actors(nouns, accept=ground)
+    else:
+        subjects = frame.inherited(ground) if frame.verb is not None else ()
+    if not subjects or any(e.is_uav for e in subjects):
+        return False
+    frame.scene.clause.subjects = subjects
+    placements = placements_of(frame, subjects, kept=False)
+    speed = _speed(frame)
+    for entity in subjects:
+        for placement in placements:
+            if placement.of != entity.id:
+                add_placement(entity, placement)
+        if speed is not None:
+            entity.behaviors.append(
+                Behavior(kind=BehaviorKind.DRIVE, speed_mps=speed, span=frame.span)
+            )
+    if frame.key == 'keep' and not placements and speed is None:
+        return False
+    if frame.has_mark(AtomKind.UNKNOWN.value) and not placements and frame.verb is not None:
+        return False
+    frame.scene.became(*(e.id for e in subjects))
+    return True
+
+
+def _names_actor(adjunct: Adjunct) -> bool:
+    return any(n.kind in ACTORS for n in adjunct.nouns)
+
+
+def _having(frame: Frame) -> bool:
+    """`the ego car has a bus ahead of it`: the owner is named, the object is placed."""
+    owners = frame.resolver.actors(frame.subject_nouns)
+    lead = next((a for a in frame.free(AdjunctKind.OBJECT) if _names_actor(a)), None)
+    if not owners or lead is None:
+        return False
+    lead.used = True
+    subjects = frame.resolver.actors(lead.nouns, accept=ground)
+    if not subjects or any(e.is_uav for e in subjects):
+        return False
+    frame.scene.clause.subjects = subjects
+    frame.scene.clause.objects = owners
+    for placement in placements_of(frame, subjects, kept=False):
+        for entity in subjects:
+            add_placement(entity, placement)
+    frame.scene.became(*(e.id for e in subjects))
+    return True

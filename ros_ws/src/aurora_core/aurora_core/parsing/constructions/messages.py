@@ -1,0 +1,191 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Who tells whom, and over what link: `alerts the ego`, `with 20 % packet loss`, `no retries`."""
+
+from __future__ import annotations
+
+from aurora_core.parsing import values
+from aurora_core.parsing.adjuncts import AdjunctKind
+from aurora_core.parsing.atoms import ACTORS, AtomKind, NounKind, NounPhrase
+from aurora_core.parsing.frames import Frame
+from aurora_core.parsing.measures import RATIO
+from aurora_core.parsing.pronouns import airborne
+from aurora_core.parsing.scene import Entity, LinkDraft, Scene
+from aurora_core.spec.parameter import Bound, Parameter
+from aurora_core.spec.scenario import SendMessage
+
+TELLING = frozenset({'alert', 'send', 'report'})
+_LINK_FIELDS = {
+    'loss': 'link_loss',
+    'latency': 'link_latency',
+    'radio_range': 'link_range',
+    'retransmissions': 'link_retransmissions',
+}
+
+
+def message(frame: Frame) -> SendMessage | None:
+    """Read `alerts the ego`, `sends a warning to the ego car`."""
+    if frame.negated or frame.key not in TELLING:
+        return None
+    senders = frame.subjects()
+    if not senders and not frame.subject_nouns and len(frame.scene.uavs) == 1:
+        senders = (frame.scene.uavs[0],)
+        frame.scene.clause.subjects = senders
+    if not senders:
+        return None
+    receivers = _receivers(frame, senders)
+    if not receivers:
+        ego = frame.scene.ego
+        if ego is None or ego in senders:
+            return None
+        receivers = (ego,)
+    _contents(frame, senders[0], receivers)
+    if len(senders) > 1 or len(receivers) > 1:
+        frame.scene.clause.notes.append('only one sender and one receiver were taken')
+        frame.flag(frame.piece.start, frame.piece.end)
+    link = link_between(frame, senders[0], receivers[0])
+    frame.scene.clause.objects = receivers
+    frame.scene.became(link.id)
+    return SendMessage(do='send_message', sender=senders[0].id, receiver=receivers[0].id)
+
+
+def _receivers(frame: Frame, senders: tuple[Entity, ...]) -> tuple[Entity, ...]:
+    kinds: tuple[tuple[AdjunctKind, tuple[str, ...]], ...] = (
+        (AdjunctKind.PHRASE, ('to',)),
+        (AdjunctKind.OBJECT, ()),
+    )
+    if frame.key == 'alert':
+        kinds = kinds[::-1]
+    for kind, keys in kinds:
+        for adjunct in frame.free(kind, *keys):
+            actors = [n for n in adjunct.nouns if n.kind in ACTORS]
+            ego = frame.scene.ego
+            if ego is not None and ego not in senders and _is_it(actors):
+                found: tuple[Entity, ...] = (ego,)  # whom else would one warn
+            else:
+                found = frame.objects(actors) if actors else ()
+            found = tuple(e for e in found if e not in senders)
+            if found:
+                adjunct.used = True
+                return found
+    return ()
+
+
+def _is_it(nouns: list[NounPhrase]) -> bool:
+    return len(nouns) == 1 and nouns[0].kind is NounKind.PRONOUN and nouns[0].key == 'it'
+
+
+def _contents(frame: Frame, sender: Entity, receivers: tuple[Entity, ...]) -> None:
+    """What the message says is not part of a scenario: `about the van`, `a warning message`."""
+    frame.scene.clause.objects = ()  # `reports it to the ego`: the ego is not `it`
+    for mark in frame.free(AdjunctKind.MARK, AtomKind.MESSAGE.value, AtomKind.LINK.value, 'thing'):
+        mark.used = True
+        frame.objects([n for n in mark.nouns if n.kind in ACTORS])
+    keys = ('around', 'of', 'using', 'over', 'with')
+    for adjunct in frame.free(AdjunctKind.PHRASE, *keys) + frame.free(AdjunctKind.OBJECT):
+        actors = [n for n in adjunct.nouns if n.kind in ACTORS]
+        if actors:
+            known = frame.scene.clause.objects
+            for one in frame.objects(actors):
+                if one is not sender and one not in receivers:
+                    frame.scene.reported.setdefault(sender.id, one.id)
+            frame.scene.clause.objects = known or frame.scene.clause.objects
+            adjunct.used = True
+
+
+def link_between(frame: Frame, sender: Entity, receiver: Entity) -> LinkDraft:
+    """Return the link between two actors, new or known."""
+    scene = frame.scene
+    for link in scene.links:
+        if link.sender == sender.id and link.receiver == receiver.id:
+            return link
+    made = LinkDraft(
+        id=scene.new_id('link'), sender=sender.id, receiver=receiver.id, span=frame.span
+    )
+    scene.links.append(made)
+    return made
+
+
+# --- link values --------------------------------------------------------------------------------
+
+
+def link_values(frame: Frame) -> bool:
+    """Take loss, latency, range and retries wherever they stand."""
+    found: dict[str, Parameter] = {}
+    for name, parameter_name in _LINK_FIELDS.items():
+        adjunct = frame.attribute(name)
+        if adjunct is None or adjunct.measure is None:
+            continue
+        measure = adjunct.measure
+        if not values.accepts(parameter_name, measure):
+            continue
+        if name == 'loss' and measure.dimension != RATIO and measure.value > 1:
+            continue
+        adjunct.used = True
+        parameter = values.explicit(parameter_name, measure)
+        if adjunct.prep in ('below', 'within'):
+            parameter = values.rebound(parameter, Bound.AT_MOST)
+        found[name] = parameter
+    _losing(frame, found)
+    _no_retries(frame, found)
+    if not found:
+        return False
+    draft = _link_of_clause(frame)
+    for name, parameter in found.items():
+        field = {'radio_range': 'range'}.get(name, name)
+        setattr(draft, field, parameter)
+    for mark in frame.free(AdjunctKind.MARK, AtomKind.LINK.value, AtomKind.MESSAGE.value):
+        mark.used = True
+    frame.scene.became(draft.id)
+    return True
+
+
+def _losing(frame: Frame, found: dict[str, Parameter]) -> None:
+    """`the link drops 20 % of the packets`, `10 % of the messages are lost`."""
+    if frame.key not in ('lose', 'fall_below') or 'loss' in found:
+        return
+    about_link = frame.has_mark(AtomKind.LINK.value) or frame.has_mark(AtomKind.MESSAGE.value)
+    adjunct = frame.measure(RATIO)
+    if about_link and adjunct is not None and adjunct.measure is not None:
+        adjunct.used = True
+        found['loss'] = values.explicit('link_loss', adjunct.measure)
+
+
+def _no_retries(frame: Frame, found: dict[str, Parameter]) -> None:
+    if not frame.negated or 'retransmissions' in found:
+        return
+    mark = frame.mark('thing', 'retransmissions')
+    if mark is not None:
+        found['retransmissions'] = values.stated('link_retransmissions', 0, mark.start, mark.end)
+
+
+def _link_of_clause(frame: Frame) -> LinkDraft:
+    """Return the link that values belong to: the clause's, the last one, else every link."""
+    scene: Scene = frame.scene
+    named = _named_ends(frame)
+    if named is not None:
+        return link_between(frame, *named)
+    in_sentence = [i for i in scene.clause.ids if i.startswith('link')]
+    if in_sentence:
+        return next(link for link in scene.links if link.id == in_sentence[-1])
+    owned = [link for link in scene.links if link.sender is not None]
+    if owned:
+        return owned[-1]
+    for link in scene.links:
+        if link.sender is None:
+            return link
+    made = LinkDraft(id=scene.new_id('link'), sender=None, receiver=None, span=frame.span)
+    scene.links.append(made)
+    return made
+
+
+def _named_ends(frame: Frame) -> tuple[Entity, Entity] | None:
+    """`the link between the drone and the ego`, `the link from the drone to the ego`."""
+    between = frame.free(AdjunctKind.PHRASE, 'between')
+    if between and len(between[0].nouns) == 2:
+        ends = frame.objects(between[0].nouns)
+        if len(ends) == 2:
+            between[0].used = True
+            first, second = ends
+            return (second, first) if airborne(second) and not airborne(first) else (first, second)
+    return None

@@ -1,0 +1,322 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""UAV missions: hover, track, navigate, with ascent and landing around them."""
+
+from __future__ import annotations
+
+from aurora_core.parsing import values
+from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
+from aurora_core.parsing.atoms import ACTORS, AtomKind, NounKind
+from aurora_core.parsing.constructions.flight_types import FlightValues
+from aurora_core.parsing.constructions.flight_values import take_flight_values
+from aurora_core.parsing.constructions.flyers import flyers
+from aurora_core.parsing.frames import Frame
+from aurora_core.parsing.measures import COUNT
+from aurora_core.parsing.pieces import Link
+from aurora_core.parsing.scene import Entity, MissionDraft
+from aurora_core.spec.scenario import StatedCondition
+from aurora_core.spec.vocabulary import MissionMode, Pattern, Place
+
+FLYING = frozenset(
+    {
+        'hover',
+        'track',
+        'observe',
+        'navigate',
+        'orbit',
+        'fly',
+        'follow',
+        'trail',
+        'visit',
+        'trace',
+        'approach',
+        'keep',
+        'be',
+        'drive',
+        'wait',
+        'circulate',
+        'reach',
+        'start',
+        'see',
+        '',
+    }
+)
+
+
+_TRACKING = frozenset({'track', 'follow', 'trail', 'approach'})
+
+
+_CONCURRENT = (Link.WHILE, Link.PARTICIPLE, Link.RELATIVE)
+
+
+_WAYPOINT_PREPS = ('to', 'through', 'via')
+
+
+def mission(frame: Frame) -> bool:
+    """Read one mission phase, or more about the last one."""
+    if frame.negated or frame.key not in FLYING:
+        return False
+    flying = flyers(frame)
+    if not flying:
+        return False
+    watching = frame.mark(AtomKind.AERIAL.value) is not None
+    if frame.key in ('trace', 'reach') and not _is_route(frame) and not watching:
+        return False
+    target, bare_over = _target(frame, flying)
+    mode = _mode(frame, target, bare_over)
+    if watching and mode is None and target is not None:
+        mode = MissionMode.TRACK if _is_actor(frame, target) else MissionMode.HOVER
+    if frame.key == 'observe' and target is None and frame.piece.link in _CONCURRENT:
+        mode = None  # `hovers there, observing the traffic`
+    pattern = _pattern(frame, mode, target)
+    if pattern is not None:
+        mode = MissionMode.NAVIGATE
+    found = take_flight_values(frame, mode, pattern, above=watching)
+    if target is None:
+        target = found.target
+        if mode is None and target is not None and found.altitude is not None:
+            mode = _mode(frame, target, 'over')
+    if mode is None and target is not None and (found.standoff or found.bearing):
+        mode = MissionMode.TRACK if _is_actor(frame, target) else MissionMode.HOVER
+    if mode is None:
+        return _plain_flight(frame, flying, found)
+    made = [_one(frame, uav, mode, target, pattern, found) for uav in flying]
+    frame.scene.became(*made)
+    return True
+
+
+def _is_actor(frame: Frame, reference: str) -> bool:
+    return frame.scene.by_id(reference) is not None
+
+
+def _is_route(frame: Frame) -> bool:
+    return (
+        frame.has_mark(AtomKind.PATTERN.value)
+        or frame.has_mark(AtomKind.ROUTE.value)
+        or frame.attribute('waypoint') is not None
+    )
+
+
+def _over_streets(frame: Frame) -> bool:
+    """`flies over the streets`, `at 50 m over the streets`."""
+    return frame.has_mark(AtomKind.STREETS_FLAG.value) or any(
+        n.kind is NounKind.STREET and 'over' in (a.key, a.prep)
+        for a in frame.adjuncts
+        for n in a.nouns
+    )
+
+
+def _target(frame: Frame, flying: tuple[Entity, ...]) -> tuple[str | None, str]:
+    """Return what the flight is about and the preposition in front of it."""
+    candidates = frame.free(AdjunctKind.OBJECT) + frame.free(
+        AdjunctKind.PHRASE,
+        'over',
+        'around',
+        'at',
+        'of',
+        'to',
+        'near',
+        'on',
+        'with',
+        'along',
+        'from',
+        'in',
+        'through',
+    )
+    candidates.sort(key=lambda a: a.key == 'from')  # where to, before where from
+    for adjunct in candidates:
+        found = _reference(frame, adjunct, flying)
+        if found is not None:
+            adjunct.used = True
+            return found, adjunct.key
+    for adjunct in frame.free(
+        AdjunctKind.PLACE, 'near', 'beside', 'behind', 'ahead', 'left', 'right'
+    ):
+        if not adjunct.nouns:
+            continue
+        found = _reference(frame, adjunct, flying)
+        if found is not None:
+            if adjunct.measure is None and adjunct.key in ('near', 'beside'):
+                adjunct.used = True
+            return found, 'over'
+    return None, ''
+
+
+def _reference(frame: Frame, adjunct: Adjunct, flying: tuple[Entity, ...]) -> str | None:
+    chosen: list[str] = []
+    for noun in adjunct.nouns:
+        place = frame.resolver.place(noun)
+        if place is not None:
+            frame.scene.clause.places += (place,)
+            chosen.append(place)
+        elif noun.kind is NounKind.UNKNOWN:
+            if frame.key in _TRACKING or (frame.key == 'observe' and not adjunct.key):
+                frame.resolver.unknown_actor(noun)
+            elif adjunct.key in ('over', 'around', 'at', 'to', 'near'):
+                frame.resolver.unknown_place(noun)
+        elif noun.kind in ACTORS:
+            found = [e for e in frame.objects((noun,)) if e not in flying]
+            chosen += [e.id for e in found]
+    if len(chosen) > 1:
+        frame.flag(adjunct.start, adjunct.end)
+        frame.scene.clause.notes.append('a mission has one target; the first one was taken')
+    return chosen[0] if chosen else None
+
+
+def _mode(frame: Frame, target: str | None, prep: str) -> MissionMode | None:
+    key = frame.key
+    moving = target is not None and _is_actor(frame, target)
+    if key == 'hover' or key == 'wait':
+        return MissionMode.HOVER
+    if key in _TRACKING:
+        return MissionMode.TRACK if moving or target is None else MissionMode.HOVER
+    if key in ('observe', 'see'):
+        if target is None:
+            return MissionMode.TRACK
+        return MissionMode.TRACK if moving else MissionMode.HOVER
+    if key in ('navigate', 'orbit', 'visit'):
+        return MissionMode.NAVIGATE
+    if _is_route(frame) or (target is None and _over_streets(frame)):
+        return MissionMode.NAVIGATE
+    if target is None:
+        return None
+    if prep in ('around', 'along'):
+        return MissionMode.NAVIGATE
+    if prep in _WAYPOINT_PREPS and not moving:
+        return MissionMode.NAVIGATE
+    if prep in ('over', 'with', 'at', 'to', 'on', 'in', 'near'):
+        return MissionMode.TRACK if moving else MissionMode.HOVER
+    return None
+
+
+def _pattern(frame: Frame, mode: MissionMode | None, target: str | None) -> Pattern | None:
+    mark = frame.mark(AtomKind.PATTERN.value)
+    for other in frame.free(AdjunctKind.MARK, AtomKind.PATTERN.value):
+        other.used = mark is not None and other.value == mark.value
+    if mark is not None:
+        return Pattern(mark.value)
+    if frame.key == 'orbit':
+        return Pattern.ORBIT
+    if mode is not MissionMode.NAVIGATE:
+        return None
+    if frame.attribute('waypoint') is not None or frame.key == 'visit':
+        return Pattern.WAYPOINTS
+    phrases = [a.key for a in frame.adjuncts if a.kind is AdjunctKind.PHRASE and a.used]
+    if (
+        'around' in phrases
+        and not frame.has_mark(AtomKind.ROUTE.value)
+        and frame.key != 'navigate'
+    ):
+        return Pattern.ORBIT
+    if 'along' in phrases or target == Place.MAIN_ROAD:
+        return Pattern.LINE
+    if frame.key in ('fly', 'drive', '') and any(p in _WAYPOINT_PREPS for p in phrases):
+        return Pattern.WAYPOINTS
+    return Pattern.RECTANGLE
+
+
+def _one(
+    frame: Frame,
+    uav: Entity,
+    mode: MissionMode,
+    target: str | None,
+    pattern: Pattern | None,
+    found: FlightValues,
+) -> str:
+    scene = frame.scene
+    known = scene.missions_of(uav)
+    draft = (
+        known[-1] if known and _continues(frame, known[-1], mode, target, pattern, found) else None
+    )
+    if draft is None:
+        draft = MissionDraft(
+            id=scene.new_id('m'),
+            uav=uav,
+            mode=mode,
+            clause=scene.clause_number,
+            span=frame.span,
+        )
+        draft.altitude = scene.pending_altitude.pop(uav.id, None)
+        draft.speed = scene.pending_speed.pop(uav.id, None)
+        scene.missions.append(draft)
+    draft.target = draft.target or target
+    draft.needs_target = mode is MissionMode.TRACK and draft.target is None
+    draft.pattern = draft.pattern or pattern
+    if pattern is Pattern.WAYPOINTS and target is not None and found.waypoint_count is None:
+        draft.waypoint_count = draft.waypoint_count or values.inferred('waypoint_count', 1)
+    found.apply(draft)
+    _state_ranges(frame, draft, found)
+    return draft.id
+
+
+def _continues(
+    frame: Frame,
+    last: MissionDraft,
+    mode: MissionMode,
+    target: str | None,
+    pattern: Pattern | None,
+    found: FlightValues,
+) -> bool:
+    """Return whether a clause says more about the last phase instead of opening another."""
+    if frame.piece.then or last.mode is not mode:
+        return False
+    if target is not None and last.target is not None and last.target != target:
+        return False
+    if pattern is not None and last.pattern is not None and last.pattern is not pattern:
+        return False
+    return not found.clashes(last)
+
+
+def _plain_flight(frame: Frame, flying: tuple[Entity, ...], found: FlightValues) -> bool:
+    """`flies at 30 m`, `keeping 35 m away`: values for the phase before, else for the next one."""
+    if not found.anything:
+        named = bool(frame.subject_nouns) and frame.key in ('', 'be', 'fly', 'start')
+        if named:
+            frame.scene.became(*(u.id for u in flying))
+        return named
+    scene = frame.scene
+    for uav in flying:
+        known = scene.missions_of(uav)
+        attach = known and not frame.piece.then and not found.clashes(known[-1])
+        if attach:
+            found.apply(known[-1])
+            _state_ranges(frame, known[-1], found)
+            scene.became(known[-1].id)
+        elif (
+            found.only_pending
+            and not found.ranges
+            and not (known and frame.piece.link in _CONCURRENT)
+        ):
+            if found.altitude is not None:
+                scene.pending_altitude[uav.id] = found.altitude
+            if found.speed is not None:
+                scene.pending_speed[uav.id] = found.speed
+            scene.became(uav.id)
+        else:
+            found.release()
+            return False
+    return True
+
+
+def _state_ranges(frame: Frame, draft: MissionDraft, found: FlightValues) -> None:
+    """A stated range is two conditions."""
+    for quantity, of, measure in found.conditions(draft):
+        low, high = values.range_ends('condition_distance', measure)
+        for op, bound in (('>=', low), ('<=', high)):
+            made = StatedCondition.model_validate(
+                {
+                    'id': frame.scene.new_id('c'),
+                    'quantity': quantity,
+                    'of': of,
+                    'op': op,
+                    'value': bound,
+                    'span': frame.span,
+                }
+            )
+            frame.scene.conditions.append(made)
+            frame.scene.clause.ids[made.id] = None
+
+
+def waypoints_without_unit(adjunct: Adjunct) -> bool:
+    """Return whether an adjunct is a plain count."""
+    return adjunct.measure is not None and adjunct.measure.dimension == COUNT

@@ -1,0 +1,224 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Where ground agents are: relations, places, distances."""
+
+from __future__ import annotations
+
+from aurora_core.parsing import values
+from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
+from aurora_core.parsing.atoms import ACTORS, NounKind, NounPhrase
+from aurora_core.parsing.frames import Frame
+from aurora_core.parsing.pronouns import ground
+from aurora_core.parsing.scene import Entity, Unanchored
+from aurora_core.spec.parameter import Parameter, Span
+from aurora_core.spec.scenario import Placement
+from aurora_core.spec.vocabulary import Relation
+
+_KEPT = frozenset(
+    {
+        Relation.AHEAD,
+        Relation.BEHIND,
+        Relation.LEFT,
+        Relation.RIGHT,
+        Relation.BESIDE,
+        Relation.ADJACENT_LANE,
+        Relation.SAME_LANE,
+    }
+)
+
+
+# Relations that mean a distance; the others touch.
+_DISTANT = frozenset(
+    {
+        Relation.AHEAD,
+        Relation.BEHIND,
+        Relation.LEFT,
+        Relation.RIGHT,
+        Relation.NEAR,
+        Relation.BEFORE,
+        Relation.ONCOMING,
+    }
+)
+
+
+_PHRASE_RELATIONS = {
+    'at': Relation.AT,
+    'on': Relation.ON,
+    'in': Relation.AT,
+    'before': Relation.BEFORE,
+    'along': Relation.ON,
+}
+
+
+def add_placement(entity: Entity, placement: Placement) -> None:
+    """Add a placement; one that is there already gets the stated distance."""
+    for i, known in enumerate(entity.placements):
+        if known.relation is placement.relation and known.of == placement.of:
+            stated = [
+                p
+                for p in (placement.distance_m, known.distance_m)
+                if p is not None and p.span is not None
+            ]
+            entity.placements[i] = Placement(
+                relation=known.relation,
+                of=known.of,
+                distance_m=stated[0] if stated else known.distance_m or placement.distance_m,
+                bearing_deg=known.bearing_deg or placement.bearing_deg,
+                kept_in_motion=known.kept_in_motion or placement.kept_in_motion,
+                span=known.span,
+            )
+            return
+    entity.placements.append(placement)
+
+
+def named_reference(frame: Frame, adjunct: Adjunct) -> str | None:
+    place = place_of(frame, adjunct)
+    if place is not None:
+        return place
+    actors = [n for n in adjunct.nouns if n.kind in ACTORS or n.kind is NounKind.UNKNOWN]
+    if not actors:
+        return None
+    found = frame.objects(actors, ground)
+    if len(found) > 1:
+        frame.flag(adjunct.start, adjunct.end)
+    return found[0].id if found else None
+
+
+def place_of(frame: Frame, adjunct: Adjunct) -> str | None:
+    for noun in adjunct.nouns:
+        place = frame.resolver.place(noun)
+        if place is not None:
+            frame.scene.clause.places += (place,)
+            return place
+    return None
+
+
+def gap(frame: Frame) -> Parameter | None:
+    """`follows the ego at 15 m`, `with a gap of 12 m`."""
+    adjunct = frame.attribute('gap', 'standoff', 'away') or frame.length(
+        'at', 'by', 'with', 'from', ''
+    )
+    if adjunct is None or adjunct.measure is None:
+        return None
+    if not values.accepts('placement_distance', adjunct.measure) or adjunct.prep == 'within':
+        return None
+    adjunct.used = True
+    return values.explicit('placement_distance', adjunct.measure)
+
+
+def placements_of(
+    frame: Frame, subjects: tuple[Entity, ...], *, kept: bool
+) -> tuple[Placement, ...]:
+    """Take every stated place of the subjects."""
+    made: list[Placement] = []
+    for adjunct in frame.free(AdjunctKind.PLACE):
+        if frame.key == 'overtake' and adjunct.key in ('left', 'right') and not adjunct.nouns:
+            continue  # the side of an overtaking is not part of the vocabulary
+        if frame.key == 'stop' and adjunct.key == 'before':
+            continue  # where it will stop is not where it is at the start
+        placement = _relation(frame, adjunct, subjects, kept)
+        if placement is not None:
+            adjunct.used = True
+            made.append(placement)
+    for adjunct in frame.free(AdjunctKind.PHRASE, *_PHRASE_RELATIONS):
+        place = place_of(frame, adjunct)
+        if place is not None:
+            adjunct.used = True
+            relation = _PHRASE_RELATIONS[adjunct.key]
+            if frame.key == 'park':
+                relation = Relation.PARKED_AT
+            made.append(
+                Placement(
+                    relation=relation,
+                    of=place,
+                    distance_m=_default_distance(relation),
+                    span=Span(start=adjunct.start, end=adjunct.end),
+                )
+            )
+    away = frame.attribute('away')
+    if away is not None and away.nouns and away.measure is not None and away.prep in ('', 'at'):
+        others = frame.objects(away.nouns, ground)
+        if len(others) == 1 and values.accepts('placement_distance', away.measure):
+            away.used = True
+            made.append(
+                Placement(
+                    relation=Relation.NEAR,
+                    of=others[0].id,
+                    distance_m=values.explicit('placement_distance', away.measure),
+                    span=Span(start=away.start, end=away.end),
+                )
+            )
+    return tuple(made)
+
+
+def _default_distance(relation: Relation) -> Parameter | None:
+    return values.default('placement_distance') if relation in _DISTANT else None
+
+
+def _relation(
+    frame: Frame, adjunct: Adjunct, subjects: tuple[Entity, ...], kept: bool
+) -> Placement | None:
+    if adjunct.key == 'compass':
+        return _compass(frame, adjunct)
+    relation = Relation(adjunct.key)
+    of = _anchor(frame, adjunct, subjects)
+    distance = _default_distance(relation)
+    loose = None if adjunct.measure is not None else gap(frame)
+    if adjunct.measure is not None:
+        if not values.accepts('placement_distance', adjunct.measure):
+            return None
+        distance = values.explicit('placement_distance', adjunct.measure)
+    elif loose is not None:
+        distance = loose
+    placement = Placement(
+        relation=relation,
+        of=of,
+        distance_m=distance,
+        kept_in_motion=kept and relation in _KEPT,
+        span=Span(start=adjunct.start, end=adjunct.end),
+    )
+    if of is None and relation is not Relation.ONCOMING:
+        if adjunct.nouns:
+            return None
+        adjunct.used = True
+        frame.scene.unanchored.append(
+            Unanchored(entities=subjects, placement=placement, clause=frame.scene.clause)
+        )
+        return None
+    return placement
+
+
+def _anchor(frame: Frame, adjunct: Adjunct, subjects: tuple[Entity, ...]) -> str | None:
+    """Return what a relation refers to: named, the ego, or the last one spoken of."""
+    if adjunct.nouns:
+        return named_reference(frame, adjunct) if _is_one(adjunct.nouns) else None
+    spoken_of = frame.scene.clause.objects
+    if spoken_of:
+        return spoken_of[0].id
+    ego = frame.scene.ego
+    if ego is not None and ego not in subjects:
+        return ego.id
+    others = [e for e in frame.scene.agents if e not in subjects]
+    return max(others, key=lambda e: e.seen).id if others else None
+
+
+def _is_one(nouns: tuple[NounPhrase, ...]) -> bool:
+    return len(nouns) == 1
+
+
+def _compass(frame: Frame, adjunct: Adjunct) -> Placement | None:
+    of = named_reference(frame, adjunct) if adjunct.nouns else None
+    if of is None:
+        return None
+    distance = values.default('placement_distance')
+    if adjunct.measure is not None:
+        if not values.accepts('placement_distance', adjunct.measure):
+            return None
+        distance = values.explicit('placement_distance', adjunct.measure)
+    return Placement(
+        relation=Relation.NEAR,
+        of=of,
+        distance_m=distance,
+        bearing_deg=values.stated('bearing', float(adjunct.value), adjunct.start, adjunct.end),
+        span=Span(start=adjunct.start, end=adjunct.end),
+    )

@@ -1,0 +1,205 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""What starts an event: `when the van comes within 20 m`, `once it reaches 40 m`, `after 10 s`."""
+
+from __future__ import annotations
+
+from aurora_core.parsing import values
+from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
+from aurora_core.parsing.atoms import AtomKind
+from aurora_core.parsing.constructions.actions import agent_action
+from aurora_core.parsing.constructions.distances import DistanceCause, distance_cause, reference
+from aurora_core.parsing.frames import Frame
+from aurora_core.parsing.pronouns import anything
+from aurora_core.parsing.scene import Entity, EventDraft
+from aurora_core.spec.scenario import (
+    AltitudeTrigger,
+    ArrivalTrigger,
+    EventDoneTrigger,
+    MessageTrigger,
+    MissionDoneTrigger,
+    SendMessage,
+    SpeedTrigger,
+    TimeTrigger,
+    Trigger,
+    VisibilityTrigger,
+)
+
+Cause = DistanceCause | Trigger
+
+
+def cause(frame: Frame) -> Cause | None:
+    """Read the clause behind `when`, None when it is none that can be watched."""
+    if frame.negated:
+        return None
+    return (
+        distance_cause(frame)
+        or _altitude(frame)
+        or _speed(frame)
+        or _sight(frame)
+        or _message(frame)
+        or _arrival(frame)
+        or _done(frame)
+        or _elapsed(frame)
+        or _behavior(frame)
+    )
+
+
+def time_adjunct(frame: Frame) -> tuple[TimeTrigger, Adjunct] | None:
+    """Take `after 10 s`, `at t = 10 s`, `10 seconds into the run` from a main clause."""
+    start = frame.has_mark(AtomKind.FROM_START.value)
+    adjunct = frame.time('after', 'at') or (frame.time('', 'in') if start else None)
+    if adjunct is None or adjunct.measure is None or frame.piece.then:
+        return None
+    if not values.accepts('trigger_time', adjunct.measure):
+        return None
+    adjunct.used = True
+    frame.mark(AtomKind.FROM_START.value)
+    at = TimeTrigger(on='time', at_s=values.explicit('trigger_time', adjunct.measure))
+    return at, adjunct
+
+
+def _altitude(frame: Frame) -> AltitudeTrigger | None:
+    if frame.key not in ('reach', 'ascend', 'be', 'come', 'exceed'):
+        return None
+    adjunct = frame.attribute('altitude')
+    if adjunct is None:
+        adjunct = frame.length('', 'to', 'at')
+    if adjunct is None or adjunct.measure is None:
+        return None
+    if not values.accepts('altitude', adjunct.measure):
+        return None
+    uavs = frame.subjects(lambda e: e.is_uav)
+    if len(uavs) != 1:
+        return None
+    adjunct.used = True
+    return AltitudeTrigger(
+        on='altitude_reached',
+        uav=uavs[0].id,
+        value_m=values.explicit('altitude', adjunct.measure),
+    )
+
+
+def _speed(frame: Frame) -> SpeedTrigger | None:
+    adjunct = frame.attribute('speed')
+    above = frame.key in ('exceed', 'reach', 'accelerate', 'drive', 'come')
+    below = frame.key in ('fall_below', 'slow')
+    if adjunct is None or adjunct.measure is None or not (above or below):
+        return None
+    if adjunct.prep in ('below', 'within'):
+        above, below = False, True
+    if not values.accepts('trigger_speed', adjunct.measure):
+        return None
+    who = frame.subjects()
+    if len(who) != 1:
+        return None
+    adjunct.used = True
+    return SpeedTrigger(
+        on='speed_above' if above else 'speed_below',
+        who=who[0].id,
+        value_mps=values.explicit('trigger_speed', adjunct.measure),
+    )
+
+
+def _sight(frame: Frame) -> VisibilityTrigger | None:
+    seen = frame.key in ('see', 'appear') or (
+        frame.key == 'be' and frame.mark(AtomKind.IN_VIEW.value) is not None
+    )
+    if not seen and frame.key not in ('lose', 'vanish'):
+        return None
+    subjects = frame.subjects()
+    observer: Entity | None = None
+    target: str | None = None
+    if frame.key in ('see', 'lose'):
+        observer = subjects[0] if subjects else None
+        taken = frame.take(AdjunctKind.OBJECT) or frame.take(AdjunctKind.PHRASE, 'of')
+        target = reference(frame, taken.nouns) if taken is not None else None
+    else:
+        target = subjects[0].id if subjects else None
+        phrase = frame.take(AdjunctKind.PHRASE, 'to', 'from', 'of')
+        named = frame.objects(phrase.nouns) if phrase is not None else ()
+        observer = named[0] if named else None
+        if observer is None and len(frame.scene.uavs) == 1:
+            observer = frame.scene.uavs[0]
+    if observer is None or target is None:
+        return None
+    return VisibilityTrigger(
+        on='visible' if seen else 'occluded', observer=observer.id, target=target
+    )
+
+
+def _message(frame: Frame) -> MessageTrigger | None:
+    if frame.key != 'receive':
+        return None
+    who = frame.subjects(anything)
+    frame.mark(AtomKind.MESSAGE.value)
+    phrase = frame.take(AdjunctKind.PHRASE, 'from', 'of')
+    senders = frame.objects(phrase.nouns) if phrase is not None else ()
+    if len(who) != 1:
+        return None
+    return MessageTrigger(
+        on='message_received', by=who[0].id, sender=senders[0].id if senders else None
+    )
+
+
+def _arrival(frame: Frame) -> ArrivalTrigger | None:
+    if frame.key not in ('reach', 'drive', 'come', 'be', 'walk', 'stop'):
+        return None
+    for adjunct in frame.free(AdjunctKind.OBJECT) + frame.free(
+        AdjunctKind.PHRASE, 'at', 'to', 'in', 'on'
+    ):
+        for noun in adjunct.nouns:
+            place = frame.resolver.place(noun)
+            who = frame.subjects() if place is not None else ()
+            if place is not None and len(who) == 1:
+                adjunct.used = True
+                return ArrivalTrigger(on='arrives', who=who[0].id, place=place)
+    return None
+
+
+def _done(frame: Frame) -> MissionDoneTrigger | None:
+    if frame.key not in ('finish', 'land'):
+        return None
+    uavs = frame.subjects(lambda e: e.is_uav)
+    if len(uavs) != 1:
+        return None
+    for mark in frame.free(AdjunctKind.MARK, AtomKind.ROUTE.value, AtomKind.PATTERN.value):
+        mark.used = True
+    return MissionDoneTrigger(on='mission_done', uav=uavs[0].id)
+
+
+def _elapsed(frame: Frame) -> TimeTrigger | None:
+    """`once 10 s have passed`."""
+    adjunct = frame.time('')
+    if adjunct is None or adjunct.measure is None or frame.subject_nouns:
+        return None
+    if frame.key not in ('overtake', 'drive', 'finish') or not values.accepts(
+        'trigger_time', adjunct.measure
+    ):
+        return None
+    adjunct.used = True
+    return TimeTrigger(on='time', at_s=values.explicit('trigger_time', adjunct.measure))
+
+
+def _behavior(frame: Frame) -> EventDoneTrigger | None:
+    """`when the bus brakes`: an event of its own, whose cause the prompt does not state."""
+    scene = frame.scene
+    if frame.key == 'alert':
+        who = frame.subjects()
+        for event in scene.events:
+            if isinstance(event.action, SendMessage) and who and event.action.sender == who[0].id:
+                for adjunct in frame.free(AdjunctKind.OBJECT):
+                    adjunct.used = bool(frame.objects(adjunct.nouns))
+                return EventDoneTrigger(on='event_done', event=event.id)
+        return None
+    action = agent_action(frame)
+    if action is None:
+        return None
+    for event in scene.events:
+        if event.action == action:
+            return EventDoneTrigger(on='event_done', event=event.id)
+    made = EventDraft(id=scene.new_id('e'), action=action, span=frame.span)
+    made.clauses.append(scene.clause_number)
+    scene.events.append(made)
+    scene.became(made.id)
+    return EventDoneTrigger(on='event_done', event=made.id)

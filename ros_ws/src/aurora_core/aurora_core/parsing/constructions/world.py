@@ -1,0 +1,77 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""`in clear weather at midday`, `heavy traffic`, `the scenario lasts two minutes`."""
+
+from __future__ import annotations
+
+from aurora_core.parsing import values
+from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
+from aurora_core.parsing.atoms import AtomKind
+from aurora_core.parsing.frames import Frame
+from aurora_core.parsing.measures import TIME
+from aurora_core.spec.parameter import Span
+from aurora_core.spec.vocabulary import TimeOfDay, TrafficDensity, Weather
+
+WORLD_ID = 'world'
+_LASTING = ('last', 'trace', 'be', 'keep', 'finish', '')
+
+
+def world_words(frame: Frame) -> bool:
+    """Take weather, time of day and traffic wherever they stand."""
+    found = False
+    for mark in frame.free(AdjunctKind.MARK, AtomKind.WORLD.value):
+        mark.used = _set(frame, mark)
+        found = found or mark.used
+    for mark in frame.free(AdjunctKind.MARK, AtomKind.NO_TRAFFIC.value):
+        mark.used = found = True
+    found = _duration(frame) or found
+    if found:
+        frame.scene.became(WORLD_ID)
+    return found
+
+
+def _set(frame: Frame, mark: Adjunct) -> bool:
+    if frame.negated:
+        return False
+    field, _, word = mark.value.partition(':')
+    world = frame.scene.world
+    span = Span(start=mark.start, end=mark.end)
+    if field == 'weather':
+        weather = Weather(word)
+        if world.weather is not None and world.weather is not weather:
+            return _clash(frame, 'weather', world.weather.value, word)
+        world.weather, world.weather_span = weather, span
+    elif field == 'time_of_day':
+        time_of_day = TimeOfDay(word)
+        if world.time_of_day is not None and world.time_of_day is not time_of_day:
+            return _clash(frame, 'time of day', world.time_of_day.value, word)
+        world.time_of_day, world.time_of_day_span = time_of_day, span
+    else:
+        traffic = TrafficDensity(word)
+        if world.traffic is not None and world.traffic is not traffic:
+            return _clash(frame, 'traffic', world.traffic.value, word)
+        world.traffic = traffic
+    return True
+
+
+def _clash(frame: Frame, what: str, first: str, second: str) -> bool:
+    frame.scene.questions.append(f'Which {what} do you mean: {first} or {second}?')
+    return True
+
+
+def _duration(frame: Frame) -> bool:
+    """A time beside the word for the whole scenario is the horizon."""
+    if not frame.has_mark(AtomKind.SCENARIO.value) or frame.key not in _LASTING:
+        return False
+    if frame.subject_nouns or frame.negated:
+        return False
+    for adjunct in frame.free(AdjunctKind.MEASURE, TIME) + frame.free(
+        AdjunctKind.ATTRIBUTE, 'duration'
+    ):
+        measure = adjunct.measure
+        allowed = adjunct.prep in ('', 'for', 'of', 'with')
+        if measure is not None and allowed and values.accepts('scenario_duration', measure):
+            adjunct.used = True
+            frame.scene.world.duration = values.explicit('scenario_duration', measure)
+            return True
+    return False

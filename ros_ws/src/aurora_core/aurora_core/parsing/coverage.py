@@ -1,0 +1,67 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The last check: every number and every named actor of the prompt went somewhere."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from pydantic import BaseModel
+
+from aurora_core.parsing.atoms import ACTORS, Atom, NounKind
+from aurora_core.parsing.resolver import Resolver
+from aurora_core.spec.parameter import Parameter, Span
+from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.spec.vocabulary import ClauseStatus
+
+_NO_ACTORS = (NounKind.PRONOUN, NounKind.UNSUPPORTED, NounKind.AMBIGUOUS)
+
+
+def unaccounted(
+    spec: ScenarioSpec, atoms: Sequence[Atom], resolver: Resolver, *, no_uavs: bool
+) -> list[Span]:
+    """Return the numbers and named actors that no element and no unread clause accounts for.
+
+    Args:
+        spec: The specification as it stands.
+        atoms: All atoms of the prompt.
+        resolver: Knows which noun phrases became actors.
+        no_uavs: The prompt says that there is no UAV: naming one is not asking for it.
+    """
+    stated = [p.span for p in _parameters(spec) if p.span is not None]
+    unread = [c.span for c in spec.clauses if c.status is ClauseStatus.NOT_ENCODED]
+    lost: list[Span] = []
+    for atom in atoms:
+        span = Span(start=atom.start, end=atom.end)
+        if any(_inside(span, clause) for clause in unread):
+            continue
+        if atom.measure is not None:
+            number = Span(start=atom.measure.start, end=atom.measure.end)
+            if not any(_inside(number, known) for known in stated):
+                lost.append(span)
+        elif atom.noun is not None:
+            noun = atom.noun
+            names = noun.kind in ACTORS and noun.kind not in _NO_ACTORS
+            forgotten = names and not resolver.known(noun)
+            if no_uavs and noun.kind is NounKind.UAV:
+                forgotten = False
+            counted = not names and noun.count > 0 and noun.kind is not NounKind.UNKNOWN
+            digits = any(c.isdigit() for c in spec.prompt[atom.start : atom.end])
+            if forgotten or (counted and (digits or noun.count != 1)):
+                lost.append(span)
+    return lost
+
+
+def _inside(inner: Span, outer: Span) -> bool:
+    return outer.start <= inner.start and inner.end <= outer.end
+
+
+def _parameters(value: object) -> Iterator[Parameter]:
+    if isinstance(value, Parameter):
+        yield value
+    elif isinstance(value, BaseModel):
+        for _, inner in value:
+            yield from _parameters(inner)
+    elif isinstance(value, tuple):
+        for inner in value:
+            yield from _parameters(inner)

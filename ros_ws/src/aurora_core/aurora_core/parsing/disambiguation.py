@@ -1,0 +1,79 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Auxiliary, causative or full verb: decided by what follows."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from aurora_core.parsing.atoms import Atom, AtomKind
+from aurora_core.parsing.morphology import VerbForm
+
+_SKIPPED = (AtomKind.FILL, AtomKind.NEGATION, AtomKind.AUXILIARY)
+
+
+def settle_verbs(atoms: list[Atom]) -> list[Atom]:
+    """Decide between auxiliary, causative and full verb by what follows."""
+    settled = list(atoms)
+    for i in range(len(settled) - 1, -1, -1):
+        atom = settled[i]
+        kinds = atom.other_kinds
+        if AtomKind.AUXILIARY in kinds and AtomKind.VERB in kinds:
+            kind = AtomKind.AUXILIARY if _verb_follows(settled, i) else AtomKind.VERB
+            settled[i] = _as(atom, kind)
+        if atom.kind is AtomKind.VERB and atom.key in _PHASES and _gerund_follows(settled, i):
+            settled[i] = replace(atom, kind=AtomKind.AUXILIARY)
+        if AtomKind.CAUSATIVE in kinds:
+            if _actor_then_verb(settled, i):
+                settled[i] = _as(atom, AtomKind.CAUSATIVE)
+            elif AtomKind.VERB in kinds and settled[i].kind is AtomKind.CAUSATIVE:
+                settled[i] = _as(atom, AtomKind.VERB)
+    return settled
+
+
+# `starts tracking`, `keeps following`: the second verb is the predicate.
+_PHASES = ('start', 'keep')
+
+
+def _gerund_follows(atoms: list[Atom], i: int) -> bool:
+    for atom in atoms[i + 1 :]:
+        if atom.kind is AtomKind.VERB:
+            return atom.form is VerbForm.ING
+        if atom.kind is not AtomKind.FILL:
+            return False
+    return False
+
+
+def _as(atom: Atom, kind: AtomKind) -> Atom:
+    if kind is AtomKind.VERB:
+        return replace(atom, kind=kind, key=atom.verb_key, form=atom.verb_form)
+    return replace(atom, kind=kind)
+
+
+def _verb_follows(atoms: list[Atom], i: int) -> bool:
+    for atom in atoms[i + 1 :]:
+        if atom.kind is AtomKind.VERB:
+            return True
+        if atom.kind not in _SKIPPED:
+            return False
+    return False
+
+
+def _actor_then_verb(atoms: list[Atom], i: int) -> bool:
+    """`have a drone follow`, `tell the drone to land`, `send a drone to hover`."""
+    j = i + 1
+    while j < len(atoms) and atoms[j].kind is AtomKind.FILL:
+        j += 1
+    if j >= len(atoms) or not atoms[j].is_actor:
+        return False
+    j += 1
+    while j < len(atoms) and (
+        atoms[j].kind in (AtomKind.FILL, AtomKind.AUXILIARY)
+        or (atoms[j].kind is AtomKind.PREPOSITION and atoms[j].key == 'to')
+    ):
+        j += 1
+    return (
+        j < len(atoms)
+        and atoms[j].kind is AtomKind.VERB
+        and atoms[j].form in (VerbForm.BASE, VerbForm.ING)
+    )

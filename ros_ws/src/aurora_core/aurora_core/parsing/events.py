@@ -1,0 +1,101 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Puts cause and effect together."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from aurora_core.parsing.constructions.distances import DistanceCause
+from aurora_core.parsing.constructions.triggers import Cause
+from aurora_core.parsing.scene import ClauseDraft, EventDraft, Scene
+from aurora_core.spec.parameter import Span
+from aurora_core.spec.scenario import (
+    AgentAction,
+    AltitudeTrigger,
+    DistanceTrigger,
+    EventAction,
+    EventDoneTrigger,
+    SendMessage,
+    Trigger,
+    UavAction,
+)
+from aurora_core.spec.vocabulary import ClauseStatus
+
+
+def complete_event(
+    scene: Scene, found: Cause, action: EventAction, span: Span, clauses: Sequence[ClauseDraft]
+) -> EventDraft | None:
+    """Add the event; `once it is at 40 m it tracks …` is the sequence that every mission has."""
+    if _is_climb_before_mission(scene, found, action):
+        for clause in clauses:
+            assert isinstance(action, UavAction)
+            clause.ids[str(action.mission)] = None
+            clause.status = ClauseStatus.ENCODED
+        return None
+    event = EventDraft(
+        id=scene.new_id('e'), trigger=_settled(scene, found, action), action=action, span=span
+    )
+    scene.events.append(event)
+    for clause in (*clauses, scene.clause):
+        clause.ids[event.id] = None
+        clause.status = ClauseStatus.ENCODED
+    return event
+
+
+def same_cause(
+    scene: Scene, first: EventDraft, action: EventAction, span: Span, *, then: bool
+) -> EventDraft:
+    """Add a second effect: of the same cause, or after the first effect when `then` says so."""
+    trigger: Trigger | None = first.trigger
+    if then:
+        trigger = EventDoneTrigger(on='event_done', event=first.id)
+    event = EventDraft(id=scene.new_id('e'), trigger=trigger, action=action, span=span)
+    scene.events.append(event)
+    scene.became(event.id)
+    return event
+
+
+def _is_climb_before_mission(scene: Scene, found: Cause, action: EventAction) -> bool:
+    if not isinstance(found, AltitudeTrigger) or not isinstance(action, UavAction):
+        return False
+    if action.do != 'change_mission' or action.uav != found.uav:
+        return False
+    mission = next(m for m in scene.missions if m.id == action.mission)
+    if mission.altitude is not None and mission.altitude.value != found.value_m.value:
+        return False
+    mission.altitude = mission.altitude or found.value_m
+    return True
+
+
+def _settled(scene: Scene, found: Cause, action: EventAction) -> Trigger:
+    if not isinstance(found, DistanceCause):
+        return found
+    other = found.b or _other_end(scene, found, action)
+    if other is None:
+        scene.questions.append(f'How far from whom should {found.a.id} be?')
+        other = found.a.id
+    return DistanceTrigger(
+        on='distance_below' if found.below else 'distance_above',
+        a=found.a.id,
+        b=other,
+        value_m=found.value_m,
+    )
+
+
+def _other_end(scene: Scene, found: DistanceCause, action: EventAction) -> str | None:
+    """Return whom `comes within 20 m` means: who is told, who acts, who is followed, the ego."""
+    a = found.a
+    if isinstance(action, SendMessage):
+        told = scene.by_id(action.receiver)
+        if told is not None and told is not a:
+            return told.id
+    if isinstance(action, AgentAction) and action.agent != a.id:
+        return action.agent
+    for behavior in a.behaviors:
+        if behavior.target is not None and scene.by_id(behavior.target) is not None:
+            return behavior.target
+    if scene.ego is not None and scene.ego is not a:
+        return scene.ego.id
+    others = [e for e in scene.agents if e is not a]
+    return others[0].id if len(others) == 1 else None

@@ -1,0 +1,332 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""One clause as predicate, subject and adjuncts, and what of it was understood."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from aurora_core.parsing.adjunct_reader import AdjunctReader
+from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
+from aurora_core.parsing.atoms import Atom, AtomKind, NounKind, NounPhrase
+from aurora_core.parsing.measures import LENGTH, TIME
+from aurora_core.parsing.morphology import VerbForm
+from aurora_core.parsing.pieces import Piece
+from aurora_core.parsing.pronouns import Fits, anything
+from aurora_core.parsing.resolver import Resolver
+from aurora_core.parsing.scene import Entity, Scene
+from aurora_core.spec.parameter import Span
+
+_SILENT = (AtomKind.FILL, AtomKind.AUXILIARY, AtomKind.CONJUNCTION, AtomKind.FRAME)
+_GOVERNORS = (AtomKind.PREPOSITION, AtomKind.RELATION, AtomKind.COMPASS)
+_TRANSITIVE = frozenset(
+    {
+        'follow',
+        'tailgate',
+        'overtake',
+        'approach',
+        'lead',
+        'trail',
+        'track',
+        'observe',
+        'orbit',
+        'alert',
+        'send',
+        'report',
+        'see',
+        'receive',
+        'navigate',
+        'visit',
+        'reach',
+        'trace',
+        'cross',
+        'lose',
+        'put',
+        'fly',
+    }
+)
+# Marks and nouns that add nothing when no construction takes them.
+_NEUTRAL_MARKS = frozenset({'scenario', 'world_noun', 'route', 'frame', 'from_start'})
+_NEUTRAL_NOUNS = frozenset({NounKind.SURROUNDINGS, NounKind.STREET})
+
+
+class Frame:
+    """A clause ready for the constructions."""
+
+    def __init__(self, piece: Piece, scene: Scene, resolver: Resolver) -> None:
+        self.piece = piece
+        self.scene = scene
+        self.resolver = resolver
+        atoms = piece.atoms
+        at = next((i for i, a in enumerate(atoms) if a.kind is AtomKind.VERB), None)
+        self.verb: Atom | None = None if at is None else atoms[at]
+        before = atoms if at is None else atoms[:at]
+        after = () if at is None else atoms[at + 1 :]
+        self.negated = any(a.kind is AtomKind.NEGATION for a in atoms)
+        self.subject_nouns, rest = _split_subject(before)
+        self.adjuncts = AdjunctReader(rest).read() + AdjunctReader(after).read()
+        self.flagged: list[tuple[int, int]] = []
+        self.avoid: tuple[Entity, ...] = ()
+        self._impersonal()
+        self.passive = self._is_passive(before)
+        self._reorder()
+        self._later_verbs(after)
+
+    @property
+    def key(self) -> str:
+        """Meaning of the predicate, empty for a clause without one."""
+        return self.verb.key if self.verb is not None else ''
+
+    @property
+    def span(self) -> Span:
+        """Characters of the clause."""
+        return Span(start=self.piece.start, end=self.piece.end)
+
+    def _impersonal(self) -> None:
+        """`it is foggy`: the pronoun means nobody."""
+        world = any(
+            a.kind is AdjunctKind.MARK and a.key == AtomKind.WORLD.value for a in self.adjuncts
+        )
+        if world and self.key in ('be', 'come', 'keep', ''):
+            self.subject_nouns = tuple(
+                n for n in self.subject_nouns if n.kind is not NounKind.PRONOUN
+            )
+
+    def _is_passive(self, before: Sequence[Atom]) -> bool:
+        if self.verb is None or self.verb.form is not VerbForm.PAST or self.key not in _TRANSITIVE:
+            return False
+        helped = any(
+            a.kind is AtomKind.AUXILIARY and a.key in ('be', 'get', 'have') for a in before
+        )
+        by = any(self._agentive(a) for a in self.adjuncts)
+        is_be = any(a.kind is AtomKind.AUXILIARY and a.key == 'be' for a in before)
+        return (helped and is_be) or by
+
+    @staticmethod
+    def _agentive(adjunct: Adjunct) -> bool:
+        return adjunct.kind is AdjunctKind.PHRASE and adjunct.key == 'by'
+
+    def _reorder(self) -> None:
+        """Passive voice and inversion: put subject and object where the active voice has them."""
+        if self.passive:
+            patient = self.subject_nouns
+            by = next((a for a in self.adjuncts if self._agentive(a)), None)
+            self.subject_nouns = by.nouns if by is not None else ()
+            if by is not None:
+                by.used = True
+            if not patient and self.piece.head is not None and self.piece.head.noun is not None:
+                patient = (self.piece.head.noun,)
+            if patient:
+                self.adjuncts.insert(
+                    0,
+                    Adjunct(
+                        kind=AdjunctKind.OBJECT,
+                        key='',
+                        start=patient[0].start,
+                        end=patient[-1].end,
+                        nouns=patient,
+                    ),
+                )
+            return
+        fronted = any(a.kind in (AdjunctKind.PLACE, AdjunctKind.PHRASE) for a in self.adjuncts)
+        if (
+            not self.subject_nouns
+            and fronted
+            and self.verb is not None
+            and self.verb.form is VerbForm.THIRD
+            and self.adjuncts[0].end <= self.verb.start
+        ):  # `behind it follows an ambulance`
+            inverted = next(
+                (
+                    a
+                    for a in self.adjuncts
+                    if a.kind is AdjunctKind.OBJECT and a.start >= self.verb.end
+                ),
+                None,
+            )
+            if inverted is not None:
+                self.subject_nouns = inverted.nouns
+                inverted.used = True
+
+    def _later_verbs(self, after: Sequence[Atom]) -> None:
+        """`stops moving`: a second predicate that was not cut off says nothing new or is loose."""
+        for adjunct in self.adjuncts:
+            if adjunct.kind is AdjunctKind.MARK and adjunct.key == AtomKind.VERB.value:
+                adjunct.used = adjunct.value == 'drive' and self.key in ('stop', 'start')
+
+    # --- who ----------------------------------------------------------------------------------
+
+    def subjects(self, accept: Fits = anything) -> tuple[Entity, ...]:
+        """Return the acting entities: named here, by the head noun, or by the clause before."""
+        found: tuple[Entity, ...] = ()
+        if self.subject_nouns:
+            named = [n for n in self.subject_nouns if n.kind is not NounKind.UNKNOWN]
+            found = self.resolver.actors(named, accept=accept, exclude=self.avoid)
+            found = tuple(e for e in found if accept(e))
+        elif self.piece.head is not None and self.piece.head.noun is not None and not self.passive:
+            found = self.resolver.actors((self.piece.head.noun,), accept=accept)
+            found = tuple(e for e in found if accept(e))
+            found = found or self.inherited(accept)
+        elif not self.passive:
+            found = self.inherited(accept)
+        self.scene.clause.subjects = found
+        return found
+
+    def inherited(self, accept: Fits = anything) -> tuple[Entity, ...]:
+        """Return the subjects of the clause before that fit."""
+        earlier = [
+            c
+            for c in reversed(self.scene.clauses[:-1])
+            if c.sentence == self.piece.sentence or self.piece.then
+        ]
+        for clause in sorted(earlier, key=lambda c: c.describes):  # main clauses first
+            fitting = tuple(e for e in clause.subjects if accept(e))
+            if fitting:
+                return fitting
+        return ()
+
+    def objects(self, nouns: Sequence[NounPhrase], accept: Fits = anything) -> tuple[Entity, ...]:
+        """Return actors named as objects and remember them for pronouns."""
+        found = self.resolver.actors(
+            nouns, accept=accept, exclude=self.scene.clause.subjects, as_object=True
+        )
+        known = self.scene.clause.objects
+        self.scene.clause.objects = known + tuple(e for e in found if e not in known)
+        return found
+
+    # --- adjuncts -----------------------------------------------------------------------------
+
+    def free(self, kind: AdjunctKind, *keys: str) -> list[Adjunct]:
+        """Return adjuncts of a kind that no construction took yet."""
+        return [
+            a
+            for a in self.adjuncts
+            if not a.used and a.kind is kind and (not keys or a.key in keys)
+        ]
+
+    def take(self, kind: AdjunctKind, *keys: str) -> Adjunct | None:
+        """Take the first free adjunct of a kind."""
+        found = self.free(kind, *keys)
+        if not found:
+            return None
+        found[0].used = True
+        return found[0]
+
+    def attribute(self, *names: str) -> Adjunct | None:
+        """Return the first free attribute of one of the names."""
+        found = self.free(AdjunctKind.ATTRIBUTE, *names)
+        return found[0] if found else None
+
+    def measure(self, dimension: str, *preps: str) -> Adjunct | None:
+        """Return the first free single measure with one of the prepositions, if any are given."""
+        for adjunct in self.free(AdjunctKind.MEASURE, dimension):
+            measure = adjunct.measure
+            single = measure is not None and measure.second is None
+            if single and (not preps or adjunct.prep in preps):
+                return adjunct
+        return None
+
+    def length(self, *preps: str) -> Adjunct | None:
+        """Return the first free length."""
+        return self.measure(LENGTH, *preps)
+
+    def time(self, *preps: str) -> Adjunct | None:
+        """Return the first free time."""
+        return self.measure(TIME, *preps)
+
+    def mark(self, kind: str, *values: str) -> Adjunct | None:
+        """Take a mark of a kind."""
+        for adjunct in self.free(AdjunctKind.MARK, kind):
+            if not values or adjunct.value in values:
+                adjunct.used = True
+                return adjunct
+        return None
+
+    def has_mark(self, kind: str, *values: str) -> bool:
+        """Return whether a mark of a kind stands in the clause."""
+        return any(
+            a.kind is AdjunctKind.MARK and a.key == kind and (not values or a.value in values)
+            for a in self.adjuncts
+        )
+
+    def flag(self, start: int, end: int) -> None:
+        """Note characters that were not understood although their clause was."""
+        self.flagged.append((start, end))
+
+    # --- what is left -------------------------------------------------------------------------
+
+    def leftovers(self) -> list[Span]:
+        """Return what no construction understood, neighbours joined."""
+        loose = [(a.start, a.end) for a in self.adjuncts if not a.used and not self._is_neutral(a)]
+        loose += self.flagged
+        for noun in self.nouns():
+            loose += noun.loose
+        loose += [(n.start, n.end) for n in self.subject_nouns if n.kind is NounKind.UNKNOWN]
+        merged: list[tuple[int, int]] = []
+        for start, end in sorted(loose):
+            if merged and not self.scene.prompt[merged[-1][1] : start].strip(' ,-'):
+                merged[-1] = (merged[-1][0], max(end, merged[-1][1]))
+            elif not merged or start >= merged[-1][1]:
+                merged.append((start, end))
+        return [Span(start=s, end=e) for s, e in merged]
+
+    def nouns(self) -> list[NounPhrase]:
+        """Return every noun phrase of the clause once."""
+        nouns = list(self.subject_nouns)
+        for adjunct in self.adjuncts:
+            nouns += adjunct.nouns
+        return [n for i, n in enumerate(nouns) if n not in nouns[:i]]
+
+    @staticmethod
+    def _is_neutral(adjunct: Adjunct) -> bool:
+        if adjunct.measure is not None:
+            return False
+        if adjunct.kind is AdjunctKind.MARK:
+            thing = adjunct.key == 'thing' and not adjunct.nouns
+            return thing or adjunct.key in _NEUTRAL_MARKS
+        return bool(adjunct.nouns) and all(
+            n.kind in _NEUTRAL_NOUNS or (n.kind is NounKind.PRONOUN and n.key == 'there')
+            for n in adjunct.nouns
+        )
+
+
+Construction = Callable[[Frame], bool]
+
+
+def _split_subject(before: Sequence[Atom]) -> tuple[tuple[NounPhrase, ...], list[Atom]]:
+    """Take the nouns in front of the predicate that no preposition governs."""
+    subjects: list[NounPhrase] = []
+    rest: list[Atom] = []
+    waiting = False  # a preposition waits for its noun
+    governed = False  # the last noun belongs to a preposition
+    conjunction = False
+    for atom in before:
+        if atom.kind is AtomKind.RELATIVE and not subjects:
+            subjects, rest = _before_relative(rest)
+            waiting = governed = conjunction = False
+            continue
+        if atom.kind in _GOVERNORS:
+            waiting, governed = True, False
+        elif atom.noun is not None:
+            shared = conjunction and governed  # `between the van and the ego`
+            actor = atom.is_actor or atom.noun.kind is NounKind.UNKNOWN
+            if actor and not waiting and not shared:
+                subjects.append(atom.noun)
+                governed = conjunction = False
+                continue
+            waiting, governed = False, True
+        elif atom.kind not in _SILENT:
+            waiting = False
+        conjunction = atom.kind is AtomKind.CONJUNCTION
+        rest.append(atom)
+    return tuple(subjects), rest
+
+
+def _before_relative(rest: list[Atom]) -> tuple[list[NounPhrase], list[Atom]]:
+    """`footage of an ambulance that …`: the noun in front of `that` acts, whatever governs it."""
+    for i in range(len(rest) - 1, -1, -1):
+        atom = rest[i]
+        if atom.is_actor and atom.noun is not None:
+            keep = rest[: i - 1] if i and rest[i - 1].kind in _GOVERNORS else rest[:i]
+            return [atom.noun], keep + rest[i + 1 :]
+    return [], rest

@@ -1,0 +1,307 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The words of `lexicon.yaml`, with their forms, ready to be matched against tokens."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from fractions import Fraction
+from functools import lru_cache
+from importlib import resources
+from typing import Any
+
+import yaml
+
+from aurora_core.errors import ConfigError
+from aurora_core.parsing.morphology import VerbForm, plural, verb_forms
+
+# Every scalar stays text: `on`, `no` and `off` are words here.
+_LOADER = getattr(yaml, 'CBaseLoader', yaml.BaseLoader)
+
+
+class Tag(StrEnum):
+    """Word classes; one per section of the lexicon."""
+
+    AGENT = 'agent'
+    VEHICLE = 'vehicle'
+    UAV = 'uav'
+    EGO = 'ego'
+    EGO_POSSESSIVE = 'ego_possessive'
+    EGO_PRONOUN = 'ego_pronoun'
+    UNSUPPORTED = 'unsupported'
+    AMBIGUOUS = 'ambiguous'
+    BACKGROUND = 'background'
+    COLLECTIVE = 'collective'
+    SIREN = 'siren'
+    LABEL = 'label'
+    STATE = 'state'
+    ORDINAL = 'ordinal'
+    PRONOUN = 'pronoun'
+    PLACE = 'place'
+    STREET = 'street'
+    STREETS_FLAG = 'streets_flag'
+    SURROUNDINGS = 'surroundings'
+    LANDMARK_NOUN = 'landmark_noun'
+    LANDMARK = 'landmark'
+    RELATION = 'relation'
+    PREPOSITION = 'preposition'
+    COMPASS = 'compass'
+    WEATHER = 'weather'
+    TIME_OF_DAY = 'time_of_day'
+    TRAFFIC = 'traffic'
+    NO_TRAFFIC = 'no_traffic'
+    WORLD_NOUN = 'world_noun'
+    AERIAL = 'aerial'
+    THING = 'thing'
+    PATTERN = 'pattern'
+    ROUTE = 'route'
+    MESSAGE = 'message'
+    LINK = 'link'
+    SCENARIO = 'scenario'
+    VERB = 'verb'
+    CAUSATIVE = 'causative'
+    AUXILIARY = 'auxiliary'
+    FRAME = 'frame'
+    CONTEXT = 'context'
+    FILL = 'fill'
+    THEN = 'then'
+    SUBORDINATOR = 'subordinator'
+    RELATIVE = 'relative'
+    CONJUNCTION = 'conjunction'
+    NEGATION = 'negation'
+    DEFINITE = 'definite'
+    INDEFINITE = 'indefinite'
+    ALL = 'all'
+    ANOTHER = 'another'
+    IN_VIEW = 'in_view'
+    IN_FLIGHT = 'in_flight'
+    FROM_START = 'from_start'
+    NUMBER = 'number'
+    MULTIPLIER = 'multiplier'
+    APPROXIMATE = 'approximate'
+    AT_LEAST = 'at_least'
+    AT_MOST = 'at_most'
+    AFTER_APPROXIMATE = 'after_approximate'
+    AFTER_AT_LEAST = 'after_at_least'
+    AFTER_AT_MOST = 'after_at_most'
+    UNIT = 'unit'
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sense:
+    """One meaning of a phrase: its class, the key inside it, number and verb form."""
+
+    tag: Tag
+    key: str
+    plural: bool = False
+    form: VerbForm = VerbForm.BASE
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class UnitWord:
+    dimension: str
+    factor: Fraction
+
+
+# Sections of `key: [phrases]`, with the class they give and whether they have plurals.
+_KEYED: tuple[tuple[str, Tag, bool], ...] = (
+    ('agents', Tag.AGENT, True),
+    ('ambiguous_agents', Tag.AMBIGUOUS, False),
+    ('pronouns', Tag.PRONOUN, False),
+    ('places', Tag.PLACE, True),
+    ('relations', Tag.RELATION, False),
+    ('prepositions', Tag.PREPOSITION, False),
+    ('weather', Tag.WEATHER, False),
+    ('time_of_day', Tag.TIME_OF_DAY, False),
+    ('traffic_density', Tag.TRAFFIC, False),
+    ('things', Tag.THING, True),
+    ('patterns', Tag.PATTERN, True),
+    ('subordinators', Tag.SUBORDINATOR, False),
+)
+# Sections that are plain lists.
+_LISTED: tuple[tuple[str, Tag, bool], ...] = (
+    ('vehicle', Tag.VEHICLE, True),
+    ('uav', Tag.UAV, True),
+    ('ego', Tag.EGO, True),
+    ('ego_possessive', Tag.EGO_POSSESSIVE, False),
+    ('ego_pronouns', Tag.EGO_PRONOUN, False),
+    ('unsupported', Tag.UNSUPPORTED, True),
+    ('background', Tag.BACKGROUND, False),
+    ('collectives', Tag.COLLECTIVE, False),
+    ('siren', Tag.SIREN, False),
+    ('labels', Tag.LABEL, False),
+    ('streets', Tag.STREET, True),
+    ('streets_flag', Tag.STREETS_FLAG, False),
+    ('surroundings', Tag.SURROUNDINGS, False),
+    ('landmark_nouns', Tag.LANDMARK_NOUN, False),
+    ('no_traffic', Tag.NO_TRAFFIC, False),
+    ('world_nouns', Tag.WORLD_NOUN, False),
+    ('aerial_view', Tag.AERIAL, False),
+    ('route_nouns', Tag.ROUTE, True),
+    ('message_nouns', Tag.MESSAGE, True),
+    ('link_nouns', Tag.LINK, True),
+    ('scenario_nouns', Tag.SCENARIO, False),
+    ('auxiliaries', Tag.AUXILIARY, False),
+    ('frames', Tag.FRAME, False),
+    ('context_markers', Tag.CONTEXT, False),
+    ('fill', Tag.FILL, False),
+    ('then_words', Tag.THEN, False),
+    ('relative_pronouns', Tag.RELATIVE, False),
+    ('conjunctions', Tag.CONJUNCTION, False),
+    ('negations', Tag.NEGATION, False),
+    ('determiners_definite', Tag.DEFINITE, False),
+    ('determiners_indefinite', Tag.INDEFINITE, False),
+    ('all_words', Tag.ALL, False),
+    ('another', Tag.ANOTHER, False),
+    ('in_view', Tag.IN_VIEW, False),
+    ('in_flight', Tag.IN_FLIGHT, False),
+    ('from_start', Tag.FROM_START, False),
+    ('approximate', Tag.APPROXIMATE, False),
+    ('at_least', Tag.AT_LEAST, False),
+    ('at_most', Tag.AT_MOST, False),
+    ('after_number_approximate', Tag.AFTER_APPROXIMATE, False),
+    ('after_number_at_least', Tag.AFTER_AT_LEAST, False),
+    ('after_number_at_most', Tag.AFTER_AT_MOST, False),
+)
+_VALUED: tuple[tuple[str, Tag], ...] = (
+    ('ordinals', Tag.ORDINAL),
+    ('states', Tag.STATE),
+    ('compass', Tag.COMPASS),
+    ('number_words', Tag.NUMBER),
+    ('multipliers', Tag.MULTIPLIER),
+    ('number_phrases', Tag.NUMBER),
+)
+
+
+_EMPTY = frozenset(
+    {
+        Tag.FILL,
+        Tag.FRAME,
+        Tag.SURROUNDINGS,
+        Tag.LABEL,
+        Tag.SCENARIO,
+        Tag.WORLD_NOUN,
+        Tag.CONTEXT,
+        Tag.ROUTE,
+        Tag.THEN,
+    }
+)
+
+
+class Lexicon:
+    """Phrases by their first word, each with its senses."""
+
+    def __init__(self, data: Mapping[str, Any]) -> None:
+        self._phrases: dict[tuple[str, ...], dict[Sense, None]] = {}
+        self.units: dict[str, UnitWord] = {}
+        self.ambiguous_agents: dict[str, list[str]] = dict(data['ambiguous_agents'])
+        irregular = data['irregular_verbs']
+        for section, tag, plurals in _KEYED:
+            for key, phrases in data[section].items():
+                if tag is Tag.AMBIGUOUS:
+                    phrases = [key]
+                for phrase in phrases:
+                    self._noun(phrase, tag, key, plurals)
+        for section, tag, plurals in _LISTED:
+            for phrase in data[section]:
+                self._noun(phrase, tag, phrase, plurals)
+        for section, tag in _VALUED:
+            for phrase, value in data[section].items():
+                self._add(phrase, Sense(tag=tag, key=str(value)))
+        for form, lemma in data['irregular_plurals'].items():
+            for sense in self.senses((lemma,)):
+                self._add(form, Sense(tag=sense.tag, key=sense.key, plural=True))
+        for key, phrases in data['verbs'].items():
+            for phrase in phrases:
+                for form, kind in verb_forms(phrase, irregular):
+                    self._add(form, Sense(tag=Tag.VERB, key=key, form=kind))
+        for tag, phrases in (
+            (Tag.CAUSATIVE, data['causative']),
+            (Tag.AUXILIARY, data['auxiliaries']),
+        ):
+            for phrase in phrases:
+                for form, kind in verb_forms(phrase, irregular):
+                    self._add(form, Sense(tag=tag, key=phrase, form=kind))
+        for key, unit in data['units'].items():
+            self.units[key] = UnitWord(
+                dimension=unit['dimension'], factor=_fraction(unit['factor'])
+            )
+            for phrase in unit['words']:
+                self._add(phrase, Sense(tag=Tag.UNIT, key=key))
+                first, _, rest = phrase.partition(' ')
+                if len(first) > 2:
+                    self._add(f'{plural(first)} {rest}'.strip(), Sense(tag=Tag.UNIT, key=key))
+        self.longest = max(len(words) for words in self._phrases)
+        self._starts = {words[0] for words in self._phrases}
+        self.words = frozenset(word for words in self._phrases for word in words)
+        # Spelling is only corrected into words that mean something: a slip is never hidden.
+        self.content_words = frozenset(
+            word
+            for words, senses in self._phrases.items()
+            if any(sense.tag not in _EMPTY for sense in senses)
+            for word in words
+        )
+
+    def _noun(self, phrase: str, tag: Tag, key: str, plurals: bool) -> None:
+        self._add(phrase, Sense(tag=tag, key=key))
+        if plurals:
+            self._add(plural(phrase), Sense(tag=tag, key=key, plural=True))
+
+    def _add(self, phrase: str, sense: Sense) -> None:
+        self._phrases.setdefault(tuple(phrase.split()), {})[sense] = None
+
+    def senses(self, words: tuple[str, ...]) -> tuple[Sense, ...]:
+        """Return the senses of exactly this phrase."""
+        return tuple(self._phrases.get(words, ()))
+
+    def matches(self, words: Sequence[str], i: int) -> list[tuple[int, tuple[Sense, ...]]]:
+        """Return every phrase that starts at word i as (length, senses), longest first."""
+        if i >= len(words) or words[i] not in self._starts:
+            return []
+        found = []
+        for length in range(min(self.longest, len(words) - i), 0, -1):
+            senses = self.senses(tuple(words[i : i + length]))
+            if senses:
+                found.append((length, senses))
+        return found
+
+    def longest_of(
+        self, words: Sequence[str], i: int, tags: Iterable[Tag]
+    ) -> tuple[int, Sense] | None:
+        """Return the longest phrase at word i that has a sense of one of the classes."""
+        wanted = tuple(tags)
+        for length, senses in self.matches(words, i):
+            for tag in wanted:
+                for sense in senses:
+                    if sense.tag is tag:
+                        return length, sense
+        return None
+
+
+def _fraction(text: object) -> Fraction:
+    numerator, _, denominator = str(text).partition('/')
+    return Fraction(numerator) / (Fraction(denominator) if denominator else 1)
+
+
+def read_data(name: str) -> dict[str, Any]:
+    """Return a YAML file of this package.
+
+    Raises:
+        ConfigError: The file is missing or is not a mapping.
+    """
+    try:
+        text = resources.files('aurora_core.parsing').joinpath(name).read_text(encoding='utf-8')
+        data = yaml.load(text, Loader=_LOADER)  # noqa: S506
+    except (OSError, yaml.YAMLError) as err:
+        raise ConfigError(f'the parser needs its file {name}: {err}') from err
+    if not isinstance(data, dict):
+        raise ConfigError(f'the parser expects a mapping in {name}, found {type(data).__name__}')
+    return data
+
+
+@lru_cache(maxsize=1)
+def shipped_lexicon() -> Lexicon:
+    """Return the lexicon of the package (read once)."""
+    return Lexicon(read_data('lexicon.yaml'))

@@ -1,0 +1,203 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""One main clause: which family of constructions reads it."""
+
+from __future__ import annotations
+
+from aurora_core.parsing.adjuncts import AdjunctKind
+from aurora_core.parsing.atoms import AtomKind, NounKind
+from aurora_core.parsing.constructions import actions, conditions, ground, messages, missions
+from aurora_core.parsing.constructions.ascent import ascent, landing
+from aurora_core.parsing.constructions.states import predicate_adjectives
+from aurora_core.parsing.constructions.triggers import (
+    time_adjunct,
+)
+from aurora_core.parsing.constructions.world import world_words
+from aurora_core.parsing.events import complete_event
+from aurora_core.parsing.frames import Frame
+from aurora_core.parsing.morphology import VerbForm
+from aurora_core.parsing.scene import EventDraft
+from aurora_core.spec.scenario import Behavior
+from aurora_core.spec.vocabulary import BehaviorKind, ClauseStatus
+
+_AIR_ONLY = frozenset(
+    {'hover', 'track', 'observe', 'navigate', 'orbit', 'fly', 'ascend', 'descend', 'land'}
+)
+# What may happen at a stated time.
+_TIMED = frozenset(
+    {
+        'brake',
+        'stop',
+        'slow',
+        'accelerate',
+        'change_lane',
+        'yield',
+        'start',
+        'cross',
+        'alert',
+        'send',
+        'report',
+        'land',
+        'drive',
+        'track',
+        'follow',
+        'hover',
+        'orbit',
+        'navigate',
+    }
+)
+_GROUND_ONLY = frozenset(
+    {
+        'drive',
+        'circulate',
+        'tailgate',
+        'overtake',
+        'stop',
+        'brake',
+        'slow',
+        'yield',
+        'cross',
+        'walk',
+        'park',
+        'change_lane',
+        'turn_left',
+        'turn_right',
+        'emergency_run',
+        'lead',
+        'accelerate',
+    }
+)
+
+
+def shared_words(frame: Frame) -> None:
+    world_words(frame)
+    for noun in frame.nouns():
+        if noun.kind in (NounKind.UNSUPPORTED, NounKind.AMBIGUOUS):
+            frame.resolver.actors((noun,))
+        elif noun.kind is NounKind.UNKNOWN and noun in frame.subject_nouns and frame.key:
+            frame.resolver.unknown_actor(noun)
+
+
+def main_clause(frame: Frame) -> None:
+    shared_words(frame)
+    if _absent(frame):
+        return
+    flies = _flies(frame)
+    for construction in (_timed, _told, _about_air if flies else _about_ground):
+        if construction(frame):
+            break
+    messages.link_values(frame)
+    conditions.distance_conditions(frame)
+    _from_above(frame)
+    _siren(frame)
+    if not frame.negated:
+        predicate_adjectives(frame)
+    if frame.scene.clause.status is not ClauseStatus.ENCODED:
+        frame.subjects()  # named although nothing is said of them
+
+
+def _siren(frame: Frame) -> None:
+    """`an ambulance with its siren on`."""
+    mark = frame.free(AdjunctKind.MARK, AtomKind.SIREN.value)
+    agents = [e for e in frame.scene.clause.subjects if not e.is_uav]
+    if mark and agents:
+        mark[0].used = True
+        for entity in agents:
+            entity.behaviors.append(Behavior(kind=BehaviorKind.EMERGENCY_RUN, span=frame.span))
+        frame.scene.clause.status = ClauseStatus.ENCODED
+
+
+def _from_above(frame: Frame) -> None:
+    """`…, seen from above`: aerial observation without a UAV that is named."""
+    mark = frame.mark(AtomKind.AERIAL.value)
+    if mark is not None:
+        about = frame.scene.clause.subjects + frame.scene.clause.objects
+        frame.scene.aerial = (frame.scene.clause, about[0].id if about else None)
+        frame.scene.clause.status = ClauseStatus.ENCODED
+
+
+def _absent(frame: Frame) -> bool:
+    """`no drone`: as it is unless one is named."""
+    nouns = frame.nouns()
+    told = frame.negated and frame.key in ('', 'be', 'exist', 'contain', 'put')
+    if not told or not nouns or any(n.kind is not NounKind.UAV for n in nouns):
+        return False
+    for adjunct in frame.adjuncts:
+        adjunct.used = adjunct.used or bool(adjunct.nouns)
+    frame.scene.no_uavs = True
+    frame.scene.clause.status = ClauseStatus.ENCODED
+    return True
+
+
+def _timed(frame: Frame) -> bool:
+    """`the bus brakes after 10 s`."""
+    if frame.key not in _TIMED:
+        return False
+    found = time_adjunct(frame)
+    if found is None:
+        return False
+    at, taken = found
+    action = actions.action(frame)
+    if action is None:
+        taken.used = False
+        return False
+    complete_event(frame.scene, at, action, frame.span, (frame.scene.clause,))
+    return True
+
+
+def _told(frame: Frame) -> bool:
+    """An effect whose cause is not stated: `the drone alerts the ego`, `the bus speeds up`."""
+    if not actions.is_action(frame):
+        return False
+    action = messages.message(frame) or actions.agent_action(frame)
+    if action is None:
+        return False
+    event = EventDraft(id=frame.scene.new_id('e'), action=action, span=frame.span)
+    frame.scene.events.append(event)
+    frame.scene.became(event.id)
+    return True
+
+
+def _about_air(frame: Frame) -> bool:
+    if conditions.condition(frame):
+        if frame.key in ('track', 'follow', 'hover', 'trail', 'fly'):
+            missions.mission(frame)
+        return True
+    return ascent(frame) or landing(frame) or missions.mission(frame)
+
+
+def _about_ground(frame: Frame) -> bool:
+    return conditions.condition(frame) or ground.behavior(frame) or ground.placing(frame)
+
+
+def _flies(frame: Frame) -> bool:
+    """Return whether the clause is about a UAV."""
+    kinds = [n.kind for n in frame.subject_nouns if n.kind is not NounKind.PRONOUN]
+    if kinds:
+        return kinds[0] is NounKind.UAV
+    if frame.key in _AIR_ONLY:
+        return True
+    if frame.key in _GROUND_ONLY:
+        return False
+    command = frame.verb is not None and frame.verb.form is VerbForm.BASE
+    if command and not frame.subject_nouns and frame.key == 'follow' and not frame.inherited():
+        return True
+    lead = next((a for a in frame.adjuncts if a.nouns and not a.key), None)
+    placing = frame.key in ('be', 'put', 'exist', 'contain', 'keep', '')
+    if placing and lead is not None and lead.nouns[0].kind is NounKind.UAV:
+        return True
+    if placing and not frame.subject_nouns and lead is not None:
+        return False
+    if frame.has_mark(AtomKind.WORLD.value) or any(
+        a.used for a in frame.adjuncts if a.key == AtomKind.WORLD.value
+    ):
+        return False
+    found = frame.subjects()
+    if found:
+        return found[0].is_uav
+    return any(
+        n.kind is NounKind.UAV
+        for a in frame.adjuncts
+        if a.key in ('with', 'using', 'by')
+        for n in a.nouns
+    )

@@ -1,0 +1,312 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Numbers with their units: `about 35 m`, `twenty feet`, `1 min 30 s`, `100 x 60 m`, `20 to 30 m`.
+
+Conversion to SI is exact (fractions) and rounded once, at the end.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+from aurora_core.parsing.lexicon import Lexicon, Tag, shipped_lexicon
+from aurora_core.parsing.tokens import Token, TokenKind
+from aurora_core.spec.parameter import Bound
+
+LENGTH, TIME, SPEED, RATIO, ANGLE, COUNT = 'length', 'time', 'speed', 'ratio', 'angle', 'count'
+UNREADABLE = 'unreadable'
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Measure:
+    """A stated quantity in SI (angles in degrees, ratios 0..1).
+
+    Attributes:
+        dimension: length, time, speed, ratio, angle, count (no unit) or unreadable.
+        value: In SI.
+        start: First character of the number (qualifiers such as `about` are outside).
+        end: One past the last character of the unit.
+        upper: Upper end of a stated range.
+        second: The other side of a size (`100 x 60 m`).
+        second_start: Where the second number begins.
+    """
+
+    dimension: str
+    value: float
+    start: int
+    end: int
+    bound: Bound = Bound.EXACTLY
+    approximate: bool = False
+    upper: float | None = None
+    second: float | None = None
+    second_start: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class _Number:
+    value: Fraction | None
+    stop: int
+    words: bool
+
+
+class MeasureReader:
+    """Reads measures from a token list."""
+
+    def __init__(
+        self, tokens: Sequence[Token], words: Sequence[str], lexicon: Lexicon | None = None
+    ) -> None:
+        self._tokens = tokens
+        self._words = words
+        self._lexicon = lexicon if lexicon is not None else shipped_lexicon()
+
+    def read(self, i: int) -> tuple[Measure, int] | None:
+        """Return the measure that begins at token i (qualifiers included) and the next index."""
+        approximate = False
+        bound = Bound.EXACTLY
+        j = i
+        while True:
+            qualifier = self._lexicon.longest_of(
+                self._words, j, (Tag.AT_LEAST, Tag.AT_MOST, Tag.APPROXIMATE)
+            )
+            if qualifier is None:
+                break
+            length, sense = qualifier
+            if sense.tag is Tag.APPROXIMATE:
+                approximate = True
+            else:
+                bound = Bound.AT_LEAST if sense.tag is Tag.AT_LEAST else Bound.AT_MOST
+            j += length
+        if self._word(j) in ('exactly', 'precisely', 'just', 'only', 'another') and self._number(
+            j + 1
+        ):
+            j += 1
+        ranged = self._word(j) == 'between'
+        core = self._core(j + 1 if ranged else j, between=ranged)
+        if core is None:
+            return None
+        measure, k = core
+        k, late_bound, late_approximate = self._trailing(k)
+        if late_bound is not Bound.EXACTLY:
+            bound = late_bound
+        return (
+            replace(measure, bound=bound, approximate=approximate or late_approximate),
+            k,
+        )
+
+    def _word(self, i: int) -> str:
+        return self._words[i] if 0 <= i < len(self._words) else ''
+
+    def _trailing(self, k: int) -> tuple[int, Bound, bool]:
+        found = self._lexicon.longest_of(
+            self._words, k, (Tag.AFTER_APPROXIMATE, Tag.AFTER_AT_LEAST, Tag.AFTER_AT_MOST)
+        )
+        if found is None:
+            return k, Bound.EXACTLY, False
+        length, sense = found
+        if self._number(k + length) is not None:  # `at least` belongs to the number behind it
+            return k, Bound.EXACTLY, False
+        if sense.tag is Tag.AFTER_APPROXIMATE:
+            return k + length, Bound.EXACTLY, True
+        is_low = sense.tag is Tag.AFTER_AT_LEAST
+        return k + length, Bound.AT_LEAST if is_low else Bound.AT_MOST, False
+
+    def _core(self, j: int, *, between: bool) -> tuple[Measure, int] | None:
+        first = self._number(j) or self._article(j)
+        if first is None:
+            return None
+        unit, k = self._unit(first.stop)
+        if unit is None and self._glued_letters(first.stop):
+            return self._unreadable(j, first.stop + 1)
+        if first.value is None:
+            return self._unreadable(j, k)
+        end = self._tokens[k - 1].end
+        start = self._tokens[j].start
+        link = self._word(k)
+        joins_range = (between and link == 'and') or (
+            not between
+            and link in ('-', 'to')
+            and self._word(j - 1) != 'from'
+            and self._number(k + 1) is not None
+        )
+        joins_size = link in ('x', 'by') and self._number(k + 1) is not None
+        if joins_range or joins_size:
+            other = self._number(k + 1)
+            if other is not None:
+                unit2, k2 = self._unit(other.stop)
+                unit = unit if unit is not None else unit2
+                if other.value is None:
+                    return self._unreadable(j, k2)
+                if unit2 is not None and self._dimension(unit) != self._dimension(unit2):
+                    return self._single(first, unit, start, end), k
+                scale2 = self._factor(unit2 if unit2 is not None else unit)
+                value = float(first.value * self._factor(unit))
+                value2 = float(other.value * scale2)
+                end = self._tokens[k2 - 1].end
+                dimension = self._dimension(unit)
+                if joins_range:
+                    if value2 <= value:
+                        return self._unreadable(j, k2)
+                    return (
+                        Measure(
+                            dimension=dimension, value=value, upper=value2, start=start, end=end
+                        ),
+                        k2,
+                    )
+                return (
+                    Measure(
+                        dimension=LENGTH if dimension == COUNT else dimension,
+                        value=value,
+                        second=value2,
+                        start=start,
+                        end=end,
+                        second_start=self._tokens[k + 1 if unit2 is not None else j].start,
+                    ),
+                    k2,
+                )
+        if between:
+            return None
+        if unit is not None and self._dimension(unit) == TIME:
+            added = self._more_time(k)
+            if added is not None:
+                extra, k = added
+                total = float(first.value * self._factor(unit) + extra)
+                return (
+                    Measure(dimension=TIME, value=total, start=start, end=self._tokens[k - 1].end),
+                    k,
+                )
+        return self._single(first, unit, start, end), k
+
+    def _single(self, first: _Number, unit: str | None, start: int, end: int) -> Measure:
+        assert first.value is not None
+        return Measure(
+            dimension=self._dimension(unit),
+            value=float(first.value * self._factor(unit)),
+            start=start,
+            end=end,
+        )
+
+    def _unreadable(self, j: int, k: int) -> tuple[Measure, int]:
+        return (
+            Measure(
+                dimension=UNREADABLE,
+                value=0.0,
+                start=self._tokens[j].start,
+                end=self._tokens[k - 1].end,
+            ),
+            k,
+        )
+
+    def _glued_letters(self, i: int) -> bool:
+        """`5G`: letters glued to a number that are no unit."""
+        if i >= len(self._tokens):
+            return False
+        token = self._tokens[i]
+        return (
+            token.glued
+            and token.kind is TokenKind.WORD
+            and self._tokens[i - 1].kind is TokenKind.NUMBER
+            and token.norm != 'x'
+        )
+
+    def _more_time(self, k: int) -> tuple[Fraction, int] | None:
+        """`1 min 30 s`, `one minute and thirty seconds`, `a minute and a half`."""
+        if self._word(k) == 'and' and self._word(k + 1) == 'a' and self._word(k + 2) == 'half':
+            unit = self._lexicon.longest_of(self._words, k - 1, (Tag.UNIT,))
+            if unit is not None:
+                return self._factor(unit[1].key) / 2, k + 3
+        m = k + 1 if self._word(k) == 'and' else k
+        number = self._number(m)
+        if number is None or number.value is None:
+            return None
+        unit_key, stop = self._unit(number.stop)
+        before = self._lexicon.longest_of(self._words, k - 1, (Tag.UNIT,))
+        if unit_key is None or before is None or self._dimension(unit_key) != TIME:
+            return None
+        if self._factor(unit_key) >= self._factor(before[1].key):
+            return None
+        return number.value * self._factor(unit_key), stop
+
+    def _article(self, j: int) -> _Number | None:
+        """`a minute`; `a second` is left to the ordinals unless a preposition precedes."""
+        if self._word(j) not in ('a', 'an'):
+            return None
+        unit = self._lexicon.longest_of(self._words, j + 1, (Tag.UNIT,))
+        if unit is None or len(self._word(j + 1)) < 3:
+            return None
+        if self._dimension(unit[1].key) != TIME:
+            return None
+        before = self._words[j - 1] if j > 0 else ''
+        if self._word(j + 1) == 'second' and before not in (
+            'for',
+            'within',
+            'after',
+            'of',
+            'every',
+        ):
+            return None
+        return _Number(Fraction(1), j + 1, True)
+
+    def _unit(self, i: int) -> tuple[str | None, int]:
+        found = self._lexicon.longest_of(self._words, i, (Tag.UNIT,))
+        if found is None:
+            return None, i
+        length, sense = found
+        return sense.key, i + length
+
+    def _dimension(self, unit: str | None) -> str:
+        return COUNT if unit is None else self._lexicon.units[unit].dimension
+
+    def _factor(self, unit: str | None) -> Fraction:
+        return Fraction(1) if unit is None else self._lexicon.units[unit].factor
+
+    def _number(self, i: int) -> _Number | None:
+        if i >= len(self._tokens):
+            return None
+        token = self._tokens[i]
+        if token.kind is TokenKind.NUMBER:
+            if token.value is not None and self._word(i + 1) in ('hundred', 'thousand'):
+                factor = 100 if self._word(i + 1) == 'hundred' else 1000
+                return _Number(token.value * factor, i + 2, False)
+            return _Number(token.value, i + 1, False)
+        return self._spelled(i)
+
+    def _spelled(self, i: int) -> _Number | None:
+        """`forty five`, `a hundred and twenty`, `one and a half`, `two point five`."""
+        total, current, j, seen = Fraction(0), Fraction(0), i, False
+        while j < len(self._words):
+            found = self._lexicon.longest_of(self._words, j, (Tag.NUMBER, Tag.MULTIPLIER))
+            if found is None:
+                if seen and self._word(j) == 'and' and current and current % 100 == 0:
+                    follow = self._lexicon.longest_of(self._words, j + 1, (Tag.NUMBER,))
+                    if follow is not None and 0 < Fraction(follow[1].key) < 100:
+                        j += 1
+                        continue
+                break
+            length, sense = found
+            value = Fraction(sense.key)
+            if sense.tag is Tag.MULTIPLIER:
+                if not seen:
+                    return None
+                if value == 1000:
+                    total, current = total + current * value, Fraction(0)
+                else:
+                    current *= value
+            else:
+                tens_then_unit = current % 100 in range(20, 100, 10) and value < 10
+                if seen and not (current % 100 == 0 or tens_then_unit):
+                    break
+                current += value
+            seen = True
+            j += length
+        if not seen:
+            return None
+        value = total + current
+        if self._word(j) == 'and' and self._word(j + 1) == 'a' and self._word(j + 2) == 'half':
+            return _Number(value + Fraction(1, 2), j + 3, True)
+        if self._word(j) == 'point':
+            digit = self._lexicon.longest_of(self._words, j + 1, (Tag.NUMBER,))
+            if digit is not None and 0 <= Fraction(digit[1].key) < 10:
+                return _Number(value + Fraction(digit[1].key) / 10, j + 2, True)
+        return _Number(value, j, True)

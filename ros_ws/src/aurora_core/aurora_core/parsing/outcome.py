@@ -1,0 +1,66 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""What parsing takes and gives."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+
+from aurora_core.spec.parameter import Document, Span
+from aurora_core.spec.scenario import Clause, ScenarioSpec
+
+
+class RefusalKind(StrEnum):
+    UNSUPPORTED = 'unsupported'
+    MISSING_ELEMENT = 'missing_element'
+
+
+class ParseContext(Document):
+    """The map that a prompt is read against.
+
+    Attributes:
+        map_name: Name of the map.
+        landmark_names: The named places that it has.
+        seed: Seed of the run (the offline parser draws nothing from it).
+    """
+
+    map_name: str = 'downtown'
+    landmark_names: tuple[str, ...] = ()
+    seed: int = 1
+
+
+class Refusal(Document):
+    """Something named that the map or the vocabulary lacks.
+
+    Attributes:
+        word: What the prompt calls it.
+        closed_list: All that there is instead.
+        list_name: What the closed list is (`agent types`, `landmarks of downtown`).
+    """
+
+    kind: RefusalKind
+    word: str
+    span: Span
+    list_name: str
+    closed_list: tuple[str, ...]
+
+    def sentence(self) -> str:
+        """Return the refusal in words."""
+        known = ', '.join(self.closed_list) if self.closed_list else 'none'
+        return f'{self.word!r} is not one of the {self.list_name}: {known}.'
+
+
+class ParseOutcome(Document):
+    """A specification, a question or refusals; always the clauses.
+
+    Attributes:
+        spec: None when there is a question or a refusal.
+        question: What was missing (status `not_understood`).
+        refusals: What does not exist (status `infeasible`).
+        clauses: Every clause of the prompt and what became of it.
+    """
+
+    spec: ScenarioSpec | None = None
+    question: str | None = None
+    refusals: tuple[Refusal, ...] = ()
+    clauses: tuple[Clause, ...] = ()

@@ -1,0 +1,135 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The offline parser: English in, a typed specification, a question or a refusal out.
+
+It is a grammar and a lexicon: deterministic, without a network, a few milliseconds a prompt. The
+stages, one module each: `text` (is it a prompt at all), `tokens`, `tagging` (atoms, with
+`measures`, `nouns`, `spelling`, `disambiguation`), `segments` and `predicates` (clauses as
+`pieces`), `frames` (predicate, subject, `adjuncts`), `reader` (clauses in order, cause and effect)
+with `main_clause` and `constructions/` (what clauses mean, written into `scene` through
+`resolver`), `rules` (what is implied, what stays open), `assemble` (the specification).
+
+Nothing is dropped in silence. A construction marks every adjunct that it understood as used; what
+stays unused in an encoded clause becomes a clause of its own with the status `not_encoded`.
+
+To add a word, write it in the list of its meaning in `lexicon.yaml`; forms and one-letter slips
+follow by themselves. To add a default, `defaults.yaml`. To add a construction, write a function
+`(Frame) -> bool` (or one that returns a trigger or an action) in the module of its family under
+`constructions/`: take what it understands through the frame (`take`, `attribute`, `mark`), note
+the element with `scene.became(id)`, and list it in `main_clause` (main clauses),
+`triggers.cause` (behind `when`) or `actions.action` (effects). A new meaning of a verb gets a key
+under `verbs:` in the lexicon.
+"""
+
+from __future__ import annotations
+
+from pydantic import ValidationError
+
+from aurora_core.errors import SpecError
+from aurora_core.parsing.assemble import build
+from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
+from aurora_core.parsing.coverage import unaccounted
+from aurora_core.parsing.nouns import landmark_words
+from aurora_core.parsing.outcome import ParseContext, ParseOutcome, Refusal, RefusalKind
+from aurora_core.parsing.reader import Reader
+from aurora_core.parsing.rules import settle
+from aurora_core.parsing.scene import ClauseDraft, Scene
+from aurora_core.parsing.segments import segment
+from aurora_core.parsing.tagging import tag
+from aurora_core.parsing.text import check_prompt_text
+from aurora_core.parsing.tokens import tokenize
+from aurora_core.spec.scenario import ScenarioSpec
+
+__all__ = [
+    'ParseContext',
+    'ParseOutcome',
+    'Refusal',
+    'RefusalKind',
+    'check_prompt_text',
+    'parse_offline',
+]
+
+# More unknown than known words: another language, or not about a scenario.
+_MOST_UNKNOWN = 0.5
+
+
+def parse_offline(prompt: str, context: ParseContext) -> ParseOutcome:
+    """Read a prompt.
+
+    Args:
+        prompt: The request; spans refer to its characters.
+        context: Map name and landmarks that names are looked up in.
+
+    Raises:
+        PromptError: The text cannot be a prompt (empty, too long, NUL).
+        SpecError: The result contradicts its own schema: a defect of the parser.
+    """
+    check_prompt_text(prompt)
+    scene = Scene(prompt, context)
+    tagged = tag(tokenize(prompt), _landmarks(context.landmark_names))
+    reader = Reader(scene)
+    reader.read(segment(tagged.atoms))
+    _note_corrections(scene, tagged.corrections)
+    if not scene.refusals:
+        settle(scene)
+    if _mostly_unknown(tagged.atoms):
+        scene.questions = [
+            'Most of this could not be read. Which vehicles, pedestrians or UAVs should take '
+            'part, and what should they do? (English, please.)'
+        ]
+        scene.refusals = []
+    if scene.questions:
+        question = ' '.join(dict.fromkeys(scene.questions))
+        return ParseOutcome(question=question, clauses=scene.finished_clauses())
+    if scene.refusals:
+        return ParseOutcome(refusals=tuple(scene.refusals), clauses=scene.finished_clauses())
+    spec = _build(scene)
+    lost = unaccounted(spec, tagged.atoms, reader.resolver, no_uavs=scene.no_uavs)
+    if lost:
+        scene.clauses += [
+            ClauseDraft(span=span, notes=['nothing in the scenario accounts for this'])
+            for span in lost
+        ]
+        spec = _build(scene)
+    return ParseOutcome(spec=spec, clauses=spec.clauses)
+
+
+def _build(scene: Scene) -> ScenarioSpec:
+    try:
+        return build(scene)
+    except ValidationError as err:
+        raise SpecError(
+            f'the parser built a specification that its schema refuses: {err}',
+            hint='word the request differently, and report this prompt',
+        ) from err
+
+
+def _landmarks(names: tuple[str, ...]) -> dict[tuple[str, ...], str]:
+    """Full names, and their last word where only one landmark has it (`the tower`)."""
+    full = {landmark_words(name): name for name in names if landmark_words(name)}
+    by_last: dict[str, list[str]] = {}
+    for words, name in full.items():
+        by_last.setdefault(words[-1], []).append(name)
+    short = {
+        (last,): found[0] for last, found in by_last.items() if len(found) == 1 and len(last) > 2
+    }
+    return short | full
+
+
+def _note_corrections(scene: Scene, corrections: tuple[tuple[int, int, str], ...]) -> None:
+    for start, end, meant in corrections:
+        for clause in scene.clauses:
+            if clause.span.start <= start and end <= clause.span.end:
+                clause.notes.append(f'read {scene.prompt[start:end]!r} as {meant!r}')
+                break
+
+
+def _mostly_unknown(atoms: tuple[Atom, ...]) -> bool:
+    silent = (AtomKind.COMMA, AtomKind.STOP)
+    told = [a for a in atoms if a.kind not in silent]
+    unknown = [
+        a
+        for a in told
+        if a.kind is AtomKind.UNKNOWN or (a.noun is not None and a.noun.kind is NounKind.UNKNOWN)
+    ]
+    return len(unknown) > _MOST_UNKNOWN * len(told)

@@ -1,0 +1,83 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Several predicates without a separator: `a drone that tracks the van alerts the ego`."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import pairwise
+
+from aurora_core.parsing.atoms import Atom, AtomKind
+from aurora_core.parsing.morphology import VerbForm
+from aurora_core.parsing.pieces import TRANSPARENT, Link, Piece
+
+
+def cut_at_verbs(piece: Piece) -> list[Piece]:
+    atoms = piece.atoms
+    verbs = [i for i, a in enumerate(atoms) if a.kind is AtomKind.VERB]
+    if len(verbs) < 2:
+        return [piece]
+    pieces: list[Piece] = []
+    begin = 0
+    state = piece
+    for previous, i in pairwise(verbs):
+        cut, upcoming = _cut_before(atoms, begin, previous, i)
+        if cut <= begin:
+            continue
+        if upcoming.link is Link.MAIN and upcoming.head is not None:
+            # `a drone that tracks the van | alerts`: the first part only describes
+            upcoming = replace(upcoming, opens=state.opens, lead=None)
+            state = replace(state, link=Link.RELATIVE)
+        pieces.append(replace(state, atoms=atoms[begin:cut]))
+        state = upcoming
+        begin = cut
+    pieces.append(replace(state, atoms=atoms[begin:]))
+    return pieces
+
+
+def _cut_before(atoms: tuple[Atom, ...], begin: int, previous: int, i: int) -> tuple[int, Piece]:
+    verb = atoms[i]
+    j = i
+    while j - 1 > previous and atoms[j - 1].kind in (*TRANSPARENT, AtomKind.CAUSATIVE):
+        j -= 1
+    before = atoms[j - 1]
+    if before.kind is AtomKind.PREPOSITION:
+        if before.key == 'to' and verb.form is VerbForm.BASE:
+            return j - 1, Piece(atoms=(), link=Link.INFINITIVE)
+        if verb.form is VerbForm.ING:
+            link = {
+                'before': Link.MAIN,
+                'after': Link.AFTER,
+                'until': Link.UNTIL,
+            }.get(before.key, Link.PARTICIPLE)
+            return j - 1, Piece(atoms=(), link=link, then=before.key == 'before')
+    if before.is_actor and j - 1 > previous:
+        opening = atoms[previous]
+        hanging = any(a.kind is AtomKind.RELATIVE for a in atoms[begin:previous]) or (
+            opening.form is VerbForm.ING and _no_auxiliary(atoms, begin, previous)
+        )
+        finite = verb.form in (VerbForm.THIRD, VerbForm.BASE)
+        if hanging and finite:
+            head = next((a for a in atoms[begin:previous] if a.is_actor), None)
+            return j, Piece(atoms=(), head=head)
+        if verb.form is VerbForm.ING and verb.key in _OF_THE_SUBJECT:
+            return j, Piece(atoms=(), link=Link.PARTICIPLE)
+        if verb.form is VerbForm.ING or (verb.form is VerbForm.PAST and not _has_aux(atoms, j, i)):
+            return j, Piece(atoms=(), link=Link.RELATIVE, head=before)
+        return j - 1, Piece(atoms=())
+    if verb.form is VerbForm.ING:
+        return j, Piece(atoms=(), link=Link.PARTICIPLE)
+    return j, Piece(atoms=())
+
+
+# Participles that speak about the subject even right behind another noun.
+_OF_THE_SUBJECT = ('approach', 'keep')
+
+
+def _no_auxiliary(atoms: Sequence[Atom], begin: int, stop: int) -> bool:
+    return not any(a.kind is AtomKind.AUXILIARY for a in atoms[begin:stop])
+
+
+def _has_aux(atoms: Sequence[Atom], begin: int, stop: int) -> bool:
+    return any(a.kind is AtomKind.AUXILIARY for a in atoms[begin:stop])

@@ -1,0 +1,134 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Whom `it`, `they`, `one`, `the other`, `the first`, `the target` mean."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from aurora_core.parsing.atoms import NounPhrase
+from aurora_core.parsing.scene import Entity, Scene
+from aurora_core.spec.vocabulary import AgentType
+
+Fits = Callable[[Entity], bool]
+
+
+def anything(_: Entity) -> bool:
+    """Accept any actor."""
+    return True
+
+
+def ground(entity: Entity) -> bool:
+    """Accept ground agents."""
+    return not entity.is_uav
+
+
+def airborne(entity: Entity) -> bool:
+    """Accept UAVs."""
+    return entity.is_uav
+
+
+class PronounResolver:
+    """Finds the actors that a pronoun refers to: the latest that fit, objects for objects."""
+
+    def __init__(self, scene: Scene) -> None:
+        self._scene = scene
+
+    def resolve(
+        self, noun: NounPhrase, accept: Fits, exclude: Sequence[Entity], as_object: bool
+    ) -> tuple[Entity, ...]:
+        """Return the actors meant; none, with a question, when nobody fits."""
+        if noun.key == 'one':
+            return self._member(accept, first=True)
+        if noun.key == 'other':
+            return self._member(accept, first=False)
+        if noun.key.startswith('nth'):
+            return self._nth(accept, int(noun.key[3:])) or self._ask(noun)
+        if noun.key == 'target':
+            tracked = [m.target for m in self._scene.missions if m.target is not None]
+            target = self._scene.by_id(tracked[-1]) if tracked else None
+            return (target,) if target is not None else self._ask(noun)
+        if noun.key == 'both':
+            return self._last_group(accept) or self._ask(noun)
+        if noun.key == 'they':
+            return self._plural(accept, exclude, as_object) or self._ask(noun)
+        if noun.key == 'there':
+            return ()
+        return self._singular(noun, accept, exclude, as_object)
+
+    def _singular(
+        self, noun: NounPhrase, accept: Fits, exclude: Sequence[Entity], as_object: bool
+    ) -> tuple[Entity, ...]:
+        person = noun.key == 'person'
+
+        def possible(entity: Entity) -> bool:
+            if not accept(entity) or entity in exclude:
+                return False
+            return not person or entity.type in (
+                AgentType.PEDESTRIAN,
+                AgentType.BICYCLE,
+                AgentType.MOTORCYCLE,
+            )
+
+        for clause in reversed(self._scene.clauses):
+            order = (
+                (clause.objects, clause.subjects)
+                if as_object or clause is self._scene.clauses[-1]
+                else (clause.subjects, clause.objects)
+            )
+            for candidates in order:
+                fitting = [e for e in candidates if possible(e)]
+                if fitting and len({e.group or e.id for e in fitting}) == 1:
+                    return (fitting[0],) if len(fitting) == 1 else tuple(fitting)
+        rest = [e for e in self._scene.entities if possible(e)]
+        if len(rest) == 1:
+            return (rest[0],)
+        return self._ask(noun)
+
+    def _plural(
+        self, accept: Fits, exclude: Sequence[Entity], as_object: bool
+    ) -> tuple[Entity, ...]:
+        for clause in reversed(self._scene.clauses):
+            order = (
+                (clause.objects, clause.subjects)
+                if as_object
+                else (clause.subjects, clause.objects)
+            )
+            for candidates in order:
+                fitting = [e for e in candidates if accept(e) and e not in exclude]
+                if len(fitting) > 1:
+                    return tuple(fitting)
+            together = [
+                e for e in (*clause.subjects, *clause.objects) if accept(e) and e not in exclude
+            ]
+            if len(set(together)) == 2:
+                return tuple(dict.fromkeys(together))
+        return self._last_group(accept)
+
+    def _last_group(self, accept: Fits) -> tuple[Entity, ...]:
+        members = [e for e in self._scene.entities if e.group is not None and accept(e)]
+        if members:
+            return tuple(e for e in members if e.group == members[-1].group)
+        flying = [e for e in self._scene.uavs if accept(e)]
+        return tuple(flying) if len(flying) > 1 else ()
+
+    def _member(self, accept: Fits, *, first: bool) -> tuple[Entity, ...]:
+        members = [e for e in self._last_group(accept) if not e.assigned]
+        if not members:
+            return ()
+        chosen = members[0] if first else members[-1]
+        chosen.assigned = True
+        return (chosen,)
+
+    def _nth(self, accept: Fits, number: int) -> tuple[Entity, ...]:
+        members = self._last_group(accept)
+        if len(members) < number:
+            return ()
+        chosen = members[number - 1]
+        chosen.index, chosen.assigned = number, True
+        return (chosen,)
+
+    def _ask(self, noun: NounPhrase) -> tuple[Entity, ...]:
+        words = self._scene.prompt[noun.start : noun.end]
+        self._scene.questions.append(f'Whom or what do you mean by "{words}"?')
+        return ()

@@ -1,0 +1,338 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Reads the clauses of a prompt in order and pairs causes with their effects."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from aurora_core.parsing import values
+from aurora_core.parsing.atoms import AtomKind
+from aurora_core.parsing.constructions import actions, messages
+from aurora_core.parsing.constructions.states import adjectives
+from aurora_core.parsing.constructions.triggers import (
+    Cause,
+    cause,
+)
+from aurora_core.parsing.constructions.world import world_words
+from aurora_core.parsing.events import complete_event, same_cause
+from aurora_core.parsing.frames import Frame
+from aurora_core.parsing.main_clause import main_clause, shared_words
+from aurora_core.parsing.morphology import VerbForm
+from aurora_core.parsing.pieces import Link, Piece, first_solid
+from aurora_core.parsing.resolver import Resolver
+from aurora_core.parsing.scene import ClauseDraft, EventDraft, Scene, UntilDraft
+from aurora_core.spec.parameter import Parameter, Span
+from aurora_core.spec.scenario import AgentAction, SendMessage, TimeTrigger, UavAction
+from aurora_core.spec.vocabulary import ClauseStatus
+
+_NOTHING = frozenset(
+    {
+        AtomKind.FILL,
+        AtomKind.FRAME,
+        AtomKind.CAUSATIVE,
+        AtomKind.SCENARIO,
+        AtomKind.COMMA,
+        AtomKind.CONJUNCTION,
+        AtomKind.AUXILIARY,
+        AtomKind.THEN,
+        AtomKind.RELATIVE,
+        AtomKind.PREPOSITION,
+        AtomKind.CONTEXT,
+        AtomKind.SUBORDINATOR,
+    }
+)
+# Links of clauses that go on with the story; the others only describe or condition.
+_TELLING = (Link.MAIN, Link.INFINITIVE, Link.PARTICIPLE, Link.WHILE)
+_CAUSES = (Link.WHEN, Link.AFTER, Link.UNTIL)
+
+
+def _is_earlier(piece: Piece) -> bool:
+    """`… follows it after ascending to 40 m`: told second, done first."""
+    first = first_solid(piece.atoms)
+    return piece.link is Link.AFTER and first is not None and first.form is VerbForm.ING
+
+
+class Reader:
+    """Turns pieces into drafts in a scene."""
+
+    def __init__(self, scene: Scene) -> None:
+        self._scene = scene
+        self.resolver = Resolver(scene)
+        self._held: tuple[Cause, ClauseDraft, int, Parameter | None] | None = (
+            None  # a cause that waits for its effect
+        )
+        self._unknown_cause = -1  # sentence whose leading cause was not understood
+        self._last: tuple[EventDraft, int] | None = None  # last event that a leading cause started
+
+    def read(self, pieces: Sequence[Piece]) -> None:
+        """Read all clauses."""
+        i = 0
+        while i < len(pieces):
+            piece = pieces[i]
+            self._drop_held(piece.sentence)
+            nxt = pieces[i + 1] if i + 1 < len(pieces) else None
+            same = nxt is not None and nxt.sentence == piece.sentence
+            if piece.link in _CAUSES and piece.opens and same and nxt is not None:
+                self._leading(piece, nxt)
+            elif same and nxt is not None and _is_earlier(nxt) and piece.link is Link.MAIN:
+                self._leading(replace(nxt, opens=True), piece)
+                self._plain(replace(piece, then=True))
+                i += 1
+            elif (
+                piece.link in (Link.MAIN, Link.INFINITIVE, Link.PARTICIPLE)
+                and same
+                and nxt is not None
+                and nxt.link in _CAUSES
+                and not nxt.opens
+            ):
+                self._effect_then_cause(piece, nxt)
+                i += 1
+            else:
+                self._plain(piece)
+            i += 1
+        self._drop_held(-1)
+
+    def _drop_held(self, sentence: int) -> None:
+        """A cause whose effect never came was not understood."""
+        if self._held is not None and self._held[2] != sentence:
+            self._held[1].status = ClauseStatus.NOT_ENCODED
+            self._held[1].notes.append('no effect follows')
+            self._held = None
+
+    # --- clause bookkeeping -------------------------------------------------------------------
+
+    def _open(self, piece: Piece) -> Frame:
+        frame = Frame(piece, self._scene, self.resolver)
+        self._scene.clauses.append(
+            ClauseDraft(
+                span=frame.span,
+                sentence=piece.sentence,
+                describes=piece.link not in _TELLING,
+            )
+        )
+        return frame
+
+    def _close(self, frame: Frame) -> None:
+        adjectives(frame)
+        clause = self._scene.clause
+        if clause.status is not ClauseStatus.ENCODED:
+            return
+        for span in frame.leftovers():
+            self._scene.clauses.append(
+                ClauseDraft(
+                    span=span,
+                    sentence=frame.piece.sentence,
+                    subjects=clause.subjects,
+                    objects=clause.objects,
+                    places=clause.places,
+                    notes=['this part of the clause was not understood'],
+                )
+            )
+
+    # --- kinds of clauses ---------------------------------------------------------------------
+
+    def _plain(self, piece: Piece) -> None:
+        if all(a.kind in _NOTHING for a in piece.atoms) or self._only_context(piece):
+            self._scene.clauses.append(
+                ClauseDraft(
+                    span=Span(start=piece.start, end=piece.end),
+                    sentence=piece.sentence,
+                    status=ClauseStatus.NO_REQUIREMENT,
+                )
+            )
+            return
+        frame = self._open(piece)
+        if piece.link in (Link.UNLESS, Link.BEFORE, Link.UNTIL, Link.WHEN):
+            # alone such a clause has no effect that it could govern
+            self._close(frame)
+            return
+        main = piece.link is not Link.RELATIVE
+        if main and self._held is not None and self._held[2] == piece.sentence:
+            self._effect_of_held(frame)
+        elif main and self._unknown_cause == piece.sentence:
+            self._unknown_cause = -1
+            self._without_cause(frame)
+        elif not self._follows_event(frame):
+            before = len(self._scene.events)
+            main_clause(frame)
+            self._note_fronted_time(frame, before)
+        self._close(frame)
+
+    @staticmethod
+    def _only_context(piece: Piece) -> bool:
+        told = any(a.kind is AtomKind.CONTEXT for a in piece.atoms)
+        return told and not any(
+            a.kind in (AtomKind.MEASURE, AtomKind.WORLD) or a.is_actor or a.is_place
+            for a in piece.atoms
+        )
+
+    def _leading(self, piece: Piece, following: Piece) -> None:
+        """`When the van comes within 20 m, …`: the effect comes next."""
+        frame = self._open(piece)
+        gerund = (
+            frame.verb is not None and frame.verb.form is VerbForm.ING and not frame.subject_nouns
+        )
+        if gerund or piece.link is Link.UNTIL:
+            upcoming = Frame(following, self._scene, self.resolver)
+            if not frame.subject_nouns and upcoming.subject_nouns:
+                frame.subject_nouns = upcoming.subject_nouns
+            if piece.link is Link.AFTER:
+                main_clause(frame)
+            self._close(frame)
+            return
+        delay = self._delay(frame)
+        found = cause(frame)
+        if found is not None:
+            world_words(frame)
+            self._scene.clause.status = ClauseStatus.ENCODED
+            self._held = (found, self._scene.clause, piece.sentence, delay)
+        elif piece.link is Link.AFTER:
+            main_clause(frame)
+        else:
+            self._unknown_cause = piece.sentence
+        self._close(frame)
+
+    def _effect_of_held(self, frame: Frame) -> None:
+        assert self._held is not None
+        found, clause, sentence, delay = self._held
+        self._held = None
+        shared_words(frame)
+        action = actions.action(frame)
+        if action is None:
+            clause.status = ClauseStatus.NOT_ENCODED
+            clause.notes.append('what should happen then was not understood')
+            main_clause(frame)
+            return
+        event = complete_event(self._scene, found, action, frame.span, (clause,))
+        if event is not None:
+            event.delay = delay
+            self._last = (event, sentence)
+        messages.link_values(frame)
+
+    def _without_cause(self, frame: Frame) -> None:
+        """The effect of a cause that was not understood must not hold without it."""
+        shared_words(frame)
+        action = actions.action(frame)
+        if action is None:
+            self._scene.clause.notes.append('its cause was not understood')
+            self._scene.clause.status = ClauseStatus.NOT_ENCODED
+            frame.subjects()
+            return
+        event = EventDraft(id=self._scene.new_id('e'), action=action, span=frame.span)
+        self._scene.events.append(event)
+        self._scene.became(event.id)
+
+    def _note_fronted_time(self, frame: Frame, before: int) -> None:
+        """`After 15 s the bus stops and …`: the time holds for what follows, too."""
+        made = self._scene.events[before:]
+        if not made or not isinstance(made[-1].trigger, TimeTrigger) or frame.verb is None:
+            return
+        stated = made[-1].trigger.at_s.span
+        if stated is not None and stated.end <= frame.verb.start:
+            self._last = (made[-1], frame.piece.sentence)
+
+    def _follows_event(self, frame: Frame) -> bool:
+        """`When …, the drone alerts the ego and the ego brakes`: a second effect of one cause."""
+        if self._last is None or self._last[1] != frame.piece.sentence:
+            return False
+        if frame.piece.link is not Link.MAIN:
+            return False
+        shared_words(frame)
+        action = actions.action(frame)
+        if action is None:
+            return False
+        event = same_cause(self._scene, self._last[0], action, frame.span, then=frame.piece.then)
+        self._last = (event, frame.piece.sentence)
+        messages.link_values(frame)
+        return True
+
+    def _effect_then_cause(self, piece: Piece, because: Piece) -> None:
+        """`… alerts the ego when the van comes within 20 m`."""
+        frame = self._open(piece)
+        effect_clause = self._scene.clause
+        shared_words(frame)
+        if because.link is Link.UNTIL:
+            self._until(frame, because)
+            return
+        action = actions.action(frame)
+        if action is None:
+            main_clause(frame)
+        messages.link_values(frame)
+        self._close(frame)
+        second = self._open(because)
+        if isinstance(action, SendMessage):
+            receiver = self._scene.by_id(action.receiver)
+            second.avoid = (receiver,) if receiver is not None else ()
+        if action is None and because.link is Link.AFTER and second.verb is not None:
+            self._close(second)
+            return
+        delay = self._delay(second)
+        found = cause(second) if action is not None else None
+        if found is None or action is None:
+            if action is not None:
+                effect_clause.notes.append('its cause was not understood')
+                self._scene.events.append(
+                    EventDraft(id=self._scene.new_id('e'), action=action, span=frame.span)
+                )
+                effect_clause.ids[self._scene.events[-1].id] = None
+            self._close(second)
+            return
+        self._scene.clause.status = ClauseStatus.ENCODED
+        clause = self._scene.clause
+        event = complete_event(self._scene, found, action, frame.span, (effect_clause, clause))
+        if event is not None:
+            event.delay = delay
+            self._shared_cause(event, effect_clause)
+        messages.link_values(second)
+        self._close(second)
+
+    @staticmethod
+    def _delay(frame: Frame) -> Parameter | None:
+        """Take `5 s` of `5 s after the bus stops`."""
+        adjunct = frame.time('')
+        if (
+            adjunct is None
+            or adjunct.measure is None
+            or adjunct.start != frame.piece.atoms[0].start
+        ):
+            return None
+        if frame.verb is None or not values.accepts('delay', adjunct.measure):
+            return None
+        adjunct.used = True
+        return values.explicit('delay', adjunct.measure)
+
+    def _shared_cause(self, event: EventDraft, clause: ClauseDraft) -> None:
+        """`alerts the ego and the ego slows when …`: the cause is that of both effects."""
+        events = self._scene.events
+        number = self._scene.clauses.index(clause)
+        if len(events) < 2 or number < 1:
+            return
+        before = events[-2]
+        earlier = self._scene.clauses[number - 1]
+        same = earlier.sentence == clause.sentence and before.id in earlier.ids
+        if same and before.trigger is None and before.action is not None:
+            before.trigger = event.trigger
+            clause.ids[before.id] = None
+
+    def _until(self, frame: Frame, because: Piece) -> None:
+        """`tracks the bus until it stops`: the phase ends with the event."""
+        scene = self._scene
+        before = len(scene.missions)
+        main_clause(frame)
+        self._close(frame)
+        second = self._open(because)
+        made = scene.missions[before:]
+        agents = [e for e in scene.clauses[-2].subjects if not e.is_uav]
+        found = cause(second) if made or len(agents) == 1 else None
+        if found is not None and made:
+            for mission in made:
+                action = UavAction(do='land', uav=mission.uav.id)
+                event = complete_event(scene, found, action, frame.span, ())
+                if event is not None:
+                    scene.untils.append(UntilDraft(mission=mission, event=event))
+        elif found is not None:
+            stop = AgentAction(do='stop', agent=agents[0].id)
+            complete_event(scene, found, stop, frame.span, ())
+        self._close(second)

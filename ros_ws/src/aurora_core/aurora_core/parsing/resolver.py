@@ -1,0 +1,274 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Who or what a noun phrase means: new actors, mentions of known ones, pronouns, places."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from aurora_core.parsing.atoms import Determiner, NounKind, NounPhrase
+from aurora_core.parsing.lexicon import Lexicon, shipped_lexicon
+from aurora_core.parsing.outcome import Refusal, RefusalKind
+from aurora_core.parsing.pronouns import Fits, PronounResolver, anything
+from aurora_core.parsing.scene import Entity, Scene
+from aurora_core.spec.parameter import Span
+from aurora_core.spec.vocabulary import AgentType, Role
+
+_VEHICLES = frozenset(set(AgentType) - {AgentType.PEDESTRIAN, AgentType.RSU})
+MOST_AGENTS = 200
+
+
+class Resolver:
+    """Turns noun phrases into actors of the scene, adding those that are new."""
+
+    def __init__(self, scene: Scene, lexicon: Lexicon | None = None) -> None:
+        self._scene = scene
+        self._lexicon = lexicon if lexicon is not None else shipped_lexicon()
+        self._pronouns = PronounResolver(scene)
+        self._read: dict[tuple[int, int], tuple[Entity, ...]] = {}
+
+    def known(self, noun: NounPhrase) -> tuple[Entity, ...]:
+        """Return the actors that a phrase was resolved to, none when it was not."""
+        return self._read.get((noun.start, noun.end), ())
+
+    # --- places -------------------------------------------------------------------------------
+
+    def place(self, noun: NounPhrase) -> str | None:
+        """Return the place reference of a noun phrase; a place that the map lacks is refused."""
+        if noun.kind is NounKind.PLACE:
+            return noun.key
+        if noun.kind is NounKind.LANDMARK:
+            return f'landmark:{noun.key}'
+        if noun.kind is NounKind.MISSING_LANDMARK:
+            self._refuse_place(noun)
+        if noun.kind is NounKind.PRONOUN and noun.key == 'there':
+            for clause in reversed(self._scene.clauses[:-1]):
+                if clause.places:
+                    return clause.places[0]
+        return None
+
+    def unknown_place(self, noun: NounPhrase) -> None:
+        """Refuse an unknown name that stands where a place belongs."""
+        self._refuse_place(noun)
+
+    def _refuse_place(self, noun: NounPhrase) -> None:
+        context = self._scene.context
+        self._refuse(
+            noun,
+            RefusalKind.MISSING_ELEMENT,
+            f'landmarks of {context.map_name}',
+            context.landmark_names,
+        )
+
+    def unknown_actor(self, noun: NounPhrase) -> None:
+        """Refuse a name that stands where an actor belongs and is none that can be simulated."""
+        self._refuse(
+            noun, RefusalKind.UNSUPPORTED, 'agent types', tuple(t.value for t in AgentType)
+        )
+
+    def _refuse(
+        self, noun: NounPhrase, kind: RefusalKind, list_name: str, closed: tuple[str, ...]
+    ) -> None:
+        refusal = Refusal(
+            kind=kind,
+            word=noun.head_text or noun.key,
+            span=Span(start=noun.start, end=noun.end),
+            list_name=list_name,
+            closed_list=closed,
+        )
+        if all(r.word != refusal.word for r in self._scene.refusals):
+            self._scene.refusals.append(refusal)
+
+    # --- actors -------------------------------------------------------------------------------
+
+    def actors(
+        self,
+        nouns: Sequence[NounPhrase],
+        *,
+        accept: Fits = anything,
+        exclude: Sequence[Entity] = (),
+        as_object: bool = False,
+    ) -> tuple[Entity, ...]:
+        """Return the actors that noun phrases name, in order, without repeats."""
+        found: dict[str, Entity] = {}
+        for noun in nouns:
+            for entity in self._one(noun, accept, exclude, as_object):
+                found[entity.id] = entity
+                entity.seen = len(self._scene.clauses)
+        return tuple(found.values())
+
+    def _one(
+        self, noun: NounPhrase, accept: Fits, exclude: Sequence[Entity], as_object: bool
+    ) -> tuple[Entity, ...]:
+        if noun.kind is NounKind.PRONOUN:
+            return self._pronouns.resolve(noun, accept, exclude, as_object)
+        if noun.kind is NounKind.EGO or self._names_ego(noun):
+            self._read[noun.start, noun.end] = (self._ego(noun),)
+            return self.known(noun)
+        if noun.kind is NounKind.UNSUPPORTED or noun.kind is NounKind.UNKNOWN:
+            self.unknown_actor(noun)
+            return ()
+        if noun.kind is NounKind.AMBIGUOUS:
+            kinds = ', '.join(self._lexicon.ambiguous_agents[noun.key])
+            self._scene.questions.append(
+                f'What kind of {noun.key} do you mean by {self._quote(noun)}: {kinds}?'
+            )
+            return ()
+        if noun.kind in (NounKind.AGENT, NounKind.VEHICLE, NounKind.UAV):
+            if not self.known(noun):
+                self._read[noun.start, noun.end] = self._named(noun, exclude)
+            return self.known(noun)
+        return ()
+
+    def _quote(self, noun: NounPhrase) -> str:
+        return f'"{self._scene.prompt[noun.start : noun.end]}"'
+
+    @staticmethod
+    def _names_ego(noun: NounPhrase) -> bool:
+        if noun.kind not in (NounKind.AGENT, NounKind.VEHICLE):
+            return False
+        return noun.determiner is Determiner.MY or 'ego' in noun.labels
+
+    def _ego(self, noun: NounPhrase) -> Entity:
+        known = self._scene.ego
+        if noun.count > 1 or noun.plural or (known and noun.determiner is Determiner.ANOTHER):
+            self._scene.questions.append(
+                f'A scenario has one ego vehicle, but {self._quote(noun)} names more: '
+                'which one is it?'
+            )
+        if known is not None:
+            if noun.kind is NounKind.AGENT and known.generic:
+                known.type, known.generic = AgentType(noun.key), False
+            elif noun.kind is NounKind.AGENT and known.type.value != noun.key:
+                self._scene.questions.append(
+                    f'Is the ego vehicle a {known.type.value} or {self._quote(noun)}?'
+                )
+            return known
+        kind = AgentType(noun.key) if noun.kind is NounKind.AGENT else AgentType.CAR
+        entity = Entity(
+            id='ego',
+            is_uav=False,
+            type=kind,
+            role=Role.EGO,
+            generic=noun.kind is not NounKind.AGENT,
+            span=Span(start=noun.start, end=noun.end),
+            labels=noun.labels,
+        )
+        self._scene.entities.append(entity)
+        return entity
+
+    def _named(self, noun: NounPhrase, exclude: Sequence[Entity]) -> tuple[Entity, ...]:
+        known = [e for e in self._scene.entities if self._same_kind(e, noun)]
+        if noun.index:
+            numbered = [e for e in known if e.index == noun.index]
+            if numbered:
+                return (numbered[0],)
+            grouped = [e for e in known if e.group is not None]
+            members = [e for e in grouped if e.group == grouped[-1].group]
+            unnamed = len(members) >= noun.index and not members[noun.index - 1].index
+            if unnamed and noun.determiner is not Determiner.INDEFINITE:
+                chosen = members[noun.index - 1]
+                chosen.index, chosen.assigned = noun.index, True
+                return (chosen,)
+            return self._new(noun)
+        if noun.determiner in (Determiner.INDEFINITE, Determiner.ANOTHER):
+            return self._new(noun)
+        if noun.determiner is Determiner.ONE:
+            free = [e for e in known if e.group is not None and not e.assigned]
+            if free:
+                free[0].assigned = True
+                return (free[0],)
+            return self._new(noun)
+        if noun.determiner is Determiner.OTHER:
+            rest = [e for e in known if e not in exclude and not e.assigned]
+            if rest:
+                chosen_rest = rest if noun.plural else rest[-1:]
+                for entity in chosen_rest:
+                    entity.assigned = True
+                return tuple(chosen_rest)
+            return self._new(noun)
+        if not known:
+            return self._new(noun)
+        return self._again(noun, known, exclude)
+
+    def _again(
+        self, noun: NounPhrase, known: list[Entity], exclude: Sequence[Entity]
+    ) -> tuple[Entity, ...]:
+        """A definite or bare phrase that may mean someone already named."""
+        group = [e for e in known if e.group is not None]
+        everyone = noun.determiner is Determiner.ALL
+        if noun.count > 1:
+            last = [e for e in group if e.group == group[-1].group] if group else []
+            if len(last) == noun.count and noun.determiner is not Determiner.BARE:
+                return tuple(last)
+            if len(known) == noun.count and noun.determiner is not Determiner.BARE:
+                return tuple(known)
+            return self._new(noun)
+        if noun.plural or (everyone and len(known) > 1):
+            if noun.determiner is Determiner.BARE and not group:
+                return self._new(noun)
+            if group and not everyone:
+                return tuple(e for e in group if e.group == group[-1].group)
+            return tuple(known) if len(known) > 1 else self._new(noun)
+        if everyone:
+            return tuple(known)
+        plain = [e for e in known if e.role is not Role.EGO] or known
+        plain = [e for e in plain if e not in exclude] or plain  # `another bus follows the bus`
+        if len(plain) > 1:
+            not_background = [e for e in plain if e.role is not Role.BACKGROUND]
+            plain = not_background or plain
+        if len(plain) > 1 and noun.kind is NounKind.VEHICLE:
+            latest = max(e.seen for e in plain)
+            plain = [e for e in plain if e.seen == latest]
+        if len(plain) > 1:
+            self._scene.questions.append(
+                f'Which one do you mean by {self._quote(noun)}: '
+                f'there are {len(plain)} that it fits?'
+            )
+        chosen = plain[-1]
+        only_ego = chosen.role is Role.EGO and noun.kind is NounKind.AGENT
+        if only_ego and noun.determiner is Determiner.BARE:
+            return self._new(noun)
+        return (chosen,)
+
+    @staticmethod
+    def _same_kind(entity: Entity, noun: NounPhrase) -> bool:
+        if (noun.kind is NounKind.UAV) != entity.is_uav:
+            return False
+        if noun.kind is NounKind.AGENT and entity.type.value != noun.key:
+            return False
+        if noun.kind is NounKind.VEHICLE and entity.type not in _VEHICLES:
+            return False
+        if noun.background and entity.role is not Role.BACKGROUND:
+            return False
+        if not noun.labels or not entity.labels:
+            # `the red car` may be `a car` named before only if nothing tells them apart
+            return not (noun.labels and noun.determiner is Determiner.BARE)
+        return noun.labels <= entity.labels or entity.labels <= noun.labels
+
+    def _new(self, noun: NounPhrase) -> tuple[Entity, ...]:
+        count = noun.count or (2 if noun.plural else 1)
+        if count > MOST_AGENTS + 1:  # enough to be refused by the limit on agents
+            count = MOST_AGENTS + 1
+        stem = (
+            'uav'
+            if noun.kind is NounKind.UAV
+            else (noun.key if noun.kind is NounKind.AGENT else 'car')
+        )
+        group = self._scene.new_id(f'{stem}_group') if count > 1 else None
+        made = []
+        for _ in range(count):
+            entity = Entity(
+                id=self._scene.new_id(stem),
+                is_uav=noun.kind is NounKind.UAV,
+                type=AgentType(noun.key) if noun.kind is NounKind.AGENT else AgentType.CAR,
+                role=Role.BACKGROUND if noun.background else Role.OTHER,
+                group=group,
+                index=noun.index if count == 1 else 0,
+                labels=noun.labels,
+                generic=noun.kind is NounKind.VEHICLE,
+                span=Span(start=noun.start, end=noun.end),
+            )
+            self._scene.entities.append(entity)
+            made.append(entity)
+        return tuple(made)

@@ -1,0 +1,224 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The scene rules: what a request implies without saying it, and what stays open."""
+
+from __future__ import annotations
+
+from aurora_core.parsing.constructions.places import add_placement
+from aurora_core.parsing.scene import Entity, LinkDraft, MissionDraft, Scene
+from aurora_core.spec.scenario import (
+    Behavior,
+    DistanceTrigger,
+    Placement,
+    SendMessage,
+    UavAction,
+    VisibilityTrigger,
+)
+from aurora_core.spec.vocabulary import (
+    BehaviorKind,
+    ClauseStatus,
+    MissionMode,
+    Role,
+)
+
+# Behaviours that are about somebody.
+_TARGETED = frozenset(
+    {
+        BehaviorKind.FOLLOW,
+        BehaviorKind.TAILGATE,
+        BehaviorKind.OVERTAKE,
+        BehaviorKind.APPROACH,
+    }
+)
+
+
+def settle(scene: Scene) -> None:
+    """Apply the scene rules; what stays open becomes a question."""
+    _seen_from_above(scene)
+    if not scene.entities:
+        if not scene.questions:
+            scene.questions.append(
+                'Which vehicles, pedestrians or UAVs should take part, and what should they do?'
+            )
+        return
+    _late_anchors(scene)
+    _climb_only(scene)
+    _onlookers(scene)
+    if scene.no_uavs and scene.uavs:
+        scene.questions.append('Should there be a UAV or not?')
+    for until in scene.untils:
+        phases = scene.missions_of(until.mission.uav)
+        after = phases[phases.index(until.mission) + 1 :]
+        if after:
+            until.event.action = UavAction(
+                do='change_mission', uav=after[0].uav.id, mission=after[0].id
+            )
+    for draft in scene.missions:
+        if draft.needs_target and draft.target is None:
+            _infer_target(scene, draft)
+    _general_links(scene)
+
+
+def _seen_from_above(scene: Scene) -> None:
+    """Aerial observation was asked for and no UAV named: one is added."""
+    if scene.aerial is None or scene.uavs:
+        return
+    clause, about = scene.aerial
+    uav = Entity(id=scene.new_id('uav'), is_uav=True, span=clause.span)
+    scene.entities.append(uav)
+    draft = MissionDraft(
+        id=scene.new_id('m'),
+        uav=uav,
+        mode=MissionMode.TRACK,
+        clause=0,
+        span=clause.span,
+        target=about,
+        target_inferred=about is not None,
+        needs_target=about is None,
+    )
+    scene.missions.append(draft)
+    clause.ids[draft.id] = None
+
+
+def _late_anchors(scene: Scene) -> None:
+    """Relations and behaviours whose other end was named later, or not at all: the ego."""
+    for open_end in scene.unanchored:
+        others = [e for e in scene.agents if e not in open_end.entities]
+        anchor = scene.ego or (others[0] if len(others) == 1 else None)
+        if anchor is None or anchor in open_end.entities:
+            open_end.clause.status = ClauseStatus.NOT_ENCODED
+            open_end.clause.notes.append('it is not said of whom')
+            continue
+        placement = Placement.model_validate(open_end.placement.model_dump() | {'of': anchor.id})
+        for entity in open_end.entities:
+            add_placement(entity, placement)
+    if scene.ego is None:
+        return
+    for entity in scene.agents:
+        for i, behavior in enumerate(entity.behaviors):
+            if behavior.kind in _TARGETED and behavior.target is None and entity is not scene.ego:
+                entity.behaviors[i] = Behavior.model_validate(
+                    behavior.model_dump() | {'target': scene.ego.id}
+                )
+
+
+def _climb_only(scene: Scene) -> None:
+    """A UAV that is only sent to an altitude hovers there."""
+    for uav_id, altitude in scene.pending_altitude.items():
+        uav = scene.by_id(uav_id)
+        if uav is None:
+            continue
+        known = scene.missions_of(uav)
+        if known and known[-1].altitude is None and len(known) == 1:
+            known[0].altitude = altitude
+            continue
+        draft = MissionDraft(
+            id=scene.new_id('m'),
+            uav=uav,
+            mode=MissionMode.HOVER,
+            clause=0,
+            span=uav.span,
+            altitude=altitude,
+            target=known[-1].target if known else None,
+        )
+        scene.missions.append(draft)
+        for clause in scene.clauses:
+            if uav_id in clause.ids:
+                clause.ids[draft.id] = None
+
+
+def _onlookers(scene: Scene) -> None:
+    """A UAV that only reports or sees tracks what that is about; one without a task hovers."""
+    for uav in scene.uavs:
+        if scene.missions_of(uav):
+            continue
+        seen = _seen_by(scene, uav)
+        reports = any(
+            isinstance(e.action, SendMessage) and e.action.sender == uav.id for e in scene.events
+        )
+        track = seen is not None or reports
+        scene.missions.append(
+            MissionDraft(
+                id=scene.new_id('m'),
+                uav=uav,
+                clause=0,
+                span=uav.span,
+                mode=MissionMode.TRACK if track else MissionMode.HOVER,
+                target=seen,
+                target_inferred=seen is not None,
+                needs_target=track,
+            )
+        )
+
+
+def _seen_by(scene: Scene, uav: Entity) -> str | None:
+    watched = [c.of[1] for c in scene.conditions if len(c.of) > 1 and c.of[0] == uav.id]
+    watched += [
+        e.trigger.target
+        for e in scene.events
+        if isinstance(e.trigger, VisibilityTrigger) and e.trigger.observer == uav.id
+    ]
+    actors = [one for one in watched if scene.by_id(one) is not None]
+    return actors[0] if actors else None
+
+
+def _infer_target(scene: Scene, draft: MissionDraft) -> None:
+    target = _reported_actor(scene, draft.uav) or scene.ego
+    agents = [e for e in scene.agents if e.role is not Role.BACKGROUND]
+    if target is None and len(agents) == 1:
+        target = agents[0]
+    if target is None:
+        words = scene.prompt[draft.span.start : draft.span.end]
+        scene.questions.append(f'What should be tracked: "{words}"?')
+        return
+    draft.target, draft.target_inferred = target.id, True
+
+
+def _reported_actor(scene: Scene, uav: Entity) -> Entity | None:
+    if uav.id in scene.reported:
+        return scene.by_id(scene.reported[uav.id])
+    for event in scene.events:
+        if not isinstance(event.action, SendMessage) or event.action.sender != uav.id:
+            continue
+        trigger = event.trigger
+        candidates: list[str] = []
+        if isinstance(trigger, DistanceTrigger):
+            candidates = [trigger.a, trigger.b]
+        elif trigger is not None:
+            for name in ('target', 'who', 'by'):
+                candidates += [getattr(trigger, name, '') or '']
+        for one in candidates:
+            entity = scene.by_id(one)
+            if entity is not None and not entity.is_uav and one != event.action.receiver:
+                return entity
+    return None
+
+
+def _general_links(scene: Scene) -> None:
+    """Values without a link belong to all links, or make the obvious one."""
+    general = [link for link in scene.links if link.sender is None]
+    owned = [link for link in scene.links if link.sender is not None]
+    for values_only in general:
+        if not owned and len(scene.uavs) == 1 and scene.ego is not None:
+            made = LinkDraft(
+                id=values_only.id,
+                sender=scene.uavs[0].id,
+                receiver=scene.ego.id,
+                span=values_only.span,
+            )
+            owned.append(made)
+        if not owned:
+            for clause in scene.clauses:
+                if values_only.id in clause.ids:
+                    del clause.ids[values_only.id]
+                    clause.status = ClauseStatus.NOT_ENCODED
+                    clause.notes.append('no message link is named that this could be about')
+        for link in owned:
+            for name in ('loss', 'latency', 'range', 'retransmissions'):
+                if getattr(link, name) is None:
+                    setattr(link, name, getattr(values_only, name))
+        for clause in scene.clauses:
+            if values_only.id in clause.ids and owned:
+                del clause.ids[values_only.id]
+                clause.ids.update({link.id: None for link in owned})
+    scene.links = owned

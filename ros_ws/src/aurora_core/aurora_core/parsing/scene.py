@@ -1,0 +1,240 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The scenario while it is being read: actors, drafts of its elements, open points."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from aurora_core.parsing.outcome import ParseContext, Refusal
+from aurora_core.spec.parameter import Parameter, Span
+from aurora_core.spec.scenario import (
+    Behavior,
+    Clause,
+    Event,
+    EventAction,
+    Placement,
+    StatedCondition,
+    Trigger,
+)
+from aurora_core.spec.vocabulary import (
+    AgentType,
+    ClauseStatus,
+    MissionMode,
+    Pattern,
+    Role,
+    TimeOfDay,
+    TrafficDensity,
+    Weather,
+)
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class Entity:
+    """One actor: a ground agent or a UAV.
+
+    Attributes:
+        group: Name shared by the members of a group.
+        index: `drone 2`: 2; 0 when not numbered.
+        assigned: A member picked by `one`, `the first`.
+        seen: Number of the last clause that mentions it.
+    """
+
+    id: str
+    is_uav: bool
+    type: AgentType = AgentType.CAR
+    role: Role = Role.OTHER
+    group: str | None = None
+    index: int = 0
+    labels: frozenset[str] = frozenset()
+    span: Span
+    assigned: bool = False
+    seen: int = 0
+    generic: bool = False
+    placements: list[Placement] = field(default_factory=list)
+    behaviors: list[Behavior] = field(default_factory=list)
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class MissionDraft:
+    """A mission phase; None means that the prompt left it unsaid."""
+
+    id: str
+    uav: Entity
+    mode: MissionMode
+    clause: int
+    target: str | None = None
+    target_inferred: bool = False
+    needs_target: bool = False
+    altitude: Parameter | None = None
+    standoff: Parameter | None = None
+    bearing: Parameter | None = None
+    duration: Parameter | None = None
+    pattern: Pattern | None = None
+    square: bool = False
+    size: tuple[Parameter, Parameter] | None = None
+    radius: Parameter | None = None
+    waypoint_count: Parameter | None = None
+    speed: Parameter | None = None
+    over_streets: bool = False
+    ends_in_flight: bool = False
+    span: Span
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class LinkDraft:
+    """A message link; `sender` None: its values hold for every link of the prompt."""
+
+    id: str
+    sender: str | None
+    receiver: str | None
+    loss: Parameter | None = None
+    latency: Parameter | None = None
+    range: Parameter | None = None
+    retransmissions: Parameter | None = None
+    span: Span
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class EventDraft:
+    """An event; the trigger may come from the clause before or after its action."""
+
+    id: str
+    trigger: Trigger | None = None
+    action: EventAction | None = None
+    delay: Parameter | None = None
+    clauses: list[int] = field(default_factory=list)
+    span: Span
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class UntilDraft:
+    """`tracks the bus until it stops`: the phase and the event that will end it."""
+
+    mission: MissionDraft
+    event: EventDraft
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class WorldDraft:
+    weather: Weather | None = None
+    weather_span: Span | None = None
+    time_of_day: TimeOfDay | None = None
+    time_of_day_span: Span | None = None
+    traffic: TrafficDensity | None = None
+    duration: Parameter | None = None
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class ClauseDraft:
+    """A clause under way; ids collect what it became; a relative clause only describes."""
+
+    span: Span
+    status: ClauseStatus = ClauseStatus.NOT_ENCODED
+    ids: dict[str, None] = field(default_factory=dict)
+    notes: list[str] = field(default_factory=list)
+    subjects: tuple[Entity, ...] = ()
+    objects: tuple[Entity, ...] = ()
+    places: tuple[str, ...] = ()
+    sentence: int = 0
+    describes: bool = False
+
+
+@dataclass(slots=True, kw_only=True, eq=False)
+class Unanchored:
+    """`a bus 30 m ahead`, before anyone is named that it could be ahead of."""
+
+    entities: tuple[Entity, ...]
+    placement: Placement
+    clause: ClauseDraft
+
+
+class Scene:
+    """Everything read so far."""
+
+    def __init__(self, prompt: str, context: ParseContext) -> None:
+        self.prompt = prompt
+        self.context = context
+        self.world = WorldDraft()
+        self.entities: list[Entity] = []
+        self.missions: list[MissionDraft] = []
+        self.links: list[LinkDraft] = []
+        self.events: list[EventDraft] = []
+        self.conditions: list[StatedCondition] = []
+        self.clauses: list[ClauseDraft] = []
+        self.questions: list[str] = []
+        self.refusals: list[Refusal] = []
+        self.pending_altitude: dict[str, Parameter] = {}
+        self.pending_speed: dict[str, Parameter] = {}
+        self.aerial: tuple[ClauseDraft, str | None] | None = None
+        self.no_uavs = False
+        self.unanchored: list[Unanchored] = []
+        self.reported: dict[str, str] = {}
+        self.untils: list[UntilDraft] = []
+        self._counters: dict[str, int] = {}
+
+    # --- names --------------------------------------------------------------------------------
+
+    def new_id(self, stem: str) -> str:
+        """Return `stem1`, `stem2`, …"""
+        self._counters[stem] = self._counters.get(stem, 0) + 1
+        return f'{stem}{self._counters[stem]}'
+
+    # --- actors -------------------------------------------------------------------------------
+
+    @property
+    def ego(self) -> Entity | None:
+        return next((e for e in self.entities if e.role is Role.EGO), None)
+
+    @property
+    def uavs(self) -> list[Entity]:
+        return [e for e in self.entities if e.is_uav]
+
+    @property
+    def agents(self) -> list[Entity]:
+        return [e for e in self.entities if not e.is_uav]
+
+    def by_id(self, wanted: str) -> Entity | None:
+        """Return the actor of this id."""
+        return next((e for e in self.entities if e.id == wanted), None)
+
+    def missions_of(self, uav: Entity) -> list[MissionDraft]:
+        """Return the phases of one UAV in order."""
+        return [m for m in self.missions if m.uav is uav]
+
+    # --- clauses ------------------------------------------------------------------------------
+
+    @property
+    def clause(self) -> ClauseDraft:
+        """The clause that is being read."""
+        return self.clauses[-1]
+
+    @property
+    def clause_number(self) -> int:
+        return len(self.clauses) - 1
+
+    def became(self, *ids: str) -> None:
+        """Note which elements the current clause turned into."""
+        for one in ids:
+            self.clause.ids[one] = None
+        self.clause.status = ClauseStatus.ENCODED
+
+    def finished_clauses(self) -> tuple[Clause, ...]:
+        """Return the clauses as values."""
+        return tuple(
+            Clause(
+                text=self.prompt[c.span.start : c.span.end],
+                span=c.span,
+                status=c.status,
+                ids=tuple(c.ids),
+                note='; '.join(c.notes),
+            )
+            for c in self.clauses
+        )
+
+    def events_as_values(self) -> tuple[Event, ...]:
+        """Return the events as values."""
+        return tuple(
+            Event(id=e.id, trigger=e.trigger, action=e.action, delay_s=e.delay, span=e.span)
+            for e in self.events
+        )

@@ -1,0 +1,266 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Clauses: one predicate each, with the word that links it to its neighbours."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
+from aurora_core.parsing.measures import TIME
+from aurora_core.parsing.morphology import VerbForm
+from aurora_core.parsing.pieces import MARKERS, TRANSPARENT, Link, Piece, first_solid, has_verb
+from aurora_core.parsing.predicates import cut_at_verbs
+
+_MAYBE_PREPOSITION = ('after', 'before', 'until')
+
+
+def segment(atoms: Sequence[Atom]) -> tuple[Piece, ...]:
+    """Cut a prompt's atoms into clauses, in the order of the text."""
+    pieces: list[Piece] = []
+    sentence: list[Atom] = []
+    number = 0
+    for atom in (*atoms, None):
+        if atom is None or atom.kind is AtomKind.STOP:
+            if sentence:
+                pieces += _sentence(sentence, number)
+                number += 1
+            sentence = []
+        else:
+            sentence.append(atom)
+    return tuple(pieces)
+
+
+def _sentence(atoms: list[Atom], number: int) -> list[Piece]:
+    raw = _cut_at_markers(_plain_prepositions(atoms))
+    pieces = [piece for part in raw for piece in cut_at_verbs(part)]
+    pieces = _attach_adjuncts(_delays(pieces))
+    return [replace(p, sentence=number) for p in pieces if p.atoms]
+
+
+def _plain_prepositions(atoms: list[Atom]) -> list[Atom]:
+    """`after 10 s`, `before the junction`, `as a test`: no clause follows."""
+    changed = list(atoms)
+    for i, atom in enumerate(atoms):
+        if atom.kind is AtomKind.PREPOSITION and atom.key == 'with' and i and _absolute(atoms, i):
+            changed[i] = replace(atom, kind=AtomKind.CONJUNCTION)
+        if atom.kind is not AtomKind.SUBORDINATOR:
+            continue
+        ahead = _until_marker(atoms, i + 1)
+        first = first_solid(ahead)
+        timed = first is not None and first.key == TIME and atom.key in _MAYBE_PREPOSITION
+        if has_verb(ahead) and not timed:
+            continue
+        if atom.key in _MAYBE_PREPOSITION:
+            changed[i] = replace(atom, kind=AtomKind.PREPOSITION)
+        elif atom.key == 'while' and not any(a.is_actor for a in ahead):
+            changed[i] = replace(atom, kind=AtomKind.FILL)
+    return changed
+
+
+def _absolute(atoms: Sequence[Atom], i: int) -> bool:
+    """`with two cars driving around`: a clause of its own."""
+    solid = [a for a in atoms[i + 1 : i + 6] if a.kind not in TRANSPARENT]
+    return (
+        len(solid) > 1
+        and solid[0].is_actor
+        and solid[1].kind is AtomKind.VERB
+        and solid[1].form is VerbForm.ING
+    )
+
+
+def _until_marker(atoms: Sequence[Atom], start: int) -> list[Atom]:
+    ahead: list[Atom] = []
+    for atom in atoms[start:]:
+        if atom.kind in MARKERS and not (
+            atom.kind is AtomKind.CONJUNCTION and not has_verb(ahead)
+        ):
+            break
+        ahead.append(atom)
+    return ahead
+
+
+def _cut_at_markers(atoms: list[Atom]) -> list[Piece]:
+    pieces: list[Piece] = []
+    current: list[Atom] = []
+    state = Piece(atoms=(), opens=True)
+    i = 0
+    while i < len(atoms):
+        if atoms[i].kind not in MARKERS:
+            current.append(atoms[i])
+            i += 1
+            continue
+        run = i
+        while run < len(atoms) and (
+            atoms[run].kind in MARKERS
+            or (
+                atoms[run].kind in (AtomKind.FILL, AtomKind.FRAME)
+                and run + 1 < len(atoms)
+                and atoms[run + 1].kind in MARKERS
+            )
+        ):
+            run += 1
+        markers = [a for a in atoms[i:run] if a.kind in MARKERS]
+        following = _next_run(atoms, run)
+        upcoming = _decide(current, markers, following)
+        if upcoming is None:
+            current += atoms[i:run]
+        else:
+            if current:
+                pieces.append(replace(state, atoms=tuple(current)))
+            opens = (
+                not pieces or upcoming.then or any(m.kind is AtomKind.CONJUNCTION for m in markers)
+            )
+            state = replace(upcoming, opens=opens)
+            current = []
+        i = run
+    if current:
+        pieces.append(replace(state, atoms=tuple(current)))
+    return pieces
+
+
+def _next_run(atoms: Sequence[Atom], start: int) -> list[Atom]:
+    ahead = []
+    for atom in atoms[start:]:
+        if atom.kind in MARKERS and atom.kind is not AtomKind.RELATIVE:
+            break
+        ahead.append(atom)
+    return ahead
+
+
+def _decide(
+    current: Sequence[Atom], markers: Sequence[Atom], ahead: Sequence[Atom]
+) -> Piece | None:
+    """Return the shape of the clause that begins behind the markers, None when none begins."""
+    then = any(m.kind is AtomKind.THEN for m in markers)
+    for marker in markers:
+        if marker.kind is AtomKind.SUBORDINATOR:
+            first = first_solid(ahead)
+            gerund = first is not None and first.form is VerbForm.ING
+            if marker.key == 'before' and gerund and current:
+                return Piece(atoms=(), then=True, lead=marker.start)
+            return Piece(atoms=(), link=Link(marker.key), then=then, lead=marker.start)
+    solid = first_solid(ahead)
+    if solid is None:
+        return None
+    relative = any(m.kind is AtomKind.RELATIVE for m in markers)
+    if relative:
+        head = next((a for a in reversed(current) if a.is_actor), None)
+        if solid.kind is not AtomKind.VERB or head is None or not has_verb(current):
+            return None
+        return Piece(atoms=(), link=Link.RELATIVE, head=head)
+    verb = has_verb(ahead)
+    if then:
+        return Piece(atoms=(), then=True) if verb or not current else None
+    if not current:
+        return None
+    if verb:
+        return _decide_predicate(current, markers, ahead, solid)
+    actor_list = not has_verb(current) and _only_actors(current)
+    comma = any(m.kind is AtomKind.COMMA for m in markers)
+    refers = any(a.noun is not None and a.noun.kind is NounKind.PRONOUN for a in ahead)
+    if solid.is_actor and _is_placed(ahead) and (not actor_list or (comma and refers)):
+        return Piece(atoms=())
+    aerial = solid.noun is not None and solid.noun.kind is NounKind.UAV
+    if aerial and comma and has_verb(current) and not _only_actors(ahead):
+        return Piece(atoms=())  # `…, drone overhead at 30 m`
+    if solid.is_actor and comma and not actor_list and _only_actors(ahead):
+        last = next((a for a in reversed(current) if a.kind not in TRANSPARENT), None)
+        if _is_placed(current) or (last is not None and not last.is_actor):
+            return Piece(atoms=())  # `…, two background cars`
+    return None
+
+
+def _decide_predicate(
+    current: Sequence[Atom], markers: Sequence[Atom], ahead: Sequence[Atom], solid: Atom
+) -> Piece | None:
+    conjunction = any(m.kind is AtomKind.CONJUNCTION for m in markers)
+    if solid.kind is AtomKind.VERB:
+        if solid.form is VerbForm.ING and not conjunction:
+            return Piece(atoms=(), link=Link.PARTICIPLE)
+        by = any(a.kind is AtomKind.PREPOSITION and a.key == 'by' for a in ahead)
+        if solid.form is VerbForm.PAST and by and not conjunction:
+            head = next((a for a in reversed(current) if a.is_actor), None)
+            return Piece(atoms=(), link=Link.RELATIVE, head=head)
+        return Piece(atoms=())
+    if not has_verb(current) and conjunction and solid.is_actor:
+        last = next((a for a in reversed(current) if a.kind not in TRANSPARENT), None)
+        placed = _is_placed(current) and not any(a.kind is AtomKind.THING for a in current)
+        if last is not None and last.is_actor and not placed:
+            return None  # coordinated subjects
+    return Piece(atoms=())
+
+
+def _only_actors(atoms: Sequence[Atom]) -> bool:
+    return all(
+        a.is_actor or a.kind in TRANSPARENT or a.kind in MARKERS or a.kind is AtomKind.CAUSATIVE
+        for a in atoms
+    )
+
+
+def _is_placed(atoms: Sequence[Atom]) -> bool:
+    """`an ambulance behind it`, `a drone above the bus`: an actor with a place."""
+    solid = [a for a in atoms if a.kind not in TRANSPARENT]
+    if len(solid) < 2 or not solid[0].is_actor:
+        return False
+    place_words = (AtomKind.RELATION, AtomKind.PREPOSITION)
+    return solid[1].kind in place_words or (
+        solid[1].kind is AtomKind.MEASURE and len(solid) > 2 and solid[2].kind in place_words
+    )
+
+
+def _delays(pieces: list[Piece]) -> list[Piece]:
+    """`the drone lands 5 s after the bus stops`: the time belongs to `after`."""
+    moved = list(pieces)
+    for k in range(len(moved) - 1):
+        behind = moved[k + 1]
+        atoms = list(moved[k].atoms)
+        while atoms and atoms[-1].kind is AtomKind.FILL:
+            atoms.pop()
+        if behind.link not in (Link.AFTER, Link.WHEN) or not atoms or atoms[-1].key != TIME:
+            continue
+        if len(atoms) > 1 and atoms[-2].kind is AtomKind.PREPOSITION:
+            continue
+        moved[k + 1] = replace(
+            behind, atoms=(atoms[-1], *behind.atoms), opens=behind.opens or len(atoms) == 1
+        )
+        moved[k] = replace(moved[k], atoms=tuple(atoms[:-1]))
+    return [p for p in moved if p.atoms]
+
+
+def _attach_adjuncts(pieces: list[Piece]) -> list[Piece]:
+    """Give `At 30 m,` and `20 m ahead of it,` to the clause that they modify."""
+    joined: list[Piece] = []
+    waiting: tuple[Atom, ...] = ()
+    for k, piece in enumerate(pieces):
+        atoms = waiting + piece.atoms
+        waiting = ()
+        alone = not has_verb(piece.atoms) and piece.link is Link.MAIN and _is_adjunct(piece.atoms)
+        if alone and not piece.then:
+            if (
+                k + 1 < len(pieces)
+                and pieces[k + 1].link is Link.MAIN
+                and piece.opens
+                and not joined
+            ):
+                waiting = atoms
+                continue
+            if joined:
+                joined[-1] = replace(joined[-1], atoms=joined[-1].atoms + atoms)
+                continue
+        joined.append(replace(piece, atoms=atoms))
+    return joined
+
+
+def _is_adjunct(atoms: Sequence[Atom]) -> bool:
+    """A phrase that needs a clause: a measure or place that no actor or world word leads."""
+    solid = first_solid(atoms)
+    if solid is None or solid.is_actor:
+        return False
+    if any(a.kind in (AtomKind.WORLD, AtomKind.NO_TRAFFIC, AtomKind.SCENARIO) for a in atoms):
+        return False
+    return any(
+        a.kind in (AtomKind.MEASURE, AtomKind.RELATION, AtomKind.THING) or a.noun is not None
+        for a in atoms
+    )

@@ -1,0 +1,60 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""One wrong letter: unknown words that are one slip away from exactly one word of the lexicon."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+_SHORTEST = 5
+
+
+class Speller:
+    """Finds the one known word within one insertion, deletion, change or swap of letters."""
+
+    def __init__(self, words: Iterable[str]) -> None:
+        self._by_deletion: dict[str, list[str]] = {}
+        for word in sorted(words):
+            if len(word) >= _SHORTEST and word.isalpha():
+                for key in _deletions(word):
+                    self._by_deletion.setdefault(key, []).append(word)
+
+    def correct(self, word: str) -> str | None:
+        """Return the known word that was meant, None when there is none or several."""
+        if len(word) < _SHORTEST or not word.isalpha():
+            return None
+        candidates = {
+            known
+            for key in _deletions(word)
+            for known in self._by_deletion.get(key, ())
+            if _alike(word, known) and _one_slip(word, known)
+        }
+        return candidates.pop() if len(candidates) == 1 else None
+
+
+def _alike(word: str, known: str) -> bool:
+    """Same first letter; another or a further last letter makes another word (`blocks`)."""
+    if known[0] != word[0] or word.startswith(known):
+        return False
+    return len(known) != len(word) or known[-1] == word[-1]
+
+
+def _deletions(word: str) -> tuple[str, ...]:
+    return (word, *(word[:i] + word[i + 1 :] for i in range(len(word))))
+
+
+def _one_slip(a: str, b: str) -> bool:
+    if a == b or abs(len(a) - len(b)) > 1:
+        return False
+    if len(a) == len(b):
+        differ = [i for i in range(len(a)) if a[i] != b[i]]
+        if len(differ) == 1:
+            return True
+        return (
+            len(differ) == 2
+            and differ[1] == differ[0] + 1
+            and a[differ[0]] == b[differ[1]]
+            and a[differ[1]] == b[differ[0]]
+        )
+    short, long = sorted((a, b), key=len)
+    return any(long[:i] + long[i + 1 :] == short for i in range(len(long)))

@@ -1,0 +1,307 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""From tokens to atoms: the longest known phrase wins, its class is chosen by the neighbours."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+
+from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
+from aurora_core.parsing.disambiguation import settle_verbs
+from aurora_core.parsing.lexicon import Lexicon, Sense, Tag, shipped_lexicon
+from aurora_core.parsing.measures import MeasureReader
+from aurora_core.parsing.morphology import VerbForm
+from aurora_core.parsing.nouns import NounReader
+from aurora_core.parsing.spelling import Speller
+from aurora_core.parsing.tokens import Token, TokenKind
+
+_STOPS = frozenset('.;!?\n:')
+
+
+_HARMLESS = frozenset('"\'`()[]{}-_*#“”‘’…')
+
+
+_KINDS = {
+    Tag.WEATHER: AtomKind.WORLD,
+    Tag.TIME_OF_DAY: AtomKind.WORLD,
+    Tag.TRAFFIC: AtomKind.WORLD,
+    Tag.NO_TRAFFIC: AtomKind.NO_TRAFFIC,
+    Tag.STREETS_FLAG: AtomKind.STREETS_FLAG,
+    Tag.RELATION: AtomKind.RELATION,
+    Tag.COMPASS: AtomKind.COMPASS,
+    Tag.WORLD_NOUN: AtomKind.WORLD_NOUN,
+    Tag.AERIAL: AtomKind.AERIAL,
+    Tag.SIREN: AtomKind.SIREN,
+    Tag.THING: AtomKind.THING,
+    Tag.PATTERN: AtomKind.PATTERN,
+    Tag.ROUTE: AtomKind.ROUTE,
+    Tag.MESSAGE: AtomKind.MESSAGE,
+    Tag.LINK: AtomKind.LINK,
+    Tag.SCENARIO: AtomKind.SCENARIO,
+    Tag.IN_VIEW: AtomKind.IN_VIEW,
+    Tag.IN_FLIGHT: AtomKind.IN_FLIGHT,
+    Tag.FROM_START: AtomKind.FROM_START,
+    Tag.CONTEXT: AtomKind.CONTEXT,
+    Tag.NEGATION: AtomKind.NEGATION,
+    Tag.SUBORDINATOR: AtomKind.SUBORDINATOR,
+    Tag.CONJUNCTION: AtomKind.CONJUNCTION,
+    Tag.THEN: AtomKind.THEN,
+    Tag.AUXILIARY: AtomKind.AUXILIARY,
+    Tag.CAUSATIVE: AtomKind.CAUSATIVE,
+    Tag.VERB: AtomKind.VERB,
+    Tag.PREPOSITION: AtomKind.PREPOSITION,
+    Tag.FRAME: AtomKind.FRAME,
+    Tag.RELATIVE: AtomKind.RELATIVE,
+    Tag.FILL: AtomKind.FILL,
+    Tag.LABEL: AtomKind.FILL,
+    Tag.STATE: AtomKind.STATE,
+    Tag.DEFINITE: AtomKind.FILL,
+    Tag.INDEFINITE: AtomKind.FILL,
+}
+
+
+_NOUN_LIKE = (
+    Tag.WEATHER,
+    Tag.TIME_OF_DAY,
+    Tag.THING,
+    Tag.PATTERN,
+    Tag.ROUTE,
+    Tag.MESSAGE,
+    Tag.LINK,
+    Tag.SCENARIO,
+    Tag.WORLD_NOUN,
+    Tag.AERIAL,
+)
+
+
+# Where several classes are possible and neither noun nor verb decides: the first listed wins.
+_ORDER = tuple(_KINDS)
+
+
+_BEFORE_NOUN = (
+    'a',
+    'an',
+    'the',
+    'its',
+    'their',
+    'his',
+    'her',
+    'my',
+    'our',
+    'of',
+    'no',
+    'this',
+    'that',
+    'each',
+    'any',
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Tagged:
+    """The atoms of a prompt and the spelling that was assumed."""
+
+    atoms: tuple[Atom, ...]
+    corrections: tuple[tuple[int, int, str], ...] = ()
+
+
+@lru_cache(maxsize=4)
+def _speller(lexicon: Lexicon) -> Speller:
+    return Speller(lexicon.content_words)
+
+
+def tag(
+    tokens: Sequence[Token],
+    landmarks: Mapping[tuple[str, ...], str],
+    lexicon: Lexicon | None = None,
+) -> Tagged:
+    """Return the atoms of a token list."""
+    known = lexicon if lexicon is not None else shipped_lexicon()
+    landmark_vocabulary = {word for words in landmarks for word in words}
+    words: list[str] = []
+    corrections: list[tuple[int, int, str]] = []
+    for token in tokens:
+        word = token.norm
+        if (
+            token.kind is TokenKind.WORD
+            and word not in known.words
+            and word not in landmark_vocabulary
+        ):
+            meant = _speller(known).correct(word)
+            if meant is not None:
+                corrections.append((token.start, token.end, meant))
+                word = meant
+        words.append(word)
+    tagger = _Tagger(tokens, words, known, landmarks)
+    return Tagged(atoms=tagger.run(), corrections=tuple(corrections))
+
+
+class _Tagger:
+    def __init__(
+        self,
+        tokens: Sequence[Token],
+        words: Sequence[str],
+        lexicon: Lexicon,
+        landmarks: Mapping[tuple[str, ...], str],
+    ) -> None:
+        self._tokens = tokens
+        self._words = words
+        self._lexicon = lexicon
+        self._measures = MeasureReader(tokens, words, lexicon)
+        self._nouns = NounReader(tokens, words, lexicon, self._measures, landmarks)
+        self._atoms: list[Atom] = []
+
+    def run(self) -> tuple[Atom, ...]:
+        i = 0
+        while i < len(self._tokens):
+            i = self._step(i)
+        return tuple(settle_verbs(self._atoms))
+
+    def _step(self, i: int) -> int:
+        token = self._tokens[i]
+        if token.kind is TokenKind.MARK and token.norm not in ('%', '°', '@', '~', '&', '<', '>'):
+            if token.norm in _STOPS:
+                self._add(AtomKind.STOP, token.norm, i, i + 1)
+            elif token.norm == ',':
+                self._add(AtomKind.COMMA, ',', i, i + 1)
+            elif token.norm in _HARMLESS or token.norm == '=':
+                self._add(AtomKind.FILL, token.norm, i, i + 1)
+            else:
+                self._add(AtomKind.UNKNOWN, token.norm, i, i + 1)
+            return i + 1
+        special = self._longer_phrase(i)
+        if special is not None:
+            return special
+        noun = self._nouns.read(i)
+        if noun is not None:
+            phrase, stop = noun
+            self._atoms.append(
+                Atom(
+                    kind=AtomKind.NOUN,
+                    key=phrase.key,
+                    start=phrase.start,
+                    end=phrase.end,
+                    noun=phrase,
+                )
+            )
+            return stop
+        read = self._measures.read(i)
+        if read is not None:
+            measure, stop = read
+            self._atoms.append(
+                Atom(
+                    kind=AtomKind.MEASURE,
+                    key=measure.dimension,
+                    start=self._tokens[i].start,
+                    end=self._tokens[stop - 1].end,
+                    measure=measure,
+                )
+            )
+            return stop
+        matches = self._lexicon.matches(self._words, i)
+        after_article = bool(i) and self._words[i - 1] in _BEFORE_NOUN
+        for length, senses in matches:
+            only_verb = all(s.tag is Tag.VERB for s in senses)
+            if after_article and only_verb and length > 1:
+                continue  # `an orbit around …`
+            if self._take(i, length, senses):
+                return i + length
+        self._add(AtomKind.UNKNOWN, self._words[i], i, i + 1)
+        return i + 1
+
+    def _longer_phrase(self, i: int) -> int | None:
+        """Phrases that contain nouns or numbers (`over the streets`, `the moment`) come first."""
+        matches = self._lexicon.matches(self._words, i)
+        if not matches or matches[0][0] == 1:
+            return None
+        length, senses = matches[0]
+        after_article = bool(i) and self._words[i - 1] in _BEFORE_NOUN
+        if after_article and all(s.tag is Tag.VERB for s in senses):
+            return None  # `an orbit around …`
+        if any(
+            s.tag
+            in (
+                Tag.NUMBER,
+                Tag.MULTIPLIER,
+                Tag.AT_LEAST,
+                Tag.AT_MOST,
+                Tag.APPROXIMATE,
+                Tag.INDEFINITE,
+                Tag.ALL,
+                Tag.ANOTHER,
+            )
+            for s in senses
+        ):
+            return None
+        noun = self._nouns.read(i)
+        if noun is not None:
+            names = noun[0].kind not in (NounKind.SURROUNDINGS, NounKind.STREET)
+            if noun[1] > i + length or (names and noun[1] == i + length):
+                return None
+        return i + length if self._take(i, length, senses) else None
+
+    def _take(self, i: int, length: int, senses: tuple[Sense, ...]) -> bool:
+        by_tag: dict[Tag, Sense] = {}
+        for sense in senses:
+            if sense.tag in _KINDS:
+                by_tag.setdefault(sense.tag, sense)
+        if not by_tag:
+            return False
+        verb = by_tag.get(Tag.VERB)
+        nouns = [t for t in _NOUN_LIKE if t in by_tag]
+        if verb is not None and nouns:
+            chosen = by_tag[nouns[0]] if self._noun_context(i, verb) else verb
+        elif verb is not None and Tag.RELATION in by_tag:
+            chosen = by_tag[Tag.RELATION]
+        else:
+            chosen = next(by_tag[t] for t in _ORDER if t in by_tag)
+        kind = _KINDS[chosen.tag]
+        key = chosen.key
+        if kind is AtomKind.WORLD:
+            key = f'{chosen.tag}:{key}'.replace('traffic:', 'traffic_density:')
+        others = frozenset(_KINDS[t] for t in by_tag)
+        self._atoms.append(
+            Atom(
+                kind=kind,
+                key=key,
+                start=self._tokens[i].start,
+                end=self._tokens[i + length - 1].end,
+                form=chosen.form,
+                other_kinds=others,
+                verb_key=verb.key if verb is not None else '',
+                verb_form=verb.form if verb is not None else VerbForm.BASE,
+            )
+        )
+        return True
+
+    def _noun_context(self, i: int, verb: Sense) -> bool:
+        before = self._words[i - 1] if i else ''
+        if before in _BEFORE_NOUN:
+            return True
+        if not self._atoms:
+            return False
+        last = self._atoms[-1]
+        if last.kind in (
+            AtomKind.MEASURE,
+            AtomKind.PATTERN,
+            AtomKind.ROUTE,
+            AtomKind.LINK,
+            AtomKind.MESSAGE,
+            AtomKind.THING,
+        ):
+            return last.kind is not AtomKind.THING or verb.form is not VerbForm.THIRD
+        if last.kind is AtomKind.PREPOSITION and before != 'to':
+            return verb.form is VerbForm.BASE
+        if last.kind in (AtomKind.FILL, AtomKind.STATE):
+            return before in self._lexicon.words and self._is_adjective(i - 1)
+        return False
+
+    def _is_adjective(self, i: int) -> bool:
+        return self._lexicon.longest_of(self._words, i, (Tag.LABEL, Tag.STATE)) is not None
+
+    def _add(self, kind: AtomKind, key: str, i: int, stop: int) -> None:
+        self._atoms.append(
+            Atom(kind=kind, key=key, start=self._tokens[i].start, end=self._tokens[stop - 1].end)
+        )

@@ -1,0 +1,170 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Words, numbers and marks of a prompt, each with its place in the text."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from fractions import Fraction
+
+
+class TokenKind(StrEnum):
+    WORD = 'word'
+    NUMBER = 'number'
+    MARK = 'mark'
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Token:
+    """One token.
+
+    Attributes:
+        norm: Lower case, apostrophes unified.
+        start: First character in the prompt.
+        end: One past the last.
+        value: Exact value of a number; None when its notation is not one that is read.
+        glued: No blank between this token and the one before.
+        capital: A single capital letter (`drone B`).
+    """
+
+    kind: TokenKind
+    norm: str
+    start: int
+    end: int
+    value: Fraction | None = None
+    glued: bool = False
+    capital: bool = False
+
+
+# `100x60` must not become the word `x60m`, while `v2x` is a word.
+_TOKEN = re.compile(
+    r"""
+    (?P<number>(?:\d+(?:[.,:/^*]\d+)*|\.\d+)(?:[eE][+-]?\d+)?)
+    |(?P<word>(?![xX]\d)[^\W\d_]+\d+[^\W\d_]+(?:'[^\W\d_]+)*|[^\W\d_]+(?:['’][^\W\d_]+)*)
+    |(?P<space>\s+)
+    |(?P<mark>.)
+    """,
+    re.VERBOSE | re.DOTALL,
+)
+_PLAIN = re.compile(r'(?:\d+(?:\.\d+)?|\.\d+)(?:[eE][+-]?\d{1,2})?')
+_GROUPED = re.compile(r'\d{1,3}(?:,\d{3})+(?:\.\d+)?')
+
+
+# `'s` is a verb or part of a set phrase behind these.
+_CONTRACTED = frozenset(
+    ('it', 'let', 'that', 'there', 'here', 'what', 'he', 'she', 'who', 'bird', 'where', 'how')
+)
+
+
+def _number(text: str) -> Fraction | None:
+    """Read `30`, `0.3`, `.5`, `1,200`, `1e3`; others (`3,5`, `1/2`, `10:30`) stay unread."""
+    if len(text) > 24:
+        return None
+    if _PLAIN.fullmatch(text):
+        return Fraction(text)
+    if _GROUPED.fullmatch(text):
+        return Fraction(text.replace(',', ''))
+    return None
+
+
+def tokenize(text: str) -> tuple[Token, ...]:
+    """Cut a prompt into tokens; hyphens inside compounds vanish, line breaks end a sentence."""
+    raw: list[Token] = []
+    last_end = -1
+    for match in _TOKEN.finditer(text):
+        kind = match.lastgroup
+        piece = match.group()
+        start, end = match.span()
+        glued = start == last_end
+        if kind == 'space':
+            if '\n' in piece and raw:
+                raw.append(Token(kind=TokenKind.MARK, norm='\n', start=start, end=end))
+            continue
+        last_end = end
+        if kind == 'number':
+            raw.append(
+                Token(
+                    kind=TokenKind.NUMBER,
+                    norm=piece.lower(),
+                    start=start,
+                    end=end,
+                    value=_number(piece),
+                    glued=glued,
+                )
+            )
+        elif kind == 'word':
+            words = _words(piece.lower().replace('’', "'"), start, end, glued)
+            if len(piece) == 1 and piece.isupper():
+                words = [replace(words[0], capital=True)]
+            raw += words
+        else:
+            if piece in '>→' and raw and (piece == '→' or (raw[-1].norm in '-=' and glued)):
+                if piece == '>':
+                    start = raw.pop().start
+                piece = ','  # an arrow
+            mark = {'–': '-', '—': ';', '×': 'x', '−': '-', '＆': '&'}.get(piece, piece)
+            token_kind = TokenKind.WORD if mark == 'x' else TokenKind.MARK
+            raw.append(Token(kind=token_kind, norm=mark, start=start, end=end, glued=glued))
+    return _join_signs(_drop_hyphens(raw))
+
+
+def _words(norm: str, start: int, end: int, glued: bool) -> list[Token]:
+    """Cut the possessive `'s` off a noun; contractions stay whole."""
+    stem = norm.removesuffix("'s")
+    if stem == norm or stem in _CONTRACTED:
+        return [Token(kind=TokenKind.WORD, norm=norm, start=start, end=end, glued=glued)]
+    cut = end - 2
+    return [
+        Token(kind=TokenKind.WORD, norm=stem, start=start, end=cut, glued=glued),
+        Token(kind=TokenKind.WORD, norm="'s", start=cut, end=end, glued=True),
+    ]
+
+
+def _drop_hyphens(tokens: list[Token]) -> list[Token]:
+    """Drop the hyphen of `stand-off` and `35-meter`; one between two numbers is a range."""
+    kept: list[Token] = []
+    for i, token in enumerate(tokens):
+        if token.norm == '-' and 0 < i < len(tokens) - 1:
+            before, after = tokens[i - 1], tokens[i + 1]
+            numbers = before.kind is TokenKind.NUMBER and after.kind is TokenKind.NUMBER
+            word = TokenKind.WORD in (before.kind, after.kind)
+            if token.glued and after.glued and word and not numbers:
+                continue
+            if not token.glued and not after.glued:  # a dash between blanks ends a clause
+                kept.append(Token(kind=TokenKind.MARK, norm=';', start=token.start, end=token.end))
+                continue
+        kept.append(token)
+    return kept
+
+
+def _join_signs(tokens: list[Token]) -> tuple[Token, ...]:
+    """Make one number of a minus sign and the number glued behind it."""
+    joined: list[Token] = []
+    i = 0
+    while i < len(tokens):
+        token = tokens[i]
+        follows = tokens[i + 1] if i + 1 < len(tokens) else None
+        if (
+            token.norm in ('-', '+')
+            and follows is not None
+            and follows.kind is TokenKind.NUMBER
+            and follows.glued
+            and not token.glued
+        ):
+            sign = -1 if token.norm == '-' else 1
+            joined.append(
+                Token(
+                    kind=TokenKind.NUMBER,
+                    norm=token.norm + follows.norm,
+                    start=token.start,
+                    end=follows.end,
+                    value=None if follows.value is None else sign * follows.value,
+                )
+            )
+            i += 2
+            continue
+        joined.append(token)
+        i += 1
+    return tuple(joined)

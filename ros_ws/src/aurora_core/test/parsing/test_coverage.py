@@ -1,0 +1,45 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""What nothing accounts for is quoted, however it slipped through."""
+
+from __future__ import annotations
+
+import pytest
+
+from aurora_core.parsing.outcome import ParseContext
+from aurora_core.parsing.parser import parse_offline
+from aurora_core.spec.vocabulary import ClauseStatus
+
+
+@pytest.mark.parametrize(
+    ('prompt', 'quoted'),
+    [
+        ('A drone tracks a bus in 3 streets.', '3 streets'),
+        ('A drone tracks a bus with 7.', '7'),
+        ('A bus stops, 40 % of it.', '40 %'),
+        ('A drone hovers over the ego car at 3,5 m.', '3,5 m'),
+        ('A drone tracks the bus on a 5G network.', '5G'),
+        ('A drone gently tracks a bus.', 'gently'),
+        ('A drone tracks a bus and a van.', 'a bus and a van'),
+        ('A drone tracks a bus unless a van stops.', 'unless a van stops'),
+        ('When the moon rises, which is nice, a drone tracks a bus.', 'When the moon'),
+    ],
+)
+def test_quoted(prompt: str, quoted: str) -> None:
+    outcome = parse_offline(prompt, ParseContext())
+    unread = [c.text for c in outcome.clauses if c.status is ClauseStatus.NOT_ENCODED]
+    assert any(quoted in text for text in unread), (unread, outcome.question)
+
+
+def test_politeness_needs_nothing() -> None:
+    outcome = parse_offline('Hello! A drone tracks a bus. Thank you very much!', ParseContext())
+    assert [c.status.value for c in outcome.clauses] == [
+        'no_requirement',
+        'encoded',
+        'no_requirement',
+    ]
+
+
+def test_number_is_never_politeness() -> None:
+    outcome = parse_offline('Thank you 5 times. A drone tracks a bus.', ParseContext())
+    assert outcome.clauses[0].status is ClauseStatus.NOT_ENCODED

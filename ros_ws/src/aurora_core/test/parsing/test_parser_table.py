@@ -1,0 +1,158 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Prompts in the manner of users, each with the whole scene that it asks for."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+import yaml
+
+from aurora_core.parsing.outcome import ParseContext, ParseOutcome
+from aurora_core.parsing.parser import parse_offline
+from aurora_core.spec.parameter import Bound, Parameter, Provenance
+from aurora_core.spec.scenario import GroundAgent, ScenarioSpec, UavMission
+from aurora_core.spec.vocabulary import ClauseStatus
+
+CONTEXT = ParseContext(
+    map_name='downtown',
+    landmark_names=('central_park', 'clock_tower', 'city_hospital', 'north_plaza'),
+    seed=1,
+)
+_TABLE = Path(__file__).with_name('prompts.yaml')
+_MARK = {Provenance.EXPLICIT: '', Provenance.INFERRED: 'i', Provenance.DEFAULT: 'd'}
+_BOUND = {Bound.EXACTLY: '', Bound.AT_LEAST: '>=', Bound.AT_MOST: '<='}
+
+
+def _p(parameter: Parameter) -> str:
+    """`40`: stated; `30d`: default; `35i`: inferred; `~`: about; `<=`: at most."""
+    about = '~' if parameter.approximate else ''
+    return f'{about}{_BOUND[parameter.bound]}{parameter.value:g}{_MARK[parameter.provenance]}'
+
+
+def _agent(agent: GroundAgent) -> str:
+    parts = [f'{agent.id} {agent.role.value}']
+    for place in agent.placements:
+        words: list[str] = [place.of or '-']
+        if place.distance_m is not None:
+            words.append(_p(place.distance_m))
+        if place.bearing_deg is not None:
+            words.append(f'bearing {_p(place.bearing_deg)}')
+        if place.kept_in_motion:
+            words.append('kept')
+        parts.append(f'{place.relation.value}({" ".join(words)})')
+    for behavior in agent.behaviors:
+        words = [behavior.target] if behavior.target else []
+        if behavior.speed_mps is not None:
+            words.append(f'speed {_p(behavior.speed_mps)}')
+        if behavior.closing_from_m is not None:
+            words.append(f'from {_p(behavior.closing_from_m)}')
+        parts.append(f'{behavior.kind.value}({" ".join(words)})')
+    return ' '.join(parts)
+
+
+def _mission(mission: UavMission) -> str:
+    parts = [mission.uav, mission.mode.value]
+    if mission.pattern is not None:
+        parts.append(mission.pattern.value)
+    if mission.target is not None:
+        parts.append(mission.target + ('?' if mission.target_inferred else ''))
+    for name, value in (
+        ('alt', mission.altitude_m),
+        ('standoff', mission.standoff_m),
+        ('bearing', mission.bearing_deg),
+        ('for', mission.duration_s),
+        ('radius', mission.radius_m),
+        ('waypoints', mission.waypoint_count),
+        ('speed', mission.speed_mps),
+    ):
+        if value is not None:
+            parts.append(f'{name} {_p(value)}')
+    if mission.size_m is not None:
+        parts.append(f'size {_p(mission.size_m[0])}x{_p(mission.size_m[1])}')
+    parts += ['streets'] * mission.over_streets + ['stays-up'] * mission.ends_in_flight
+    return ' '.join(parts)
+
+
+def _fields(element: Any) -> str:
+    values = [value for _, value in element if value is not None]
+    return ' '.join(_p(v) if isinstance(v, Parameter) else str(v) for v in values)
+
+
+def scene_lines(spec: ScenarioSpec) -> list[str]:
+    """Return the whole scene, one element a line."""
+    lines = []
+    world = spec.world
+    stated = [world.weather.value] if world.weather_span else []
+    stated += [world.time_of_day.value] if world.time_of_day_span else []
+    stated += [f'traffic {world.traffic_density.value}'] if world.traffic_density else []
+    stated += [f'for {_p(world.duration_s)}'] if world.duration_s else []
+    if stated:
+        lines.append('world ' + ' '.join(stated))
+    lines += [_agent(a) for a in spec.agents]
+    lines += [_mission(m) for m in spec.missions]
+    for link in spec.links:
+        line = (
+            f'link {link.sender}>{link.receiver} loss {_p(link.loss)} latency {_p(link.latency_s)}'
+        )
+        if link.range_m is not None:
+            line += f' range {_p(link.range_m)}'
+        lines.append(f'{line} retries {_p(link.retransmissions)}')
+    for event in spec.events:
+        trigger = _fields(event.trigger) if event.trigger is not None else '?'
+        action = _fields(event.action) if event.action is not None else '?'
+        delay = f' delay {_p(event.delay_s)}' if event.delay_s is not None else ''
+        lines.append(f'{event.id}: {trigger} -> {action}{delay}')
+    for condition in spec.conditions:
+        of = ' '.join(condition.of)
+        lines.append(f'require {condition.quantity} {of} {condition.op} {_p(condition.value)}')
+    return lines
+
+
+def outcome_lines(outcome: ParseOutcome) -> list[str]:
+    """Return the scene, or the question, or the refusals; then what was not read."""
+    lines = scene_lines(outcome.spec) if outcome.spec is not None else []
+    if outcome.question is not None:
+        lines.append('question')
+    lines += [f'refused {r.kind.value}: {r.word}' for r in outcome.refusals]
+    if outcome.spec is not None:
+        lines += [
+            f'unread: {c.text}' for c in outcome.clauses if c.status is ClauseStatus.NOT_ENCODED
+        ]
+    return lines
+
+
+def _rows() -> list[dict[str, Any]]:
+    rows = yaml.safe_load(_TABLE.read_text(encoding='utf-8'))
+    assert isinstance(rows, list)
+    return rows
+
+
+_ROWS = _rows()
+
+
+@pytest.mark.parametrize('row', _ROWS, ids=lambda row: row['prompt'][:50])
+def test_prompt_gives_the_scene(row: dict[str, Any]) -> None:
+    outcome = parse_offline(row['prompt'], CONTEXT)
+    assert outcome_lines(outcome) == row['scene']
+
+
+def test_table_has_all_styles() -> None:
+    styles = [row['style'] for row in _ROWS]
+    assert {style: styles.count(style) >= 20 for style in ('plain', 'wordy', 'careless')} == {
+        'plain': True,
+        'wordy': True,
+        'careless': True,
+    }
+
+
+def test_paraphrases_give_one_scene() -> None:
+    groups: dict[str, set[tuple[str, ...]]] = {}
+    for row in _ROWS:
+        if 'group' in row:
+            scene = tuple(outcome_lines(parse_offline(row['prompt'], CONTEXT)))
+            groups.setdefault(row['group'], set()).add(scene)
+    assert groups
+    assert {name: len(scenes) for name, scenes in groups.items()} == dict.fromkeys(groups, 1)
