@@ -1,0 +1,52 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Finished runs as the folder of runs holds them: also those of an earlier process."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+from aurora_core.report.run_folder import REPORT, is_run_id
+from aurora_nodes.jobs import FINISHED
+
+
+@dataclass(frozen=True, kw_only=True)
+class FinishedRun:
+    """A run with a report."""
+
+    run_id: str
+    run_dir: Path
+    status: str
+    prompt: str
+    report_json: str
+    state: str = FINISHED
+
+
+def read_finished(root: Path, run_id: str) -> FinishedRun | None:
+    """Return a finished run, None when there is none (or its report cannot be read)."""
+    if not is_run_id(run_id):
+        return None
+    folder = root / run_id
+    try:
+        text = (folder / REPORT).read_text(encoding='utf-8')
+        report = json.loads(text)
+        return FinishedRun(
+            run_id=run_id,
+            run_dir=folder,
+            status=str(report['status']),
+            prompt=str(report['prompt']),
+            report_json=text,
+        )
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
+
+
+def list_finished(root: Path) -> list[FinishedRun]:
+    """Return the finished runs of a folder, the newest first."""
+    if not root.is_dir():
+        return []
+    names = sorted((path.name for path in root.iterdir() if path.is_dir()), reverse=True)
+    runs = [read_finished(root, name) for name in names]
+    return [run for run in runs if run is not None]

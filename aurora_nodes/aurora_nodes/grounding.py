@@ -1,0 +1,50 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The `grounding` node: services `/aurora/ground_scenario` and `/aurora/check`."""
+
+from __future__ import annotations
+
+from aurora_core.pipeline.functions import check_stage, ground_stage, knowledge
+from aurora_msgs.srv import Check, GroundScenario
+from aurora_nodes.settings import PreloadSettings
+from aurora_ros import interfaces as on
+from aurora_ros.conversions.messages import agsg, agsg_message
+from aurora_ros.conversions.options import run_request
+from aurora_ros.main import run_node
+from aurora_ros.node import AuroraNode
+from aurora_ros.parameters import declare
+
+
+class GroundingNode(AuroraNode):
+    """Graph in; graph with places, schedule and conditions, or a verdict on feasibility, out."""
+
+    def __init__(self) -> None:
+        super().__init__('grounding')
+        settings = declare(self, 'grounding', PreloadSettings)
+        knowledge().grounder(settings.preload_map)
+        self._publisher = self.publisher(on.AGSG)
+        self.serve(on.GROUND_SCENARIO, self._ground)
+        self.serve(on.CHECK, self._check)
+
+    def _ground(
+        self, request: GroundScenario.Request, response: GroundScenario.Response
+    ) -> GroundScenario.Response:
+        options = run_request('', request.options_json)
+        outcome = ground_stage(agsg(request.agsg), options.seed)
+        response.outcome_json = outcome.model_dump_json()
+        response.grounded = outcome.agsg is not None
+        if outcome.agsg is not None:
+            response.agsg = agsg_message(outcome.agsg, request.agsg.run_id)
+            self._publisher.publish(response.agsg)
+        return response
+
+    def _check(self, request: Check.Request, response: Check.Response) -> Check.Response:
+        verdict = check_stage(agsg(request.agsg))
+        response.result = verdict.result.value
+        response.feasibility_json = verdict.model_dump_json()
+        return response
+
+
+def main() -> int:
+    """Run the node until it is told to end."""
+    return run_node(GroundingNode)

@@ -1,0 +1,147 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""`RosStages`: the stages of the pipeline as calls into the graph, from a worker thread."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, TypeVar
+
+from pydantic import ValidationError
+
+from aurora_core.agsg.graph import Agsg
+from aurora_core.errors import ExecutionError
+from aurora_core.feasibility.verdict import FeasibilityVerdict
+from aurora_core.grounding.outcome import GroundingOutcome
+from aurora_core.monitor.verdict import Verdict
+from aurora_core.parsing.outcome import ParseOutcome
+from aurora_core.pipeline.stages import ExecutionResult, RunControl, RunRequest
+from aurora_core.spec.parameter import Document
+from aurora_core.temporal.schedule import Schedule
+from aurora_msgs.action import ExecuteScenario
+from aurora_msgs.srv import Check, GroundScenario, ParsePrompt, VerifyTrace
+from aurora_ros import interfaces as on
+from aurora_ros.call import Caller
+from aurora_ros.conversions.messages import agsg_message
+from aurora_ros.conversions.options import options_json
+from aurora_ros.interfaces import Call
+from aurora_ros.parameters import require_positive
+
+CALLS = (on.PARSE, on.GROUND_SCENARIO, on.CHECK, on.EXECUTE, on.VERIFY)
+
+_Document = TypeVar('_Document', bound=Document)
+
+
+@dataclass(frozen=True, kw_only=True)
+class StageLimits:
+    """Wall-clock limits of the stages, s."""
+
+    parse_s: float
+    ground_s: float
+    check_s: float
+    execute_fixed_s: float
+    execute_per_simulated_s: float
+    verify_s: float
+
+    def __post_init__(self) -> None:
+        require_positive(self, 'parse_s', 'ground_s', 'check_s', 'execute_fixed_s', 'verify_s')
+        require_positive(self, 'execute_per_simulated_s')
+
+
+class RosStages:
+    """One run's view of the graph.
+
+    Args:
+        caller: With `CALLS` prepared.
+        limits: How long each stage may take.
+        run_id: Stamp of the run's documents.
+    """
+
+    def __init__(self, caller: Caller, limits: StageLimits, run_id: str) -> None:
+        self._caller = caller
+        self._limits = limits
+        self._run_id = run_id
+
+    def parse(self, request: RunRequest) -> ParseOutcome:
+        """Let the parser read the prompt."""
+        response = self._caller.service(
+            on.PARSE,
+            ParsePrompt.Request(
+                prompt=request.prompt,
+                prompt_bytes=len(request.prompt.encode('utf-8')),
+                options_json=options_json(request),
+            ),
+            self._limits.parse_s,
+        )
+        return _document(ParseOutcome, response.outcome_json, on.PARSE)
+
+    def ground(self, agsg: Agsg, request: RunRequest) -> GroundingOutcome:
+        """Let the grounding node find places and a schedule."""
+        response = self._stage(on.GROUND_SCENARIO, GroundScenario, agsg, request)
+        return _document(GroundingOutcome, response.outcome_json, on.GROUND_SCENARIO)
+
+    def check(self, agsg: Agsg, request: RunRequest) -> FeasibilityVerdict:
+        """Let the grounding node judge feasibility."""
+        response = self._stage(on.CHECK, Check, agsg, request)
+        return _document(FeasibilityVerdict, response.feasibility_json, on.CHECK)
+
+    def execute(
+        self, agsg: Agsg, bag_directory: Path, request: RunRequest, control: RunControl
+    ) -> ExecutionResult:
+        """Let the executor run the scenario."""
+        horizon_s = Schedule.model_validate_json(agsg.schedule_json).horizon_s
+        result = self._caller.action(
+            on.EXECUTE,
+            ExecuteScenario.Goal(
+                agsg=agsg_message(agsg, self._run_id),
+                bag_directory=str(bag_directory.absolute()),
+                options_json=options_json(request),
+            ),
+            self._limits.execute_fixed_s + horizon_s * self._limits.execute_per_simulated_s,
+            on_feedback=lambda feedback: control.progress(
+                'execute', min(1.0, feedback.sim_time_s / horizon_s), feedback.sim_time_s
+            ),
+            cancelled=control.cancelled,
+        )
+        fields = {
+            'bag': result.bag_uri,
+            'ticks': result.ticks,
+            'trace_sha256': result.trace_sha256,
+            'outcome': result.outcome,
+        }
+        try:
+            return ExecutionResult.model_validate(fields)
+        except ValidationError as err:
+            raise ExecutionError(f'the executor answered with {fields}: {err}') from err
+
+    def verify(self, agsg: Agsg, bag: Path) -> Verdict:
+        """Let the monitor judge the bag."""
+        response = self._caller.service(
+            on.VERIFY,
+            VerifyTrace.Request(
+                agsg=agsg_message(agsg, self._run_id), bag_uri=str(bag.absolute())
+            ),
+            self._limits.verify_s,
+        )
+        return _document(Verdict, response.verdict.verdict_json, on.VERIFY)
+
+    def _stage(self, call: Call, kind: Any, agsg: Agsg, request: RunRequest) -> Any:
+        limit_s = self._limits.check_s if call is on.CHECK else self._limits.ground_s
+        return self._caller.service(
+            call,
+            kind.Request(
+                agsg=agsg_message(agsg, self._run_id), options_json=options_json(request)
+            ),
+            limit_s,
+        )
+
+
+def _document(kind: type[_Document], text: str, call: Call) -> _Document:
+    try:
+        return kind.model_validate_json(text)
+    except ValidationError as err:
+        raise ExecutionError(
+            f'{call.server} answered {call.name} with a document that is not valid: {err}',
+            component=call.server,
+        ) from err

@@ -1,0 +1,259 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""One execution from load to closed bag, in a worker thread, with clean-up on every exit."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from aurora_core.agsg.graph import Agsg
+from aurora_core.errors import AuroraError, ExecutionError
+from aurora_core.execution.plan import Execution
+from aurora_msgs.srv import LoadSync, StartRecording, StartSync, StopRecording, StopSync
+from aurora_nodes.tick_path import ActiveRun, TickPath
+from aurora_ros import interfaces as on
+from aurora_ros.call import Caller
+from aurora_ros.conversions.loads import ground_request, uav_request
+from aurora_ros.conversions.messages import agsg_message, message_builder, world_message
+from aurora_ros.heartbeat import HeartbeatWatch
+from aurora_ros.lifecycle import ManagedNode
+from aurora_ros.matching import await_subscribers
+from aurora_ros.parameters import require_positive
+
+CALLS = (
+    on.GROUND_LOAD,
+    on.UAV_LOAD,
+    on.SYNC_LOAD,
+    on.SYNC_START,
+    on.SYNC_STOP,
+    on.RECORDER_START,
+    on.RECORDER_STOP,
+)
+_LOOK_S = 0.05
+_LATCHED = (on.AGSG, on.ROSTER, on.WORLD)
+_RECORDED = (*_LATCHED, on.GROUND_STATE, on.GROUND_COMMAND, on.COMM, on.SENSING, on.EVENTS)
+_RECORDED_WITH_UAVS = (*_RECORDED, on.UAV_STATE, on.UAV_COMMAND)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ExecutorSettings:
+    """See `config/executor.param.yaml`."""
+
+    autostart: bool
+    call_limit_s: float
+    load_limit_s: float
+    stop_limit_s: float
+    silence_limit_s: float
+    feedback_period_s: float
+
+    def __post_init__(self) -> None:
+        require_positive(self, 'call_limit_s', 'load_limit_s', 'stop_limit_s')
+        require_positive(self, 'silence_limit_s', 'feedback_period_s')
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Order:
+    """What is to be executed.
+
+    Attributes:
+        run_id: Of the run folder.
+        agsg: Grounded graph, published beside roster and world.
+        bag_directory: Folder to create.
+    """
+
+    run_id: str
+    agsg: Agsg
+    execution: Execution
+    bag_directory: Path
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Done:
+    """A closed recording.
+
+    Attributes:
+        outcome: finished, horizon or cancelled.
+    """
+
+    bag: Path
+    ticks: int
+    outcome: str
+
+
+class RunDriver:
+    """Drives bridges, sync and recorder through one run after another.
+
+    Args:
+        node: The executor.
+        path: Its part of each tick.
+        watch: Tells who has died.
+        settings: Wall-clock limits.
+    """
+
+    def __init__(
+        self, node: ManagedNode, path: TickPath, watch: HeartbeatWatch, settings: ExecutorSettings
+    ) -> None:
+        self._node = node
+        self._path = path
+        self._watch = watch
+        self._settings = settings
+        self._caller = Caller(node, watch)
+        self._caller.prepare(*CALLS)
+        self._publishers = {topic: node.publisher(topic) for topic in _LATCHED}
+
+    def run(
+        self, order: Order, *, on_tick: Callable[[int], None], cancelled: Callable[[], bool]
+    ) -> Done:
+        """Execute and record a scenario; blocks until everything is closed.
+
+        Raises:
+            AuroraError: A component refused, failed, fell silent or died; it is named.
+        """
+        # Unique over restarts of this node too, so that a stray sample never fits a later run.
+        run_number = time.time_ns()
+        execution = order.execution
+        run = ActiveRun(
+            run_number=run_number,
+            dt_s=execution.roster.dt_s,
+            builder=message_builder(run_number, execution.roster.dt_s),
+            stepper=execution.stepper,
+            has_uavs=bool(execution.roster.uavs),
+            on_tick=on_tick,
+        )
+        self._node.heartbeat.busy(run_number)
+        recording = False
+        try:
+            self._load(order, run)
+            self._start_recording(order, run)
+            recording = True
+            self._publish_documents(order, run)
+            self._path.arm(run)
+            self._call(on.SYNC_START, StartSync.Request(run_number=run_number))
+            was_cancelled = self._await_end(run, cancelled)
+        except AuroraError:
+            self._give_up(run, recording=recording)
+            raise
+        finally:
+            self._path.disarm()
+            self._node.heartbeat.idle()
+        self._call(on.SYNC_STOP, StopSync.Request(run_number=run_number))
+        bag = self._stop_recording(run, complete=not was_cancelled)
+        return Done(
+            bag=bag,
+            ticks=run.last_tick + 1,
+            outcome='cancelled' if was_cancelled else run.outcome or 'horizon',
+        )
+
+    def _load(self, order: Order, run: ActiveRun) -> None:
+        execution = order.execution
+        participants = ['sumo_bridge', *(['uav_bridge'] if run.has_uavs else []), 'executor']
+        common: dict[str, Any] = {
+            'run_id': order.run_id,
+            'run_number': run.run_number,
+            'horizon_s': execution.horizon_s,
+        }
+        self._call(
+            on.SYNC_LOAD,
+            LoadSync.Request(
+                **common, dt_s=run.dt_s, participants=participants, observers=['recorder']
+            ),
+        )
+        limit_s = self._settings.load_limit_s
+        self._call(on.GROUND_LOAD, ground_request(execution.ground_load, **common), limit_s)
+        if run.has_uavs:
+            self._call(on.UAV_LOAD, uav_request(execution.air_load, **common), limit_s)
+        publishers = self._path.command_publishers(run.has_uavs)
+        # The bridge and the recorder.
+        await_subscribers(
+            dict.fromkeys(publishers, 2),
+            limit_s=self._settings.call_limit_s,
+            component=self._node.get_name(),
+        )
+
+    def _start_recording(self, order: Order, run: ActiveRun) -> None:
+        topics = _RECORDED_WITH_UAVS if run.has_uavs else _RECORDED
+        request = StartRecording.Request(
+            run_id=order.run_id,
+            run_number=run.run_number,
+            iteration=order.agsg.iteration,
+            directory=str(order.bag_directory),
+            topics=[topic.full_name for topic in topics],
+        )
+        self._call(on.RECORDER_START, request, self._settings.stop_limit_s)
+
+    def _publish_documents(self, order: Order, run: ActiveRun) -> None:
+        execution = order.execution
+        messages = {
+            on.AGSG: agsg_message(order.agsg, order.run_id),
+            on.ROSTER: run.builder.roster(order.run_id, execution.roster),
+            on.WORLD: world_message(run.builder, execution.world, order.run_id),
+        }
+        for topic, message in messages.items():
+            self._publishers[topic].publish(message)
+            run.sent[topic.full_name] += 1
+
+    def _await_end(self, run: ActiveRun, cancelled: Callable[[], bool]) -> bool:
+        """Wait until sync ends the run; return whether it was cancelled.
+
+        Raises:
+            AuroraError: The run failed.
+        """
+        seen_tick, moved_at = run.last_tick, time.monotonic()
+        while not run.ended.is_set():
+            if cancelled():
+                return True
+            if run.last_tick != seen_tick:
+                seen_tick, moved_at = run.last_tick, time.monotonic()
+            self._check_alive(run, time.monotonic() - moved_at)
+            run.ended.wait(_LOOK_S)
+        if run.error is not None:
+            raise run.error
+        return False
+
+    def _check_alive(self, run: ActiveRun, silent_s: float) -> None:
+        names = ['sumo_bridge', 'sync', 'recorder', *(['uav_bridge'] if run.has_uavs else [])]
+        dead = [name for name in names if self._watch.is_dead(name)]
+        if dead:
+            raise ExecutionError(f'{dead[0]} died at tick {run.last_tick + 1}', component=dead[0])
+        # sync names a silent participant before this; only a silent sync comes here.
+        if silent_s > self._settings.silence_limit_s:
+            raise ExecutionError(
+                f'no tick for {silent_s:.1f} s after tick {run.last_tick}', component='sync'
+            )
+
+    def _stop_recording(self, run: ActiveRun, *, complete: bool) -> Path:
+        expected = dict(run.sent)
+        expected[on.GROUND_STATE.full_name] = run.last_tick + 1
+        if run.has_uavs:
+            expected[on.UAV_STATE.full_name] = run.last_tick + 1
+        if not complete:
+            expected.clear()
+        request = StopRecording.Request(
+            run_number=run.run_number,
+            last_tick=max(0, run.last_tick),
+            expected_topics=list(expected),
+            expected_counts=list(expected.values()),
+        )
+        response = self._call(on.RECORDER_STOP, request, self._settings.stop_limit_s)
+        return Path(response.bag_uri)
+
+    def _give_up(self, run: ActiveRun, *, recording: bool) -> None:
+        """Stop clock and recorder after a failure, whoever of them still answers."""
+        self._path.disarm()
+        try:
+            self._call(on.SYNC_STOP, StopSync.Request(run_number=run.run_number))
+        except AuroraError as err:
+            self._node.get_logger().warning(f'while cleaning up: {err}')
+        if not recording:
+            return
+        try:
+            self._stop_recording(run, complete=False)
+        except AuroraError as err:
+            self._node.get_logger().warning(f'while cleaning up: {err}')
+
+    def _call(self, call: on.Call, request: object, limit_s: float | None = None) -> Any:
+        return self._caller.service(call, request, limit_s or self._settings.call_limit_s)

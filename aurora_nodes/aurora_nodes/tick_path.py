@@ -1,0 +1,171 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The executor's part of a tick: states in, one pure step, commands and records out."""
+
+from __future__ import annotations
+
+import threading
+import traceback
+from collections import Counter
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+from rclpy.publisher import Publisher
+
+from aurora_core.errors import AuroraError
+from aurora_core.execution.step_output import StepOutput, Stepper
+from aurora_core.trace.layout import GROUND_WIDTH, UAV_WIDTH
+from aurora_core.trace.messages import MessageBuilder
+from aurora_msgs.msg import Fault, GroundState, SyncStatus, TickDone, UavState
+from aurora_nodes.state_join import StateJoin
+from aurora_ros import interfaces as on
+from aurora_ros.conversions.states import uav_command, unpack
+from aurora_ros.errors import read_error, write_error
+from aurora_ros.interfaces import Topic
+from aurora_ros.lifecycle import ManagedNode
+from aurora_ros.node import defect
+
+GROUND, AIR = 'ground', 'air'
+_NO_UAVS = np.zeros((0, UAV_WIDTH))
+
+
+@dataclass(kw_only=True)
+class ActiveRun:
+    """A run between `arm` and its end.
+
+    Attributes:
+        last_tick: Last tick that was stepped, -1 before the first.
+        sent: Messages published for the bag, by full topic name.
+        outcome: Of the step that ended the scenario.
+        ended: Set when sync has finished or failed the run.
+        error: Why it failed.
+    """
+
+    run_number: int
+    dt_s: float
+    builder: MessageBuilder
+    stepper: Stepper
+    has_uavs: bool
+    on_tick: Callable[[int], None]
+    last_tick: int = -1
+    sent: Counter[str] = field(default_factory=Counter)
+    outcome: str = ''
+    ended: threading.Event = field(default_factory=threading.Event)
+    error: AuroraError | None = None
+
+
+class TickPath:
+    """Subscriptions and publishers of the lockstep, all served by the node's own thread.
+
+    Args:
+        node: The executor.
+    """
+
+    def __init__(self, node: ManagedNode) -> None:
+        self._node = node
+        self._run: ActiveRun | None = None
+        self._join = StateJoin(0, ())
+        self._publishers = {
+            topic: node.publisher(topic)
+            for topic in (
+                on.GROUND_COMMAND,
+                on.UAV_COMMAND,
+                on.COMM,
+                on.SENSING,
+                on.EVENTS,
+                on.TICK_DONE,
+                on.FAULT,
+            )
+        }
+        node.subscription(on.GROUND_STATE, self._on_ground)
+        node.subscription(on.UAV_STATE, self._on_uav)
+        node.subscription(on.SYNC_STATUS, self._on_sync_status)
+
+    def command_publishers(self, with_uavs: bool) -> list[Publisher]:
+        """Return the publishers that bridge and recorder must have matched before tick 0."""
+        topics = (on.GROUND_COMMAND, on.UAV_COMMAND) if with_uavs else (on.GROUND_COMMAND,)
+        return [self._publishers[topic] for topic in topics]
+
+    def arm(self, run: ActiveRun) -> None:
+        """Begin to answer the states of a run."""
+        self._join = StateJoin(run.run_number, (GROUND, AIR) if run.has_uavs else (GROUND,))
+        self._run = run
+
+    def disarm(self) -> None:
+        """Ignore every state."""
+        self._run = None
+
+    def _on_ground(self, message: GroundState) -> None:
+        self._take(GROUND, message, GROUND_WIDTH)
+
+    def _on_uav(self, message: UavState) -> None:
+        self._take(AIR, message, UAV_WIDTH)
+
+    def _take(self, source: str, message: GroundState | UavState, width: int) -> None:
+        run = self._run
+        if run is None or message.run_number != run.run_number:
+            return
+        try:
+            rows = unpack(message.data, width, f'{source} state')
+            ready = self._join.put(source, message.run_number, message.tick, rows)
+            if ready is None:
+                return
+            tick, states = ready
+            output = run.stepper.step(tick, states[GROUND], states.get(AIR, _NO_UAVS))
+            self._publish(run, tick, output)
+        except AuroraError as err:
+            self._fail(run, err)
+        except Exception as err:  # noqa: BLE001 - a defect: it ends the run, not the node
+            self._node.get_logger().error(traceback.format_exc())
+            self._fail(run, defect(err, self._node.get_name()))
+
+    def _publish(self, run: ActiveRun, tick: int, output: StepOutput) -> None:
+        builder = run.builder
+        for link in output.links:
+            self._send(run, on.COMM, builder.link(link))
+        for sight in output.sights:
+            self._send(run, on.SENSING, builder.sight(sight))
+        for event in output.events:
+            self._send(run, on.EVENTS, builder.event(event))
+        run.last_tick = tick
+        run.outcome = output.outcome
+        if not output.finished:
+            commands = builder.ground_commands(tick + 1, output.ground_commands)
+            self._send(run, on.GROUND_COMMAND, commands)
+            if run.has_uavs:
+                rows = uav_command(run.run_number, tick + 1, run.dt_s, output.uav_commands)
+                self._send(run, on.UAV_COMMAND, rows)
+        self._publishers[on.TICK_DONE].publish(
+            TickDone(
+                run_number=run.run_number,
+                tick=tick,
+                participant=self._node.get_name(),
+                finished=output.finished,
+            )
+        )
+        self._node.heartbeat.at(tick)
+        run.on_tick(tick)
+
+    def _send(self, run: ActiveRun, topic: Topic, message: object) -> None:
+        self._publishers[topic].publish(message)
+        run.sent[topic.full_name] += 1
+
+    def _on_sync_status(self, message: SyncStatus) -> None:
+        run = self._run
+        if run is None or message.run_number != run.run_number:
+            return
+        if message.state == SyncStatus.FAILED:
+            run.error = read_error(message, message.failed_participant or 'sync')
+        if message.state in (SyncStatus.FAILED, SyncStatus.FINISHED):
+            self.disarm()
+            run.ended.set()
+
+    def _fail(self, run: ActiveRun, err: AuroraError) -> None:
+        """Tell sync; the run ends here whether sync hears it or not."""
+        self.disarm()
+        message = Fault(run_number=run.run_number, node=self._node.get_name())
+        write_error(message, err)
+        self._publishers[on.FAULT].publish(message)
+        run.error = err
+        run.ended.set()

@@ -1,0 +1,86 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The `uav_bridge` node: `MavlinkClient` as a participant of the lockstep."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from aurora_core.errors import AirSimulatorError
+from aurora_core.trace.layout import UAV_COMMAND_WIDTH
+from aurora_msgs.msg import UavCommand, UavState
+from aurora_msgs.srv import LoadUav
+from aurora_ros import interfaces as on
+from aurora_ros.bridge import BridgeInterfaces, LockstepBridge
+from aurora_ros.conversions.loads import air_load
+from aurora_ros.conversions.states import uav_state, unpack
+from aurora_ros.main import run_node
+from aurora_ros.parameters import declare, require_positive
+from aurora_uav_bridge.mavlink_client import MavlinkClient
+from aurora_uav_bridge.transports import UdpTransport
+from aurora_uav_sim.protocol import mavlink_port
+
+
+@dataclass(frozen=True, kw_only=True)
+class UavBridgeSettings:
+    """See `config/uav_bridge.param.yaml`."""
+
+    autostart: bool
+    host: str
+    port: int
+    first_system_id: int
+    answer_limit_s: float
+
+    def __post_init__(self) -> None:
+        require_positive(self, 'first_system_id', 'answer_limit_s')
+
+
+class UavBridgeNode(LockstepBridge):
+    """Flying vehicles."""
+
+    def __init__(self) -> None:
+        super().__init__(
+            'uav_bridge',
+            BridgeInterfaces(load=on.UAV_LOAD, command=on.UAV_COMMAND, state=on.UAV_STATE),
+        )
+        self._settings = declare(self, 'uav_bridge', UavBridgeSettings)
+        self.wants_autostart = self._settings.autostart
+        self._client: MavlinkClient | None = None
+
+    def open_run(self, request: LoadUav.Request) -> None:
+        """Open a lockstep session with the simulator."""
+        self.close_run()
+        settings = self._settings
+        port = settings.port or mavlink_port(
+            self.context.get_domain_id(), settings.first_system_id
+        )
+        self._client = MavlinkClient(
+            UdpTransport(port, settings.host), timeout_s=settings.answer_limit_s
+        )
+        self._client.load(air_load(request))
+
+    def state(self, run_number: int, dt_s: float) -> UavState:
+        """Return the spawned state."""
+        return uav_state(run_number, 0, dt_s, self._loaded.state())
+
+    def advance(self, tick: int, command: UavCommand, run_number: int, dt_s: float) -> UavState:
+        """Advance the vehicles by one tick."""
+        rows = self._loaded.advance(tick, unpack(command.data, UAV_COMMAND_WIDTH, 'UAV command'))
+        return uav_state(run_number, tick, dt_s, rows)
+
+    def close_run(self) -> None:
+        """Leave the session, so that the simulator runs in real time again."""
+        client, self._client = self._client, None
+        if client is not None:
+            client.close()
+
+    @property
+    def _loaded(self) -> MavlinkClient:
+        if self._client is None:
+            raise AirSimulatorError('no vehicle is loaded', hint='call uav/load first')
+        return self._client
+
+
+def main() -> int:
+    """Run the node until it is told to end."""
+    return run_node(UavBridgeNode)

@@ -1,0 +1,146 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""`LockstepBridge`: what the two simulator bridges have in common as participants."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from dataclasses import dataclass
+from typing import Any
+
+from aurora_core.errors import AuroraError
+from aurora_msgs.msg import Fault, SyncStatus, Tick, TickDone
+from aurora_ros import interfaces as on
+from aurora_ros.errors import write_error
+from aurora_ros.interfaces import Call, Topic
+from aurora_ros.lifecycle import ManagedNode
+from aurora_ros.lockstep_input import LockstepInput
+from aurora_ros.matching import await_subscribers
+from aurora_ros.node import defect
+
+_ENDED = (SyncStatus.IDLE, SyncStatus.FINISHED, SyncStatus.FAILED)
+MATCH_LIMIT_S = 5.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BridgeInterfaces:
+    """The three interfaces in which the bridges differ."""
+
+    load: Call
+    command: Topic
+    state: Topic
+
+
+class LockstepBridge(ManagedNode):
+    """Waits for tick and command, advances its simulator, publishes the state, reports done.
+
+    Args:
+        name: Node name, also its name as a participant.
+        interfaces: What it serves.
+    """
+
+    def __init__(self, name: str, interfaces: BridgeInterfaces) -> None:
+        super().__init__(name)
+        self._interfaces = interfaces
+        self._input: LockstepInput[Any] = LockstepInput(name, first_needs_input=False)
+        self._run_number = 0
+        self._dt_s = 0.0
+
+    @abstractmethod
+    def open_run(self, request: Any) -> None:
+        """Load the simulator; afterwards it stands at tick 0."""
+
+    @abstractmethod
+    def state(self, run_number: int, dt_s: float) -> Any:
+        """Return the state message of tick 0."""
+
+    @abstractmethod
+    def advance(self, tick: int, command: Any, run_number: int, dt_s: float) -> Any:
+        """Apply the command stamped `tick`, advance to it and return its state message."""
+
+    def close_run(self) -> None:
+        """Leave the simulator after a run; the next one loads it again."""
+
+    def configure(self) -> None:
+        """Create the endpoints."""
+        self._state_publisher = self.publisher(self._interfaces.state)
+        self._done_publisher = self.publisher(on.TICK_DONE)
+        self._fault_publisher = self.publisher(on.FAULT)
+        self.subscription(on.TICK, self._on_tick)
+        self.subscription(self._interfaces.command, self._on_command)
+        self.subscription(on.SYNC_STATUS, self._on_sync_status)
+        self.serve(self._interfaces.load, self._load)
+
+    def deactivate(self) -> None:
+        """Leave the run that is going on."""
+        self._end_run()
+
+    def _load(self, request: Any, response: Any) -> Any:
+        self.require_active()
+        self._input.disarm()
+        await_subscribers(
+            {self._state_publisher: 1, self._done_publisher: 1},
+            limit_s=MATCH_LIMIT_S,
+            component=self.get_name(),
+        )
+        self.open_run(request)
+        self._run_number, self._dt_s = request.run_number, request.dt_s
+        self._input.arm(request.run_number)
+        self.heartbeat.busy(request.run_number)
+        response.ok = True
+        return response
+
+    def _on_tick(self, message: Tick) -> None:
+        try:
+            self._input.tick(message.run_number, message.tick)
+            self._step()
+        except AuroraError as err:
+            self._fail(err)
+
+    def _on_command(self, message: Any) -> None:
+        self._input.put(message.run_number, message.tick, message)
+        self._step()
+
+    def _on_sync_status(self, message: SyncStatus) -> None:
+        if message.run_number == self._input.run_number and message.state in _ENDED:
+            self._end_run()
+
+    def _step(self) -> None:
+        """Do the next tick if everything for it is there."""
+        ready = self._input.take()
+        if ready is None:
+            return
+        tick, command = ready
+        run_number, dt_s = self._run_number, self._dt_s
+        try:
+            if tick == 0:
+                message = self.state(run_number, dt_s)
+            else:
+                message = self.advance(tick, command, run_number, dt_s)
+        except AuroraError as err:
+            self._fail(err)
+            return
+        except Exception as err:  # noqa: BLE001 - a defect: it ends the run, not the node
+            self.log_defect()
+            self._fail(defect(err, self.get_name()))
+            return
+        self._state_publisher.publish(message)
+        self._done_publisher.publish(
+            TickDone(run_number=run_number, tick=tick, participant=self.get_name())
+        )
+        self.heartbeat.at(tick)
+
+    def _fail(self, err: AuroraError) -> None:
+        """Tell sync, which ends the run with this node's name."""
+        self.get_logger().error(f'{err.component}: {err}')
+        message = Fault(run_number=self._run_number, node=self.get_name())
+        write_error(message, err)
+        self._fault_publisher.publish(message)
+        self._end_run()
+
+    def _end_run(self) -> None:
+        if self._input.run_number is None:
+            return
+        self._input.disarm()
+        self.close_run()
+        self.heartbeat.idle()

@@ -1,0 +1,177 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Blocking calls with wall-clock limits, made from a worker thread (never a nested spin).
+
+A service client whose server was killed waits for ever and `service_is_ready` stays true for
+20 s, so each wait has a limit and asks the heartbeats in between.
+"""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable
+from typing import Any
+
+from action_msgs.msg import GoalStatus
+from rclpy.action.client import ActionClient, ClientGoalHandle
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.client import Client
+from rclpy.node import Node
+from rclpy.task import Future
+
+from aurora_core.errors import ExecutionError
+from aurora_ros.errors import raise_error
+from aurora_ros.heartbeat import HeartbeatWatch
+from aurora_ros.interfaces import Call
+
+_POLL_S = 0.01  # discovery of a server
+_LOOK_S = 0.1  # between two looks at heartbeats and cancellation while an answer is awaited
+
+
+class Caller:
+    """Clients of one node, made once and kept.
+
+    Args:
+        node: Its executor must be spinning in another thread than the caller's.
+        watch: Tells early that a server has died.
+    """
+
+    def __init__(self, node: Node, watch: HeartbeatWatch | None = None) -> None:
+        self._node = node
+        self._watch = watch
+        self._group = ReentrantCallbackGroup()
+        self._services: dict[str, Client] = {}
+        self._actions: dict[str, ActionClient] = {}
+
+    def prepare(self, *calls: Call) -> None:
+        """Create clients ahead of the first call, so that discovery costs nothing later."""
+        for call in calls:
+            if hasattr(call.type, 'Goal'):
+                self._actions[call.name] = ActionClient(
+                    self._node, call.type, call.name, callback_group=self._group
+                )
+            else:
+                self._services[call.name] = self._node.create_client(
+                    call.type, call.name, callback_group=self._group
+                )
+
+    def service(self, call: Call, request: Any, limit_s: float) -> Any:
+        """Call a prepared service and return its response.
+
+        Args:
+            call: Interface.
+            request: Request message.
+            limit_s: Wall-clock limit for server and answer together.
+
+        Raises:
+            ExecutionError: No server, no answer within the limit, or the server died.
+            AuroraError: The response carries an error.
+        """
+        deadline = time.monotonic() + limit_s
+        client = self._services[call.name]
+        self._await_server(call, client.service_is_ready, deadline, limit_s)
+        future = client.call_async(request)
+        try:
+            self._await(future, call, deadline, limit_s)
+        except ExecutionError:
+            client.remove_pending_request(future)
+            raise
+        response = future.result()
+        raise_error(response, call.server)
+        return response
+
+    def action(
+        self,
+        call: Call,
+        goal: Any,
+        limit_s: float,
+        *,
+        on_feedback: Callable[[Any], None] = lambda _feedback: None,
+        cancelled: Callable[[], bool] = lambda: False,
+        cancel_limit_s: float = 10.0,
+    ) -> Any:
+        """Send a goal to a prepared action, wait for its end and return the result.
+
+        Args:
+            call: Interface.
+            goal: Goal message.
+            limit_s: Wall-clock limit for everything.
+            on_feedback: Called with each feedback message in the executor's thread.
+            cancelled: Asked ten times a second; the goal is cancelled once it is true.
+            cancel_limit_s: Wall-clock limit from then on.
+
+        Raises:
+            ExecutionError: No server, goal refused, no result within the limit, server died.
+            AuroraError: The result carries an error.
+        """
+        deadline = time.monotonic() + limit_s
+        client = self._actions[call.name]
+        self._await_server(call, client.server_is_ready, deadline, limit_s)
+        sent = client.send_goal_async(
+            goal, feedback_callback=lambda message: on_feedback(message.feedback)
+        )
+        self._await(sent, call, deadline, limit_s)
+        handle: ClientGoalHandle = sent.result()
+        if not handle.accepted:
+            raise ExecutionError(
+                f'{call.server} refused the goal of {call.name}',
+                component=call.server,
+                hint='it is busy with another run, or not active',
+            )
+        result = handle.get_result_async()
+        done = _event_of(result)
+        cancelling = False
+        while not done.wait(_LOOK_S):
+            if cancelled() and not cancelling:
+                cancelling = True
+                handle.cancel_goal_async()
+                deadline, limit_s = time.monotonic() + cancel_limit_s, cancel_limit_s
+            self._check(call, deadline, limit_s)
+        response = result.result()
+        if response.status == GoalStatus.STATUS_UNKNOWN:
+            raise ExecutionError(f'{call.server} lost the goal', component=call.server)
+        raise_error(response.result, call.server)
+        return response.result
+
+    def _await_server(
+        self, call: Call, is_ready: Callable[[], bool], deadline: float, limit_s: float
+    ) -> None:
+        pause = threading.Event()
+        while not is_ready():
+            if time.monotonic() > deadline or not self._node.context.ok():
+                raise ExecutionError(
+                    f'nobody serves {call.name} (waited {limit_s:g} s)',
+                    component=call.server,
+                    hint=f'start it: is {call.server} running in this ROS_DOMAIN_ID?',
+                )
+            pause.wait(_POLL_S)
+
+    def _await(self, future: Future, call: Call, deadline: float, limit_s: float) -> None:
+        done = _event_of(future)
+        while not done.wait(_LOOK_S):
+            self._check(call, deadline, limit_s)
+        err = future.exception()
+        if err is not None:
+            raise ExecutionError(f'{call.name} failed: {err}', component=call.server) from err
+
+    def _check(self, call: Call, deadline: float, limit_s: float) -> None:
+        """Raise when it makes no sense to wait any longer."""
+        if not self._node.context.ok():
+            raise ExecutionError(f'shut down while waiting for {call.name}')
+        if self._watch is not None and self._watch.is_dead(call.server):
+            raise ExecutionError(
+                f'{call.server} died while {call.name} was waited for', component=call.server
+            )
+        if time.monotonic() > deadline:
+            raise ExecutionError(
+                f'{call.server} did not answer {call.name} within {limit_s:g} s',
+                component=call.server,
+                hint=f'see the log of {call.server}',
+            )
+
+
+def _event_of(future: Future) -> threading.Event:
+    done = threading.Event()
+    future.add_done_callback(lambda _future: done.set())
+    return done

@@ -1,0 +1,67 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""`options_json` of services and actions: every setting of a run but its prompt."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from aurora_core.errors import SpecError
+from aurora_core.pipeline.stages import RunRequest
+
+# The short name that people type, and the field it stands for.
+_SHORT_NAMES = {'map': 'map_name'}
+_RUNS_DIRECTORY = 'out'
+
+
+def options_json(request: RunRequest) -> str:
+    """Return the options of a request."""
+    return request.model_dump_json(exclude={'prompt'})
+
+
+def run_request(prompt: str, options: str) -> RunRequest:
+    """Return the request of a prompt and its options ('' = defaults).
+
+    Raises:
+        SpecError: The options are not a JSON object of known names and values.
+    """
+    try:
+        fields = {_SHORT_NAMES.get(name, name): value for name, value in _given(options).items()}
+        fields.pop(_RUNS_DIRECTORY, None)
+        return RunRequest.model_validate({**fields, 'prompt': prompt})
+    except ValidationError as err:
+        known = ', '.join(name for name in RunRequest.model_fields if name != 'prompt')
+        raise SpecError(
+            f'options_json is not valid: {err}', hint=f'a JSON object with any of: {known}'
+        ) from err
+
+
+def runs_directory(options: str) -> Path | None:
+    """Return the folder for the run folder that the options name as `out`, None without one.
+
+    Raises:
+        SpecError: It is not an absolute path, or the options are not valid.
+    """
+    named = _given(options).get(_RUNS_DIRECTORY)
+    if named is None:
+        return None
+    if not isinstance(named, str) or not Path(named).is_absolute():
+        raise SpecError(
+            f'expected an absolute path as {_RUNS_DIRECTORY}, found {named!r}',
+            hint='the node and its client may run in different folders',
+        )
+    return Path(named)
+
+
+def _given(options: str) -> dict[str, Any]:
+    try:
+        given = json.loads(options) if options else {}
+    except ValueError as err:
+        raise SpecError(f'options_json is not JSON: {err}') from err
+    if not isinstance(given, dict):
+        raise SpecError(f'options_json: expected a JSON object, found {given!r}')
+    return given

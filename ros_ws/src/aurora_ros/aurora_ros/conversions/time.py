@@ -1,0 +1,24 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Simulated time and headers."""
+
+from __future__ import annotations
+
+from builtin_interfaces.msg import Time
+from std_msgs.msg import Header
+
+from aurora_core.trace.messages import time_ns
+
+FRAME_ID = 'map'
+_NANOSECONDS = 1_000_000_000
+
+
+def stamp(tick: int, dt_s: float) -> Time:
+    """Return simulated time k * dt."""
+    nanoseconds = time_ns(tick, dt_s)
+    return Time(sec=nanoseconds // _NANOSECONDS, nanosec=nanoseconds % _NANOSECONDS)
+
+
+def header(tick: int, dt_s: float) -> Header:
+    """Return the header of a message of a tick, in the map frame."""
+    return Header(stamp=stamp(tick, dt_s), frame_id=FRAME_ID)

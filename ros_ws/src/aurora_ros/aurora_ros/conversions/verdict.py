@@ -1,0 +1,55 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The monitor's verdict to its message; `verdict_json` is the truth."""
+
+from __future__ import annotations
+
+import math
+
+from aurora_core.monitor.verdict import ConditionResult, Verdict
+from aurora_msgs.msg import ConditionMargin
+from aurora_msgs.msg import Verdict as VerdictMessage
+from aurora_ros.conversions.time import header
+
+
+def verdict_message(
+    verdict: Verdict, *, run_id: str, iteration: int, end_s: float, trace_sha256: str
+) -> VerdictMessage:
+    """Return the message of a verdict.
+
+    Args:
+        verdict: What the trace shows.
+        run_id: Of the run.
+        iteration: Repair iteration.
+        end_s: Simulated time of the last tick.
+        trace_sha256: Trace hash (hex).
+    """
+    return VerdictMessage(
+        header=header(1, end_s),
+        run_id=run_id,
+        iteration=iteration,
+        status=verdict.status.value,
+        conditions=[_margin(result) for result in verdict.results],
+        integrity=verdict.integrity.value,
+        trace_sha256=trace_sha256,
+        verdict_json=verdict.canonical_json(),
+    )
+
+
+def _margin(result: ConditionResult) -> ConditionMargin:
+    return ConditionMargin(
+        id=result.id,
+        sentence=result.sentence,
+        has_margin=result.margin is not None,
+        margin=_number(result.margin),
+        normalised=_number(result.normalised),
+        unit=result.unit,
+        satisfied=result.satisfied,
+        exercised=result.exercised,
+        reason=result.reason.value if result.reason is not None else '',
+        worst_time_s=_number(result.worst_time_s),
+    )
+
+
+def _number(value: float | None) -> float:
+    return math.nan if value is None else value

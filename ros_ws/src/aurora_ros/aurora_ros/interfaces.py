@@ -1,0 +1,85 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Names, types and QoS of every topic, service and action of the graph (`docs/interfaces.md`).
+
+Names are relative: every node lives in the namespace `aurora` unless it is remapped.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from rclpy.qos import QoSProfile
+from rosgraph_msgs.msg import Clock
+
+from aurora_msgs import action, msg, srv
+from aurora_ros import qos
+
+NAMESPACE = 'aurora'
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Topic:
+    """A topic: relative name, message class, profile."""
+
+    name: str
+    type: Any
+    qos: QoSProfile
+
+    @property
+    def full_name(self) -> str:
+        """Name as it stands in a bag."""
+        return self.name if self.name.startswith('/') else f'/{NAMESPACE}/{self.name}'
+
+    @property
+    def type_name(self) -> str:
+        """Type as it stands in a bag, such as `aurora_msgs/msg/Tick`."""
+        package, kind = self.type.__module__.split('.')[:2]
+        return f'{package}/{kind}/{self.type.__name__}'
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Call:
+    """A service or an action: relative name, interface class, node that serves it."""
+
+    name: str
+    type: Any
+    server: str
+
+
+CLOCK = Topic(name='/clock', type=Clock, qos=qos.CLOCK)
+TICK = Topic(name='tick', type=msg.Tick, qos=qos.STREAM)
+TICK_DONE = Topic(name='tick_done', type=msg.TickDone, qos=qos.STREAM)
+ACK = Topic(name='ack', type=msg.Ack, qos=qos.STREAM)
+FAULT = Topic(name='fault', type=msg.Fault, qos=qos.STREAM)
+SYNC_STATUS = Topic(name='sync/status', type=msg.SyncStatus, qos=qos.LATCHED)
+HEARTBEAT = Topic(name='heartbeat', type=msg.Heartbeat, qos=qos.HEARTBEAT)
+AGSG = Topic(name='agsg', type=msg.Agsg, qos=qos.LATCHED)
+ROSTER = Topic(name='roster', type=msg.Roster, qos=qos.LATCHED)
+WORLD = Topic(name='world', type=msg.World, qos=qos.LATCHED)
+GROUND_STATE = Topic(name='ground/state', type=msg.GroundState, qos=qos.STREAM)
+UAV_STATE = Topic(name='uav/state', type=msg.UavState, qos=qos.STREAM)
+GROUND_COMMAND = Topic(name='ground/command', type=msg.GroundCommand, qos=qos.STREAM)
+UAV_COMMAND = Topic(name='uav/command', type=msg.UavCommand, qos=qos.STREAM)
+COMM = Topic(name='comm', type=msg.LinkEvent, qos=qos.STREAM)
+SENSING = Topic(name='sensing', type=msg.Visibility, qos=qos.STREAM)
+EVENTS = Topic(name='events', type=msg.ScenarioEvent, qos=qos.STREAM)
+VERDICT = Topic(name='verdict', type=msg.Verdict, qos=qos.LATCHED)
+
+RUN_PROMPT = Call(name='run_prompt', type=srv.RunPrompt, server='orchestrator')
+GET_RUN = Call(name='get_run', type=srv.GetRun, server='orchestrator')
+LIST_RUNS = Call(name='list_runs', type=srv.ListRuns, server='orchestrator')
+RUN = Call(name='run', type=action.RunScenario, server='orchestrator')
+PARSE = Call(name='parse', type=srv.ParsePrompt, server='parser')
+GROUND_SCENARIO = Call(name='ground_scenario', type=srv.GroundScenario, server='grounding')
+CHECK = Call(name='check', type=srv.Check, server='grounding')
+EXECUTE = Call(name='execute', type=action.ExecuteScenario, server='executor')
+VERIFY = Call(name='verify', type=srv.VerifyTrace, server='monitor')
+GROUND_LOAD = Call(name='ground/load', type=srv.LoadGround, server='sumo_bridge')
+UAV_LOAD = Call(name='uav/load', type=srv.LoadUav, server='uav_bridge')
+SYNC_LOAD = Call(name='sync/load', type=srv.LoadSync, server='sync')
+SYNC_START = Call(name='sync/start', type=srv.StartSync, server='sync')
+SYNC_STOP = Call(name='sync/stop', type=srv.StopSync, server='sync')
+RECORDER_START = Call(name='recorder/start', type=srv.StartRecording, server='recorder')
+RECORDER_STOP = Call(name='recorder/stop', type=srv.StopRecording, server='recorder')

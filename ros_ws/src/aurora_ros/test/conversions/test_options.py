@@ -1,0 +1,48 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Options of a run as JSON."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+pytest.importorskip('rclpy')
+
+from aurora_core.errors import SpecError
+from aurora_core.execution.faults import Fault
+from aurora_core.pipeline.stages import RunRequest
+from aurora_ros.conversions.options import options_json, run_request, runs_directory
+
+
+def test_nothing_stated_gives_the_defaults() -> None:
+    assert run_request('go', '') == RunRequest(prompt='go')
+
+
+def test_options_survive() -> None:
+    request = RunRequest(
+        prompt='go', map_name='junction', seed=9, faults=(Fault(kind='link_loss', subject='*'),)
+    )
+    assert run_request('go', options_json(request)) == request
+
+
+def test_short_names_and_the_folder() -> None:
+    options = '{"map": "junction", "seed": 3, "out": "/tmp/x"}'
+    assert run_request('go', options) == RunRequest(prompt='go', map_name='junction', seed=3)
+    assert runs_directory(options) == Path('/tmp/x')
+    assert runs_directory('') is None
+
+
+@pytest.mark.parametrize(
+    'options', ['{', '[]', '3', '{"sed": 1}', '{"seed": "one"}', '{"faults": [{"kind": "x"}]}']
+)
+def test_unknown_names_and_values_are_refused(options: str) -> None:
+    with pytest.raises(SpecError, match='options_json'):
+        run_request('go', options)
+
+
+@pytest.mark.parametrize('options', ['{"out": "runs"}', '{"out": 3}'])
+def test_a_folder_that_depends_on_where_the_node_runs_is_refused(options: str) -> None:
+    with pytest.raises(SpecError, match='absolute path'):
+        runs_directory(options)

@@ -1,0 +1,87 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Pairing of ticks and their inputs."""
+
+from __future__ import annotations
+
+import pytest
+
+from aurora_core.errors import ExecutionError
+from aurora_ros.lockstep_input import LockstepInput
+
+RUN = 4
+
+
+def armed(*, first_needs_input: bool = False) -> LockstepInput[str]:
+    made: LockstepInput[str] = LockstepInput('sumo_bridge', first_needs_input=first_needs_input)
+    made.arm(RUN)
+    return made
+
+
+def test_tick_zero_needs_no_input_and_later_ones_do() -> None:
+    made = armed()
+    made.tick(RUN, 0)
+    assert made.take() == (0, None)
+    made.tick(RUN, 1)
+    assert made.take() is None
+    made.put(RUN, 1, 'command 1')
+    assert made.take() == (1, 'command 1')
+    assert made.take() is None
+
+
+def test_tick_zero_can_be_made_to_wait() -> None:
+    made = armed(first_needs_input=True)
+    made.tick(RUN, 0)
+    assert made.take() is None
+    made.put(RUN, 0, 'x')
+    assert made.take() == (0, 'x')
+
+
+def test_the_input_may_come_before_its_tick_and_never_serves_another() -> None:
+    made = armed()
+    made.put(RUN, 2, 'command 2')
+    made.put(RUN, 1, 'command 1')
+    made.tick(RUN, 0)
+    assert made.take() == (0, None)
+    assert made.take() is None, 'tick 1 has not begun'
+    made.tick(RUN, 1)
+    assert made.take() == (1, 'command 1')
+    made.tick(RUN, 2)
+    assert made.take() == (2, 'command 2')
+
+
+def test_another_run_and_repeated_ticks_are_ignored() -> None:
+    made = armed()
+    made.tick(RUN + 1, 0)
+    made.put(RUN + 1, 1, 'of another run')
+    assert made.take() is None
+    made.tick(RUN, 0)
+    made.tick(RUN, 0)
+    assert made.take() == (0, None)
+    made.tick(RUN, 0)
+    assert made.take() is None
+    made.put(RUN, 0, 'late')
+    made.tick(RUN, 1)
+    assert made.take() is None
+
+
+def test_a_lost_tick_is_an_error() -> None:
+    made = armed()
+    with pytest.raises(ExecutionError, match='expected tick 0, found tick 1') as caught:
+        made.tick(RUN, 1)
+    assert caught.value.component == 'sumo_bridge'
+
+
+def test_disarm_and_a_new_run_forget_what_was_there() -> None:
+    made = armed()
+    made.put(RUN, 1, 'old')
+    made.tick(RUN, 0)
+    made.disarm()
+    assert made.take() is None
+    assert made.run_number is None
+    made.arm(RUN + 1)
+    assert made.take() is None
+    made.tick(RUN + 1, 0)
+    assert made.take() == (0, None)
+    made.tick(RUN + 1, 1)
+    assert made.take() is None

@@ -1,0 +1,64 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Start every node of the graph in a domain of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import ExitStack, contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from aurora_ros.testing.domains import own_domain
+from aurora_ros.testing.partner import Partner, partner
+from aurora_ros.testing.processes import NodeProcess, nodes
+
+# Node name and the module that holds its `main`.
+MODULES = {
+    'sync': 'aurora_sync.node',
+    'sumo_bridge': 'aurora_sumo_bridge.node',
+    'uav_sim': 'aurora_uav_sim.udp_main',
+    'uav_bridge': 'aurora_uav_bridge.node',
+    'recorder': 'aurora_nodes.recorder',
+    'executor': 'aurora_nodes.executor',
+    'parser': 'aurora_nodes.parser',
+    'grounding': 'aurora_nodes.grounding',
+    'monitor': 'aurora_nodes.monitor',
+    'orchestrator': 'aurora_nodes.orchestrator',
+}
+ROS_NODES = tuple(name for name in MODULES if name != 'uav_sim')
+
+
+@dataclass(frozen=True, kw_only=True)
+class RunningGraph:
+    """A graph that is ready.
+
+    Attributes:
+        nodes: Processes by node name.
+        play: The test's own node in the same domain.
+        runs: Folder of all runs.
+    """
+
+    nodes: dict[str, NodeProcess]
+    play: Partner
+    runs: Path
+
+    def logs(self) -> str:
+        """What the nodes have printed, for a failing test."""
+        return '\n'.join(f'--- {name}\n{node.log}' for name, node in self.nodes.items())
+
+
+@contextmanager
+def running_graph(folder: Path, names: Sequence[str] = tuple(MODULES)) -> Iterator[RunningGraph]:
+    """Yield a graph of the named nodes; whatever is left of it at the end is killed."""
+    runs = folder / 'runs'
+    arguments = {'orchestrator': ['--ros-args', '-p', f'runs_directory:={runs}']}
+    with ExitStack() as stack:
+        domain = stack.enter_context(own_domain())
+        play = stack.enter_context(partner(domain))
+        started = {
+            name: NodeProcess(MODULES[name], domain, folder, arguments.get(name, ()))
+            for name in names
+        }
+        stack.enter_context(nodes(*started.values()))
+        yield RunningGraph(nodes=started, play=play, runs=runs)
