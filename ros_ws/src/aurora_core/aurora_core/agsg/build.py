@@ -48,7 +48,7 @@ def build_agsg(
         schedule_json: Canonical JSON of the schedule.
         conditions: Success conditions; they become nodes.
         conditions_json: The same, canonical JSON.
-        realised: Realised values by parameter path.
+        realised: Realised values by parameter path; by default those of the grounding.
     """
     return Agsg(
         iteration=iteration,
@@ -61,7 +61,9 @@ def build_agsg(
         conditions_json=conditions_json,
         nodes=tuple(_nodes(spec, conditions)),
         edges=tuple(_edges(spec, conditions)),
-        parameters=tuple(_parameters(spec, realised or {})),
+        parameters=tuple(
+            _parameters(spec, _realised(grounding_json) if realised is None else realised)
+        ),
     )
 
 
@@ -85,6 +87,9 @@ def _nodes(spec: ScenarioSpec, conditions: tuple[Condition, ...]) -> Iterator[Ag
         action = event.action.do if event.action is not None else ''
         label = ' then '.join(part for part in (trigger, action) if part)
         yield AgsgNode(id=event.id, type=NodeType.EVENT, label=label)
+    for stated in spec.conditions:
+        label = f'{stated.quantity} of {", ".join(stated.of)} {stated.op} {stated.value.value:g}'
+        yield AgsgNode(id=stated.id, type=NodeType.CONDITION, label=label)
     for condition in conditions:
         yield AgsgNode(id=condition.id, type=NodeType.CONDITION, label=condition.sentence)
 
@@ -109,6 +114,10 @@ def _edges(spec: ScenarioSpec, conditions: tuple[Condition, ...]) -> Iterator[Ag
         yield _edge(link.id, link.receiver, EdgeType.COMMUNICATION, 'delivers to')
     for event in spec.events:
         yield from _event_edges(spec, event.id)
+    for stated in spec.conditions:
+        for reference in dict.fromkeys(stated.of):
+            source = reference if _is_named(spec, reference) else ENVIRONMENT_ID
+            yield _edge(source, stated.id, EdgeType.BEHAVIORAL, 'is judged by')
     known = {ENVIRONMENT_ID, *(n.id for n in _nodes(spec, ()))}
     for condition in conditions:
         for reference in dict.fromkeys(condition.of):
@@ -122,9 +131,7 @@ def _event_edges(spec: ScenarioSpec, event_id: str) -> Iterator[AgsgEdge]:
         fields = event.trigger.model_dump()
         for name in ('a', 'b', 'uav', 'observer', 'target', 'who', 'by', 'event'):
             reference = fields.get(name)
-            if isinstance(reference, str) and (
-                _is_body(spec, reference) or any(e.id == reference for e in spec.events)
-            ):
+            if isinstance(reference, str) and _is_named(spec, reference):
                 kind = (
                     EdgeType.PERCEPTUAL
                     if event.trigger.on in ('visible', 'occluded')
@@ -147,6 +154,10 @@ def _edge(source: str, target: str, kind: EdgeType, label: str) -> AgsgEdge:
 
 def _is_body(spec: ScenarioSpec, reference: str | None) -> bool:
     return any(a.id == reference for a in spec.agents) or any(u.id == reference for u in spec.uavs)
+
+
+def _is_named(spec: ScenarioSpec, reference: str) -> bool:
+    return _is_body(spec, reference) or any(e.id == reference for e in spec.events)
 
 
 def _parameters(spec: ScenarioSpec, realised: Mapping[str, float]) -> Iterator[AgsgParameter]:
@@ -190,12 +201,13 @@ def _walk_keeping_owner(
             yield from _walk(getattr(value, name), f'{path}/{name}', owner)
 
 
+def _realised(grounding_json: str) -> dict[str, float]:
+    rows = json.loads(grounding_json).get('realised', []) if grounding_json else []
+    return {row['path']: row['realised'] for row in rows}
+
+
 def derived(documents: Agsg) -> Agsg:
     """Return a graph with nodes, edges and parameters derived from its documents."""
-    realised: dict[str, float] = {}
-    if documents.grounding_json:
-        rows = json.loads(documents.grounding_json).get('realised', [])
-        realised = {row['path']: row['realised'] for row in rows}
     return build_agsg(
         documents.spec,
         map_digest=documents.map_digest,
@@ -205,5 +217,4 @@ def derived(documents: Agsg) -> Agsg:
         schedule_json=documents.schedule_json,
         conditions=conditions_from_json(documents.conditions_json),
         conditions_json=documents.conditions_json,
-        realised=realised,
     )

@@ -4,12 +4,13 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Callable
 from typing import Any
 
-from aurora_core.agsg.graph import Agsg, EdgeType, NodeType, Stage
-from aurora_core.errors import SpecError
+from aurora_core.agsg.graph import Agsg, AgsgParameter, EdgeType, NodeType, Stage
+from aurora_core.errors import SpecError, VerificationError
 from aurora_core.spec.parameter import Provenance
 from aurora_core.spec.scenario import ScenarioSpec
 
@@ -17,6 +18,8 @@ _NODES = tuple(NodeType)
 _EDGES = tuple(EdgeType)
 _STAGES = tuple(Stage)
 _PROVENANCES = tuple(Provenance)
+
+_RESEND = 'send the graph as it was received'
 
 # Creates a message of a type: `create('aurora_msgs/msg/AgsgNode', id=..., ...)`.
 Create = Callable[..., Any]
@@ -78,35 +81,74 @@ def read_agsg(message: Any, rebuild: Callable[[Agsg], Agsg]) -> Agsg:
         rebuild: Derives nodes, edges and parameters from the documents (`agsg.build.derived`).
 
     Raises:
-        SpecError: The digest or the typed fields do not match the documents.
+        SpecError: The documents cannot be read, or the digest or a typed field does not match
+            them.
     """
-    documents = Agsg(
-        iteration=int(message.iteration),
-        stage=_STAGES[int(message.stage)],
-        map_name=str(message.map_name),
-        map_digest=str(message.map_digest),
-        spec=ScenarioSpec.model_validate_json(str(message.spec_json)),
-        grounding_json=str(message.grounding_json),
-        schedule_json=str(message.schedule_json),
-        conditions_json=str(message.conditions_json),
-    )
+    documents = _documents(message)
     if documents.sha256 != str(message.sha256):
         raise SpecError('the graph does not match its digest', hint='send it as it was received')
-    agsg = rebuild(documents)
+    try:
+        agsg = rebuild(documents)
+    except (ValueError, LookupError, TypeError, AttributeError, VerificationError) as err:
+        raise SpecError(f"the graph's documents cannot be read: {err}", hint=_RESEND) from err
     typed = (
+        [agsg.map_name, _grounded_on(agsg)],
         [(n.id, _NODES.index(n.type), n.label) for n in agsg.nodes],
         [(e.source, e.target, _EDGES.index(e.type), e.label) for e in agsg.edges],
-        [(p.path, p.owner, p.requested, p.unit.value) for p in agsg.parameters],
+        [_typed_parameter(p) for p in agsg.parameters],
     )
     found = (
+        [str(message.map_name), str(message.map_digest)],
         [(str(n.id), int(n.type), str(n.label)) for n in message.nodes],
         [(str(e.source), str(e.target), int(e.type), str(e.label)) for e in message.edges],
-        [(str(p.path), str(p.owner), float(p.requested), str(p.unit)) for p in message.parameters],
+        [_found_parameter(p) for p in message.parameters],
     )
-    for name, ours, theirs in zip(('nodes', 'edges', 'parameters'), typed, found, strict=True):
+    names = ('map', 'nodes', 'edges', 'parameters')
+    for name, ours, theirs in zip(names, typed, found, strict=True):
         if ours != theirs:
             raise SpecError(
                 f"the graph's {name} do not match its documents",
                 hint='derive them from the JSON documents, or leave the message unchanged',
             )
     return agsg
+
+
+def _documents(message: Any) -> Agsg:
+    try:
+        return Agsg(
+            iteration=int(message.iteration),
+            stage=_STAGES[int(message.stage)],
+            map_name=str(message.map_name),
+            map_digest=str(message.map_digest),
+            spec=ScenarioSpec.model_validate_json(str(message.spec_json)),
+            grounding_json=str(message.grounding_json),
+            schedule_json=str(message.schedule_json),
+            conditions_json=str(message.conditions_json),
+        )
+    except (ValueError, IndexError) as err:
+        raise SpecError(f"the graph's documents cannot be read: {err}", hint=_RESEND) from err
+
+
+def _grounded_on(agsg: Agsg) -> str:
+    """Return the map digest of the grounding; before it the message's own is all there is."""
+    if not agsg.grounding_json:
+        return agsg.map_digest
+    return str(json.loads(agsg.grounding_json)['map_digest'])
+
+
+# One parameter as it is compared; what is not there is None on both sides.
+_Row = tuple[str, str, float, float | None, float, float, str, int, int, int]
+
+
+def _typed_parameter(p: AgsgParameter) -> _Row:
+    start, end = (-1, -1) if p.span is None else (p.span.start, p.span.end)
+    provenance = _PROVENANCES.index(p.provenance)
+    numbers = (p.requested, p.realised, p.low, p.high)
+    return (p.path, p.owner, *numbers, p.unit.value, provenance, start, end)
+
+
+def _found_parameter(p: Any) -> _Row:
+    realised = None if math.isnan(p.realised) else float(p.realised)
+    numbers = (float(p.requested), realised, float(p.low), float(p.high))
+    places = (int(p.provenance), int(p.span_start), int(p.span_end))
+    return (str(p.path), str(p.owner), *numbers, str(p.unit), *places)

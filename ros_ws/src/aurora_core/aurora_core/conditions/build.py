@@ -198,3 +198,19 @@ def condition(
 def number(value: float) -> str:
     """Return a number as people write it: at most three decimals."""
     return format_number(round(value, 3))
+
+
+def stated_by(source: Source, parameter: Parameter) -> Source:
+    """Return the source of a condition whose threshold a parameter states."""
+    return Source(
+        ids=source.ids, spans=(parameter.span, *source.spans), provenance=parameter.provenance
+    )
+
+
+def bound_words(parameter: Parameter) -> str:
+    """Return how a number binds, in words that stand before it."""
+    if parameter.bound is Bound.AT_LEAST:
+        return 'at least'
+    if parameter.bound is Bound.AT_MOST:
+        return 'at most'
+    return 'about' if parameter.approximate else 'the requested'

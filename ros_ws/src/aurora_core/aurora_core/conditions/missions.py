@@ -5,29 +5,27 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import pairwise
 
 from aurora_core.conditions.build import (
     Inputs,
     Source,
     Target,
     Underivable,
+    bound_words,
     condition,
     number,
     number_target,
+    stated_by,
 )
 from aurora_core.conditions.condition import Condition, MissionArguments, Window
 from aurora_core.conditions.plan_facts import MissionFacts
+from aurora_core.conditions.routes import route_conditions
 from aurora_core.errors import VerificationError
-from aurora_core.geometry.kernel import norm2
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.spec.parameter import Bound, Parameter, Provenance
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import ScenarioSpec, UavMission
-from aurora_core.spec.vocabulary import MissionMode, Pattern
-
-# Legs of a pattern whose size is stated keep that size to this.
-SIZE_GUARD_M = 1e-3
+from aurora_core.spec.vocabulary import MissionMode
 
 
 def hover_drift_limit_m(spec: ScenarioSpec, limits: Limits, tolerances: Tolerances) -> float:
@@ -131,7 +129,7 @@ def mission_conditions(inputs: Inputs) -> Iterator[Condition | Underivable]:
         elif mission.mode is MissionMode.HOVER:
             yield from _hover(inputs, mission, arguments, source)
         else:
-            yield from _navigate(inputs, mission, arguments, source)
+            yield from route_conditions(inputs, mission, arguments, source)
     for uav in inputs.spec.uavs:
         missions = [m for m in inputs.spec.missions if m.uav == uav.id]
         if missions and not missions[-1].ends_in_flight:
@@ -204,7 +202,7 @@ def _numbers(
         yield condition(
             id=f'{mission.id}.altitude',
             sentence=(
-                f'{uav} keeps {_bound_words(altitude)} {number(altitude.value)} m altitude '
+                f'{uav} keeps {bound_words(altitude)} {number(altitude.value)} m altitude '
                 f'for {number(100 * share)} % of {mission.id}'
             ),
             quantity=QuantityName.ALTITUDE_FRACTION,
@@ -218,19 +216,19 @@ def _numbers(
                 wanted=altitude.value,
                 sample_tolerance=0.0 if altitude.bound is not Bound.EXACTLY else slack,
             ),
-            source=_stated(source, altitude),
+            source=stated_by(source, altitude),
             every_sample=False,
         )
     duration = mission.duration_s
     if duration is not None and duration.provenance is Provenance.EXPLICIT:
         yield condition(
             id=f'{mission.id}.duration',
-            sentence=f'{mission.id} lasts {_bound_words(duration)} {number(duration.value)} s',
+            sentence=f'{mission.id} lasts {bound_words(duration)} {number(duration.value)} s',
             quantity=QuantityName.PHASE_DURATION,
             of=(uav,),
             target=number_target(duration, inputs.tolerances.duration_s),
             arguments=inputs.arguments(Window.PHASE, mission=arguments),
-            source=_stated(source, duration),
+            source=stated_by(source, duration),
             every_sample=False,
         )
     bearing = mission.bearing_deg
@@ -259,7 +257,7 @@ def _numbers(
                 wanted=bearing.value,
                 sample_tolerance=inputs.tolerances.bearing_deg,
             ),
-            source=_stated(source, bearing),
+            source=stated_by(source, bearing),
             every_sample=False,
         )
 
@@ -271,7 +269,7 @@ def _track(
     share = inputs.tolerances.tracked_fraction
     standoff = mission.standoff_m
     if standoff is not None and standoff.provenance is Provenance.EXPLICIT:
-        source = _stated(source, standoff)
+        source = stated_by(source, standoff)
     yield condition(
         id=f'{mission.id}.tracked',
         sentence=(
@@ -334,148 +332,15 @@ def _hover(
         yield condition(
             id=f'{mission.id}.standoff',
             sentence=(
-                f'{mission.uav} hovers {_bound_words(standoff)} {number(standoff.value)} m '
+                f'{mission.uav} hovers {bound_words(standoff)} {number(standoff.value)} m '
                 f'from {mission.target}'
             ),
             quantity=QuantityName.HORIZONTAL_DISTANCE,
             of=(mission.uav, mission.target),
             target=number_target(standoff, inputs.tolerances.standoff_m),
             arguments=inputs.arguments(Window.PHASE, mission=arguments),
-            source=_stated(source, standoff),
+            source=stated_by(source, standoff),
         )
-
-
-def _navigate(
-    inputs: Inputs, mission: UavMission, arguments: MissionArguments, source: Source
-) -> Iterator[Condition]:
-    _check_size(mission, arguments)
-    uav, points = mission.uav, arguments.waypoints
-    closed = points[0] == points[-1]
-    limit = inputs.tolerances.waypoint_horizontal_m
-    yield condition(
-        id=f'{mission.id}.waypoints',
-        sentence=f'{uav} visits all {len(points)} points of its route in order',
-        quantity=QuantityName.WAYPOINTS_VISITED,
-        signal=f'waypoint_distance({uav})',
-        of=(uav,),
-        target=Target(op='<=', threshold=limit, unit='m'),
-        arguments=inputs.arguments(Window.PHASE, aspect='distance', mission=arguments),
-        source=source,
-    )
-    if closed:
-        yield condition(
-            id=f'{mission.id}.closed',
-            sentence=f'{uav} closes its route where it began',
-            quantity=QuantityName.ROUTE_CLOSED,
-            of=(uav,),
-            target=Target(op='<=', threshold=limit, unit='m'),
-            arguments=inputs.arguments(Window.PHASE, mission=arguments),
-            source=source,
-            every_sample=False,
-        )
-    count = mission.waypoint_count
-    if count is not None and count.provenance is Provenance.EXPLICIT:
-        yield condition(
-            id=f'{mission.id}.count',
-            sentence=f'{uav} visits {number(count.value)} waypoints',
-            quantity=QuantityName.WAYPOINTS_VISITED,
-            of=(uav,),
-            target=Target(op='>=', threshold=count.value, unit='1'),
-            arguments=inputs.arguments(Window.PHASE, aspect='count', mission=arguments),
-            source=_stated(source, count),
-            every_sample=False,
-        )
-    if mission.over_streets:
-        share = inputs.tolerances.over_carriageway_share
-        yield condition(
-            id=f'{mission.id}.over_streets',
-            sentence=(
-                f'{uav} flies at least one leg over a carriageway '
-                f'({number(100 * share)} % of the leg)'
-            ),
-            quantity=QuantityName.OVER_CARRIAGEWAY,
-            of=(uav,),
-            target=Target(op='>=', threshold=share, unit='1'),
-            fraction=share,
-            arguments=inputs.arguments(Window.PHASE, mission=arguments),
-            source=source,
-            every_sample=False,
-        )
-    if mission.target is not None:
-        limit = inputs.tolerances.pattern_centre_m
-        yield condition(
-            id=f'{mission.id}.centre',
-            sentence=(
-                f'the pattern of {uav} is centred within {number(limit)} m of {mission.target} '
-                'at t = 0'
-            ),
-            quantity=QuantityName.PATTERN_CENTRE,
-            of=(uav, mission.target),
-            target=Target(op='<=', threshold=limit, unit='m'),
-            arguments=inputs.arguments(Window.START, mission=arguments),
-            source=source,
-            every_sample=False,
-        )
-    yield from _route_numbers(inputs, mission, arguments, source)
-
-
-def _route_numbers(
-    inputs: Inputs, mission: UavMission, arguments: MissionArguments, source: Source
-) -> Iterator[Condition]:
-    uav, speed = mission.uav, mission.speed_mps
-    if speed is not None and speed.provenance is Provenance.EXPLICIT:
-        share = inputs.tolerances.route_speed_share
-        slack = inputs.tolerances.route_speed_mps.of(speed.value, approximate=speed.approximate)
-        way = speed.value * speed.value / (2.0 * inputs.tolerances.route_acceleration_mps2)
-        yield condition(
-            id=f'{mission.id}.speed',
-            sentence=(
-                f'{uav} flies {_bound_words(speed)} {number(speed.value)} m/s for '
-                f'{number(100 * share)} % of the time on its legs'
-            ),
-            quantity=QuantityName.ROUTE_SPEED,
-            of=(uav,),
-            target=Target(op='>=', threshold=share, unit='1'),
-            fraction=share,
-            arguments=inputs.arguments(
-                Window.PHASE,
-                mission=arguments,
-                bound=speed.bound,
-                wanted=speed.value,
-                sample_tolerance=0.0 if speed.bound is not Bound.EXACTLY else slack,
-                low=way,
-            ),
-            source=_stated(source, speed),
-            every_sample=False,
-        )
-    radius = mission.radius_m
-    if radius is not None and radius.provenance is Provenance.EXPLICIT:
-        yield condition(
-            id=f'{mission.id}.radius',
-            sentence=f'{uav} circles at {_bound_words(radius)} {number(radius.value)} m',
-            quantity=QuantityName.HORIZONTAL_DISTANCE,
-            signal=f'distance_from_centre({uav})',
-            of=(uav,),
-            target=number_target(radius, inputs.tolerances.standoff_m),
-            arguments=inputs.arguments(Window.PHASE, aspect='centre', mission=arguments),
-            source=_stated(source, radius),
-        )
-
-
-def _check_size(mission: UavMission, arguments: MissionArguments) -> None:
-    """Refuse a route whose legs are not of the stated size: explicit sizes are never changed."""
-    if mission.size_m is None or mission.pattern not in (Pattern.RECTANGLE, Pattern.LINE):
-        return
-    legs = [norm2(b[0] - a[0], b[1] - a[1]) for a, b in pairwise(arguments.waypoints)]
-    for parameter in mission.size_m:
-        if parameter.provenance is not Provenance.EXPLICIT or parameter.value == 0.0:
-            continue
-        if all(abs(leg - parameter.value) > SIZE_GUARD_M for leg in legs):
-            raise VerificationError(
-                f'mission {mission.id} asks for a side of {parameter.value} m, the plan has legs '
-                f'of {", ".join(number(leg) for leg in legs)} m',
-                hint='grounding must not resize an explicit pattern',
-            )
 
 
 def _landed(inputs: Inputs, missions: list[UavMission]) -> Condition:
@@ -494,15 +359,3 @@ def _landed(inputs: Inputs, missions: list[UavMission]) -> Condition:
         source=Source(ids=tuple(m.id for m in missions), spans=tuple(m.span for m in missions)),
         every_sample=False,
     )
-
-
-def _stated(source: Source, parameter: Parameter) -> Source:
-    return Source(
-        ids=source.ids, spans=(parameter.span, *source.spans), provenance=parameter.provenance
-    )
-
-
-def _bound_words(parameter: Parameter) -> str:
-    words = {Bound.EXACTLY: '', Bound.AT_LEAST: 'at least', Bound.AT_MOST: 'at most'}
-    text = words[parameter.bound]
-    return text or ('about' if parameter.approximate else 'the requested')

@@ -21,6 +21,10 @@ from aurora_core.trace.roster import Roster
 # Deceleration of a commanded braking (m/s^2): above the 4 m/s^2 that "brake" asks for.
 BRAKING_MPS2 = 6.0
 
+# What "slow down" and "speed up" mean when no speed is stated.
+SLOW_FACTOR = 0.5
+SPEED_GAIN_MPS = 4.0
+
 Note = Callable[[int, ScenarioEventKind, str, str], None]
 
 _SPEED_ACTIONS = frozenset({'brake', 'stop', 'yield'})
@@ -124,6 +128,7 @@ class EventRunner:
                 if pair == (action.sender, action.receiver):
                     self._messages += 1
                     link.send(tick, self._messages, event.id)
+                    break
             return []
         if isinstance(action, UavAction):
             for machine in machines:
@@ -154,7 +159,13 @@ class EventRunner:
             ]
         if action.do in ('slow', 'accelerate'):
             now = seen.speed_mps(action.agent)
-            wanted = value if value is not None else now * (0.5 if action.do == 'slow' else 1.3)
+            if now is None:
+                return []
+            wanted = value
+            if wanted is None and action.do == 'slow':
+                wanted = SLOW_FACTOR * now
+            elif wanted is None:
+                wanted = now + SPEED_GAIN_MPS
             return [GroundCommand(agent=row, kind=GroundCommandKind.SET_SPEED, value=wanted)]
         if action.do == 'start':
             return [GroundCommand(agent=row, kind=GroundCommandKind.RELEASE_SPEED)]

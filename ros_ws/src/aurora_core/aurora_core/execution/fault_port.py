@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from math import inf
 
 import numpy as np
 import numpy.typing as npt
@@ -80,18 +81,31 @@ class FaultPort:
         self._roster = roster
         self._announced: set[int] = set()
         self._frozen: dict[int, FloatArray] = {}
-        known = [e.body_id for e in (*roster.agents, *roster.uavs)]
+        # Agents that the executor lets drive faster than this (rows; infinite: as they like).
+        self._allowed_mps = dict.fromkeys(range(len(roster.agents)), inf)
+        agents = [e.body_id for e in roster.agents]
+        subjects = {
+            'link_loss': [*link_ids, '*'],
+            'target_removed': agents,
+            'keep_away': agents,
+            'route_blocked': [*agents, *(e.body_id for e in roster.uavs)],
+        }
         for fault in faults:
-            names = [*link_ids, '*'] if fault.kind == 'link_loss' else known
+            names = subjects[fault.kind]
             if fault.subject not in names:
                 raise ExecutionError(
-                    f'fault {fault.kind} names {fault.subject!r}, which is not in the scenario',
+                    f'fault {fault.kind} names {fault.subject!r}, which the scenario does not '
+                    'have or the fault cannot hit',
                     hint=f'use one of: {", ".join(names)}',
                 )
 
     def step(self, tick: int, ground: FloatArray, uav: FloatArray) -> StepOutput:
         """Step the executor, then bend its commands."""
         output = self._executor.step(tick, ground, uav)
+        for command in output.ground_commands:
+            if command.kind in _MOVING:
+                held = command.kind is GroundCommandKind.SET_SPEED
+                self._allowed_mps[command.agent] = command.value if held else inf
         time_s = tick * self._roster.dt_s
         for index, fault in enumerate(self._faults):
             if time_s < fault.at_s:
@@ -128,7 +142,9 @@ class FaultPort:
             return self._cap_agent(row, 0.0, output, first=first)
         if fault.kind == 'keep_away':
             speed = KEEP_AWAY_MPS if fault.value is None else fault.value
-            return self._cap_agent(row, speed, output, first=False)
+            # An agent that is still held stays held.
+            fast = self._allowed_mps[row] > speed
+            return self._cap_agent(row, speed, output, first=first and fast)
         return output
 
     def _cap_agent(

@@ -8,9 +8,9 @@ scenario events and in the report.
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Literal, Self
 
-from pydantic import FiniteFloat
+from pydantic import Field, FiniteFloat, model_validator
 
 from aurora_core.spec.parameter import Document
 
@@ -22,13 +22,20 @@ class Fault(Document):
         kind: `target_removed`: a ground agent is taken out of the simulation.
             `route_blocked`: a ground agent or a UAV cannot get further from `at_s` on.
             `link_loss`: the link loses each transmission with probability `value`.
-            `keep_away`: a ground agent never gets faster than the agent it should reach.
+            `keep_away`: a ground agent never gets faster than `value`, so that it cannot catch up.
         subject: Agent, UAV or link id; `*` = every link.
         at_s: Simulated time from which it acts.
-        value: See `kind`; for `keep_away` the speed in m/s that the agent is held at.
+        value: `link_loss`: probability, 1 when not given; `keep_away`: speed in m/s, 3 when not
+            given.
     """
 
     kind: Literal['target_removed', 'route_blocked', 'link_loss', 'keep_away']
     subject: str
-    at_s: FiniteFloat = 0.0
-    value: FiniteFloat | None = None
+    at_s: Annotated[FiniteFloat, Field(ge=0.0)] = 0.0
+    value: Annotated[FiniteFloat, Field(ge=0.0)] | None = None
+
+    @model_validator(mode='after')
+    def _value_fits(self) -> Self:
+        if self.kind == 'link_loss' and self.value is not None and self.value > 1.0:
+            raise ValueError(f'value of link_loss is a probability, found {self.value}')
+        return self

@@ -43,11 +43,12 @@ class Observation:
             return None if place is None else (place[0], place[1], 0.0)
         return point
 
-    def speed_mps(self, body_id: str) -> float:
-        """Return the speed of a body."""
+    def speed_mps(self, body_id: str) -> float | None:
+        """Return the speed of a body, None when it is gone."""
         row = self._roster.agent_index(body_id)
         if row is not None:
-            return instant.ground_speed_mps(self._ground[row])
+            here = instant.present(self._ground[row])
+            return instant.ground_speed_mps(self._ground[row]) if here else None
         index = self._roster.uav_index(body_id)
         assert index is not None
         return instant.uav_speed_mps(self._uav[index])

@@ -18,7 +18,7 @@ from aurora_core.execution.scenario_executor import ExecutionSetup, ScenarioExec
 from aurora_core.execution.step_output import Stepper
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.grounding.grounded import GroundedAgent, GroundedScenario
-from aurora_core.grounding.places import place_positions
+from aurora_core.grounding.places import landmark_point, place_positions
 from aurora_core.knowledge.config_files import config_path
 from aurora_core.knowledge.limits import Limits
 from aurora_core.knowledge.map_model import MapModel
@@ -37,7 +37,7 @@ from aurora_core.mission.setpoint import FlightSettings
 from aurora_core.ports.random_streams import stream
 from aurora_core.ports.simulators import AirLoad, GroundAgentLoad, GroundLoad, UavHome
 from aurora_core.quantities.world_geometry import WorldGeometry
-from aurora_core.spec.scenario import Link, ScenarioSpec
+from aurora_core.spec.scenario import Link, ScenarioSpec, SendMessage
 from aurora_core.temporal.schedule import Schedule
 from aurora_core.trace.roster import Roster, RosterEntry
 
@@ -82,7 +82,8 @@ def build_execution(
         faults: Faults to inject.
 
     Raises:
-        ExecutionError: The graph is not grounded, or on another map.
+        ExecutionError: The graph is not grounded, or on another map, or an event sends a message
+            without a link.
     """
     if not agsg.grounding_json or not agsg.schedule_json:
         raise ExecutionError('the graph is not grounded', hint='call ground_scenario first')
@@ -93,6 +94,7 @@ def build_execution(
             f'grounded on map digest {grounded.map_digest[:12]}, loaded {map_model.digest[:12]}',
             hint='ground the scenario again on this map',
         )
+    _check_links(agsg.spec)
     dt_s = settings.run.dt_s
     roster = _roster(grounded, dt_s)
     places = place_positions(agsg.spec, map_model, grounded)
@@ -128,6 +130,18 @@ def build_execution(
         world=world,
         horizon_s=schedule.horizon_s,
     )
+
+
+def _check_links(spec: ScenarioSpec) -> None:
+    pairs = {(link.sender, link.receiver) for link in spec.links}
+    for event in spec.events:
+        action = event.action
+        if isinstance(action, SendMessage) and (action.sender, action.receiver) not in pairs:
+            raise ExecutionError(
+                f'event {event.id} sends a message from {action.sender} to {action.receiver}, '
+                'but there is no link between them',
+                hint='give the specification a link for it',
+            )
 
 
 def build_world(
@@ -191,7 +205,10 @@ def build_world(
 def _named_places(
     map_model: MapModel, resolved: Mapping[str, tuple[float, float]]
 ) -> tuple[NamedPlace, ...]:
-    points = {f'landmark:{mark.name}': (mark.x_m, mark.y_m) for mark in map_model.landmarks}
+    points = {
+        f'landmark:{mark.name}': landmark_point(map_model, mark.name)
+        for mark in map_model.landmarks
+    }
     points |= resolved
     return tuple(NamedPlace(name=n, x_m=x, y_m=y) for n, (x, y) in sorted(points.items()))
 

@@ -39,6 +39,9 @@ from aurora_core.trace.roster import Roster
 
 FloatArray = npt.NDArray[np.float64]
 
+# Distance between the landing spots of two UAVs (m): twice the separation in flight.
+LANDING_APART_M = 10.0
+
 # Distance recorded for a transmission to or from a body that is gone (m).
 GONE_M = 1e6
 
@@ -158,6 +161,7 @@ class ScenarioExecutor:
             ready = machine is not None and (
                 (agent.release is ReleaseOn.ASCENDED and machine.ascended_tick is not None)
                 or (agent.release is ReleaseOn.CAPTURED and machine.first_capture_tick is not None)
+                or (agent.release is ReleaseOn.OBSERVED and machine.missions_done)
             )
             if ready:
                 self._held.discard(index)
@@ -188,9 +192,17 @@ class ScenarioExecutor:
     def _landing_spot(self, index: int, state: FloatArray) -> tuple[tuple[float, float], float]:
         plan = self._setup.machines[index].plan
         x, y, z = state[UavColumn.X : UavColumn.Z + 1].tolist()
-        taken = [m.landing_spot for k, m in enumerate(self._setup.machines) if k != index]
+        taken = [
+            m.landing_spot
+            for k, m in enumerate(self._setup.machines)
+            if k != index and m.landing_spot is not None
+        ]
         spots = sorted(
-            (s for s in plan.landing_spots if s not in taken),
+            (
+                s
+                for s in plan.landing_spots
+                if all(norm2(s[0] - t[0], s[1] - t[1]) >= LANDING_APART_M for t in taken)
+            ),
             key=lambda s: (norm2(s[0] - x, s[1] - y), s),
         ) or [(plan.home_x_m, plan.home_y_m)]
         for spot in spots:

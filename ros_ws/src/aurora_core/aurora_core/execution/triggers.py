@@ -81,6 +81,8 @@ def _state_holds(
         return point is not None and point[2] >= trigger.value_m.value
     if isinstance(trigger, SpeedTrigger):
         speed = observation.speed_mps(trigger.who)
+        if speed is None:
+            return False
         if trigger.on == 'speed_below':
             return speed <= trigger.value_mps.value
         return speed >= trigger.value_mps.value

@@ -4,13 +4,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from aurora_core.feasibility.verdict import Certificate, Feasibility, FeasibilityVerdict
+from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Limits
 from aurora_core.spec.parameter import Bound, Parameter, Provenance
-from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.spec.scenario import (
+    AgentAction,
+    AltitudeTrigger,
+    ScenarioSpec,
+    UavAction,
+)
 from aurora_core.spec.vocabulary import AgentType
 
 
@@ -27,24 +33,31 @@ class _Rule:
     high_is_excluded: bool = False
 
 
-def check_limits(spec: ScenarioSpec, limits: Limits) -> FeasibilityVerdict:
+def check_limits(
+    spec: ScenarioSpec,
+    limits: Limits,
+    types: Mapping[str, AgentTypeRecord] | None = None,
+) -> FeasibilityVerdict:
     """Check every stated number and count against the limits.
 
     Args:
         spec: The request.
         limits: Limits in force; a value equal to a limit is inside it.
+        types: What the agent types can reach; without them only the limits count.
 
     Returns:
         `infeasible` with one certificate per broken limit, else `feasible`.
     """
-    certificates = [c for rule in _rules(spec, limits) for c in _broken(rule)]
+    certificates = [c for rule in _rules(spec, limits, types or {}) for c in _broken(rule)]
     certificates += _counts(spec, limits)
     if certificates:
         return FeasibilityVerdict(result=Feasibility.INFEASIBLE, certificates=tuple(certificates))
     return FeasibilityVerdict(result=Feasibility.FEASIBLE)
 
 
-def _rules(spec: ScenarioSpec, limits: Limits) -> Iterator[_Rule]:
+def _rules(
+    spec: ScenarioSpec, limits: Limits, types: Mapping[str, AgentTypeRecord]
+) -> Iterator[_Rule]:
     for mission in spec.missions:
         base = f'missions/{mission.id}'
         yield _Rule(
@@ -82,10 +95,9 @@ def _rules(spec: ScenarioSpec, limits: Limits) -> Iterator[_Rule]:
                 low=0.0,
                 high=limits.uav_endurance_s,
             )
+    speeds = {a.id: _top_speed(a.type, limits, types) for a in spec.agents}
     for agent in spec.agents:
-        walks = agent.type is AgentType.PEDESTRIAN
-        top = limits.pedestrian_speed_max_mps if walks else limits.vehicle_speed_max_mps
-        name = 'pedestrian_speed_max_mps' if walks else 'vehicle_speed_max_mps'
+        name, top = speeds[agent.id]
         for k, behavior in enumerate(agent.behaviors):
             if behavior.speed_mps is not None:
                 yield _Rule(
@@ -96,6 +108,35 @@ def _rules(spec: ScenarioSpec, limits: Limits) -> Iterator[_Rule]:
                     low=0.0,
                     high=top,
                 )
+    for event in spec.events:
+        trigger, action = event.trigger, event.action
+        if isinstance(trigger, AltitudeTrigger):
+            yield _Rule(
+                path=f'events/{event.id}/trigger/value_m',
+                parameter=trigger.value_m,
+                reason='altitude_limit',
+                limit_name='uav_altitude_m',
+                high=limits.uav_altitude_max_m,
+            )
+        if isinstance(action, UavAction) and action.altitude_m is not None:
+            yield _Rule(
+                path=f'events/{event.id}/action/altitude_m',
+                parameter=action.altitude_m,
+                reason='altitude_limit',
+                limit_name='uav_altitude_m',
+                low=limits.uav_altitude_min_m,
+                high=limits.uav_altitude_max_m,
+            )
+        if isinstance(action, AgentAction) and action.value_mps is not None:
+            name, top = speeds[action.agent]
+            yield _Rule(
+                path=f'events/{event.id}/action/value_mps',
+                parameter=action.value_mps,
+                reason='speed_limit',
+                limit_name=name,
+                low=0.0,
+                high=top,
+            )
     for link in spec.links:
         yield _Rule(
             path=f'links/{link.id}/loss',
@@ -117,6 +158,19 @@ def _rules(spec: ScenarioSpec, limits: Limits) -> Iterator[_Rule]:
         )
 
 
+def _top_speed(
+    kind: AgentType, limits: Limits, types: Mapping[str, AgentTypeRecord]
+) -> tuple[str, float]:
+    """Return the limit on an agent's speed: the general one, or what its type can reach."""
+    walks = kind is AgentType.PEDESTRIAN
+    name = 'pedestrian_speed_max_mps' if walks else 'vehicle_speed_max_mps'
+    top = limits.pedestrian_speed_max_mps if walks else limits.vehicle_speed_max_mps
+    record = types.get(kind.value)
+    if record is not None and record.max_speed_mps < top:
+        return f'agent_types/{kind.value}/max_speed_mps', record.max_speed_mps
+    return name, top
+
+
 def _broken(rule: _Rule) -> Iterator[Certificate]:
     parameter = rule.parameter
     if parameter.provenance is not Provenance.EXPLICIT:
@@ -132,7 +186,8 @@ def _broken(rule: _Rule) -> Iterator[Certificate]:
         limit = rule.low
     if limit is None:
         return
-    word = 'below' if rule.high_is_excluded else ('at most' if limit == rule.high else 'at least')
+    excluded = rule.high_is_excluded and limit == rule.high
+    word = 'below' if excluded else ('at most' if limit == rule.high else 'at least')
     yield Certificate(
         kind='limit_exceeded',
         reason=rule.reason,
@@ -141,7 +196,7 @@ def _broken(rule: _Rule) -> Iterator[Certificate]:
         unit=parameter.unit.value,
         limit_name=rule.limit_name,
         limit=limit,
-        nearest=None if rule.high_is_excluded else limit,
+        nearest=None if excluded else limit,
         span=parameter.span,
         sentence=(
             f'{rule.path} asks for {value:g} {parameter.unit.value}; '

@@ -13,13 +13,15 @@ from aurora_core.errors import MapError
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.convoy import STILL, SceneSplit
 from aurora_core.grounding.grounded import GroundedAgent, ReleaseOn
+from aurora_core.grounding.pace import Encounter, convoy_pace_mps, encounters, moves
 from aurora_core.grounding.routes import RouteFinder
-from aurora_core.grounding.sites import Site, tied_way_m
+from aurora_core.grounding.sites import SeatedAgent, Site, tied_way_m
 from aurora_core.knowledge.agent_types import AgentTypeRecord
+from aurora_core.knowledge.limits import Limits
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.route_path import RoutePath
 from aurora_core.knowledge.settings import Settings
-from aurora_core.spec.scenario import GroundAgent, ScenarioSpec
+from aurora_core.spec.scenario import GroundAgent, ScenarioSpec, TimeTrigger
 from aurora_core.spec.vocabulary import BehaviorKind, MissionMode
 
 # Tries at random places before a free vehicle is given up.
@@ -33,18 +35,25 @@ class AgentPlacer:
         map_model: Map.
         types: Agent sizes.
         settings: Style of driving.
+        limits: Limits in force.
     """
 
     def __init__(
-        self, map_model: MapModel, types: Mapping[str, AgentTypeRecord], settings: Settings
+        self,
+        map_model: MapModel,
+        types: Mapping[str, AgentTypeRecord],
+        settings: Settings,
+        limits: Limits,
     ) -> None:
         self._map = map_model
         self._types = types
         self._settings = settings
+        self._limits = limits
 
     def convoy(self, spec: ScenarioSpec, split: SceneSplit, site: Site) -> list[GroundedAgent]:
         """Return the convoy's members in the order of the specification."""
-        factor = self._convoy_factor(spec, split, site)
+        factor = self._convoy_factor(spec, site)
+        meetings = encounters(spec)
         release, uav = _release(spec, split)
         seats = {s.member.agent.id: s for s in site.seated}
         front_m = max((s.arc_m for s in site.seated), default=0.0)
@@ -53,7 +62,7 @@ class AgentPlacer:
             seat = seats.get(agent.id)
             if seat is None:
                 continue
-            style = self._style(agent, factor, is_front=seat.arc_m >= front_m)
+            style = self._style(agent, factor, seats, meetings, is_front=seat.arc_m >= front_m)
             still = any(b.kind in STILL for b in agent.behaviors)
             placed.append(
                 self._grounded(
@@ -188,21 +197,40 @@ class AgentPlacer:
             drive_speed_mps=speeds[0] if speeds else None,
         )
 
-    def _convoy_factor(self, spec: ScenarioSpec, split: SceneSplit, site: Site) -> float:
-        """Slow a tracked or tied convoy to a speed that a UAV follows easily."""
-        tracked = any(
-            m.mode is MissionMode.TRACK and site.seat(m.target or '') is not None
+    def _convoy_factor(self, spec: ScenarioSpec, site: Site) -> float:
+        """Slow a tracked, observed or tied convoy to its pace."""
+        watched = any(
+            m.mode is not MissionMode.NAVIGATE and site.seat(m.target or '') is not None
             for m in spec.missions
         )
-        if not tracked and len(site.seated) < 2:
+        if not watched and len(site.seated) < 2:
             return 1.0
         fastest = site.fastest_mps(self._map.network, tied_way_m(spec, self._settings.grounding))
-        return min(1.0, self._settings.grounding.target_speed_mps / fastest)
+        pace = convoy_pace_mps(spec, self._limits, self._settings.grounding)
+        return min(1.0, pace / fastest)
 
-    def _style(self, agent: GroundAgent, factor: float, *, is_front: bool) -> dict[str, float]:
-        kinds = {b.kind for b in agent.behaviors}
+    def _style(
+        self,
+        agent: GroundAgent,
+        factor: float,
+        seats: Mapping[str, SeatedAgent],
+        meetings: tuple[Encounter, ...],
+        *,
+        is_front: bool,
+    ) -> dict[str, float]:
         run = self._settings.run
-        if BehaviorKind.TAILGATE in kinds:
+        chased = self._settings.grounding.chased_speed_factor
+        close = False
+        for meeting in meetings:
+            pair = [seats.get(meeting.actor), seats.get(meeting.other)]
+            if None in pair or agent.id not in (meeting.actor, meeting.other):
+                continue
+            front = max((s for s in pair if s is not None), key=lambda s: s.arc_m)
+            if front.member.agent.id == agent.id:
+                factor *= chased
+            else:
+                close = meeting.within_m <= self._settings.grounding.close_encounter_m
+        if close or any(b.kind is BehaviorKind.TAILGATE for b in agent.behaviors):
             return {
                 'speed_factor': factor * run.tailgate_speed_factor,
                 'time_gap_s': run.tailgate_time_gap_s,
@@ -225,18 +253,23 @@ def _line_from(path: RoutePath, arc_m: float) -> tuple[tuple[float, float], ...]
 
 
 def _release(spec: ScenarioSpec, split: SceneSplit) -> tuple[ReleaseOn | None, str]:
-    """Hold the convoy until the UAV that tracks one of its members has captured it."""
-    members = {m.agent.id for m in split.convoy}
+    """Hold the convoy until the UAV that watches it is ready, or has finished with it."""
+    members = {m.agent.id: m.agent for m in split.convoy}
+    on_time = any(
+        isinstance(e.trigger, TimeTrigger) and getattr(e.action, 'agent', None) in members
+        for e in spec.events
+    )
+    if on_time:  # What happens at a stated time does not wait for a UAV.
+        return None, ''
     for mission in spec.missions:
-        if mission.mode is MissionMode.TRACK and mission.target in members:
-            return ReleaseOn.CAPTURED, mission.uav
-    involved = {
-        reference
-        for event in spec.events
-        for reference in (getattr(event.trigger, 'a', None), getattr(event.trigger, 'b', None))
-        if reference is not None
-    }
+        target = members.get(mission.target or '')
+        if target is None or mission.mode is MissionMode.NAVIGATE:
+            continue
+        if mission.mode is MissionMode.HOVER and not moves(spec, target):
+            return ReleaseOn.OBSERVED, mission.uav
+        return ReleaseOn.CAPTURED, mission.uav
+    met = {name for m in encounters(spec) for name in (m.actor, m.other)}
     for mission in spec.missions:
-        if involved & members:
+        if met & set(members):
             return ReleaseOn.ASCENDED, mission.uav
     return None, ''

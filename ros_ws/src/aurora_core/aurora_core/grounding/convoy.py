@@ -10,6 +10,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from aurora_core.grounding.pace import Encounter, encounters
+from aurora_core.spec.parameter import Parameter, Provenance
 from aurora_core.spec.scenario import GroundAgent, ScenarioSpec
 from aurora_core.spec.vocabulary import AgentType, BehaviorKind, Relation, Role
 
@@ -27,6 +29,9 @@ ALONG: dict[Relation, tuple[int, int]] = {
 
 # Gap of an agent that follows without a stated placement (contract default for vehicles).
 DEFAULT_GAP_M = 20.0
+
+# Distance beyond the trigger distance at which two vehicles that are to meet start.
+ENCOUNTER_ROOM_M = 15.0
 
 STILL = frozenset({BehaviorKind.STOP, BehaviorKind.WAIT, BehaviorKind.PARK})
 
@@ -64,8 +69,9 @@ def split_scene(spec: ScenarioSpec) -> SceneSplit:
     unsupported = [f'{a.id}: roadside units' for a in spec.agents if a.type is AgentType.RSU]
     ties: dict[str, tuple[str, float, int]] = {}
     by_id = {a.id: a for a in vehicles}
+    meetings = encounters(spec)
     for agent in vehicles:
-        tie = _tie(agent, by_id, unsupported)
+        tie = _tie(agent, by_id, unsupported, meetings)
         if tie is not None:
             ties[agent.id] = tie
     origin = _origin(spec, vehicles, ties)
@@ -84,15 +90,16 @@ def split_scene(spec: ScenarioSpec) -> SceneSplit:
 
 
 def _tie(
-    agent: GroundAgent, by_id: dict[str, GroundAgent], unsupported: list[str]
+    agent: GroundAgent,
+    by_id: dict[str, GroundAgent],
+    unsupported: list[str],
+    meetings: tuple[Encounter, ...],
 ) -> tuple[str, float, int] | None:
     for placement in agent.placements:
         if placement.of in by_id and placement.relation in ALONG:
             sign, shift = ALONG[placement.relation]
-            distance = (
-                DEFAULT_GAP_M if placement.distance_m is None else placement.distance_m.value
-            )
             assert placement.of is not None
+            distance = _distance(agent.id, placement.of, placement.distance_m, meetings)
             return placement.of, sign * distance, shift
         where = f' {placement.of}' if placement.of is not None else ''
         if placement.relation is not Relation.ON:
@@ -107,8 +114,24 @@ def _tie(
         if chases and behavior.target in by_id:
             gap = behavior.closing_from_m
             assert behavior.target is not None
-            return behavior.target, -(DEFAULT_GAP_M if gap is None else gap.value), 0
+            return behavior.target, -_distance(agent.id, behavior.target, gap, meetings), 0
+    for meeting in meetings:
+        # Nothing says where the actor is: it comes from behind.
+        if meeting.actor == agent.id and meeting.other in by_id:
+            return meeting.other, -_distance(agent.id, meeting.other, None, meetings), 0
     return None
+
+
+def _distance(
+    agent: str, other: str | None, stated: Parameter | None, meetings: tuple[Encounter, ...]
+) -> float:
+    """Return the distance of a tie; a free one leaves room for an encounter still to come."""
+    if stated is not None and stated.provenance is Provenance.EXPLICIT:
+        return stated.value
+    room = [
+        m.within_m + ENCOUNTER_ROOM_M for m in meetings if {m.actor, m.other} == {agent, other}
+    ]
+    return max([DEFAULT_GAP_M if stated is None else stated.value, *room])
 
 
 def _origin(

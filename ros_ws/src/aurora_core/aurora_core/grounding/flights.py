@@ -13,8 +13,11 @@ import numpy as np
 import numpy.typing as npt
 import shapely
 
+from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.airspace import Airspace
+from aurora_core.grounding.pace import moves
 from aurora_core.grounding.patterns import pattern_points, place_pattern
+from aurora_core.grounding.places import landmark_point
 from aurora_core.grounding.sites import Site, samples_along
 from aurora_core.grounding.spots import SpotFinder
 from aurora_core.knowledge.agent_types import AgentTypeRecord
@@ -64,6 +67,7 @@ class FlightPlanner:
         tolerances: Tolerances in force.
         settings: Search settings.
         sensing_range_m: Of the weather and time of day.
+        hover_drift_m: Drift allowed while hovering; it is the capture tolerance as well.
     """
 
     def __init__(
@@ -77,6 +81,7 @@ class FlightPlanner:
         tolerances: Tolerances,
         settings: GroundingSettings,
         sensing_range_m: float,
+        hover_drift_m: float,
     ) -> None:
         self._map = map_model
         self._air = airspace
@@ -86,6 +91,7 @@ class FlightPlanner:
         self._tolerances = tolerances
         self._settings = settings
         self._range = sensing_range_m
+        self._hover_drift_m = hover_drift_m
         self._carriageway = map_model.network.carriageway
         shapely.prepare(self._carriageway)
 
@@ -99,7 +105,8 @@ class FlightPlanner:
         if centre is None:
             return Rejected(reason='target_place')
         if mission.mode is MissionMode.HOVER:
-            return self._hover(mission, centre, site)
+            targets = self._watched(spec, mission, site, centre, speed_mps)
+            return self._hover(mission, centre, targets)
         return self._navigate(mission, centre)
 
     def plan_uav(
@@ -113,8 +120,10 @@ class FlightPlanner:
         """Choose the start of a UAV whose missions are planned; it could land there again."""
         first = _first_point(flights[0].plan, site)
         home = None
-        for spot in self._spots.near(first[0], first[1], 6 + len(taken)):
-            far = all(abs(spot[0] - x) + abs(spot[1] - y) >= 10.0 for x, y in taken)
+        for spot in self._spots.near(first[0], first[1], 6 + 20 * len(taken)):
+            far = all(
+                norm2(spot[0] - x, spot[1] - y) >= self._settings.home_spacing_m for x, y in taken
+            )
             top = (spot[0], spot[1], first[2])
             if far and self._air.way_clearance_m((top, first)) >= self._settings.clearance_m:
                 home = spot
@@ -197,6 +206,10 @@ class FlightPlanner:
             c, s = cos(angle), sin(angle)
             yield (-standoff * (hx * c - hy * s), -standoff * (hx * s + hy * c))
 
+    def _altitude_slack(self, mission: UavMission) -> float:
+        altitude = mission.altitude_m
+        return self._tolerances.altitude_m.of(altitude.value, approximate=altitude.approximate)
+
     def _hold_plan(
         self,
         mission: UavMission,
@@ -207,7 +220,7 @@ class FlightPlanner:
         standoff = 0.0 if mission.standoff_m is None else mission.standoff_m.value
         horizontal = self._limits.tracking_horizontal_m
         if mission.mode is MissionMode.HOVER:
-            horizontal = self._tolerances.hover_drift_calm_m / 2.0
+            horizontal = self._hover_drift_m
         elif mission.standoff_m is not None and (
             mission.standoff_m.provenance is Provenance.EXPLICIT
         ):
@@ -215,6 +228,8 @@ class FlightPlanner:
                 standoff, approximate=mission.standoff_m.approximate
             )
         assert mission.duration_s is not None
+        slack = self._altitude_slack(mission)
+        track = mission.mode is MissionMode.TRACK
         return MissionPlan(
             id=mission.id,
             mode=mission.mode,
@@ -223,21 +238,21 @@ class FlightPlanner:
             standoff_m=standoff,
             offset_m=offset_m,
             capture_horizontal_m=horizontal,
-            capture_altitude_m=self._tolerances.altitude_m.of(mission.altitude_m.value),
+            capture_altitude_m=self._limits.tracking_altitude_m if track else slack,
+            ascent_tolerance_m=slack,
             hover_point=hover_point,
             duration_s=mission.duration_s.value,
         )
 
     def _hover(
-        self, mission: UavMission, centre: tuple[float, float, float, float], site: Site
+        self,
+        mission: UavMission,
+        centre: tuple[float, float, float, float],
+        targets: FloatArray,
     ) -> PlannedFlight | Rejected:
         standoff = 0.0 if mission.standoff_m is None else mission.standoff_m.value
-        height = _SIGHT_HEIGHT_PLACE_M
-        seat = site.seat(mission.target or '')
-        if seat is not None:
-            height = self._types[seat.member.agent.type.value].height_m / 2.0
-        target = np.array([[centre[0], centre[1], height]])
         bearings = 1 if standoff == 0.0 else self._settings.bearings
+        reason = 'clearance'
         for k in range(bearings):
             angle = 2.0 * pi * k / bearings
             point = (
@@ -246,15 +261,38 @@ class FlightPlanner:
                 mission.altitude_m.value,
             )
             clearance = self._air.points_clearance_m(np.array([point]))
-            seen = self._air.seen_share(np.array([point]), target, self._range)
-            if clearance >= self._settings.clearance_m and seen > 0.0:
-                return PlannedFlight(
-                    plan=self._hold_plan(mission, hover_point=point),
-                    clearance_m=clearance,
-                    seen=seen,
-                    over_street=0.0,
-                )
-        return Rejected(reason='clearance')
+            if clearance < self._settings.clearance_m:
+                continue
+            observers = np.repeat(np.array([point]), len(targets), axis=0)
+            seen = self._air.seen_share(observers, targets, self._range)
+            if mission.target is not None and seen < self._tolerances.visible_fraction:
+                reason = 'sight'
+                continue
+            return PlannedFlight(
+                plan=self._hold_plan(mission, hover_point=point),
+                clearance_m=clearance,
+                seen=seen,
+                over_street=0.0,
+            )
+        return Rejected(reason=reason)
+
+    def _watched(
+        self,
+        spec: ScenarioSpec,
+        mission: UavMission,
+        site: Site,
+        centre: tuple[float, float, float, float],
+        speed_mps: float,
+    ) -> FloatArray:
+        """Return the points (K, 3) at which the target of a hover will be, its sight point."""
+        seat = site.seat(mission.target or '')
+        if seat is None:
+            return np.array([[centre[0], centre[1], _SIGHT_HEIGHT_PLACE_M]])
+        height_m = self._types[seat.member.agent.type.value].height_m / 2.0
+        assert mission.duration_s is not None
+        way_m = speed_mps * mission.duration_s.value if moves(spec, seat.member.agent) else 0.0
+        samples = samples_along(seat.path, seat.arc_m, way_m, self._settings.sample_spacing_m)
+        return np.column_stack((samples[:, :2], np.full(len(samples), height_m)))
 
     def _navigate(
         self, mission: UavMission, centre: tuple[float, float, float, float]
@@ -292,9 +330,8 @@ class FlightPlanner:
                         mode=mission.mode,
                         target=mission.target,
                         altitude_m=mission.altitude_m.value,
-                        capture_altitude_m=self._tolerances.altitude_m.of(
-                            mission.altitude_m.value
-                        ),
+                        capture_altitude_m=self._altitude_slack(mission),
+                        ascent_tolerance_m=self._altitude_slack(mission),
                         waypoints=way,
                         speed_mps=mission.speed_mps.value,
                     )
@@ -318,8 +355,8 @@ class FlightPlanner:
         if seat is not None:
             return seat.path.position_at(seat.arc_m)
         if target.startswith('landmark:'):
-            mark = self._map.landmark(target.removeprefix('landmark:'))
-            return mark.x_m, mark.y_m, 1.0, 0.0
+            mark_x, mark_y = landmark_point(self._map, target.removeprefix('landmark:'))
+            return mark_x, mark_y, 1.0, 0.0
         if target == 'intersection':
             junctions = [
                 j

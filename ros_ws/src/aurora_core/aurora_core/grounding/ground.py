@@ -11,12 +11,14 @@ from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from aurora_core.conditions.missions import hover_drift_limit_m
 from aurora_core.grounding.agents import AgentPlacer
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.grounding.convoy import SceneSplit, split_scene
 from aurora_core.grounding.flights import FlightPlanner, PlannedFlight, Rejected
 from aurora_core.grounding.grounded import AnchorScore, GroundedScenario
 from aurora_core.grounding.outcome import GroundingFailure
+from aurora_core.grounding.pace import convoy_pace_mps
 from aurora_core.grounding.realised import realised_values
 from aurora_core.grounding.sites import Site, sites, tied_way_m
 from aurora_core.grounding.spots import SpotFinder
@@ -89,6 +91,7 @@ class Grounder:
             sensing_range_m=self._limits.sensing_range(
                 spec.world.weather.value, spec.world.time_of_day.value
             ),
+            hover_drift_m=hover_drift_limit_m(spec, self._limits, self._tolerances),
         )
         run_m = horizon_s(spec, self._limits) * self._drive_speed(spec, split) + 300.0
         ranked = self._ranked_sites(spec, split, run_m)
@@ -145,7 +148,7 @@ class Grounder:
         road: float,
         planner: FlightPlanner,
     ) -> _Option | Rejected:
-        speed = self._settings.grounding.target_speed_mps
+        speed = convoy_pace_mps(spec, self._limits, self._settings.grounding)
         flights: list[PlannedFlight] = []
         uavs: list[UavPlan] = []
         for number, uav in enumerate(spec.uavs):
@@ -189,7 +192,7 @@ class Grounder:
         planner: FlightPlanner,
     ) -> GroundedScenario:
         uavs = tuple(planner.with_landing_spots(u, best.site) for u in best.uavs)
-        placer = AgentPlacer(self._map, self._types, self._settings)
+        placer = AgentPlacer(self._map, self._types, self._settings, self._limits)
         agents = placer.convoy(spec, split, best.site)
         generator = stream(seed, 'grounding:background')
         agents, missing = placer.free(spec, split, best.site, agents, run_m, generator)

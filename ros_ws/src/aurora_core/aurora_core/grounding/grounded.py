@@ -21,6 +21,7 @@ class ReleaseOn(StrEnum):
     START = 'start'  # at t = 0
     ASCENDED = 'ascended'  # a UAV has reached its mission altitude
     CAPTURED = 'captured'  # a UAV has captured its target
+    OBSERVED = 'observed'  # a UAV has finished watching it
     NEVER = 'never'  # stands still
 
 

@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+import shapely
+
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.grounded import GroundedScenario
 from aurora_core.knowledge.map_model import MapModel
@@ -29,10 +31,26 @@ def place_positions(
     }
 
 
+def landmark_point(map_model: MapModel, name: str) -> tuple[float, float]:
+    """Return where a landmark is on the ground: itself, or the street before its building.
+
+    Nobody can look at a point inside a building, so a landmark that is one stands for the place in
+    front of it.
+
+    Raises:
+        MapError: The map has no such landmark.
+    """
+    mark = map_model.landmark(name)
+    point = shapely.Point(mark.x_m, mark.y_m)
+    if any(shapely.Polygon(b.ring).contains(point) for b in map_model.buildings):
+        x, y, _, _ = map_model.network.position_on_lane(mark.approach_lane_id, mark.approach_pos_m)
+        return x, y
+    return mark.x_m, mark.y_m
+
+
 def _position(name: str, map_model: MapModel, anchor: tuple[float, float]) -> tuple[float, float]:
     if name.startswith('landmark:'):
-        mark = map_model.landmark(name.removeprefix('landmark:'))
-        return mark.x_m, mark.y_m
+        return landmark_point(map_model, name.removeprefix('landmark:'))
     if name == 'intersection':
         junctions = [j for j in map_model.network.junctions.values() if j.kind != 'dead_end']
         near = min(junctions, key=lambda j: (norm2(j.x_m - anchor[0], j.y_m - anchor[1]), j.id))

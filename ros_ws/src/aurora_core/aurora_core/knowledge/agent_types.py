@@ -7,10 +7,12 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ConfigDict
 
 from aurora_core.errors import ConfigError
 from aurora_core.knowledge.config_files import config_path
+from aurora_core.knowledge.limits import Positive
+from aurora_core.spec.vocabulary import AgentType
 
 
 class AgentTypeRecord(BaseModel):
@@ -19,12 +21,12 @@ class AgentTypeRecord(BaseModel):
     model_config = ConfigDict(frozen=True, extra='ignore', allow_inf_nan=False)
 
     name: str
-    length_m: float
-    width_m: float
-    height_m: float
-    max_speed_mps: float
-    accel_mps2: float
-    decel_mps2: float
+    length_m: Positive
+    width_m: Positive
+    height_m: Positive
+    max_speed_mps: Positive
+    accel_mps2: Positive
+    decel_mps2: Positive
     vclass: str
     is_person: bool
 
@@ -33,7 +35,7 @@ def load_agent_types() -> Mapping[str, AgentTypeRecord]:
     """Read `knowledge/agent_types.json`, by type name.
 
     Raises:
-        ConfigError: The file is missing or out of its schema.
+        ConfigError: The file is missing, out of its schema, or lacks a type of the vocabulary.
     """
     path = config_path('knowledge', 'agent_types.json')
     try:
@@ -41,8 +43,15 @@ def load_agent_types() -> Mapping[str, AgentTypeRecord]:
         records = [AgentTypeRecord.model_validate(row) for row in table['types']]
     except OSError as err:
         raise ConfigError(f'{path} cannot be read: {err}', hint='run make setup') from err
-    except (json.JSONDecodeError, KeyError, ValidationError) as err:
+    except (ValueError, LookupError, TypeError) as err:
         raise ConfigError(
-            f'{path} is not valid: {err}', hint='compare with the shipped file'
+            f'{path} is not valid: expected a list "types" of agent types, found: {err!r}',
+            hint='compare with the shipped file',
         ) from err
-    return {record.name: record for record in sorted(records, key=lambda r: r.name)}
+    by_name = {record.name: record for record in sorted(records, key=lambda r: r.name)}
+    # A roadside unit is no body in the traffic.
+    lacking = [t.value for t in AgentType if t is not AgentType.RSU and t.value not in by_name]
+    if lacking or len(by_name) < len(records):
+        wrong = f'types lacks {", ".join(lacking)}' if lacking else 'types repeats a name'
+        raise ConfigError(f'{path} is not valid: {wrong}', hint='compare with the shipped file')
+    return by_name

@@ -6,11 +6,18 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import TypeVar
+from typing import Annotated, Self, TypeVar
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from aurora_core.errors import ConfigError
+from aurora_core.spec.vocabulary import TimeOfDay, Weather
+
+# A limit or tolerance of zero would forbid everything; a share lies in (0, 1].
+Positive = Annotated[float, Field(gt=0.0)]
+NotNegative = Annotated[float, Field(ge=0.0)]
+Share = Annotated[float, Field(gt=0.0, le=1.0)]
+Range = tuple[NotNegative, NotNegative]
 
 
 class _Table(BaseModel):
@@ -20,30 +27,46 @@ class _Table(BaseModel):
 class Limits(_Table):
     """Limits of the simulated world; a value equal to a limit is inside it."""
 
-    uav_altitude_min_m: float
-    uav_altitude_max_m: float
-    uav_speed_max_mps: float
-    uav_climb_max_mps: float
-    uav_descent_max_mps: float
-    uav_endurance_s: float
-    uav_standoff_max_m: float
-    clearance_min_m: float
-    separation_min_m: float
-    sensing_range_m: dict[str, float]  # by weather
-    sensing_factor: dict[str, float]  # by time of day
-    tracking_horizontal_m: float
-    tracking_altitude_m: float
-    link_range_sight_m: float
-    link_range_blocked_m: float
-    vehicle_speed_max_mps: float
-    pedestrian_speed_max_mps: float
-    duration_min_s: float
-    duration_max_s: float
-    horizon_inferred_min_s: float
-    wind_mean_mps: dict[str, float]  # by weather
-    wind_gust_mps: dict[str, float]  # by weather
-    uavs_max: int
-    agents_max: int
+    uav_altitude_min_m: NotNegative
+    uav_altitude_max_m: Positive
+    uav_speed_max_mps: Positive
+    uav_climb_max_mps: Positive
+    uav_descent_max_mps: Positive
+    uav_endurance_s: Positive
+    uav_standoff_max_m: NotNegative
+    clearance_min_m: NotNegative
+    separation_min_m: NotNegative
+    sensing_range_m: dict[str, Positive]  # by weather
+    sensing_factor: dict[str, Positive]  # by time of day
+    tracking_horizontal_m: Positive
+    tracking_altitude_m: Positive
+    link_range_sight_m: Positive
+    link_range_blocked_m: NotNegative
+    vehicle_speed_max_mps: Positive
+    pedestrian_speed_max_mps: Positive
+    duration_min_s: NotNegative
+    duration_max_s: Positive
+    horizon_inferred_min_s: NotNegative
+    wind_mean_mps: dict[str, NotNegative]  # by weather
+    wind_gust_mps: dict[str, NotNegative]  # by weather
+    uavs_max: Annotated[int, Field(ge=0)]
+    agents_max: Annotated[int, Field(ge=0)]
+
+    @model_validator(mode='after')
+    def _complete(self) -> Self:
+        for name in ('sensing_range_m', 'wind_mean_mps', 'wind_gust_mps', 'sensing_factor'):
+            table = getattr(self, name)
+            wanted = tuple(TimeOfDay if name == 'sensing_factor' else Weather)
+            lacking = [w.value for w in wanted if w.value not in table]
+            if lacking:
+                raise ValueError(f'{name} lacks {", ".join(lacking)}')
+        for low, high in (
+            ('uav_altitude_min_m', 'uav_altitude_max_m'),
+            ('duration_min_s', 'duration_max_s'),
+        ):
+            if getattr(self, low) > getattr(self, high):
+                raise ValueError(f'{low} is above {high}')
+        return self
 
     def sensing_range(self, weather: str, time_of_day: str) -> float:
         """Return the camera's sensing range in metres for weather and time of day."""
@@ -57,8 +80,8 @@ class Limits(_Table):
 class Tolerance(_Table):
     """The larger of an absolute and a relative tolerance."""
 
-    absolute: float
-    relative: float
+    absolute: NotNegative
+    relative: NotNegative
 
     def of(self, value: float, *, approximate: bool = False) -> float:
         """Return the tolerance of `value` in its own unit ("about" widens to 10 %)."""
@@ -72,50 +95,53 @@ class Tolerances(_Table):
     placement_vehicle_m: Tolerance
     placement_other_m: Tolerance
     altitude_m: Tolerance
-    altitude_share: float
+    altitude_share: Share
     standoff_m: Tolerance
     route_speed_mps: Tolerance
-    route_speed_share: float
-    waypoint_horizontal_m: float
+    route_speed_share: Share
+    waypoint_horizontal_m: NotNegative
     duration_s: Tolerance
-    bearing_deg: float
-    pattern_centre_m: float
-    capture_s: float
-    tracked_fraction: float
-    visible_fraction: float
-    hover_drift_calm_m: float
-    hover_drift_wind_m: float
-    event_delay_s: float
-    delivery_s: float
-    latency_steps: int
-    relation_fraction: float
-    follow_gap_moving_m: tuple[float, float]
-    follow_gap_slow_m: tuple[float, float]
-    follow_slow_mps: float
-    follow_fraction: float
-    follow_after_s: float
-    tailgate_time_gap_s: float
-    tailgate_speed_mps: float
-    tailgate_hold_s: float
-    stop_speed_mps: float
-    stop_hold_s: float
-    brake_mps2: float
-    circulate_distance_m: float
-    phase_change_s: float
-    limit_margin: float
-    jump_speed_mps: float
-    touchdown_height_m: float  # a UAV that reports landed and is not higher is down
-    over_carriageway_share: float  # share of a leg's samples over a carriageway
-    route_offset_m: float  # a body farther from a route is not on it
-    route_acceleration_mps2: float  # acceleration and braking distances of route legs
-    drive_distance_m: float  # way after which an agent counts as having driven
-    approach_m: float  # by how much an approach shortens the distance
-    near_m: float  # "near" without a distance
-    lane_offset_m: float  # offset inside one lane
-    moving_speed_mps: float  # an agent this fast has moved
-    onset_mps2: float  # change of speed with which slowing down or speeding up begins
-    phase_follow_m: float  # how close a UAV keeps to its set-point when a phase has changed
-    link_statistics_from: int  # attempts before a link's losses are compared with its model
+    bearing_deg: NotNegative
+    pattern_centre_m: NotNegative
+    capture_s: NotNegative
+    tracked_fraction: Share
+    visible_fraction: Share
+    hover_drift_calm_m: NotNegative
+    hover_drift_wind_m: NotNegative
+    event_delay_s: NotNegative
+    delivery_s: NotNegative
+    latency_steps: Annotated[int, Field(ge=0)]
+    relation_fraction: Share
+    follow_gap_moving_m: Range
+    follow_gap_slow_m: Range
+    follow_slow_mps: NotNegative
+    follow_fraction: Share
+    follow_after_s: NotNegative
+    tailgate_time_gap_s: NotNegative
+    tailgate_speed_mps: NotNegative
+    tailgate_hold_s: NotNegative
+    stop_speed_mps: NotNegative
+    stop_hold_s: NotNegative
+    brake_mps2: NotNegative
+    circulate_distance_m: NotNegative
+    phase_change_s: NotNegative
+    limit_margin: NotNegative
+    jump_speed_mps: NotNegative
+    touchdown_height_m: NotNegative  # a UAV that reports landed and is not higher is down
+    over_carriageway_share: Share  # share of a leg's samples over a carriageway
+    route_offset_m: NotNegative  # a body farther from a route is not on it
+    route_acceleration_mps2: NotNegative  # acceleration and braking distances of route legs
+    drive_distance_m: NotNegative  # way after which an agent counts as having driven
+    approach_m: NotNegative  # by how much an approach shortens the distance
+    arrival_m: NotNegative  # an agent this close to a place is there
+    near_m: NotNegative  # "near" without a distance
+    lane_offset_m: NotNegative  # offset inside one lane
+    moving_speed_mps: NotNegative  # an agent this fast has moved
+    onset_mps2: NotNegative  # change of speed with which slowing down or speeding up begins
+    phase_follow_m: NotNegative  # how close a UAV keeps to its set-point when a phase has changed
+    link_statistics_from: Annotated[
+        int, Field(ge=0)
+    ]  # attempts before a link's losses are compared with its model
 
 
 _T = TypeVar('_T', bound=_Table)
@@ -144,7 +170,7 @@ def _load(path: Path, kind: type[_T]) -> _T:
         return kind.model_validate(json.loads(path.read_text(encoding='utf-8')))
     except OSError as err:
         raise ConfigError(f'{path.name} cannot be read: {err}', hint='run make setup') from err
-    except (json.JSONDecodeError, ValidationError) as err:
+    except ValueError as err:  # not UTF-8, not JSON, or out of the schema
         raise ConfigError(
             f'{path} is not valid: {err}', hint='compare with the shipped file'
         ) from err

@@ -5,11 +5,15 @@
 from __future__ import annotations
 
 import json
+from typing import Annotated, Self
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from aurora_core.errors import ConfigError
 from aurora_core.knowledge.config_files import config_path
+from aurora_core.knowledge.limits import NotNegative, Positive
+
+Count = Annotated[int, Field(ge=1)]
 
 
 class _Table(BaseModel):
@@ -19,52 +23,64 @@ class _Table(BaseModel):
 class AnchorWeights(_Table):
     """Weights of the joint anchor score (paper, eq. (2)); equal by default."""
 
-    road: float
-    air: float
-    sense: float
-    comm: float
+    road: NotNegative
+    air: NotNegative
+    sense: NotNegative
+    comm: NotNegative
+
+    @model_validator(mode='after')
+    def _some_weight(self) -> Self:
+        if self.road + self.air + self.sense + self.comm <= 0.0:
+            raise ValueError('weights: one of road, air, sense, comm has to be above 0')
+        return self
 
 
 class GroundingSettings(_Table):
     """How places are searched."""
 
     weights: AnchorWeights
-    anchor_spacing_m: float
-    anchors_scored: int
-    sample_spacing_m: float
-    clearance_m: float  # planned clearance, above the limit
-    pattern_shift_m: float
-    target_speed_mps: float  # a tracked target is slowed to this
-    convoy_speed_factor_behind: float
-    bearings: int
-    spot_clearance_m: float
-    spot_search_m: float
-    spot_spacing_m: float
-    background_radius_m: tuple[float, float]
-    background_gap_m: float
+    anchor_spacing_m: Positive
+    anchors_scored: Count
+    sample_spacing_m: Positive
+    clearance_m: NotNegative  # planned clearance, above the limit
+    turn_sample_m: Positive
+    turn_cosine: float  # a change of heading beyond this is a turn
+    turns_bad: Count  # as many turns on the way leave nothing of the score for a straight road
+    pattern_shifts_m: Annotated[tuple[float, ...], Field(min_length=1)]
+    target_speed_mps: Positive  # a tracked target is slowed to this
+    convoy_speed_factor_behind: Positive
+    chased_speed_factor: Positive  # of the front one of two vehicles that are to meet
+    close_encounter_m: NotNegative  # closer than this the rear one has to tailgate
+    home_spacing_m: NotNegative
+    bearings: Count
+    spot_clearance_m: NotNegative
+    spot_search_m: Positive
+    spot_spacing_m: Positive
+    background_radius_m: tuple[NotNegative, Positive]
+    background_gap_m: NotNegative
 
 
 class FlightDefaults(_Table):
     """Reference motion of the UAVs; below the limits, so that realised values stay inside."""
 
-    speed_max_mps: float
-    acceleration_mps2: float
-    climb_mps: float
-    descent_mps: float
-    corner_speed_mps: float
-    position_gain_hz: float
+    speed_max_mps: Positive
+    acceleration_mps2: Positive
+    climb_mps: Positive
+    descent_mps: Positive
+    corner_speed_mps: Positive
+    position_gain_hz: Positive
 
 
 class RunSettings(_Table):
     """Lockstep and style of driving."""
 
-    dt_s: float
-    settle_s: float  # after the last thing is done, before the run ends
-    sight_period_s: float
-    convoy_lane_change_mode: int  # SUMO bit set
-    tailgate_speed_factor: float
-    tailgate_time_gap_s: float
-    tailgate_min_gap_m: float
+    dt_s: Positive
+    settle_s: NotNegative  # after the last thing is done, before the run ends
+    sight_period_s: Positive
+    convoy_lane_change_mode: Annotated[int, Field(ge=0)]  # SUMO bit set
+    tailgate_speed_factor: Positive
+    tailgate_time_gap_s: Positive
+    tailgate_min_gap_m: NotNegative
 
 
 class Settings(_Table):
@@ -86,7 +102,7 @@ def load_settings() -> Settings:
         return Settings.model_validate(json.loads(path.read_text(encoding='utf-8')))
     except OSError as err:
         raise ConfigError(f'{path} cannot be read: {err}', hint='run make setup') from err
-    except (json.JSONDecodeError, ValidationError) as err:
+    except ValueError as err:  # not UTF-8, not JSON, or out of the schema
         raise ConfigError(
             f'{path} is not valid: {err}', hint='compare with the shipped file'
         ) from err

@@ -65,6 +65,7 @@ class MissionMachine:
         self._landing_spot: tuple[float, float] | None = None
         self._return_altitude_m = 0.0
         self._descending = False
+        self._airborne = False
 
     @property
     def plan(self) -> UavPlan:
@@ -145,13 +146,16 @@ class MissionMachine:
 
     def _check_ascended(self, tick: int, state: FloatArray) -> None:
         z = float(state[UavColumn.Z])
-        if abs(z - self._first_altitude_m()) <= self._plan.missions[0].capture_altitude_m:
+        if abs(z - self._first_altitude_m()) <= self._plan.missions[0].ascent_tolerance_m:
             self.ascended_tick = tick
-            self._pursuit = PursuitReference(
-                float(state[UavColumn.X]), float(state[UavColumn.Y]), z
-            )
-            self._pursuit.vz = float(state[UavColumn.VZ])
+            self._start_reference(state)
             self._begin(int(UavPhase.MISSION))
+
+    def _start_reference(self, state: FloatArray) -> None:
+        x, y, z = (float(state[c]) for c in (UavColumn.X, UavColumn.Y, UavColumn.Z))
+        self._pursuit = PursuitReference(x, y, z)
+        self._pursuit.vz = float(state[UavColumn.VZ])
+        self._airborne = True
 
     def _begin(self, phase: int) -> None:
         self.phase = phase
@@ -250,6 +254,8 @@ class MissionMachine:
         return self._route.done and norm2(x - last[0], y - last[1]) <= ARRIVED_M
 
     def _fly_home(self, state: FloatArray) -> None:
+        if not self._airborne:  # told to land while still climbing
+            self._start_reference(state)
         if self._landing_spot is None:
             return
         x, y = float(state[UavColumn.X]), float(state[UavColumn.Y])

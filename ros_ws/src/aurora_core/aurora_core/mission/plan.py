@@ -20,6 +20,7 @@ class MissionPlan(Document):
         offset_m: Track: horizontal vector from the target to the UAV, ENU.
         capture_horizontal_m: Track: tolerance on the standoff at capture.
         capture_altitude_m: Tolerance on the altitude at capture.
+        ascent_tolerance_m: Tolerance on the altitude that ends the ascent.
         waypoints: Navigate: the points to visit, first repeated at the end when closed.
         hover_point: Hover: where to hold.
         duration_s: Track and hover: length of the phase from capture on.
@@ -34,6 +35,7 @@ class MissionPlan(Document):
     offset_m: tuple[FiniteFloat, FiniteFloat] = (0.0, 0.0)
     capture_horizontal_m: FiniteFloat = 10.0
     capture_altitude_m: FiniteFloat = 2.0
+    ascent_tolerance_m: FiniteFloat = 2.0
     waypoints: tuple[Point3, ...] = ()
     hover_point: Point3 | None = None
     duration_s: FiniteFloat | None = None

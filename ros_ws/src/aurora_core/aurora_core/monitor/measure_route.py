@@ -17,6 +17,7 @@ from aurora_core.quantities.kernels import bound_error, distance_2d
 from aurora_core.quantities.waypoints import (
     Leg,
     Passage,
+    approach,
     cruising,
     legs,
     passages,
@@ -86,14 +87,24 @@ def measure_waypoints_visited(context: Context, condition: Condition) -> Evaluat
 
 
 def measure_route_closed(context: Context, condition: Condition) -> Evaluation:
-    """Closest approach of the first point again, after the others."""
+    """Closest approach of the first point again, after the others.
+
+    While another point is missed the route cannot be closed on the way: then the place at the end
+    of the phase counts.
+    """
     mission = _mission(condition)
     missing = context.phase_missing(condition, mission)
     if missing is not None:
         return missing
-    last = route_flown(context, condition, mission)[-1]
-    story = f'{mission.uav} came within {last.nearest_m:.2f} m of where its route began'
-    return at_tick(last.nearest_tick, last.nearest_m, story, _topics(condition))
+    flown = route_flown(context, condition, mission)
+    tick, off_m = flown[-1].nearest_tick, flown[-1].nearest_m
+    if any(passage.tick is None for passage in flown[:-1]):
+        tick = context.phase(mission, condition.arguments.touchdown_m).stop_tick - 1
+        end = context.view.reference(mission.uav)[tick : tick + 1]
+        tolerances_m = (mission.waypoint_horizontal_m, mission.altitude_tolerance_m)
+        off_m = float(approach(end, mission.waypoints[-1], *tolerances_m)[0])
+    story = f'{mission.uav} came within {off_m:.2f} m of where its route began'
+    return at_tick(tick, off_m, story, _topics(condition))
 
 
 def measure_over_carriageway(context: Context, condition: Condition) -> Evaluation:
@@ -106,7 +117,9 @@ def measure_over_carriageway(context: Context, condition: Condition) -> Evaluati
     if not flown:
         return Missing(reason=Reason.EMPTY_PHASE, story=f'{mission.uav} flew no leg of its route')
     driving = context.view.geometry.surfaces(SurfaceKind.DRIVING)
-    over = driving.contains(context.view.reference(mission.uav)[:, :2])
+    first, last = flown[0].start, flown[-1].stop
+    over = np.zeros(context.view.ticks, dtype=np.bool_)
+    over[first:last] = driving.contains(context.view.reference(mission.uav)[first:last, :2])
     shares = [
         int(np.count_nonzero(over[leg.start : leg.stop])) / (leg.stop - leg.start) for leg in flown
     ]

@@ -349,6 +349,16 @@ class ScenarioSpec(Document):
         for mission in self.missions:
             if mission.uav not in uavs:
                 raise ValueError(f'mission {mission.id} refers to unknown UAV {mission.uav!r}')
+        events = {e.id for e in self.events}
+        for event in self.events:
+            after = event.trigger.event if isinstance(event.trigger, EventDoneTrigger) else None
+            if after is not None and after not in events:
+                raise ValueError(f'event {event.id} waits for unknown event {after!r}')
+            for part in (event.trigger, event.action):
+                for name in ('uav', 'observer'):
+                    flyer = getattr(part, name, None)
+                    if flyer is not None and flyer not in uavs:
+                        raise ValueError(f'event {event.id} refers to unknown UAV {flyer!r}')
         if sum(a.role is Role.EGO for a in self.agents) > 1:
             raise ValueError('there can be one ego only')
         return self
@@ -362,12 +372,16 @@ class ScenarioSpec(Document):
         for link in self.links:
             found += [(link.id, link.sender), (link.id, link.receiver)]
         for event in self.events:
-            if isinstance(event.trigger, DistanceTrigger):
-                found += [(event.id, event.trigger.a), (event.id, event.trigger.b)]
+            if event.trigger is not None:
+                names = ('a', 'b', 'uav', 'observer', 'target', 'who', 'by', 'sender')
+                values = (getattr(event.trigger, name, None) for name in names)
+                found += [(event.id, value) for value in values if value is not None]
             if isinstance(event.action, SendMessage):
                 found += [(event.id, event.action.sender), (event.id, event.action.receiver)]
             if isinstance(event.action, AgentAction):
                 found.append((event.id, event.action.agent))
+            if isinstance(event.action, UavAction):
+                found.append((event.id, event.action.uav))
         return found
 
     def canonical_json(self) -> str:

@@ -158,6 +158,7 @@ def _messages(
             for record in StreamReader(stream, record_size_limit=size).records:
                 if isinstance(record, Schema):
                     schemas[record.id] = record
+                    _check_layout(record, definitions, damage)
                 elif isinstance(record, Channel):
                     channels[record.id] = record
                 elif isinstance(record, DataEnd):
@@ -180,6 +181,13 @@ def _messages(
     else:
         if not ended:
             damage.append((Integrity.TRUNCATED, f'{file.name} has no end'))
+
+
+def _check_layout(schema: Schema, definitions: MessageDefinitions, damage: Damage) -> None:
+    if schema.name not in messages.TOPICS.values():
+        return
+    if schema.data != definitions.text(schema.name).encode('utf-8'):
+        damage.append((Integrity.UNKNOWN, f'{schema.name} was recorded with another layout'))
 
 
 def _trace(roster: Roster, decoded: dict[str, list[Any]], damage: Damage) -> Trace:

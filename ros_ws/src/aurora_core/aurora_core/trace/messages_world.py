@@ -22,6 +22,7 @@ from aurora_core.knowledge.world import (
     Wind,
     WorldModel,
 )
+from aurora_core.spec.vocabulary import TimeOfDay, Weather
 from aurora_core.trace.definitions import MessageDefinitions
 from aurora_core.trace.hashing import world_sha256
 
@@ -104,14 +105,18 @@ def world_message(definitions: MessageDefinitions, header: Any, run_id: str, w: 
 
 
 def read_world(m: Any) -> WorldModel:
-    """Return the world of a World message."""
+    """Return the world of a World message.
+
+    Raises:
+        ValueError: A field is outside of what the writer can have written.
+    """
     return WorldModel(
         map_name=str(m.map_name),
         map_digest=str(m.map_digest),
         origin_lat_deg=float(m.origin_lat_deg),
         origin_lon_deg=float(m.origin_lon_deg),
-        weather=str(m.weather),
-        time_of_day=str(m.time_of_day),
+        weather=Weather(str(m.weather)).value,
+        time_of_day=TimeOfDay(str(m.time_of_day)).value,
         wind=Wind(
             mean_east_mps=float(m.wind_mean_east_mps),
             mean_north_mps=float(m.wind_mean_north_mps),

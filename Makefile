@@ -1,0 +1,49 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+#
+# The one list of commands. What they do is in tools/.
+
+# For `make demo`. Overridden by the environment; passed on in the environment only, never expanded
+# into a shell line, so that quotes and dollar signs arrive as they are.
+PROMPT ?= A van tailgates the ego car closely, closing from 45 meters; a tracking drone alerts the ego when the van comes within 20 meters.
+export PROMPT
+
+.DEFAULT_GOAL := help
+.PHONY: help setup demo up down test lint typecheck lock maps clean
+
+help: ## this list
+	@sed -nE 's/^([a-z]+):.*## (.*)/make \1\t\2/p' Makefile | expand -t 18
+
+setup: ## virtual environment, ROS 2 and the workspace (seconds when nothing changed)
+	@tools/setup.sh
+
+demo: ## one prompt through the ROS graph, with its verdict (PROMPT=… in the environment)
+	@tools/demo.sh
+
+up: setup ## start every node and stay in the foreground (Ctrl-C stops them)
+	@tools/in_env.sh ros2 run aurora_bringup up
+
+down: ## stop every node
+	@tools/in_env.sh ros2 run aurora_bringup down
+
+test: ## every test (PYTEST_ADDOPTS=… for options)
+	@tools/setup.sh --dev
+	@tools/test.sh
+
+lint: ## ruff (lint and format) and the import rules
+	@tools/setup.sh --dev --no-build
+	@tools/lint.sh
+
+typecheck: ## mypy --strict over sources and tests
+	@tools/setup.sh --dev --no-build
+	@_ROS_WHEELS_BOOTSTRAP_COMPLETE=1 .venv/bin/python tools/typecheck.py
+
+lock: ## resolve requirements/*.in anew, with hashes (needs Python 3.11 and 3.12)
+	@tools/lock.sh
+
+maps: ## build the shipped maps from their sources
+	@tools/setup.sh --dev
+	@tools/maps.sh
+
+clean: ## remove what set-up and builds made
+	@tools/clean.sh

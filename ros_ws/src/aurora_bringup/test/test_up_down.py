@@ -1,0 +1,266 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""`up` and `down` with small fake nodes behind a fake `ros2 run`."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+import pytest
+
+SCRIPTS = Path(__file__).resolve().parents[1] / 'scripts'
+NODES = (
+    'uav_sim', 'sync', 'sumo_bridge', 'uav_bridge', 'recorder',
+    'monitor', 'executor', 'grounding', 'parser', 'orchestrator',
+)  # fmt: skip
+DEADLINE_S = 20.0
+
+# Serves until a signal comes, then notes its own name.
+GOOD = """
+trap 'echo "$NAME" >> "$ORDER"; exit 0' INT TERM
+touch "$AURORA_READY_FILE"
+while :; do sleep 0.02; done
+"""
+STUBBORN = 'trap "" INT\n' + GOOD.replace(' INT TERM', ' TERM')
+BROKEN = 'echo "no map here" >&2; exit 3\n'
+SILENT = 'while :; do sleep 0.02; done\n'
+# Serves until a file appears, then ends by itself.
+MORTAL = 'touch "$AURORA_READY_FILE"\nwhile [ ! -e "$ORDER.die" ]; do sleep 0.02; done\nexit 5\n'
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Graph:
+    """A folder with fake nodes, a fake ros2 and the environment to use them."""
+
+    folder: Path
+    environment: dict[str, str]
+
+    @property
+    def run_dir(self) -> Path:
+        return self.folder / 'run' / 'domain-7'
+
+    def set_node(self, name: str, body: str) -> None:
+        script = self.folder / 'nodes' / name
+        script.write_text(f'#!/usr/bin/env bash\nNAME={name}\n{body}')
+        script.chmod(0o755)
+
+    def call(self, script: str, *arguments: str) -> subprocess.CompletedProcess[str]:
+        return subprocess.run(
+            [str(SCRIPTS / script), *arguments],
+            env=self.environment,
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+            timeout=DEADLINE_S,
+            check=False,
+        )
+
+    def foreground(self) -> subprocess.Popen[str]:
+        process = subprocess.Popen(
+            [str(SCRIPTS / 'up')],
+            env=self.environment,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+        )
+        assert process.stdout is not None
+        for line in process.stdout:
+            if line.startswith('all nodes are ready'):
+                return process
+        raise AssertionError(f'up ended with {process.wait()}')
+
+    def order(self) -> list[str]:
+        return (self.folder / 'order').read_text().split()
+
+    def alive(self) -> list[str]:
+        return [
+            path.stem
+            for path in self.run_dir.glob('*.pid')
+            if _is_alive(int(path.read_text().split()[0]))
+        ]
+
+
+def _is_alive(pid: int) -> bool:
+    try:
+        state = Path(f'/proc/{pid}/stat').read_text().rsplit(') ', 1)[1][0]
+    except OSError:
+        return False
+    return state != 'Z'
+
+
+def _until(condition: Callable[[], bool]) -> None:
+    end_s = time.monotonic() + DEADLINE_S
+    while not condition():
+        assert time.monotonic() < end_s, 'the condition never came true'
+        time.sleep(0.02)
+
+
+@pytest.fixture
+def graph(tmp_path: Path) -> Iterator[Graph]:
+    (tmp_path / 'bin').mkdir()
+    (tmp_path / 'nodes').mkdir()
+    (tmp_path / 'order').touch()
+    ros2 = tmp_path / 'bin' / 'ros2'
+    ros2.write_text(f'#!/usr/bin/env bash\nexec "{tmp_path}/nodes/$3"\n')
+    ros2.chmod(0o755)
+    environment = {
+        'PATH': f'{tmp_path}/bin:{os.environ["PATH"]}',
+        'HOME': str(tmp_path),
+        'AURORA_RUN_DIR': str(tmp_path / 'run'),
+        'ROS_DOMAIN_ID': '7',
+        'ORDER': str(tmp_path / 'order'),
+    }
+    made = Graph(folder=tmp_path, environment=environment)
+    for name in NODES:
+        made.set_node(name, GOOD)
+    yield made
+    made.call('down')
+    assert made.alive() == []
+
+
+def test_up_starts_every_node_and_down_stops_them_in_order(graph: Graph) -> None:
+    up = graph.call('up', '--detach')
+
+    assert up.returncode == 0, up.stderr
+    assert [line.split()[0] for line in up.stdout.splitlines()[:-1]] == list(NODES)
+    assert sorted(graph.alive()) == sorted(NODES)
+
+    down = graph.call('down')
+
+    assert down.returncode == 0
+    order = graph.order()
+    assert sorted(order) == sorted(NODES)
+    assert order[0] == 'executor'
+    assert set(order[1:3]) == {'sumo_bridge', 'uav_bridge'}
+    assert order[3:5] == ['sync', 'recorder']
+    assert sorted(down.stdout.split()[::2]) == sorted(NODES)
+    assert list(graph.run_dir.glob('*.pid')) == []
+
+
+def test_down_with_nothing_running_says_so_and_succeeds(graph: Graph) -> None:
+    down = graph.call('down')
+
+    assert down.returncode == 0
+    assert down.stdout == 'nothing runs in domain 7\n'
+
+
+def test_a_second_up_is_refused_and_leaves_the_first_alone(graph: Graph) -> None:
+    graph.call('up', '--detach')
+    before = {path.name: path.read_text() for path in graph.run_dir.glob('*.pid')}
+
+    second = graph.call('up', '--detach')
+
+    assert second.returncode == 1
+    assert 'runs already in domain 7' in second.stderr
+    assert {path.name: path.read_text() for path in graph.run_dir.glob('*.pid')} == before
+
+
+def test_another_domain_is_another_graph(graph: Graph) -> None:
+    graph.call('up', '--detach')
+    elsewhere = Graph(folder=graph.folder, environment={**graph.environment, 'ROS_DOMAIN_ID': '8'})
+
+    assert elsewhere.call('down').stdout == 'nothing runs in domain 8\n'
+    assert sorted(graph.alive()) == sorted(NODES)
+
+
+def test_a_node_that_ends_at_its_start_fails_up_with_its_name_and_log(graph: Graph) -> None:
+    graph.set_node('sumo_bridge', BROKEN)
+
+    up = graph.call('up', '--detach')
+
+    assert up.returncode == 1
+    assert 'sumo_bridge ended before it was ready' in up.stderr
+    assert 'no map here' in up.stderr
+    assert str(graph.run_dir / 'log' / 'sumo_bridge.log') in up.stderr
+    assert graph.alive() == []
+
+
+def test_a_node_that_never_serves_fails_up_after_the_time_limit(graph: Graph) -> None:
+    graph.set_node('parser', SILENT)
+
+    up = graph.call('up', '--detach', '--timeout', '1')
+
+    assert up.returncode == 1
+    assert 'parser was not ready after 1 s' in up.stderr
+    assert graph.alive() == []
+
+
+def test_a_node_that_ignores_sigint_gets_sigterm(graph: Graph) -> None:
+    graph.set_node('sync', STUBBORN)
+    graph.call('up', '--detach')
+
+    down = graph.call('down')
+
+    assert down.returncode == 0
+    assert 'sync stopped (only SIGTERM did it)' in down.stdout
+
+
+def test_ctrl_c_in_the_foreground_stops_everything(graph: Graph) -> None:
+    up = graph.foreground()
+
+    up.send_signal(signal.SIGINT)
+
+    assert up.wait(timeout=DEADLINE_S) == 130
+    assert sorted(graph.order()) == sorted(NODES)
+
+
+def test_a_node_that_dies_ends_up_with_its_name(graph: Graph) -> None:
+    graph.set_node('monitor', MORTAL)
+    up = graph.foreground()
+
+    (graph.folder / 'order.die').touch()
+    output, _ = up.communicate(timeout=DEADLINE_S)
+
+    assert up.returncode == 1
+    assert 'monitor ended; its log:' in output
+    assert graph.alive() == []
+
+
+def test_down_from_another_shell_ends_a_foreground_up_quietly(graph: Graph) -> None:
+    up = graph.foreground()
+
+    assert graph.call('down').returncode == 0
+
+    output, _ = up.communicate(timeout=DEADLINE_S)
+    assert up.returncode == 0
+    assert 'error' not in output
+
+
+def test_down_never_signals_a_process_that_took_over_the_id(graph: Graph) -> None:
+    stranger = subprocess.Popen([sys.executable, '-c', 'input()'], stdin=subprocess.PIPE)
+    try:
+        graph.run_dir.mkdir(parents=True)
+        (graph.run_dir / 'sync.pid').write_text(f'{stranger.pid} 1\n')
+
+        assert graph.call('down').returncode == 0
+
+        assert stranger.poll() is None
+        assert not (graph.run_dir / 'sync.pid').exists()
+    finally:
+        stranger.kill()
+        stranger.wait()
+
+
+def test_the_previous_log_is_kept_once(graph: Graph) -> None:
+    log = graph.run_dir / 'log' / 'sync.log'
+    for text in ('first', 'second'):
+        graph.set_node('sync', f'echo {text}\n{GOOD}')
+        graph.call('up', '--detach')
+        graph.call('down')
+
+    assert log.read_text() == 'second\n'
+    assert log.with_name('sync.log.1').read_text() == 'first\n'
+
+
+@pytest.mark.parametrize('arguments', [('--unknown',), ('--timeout', 'soon')])
+def test_wrong_arguments_start_nothing(graph: Graph, arguments: tuple[str, ...]) -> None:
+    assert graph.call('up', *arguments).returncode != 0
+    assert graph.alive() == []

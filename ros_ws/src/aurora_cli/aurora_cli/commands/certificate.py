@@ -1,0 +1,103 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""`aurora certificate check`: 0 valid, 1 refuted, 4 unreadable."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from aurora_cli.output import answer_console, print_json
+from aurora_cli.recheck import recheck
+from aurora_core.errors import ReportError
+from aurora_core.feasibility.verdict import Certificate
+from aurora_core.report.terminal import headline, line
+
+_REFUTED = 1
+
+
+def certificate_command(file: Path, *, as_json: bool) -> int:
+    """Check every certificate in a file and return the exit code.
+
+    Raises:
+        ReportError: The file cannot be read, or holds no certificate.
+    """
+    path = file / 'report.json' if file.is_dir() else file
+    document = _read(path)
+    proofs = _certificates(document, path)
+    spec = _spec_beside(path)
+    findings = [recheck(proof, spec) for proof in proofs]
+    valid = all(finding.valid for finding in findings)
+    if as_json:
+        print_json(
+            {
+                'file': str(path),
+                'valid': valid,
+                'with_specification': spec is not None,
+                'certificates': [
+                    {
+                        'kind': proof.kind,
+                        'sentence': proof.sentence,
+                        'valid': finding.valid,
+                        'steps': list(finding.steps),
+                    }
+                    for proof, finding in zip(proofs, findings, strict=True)
+                ],
+            }
+        )
+    else:
+        console = answer_console()
+        for proof, finding in zip(proofs, findings, strict=True):
+            word, colour = ('valid', 'green') if finding.valid else ('refuted', 'red')
+            headline(console, word, colour, proof.sentence)
+            for step in finding.steps:
+                line(console, f'  {step}')
+        if spec is None:
+            line(console, 'no specification beside it: what the prompt says was not checked')
+    return 0 if valid else _REFUTED
+
+
+def _read(path: Path) -> Any:
+    try:
+        return json.loads(path.read_bytes())
+    except (OSError, ValueError) as err:
+        raise ReportError(
+            f'{path} cannot be read as JSON: {err}',
+            hint='name feasibility.<k>.json or report.json of a run, or a run folder',
+        ) from err
+
+
+def _certificates(document: Any, path: Path) -> tuple[Certificate, ...]:
+    """Return the certificates of a report, a feasibility verdict, a list or one certificate."""
+    found = document
+    for key in ('feasibility', 'certificates'):
+        if isinstance(found, dict) and key in found:
+            found = found[key]
+    if isinstance(found, dict):
+        found = [found]
+    try:
+        proofs = tuple(Certificate.model_validate(entry) for entry in found or ())
+    except (ValidationError, TypeError) as err:
+        raise ReportError(f'{path} holds something else than certificates: {err}') from err
+    if not proofs:
+        raise ReportError(
+            f'{path} holds no certificate', hint='only a run that is infeasible has one'
+        )
+    return proofs
+
+
+def _spec_beside(path: Path) -> dict[str, Any] | None:
+    """Return the specification of the same run, the prompt alone, or None."""
+    parts = path.name.split('.')
+    number = parts[1] if len(parts) == 3 and parts[1].isdigit() else '0'
+    spec = path.with_name(f'spec.{number}.json')
+    if spec.exists():
+        value = _read(spec)
+        return value if isinstance(value, dict) else None
+    prompt = path.with_name('prompt.txt')
+    if prompt.exists():
+        return {'prompt': prompt.read_text(encoding='utf-8', errors='replace')}
+    return None

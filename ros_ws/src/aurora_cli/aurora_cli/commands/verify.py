@@ -1,0 +1,53 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""`aurora verify`: recompute every margin from a bag alone."""
+
+from __future__ import annotations
+
+from aurora_cli.bags import find_bag
+from aurora_cli.output import answer_console, print_json, quiet_stdout
+from aurora_core.conditions.condition import conditions_from_json
+from aurora_core.monitor.verify import verify
+from aurora_core.pipeline.functions import load_bag
+from aurora_core.report.run_folder import StageFile
+from aurora_core.report.terminal import print_verify
+from aurora_core.report.verify_report import (
+    Comparison,
+    VerifyReport,
+    compare,
+    read_recorded,
+    verify_exit_code,
+)
+from aurora_core.trace.hashing import trace_sha256
+
+
+def verify_command(run_or_bag: str, iteration: int | None, *, as_json: bool) -> int:
+    """Verify a bag and return the exit code.
+
+    Raises:
+        UsageProblem: There is no such run or bag.
+        AuroraError: The bag holds nothing that could be judged.
+    """
+    found = find_bag(run_or_bag, iteration)
+    with quiet_stdout():
+        content, agsg = load_bag(found.bag)
+        conditions = conditions_from_json(content.world.conditions_json)
+        verdict = verify(content.trace, content.world, conditions, agsg.spec)
+        recorded: Comparison | None = None
+        if found.run is not None and found.iteration is not None:
+            name = StageFile.VERDICT.name_at(found.iteration)
+            written = read_recorded(found.run / name)
+            if written is not None:
+                recorded = compare(written, verdict, name)
+        report = VerifyReport(
+            bag=str(found.bag),
+            ticks=content.trace.ticks,
+            trace_sha256=trace_sha256(content.trace, content.world),
+            verdict=verdict,
+            recorded=recorded,
+        )
+    if as_json:
+        print_json(report)
+    else:
+        print_verify(report, answer_console())
+    return int(verify_exit_code(report))

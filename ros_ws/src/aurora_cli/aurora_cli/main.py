@@ -1,0 +1,258 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The `aurora` command. Options only; what a command does is imported when it is called."""
+
+from __future__ import annotations
+
+import os
+import sys
+import traceback
+from collections.abc import Callable
+from pathlib import Path
+from typing import Annotated, NoReturn, cast
+
+import typer
+
+from aurora_cli.output import BROKEN, INTERRUPTED, USAGE, UsageProblem, print_error, say
+from aurora_core.errors import AuroraError
+
+# Typer carries its own copy of click: the class is reached through one that it exports.
+_USAGE_ERROR = cast(type[Exception], typer.BadParameter.__mro__[1])
+
+app = typer.Typer(
+    name='aurora',
+    help='Compile a prompt into a scenario, check it, run it, verify it.',
+    add_completion=False,
+    no_args_is_help=False,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+    context_settings={'help_option_names': ['-h', '--help']},
+)
+maps = typer.Typer(help='The maps of the configuration.', rich_markup_mode=None)
+certificate = typer.Typer(help='Certificates of infeasibility.', rich_markup_mode=None)
+bag = typer.Typer(help='Recordings.', rich_markup_mode=None, hidden=True)
+app.add_typer(maps, name='map')
+app.add_typer(certificate, name='certificate')
+app.add_typer(bag, name='bag')
+
+Json = Annotated[bool, typer.Option('--json', help='One JSON document on standard output.')]
+Prompt = Annotated[
+    str | None, typer.Argument(metavar='[PROMPT]', help='The prompt, or - for standard input.')
+]
+PromptFile = Annotated[
+    Path | None, typer.Option('--prompt-file', metavar='FILE', help='Read the prompt from a file.')
+]
+Model = Annotated[str, typer.Option(help='Language model; offline needs no key and no network.')]
+Seed = Annotated[int, typer.Option(help='Seed of everything that is drawn.')]
+Map = Annotated[str, typer.Option('--map', help='Map, see: aurora map list.')]
+RunOrBag = Annotated[str, typer.Argument(metavar='RUN_OR_BAG', help='Run folder, run id or bag.')]
+Iteration = Annotated[
+    int | None, typer.Option(min=0, help='Repair iteration, counted from 0; default: the last.')
+]
+Anything = {'allow_extra_args': True, 'ignore_unknown_options': True}
+
+
+def _finish(command: Callable[[], int], *, as_json: bool) -> NoReturn:
+    """Run a command and leave with its exit code; what broke is told, never dumped."""
+    try:
+        code = command()
+    except AuroraError as err:
+        print_error(err, as_json=as_json)
+        code = BROKEN
+    raise typer.Exit(code)
+
+
+@app.command('run')
+def run_prompt(
+    prompt: Prompt = None,
+    prompt_file: PromptFile = None,
+    engine: Annotated[str, typer.Option(help='local (one process) or ros (the graph).')] = 'local',
+    model: Model = 'offline',
+    seed: Seed = 1,
+    map_name: Map = 'downtown',
+    out: Annotated[Path, typer.Option(help='Folder of the run folders.')] = Path('runs'),
+    allow_relax: Annotated[
+        bool, typer.Option('--allow-relax', help='Repair may change the request itself.')
+    ] = False,
+    fault: Annotated[
+        list[str] | None,
+        typer.Option(metavar='JSON', help='Inject a run-time fault (for tests; repeatable).'),
+    ] = None,
+    seeds: Annotated[
+        int | None, typer.Option(help='Not available in this version.', hidden=True)
+    ] = None,
+    as_json: Json = False,
+) -> None:
+    """Run a prompt through the whole chain and say what came of it."""
+
+    def command() -> int:
+        from aurora_cli.commands.run import run_command
+        from aurora_cli.requests import RunOptions
+
+        options = RunOptions(
+            engine=engine,
+            model=model,
+            seed=seed,
+            map_name=map_name,
+            out=out,
+            allow_relax=allow_relax,
+            seeds=seeds,
+            faults=tuple(fault or ()),
+        )
+        return run_command(prompt, prompt_file, options, as_json=as_json)
+
+    _finish(command, as_json=as_json)
+
+
+@app.command('check')
+def check_prompt(
+    prompt: Prompt = None,
+    prompt_file: PromptFile = None,
+    model: Model = 'offline',
+    seed: Seed = 1,
+    map_name: Map = 'downtown',
+    as_json: Json = False,
+) -> None:
+    """Parse, ground and judge feasibility; nothing is simulated."""
+
+    def command() -> int:
+        from aurora_cli.commands.check import check_command
+        from aurora_cli.requests import RunOptions
+
+        options = RunOptions(model=model, seed=seed, map_name=map_name)
+        return check_command(prompt, prompt_file, options, as_json=as_json)
+
+    _finish(command, as_json=as_json)
+
+
+@app.command('verify')
+def verify_bag(run_or_bag: RunOrBag, iteration: Iteration = None, as_json: Json = False) -> None:
+    """Recompute every margin from the bag alone, and compare with the record."""
+
+    def command() -> int:
+        from aurora_cli.commands.verify import verify_command
+
+        return verify_command(run_or_bag, iteration, as_json=as_json)
+
+    _finish(command, as_json=as_json)
+
+
+@app.command('picture')
+def draw_run(
+    run_or_bag: RunOrBag,
+    output: Annotated[Path, typer.Option('-o', '--output', help='PNG or SVG file to write.')],
+    iteration: Iteration = None,
+    as_json: Json = False,
+) -> None:
+    """Draw a recorded run: map, trajectories, events, distances over time."""
+
+    def command() -> int:
+        from aurora_cli.commands.picture import picture_command
+
+        return picture_command(run_or_bag, output, iteration, as_json=as_json)
+
+    _finish(command, as_json=as_json)
+
+
+@maps.command('list')
+def list_maps(as_json: Json = False) -> None:
+    """List the maps."""
+
+    def command() -> int:
+        from aurora_cli.commands.maps import list_command
+
+        return list_command(as_json=as_json)
+
+    _finish(command, as_json=as_json)
+
+
+@maps.command('show')
+def show_map(
+    name: Annotated[str, typer.Argument(help='Name of the map.')],
+    picture: Annotated[
+        Path | None, typer.Option(metavar='FILE', help='Draw it into a PNG or SVG file.')
+    ] = None,
+    as_json: Json = False,
+) -> None:
+    """Show what a map has."""
+
+    def command() -> int:
+        from aurora_cli.commands.maps import show_command
+
+        return show_command(name, picture, as_json=as_json)
+
+    _finish(command, as_json=as_json)
+
+
+@certificate.command('check')
+def check_certificate(
+    file: Annotated[Path, typer.Argument(help='feasibility.<k>.json, report.json or a proof.')],
+    as_json: Json = False,
+) -> None:
+    """Check certificates of infeasibility again, with separate code."""
+
+    def command() -> int:
+        from aurora_cli.commands.certificate import certificate_command
+
+        return certificate_command(file, as_json=as_json)
+
+    _finish(command, as_json=as_json)
+
+
+def _later(name: str) -> Callable[[], None]:
+    def command() -> None:
+        raise UsageProblem(f'{name} is not available in this version')
+
+    command.__doc__ = 'Not available in this version.'
+    return command
+
+
+for _group, _path in (
+    (app, 'diff'),
+    (app, 'doctor'),
+    (app, 'bench'),
+    (maps, 'map import'),
+    (maps, 'map measure'),
+    (bag, 'bag recover'),
+):
+    _group.command(
+        _path.rpartition(' ')[2], hidden=True, context_settings=Anything, add_help_option=False
+    )(_later(_path))
+
+
+def main() -> NoReturn:
+    """Run the command line; usage errors leave with 64, Ctrl-C with 130."""
+    sys.exit(run_command_line(sys.argv[1:]))
+
+
+def run_command_line(arguments: list[str]) -> int:
+    """Run one command line and return its exit code."""
+    if not arguments:
+        arguments = ['--help']
+    try:
+        result = app(arguments, prog_name='aurora', standalone_mode=False)
+    except UsageProblem as err:
+        say(f'aurora: {err}')
+        return USAGE
+    except _USAGE_ERROR as err:
+        say(f'aurora: {_usage_text(err)}')
+        return USAGE
+    except (KeyboardInterrupt, typer.Abort):
+        say('aurora: cancelled')
+        return INTERRUPTED
+    except BrokenPipeError:
+        # Whoever read our answer has left; nobody is there to be told.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+        return BROKEN
+    except Exception as err:  # noqa: BLE001  (the last place that can turn a defect into words)
+        if os.environ.get('AURORA_TRACEBACK'):
+            traceback.print_exc()
+        say(f'aurora: this is a defect of AURORA: {type(err).__name__}: {err}')
+        say('        set AURORA_TRACEBACK=1 to see where, and please report it')
+        return BROKEN
+    return int(result or 0)
+
+
+def _usage_text(err: BaseException) -> str:
+    text = str(err.format_message()) if hasattr(err, 'format_message') else str(err)
+    return f'{text} (try aurora --help)'

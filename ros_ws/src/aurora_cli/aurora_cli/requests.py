@@ -1,0 +1,111 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Turn what was typed into a request that the pipeline takes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import cast
+
+from pydantic import ValidationError
+
+from aurora_cli.output import UsageProblem
+from aurora_core.errors import PromptError
+from aurora_core.execution.faults import Fault
+from aurora_core.knowledge.map_model import list_maps
+from aurora_core.parsing.outcome import ParseOutcome
+from aurora_core.parsing.text import check_prompt_text
+from aurora_core.pipeline.stages import RunRequest
+from aurora_core.report.facts import RunFacts
+from aurora_core.report.versions import product_versions
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RunOptions:
+    """Options of `aurora run` and `aurora check` as typed."""
+
+    engine: str = 'local'
+    model: str = 'offline'
+    seed: int = 1
+    map_name: str = 'downtown'
+    out: Path = Path('runs')
+    allow_relax: bool = False
+    seeds: int | None = None
+    faults: tuple[str, ...] = ()
+
+
+def checked(options: RunOptions) -> RunRequest:
+    """Return the request without its prompt.
+
+    Raises:
+        UsageProblem: An option names something that is not there.
+    """
+    if options.seeds is not None:
+        raise UsageProblem('--seeds is not available in this version: run each seed by itself')
+    if options.model != 'offline':
+        raise UsageProblem(
+            f'--model {options.model} is not available in this version: only offline is'
+        )
+    if options.engine not in ('local', 'ros'):
+        raise UsageProblem(f'--engine is local or ros, found {options.engine}')
+    if options.seed < 0:
+        raise UsageProblem(f'--seed counts from 0, found {options.seed}')
+    known = list_maps()
+    if options.map_name not in known:
+        raise UsageProblem(f'there is no map {options.map_name}; there are {", ".join(known)}')
+    return RunRequest.model_validate(
+        {
+            'prompt': '',
+            'map_name': options.map_name,
+            'seed': options.seed,
+            'engine': options.engine,
+            'allow_relax': options.allow_relax,
+            'faults': tuple(fault(text) for text in options.faults),
+        }
+    )
+
+
+def fault(text: str) -> Fault:
+    """Return the fault of a `--fault` option.
+
+    Raises:
+        UsageProblem: The text is not the JSON of one.
+    """
+    try:
+        return Fault.model_validate_json(text)
+    except ValidationError as err:
+        first = err.errors()[0]
+        where = '.'.join(str(part) for part in first['loc'])
+        raise UsageProblem(
+            f'--fault takes JSON such as {{"kind": "link_loss", "subject": "*", "value": 1.0}}; '
+            f'{where + ": " if where else ""}{first["msg"]}'
+        ) from err
+
+
+def with_prompt(request: RunRequest, raw: bytes) -> RunRequest | PromptError:
+    """Return the request with its prompt, or why the bytes cannot be one."""
+    try:
+        prompt = check_prompt_text(raw)
+    except PromptError as err:
+        return err
+    return RunRequest.model_validate({**request.model_dump(), 'prompt': prompt})
+
+
+def unreadable(request: RunRequest, raw: bytes, err: PromptError, run_id: str) -> RunFacts:
+    """Return the facts of a run whose prompt cannot be read: a question, no traceback."""
+    question = f'What is to be simulated? {err.message[:1].upper()}{err.message[1:]}'
+    if err.hint:
+        question += f'; {err.hint}'
+    return RunFacts(
+        run_id=run_id,
+        # For people; prompt.txt holds the bytes.
+        prompt=raw.decode('utf-8', 'replace').replace('\x00', '\ufffd'),
+        engine=cast(str, request.engine),
+        model=request.model,
+        map_name=request.map_name,
+        seed=request.seed,
+        versions=product_versions(),
+        faults=request.faults,
+        parse=ParseOutcome(question=question),
+    )

@@ -1,0 +1,189 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""`--engine ros`: hand a prompt to the running graph, or to one that is started for it.
+
+The only module of the command that imports ROS; it is imported for this engine alone.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from aurora_cli.output import say
+from aurora_core.errors import ExecutionError
+from aurora_core.pipeline.stages import RunControl, RunRequest
+from aurora_core.report.run_report import RunReport
+
+try:
+    import rclpy
+    from rclpy.action import ActionClient
+    from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+    from rclpy.node import Node
+    from rclpy.signals import SignalHandlerOptions
+
+    from aurora_msgs.action import RunScenario
+    from aurora_ros import interfaces as on
+    from aurora_ros.call import Caller
+    from aurora_ros.conversions.options import options_json
+    from aurora_ros.heartbeat import HeartbeatWatch
+except ImportError as err:
+    raise ExecutionError(
+        f'the engine ros needs ROS 2 and the built workspace: {err}',
+        hint='make setup, then source ros_ws/setup.bash; or use --engine local',
+        component='aurora_cli',
+    ) from err
+
+# Wall-clock limits.
+_DISCOVERY_S = 3.0
+_DISCOVERY_AFTER_START_S = 20.0
+_START_S = 90
+_STOP_S = 30.0
+_RUN_S = 2 * 3600.0
+_CANCEL_S = 30.0
+_LOOK_S = 0.1
+
+_UP = ('ros2', 'run', 'aurora_bringup', 'up', '--detach', '--timeout', str(_START_S))
+_DOWN = ('ros2', 'run', 'aurora_bringup', 'down')
+
+
+def run_over_ros(
+    request: RunRequest, root: Path, control: RunControl
+) -> tuple[RunReport, Path]:
+    """Run a prompt on the graph and return its report and run folder.
+
+    Args:
+        request: Prompt and options.
+        root: Folder of the run folders (absolute; the graph runs on this machine).
+        control: Progress and cancel.
+
+    Raises:
+        ExecutionError: The graph cannot be reached or started, or it gave no report.
+        KeyboardInterrupt: Cancelled before the run began.
+    """
+    with _client_node() as node, _graph(node, control.cancelled):
+        caller = Caller(node, HeartbeatWatch(node))
+        caller.prepare(on.RUN)
+        result = caller.action(
+            on.RUN,
+            RunScenario.Goal(
+                prompt=request.prompt,
+                prompt_bytes=len(request.prompt.encode('utf-8')),
+                options_json=options_json(request, root),
+            ),
+            _RUN_S,
+            on_feedback=lambda feedback: control.progress(
+                feedback.stage, feedback.fraction, feedback.sim_time_s
+            ),
+            cancelled=control.cancelled,
+            cancel_limit_s=_CANCEL_S,
+        )
+    return _report(result), Path(result.run_dir)
+
+
+def _report(result: Any) -> RunReport:
+    try:
+        return RunReport.model_validate_json(str(result.report_json))
+    except ValidationError as err:
+        raise ExecutionError(
+            f'the orchestrator gave no readable report (status {result.status!r})',
+            hint=f'see the run folder {result.run_dir} and the log of the orchestrator',
+            component='orchestrator',
+        ) from err
+
+
+@contextmanager
+def _client_node() -> Iterator[Node]:
+    """A node that is served by a thread of its own meanwhile."""
+    # Signals stay with us: rclpy's handlers would end the context before the run is cancelled.
+    rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
+    node = Node(f'cli_{os.getpid()}', namespace=on.NAMESPACE)
+    executor = SingleThreadedExecutor()
+    executor.add_node(node)
+
+    def spin() -> None:
+        try:
+            executor.spin()
+        except ExternalShutdownException:
+            return
+
+    thread = threading.Thread(target=spin, name='rclpy', daemon=True)
+    thread.start()
+    try:
+        yield node
+    finally:
+        executor.shutdown(timeout_sec=1.0)
+        thread.join(timeout=2.0)
+        node.destroy_node()
+        rclpy.try_shutdown()
+
+
+@contextmanager
+def _graph(node: Node, cancelled: Callable[[], bool]) -> Iterator[None]:
+    """The running graph, else one that is started here and stopped afterwards."""
+    if _is_served(node, _DISCOVERY_S):
+        yield
+        return
+    say('aurora: no graph is running, starting one')
+    try:
+        _start(cancelled)
+        if not _is_served(node, _DISCOVERY_AFTER_START_S):
+            raise ExecutionError(
+                f'the graph was started, but nobody serves {on.RUN.name}',
+                hint='is ROS_DOMAIN_ID the same in every shell?',
+                component='aurora_cli',
+            )
+        yield
+    finally:
+        _call(_DOWN, lambda: False, _STOP_S)
+
+
+def _is_served(node: Node, limit_s: float) -> bool:
+    client = ActionClient(node, on.RUN.type, on.RUN.name)
+    try:
+        return bool(client.wait_for_server(timeout_sec=limit_s))
+    finally:
+        client.destroy()
+
+
+def _start(cancelled: Callable[[], bool]) -> None:
+    code = _call(_UP, cancelled, _START_S + 10.0)
+    if cancelled():
+        raise KeyboardInterrupt
+    if code != 0:
+        raise ExecutionError(
+            f'{" ".join(_UP)} ended with {code}',
+            hint='its messages are above; make setup builds what it needs',
+            component='aurora_cli',
+        )
+
+
+def _call(command: tuple[str, ...], cancelled: Callable[[], bool], limit_s: float) -> int:
+    """Run a command out of reach of a Ctrl-C, its output on standard error; return its code."""
+    try:
+        # A session of its own: a Ctrl-C is for us, and we tell it when to stop.
+        process = subprocess.Popen(
+            command, stdin=subprocess.DEVNULL, stdout=sys.stderr, start_new_session=True
+        )
+    except OSError as err:
+        raise ExecutionError(
+            f'{command[0]} cannot be started: {err.strerror or err}',
+            hint='source ros_ws/setup.bash puts it on PATH',
+            component='aurora_cli',
+        ) from err
+    waited_s = 0.0
+    while True:
+        try:
+            return process.wait(timeout=_LOOK_S)
+        except subprocess.TimeoutExpired:
+            waited_s += _LOOK_S
+            if cancelled() or waited_s > limit_s:
+                process.terminate()

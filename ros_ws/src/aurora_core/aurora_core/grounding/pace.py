@@ -1,0 +1,67 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""How fast a convoy may drive so that what is asked of the UAVs can come true, and who closes in.
+
+Speeds that the prompt does not state are free: a tracked or observed convoy is slowed, and when two
+vehicles have to meet, the front one drives slowly enough for the rear one to catch up.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from aurora_core.knowledge.limits import Limits
+from aurora_core.knowledge.settings import GroundingSettings
+from aurora_core.spec.scenario import DistanceTrigger, GroundAgent, ScenarioSpec
+from aurora_core.spec.vocabulary import AgentType, MissionMode
+
+# An observed convoy covers at most this share of the sensing range during a hover.
+_OBSERVED_SHARE = 0.5
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Encounter:
+    """Two vehicles that have to come closer than a trigger distance."""
+
+    actor: str
+    other: str
+    within_m: float
+
+
+def encounters(spec: ScenarioSpec) -> tuple[Encounter, ...]:
+    """Return the pairs of vehicles that an event waits for to come close."""
+    vehicles = {a.id for a in spec.agents if a.type is not AgentType.PEDESTRIAN}
+    return tuple(
+        Encounter(actor=t.a, other=t.b, within_m=t.value_m.value)
+        for t in (e.trigger for e in spec.events)
+        if isinstance(t, DistanceTrigger)
+        and t.on == 'distance_below'
+        and t.a in vehicles
+        and t.b in vehicles
+    )
+
+
+def moves(spec: ScenarioSpec, agent: GroundAgent) -> bool:
+    """Whether the prompt says or implies that an agent moves while it is observed."""
+    tied = any(
+        any(p.of == agent.id and p.kept_in_motion for p in a.placements)
+        or any(b.target == agent.id for b in a.behaviors)
+        for a in spec.agents
+    )
+    acted = any(getattr(e.action, 'agent', None) == agent.id for e in spec.events)
+    met = any(agent.id in (m.actor, m.other) for m in encounters(spec))
+    return bool(agent.behaviors) or tied or acted or met
+
+
+def convoy_pace_mps(spec: ScenarioSpec, limits: Limits, settings: GroundingSettings) -> float:
+    """Return the speed at which a tracked or observed convoy drives where the road allows it."""
+    pace = settings.target_speed_mps
+    range_m = limits.sensing_range(spec.world.weather.value, spec.world.time_of_day.value)
+    agents = {a.id: a for a in spec.agents}
+    for mission in spec.missions:
+        target = agents.get(mission.target or '')
+        hovers = mission.mode is MissionMode.HOVER and mission.duration_s is not None
+        if hovers and target is not None and moves(spec, target):
+            assert mission.duration_s is not None
+            pace = min(pace, _OBSERVED_SHARE * range_m / mission.duration_s.value)
+    return pace

@@ -1,0 +1,193 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Build the report of a run from what its stages left behind."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import math
+
+from aurora_core.agsg.graph import Agsg
+from aurora_core.conditions.condition import Condition, conditions_from_json
+from aurora_core.feasibility.verdict import Certificate, Feasibility, FeasibilityVerdict
+from aurora_core.parsing.outcome import ParseOutcome, Refusal
+from aurora_core.report.clauses import clause_reports
+from aurora_core.report.facts import RunFacts
+from aurora_core.report.judged import condition_reports, is_undecided
+from aurora_core.report.run_report import (
+    ClauseReport,
+    ConditionReport,
+    Digests,
+    ErrorReport,
+    Metrics,
+    RealisedReport,
+    RunReport,
+    TraceReport,
+)
+from aurora_core.report.status import StatusFacts, status_of
+from aurora_core.report.summary import summary_of
+from aurora_core.spec.vocabulary import ClauseStatus
+
+
+def build_report(facts: RunFacts) -> RunReport:
+    """Return the report of a run, however far it got.
+
+    Raises:
+        VerificationError: The conditions of the graph cannot be read.
+    """
+    feasibility = _feasibility(facts)
+    clauses = clause_reports(facts)
+    graph = facts.graph
+    conditions = conditions_from_json(graph.conditions_json) if graph is not None else ()
+    rows = (
+        condition_reports(facts.prompt, clauses, facts.verdict)
+        if facts.verdict is not None
+        else ()
+    )
+    status = status_of(_status_facts(facts, feasibility, clauses, rows, conditions))
+    report = RunReport(
+        run_id=facts.run_id,
+        status=status,
+        summary='',
+        prompt=facts.prompt,
+        engine=facts.engine,
+        model=facts.model,
+        map=facts.map_name,
+        seed=facts.seed,
+        versions=dict(sorted(facts.versions.items())),
+        digests=_digests(facts, graph),
+        limits=facts.limits,
+        clauses=clauses,
+        conditions=rows,
+        feasibility=feasibility,
+        repairs=facts.repairs,
+        metrics=_metrics(facts, clauses, rows),
+        timing=dict(facts.timing),
+        trace=_trace(facts),
+        question=facts.parse.question if facts.parse is not None else None,
+        error=_error(facts),
+        faults=facts.faults,
+        requested_and_realised=_realised(graph),
+    )
+    values = {name: getattr(report, name) for name in RunReport.model_fields}
+    return RunReport(**{**values, 'summary': summary_of(report, facts.grounding)})
+
+
+def _status_facts(
+    facts: RunFacts,
+    feasibility: FeasibilityVerdict | None,
+    clauses: tuple[ClauseReport, ...],
+    rows: tuple[ConditionReport, ...],
+    conditions: tuple[Condition, ...],
+) -> StatusFacts:
+    verdict = facts.verdict
+    judged = verdict is not None and {r.id for r in rows} >= {c.id for c in conditions}
+    return StatusFacts(
+        error=facts.error is not None,
+        cancelled=facts.cancelled,
+        understood=_understood(facts.parse),
+        infeasible=feasibility is not None and feasibility.result is Feasibility.INFEASIBLE,
+        judged=judged and bool(rows),
+        undecided=verdict is not None and is_undecided(verdict),
+        violated=not all(row.satisfied and row.exercised for row in rows),
+        encoded=all(clause.status is not ClauseStatus.NOT_ENCODED for clause in clauses),
+        edited=facts.relaxed,
+    )
+
+
+def _understood(parse: ParseOutcome | None) -> bool:
+    return parse is not None and (parse.spec is not None or bool(parse.refusals))
+
+
+def _feasibility(facts: RunFacts) -> FeasibilityVerdict | None:
+    """Return the verdict of the check; what the parser refused is a proof as well."""
+    if facts.parse is not None and facts.parse.refusals:
+        return FeasibilityVerdict(
+            result=Feasibility.INFEASIBLE,
+            certificates=tuple(refusal_certificate(r) for r in facts.parse.refusals),
+        )
+    return facts.feasibility
+
+
+def refusal_certificate(refusal: Refusal) -> Certificate:
+    """Return the certificate of something that the closed list of map or vocabulary lacks."""
+    return Certificate(
+        kind=refusal.kind.value,
+        reason=refusal.kind.value,
+        path=refusal.list_name,
+        word=refusal.word,
+        listing=refusal.closed_list,
+        span=refusal.span,
+        sentence=refusal.sentence(),
+    )
+
+
+def _digests(facts: RunFacts, graph: Agsg | None) -> Digests:
+    spec = graph.spec if graph is not None else (facts.parse.spec if facts.parse else None)
+    return Digests(
+        prompt=_sha256(facts.prompt),
+        map=facts.map_digest or (graph.map_digest if graph is not None else ''),
+        spec=_sha256(spec.canonical_json()) if spec is not None else '',
+        agsg=graph.sha256 if graph is not None else '',
+    )
+
+
+def _sha256(text: str) -> str:
+    return hashlib.sha256(text.encode('utf-8', 'surrogatepass')).hexdigest()
+
+
+def _metrics(
+    facts: RunFacts, clauses: tuple[ClauseReport, ...], rows: tuple[ConditionReport, ...]
+) -> Metrics:
+    worst = facts.verdict.worst if facts.verdict is not None else None
+    execution = facts.execution
+    return Metrics(
+        conditions=len(rows),
+        satisfied=sum(row.satisfied for row in rows),
+        worst_condition=worst.id if worst is not None else None,
+        worst_normalised=worst.normalised if worst is not None else None,
+        clauses=len(clauses),
+        clauses_encoded=sum(clause.status is ClauseStatus.ENCODED for clause in clauses),
+        iterations=facts.iterations,
+        simulated_s=max(execution.ticks - 1, 0) * execution.dt_s if execution else None,
+    )
+
+
+def _trace(facts: RunFacts) -> TraceReport | None:
+    execution, verdict = facts.execution, facts.verdict
+    if execution is None or verdict is None:
+        return None
+    return TraceReport(
+        bag=execution.bag,
+        ticks=execution.ticks,
+        sha256=execution.trace_sha256,
+        integrity=verdict.integrity,
+        notes=verdict.notes,
+        cross_check=verdict.cross_check,
+        verdict=verdict.status,
+    )
+
+
+def _error(facts: RunFacts) -> ErrorReport | None:
+    err = facts.error
+    if err is None:
+        return None
+    return ErrorReport(code=err.code, component=err.component, message=err.message, hint=err.hint)
+
+
+def _realised(graph: Agsg | None) -> tuple[RealisedReport, ...]:
+    if graph is None or not graph.grounding_json:
+        return ()
+    units = {parameter.path: parameter.unit.value for parameter in graph.parameters}
+    return tuple(
+        RealisedReport(
+            path=value['path'],
+            requested=value['requested'],
+            realised=value['realised'],
+            unit=units.get(value['path'], ''),
+            provenance=value['provenance'],
+        )
+        for value in json.loads(graph.grounding_json).get('realised', ())
+        if math.isfinite(value['realised'])
+    )

@@ -1,0 +1,68 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""What became of every clause of the prompt, with what grounding could not realise marked."""
+
+from __future__ import annotations
+
+from aurora_core.parsing.outcome import ParseOutcome
+from aurora_core.report.facts import RunFacts
+from aurora_core.report.run_report import ClauseReport
+from aurora_core.spec.parameter import Span
+from aurora_core.spec.scenario import Clause
+from aurora_core.spec.vocabulary import ClauseStatus
+
+
+def clause_reports(facts: RunFacts) -> tuple[ClauseReport, ...]:
+    """Return the clauses in the order of the prompt.
+
+    A clause whose element cannot be executed or judged yet is `not_encoded` and names the
+    capability that is missing; an element that no clause claims stands as a clause of its own, so
+    that it cannot get lost.
+    """
+    missing = _missing(facts)
+    reports = [_report(clause, missing) for clause in _clauses(facts.parse)]
+    claimed = {name for clause in reports for name in clause.ids}
+    for element, what in missing.items():
+        if element not in claimed and facts.prompt:
+            reports.append(
+                ClauseReport(
+                    text=facts.prompt,
+                    span=Span(start=0, end=len(facts.prompt)),
+                    status=ClauseStatus.NOT_ENCODED,
+                    ids=(element,) if element else (),
+                    note=what,
+                )
+            )
+    return tuple(reports)
+
+
+def _clauses(parse: ParseOutcome | None) -> tuple[Clause, ...]:
+    if parse is None:
+        return ()
+    if parse.spec is not None and parse.spec.clauses:
+        return parse.spec.clauses
+    return parse.clauses
+
+
+def _missing(facts: RunFacts) -> dict[str, str]:
+    """Return what is missing by element, from `id: what` texts."""
+    missing: dict[str, list[str]] = {}
+    for text in facts.grounding.unsupported if facts.grounding is not None else ():
+        element, separator, what = text.partition(': ')
+        key, words = (element, what) if separator else ('', text)
+        missing.setdefault(key, []).append(words)
+    return {key: '; '.join(dict.fromkeys(words)) for key, words in missing.items()}
+
+
+def _report(clause: Clause, missing: dict[str, str]) -> ClauseReport:
+    notes = [missing[name] for name in clause.ids if name in missing]
+    if clause.note:
+        notes.insert(0, clause.note)
+    lost = any(name in missing for name in clause.ids)
+    return ClauseReport(
+        text=clause.text,
+        span=clause.span,
+        status=ClauseStatus.NOT_ENCODED if lost else clause.status,
+        ids=clause.ids,
+        note='; '.join(notes),
+    )

@@ -1,0 +1,62 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The report as one self-contained page: nothing is loaded from anywhere."""
+
+from __future__ import annotations
+
+import base64
+from pathlib import Path
+
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+from aurora_core.report.run_report import RunReport
+from aurora_core.report.status import Status
+
+_TEMPLATE = 'report.html.jinja'
+
+# The kind of each status, which decides colour and symbol of the page.
+_KINDS = {
+    Status.VERIFIED: 'good',
+    Status.VERIFIED_AS_EDITED: 'good',
+    Status.INCOMPLETE: 'part',
+    Status.VIOLATED: 'bad',
+    Status.INCONCLUSIVE: 'part',
+    Status.INFEASIBLE: 'refused',
+    Status.NOT_UNDERSTOOD: 'neutral',
+    Status.ERROR: 'bad',
+    Status.CANCELLED: 'neutral',
+}
+
+
+def report_html(report: RunReport, picture_png: bytes | None = None) -> str:
+    """Return the page.
+
+    Args:
+        report: What to show; every text in it is escaped.
+        picture_png: Picture of the run, None when there is none.
+    """
+    environment = Environment(
+        loader=FileSystemLoader(Path(__file__).parent),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        keep_trailing_newline=True,
+    )
+    environment.filters['number'] = number
+    picture = base64.b64encode(picture_png).decode('ascii') if picture_png is not None else ''
+    return environment.get_template(_TEMPLATE).render(
+        report=report,
+        status=report.status.value.replace('_', ' '),
+        kind=_KINDS[report.status],
+        stated=[row for row in report.conditions if row.source],
+        safety=[row for row in report.conditions if not row.source],
+        picture=picture,
+    )
+
+
+def number(value: float | None, signed: bool = False) -> str:
+    """Return a number with four significant digits, a dash for none."""
+    if value is None:
+        return '–'
+    return f'{value:+.4g}' if signed else f'{value:.4g}'

@@ -1,0 +1,50 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Write what a run leaves for people: report.json first, then picture and page."""
+
+from __future__ import annotations
+
+from aurora_core.agsg.build import derived
+from aurora_core.agsg.message import read_agsg
+from aurora_core.errors import AuroraError
+from aurora_core.report.html import report_html
+from aurora_core.report.run_folder import PICTURE, REPORT, REPORT_HTML, RunFolder
+from aurora_core.report.run_report import RunReport
+from aurora_core.trace.bag_reader import read_bag
+from aurora_core.trace.definitions import message_definitions
+
+
+def write_outputs(report: RunReport, folder: RunFolder) -> None:
+    """Write `report.json`, the picture of the run (when there is a bag) and `report.html`.
+
+    Raises:
+        ReportError: The folder cannot be written.
+    """
+    # First, since it closes the run; what follows can be made again from it and the bag.
+    folder.write_json(REPORT, report)
+    picture = _picture(report, folder)
+    if picture is not None:
+        folder.write_bytes(PICTURE, picture)
+    folder.write_text(REPORT_HTML, report_html(report, picture))
+
+
+def _picture(report: RunReport, folder: RunFolder) -> bytes | None:
+    """Return the picture as PNG, None when there is no bag that could be drawn."""
+    if report.trace is None:
+        return None
+    # Imported here: a run that is refused needs no drawing library.
+    from aurora_core.report.picture.caption import Caption
+    from aurora_core.report.picture.draw import draw_picture, png_bytes
+
+    try:
+        content = read_bag(folder.path / report.trace.bag, message_definitions())
+        spec = (
+            read_agsg(content.agsg_message, derived).spec
+            if content.agsg_message is not None
+            else None
+        )
+    except AuroraError:
+        # A bag too damaged to read is told in the report; there is just no picture of it.
+        return None
+    figure = draw_picture(content.trace, content.world, Caption.of_report(report), spec=spec)
+    return png_bytes(figure)

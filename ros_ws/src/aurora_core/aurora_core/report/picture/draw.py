@@ -1,0 +1,432 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Compose the picture of a run and turn it into PNG or SVG, the same bytes every time."""
+
+from __future__ import annotations
+
+import io
+import textwrap
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.collections import LineCollection
+from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.patches import Patch, Rectangle
+
+from aurora_core.conditions.condition import Condition, conditions_from_json
+from aurora_core.knowledge.world import WorldModel
+from aurora_core.report.picture import style
+from aurora_core.report.picture.caption import Caption
+from aurora_core.report.picture.ground import HEIGHTS, TALL_M, draw_ground
+from aurora_core.report.picture.paths import (
+    ALTITUDES,
+    ARROW_EVERY_S,
+    PathLayer,
+    colours_of,
+    draw_scale,
+    number_badge,
+)
+from aurora_core.report.picture.placing import Placer
+from aurora_core.report.picture.placing import Rectangle as PlateRoom
+from aurora_core.report.picture.story import Moment, Tone, moments_of
+from aurora_core.report.picture.strip import (
+    draw_altitude,
+    draw_moment_lines,
+    draw_series,
+    series_of,
+)
+from aurora_core.report.picture.tracks import (
+    Box,
+    Track,
+    mission_end_tick,
+    region_of,
+    tracks_of,
+)
+from aurora_core.report.status import Status
+from aurora_core.spec.scenario import DistanceTrigger, ScenarioSpec
+from aurora_core.trace.records import LinkEventKind, ScenarioEventKind
+from aurora_core.trace.trace import Trace
+
+_SIZE_IN = (14.0, 9.6)
+_MAP = (0.012, 0.268, 0.70, 0.605)
+_PANEL = (0.722, 0.268, 0.268, 0.605)
+_ALTITUDE = (0.052, 0.148, 0.66, 0.078)
+_SERIES = (0.052, 0.045, 0.66, 0.096)
+_TIGHT = (0.722, 0.022, 0.268, 0.215)
+_PROMPT_LINES = 2
+_LANE_PT = 2.6
+# Room of scale bar and north arrow: left, bottom, width, height of the map's size.
+_SCALE_ROOM = (0.01, 0.02, 0.21, 0.08)
+_NORTH_ROOM = (0.005, 0.83, 0.05, 0.165)
+
+
+def draw_picture(
+    trace: Trace, world: WorldModel, caption: Caption, *, spec: ScenarioSpec | None = None
+) -> Figure:
+    """Draw a recorded run.
+
+    Args:
+        trace: The run; missing samples leave gaps.
+        world: Its world.
+        caption: Prompt and verdict.
+        spec: The request, for the words of missions and triggers.
+    """
+    with mpl.rc_context(style.RC):
+        figure = Figure(figsize=_SIZE_IN, facecolor=style.PAPER)
+        FigureCanvasAgg(figure)
+        tracks = tracks_of(trace)
+        conditions = conditions_from_json(world.conditions_json)
+        colours = colours_of(tracks)
+        moments = moments_of(trace, tracks, spec, caption.failures)
+        _header(figure, caption)
+        _map(figure, trace, world, tracks, conditions, colours, moments, spec)
+        _panel(figure, tracks, colours, moments, trace)
+        _diagrams(figure, trace, tracks, conditions, colours, moments, spec)
+        _tightest(figure, caption)
+        return figure
+
+
+def png_bytes(figure: Figure, dpi: int = 120) -> bytes:
+    """Return the picture as PNG without a date or version in it."""
+    stream = io.BytesIO()
+    with mpl.rc_context(style.RC):
+        figure.savefig(stream, format='png', dpi=dpi, metadata={'Software': None})
+    return stream.getvalue()
+
+
+def svg_bytes(figure: Figure) -> bytes:
+    """Return the picture as SVG without a date in it."""
+    stream = io.BytesIO()
+    with mpl.rc_context(style.RC):
+        figure.savefig(stream, format='svg', metadata={'Date': None, 'Creator': None})
+    return stream.getvalue()
+
+
+def _header(figure: Figure, caption: Caption) -> None:
+    lines = textwrap.wrap(f'“{" ".join(caption.prompt.split())}”', 104) or ['']
+    if len(lines) > _PROMPT_LINES:
+        lines = [*lines[: _PROMPT_LINES - 1], lines[_PROMPT_LINES - 1][:100] + ' …']
+    figure.text(
+        0.014, 0.981, '\n'.join(lines), fontsize=13.5, weight='bold', va='top', linespacing=1.25
+    )
+    if caption.status is None:
+        return
+    colour = style.STATUS_COLOURS[caption.status]
+    word = caption.status.value.replace('_', ' ').upper()
+    figure.text(
+        0.988,
+        0.978,
+        word,
+        fontsize=15.0,
+        weight='bold',
+        color='white',
+        ha='right',
+        va='top',
+        bbox={'boxstyle': 'round,pad=0.38', 'facecolor': colour, 'edgecolor': 'none'},
+    )
+    figure.text(0.989, 0.932, caption.held, fontsize=10.0, color=colour, ha='right', va='top')
+
+
+def _map(
+    figure: Figure,
+    trace: Trace,
+    world: WorldModel,
+    tracks: tuple[Track, ...],
+    conditions: tuple[Condition, ...],
+    colours: dict[str, str],
+    moments: tuple[Moment, ...],
+    spec: ScenarioSpec | None,
+) -> None:
+    ax = figure.add_axes(_MAP)
+    width_pt = _MAP[2] * _SIZE_IN[0] * 72.0
+    height_pt = _MAP[3] * _SIZE_IN[1] * 72.0
+    box = region_of(tracks).with_aspect(width_pt / height_pt)
+    scale = width_pt / box.width
+    ax.set_xlim(box.west, box.east)
+    ax.set_ylim(box.south, box.north)
+    ax.set_xticks([])
+    ax.set_yticks([])
+    ax.set_autoscale_on(False)
+    ways = np.concatenate([*(t.position_m[::20, :2] for t in tracks), np.empty((0, 2))])
+    draw_ground(ax, world, box, scale, ways[np.isfinite(ways).all(axis=1)])
+    layer = PathLayer(ax, box, scale, trace.roster.dt_s, Placer(width=width_pt, height=height_pt))
+    layer.reserve(tracks)
+    heights = [float(np.nanmax(t.position_m[:, 2])) for t in tracks if _flies(t)]
+    norm = Normalize(0.0, max([10.0, *heights]))
+    corner = _free_corner(tracks, box)
+    layer.placer.taken += [
+        PlateRoom(
+            left=x * width_pt, bottom=y * height_pt, width=w * width_pt, height=h * height_pt
+        )
+        for x, y, w, h in (corner, _SCALE_ROOM, _NORTH_ROOM)
+    ]
+    layer.route(conditions)
+    side: dict[str, float] = {}
+    ribbon = None
+    for track in tracks:
+        if track.is_uav and _flies(track):
+            ribbon = layer.uav(track, norm)
+    agents = sorted((t for t in tracks if not t.is_uav), key=lambda t: not t.is_background)
+    named = sum(not t.is_background for t in agents)
+    for index, track in enumerate(agents[len(agents) - named :]):
+        side[track.name] = _LANE_PT * (index - (named - 1) / 2)
+    for track in agents:
+        layer.agent(track, colours[track.name], side.get(track.name, 0.0))
+    for track in tracks:
+        if track.is_uav:
+            layer.uav_ends(track)
+    layer.pairs(_pairs(trace, tracks, spec))
+    layer.moments(moments)
+    draw_scale(ax, box)
+    if ribbon is not None:
+        _colour_bar(figure, ax, ribbon, box, corner)
+
+
+def _flies(track: Track) -> bool:
+    return track.is_uav and bool(np.isfinite(track.position_m[:, 2]).any())
+
+
+def _pairs(
+    trace: Trace, tracks: tuple[Track, ...], spec: ScenarioSpec | None
+) -> list[tuple[Track, Track, int, str]]:
+    """Return bodies to connect: both ends of a message, both bodies of a distance trigger."""
+    by_name = {track.name: track for track in tracks}
+    events = {event.id: event for event in spec.events} if spec else {}
+    wanted: list[tuple[str, str, int, Tone]] = []
+    for record in trace.links:
+        if record.kind is LinkEventKind.SENT:
+            wanted.append((record.sender, record.receiver, record.tick, Tone.EVENT))
+    for event in trace.events:
+        found = events.get(event.subject)
+        if event.kind is ScenarioEventKind.TRIGGERED and found is not None:
+            trigger = found.trigger
+            if isinstance(trigger, DistanceTrigger):
+                wanted.append((trigger.a, trigger.b, event.tick, Tone.EVENT))
+    return [
+        (by_name[a], by_name[b], tick, style.TONE_COLOURS[tone])
+        for a, b, tick, tone in wanted
+        if a in by_name and b in by_name
+    ]
+
+
+def _free_corner(tracks: tuple[Track, ...], box: Box) -> tuple[float, float, float, float]:
+    """Return where the colour bar hides least: left, bottom, width, height of the map's size."""
+    width, height = 0.235, 0.105
+    corners = [(0.758, 0.015), (0.758, 0.88), (0.10, 0.88)]
+    counts = []
+    for left, bottom in corners:
+        count = 0
+        for track in tracks:
+            x = (track.position_m[:, 0] - box.west) / box.width
+            y = (track.position_m[:, 1] - box.south) / box.height
+            inside = (x > left - 0.02) & (x < left + width + 0.02)
+            inside &= (y > bottom - 0.03) & (y < bottom + height + 0.03)
+            count += int(inside.sum())
+        counts.append(count)
+    left, bottom = corners[counts.index(min(counts))]
+    return left, bottom, width, height
+
+
+def _colour_bar(
+    figure: Figure,
+    ax: Axes,
+    ribbon: LineCollection,
+    box: Box,
+    corner: tuple[float, float, float, float],
+) -> None:
+    left, bottom, width, height = corner
+    ax.add_patch(_paper(box, left, bottom, width, height))
+    inset = ax.inset_axes((left + 0.015, bottom + 0.034, width - 0.03, 0.020), zorder=9.0)
+    bar = figure.colorbar(ribbon, cax=inset, orientation='horizontal')
+    bar.outline.set_linewidth(0.0)
+    inset.tick_params(labelsize=6.8, length=2.0, pad=1.5)
+    inset.set_title('UAV altitude above ground [m]', fontsize=7.2, pad=3.0, color=style.INK)
+
+
+def _paper(box: Box, left: float, bottom: float, width: float, height: float) -> Rectangle:
+    """Return a white plate under an inset, in fractions of the map."""
+    return Rectangle(
+        (box.west + left * box.width, box.south + bottom * box.height),
+        width * box.width,
+        height * box.height,
+        facecolor='white',
+        edgecolor='#d5d8dd',
+        linewidth=0.6,
+        alpha=0.92,
+        zorder=8.5,
+    )
+
+
+def _panel(
+    figure: Figure,
+    tracks: tuple[Track, ...],
+    colours: dict[str, str],
+    moments: tuple[Moment, ...],
+    trace: Trace,
+) -> None:
+    """Write the numbered moments and the legend beside the map."""
+    ax = figure.add_axes(_PANEL)
+    ax.set_xlim(0.0, 1.0)
+    ax.set_ylim(0.0, 1.0)
+    ax.set_axis_off()
+    ax.text(0.02, 0.985, 'What happened', fontsize=11.0, weight='bold', va='top')
+    y = 0.925
+    for number, moment in enumerate(moments, start=1):
+        colour = style.TONE_COLOURS[moment.tone]
+        lines = textwrap.wrap(moment.text, 36)[:3] or ['']
+        number_badge(ax, 0.035, y - 0.008, number, colour, zorder=3.0)
+        when = '' if moment.tick < 0 else f'{trace.time_s(moment.tick):.1f} s'
+        ax.text(0.225, y, when, fontsize=8.6, va='top', ha='right', color=style.FAINT)
+        strong = moment.tone in (Tone.FAILURE, Tone.FAULT)
+        ax.text(
+            0.245,
+            y,
+            '\n'.join(lines),
+            fontsize=8.6,
+            va='top',
+            color=colour if strong else style.INK,
+            linespacing=1.15,
+        )
+        y -= 0.020 + 0.0245 * len(lines)
+    _legend(ax, tracks, colours)
+
+
+def _legend(ax: Axes, tracks: tuple[Track, ...], colours: dict[str, str]) -> None:
+    handles: list[Line2D | Patch] = []
+    background = [t for t in tracks if not t.is_uav and t.is_background]
+    for track in tracks:
+        if not track.is_uav and not track.is_background:
+            handles.append(
+                Line2D(
+                    [],
+                    [],
+                    color=colours[track.name],
+                    linewidth=2.4,
+                    marker='o',
+                    markersize=6.0,
+                    markeredgecolor='white',
+                    label=f'{track.name} ({track.entry.type_name}), ● start',
+                )
+            )
+    if background:
+        names = f'background traffic ({len(background)})'
+        handles.append(Line2D([], [], color=style.BACKGROUND_AGENT, linewidth=1.2, label=names))
+    if any(t.is_uav for t in tracks):
+        flight = ALTITUDES(0.9)
+        handles += [
+            Line2D([], [], color=flight, linewidth=6.0, label='UAV path, coloured by altitude'),
+            Line2D(
+                [],
+                [],
+                linestyle='none',
+                marker='^',
+                markersize=8.0,
+                markerfacecolor='white',
+                markeredgecolor=style.INK,
+                label='take-off (▲), landing (▼)',
+            ),
+        ]
+    handles += [
+        Line2D(
+            [],
+            [],
+            linestyle='none',
+            marker='>',
+            markersize=6.0,
+            color=style.FAINT,
+            label=f'direction, every {ARROW_EVERY_S:g} s',
+        ),
+        Patch(facecolor=HEIGHTS(0.15), edgecolor=style.BUILDING_EDGE, label='building, low'),
+        Patch(
+            facecolor=HEIGHTS(1.0),
+            edgecolor=style.BUILDING_EDGE,
+            label=f'building, {TALL_M:g} m and more',
+        ),
+        Patch(
+            facecolor='#fbe9e8',
+            edgecolor=style.NO_FLY,
+            hatch='///',
+            linestyle='--',
+            label='no-fly zone',
+        ),
+        Line2D(
+            [],
+            [],
+            color=style.CROSSING,
+            linewidth=5.0,
+            linestyle=(0.0, (0.3, 0.3)),
+            label='crossing',
+        ),
+        Line2D(
+            [],
+            [],
+            linestyle='none',
+            marker='s',
+            markersize=6.5,
+            color='#2b2f36',
+            label='traffic lights',
+        ),
+    ]
+    ax.legend(
+        handles=handles,
+        loc='lower left',
+        bbox_to_anchor=(0.0, -0.01),
+        fontsize=7.4,
+        frameon=False,
+        ncols=1 if len(handles) <= 9 else 2,
+        columnspacing=1.0,
+        handlelength=1.8,
+        labelspacing=0.55,
+        borderaxespad=0.0,
+    )
+
+
+def _diagrams(
+    figure: Figure,
+    trace: Trace,
+    tracks: tuple[Track, ...],
+    conditions: tuple[Condition, ...],
+    colours: dict[str, str],
+    moments: tuple[Moment, ...],
+    spec: ScenarioSpec | None,
+) -> None:
+    dt_s = trace.roster.dt_s
+    top = figure.add_axes(_ALTITUDE)
+    bottom = figure.add_axes(_SERIES, sharex=top)
+    for ax in (top, bottom):
+        ax.set_xlim(0.0, max(trace.ticks - 1, 1) * dt_s)
+        ax.grid(axis='y', color='#e7e9ec', linewidth=0.6)
+        ax.tick_params(labelsize=7.2, length=2.5, pad=2.0)
+        for side in ('top', 'right'):
+            ax.spines[side].set_visible(False)
+    top.tick_params(labelbottom=False)
+    draw_altitude(top, tracks, conditions, dt_s)
+    series = series_of(tracks, conditions, spec, colours, dt_s)
+    draw_series(bottom, series, dt_s, mission_end_tick(tracks))
+    draw_moment_lines((top, bottom), moments, dt_s)
+
+
+def _tightest(figure: Figure, caption: Caption) -> None:
+    """List the conditions that are nearest to their edge, with their margins."""
+    if not caption.tightest:
+        return
+    ax = figure.add_axes(_TIGHT)
+    ax.set_xlim(0.0, 1.0)
+    ax.set_ylim(0.0, 1.0)
+    ax.set_axis_off()
+    ax.text(0.02, 0.985, 'Tightest margins', fontsize=11.0, weight='bold', va='top')
+    y = 0.86
+    for row in caption.tightest:
+        lines = textwrap.wrap(row.sentence, 50)[:2]
+        if y - 0.07 * len(lines) < 0.0:
+            break
+        colour = style.STATUS_COLOURS[Status.VERIFIED if row.satisfied else Status.VIOLATED]
+        ax.text(
+            0.215, y, row.margin, fontsize=7.8, weight='bold', color=colour, ha='right', va='top'
+        )
+        ax.text(0.24, y, '\n'.join(lines), fontsize=7.8, va='top', linespacing=1.1)
+        y -= 0.035 + 0.068 * len(lines)

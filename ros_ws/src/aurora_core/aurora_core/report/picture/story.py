@@ -1,0 +1,291 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""What happened in a run, as a short numbered list of moments with their places."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+
+from aurora_core.report.picture.caption import Failure
+from aurora_core.report.picture.tracks import Track
+from aurora_core.spec.scenario import (
+    AgentAction,
+    AltitudeTrigger,
+    ArrivalTrigger,
+    DistanceTrigger,
+    Event,
+    MessageTrigger,
+    ScenarioSpec,
+    SendMessage,
+    SpeedTrigger,
+    TimeTrigger,
+    UavAction,
+    UavMission,
+    VisibilityTrigger,
+)
+from aurora_core.spec.vocabulary import MissionMode
+from aurora_core.trace.layout import UavPhase
+from aurora_core.trace.records import EventRecord, LinkEventKind, LinkRecord, ScenarioEventKind
+from aurora_core.trace.trace import Trace
+
+_MOST_MOMENTS = 13
+
+
+class Tone(StrEnum):
+    """How a moment is shown."""
+
+    FLIGHT = 'flight'
+    MOTION = 'motion'
+    EVENT = 'event'
+    FAULT = 'fault'
+    FAILURE = 'failure'
+
+
+# What is left out first when there is too much to tell.
+_RANK = (Tone.MOTION, Tone.FLIGHT, Tone.EVENT, Tone.FAULT, Tone.FAILURE)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Moment:
+    """Something that happened.
+
+    Attributes:
+        tick: When; -1 when it has no time of its own.
+        text: A few words.
+        place_m: Where, ENU metres in the plane; None when it has no place.
+    """
+
+    tick: int
+    text: str
+    tone: Tone
+    place_m: tuple[float, float] | None = None
+
+
+def moments_of(
+    trace: Trace,
+    tracks: tuple[Track, ...],
+    spec: ScenarioSpec | None,
+    failures: tuple[Failure, ...],
+) -> tuple[Moment, ...]:
+    """Return the moments in order of time, at most a dozen or so; failures are never left out."""
+    by_name = {track.name: track for track in tracks}
+    found = [
+        *_flights(trace, by_name, spec),
+        *_releases(trace, by_name),
+        *_events(trace, by_name, spec),
+        *_messages(trace, by_name),
+        *_faults(trace, by_name),
+        *_failures(trace, failures),
+    ]
+    for tone in _RANK[:-1]:
+        while len(found) > _MOST_MOMENTS and any(m.tone is tone for m in found):
+            found.remove(next(m for m in reversed(found) if m.tone is tone))
+    # A failure without a time comes last.
+    return tuple(sorted(found, key=lambda m: (m.tick < 0, m.tick, _RANK.index(m.tone))))
+
+
+def _flights(trace: Trace, by_name: dict[str, Track], spec: ScenarioSpec | None) -> list[Moment]:
+    """Take-off, each mission, landing and touch-down of every UAV."""
+    found = []
+    for record in trace.events:
+        if record.kind is not ScenarioEventKind.PHASE or record.subject not in by_name:
+            continue
+        track = by_name[record.subject]
+        if record.detail == 'ascent':
+            text = 'takes off'
+        elif record.detail == 'landing':
+            text = 'mission done, goes to land'
+        else:
+            text = _mission_words(record.detail, spec)
+        found.append(
+            Moment(
+                tick=record.tick,
+                text=f'{track.name} {text}',
+                tone=Tone.FLIGHT,
+                place_m=track.at(record.tick),
+            )
+        )
+    for track in by_name.values():
+        if track.is_uav:
+            landing = np.flatnonzero((track.phase >= UavPhase.LANDING) & ~track.airborne)
+            if len(landing):
+                tick = int(landing[0])
+                found.append(
+                    Moment(
+                        tick=tick,
+                        text=f'{track.name} has landed',
+                        tone=Tone.FLIGHT,
+                        place_m=track.at(tick),
+                    )
+                )
+    return found
+
+
+def _mission_words(mission_id: str, spec: ScenarioSpec | None) -> str:
+    mission = next((m for m in spec.missions if m.id == mission_id), None) if spec else None
+    if mission is None:
+        return f'begins {mission_id}'
+    return f'at {mission.altitude_m.value:g} m, {mission_words(mission)}'
+
+
+def mission_words(mission: UavMission) -> str:
+    """Return what a UAV does in a mission, such as `tracks bus1 from 35 m`."""
+    target = _plain(mission.target) if mission.target else 'the scene'
+    if mission.mode is MissionMode.TRACK:
+        standoff = mission.standoff_m.value if mission.standoff_m is not None else 0.0
+        return f'tracks {target}' + (f' from {standoff:g} m' if standoff else '')
+    if mission.mode is MissionMode.HOVER:
+        return f'hovers over {target}'
+    pattern = mission.pattern.value if mission.pattern is not None else 'route'
+    return f'flies the {pattern} around {target}' if mission.target else f'flies the {pattern}'
+
+
+def _releases(trace: Trace, by_name: dict[str, Track]) -> list[Moment]:
+    """Agents that start to move, those of one tick together."""
+    together: dict[int, list[str]] = {}
+    for record in trace.events:
+        if record.kind is ScenarioEventKind.RELEASED and record.tick > 0:
+            together.setdefault(record.tick, []).append(record.subject)
+    found = []
+    for tick, names in together.items():
+        shown = ', '.join(names[:3]) + (f' and {len(names) - 3} more' if len(names) > 3 else '')
+        verb = 'starts' if len(names) == 1 else 'start'
+        track = by_name.get(names[0])
+        found.append(
+            Moment(
+                tick=tick,
+                text=f'{shown} {verb} to move',
+                tone=Tone.MOTION,
+                place_m=track.at(tick) if track is not None else None,
+            )
+        )
+    return found
+
+
+def _events(trace: Trace, by_name: dict[str, Track], spec: ScenarioSpec | None) -> list[Moment]:
+    """Triggers and actions; the action of a trigger's own tick needs no moment of its own."""
+    events = {event.id: event for event in spec.events} if spec else {}
+    found = []
+    triggered: dict[str, int] = {}
+    for record in trace.events:
+        event = events.get(record.subject)
+        if record.kind is ScenarioEventKind.TRIGGERED:
+            triggered[record.subject] = record.tick
+            text, who = _trigger_words(event, record)
+        elif record.kind is ScenarioEventKind.ACTION:
+            at_once = triggered.get(record.subject) == record.tick
+            if at_once and event is not None and isinstance(event.action, SendMessage):
+                continue  # the message has a moment of its own
+            text, who = _action_words(event, record)
+        else:
+            continue
+        track = by_name.get(who)
+        found.append(
+            Moment(
+                tick=record.tick,
+                text=text,
+                tone=Tone.EVENT,
+                place_m=track.at(record.tick) if track is not None else None,
+            )
+        )
+    return found
+
+
+def _trigger_words(event: Event | None, record: EventRecord) -> tuple[str, str]:
+    trigger = event.trigger if event is not None else None
+    if isinstance(trigger, DistanceTrigger):
+        way = 'within' if trigger.on == 'distance_below' else 'beyond'
+        return f'{trigger.a} {way} {trigger.value_m.value:g} m of {_plain(trigger.b)}', trigger.a
+    if isinstance(trigger, TimeTrigger):
+        return f'{trigger.at_s.value:g} s reached ({record.subject})', ''
+    if isinstance(trigger, AltitudeTrigger):
+        return f'{trigger.uav} reaches {trigger.value_m.value:g} m', trigger.uav
+    if isinstance(trigger, VisibilityTrigger):
+        verb = 'sees' if trigger.on == 'visible' else 'loses sight of'
+        return f'{trigger.observer} {verb} {_plain(trigger.target)}', trigger.observer
+    if isinstance(trigger, ArrivalTrigger):
+        return f'{trigger.who} arrives at {_plain(trigger.place)}', trigger.who
+    if isinstance(trigger, MessageTrigger):
+        return f'{trigger.by} has received the message', trigger.by
+    if isinstance(trigger, SpeedTrigger):
+        way = 'below' if trigger.on == 'speed_below' else 'above'
+        return f'{trigger.who} {way} {trigger.value_mps.value:g} m/s', trigger.who
+    return f'{record.subject} triggered', ''
+
+
+def _action_words(event: Event | None, record: EventRecord) -> tuple[str, str]:
+    action = event.action if event is not None else None
+    if isinstance(action, SendMessage):
+        return f'{action.sender} alerts {action.receiver}', action.sender
+    if isinstance(action, AgentAction):
+        return f'{action.agent}: {action.do.replace("_", " ")}', action.agent
+    if isinstance(action, UavAction):
+        return f'{action.uav}: {action.do.replace("_", " ")}', action.uav
+    return f'{record.subject} acts', ''
+
+
+def _messages(trace: Trace, by_name: dict[str, Track]) -> list[Moment]:
+    """One moment per message: sent, and what became of it."""
+    ledger: dict[int, list[LinkRecord]] = {}
+    for record in trace.links:
+        ledger.setdefault(record.message, []).append(record)
+    found = []
+    for records in ledger.values():
+        sent = next((r for r in records if r.kind is LinkEventKind.SENT), records[0])
+        done = next((r for r in records if r.kind is LinkEventKind.DELIVERED), None)
+        text = f'{sent.sender} → {sent.receiver}: message '
+        if done is not None:
+            delay_s = (done.tick - sent.tick) * trace.roster.dt_s
+            text += f'delivered after {delay_s:.2f} s'
+        else:
+            attempts = sum(r.kind is LinkEventKind.ATTEMPT_LOST for r in records)
+            text += f'lost ({attempts} attempts)' if attempts else 'not delivered'
+        track = by_name.get(sent.sender)
+        found.append(
+            Moment(
+                tick=sent.tick,
+                text=text,
+                tone=Tone.EVENT if done is not None else Tone.FAILURE,
+                place_m=track.at(sent.tick) if track is not None else None,
+            )
+        )
+    return found
+
+
+def _faults(trace: Trace, by_name: dict[str, Track]) -> list[Moment]:
+    found = []
+    for record in trace.events:
+        if record.kind is ScenarioEventKind.FAULT:
+            track = by_name.get(record.subject)
+            whom = 'every link' if record.subject == '*' else record.subject
+            # The body may be gone with this very tick: the last place is the right one.
+            places = (track.at(tick) for tick in range(record.tick, -1, -1)) if track else ()
+            found.append(
+                Moment(
+                    tick=record.tick,
+                    text=f'injected fault: {record.detail.replace("_", " ")} ({whom})',
+                    tone=Tone.FAULT,
+                    place_m=next((place for place in places if place is not None), None),
+                )
+            )
+    return found
+
+
+def _failures(trace: Trace, failures: tuple[Failure, ...]) -> list[Moment]:
+    found = []
+    for failure in failures:
+        tick = -1
+        if failure.time_s is not None and trace.roster.dt_s > 0:
+            tick = round(failure.time_s / trace.roster.dt_s)
+        place = failure.place_m[:2] if failure.place_m is not None else None
+        found.append(
+            Moment(tick=tick, text=f'✗ {failure.sentence}', tone=Tone.FAILURE, place_m=place)
+        )
+    return found
+
+
+def _plain(reference: str) -> str:
+    return reference.removeprefix('landmark:').replace('_', ' ')

@@ -1,0 +1,222 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""`RunReport`: everything that is said about a run, the document `report.json`."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from typing import Literal
+
+from pydantic import Field, FiniteFloat
+
+from aurora_core.execution.faults import Fault
+from aurora_core.feasibility.verdict import FeasibilityVerdict
+from aurora_core.knowledge.limits import Limits
+from aurora_core.monitor.verdict import Finding, Reason, VerdictStatus
+from aurora_core.report.status import Status
+from aurora_core.spec.parameter import Document, Provenance, Span
+from aurora_core.spec.vocabulary import ClauseStatus
+from aurora_core.trace.trace import Integrity
+
+
+class ClauseReport(Document):
+    """A piece of the prompt and what became of it.
+
+    Attributes:
+        ids: Elements of the specification that it became.
+        note: Why it is not encoded (the capability that is missing), or what was read from it.
+    """
+
+    text: str
+    span: Span
+    status: ClauseStatus
+    ids: tuple[str, ...] = ()
+    note: str = ''
+
+
+class ConditionReport(Document):
+    """One success condition and its margin.
+
+    Attributes:
+        sentence: English.
+        formula: STL text.
+        source: What the prompt says about it, quoted; () when it holds in every run.
+        spec_ids: Elements of the specification.
+        margin: Signed robustness in `unit`, None with a `reason`.
+        normalised: Margin divided by the scale of the threshold.
+        exercised: False when the premise never occurred.
+        reason: Why there is no margin.
+        worst_time_s: Simulated time of the sample that decides.
+        worst_place_m: Position of the body concerned at that time, ENU metres.
+        explanation: What happened, with numbers.
+        evidence: Topics and ticks that were used.
+    """
+
+    id: str
+    sentence: str
+    formula: str
+    source: tuple[str, ...] = ()
+    spec_ids: tuple[str, ...] = ()
+    implied: bool
+    provenance: Provenance
+    op: str
+    threshold: FiniteFloat
+    tolerance: FiniteFloat | None = None
+    unit: str
+    margin: FiniteFloat | None = None
+    normalised: FiniteFloat | None = None
+    satisfied: bool
+    exercised: bool
+    reason: Reason | None = None
+    worst_time_s: FiniteFloat | None = None
+    worst_place_m: tuple[FiniteFloat, FiniteFloat, FiniteFloat] | None = None
+    explanation: str = ''
+    evidence: tuple[str, ...] = ()
+
+
+class ChangeKind(StrEnum):
+    """What an edit changes: how the request is realised, or the request itself."""
+
+    REALIZATION = 'realization'
+    CONDITION = 'condition'
+
+
+class EditReport(Document):
+    """One changed value."""
+
+    path: str
+    old: FiniteFloat | str | None
+    new: FiniteFloat | str | None
+    provenance: Provenance
+    change: ChangeKind
+
+
+class MarginChange(Document):
+    """Normalised margin of a condition as repair expected it and as it came out."""
+
+    condition: str
+    predicted: FiniteFloat | None = None
+    realised: FiniteFloat | None = None
+
+
+class RepairReport(Document):
+    """One iteration of repair."""
+
+    iteration: int
+    kind: str
+    edits: tuple[EditReport, ...] = ()
+    margins: tuple[MarginChange, ...] = ()
+
+
+class RealisedReport(Document):
+    """A number of the request and what grounding made of it."""
+
+    path: str
+    requested: FiniteFloat
+    realised: FiniteFloat
+    unit: str = ''
+    provenance: Provenance
+
+
+class Metrics(Document):
+    """Figures over the whole run; None where there was nothing to measure.
+
+    Attributes:
+        worst_condition: Condition with the least normalised margin; one without a margin comes
+            first, then `worst_normalised` is None.
+    """
+
+    conditions: int = 0
+    satisfied: int = 0
+    worst_condition: str | None = None
+    worst_normalised: FiniteFloat | None = None
+    clauses: int = 0
+    clauses_encoded: int = 0
+    iterations: int = 0
+    simulated_s: FiniteFloat | None = None
+
+
+class Cost(Document):
+    """What language models cost (the offline parser calls none)."""
+
+    calls: int = 0
+    tokens_in: int = 0
+    tokens_out: int = 0
+    money_usd: FiniteFloat | None = None
+
+
+class TraceReport(Document):
+    """The recording that the verdict is about.
+
+    Attributes:
+        bag: Folder of the bag, relative to the run folder when it is inside.
+        ticks: Number of recorded ticks.
+        sha256: Trace hash (hex).
+        integrity: State of the recording, apart from the margins.
+        notes: What is damaged, for people.
+        cross_check: Where the executor's record and the recomputation disagree.
+        verdict: What the trace alone shows, apart from the prompt's clauses.
+    """
+
+    bag: str
+    ticks: int
+    sha256: str
+    integrity: Integrity
+    notes: tuple[str, ...] = ()
+    cross_check: tuple[Finding, ...] = ()
+    verdict: VerdictStatus
+
+
+class Digests(Document):
+    """sha256 (hex) of what the run was made from; '' for what it did not reach."""
+
+    prompt: str
+    map: str = ''
+    spec: str = ''
+    agsg: str = ''
+
+
+class ErrorReport(Document):
+    """What broke, where, and what to do."""
+
+    code: int
+    component: str
+    message: str
+    hint: str = ''
+
+
+class RunReport(Document):
+    """The report of one run.
+
+    Attributes:
+        summary: Why the status is what it is, one or two sentences.
+        clauses: Every clause of the prompt.
+        conditions: Every success condition with its margin.
+        timing: Wall seconds by stage.
+        question: What was missing (status `not_understood`).
+    """
+
+    schema_version: Literal[1] = 1
+    run_id: str
+    status: Status
+    summary: str
+    prompt: str
+    engine: str
+    model: str
+    map: str
+    seed: int
+    versions: dict[str, str] = Field(default_factory=dict)
+    digests: Digests
+    limits: Limits | None = None
+    clauses: tuple[ClauseReport, ...] = ()
+    conditions: tuple[ConditionReport, ...] = ()
+    feasibility: FeasibilityVerdict | None = None
+    repairs: tuple[RepairReport, ...] = ()
+    metrics: Metrics = Metrics()
+    timing: dict[str, FiniteFloat] = Field(default_factory=dict)
+    cost: Cost = Cost()
+    trace: TraceReport | None = None
+    question: str | None = None
+    error: ErrorReport | None = None
+    faults: tuple[Fault, ...] = ()
+    requested_and_realised: tuple[RealisedReport, ...] = ()

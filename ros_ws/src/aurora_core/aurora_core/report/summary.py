@@ -1,0 +1,91 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Why a run has its status, in one or two honest sentences."""
+
+from __future__ import annotations
+
+from aurora_core.grounding.outcome import GroundingOutcome
+from aurora_core.monitor.verdict import Reason
+from aurora_core.report.run_report import ConditionReport, RunReport
+from aurora_core.report.status import Status
+from aurora_core.spec.vocabulary import ClauseStatus
+from aurora_core.trace.trace import Integrity
+
+_SHOWN = 3
+
+
+def summary_of(report: RunReport, grounding: GroundingOutcome | None) -> str:
+    """Return the summary of a report whose other fields are filled in."""
+    metrics = report.metrics
+    held = f'{metrics.satisfied} of {metrics.conditions} conditions hold'
+    if report.status is Status.VERIFIED:
+        return (
+            f'Every condition holds at its original threshold ({held}) and every clause of the '
+            'prompt is encoded.'
+        )
+    if report.status is Status.VERIFIED_AS_EDITED:
+        return f'{held}, but only after a change of the request that you allowed.'
+    if report.status is Status.INCOMPLETE:
+        return f'What was encoded holds ({held}), but not all was encoded: {_lost(report)}.'
+    if report.status is Status.VIOLATED:
+        return f'{held}. Violated: {_violated(report.conditions)}.'
+    if report.status is Status.INCONCLUSIVE:
+        return _inconclusive(report, grounding)
+    if report.status is Status.INFEASIBLE:
+        return 'Refused before execution. ' + ' '.join(
+            certificate.sentence
+            for certificate in (report.feasibility.certificates if report.feasibility else ())
+        )
+    if report.status is Status.NOT_UNDERSTOOD:
+        return report.question or 'No valid specification could be read from the prompt.'
+    if report.status is Status.ERROR and report.error is not None:
+        return f'{report.error.component} failed: {report.error.message}'
+    return 'Cancelled by the user; nothing is claimed about the prompt.'
+
+
+def _lost(report: RunReport) -> str:
+    lost = [c for c in report.clauses if c.status is ClauseStatus.NOT_ENCODED]
+    return '; '.join(f'“{c.text}”' + (f' ({c.note})' if c.note else '') for c in lost)
+
+
+def _violated(rows: tuple[ConditionReport, ...]) -> str:
+    failed = [row for row in rows if not row.satisfied]
+    failed.sort(key=lambda row: (row.normalised is not None, row.normalised or 0.0, row.id))
+    texts = [f'{row.sentence.rstrip(".")} ({margin_text(row)})' for row in failed[:_SHOWN]]
+    rest = len(failed) - _SHOWN
+    return '; '.join(texts) + (f'; and {rest} more' if rest > 0 else '')
+
+
+def margin_text(row: ConditionReport) -> str:
+    """Return the margin with its unit and time, or why there is none."""
+    value = margin_value(row.margin, row.unit, row.reason)
+    if row.margin is None:
+        return value
+    when = '' if row.worst_time_s is None else f' at {row.worst_time_s:.2f} s'
+    return f'margin {value}{when}'
+
+
+def margin_value(margin: float | None, unit: str, reason: Reason | None) -> str:
+    """Return a margin with sign and unit, or why there is none."""
+    if margin is None:
+        return reason.value.replace('_', ' ') if reason is not None else 'no margin'
+    return f'{margin:+.4g}' + ('' if unit in ('', '1') else f' {unit}')
+
+
+def _inconclusive(report: RunReport, grounding: GroundingOutcome | None) -> str:
+    failure = grounding.failure if grounding is not None else None
+    if failure is not None:
+        return (
+            f'Nothing was executed: no place on the map was found for the scenario '
+            f'({failure.reason}; {failure.tried} tried). That none exists is not proven.'
+        )
+    if report.trace is not None and report.trace.integrity is not Integrity.INTACT:
+        notes = '; '.join(report.trace.notes).rstrip('.')
+        return f'The recording is {report.trace.integrity.value}: {notes or "see the bag"}.'
+    if report.trace is not None and report.trace.cross_check:
+        found = report.trace.cross_check[0]
+        return f'Record and recomputation disagree at {found.time_s:.2f} s: {found.text}'
+    if not report.conditions:
+        return 'There is no verdict over the conditions, so nothing is claimed.'
+    poor = [row.id for row in report.conditions if row.reason is not None and row.reason.undecided]
+    return f'The trace lacks what is needed to decide: {", ".join(poor)}.'

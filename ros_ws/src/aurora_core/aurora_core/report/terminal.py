@@ -1,0 +1,276 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The report in a terminal: a table where there is one, plain lines where there is none."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
+
+from aurora_core.monitor.verdict import VerdictStatus
+from aurora_core.report.check_report import CheckReport, CheckResult
+from aurora_core.report.run_report import (
+    ClauseReport,
+    ConditionReport,
+    RealisedReport,
+    RunReport,
+)
+from aurora_core.report.status import Status
+from aurora_core.report.summary import margin_value
+from aurora_core.report.verify_report import VerifyReport
+from aurora_core.spec.vocabulary import ClauseStatus
+
+_COLOURS = {
+    Status.VERIFIED: 'green',
+    Status.VERIFIED_AS_EDITED: 'green',
+    Status.INCOMPLETE: 'yellow',
+    Status.VIOLATED: 'red',
+    Status.INCONCLUSIVE: 'yellow',
+    Status.INFEASIBLE: 'magenta',
+    Status.NOT_UNDERSTOOD: 'cyan',
+    Status.ERROR: 'red',
+    Status.CANCELLED: 'cyan',
+}
+_CHECK_COLOURS = {
+    CheckResult.FEASIBLE: 'green',
+    CheckResult.UNKNOWN: 'yellow',
+    CheckResult.INCOMPLETE: 'yellow',
+    CheckResult.INFEASIBLE: 'magenta',
+    CheckResult.NOT_UNDERSTOOD: 'cyan',
+    CheckResult.ERROR: 'red',
+}
+
+_VERDICT_COLOURS = {
+    VerdictStatus.VERIFIED: 'green',
+    VerdictStatus.VIOLATED: 'red',
+    VerdictStatus.INCONCLUSIVE: 'yellow',
+}
+
+Row = tuple[str, ...]
+
+
+def print_report(report: RunReport, console: Console, folder: Path | None = None) -> None:
+    """Print a run's report.
+
+    Args:
+        report: What to print.
+        console: Where; colours and boxes only when it is a terminal.
+        folder: Run folder, when there is one.
+    """
+    headline(console, report.status.value, _COLOURS[report.status], report.summary)
+    _question_and_error(report, console)
+    print_clauses(report.clauses, console)
+    asked = [row for row in report.conditions if row.source]
+    always = [row for row in report.conditions if not row.source]
+    print_conditions('Conditions of the prompt', asked, console)
+    print_conditions('Conditions of every run', always, console)
+    print_realised(report.requested_and_realised, console)
+    for fault in report.faults:
+        line(console, f'injected fault: {fault.kind} on {fault.subject} from {fault.at_s:g} s')
+    if report.trace is not None:
+        trace = report.trace
+        line(console, f'trace    {trace.sha256} ({trace.ticks} ticks, {trace.integrity.value})')
+        for finding in trace.cross_check:
+            line(console, f'disagreement at {finding.time_s:.2f} s: {finding.text}')
+    if folder is not None:
+        line(console, f'folder   {folder}')
+
+
+def print_check(report: CheckReport, console: Console) -> None:
+    """Print the outcome of a check."""
+    headline(console, report.result.value, _CHECK_COLOURS[report.result], report.summary)
+    _question_and_error(report, console)
+    print_clauses(report.clauses, console)
+    print_table(
+        'A run would be judged by',
+        ('condition', 'formula'),
+        [(c.sentence, c.formula) for c in report.conditions],
+        console,
+    )
+    print_realised(report.requested_and_realised, console)
+    if report.horizon_s is not None:
+        line(console, f'horizon  {report.horizon_s:g} s of simulated time')
+
+
+def headline(console: Console, word: str, colour: str, text: str) -> None:
+    """Print the verdict in one line, the reason after it."""
+    console.print(
+        f'[bold {colour}]{escape(word.replace("_", " ").upper())}[/]  {escape(text)}',
+        highlight=False,
+        soft_wrap=not console.is_terminal,
+    )
+
+
+def line(console: Console, text: str) -> None:
+    """Print a line of plain text that is never wrapped or coloured."""
+    console.print(escape(text), highlight=False, soft_wrap=True)
+
+
+def print_conditions(title: str, rows: Sequence[ConditionReport], console: Console) -> None:
+    """Print conditions with margin, unit, satisfied, time."""
+    held = sum(row.satisfied for row in rows)
+    print_table(
+        f'{title} ({held} of {len(rows)} hold)',
+        ('', 'condition', 'margin', 'at'),
+        [
+            (
+                'yes' if row.satisfied else 'NO',
+                row.sentence,
+                margin_value(row.margin, row.unit, row.reason),
+                '' if row.worst_time_s is None else f'{row.worst_time_s:.2f} s',
+            )
+            for row in rows
+        ],
+        console,
+        right=(2, 3),
+        bad=[k for k, row in enumerate(rows) if not row.satisfied],
+    )
+
+
+def print_clauses(clauses: Sequence[ClauseReport], console: Console) -> None:
+    """Print what became of every clause."""
+    print_table(
+        'Clauses',
+        ('', 'clause', 'became'),
+        [
+            (
+                clause.status.value.replace('_', ' '),
+                clause.text,
+                ', '.join(clause.ids) + (f' ({clause.note})' if clause.note else ''),
+            )
+            for clause in clauses
+        ],
+        console,
+        bad=[k for k, c in enumerate(clauses) if c.status is ClauseStatus.NOT_ENCODED],
+    )
+
+
+def print_realised(values: Iterable[RealisedReport], console: Console) -> None:
+    """Print requested and realised numbers."""
+    print_table(
+        'Requested and realised',
+        ('value', 'requested', 'realised', 'from'),
+        [
+            (
+                value.path,
+                _with_unit(value.requested, value.unit),
+                _with_unit(value.realised, value.unit),
+                value.provenance.value,
+            )
+            for value in values
+        ],
+        console,
+        right=(1, 2),
+    )
+
+
+def print_table(
+    title: str,
+    columns: Row,
+    rows: Sequence[Row],
+    console: Console,
+    *,
+    right: tuple[int, ...] = (),
+    bad: Iterable[int] = (),
+) -> None:
+    """Print a table, nothing when it has no rows.
+
+    Args:
+        title: Above it.
+        columns: Heads.
+        rows: Texts, printed as they are.
+        console: Where.
+        right: Columns that are aligned to the right.
+        bad: Rows that are shown in red.
+    """
+    if not rows:
+        return
+    if not console.is_terminal:
+        _plain(title, columns, rows, console)
+        return
+    table = Table(title=escape(title), title_justify='left', title_style='bold', expand=False)
+    for index, name in enumerate(columns):
+        table.add_column(name, justify='right' if index in right else 'left')
+    marked = set(bad)
+    for index, row in enumerate(rows):
+        table.add_row(*(escape(cell) for cell in row), style='red' if index in marked else None)
+    console.print(table, highlight=False)
+
+
+def _plain(title: str, columns: Row, rows: Sequence[Row], console: Console) -> None:
+    widths = [max(len(row[k]) for row in (columns, *rows)) for k in range(len(columns))]
+    line(console, f'{title}:')
+    for row in rows:
+        cells = (cell.ljust(width) for cell, width in zip(row, widths, strict=True))
+        line(console, f'  {"  ".join(cells)}'.rstrip())
+
+
+def _with_unit(value: float, unit: str) -> str:
+    return f'{value:.6g}' + ('' if unit in ('', '1') else f' {unit}')
+
+
+def _question_and_error(report: RunReport | CheckReport, console: Console) -> None:
+    if report.question and report.question != report.summary:
+        line(console, f'question: {report.question}')
+    if report.error is not None and report.error.hint:
+        line(console, f'what to do: {report.error.hint}')
+    if report.feasibility is not None:
+        for proof in report.feasibility.certificates:
+            said = proof.span
+            if said is not None:
+                line(console, f'the prompt says: "{report.prompt[said.start : said.end]}"')
+            if proof.nearest is not None:
+                line(console, f'nearest feasible value: {_with_unit(proof.nearest, proof.unit)}')
+        for note in report.feasibility.notes:
+            line(console, f'note: {note}')
+
+
+def print_verify(report: VerifyReport, console: Console) -> None:
+    """Print recomputed margins and whether they are the recorded ones."""
+    verdict = report.verdict
+    held = sum(result.satisfied for result in verdict.results)
+    headline(
+        console,
+        verdict.status.value,
+        _VERDICT_COLOURS[verdict.status],
+        f'{held} of {len(verdict.results)} conditions hold, recomputed from the bag alone '
+        f'({report.ticks} ticks, {verdict.integrity.value}).',
+    )
+    print_table(
+        'Margins',
+        ('', 'condition', 'margin', 'at'),
+        [
+            (
+                'yes' if result.satisfied else 'NO',
+                result.sentence,
+                margin_value(result.margin, result.unit, result.reason),
+                '' if result.worst_time_s is None else f'{result.worst_time_s:.2f} s',
+            )
+            for result in verdict.results
+        ],
+        console,
+        right=(2, 3),
+        bad=[k for k, result in enumerate(verdict.results) if not result.satisfied],
+    )
+    for note in verdict.notes:
+        line(console, f'note     {note}')
+    for finding in verdict.cross_check:
+        line(console, f'disagreement at {finding.time_s:.2f} s: {finding.text}')
+    line(console, f'trace    {report.trace_sha256}')
+    recorded = report.recorded
+    if recorded is None:
+        line(console, 'record   none: the bag was verified by itself')
+    elif recorded.equal:
+        line(console, f'record   {recorded.file}: every margin is the same to the last bit')
+    else:
+        line(console, f'record   {recorded.file} DIFFERS from the recomputation')
+        for item in recorded.differences:
+            line(
+                console,
+                f'  {item.condition}: {item.what} '
+                f'(recorded {item.recorded!r}, recomputed {item.recomputed!r})',
+            )

@@ -1,0 +1,210 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The graph is derived from its documents: every element a node, every relation an edge."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pytest
+
+from aurora_core.agsg.build import ENVIRONMENT_ID, build_agsg, derived
+from aurora_core.agsg.graph import Agsg, EdgeType, NodeType, Stage
+from aurora_core.conditions.condition import conditions_to_json
+from aurora_core.conditions.derive import derive_conditions
+from aurora_core.grounding.grounded import GroundedScenario
+from aurora_core.knowledge.limits import Limits, Tolerances
+from aurora_core.spec.parameter import Parameter, Provenance
+from aurora_core.spec.scenario import (
+    AgentAction,
+    DistanceTrigger,
+    Event,
+    EventDoneTrigger,
+    GroundAgent,
+    ScenarioSpec,
+    StatedCondition,
+    Uav,
+    VisibilityTrigger,
+)
+from aurora_core.spec.vocabulary import AgentType
+from aurora_core.temporal.schedule import plan_time
+
+NAMES = ['survey', 'motorcycle', 'convoy', 'tailgate']
+
+
+@pytest.fixture(scope='module')
+def full(
+    read_prompt: Callable[..., ScenarioSpec],
+    ground: Callable[..., GroundedScenario],
+    limits: Limits,
+    tolerances: Tolerances,
+) -> Callable[[str], Agsg]:
+    """Build the grounded graph of a prompt with its conditions."""
+
+    def build(name: str) -> Agsg:
+        spec = read_prompt(name)
+        grounded = ground(spec)
+        schedule = plan_time(spec, grounded, limits)
+        conditions = derive_conditions(spec, schedule.facts, limits, tolerances).conditions
+        return build_agsg(
+            spec,
+            map_digest=grounded.map_digest,
+            stage=Stage.GROUNDED,
+            grounding_json=grounded.canonical_json(),
+            schedule_json=schedule.canonical_json(),
+            conditions=conditions,
+            conditions_json=conditions_to_json(conditions),
+        )
+
+    return build
+
+
+@pytest.mark.parametrize('name', NAMES)
+def test_every_element_is_a_node_and_no_edge_hangs(
+    name: str, full: Callable[[str], Agsg]
+) -> None:
+    agsg = full(name)
+    ids = [node.id for node in agsg.nodes]
+    assert len(ids) == len(set(ids))
+    spec = agsg.spec
+    for group in (spec.agents, spec.uavs, spec.links, spec.events):
+        for element in group:
+            assert element.id in ids
+    for edge in agsg.edges:
+        assert edge.source in ids, edge
+        assert edge.target in ids, edge
+    assert all(len(i) <= 64 for i in ids)  # string<=64 of AgsgNode.msg
+
+
+@pytest.mark.parametrize('name', NAMES)
+def test_every_parameter_has_one_path_and_an_owner_that_is_a_node(
+    name: str, full: Callable[[str], Agsg]
+) -> None:
+    agsg = full(name)
+    paths = [p.path for p in agsg.parameters]
+    assert len(paths) == len(set(paths)) == str(agsg.spec.model_dump()).count("'provenance'")
+    assert {p.owner for p in agsg.parameters} <= {node.id for node in agsg.nodes}
+    assert all(not p.path.startswith('/') and '//' not in p.path for p in agsg.parameters)
+
+
+def test_paths_name_elements_by_id_and_owners_by_node(full: Callable[[str], Agsg]) -> None:
+    owners = {p.path: p.owner for p in full('tailgate').parameters}
+    mission = full('tailgate').spec.missions[0]
+    assert owners[f'missions/{mission.id}/altitude_m'] == 'uav1'
+    event = full('tailgate').spec.events[0]
+    assert owners[f'events/{event.id}/trigger/value_m'] == event.id
+    link = full('tailgate').spec.links[0]
+    assert owners[f'links/{link.id}/loss'] == link.id
+    van = next(a for a in full('tailgate').spec.agents if a.type is AgentType.VAN)
+    assert any(p.startswith(f'agents/{van.id}/') and o == van.id for p, o in owners.items())
+
+
+def test_world_parameters_belong_to_the_environment(parameter: Callable[..., Parameter]) -> None:
+    spec = ScenarioSpec.model_validate(
+        {'prompt': 'x', 'world': {'duration_s': parameter(60.0, 's').model_dump()}}
+    )
+    [found] = build_agsg(spec).parameters
+    assert (found.path, found.owner) == ('world/duration_s', ENVIRONMENT_ID)
+    assert found.realised is None
+
+
+def test_realised_stands_beside_requested(full: Callable[[str], Agsg]) -> None:
+    agsg = full('convoy')
+    grounded = GroundedScenario.model_validate_json(agsg.grounding_json)
+    rows = {r.path: r for r in grounded.realised}
+    assert rows
+    parameters = {p.path: p for p in agsg.parameters}
+    for path, row in rows.items():
+        assert parameters[path].realised == row.realised
+        assert parameters[path].requested == row.requested
+    assert any(p.realised is None for p in agsg.parameters)
+
+
+def test_edges_say_what_depends_on_what(full: Callable[[str], Agsg]) -> None:
+    edges = {(e.source, e.target, e.type) for e in full('tailgate').edges}
+    event = full('tailgate').spec.events[0]
+    link = full('tailgate').spec.links[0]
+    van = next(a.id for a in full('tailgate').spec.agents if a.type is AgentType.VAN)
+    assert ('ego', van, EdgeType.BEHAVIORAL) in edges
+    assert (van, 'uav1', EdgeType.PERCEPTUAL) in edges
+    assert (van, event.id, EdgeType.TEMPORAL) in edges
+    assert ('ego', event.id, EdgeType.TEMPORAL) in edges
+    assert (event.id, link.id, EdgeType.COMMUNICATION) in edges
+    assert ('uav1', link.id, EdgeType.COMMUNICATION) in edges
+    assert (link.id, 'ego', EdgeType.COMMUNICATION) in edges
+    edges = {(e.source, e.target, e.type) for e in full('survey').edges}
+    assert ('ego', 'uav1', EdgeType.SPATIAL) in edges
+    convoy = full('convoy')
+    edges = {(e.source, e.target, e.type) for e in convoy.edges}
+    bus = next(a.id for a in convoy.spec.agents if a.type is AgentType.BUS)
+    assert ('ego', bus, EdgeType.SPATIAL) in edges
+    judged = [n.id for n in convoy.nodes if n.type is NodeType.CONDITION]
+    assert judged
+    assert {e.target for e in convoy.edges if e.label == 'is judged by'} <= set(judged)
+
+
+def test_events_of_sight_sequence_and_action(parameter: Callable[..., Parameter]) -> None:
+    spec = ScenarioSpec(
+        prompt='x',
+        agents=(GroundAgent(id='a', type=AgentType.CAR), GroundAgent(id='b', type=AgentType.CAR)),
+        uavs=(Uav(id='uav1'),),
+        events=(
+            Event(id='e1', trigger=VisibilityTrigger(on='visible', observer='uav1', target='a')),
+            Event(
+                id='e2',
+                trigger=EventDoneTrigger(on='event_done', event='e1'),
+                action=AgentAction(do='brake', agent='b'),
+            ),
+            Event(
+                id='e3',
+                trigger=DistanceTrigger(
+                    on='distance_below', a='a', b='intersection', value_m=parameter(20.0)
+                ),
+            ),
+        ),
+        conditions=(
+            StatedCondition(
+                id='c1', quantity='distance', of=('a', 'b'), op='<=', value=parameter(20.0)
+            ),
+        ),
+    )
+    agsg = build_agsg(spec)
+    edges = {(e.source, e.target, e.type) for e in agsg.edges}
+    assert ('uav1', 'e1', EdgeType.PERCEPTUAL) in edges
+    assert ('a', 'e1', EdgeType.PERCEPTUAL) in edges
+    assert ('e1', 'e2', EdgeType.TEMPORAL) in edges
+    assert ('e2', 'b', EdgeType.BEHAVIORAL) in edges
+    assert {e[0] for e in edges if e[1] == 'e3'} == {'a'}  # a place is no node
+    assert ('a', 'c1', EdgeType.BEHAVIORAL) in edges
+    nodes = {n.id: n for n in agsg.nodes}
+    assert nodes['c1'].type is NodeType.CONDITION
+    assert nodes['e2'].label == 'event_done then brake'
+    assert nodes['uav1'].label == 'idle'
+    assert {p.path: p.owner for p in agsg.parameters} == {
+        'events/e3/trigger/value_m': 'e3',
+        'conditions/c1/value': 'c1',
+    }
+    assert agsg.parameters[0].provenance is Provenance.EXPLICIT
+
+
+@pytest.mark.parametrize('name', NAMES)
+def test_deriving_again_gives_the_same_graph(name: str, full: Callable[[str], Agsg]) -> None:
+    agsg = full(name)
+    assert derived(agsg) == agsg
+    bare = agsg.model_copy(update={'nodes': (), 'edges': (), 'parameters': ()})
+    assert derived(bare) == agsg
+    assert bare.sha256 == agsg.sha256
+
+
+def test_digest_covers_each_document(full: Callable[[str], Agsg]) -> None:
+    agsg = full('survey')
+    seen = {agsg.sha256}
+    for name in ('grounding_json', 'schedule_json', 'conditions_json'):
+        text = getattr(agsg, name)
+        seen.add(agsg.model_copy(update={name: text + ' '}).sha256)
+    other = agsg.spec.model_copy(update={'prompt': 'another'})
+    seen.add(agsg.model_copy(update={'spec': other}).sha256)
+    # Text that moves from one document to the next is a change too.
+    moved = {'grounding_json': agsg.grounding_json[:-1], 'schedule_json': '}' + agsg.schedule_json}
+    seen.add(agsg.model_copy(update=moved).sha256)
+    assert len(seen) == 6

@@ -1,0 +1,138 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""A recording survives a kill up to its last flush, and says when the disk is full."""
+
+from __future__ import annotations
+
+import resource
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from aurora_core.errors import BagError
+from aurora_core.trace import messages
+from aurora_core.trace.bag_reader import read_bag
+from aurora_core.trace.bag_writer import BagWriter
+from aurora_core.trace.definitions import message_definitions
+from aurora_core.trace.messages import MessageBuilder
+from aurora_core.trace.trace import Integrity, Trace
+
+
+@contextmanager
+def _full_disk(size: int) -> Iterator[None]:
+    """Let the kernel refuse to write a file beyond `size` bytes."""
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, hard))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+
+
+def test_after_a_kill_everything_up_to_the_last_flush_is_there(
+    tmp_path: Path,
+    make_trace: Callable[..., Trace],
+    make_world: Callable[..., Any],
+    record: Callable[..., Any],
+) -> None:
+    trace = make_trace(ticks=55)
+    writer = record(tmp_path / 'bag.0', trace, make_world(), close=False)
+    # The file as a kill would leave it: what the writer still holds in memory is lost.
+    found = read_bag(tmp_path / 'bag.0', message_definitions()).trace
+    assert found.integrity is Integrity.TRUNCATED
+    # Flushed when the command for tick 40 (t = 2 s) came, before the states of tick 40.
+    assert found.ticks == 40
+    assert np.array_equal(found.uav, trace.uav[:40])
+    assert found.ground_commands == trace.ground_commands[:40]
+    writer.flush()
+    assert read_bag(tmp_path / 'bag.0', message_definitions()).trace.ticks == 55
+    writer.close()
+    found = read_bag(tmp_path / 'bag.0', message_definitions()).trace
+    assert found.integrity is Integrity.INTACT
+
+
+def test_an_existing_folder_is_never_overwritten(
+    tmp_path: Path,
+    make_trace: Callable[..., Trace],
+    make_world: Callable[..., Any],
+    record: Callable[..., Any],
+) -> None:
+    record(tmp_path / 'bag.0', make_trace(ticks=10), make_world())
+    before = sorted((p.name, p.read_bytes()) for p in (tmp_path / 'bag.0').iterdir())
+    with pytest.raises(BagError, match='cannot create the bag'):
+        BagWriter(tmp_path / 'bag.0', message_definitions())
+    assert sorted((p.name, p.read_bytes()) for p in (tmp_path / 'bag.0').iterdir()) == before
+
+
+def test_a_folder_that_cannot_be_made(tmp_path: Path) -> None:
+    (tmp_path / 'file').write_text('')
+    with pytest.raises(BagError, match='cannot create the bag'):
+        BagWriter(tmp_path / 'file' / 'bag.0', message_definitions())
+
+
+def test_a_full_disk_is_an_error_and_the_bag_stays_readable(
+    tmp_path: Path,
+    make_trace: Callable[..., Trace],
+    make_world: Callable[..., Any],
+) -> None:
+    definitions = message_definitions()
+    trace = make_trace(ticks=2000, agents=10)
+    build = MessageBuilder(definitions, 1, 0.05)
+    folder = tmp_path / 'bag.0'
+    from aurora_core.trace.messages_world import world_message
+
+    with pytest.raises(BagError, match='cannot write the bag') as caught:  # noqa: PT012
+        with _full_disk(60_000), BagWriter(folder, definitions) as writer:
+            for topic, value in (
+                (messages.ROSTER, build.roster('r', trace.roster)),
+                (messages.WORLD, world_message(definitions, build.header(0), 'r', make_world())),
+            ):
+                type_name = messages.TOPICS[topic]
+                writer.write(topic, type_name, definitions.encode(type_name, value), 0)
+            for tick in range(trace.ticks):
+                type_name = messages.TOPICS[messages.GROUND_STATE]
+                message = build.state(messages.GROUND_STATE, tick, trace.ground[tick])
+                cdr = definitions.encode(type_name, message)
+                writer.write(messages.GROUND_STATE, type_name, cdr, tick * 50_000_000)
+    assert 'space' in caught.value.hint
+    assert writer.closed
+    found = read_bag(folder, definitions).trace
+    assert found.integrity is Integrity.TRUNCATED
+    assert found.ticks >= 20
+    assert np.array_equal(found.ground, trace.ground[: found.ticks])
+    with pytest.raises(BagError, match='closed'):
+        writer.write(messages.GROUND_STATE, 'aurora_msgs/msg/GroundState', b'', 0)
+
+
+def test_a_disk_that_is_full_at_the_end_leaves_no_metadata(
+    tmp_path: Path,
+    make_trace: Callable[..., Trace],
+    make_world: Callable[..., Any],
+    record: Callable[..., Any],
+) -> None:
+    writer = record(tmp_path / 'bag.0', make_trace(ticks=19), make_world(), close=False)
+    with _full_disk(1000), pytest.raises(BagError, match='cannot write the bag'):
+        writer.close()
+    assert not (tmp_path / 'bag.0' / 'metadata.yaml').exists()
+    with pytest.raises(BagError, match='is closed'):
+        writer.close()
+
+
+def test_closing_twice_is_refused(tmp_path: Path) -> None:
+    writer = BagWriter(tmp_path / 'bag.0', message_definitions())
+    assert not writer.closed
+    writer.close()
+    with pytest.raises(BagError, match='is closed'):
+        writer.close()
+
+
+def test_leaving_the_block_closes_the_bag_also_after_an_error(tmp_path: Path) -> None:
+    with pytest.raises(RuntimeError, match='simulator'), BagWriter(
+        tmp_path / 'bag.0', message_definitions()
+    ):
+        raise RuntimeError('simulator')
+    assert (tmp_path / 'bag.0' / 'metadata.yaml').is_file()

@@ -1,0 +1,106 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Messages from and to plain YAML values."""
+
+from __future__ import annotations
+
+import array
+import importlib
+from collections.abc import Mapping
+from typing import Any
+
+from rosidl_parser.definition import (
+    AbstractNestedType,
+    AbstractString,
+    AbstractWString,
+    BasicType,
+    NamespacedType,
+)
+
+TRUNCATED = '...'
+
+
+class FieldError(ValueError):
+    """A value does not fit the field of a message."""
+
+
+def set_fields(message: Any, values: Any) -> None:
+    """Fill a message in place.
+
+    Args:
+        message: Any generated message.
+        values: Field names to values, as YAML gives them; None stands for an empty mapping.
+
+    Raises:
+        FieldError: If a field does not exist or a value does not fit it.
+    """
+    values = {} if values is None else values
+    if not isinstance(values, Mapping):
+        raise FieldError(f'expected a mapping of fields, found {values!r}')
+    kinds = dict(zip(message.get_fields_and_field_types(), message.SLOT_TYPES, strict=True))
+    for name, value in values.items():
+        if name not in kinds:
+            raise FieldError(f"'{type(message).__name__}' object has no attribute '{name}'")
+        try:
+            setattr(message, name, _convert(kinds[name], value))
+        except (AssertionError, TypeError, ValueError, OverflowError) as err:
+            raise FieldError(f'{name}: {err}') from err
+
+
+def _convert(kind: Any, value: Any) -> Any:
+    if isinstance(kind, NamespacedType):
+        module = importlib.import_module('.'.join(kind.namespaces))
+        message = getattr(module, kind.name)()
+        set_fields(message, value)
+        return message
+    if isinstance(kind, AbstractNestedType):
+        if not isinstance(value, list):
+            raise FieldError(f'expected a list, found {value!r}')
+        items = [_convert(kind.value_type, item) for item in value]
+        element = kind.value_type
+        return b''.join(items) if _is(element, 'octet') and items else items
+    if isinstance(kind, (AbstractString, AbstractWString)):
+        if isinstance(value, (Mapping, list)) or value is None:
+            raise FieldError(f'expected a string, found {value!r}')
+        return str(value)
+    if _is(kind, 'boolean'):
+        if not isinstance(value, (bool, int)):
+            raise FieldError(f'expected true or false, found {value!r}')
+        return bool(value)
+    if _is(kind, 'octet'):
+        return bytes([value])
+    if _is(kind, 'float', 'double', 'long double'):
+        return float(value)
+    if isinstance(value, float) and not value.is_integer():
+        raise FieldError(f'expected an integer, found {value!r}')
+    return int(value)
+
+
+def _is(kind: Any, *names: str) -> bool:
+    return isinstance(kind, BasicType) and kind.typename in names
+
+
+def to_plain(value: Any, longest: int | None = 128) -> Any:
+    """Turn a message or a field value into what YAML can hold, in field order.
+
+    Args:
+        value: Message or value of a field.
+        longest: Strings and sequences are cut after this many elements; None cuts nothing.
+    """
+    if hasattr(value, 'get_fields_and_field_types'):
+        return {
+            name: to_plain(getattr(value, name), longest)
+            for name in value.get_fields_and_field_types()
+        }
+    if isinstance(value, bytes):
+        value = list(value)
+    elif isinstance(value, array.array) or hasattr(value, 'tolist'):
+        value = value.tolist()
+    if isinstance(value, str):
+        cut = longest is not None and len(value) > longest
+        return value[:longest] + TRUNCATED if cut else value
+    if isinstance(value, (list, tuple)):
+        cut = longest is not None and len(value) > longest
+        items = [to_plain(item, longest) for item in (value[:longest] if cut else value)]
+        return [*items, TRUNCATED] if cut else items
+    return value
