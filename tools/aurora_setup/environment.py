@@ -19,6 +19,8 @@ from stamps import digest_files, read_stamp, write_stamp
 
 RUN_STAMP = 'run.json'
 DEV_STAMP = 'dev.json'
+# Source packages in the lock build with these, so they are installed before the rest.
+BUILD_TOOLS = frozenset({'setuptools', 'wheel'})
 
 
 def run_key(layout: Layout) -> dict[str, str]:
@@ -57,6 +59,11 @@ def ensure_run(layout: Layout) -> None:
     except (subprocess.CalledProcessError, OSError) as err:
         raise SetupError(f'cannot make the virtual environment {layout.venv}: {err}') from err
     say(f'installing {layout.run_lock.name} (about 1.5 GB; a minute or two)')
+    tools = layout.logs / 'build-tools.txt'
+    tools.parent.mkdir(parents=True, exist_ok=True)
+    tools.write_text(excerpt(layout.run_lock.read_text(), BUILD_TOOLS))
+    if tools.stat().st_size:
+        _pip_install(layout, tools)
     _pip_install(layout, layout.run_lock)
     if layout.ros == WHEELS:
         count = rewrite_builder_paths(layout.venv, layout.site_packages)
@@ -74,6 +81,23 @@ def ensure_dev(layout: Layout) -> None:
     say(f'installing {layout.dev_lock.name}')
     _pip_install(layout, layout.dev_lock)
     write_stamp(layout.stamps / DEV_STAMP, key)
+
+
+def excerpt(lock: str, names: frozenset[str]) -> str:
+    """Return the entries of a lock for some packages, with their hashes.
+
+    Args:
+        lock: Text of the lock: an entry begins in the first column, its hashes are indented.
+        names: Normalised names; those that the lock lacks are left out.
+    """
+    kept: list[str] = []
+    keeping = False
+    for line in lock.splitlines(keepends=True):
+        if not line[:1].isspace():
+            keeping = line.partition('==')[0] in names
+        if keeping:
+            kept.append(line)
+    return ''.join(kept)
 
 
 def _pip_install(layout: Layout, lock: Path) -> None:

@@ -7,6 +7,7 @@ The only module of the command that imports ROS; it is imported for this engine 
 
 from __future__ import annotations
 
+import json
 import os
 import subprocess
 import sys
@@ -55,9 +56,7 @@ _UP = ('ros2', 'run', 'aurora_bringup', 'up', '--detach', '--timeout', str(_STAR
 _DOWN = ('ros2', 'run', 'aurora_bringup', 'down')
 
 
-def run_over_ros(
-    request: RunRequest, root: Path, control: RunControl
-) -> tuple[RunReport, Path]:
+def run_over_ros(request: RunRequest, root: Path, control: RunControl) -> tuple[RunReport, Path]:
     """Run a prompt on the graph and return its report and run folder.
 
     Args:
@@ -77,7 +76,7 @@ def run_over_ros(
             RunScenario.Goal(
                 prompt=request.prompt,
                 prompt_bytes=len(request.prompt.encode('utf-8')),
-                options_json=options_json(request, root),
+                options_json=_options(request, root),
             ),
             _RUN_S,
             on_feedback=lambda feedback: control.progress(
@@ -87,6 +86,11 @@ def run_over_ros(
             cancel_limit_s=_CANCEL_S,
         )
     return _report(result), Path(result.run_dir)
+
+
+def _options(request: RunRequest, root: Path) -> str:
+    """Return the options with the folder for the run folder, which is no part of a request."""
+    return json.dumps({**json.loads(options_json(request)), 'out': str(root)})
 
 
 def _report(result: Any) -> RunReport:

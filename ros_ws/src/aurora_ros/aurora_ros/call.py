@@ -14,13 +14,14 @@ from collections.abc import Callable
 from typing import Any
 
 from action_msgs.msg import GoalStatus
-from rclpy.action.client import ActionClient, ClientGoalHandle
+from rclpy.action.client import ClientGoalHandle
 from rclpy.callback_groups import ReentrantCallbackGroup
 from rclpy.client import Client
 from rclpy.node import Node
 from rclpy.task import Future
 
 from aurora_core.errors import ExecutionError
+from aurora_ros.action_client import ThreadedActionClient
 from aurora_ros.errors import raise_error
 from aurora_ros.heartbeat import HeartbeatWatch
 from aurora_ros.interfaces import Call
@@ -42,13 +43,13 @@ class Caller:
         self._watch = watch
         self._group = ReentrantCallbackGroup()
         self._services: dict[str, Client] = {}
-        self._actions: dict[str, ActionClient] = {}
+        self._actions: dict[str, ThreadedActionClient] = {}
 
     def prepare(self, *calls: Call) -> None:
         """Create clients ahead of the first call, so that discovery costs nothing later."""
         for call in calls:
             if hasattr(call.type, 'Goal'):
-                self._actions[call.name] = ActionClient(
+                self._actions[call.name] = ThreadedActionClient(
                     self._node, call.type, call.name, callback_group=self._group
                 )
             else:

@@ -13,11 +13,18 @@ from rosidl_parser.definition import (
     AbstractNestedType,
     AbstractString,
     AbstractWString,
+    Array,
     BasicType,
+    BoundedSequence,
     NamespacedType,
 )
 
 TRUNCATED = '...'
+
+# Generated messages check neither ranges nor lengths unless asked to; a value that does not fit
+# would be cut silently when it is sent. The stem of a type name gives its bits.
+_BITS = {'int8': 8, 'int16': 16, 'short': 16, 'int32': 32, 'long': 32}
+_BITS |= {'int64': 64, 'long long': 64}
 
 
 class FieldError(ValueError):
@@ -56,12 +63,17 @@ def _convert(kind: Any, value: Any) -> Any:
     if isinstance(kind, AbstractNestedType):
         if not isinstance(value, list):
             raise FieldError(f'expected a list, found {value!r}')
-        items = [_convert(kind.value_type, item) for item in value]
-        element = kind.value_type
-        return b''.join(items) if _is(element, 'octet') and items else items
+        if isinstance(kind, Array) and len(value) != kind.size:
+            raise FieldError(f'expected {kind.size} elements, found {len(value)}')
+        if isinstance(kind, BoundedSequence) and len(value) > kind.maximum_size:
+            raise FieldError(f'expected at most {kind.maximum_size} elements, found {len(value)}')
+        return [_convert(kind.value_type, item) for item in value]
     if isinstance(kind, (AbstractString, AbstractWString)):
         if isinstance(value, (Mapping, list)) or value is None:
             raise FieldError(f'expected a string, found {value!r}')
+        most = getattr(kind, 'maximum_size', None)
+        if most is not None and len(str(value).encode()) > most:
+            raise FieldError(f'expected at most {most} bytes, found {len(str(value).encode())}')
         return str(value)
     if _is(kind, 'boolean'):
         if not isinstance(value, (bool, int)):
@@ -71,9 +83,21 @@ def _convert(kind: Any, value: Any) -> Any:
         return bytes([value])
     if _is(kind, 'float', 'double', 'long double'):
         return float(value)
+    return _integer(kind, value)
+
+
+def _integer(kind: Any, value: Any) -> int:
     if isinstance(value, float) and not value.is_integer():
         raise FieldError(f'expected an integer, found {value!r}')
-    return int(value)
+    number = int(value)
+    name = kind.typename.replace('unsigned ', 'u')
+    bits = _BITS.get(name.removeprefix('u'))
+    if bits is None:
+        return number
+    least = 0 if name.startswith('u') else -(1 << (bits - 1))
+    if not least <= number < least + (1 << bits):
+        raise FieldError(f'{number} does not fit {kind.typename}')
+    return number
 
 
 def _is(kind: Any, *names: str) -> bool:

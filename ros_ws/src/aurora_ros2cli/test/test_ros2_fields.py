@@ -57,6 +57,8 @@ def test_nothing_leaves_the_defaults() -> None:
         ('String', 'x'),
         ('String', {'data': {'a': 1}}),
         ('UInt8', {'data': 256}),
+        ('UInt8', {'data': -1}),
+        ('Int16', {'data': 40000}),
         ('UInt8', {'data': 1.5}),
         ('UInt8', {'data': 'many'}),
         ('Bool', {'data': 'perhaps'}),
@@ -67,6 +69,27 @@ def test_nothing_leaves_the_defaults() -> None:
 def test_values_that_do_not_fit_are_refused(message: str, values: Any) -> None:
     with pytest.raises(FieldError):
         set_fields(getattr(std_msgs, message)(), values)
+
+
+def test_the_last_value_of_each_range_fits() -> None:
+    for name, value in (
+        ('UInt8', 255),
+        ('Int8', -128),
+        ('UInt64', 2**64 - 1),
+        ('Int64', -(2**63)),
+    ):
+        message = getattr(std_msgs, name)()
+        set_fields(message, {'data': value})
+        assert message.data == value
+
+
+def test_an_array_of_fixed_size_must_be_filled() -> None:
+    camera = sensor_msgs.CameraInfo()
+    set_fields(camera, {'k': [1.0] * 9})
+    assert list(camera.k) == [1.0] * 9
+
+    with pytest.raises(FieldError, match='expected 9 elements, found 2'):
+        set_fields(camera, {'k': [1.0, 2.0]})
 
 
 def test_a_message_becomes_yaml_in_field_order() -> None:

@@ -8,8 +8,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from aurora_core.comm.link import MessageLink, whole_ticks
+from aurora_core.conditions.events import actor_of
 from aurora_core.execution.observe import Observation
-from aurora_core.execution.triggers import Progress, actors, holds
+from aurora_core.execution.triggers import Progress, holds
 from aurora_core.mission.machine import MissionMachine
 from aurora_core.spec.scenario import AgentAction, Event, ScenarioSpec, SendMessage, UavAction
 from aurora_core.spec.vocabulary import MissionMode
@@ -44,13 +45,16 @@ class EventRunner:
         spec: The request.
         roster: Row order.
         links: Message links.
+        arrival_m: An agent this close to a place is there.
     """
 
-    def __init__(self, spec: ScenarioSpec, roster: Roster, links: Sequence[MessageLink]) -> None:
+    def __init__(
+        self, spec: ScenarioSpec, roster: Roster, links: Sequence[MessageLink], arrival_m: float
+    ) -> None:
         self._roster = roster
         self._links = links
         self._states = [_EventState(event=e) for e in spec.events]
-        self._progress = Progress()
+        self._progress = Progress(arrival_m=arrival_m)
         self._messages = 0
 
     @property
@@ -110,9 +114,8 @@ class EventRunner:
         tracks = any(m.mode is MissionMode.TRACK for m in machine.plan.missions)
         if tracks and machine.first_capture_tick is None:
             return False
-        return all(
-            seen.visible(sender, actor) for actor in actors(event).values() if actor != sender
-        )
+        actor = actor_of(event)
+        return actor is None or actor == sender or seen.visible(sender, actor)
 
     def _act(
         self,

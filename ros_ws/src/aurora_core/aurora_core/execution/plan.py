@@ -20,7 +20,7 @@ from aurora_core.grounding.airspace import Airspace
 from aurora_core.grounding.grounded import GroundedAgent, GroundedScenario
 from aurora_core.grounding.places import landmark_point, place_positions
 from aurora_core.knowledge.config_files import config_path
-from aurora_core.knowledge.limits import Limits
+from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.settings import Settings
 from aurora_core.knowledge.world import (
@@ -67,6 +67,7 @@ def build_execution(
     map_model: MapModel,
     *,
     limits: Limits,
+    tolerances: Tolerances,
     settings: Settings,
     seed: int,
     faults: tuple[Fault, ...] = (),
@@ -77,6 +78,7 @@ def build_execution(
         agsg: Grounded, with schedule and conditions.
         map_model: The map it was grounded on.
         limits: Limits in force.
+        tolerances: Tolerances in force.
         settings: Execution settings.
         seed: Seed of the run.
         faults: Faults to inject.
@@ -112,6 +114,7 @@ def build_execution(
             airspace=airspace,
             geometry=WorldGeometry(world),
             landing_clearance_m=limits.clearance_min_m + 1.0,
+            arrival_m=tolerances.arrival_m,
             horizon_ticks=round(schedule.horizon_s / dt_s),
             stated_horizon=schedule.stated_horizon,
             earliest_end_ticks=round(limits.horizon_inferred_min_s / dt_s),

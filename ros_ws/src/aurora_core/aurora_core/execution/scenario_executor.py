@@ -52,6 +52,7 @@ class ExecutionSetup:
 
     Attributes:
         geometry: Solids and places of the world, the same that the monitor judges with.
+        arrival_m: An agent this close to a place is there.
         landing_clearance_m: The way to a landing spot keeps this clearance.
         earliest_end_ticks: Runs with an inferred horizon do not end before.
         settle_ticks: Time between the last thing done and the end.
@@ -65,6 +66,7 @@ class ExecutionSetup:
     airspace: Airspace
     geometry: WorldGeometry
     landing_clearance_m: float
+    arrival_m: float
     horizon_ticks: int
     stated_horizon: bool
     earliest_end_ticks: int
@@ -87,7 +89,7 @@ class ScenarioExecutor:
         self._held = {i for i, a in enumerate(setup.agents) if a.release is not ReleaseOn.START}
         self._phases = [int(UavPhase.IDLE)] * len(setup.machines)
         self._seen: dict[tuple[str, str], bool] = {}
-        self._runner = EventRunner(setup.spec, setup.roster, setup.links)
+        self._runner = EventRunner(setup.spec, setup.roster, setup.links, setup.arrival_m)
         self._done_tick: int | None = None
 
     def step(self, tick: int, ground: FloatArray, uav: FloatArray) -> StepOutput:
@@ -174,7 +176,9 @@ class ScenarioExecutor:
         for index, machine in enumerate(self._setup.machines):
             if tick == 0:
                 machine.start()
-            mission = machine.mission
+            # The first sample inside the altitude tolerance may be the capture as well.
+            climbing = machine.phase == int(UavPhase.ASCENT)
+            mission = machine.plan.missions[0] if climbing else machine.mission
             target = None
             if mission is not None and mission.mode is MissionMode.TRACK:
                 assert mission.target is not None

@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from aurora_core.execution.observe import Observation
@@ -22,14 +21,12 @@ from aurora_core.spec.scenario import (
     VisibilityTrigger,
 )
 
-# An agent has arrived at a place when it is this close to it (m).
-ARRIVAL_M = 15.0
-
 
 @dataclass(slots=True)
 class Progress:
     """What has happened so far, for triggers that follow other events."""
 
+    arrival_m: float  # an agent this close to a place is there
     done_tick: dict[str, int] = field(default_factory=dict)
     received: set[tuple[str, str]] = field(default_factory=set)  # (receiver, sender)
     missions_done: set[str] = field(default_factory=set)  # UAV ids
@@ -88,18 +85,8 @@ def _state_holds(
         return speed >= trigger.value_mps.value
     if isinstance(trigger, ArrivalTrigger):
         distance = observation.distance_m(trigger.who, trigger.place)
-        return distance is not None and distance <= ARRIVAL_M
+        return distance is not None and distance <= progress.arrival_m
     if trigger.observer not in progress.ascended:
         return False  # a camera on the ground has not lost sight of anything
     seen = observation.visible(trigger.observer, trigger.target)
     return seen if trigger.on == 'visible' else not seen
-
-
-def actors(event: Event) -> Mapping[str, str]:
-    """Return the bodies that the trigger is about, by role, for the sight rule of alerts."""
-    trigger = event.trigger
-    if isinstance(trigger, DistanceTrigger):
-        return {'actor': trigger.a}
-    if isinstance(trigger, SpeedTrigger | ArrivalTrigger):
-        return {'actor': trigger.who}
-    return {}

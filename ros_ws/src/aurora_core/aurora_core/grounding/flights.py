@@ -32,8 +32,8 @@ from aurora_core.spec.vocabulary import MissionMode, Pattern
 FloatArray = npt.NDArray[np.float64]
 Point3 = tuple[float, float, float]
 
-# Planned share of a leg over a carriageway for "over the streets"; a little above what is asked.
-LEG_SHARE = 0.85
+# Planned share of a leg over a carriageway, beyond what the condition asks.
+SPARE_SHARE = 0.05
 
 _SIGHT_HEIGHT_PLACE_M = 1.0
 
@@ -92,6 +92,7 @@ class FlightPlanner:
         self._settings = settings
         self._range = sensing_range_m
         self._hover_drift_m = hover_drift_m
+        self._leg_share = min(1.0, tolerances.over_carriageway_share + SPARE_SHARE)
         self._carriageway = map_model.network.carriageway
         shapely.prepare(self._carriageway)
 
@@ -322,7 +323,7 @@ class FlightPlanner:
                 if clearance < self._settings.clearance_m:
                     continue
                 over = self._over_street(placed)
-                if mission.over_streets and over < LEG_SHARE:
+                if mission.over_streets and over < self._leg_share:
                     continue
                 if best is None or over > best.over_street:
                     plan = MissionPlan(

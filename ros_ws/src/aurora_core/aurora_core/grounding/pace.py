@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """How fast a convoy may drive so that what is asked of the UAVs can come true, and who closes in.
 
-Speeds that the prompt does not state are free: a tracked or observed convoy is slowed, and when two
-vehicles have to meet, the front one drives slowly enough for the rear one to catch up.
+Speeds that the prompt does not state are free: a tracked or observed convoy is slowed, and when
+two vehicles have to meet, the front one drives slowly enough for the rear one to catch up.
 """
 
 from __future__ import annotations

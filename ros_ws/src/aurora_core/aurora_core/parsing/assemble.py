@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from aurora_core.parsing import values
 from aurora_core.parsing.scene import Entity, LinkDraft, MissionDraft, Scene
-from aurora_core.spec.parameter import Bound, Parameter, Provenance
+from aurora_core.spec.parameter import Parameter, Provenance
 from aurora_core.spec.scenario import (
     GroundAgent,
     Link,
@@ -162,8 +162,3 @@ def _link(draft: LinkDraft) -> Link:
         retransmission_interval_s=values.default('link_retransmission_interval'),
         span=draft.span,
     )
-
-
-def one_sided(parameter: Parameter) -> bool:
-    """Return whether a stated value is a bound."""
-    return parameter.bound is not Bound.EXACTLY

@@ -111,6 +111,7 @@ def execution_stage(agsg: Agsg, seed: int, faults: tuple[Fault, ...]) -> Executi
         agsg,
         known.map(agsg.map_name),
         limits=known.limits,
+        tolerances=known.tolerances,
         settings=known.settings,
         seed=seed,
         faults=faults,

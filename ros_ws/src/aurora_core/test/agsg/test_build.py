@@ -60,9 +60,7 @@ def full(
 
 
 @pytest.mark.parametrize('name', NAMES)
-def test_every_element_is_a_node_and_no_edge_hangs(
-    name: str, full: Callable[[str], Agsg]
-) -> None:
+def test_every_element_is_a_node_and_no_edge_hangs(name: str, full: Callable[[str], Agsg]) -> None:
     agsg = full(name)
     ids = [node.id for node in agsg.nodes]
     assert len(ids) == len(set(ids))

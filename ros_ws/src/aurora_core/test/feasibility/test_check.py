@@ -177,7 +177,7 @@ def test_inside_at_and_outside_of_a_limit(
 
 @pytest.mark.parametrize(('name', 'edge'), EDGES)
 def test_one_sided_requests(name: str, edge: str, limits: Limits, parameter: Make) -> None:
-    """"At most 150 m" can be met below a limit of 120 m, "at least 150 m" cannot."""
+    """ "At most 150 m" can be met below a limit of 120 m, "at least 150 m" cannot."""
     build, unit, low, high, _, _ = PLACES[name]
     value = low - 1.0 if edge == 'low' else high + 1.0
     meets = Bound.AT_LEAST if edge == 'low' else Bound.AT_MOST

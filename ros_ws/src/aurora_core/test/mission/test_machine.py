@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable
 from math import sqrt
 from typing import Any
@@ -125,9 +126,9 @@ class _Follower:
             s[UavColumn.Z] = max(0.0, s[UavColumn.Z] - 0.1)
         s[UavColumn.VX : UavColumn.VZ + 1] = (s[UavColumn.X : UavColumn.Z + 1] - before) / DT_S
         s[UavColumn.LANDED] = float(s[UavColumn.Z] <= 0.0)
-        s[UavColumn.ARMED] = float(mode != UavMode.IDLE and not (
-            mode == UavMode.LAND and s[UavColumn.Z] <= 0.0
-        ))
+        s[UavColumn.ARMED] = float(
+            mode != UavMode.IDLE and not (mode == UavMode.LAND and s[UavColumn.Z] <= 0.0)
+        )
         s[UavColumn.MODE] = mode
 
     def phases(self) -> list[int]:
@@ -251,9 +252,7 @@ def _driving(tick: int) -> TargetMotion:
 
 
 def test_track_follows_at_its_offset() -> None:
-    plan = _track(
-        standoff_m=35.0, offset_m=(0.0, 35.0), capture_horizontal_m=5.0, duration_s=12.0
-    )
+    plan = _track(standoff_m=35.0, offset_m=(0.0, 35.0), capture_horizontal_m=5.0, duration_s=12.0)
     machine = _machine(plan)
     machine.start()
     follower = _Follower(machine)
@@ -322,7 +321,9 @@ def test_route_is_captured_at_its_first_point_and_flown_to_its_last() -> None:
     follower.until(lambda: machine.captured)
     capture = machine.capture_tick
     assert capture is not None
-    assert sqrt((follower.states[capture][0] - 30.0) ** 2 + follower.states[capture][1] ** 2) <= 1.0
+    assert (
+        sqrt((follower.states[capture][0] - 30.0) ** 2 + follower.states[capture][1] ** 2) <= 1.0
+    )
     follower.until(lambda: machine.missions_done)
     for x, y, z in _route().waypoints:
         nearest = min(
@@ -373,10 +374,11 @@ def test_set_points_never_jump() -> None:
     follower.until(lambda: machine.missions_done, _driving)
     _land(follower, spot=(0.0, 0.0), altitude=45.0)
     rows = [r for r in follower.rows if r[UavCommandColumn.MODE] == UavMode.OFFBOARD]
-    for a, b in zip(rows[:-1], rows[1:], strict=True):
-        move = b[UavCommandColumn.X : UavCommandColumn.Z + 1] - a[
-            UavCommandColumn.X : UavCommandColumn.Z + 1
-        ]
+    for a, b in itertools.pairwise(rows):
+        move = (
+            b[UavCommandColumn.X : UavCommandColumn.Z + 1]
+            - a[UavCommandColumn.X : UavCommandColumn.Z + 1]
+        )
         assert sqrt(move[0] ** 2 + move[1] ** 2) <= SETTINGS.speed_max_mps * DT_S + 1e-9
         assert -SETTINGS.descent_mps * DT_S - 1e-9 <= move[2] <= SETTINGS.climb_mps * DT_S + 1e-9
 

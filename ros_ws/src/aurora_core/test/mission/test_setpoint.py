@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import itertools
 from math import cos, pi, sin, sqrt
 
 import pytest
@@ -157,11 +158,9 @@ def _distance_to_leg(p: Point3, a: Point3, b: Point3) -> float:
 
 @pytest.mark.parametrize('speed', [2.0, 8.0, 16.0])
 @pytest.mark.parametrize('points', [RECTANGLE, ORBIT, HAIRPIN, SHORT_LEGS, SLOPE])
-def test_route_keeps_speed_acceleration_and_line(
-    points: tuple[Point3, ...], speed: float
-) -> None:
+def test_route_keeps_speed_acceleration_and_line(points: tuple[Point3, ...], speed: float) -> None:
     samples = _fly(points, speed)
-    legs = list(zip(points[:-1], points[1:], strict=True))
+    legs = list(itertools.pairwise(points))
     previous = 0.0
     for position, velocity in samples[1:]:
         now = sqrt(sum(v * v for v in velocity))
@@ -190,7 +189,7 @@ def test_route_slows_down_at_corners_but_not_on_curves() -> None:
 def test_route_brakes_no_harder_than_the_acceleration_limit() -> None:
     samples = _fly(RECTANGLE, 16.0)
     speeds = [sqrt(v[0] ** 2 + v[1] ** 2) for _, v in samples]
-    braking = max((a - b) / DT_S for a, b in zip(speeds[:-2], speeds[1:-1], strict=True))
+    braking = max((a - b) / DT_S for a, b in itertools.pairwise(speeds[:-1]))
     assert braking <= SETTINGS.acceleration_mps2
 
 

@@ -102,7 +102,7 @@ def _check_numbers(prompt: str, spec: ScenarioSpec) -> None:
     for number in re.finditer(r'\d+', prompt):
         covered = any(s['start'] <= number.start() and number.end() <= s['end'] for s in spans)
         mentioned = re.search(
-            rf'{number.group()}(\.\d+)?\W*\w*\W*\w*\W*(uav|drone|car|bus|van|truck|taxi|cyclist|ped)',
+            rf'{number.group()}(\.\d+)?\W*\w*\W*\w*\W*(uav|drone|ego|car|bus|van|truck|taxi|cyclist|ped)',
             prompt[number.start() :],
             re.IGNORECASE,
         )

@@ -85,7 +85,9 @@ def _trace(ticks: int = 45, agents: int = 2, uavs: int = 1, seed: int = 3) -> Tr
         commands[4] = (GroundCommand(agent=0, kind=GroundCommandKind.SET_ROUTE, text='a b c'),)
     roster = Roster(
         dt_s=DT_S,
-        agents=tuple(_entry(f'agent{k}', 'pedestrian' if k == 1 else 'car', 0) for k in range(agents)),
+        agents=tuple(
+            _entry(f'agent{k}', 'pedestrian' if k == 1 else 'car', 0) for k in range(agents)
+        ),
         uavs=tuple(_entry(f'uav{k + 1}', 'uav', k + 1) for k in range(uavs)),
     )
     return Trace(
@@ -100,7 +102,9 @@ def _trace(ticks: int = 45, agents: int = 2, uavs: int = 1, seed: int = 3) -> Tr
             _link(2, 9, LinkEventKind.DELIVERED, LossReason.NONE),
         ),
         sights=(
-            SightRecord(tick=0, observer='uav1', target='agent0', visible=False, slant_range_m=0.1),
+            SightRecord(
+                tick=0, observer='uav1', target='agent0', visible=False, slant_range_m=0.1
+            ),
             SightRecord(tick=7, observer='uav1', target='agent0', visible=True, slant_range_m=1e6),
         ),
         events=(
@@ -158,9 +162,7 @@ def _world(buildings: tuple[Building, ...] | None = None) -> WorldModel:
         time_of_day='dusk',
         wind=Wind(mean_east_mps=3.0, mean_north_mps=-0.1, gust_mps=2.0),
         buildings=default if buildings is None else buildings,
-        no_fly_zones=(
-            NoFlyZone(id='z1', name='Zone', ring=square, floor_m=0.0, ceiling_m=150.0),
-        ),
+        no_fly_zones=(NoFlyZone(id='z1', name='Zone', ring=square, floor_m=0.0, ceiling_m=150.0),),
         surfaces=(
             Surface(
                 surface_id='s1',

@@ -14,6 +14,8 @@ from typing import Any
 import numpy as np
 import pytest
 import yaml
+from mcap.records import Channel, Message, Schema
+from mcap.stream_reader import StreamReader
 from mcap.writer import Writer
 
 from aurora_core.errors import BagError
@@ -45,8 +47,7 @@ def _integrity(folder: Path) -> Integrity:
     """Read the trace and return its integrity; a bag that cannot be judged counts as damaged."""
     try:
         trace = read_bag(folder, message_definitions()).trace
-    except BagError as err:
-        assert err.code == 600
+    except BagError:
         return Integrity.UNKNOWN
     assert trace.ground.shape[0] == trace.uav.shape[0] == len(trace.ground_commands)
     if trace.integrity is not Integrity.INTACT:
@@ -140,7 +141,9 @@ def test_missing_metadata_means_not_closed(bag: Path) -> None:
     assert content.trace.ticks == 60  # everything is still there to be judged
 
 
-@pytest.mark.parametrize('text', ['', '[', 'a: 1', '- 1', 'rosbag2_bagfile_information: 3', '\udcff'])
+@pytest.mark.parametrize(
+    'text', ['', '[', 'a: 1', '- 1', 'rosbag2_bagfile_information: 3', '2001-99-99', '\udcff']
+)
 def test_damaged_metadata(bag: Path, text: str) -> None:
     (bag / 'metadata.yaml').write_bytes(text.encode('utf-8', 'surrogateescape'))
     content = read_bag(bag, message_definitions())
@@ -276,9 +279,6 @@ def test_a_tick_number_out_of_reach_is_damage_not_a_long_gap(
 
 def _foreign(folder: Path, source: Path, schema_name: str | None, text: bytes | None) -> None:
     """Copy a bag with the type name or the definition of one topic replaced."""
-    from mcap.records import Channel, Message, Schema
-    from mcap.stream_reader import StreamReader
-
     folder.mkdir()
     schemas: dict[int, Schema] = {}
     channels: dict[int, Channel] = {}

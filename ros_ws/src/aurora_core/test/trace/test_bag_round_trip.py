@@ -120,9 +120,7 @@ def test_a_world_without_anything_in_it(
     make_world: Callable[..., Any],
     record: Callable[..., Any],
 ) -> None:
-    world = replace(
-        make_world(()), no_fly_zones=(), surfaces=(), lanes=(), signals=(), places=()
-    )
+    world = replace(make_world(()), no_fly_zones=(), surfaces=(), lanes=(), signals=(), places=())
     record(tmp_path / 'bag.0', make_trace(ticks=10), world)
     found = _read(tmp_path / 'bag.0').world
     assert world_sha256(found) == world_sha256(world)

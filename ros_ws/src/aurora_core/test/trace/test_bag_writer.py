@@ -19,6 +19,7 @@ from aurora_core.trace.bag_reader import read_bag
 from aurora_core.trace.bag_writer import BagWriter
 from aurora_core.trace.definitions import message_definitions
 from aurora_core.trace.messages import MessageBuilder
+from aurora_core.trace.messages_world import world_message
 from aurora_core.trace.trace import Integrity, Trace
 
 
@@ -83,21 +84,26 @@ def test_a_full_disk_is_an_error_and_the_bag_stays_readable(
     trace = make_trace(ticks=2000, agents=10)
     build = MessageBuilder(definitions, 1, 0.05)
     folder = tmp_path / 'bag.0'
-    from aurora_core.trace.messages_world import world_message
+    world = world_message(definitions, build.header(0), 'r', make_world())
+    stored = [
+        (messages.ROSTER, 0, build.roster('r', trace.roster)),
+        (messages.WORLD, 0, world),
+    ]
+    stored += [
+        (messages.GROUND_STATE, k, build.state(messages.GROUND_STATE, k, trace.ground[k]))
+        for k in range(trace.ticks)
+    ]
+    writer = BagWriter(folder, definitions)
 
-    with pytest.raises(BagError, match='cannot write the bag') as caught:  # noqa: PT012
-        with _full_disk(60_000), BagWriter(folder, definitions) as writer:
-            for topic, value in (
-                (messages.ROSTER, build.roster('r', trace.roster)),
-                (messages.WORLD, world_message(definitions, build.header(0), 'r', make_world())),
-            ):
+    def store_all() -> None:
+        with writer:
+            for topic, tick, message in stored:
                 type_name = messages.TOPICS[topic]
-                writer.write(topic, type_name, definitions.encode(type_name, value), 0)
-            for tick in range(trace.ticks):
-                type_name = messages.TOPICS[messages.GROUND_STATE]
-                message = build.state(messages.GROUND_STATE, tick, trace.ground[tick])
                 cdr = definitions.encode(type_name, message)
-                writer.write(messages.GROUND_STATE, type_name, cdr, tick * 50_000_000)
+                writer.write(topic, type_name, cdr, tick * 50_000_000)
+
+    with _full_disk(60_000), pytest.raises(BagError, match='cannot write the bag') as caught:
+        store_all()
     assert 'space' in caught.value.hint
     assert writer.closed
     found = read_bag(folder, definitions).trace
@@ -131,8 +137,9 @@ def test_closing_twice_is_refused(tmp_path: Path) -> None:
 
 
 def test_leaving_the_block_closes_the_bag_also_after_an_error(tmp_path: Path) -> None:
-    with pytest.raises(RuntimeError, match='simulator'), BagWriter(
-        tmp_path / 'bag.0', message_definitions()
+    with (
+        pytest.raises(RuntimeError, match='simulator'),
+        BagWriter(tmp_path / 'bag.0', message_definitions()),
     ):
         raise RuntimeError('simulator')
     assert (tmp_path / 'bag.0' / 'metadata.yaml').is_file()

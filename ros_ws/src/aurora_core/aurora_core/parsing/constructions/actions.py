@@ -14,9 +14,9 @@ from aurora_core.parsing.constructions.flyers import flyers
 from aurora_core.parsing.constructions.messages import message
 from aurora_core.parsing.constructions.places import add_placement, placements_of
 from aurora_core.parsing.frames import Frame
-from aurora_core.parsing.pronouns import airborne, ground
+from aurora_core.parsing.pronouns import ground
 from aurora_core.parsing.scene import Scene
-from aurora_core.spec.scenario import AgentAction, EventAction, SendMessage, UavAction
+from aurora_core.spec.scenario import AgentAction, EventAction, UavAction
 from aurora_core.spec.vocabulary import MissionMode
 
 AgentDo = Literal['brake', 'stop', 'slow', 'accelerate', 'change_lane', 'yield', 'start', 'cross']
@@ -109,13 +109,3 @@ def _uav_action(frame: Frame) -> UavAction | None:
 def is_action(frame: Frame) -> bool:
     """Return whether a clause can be the effect of an event without a trigger of its own."""
     return frame.key in ('alert', 'send', 'report', 'accelerate')
-
-
-def sends(action_value: EventAction | None) -> SendMessage | None:
-    """Return the action when it is a message."""
-    return action_value if isinstance(action_value, SendMessage) else None
-
-
-def acts_on_air(frame: Frame) -> bool:
-    """Return whether the subject of a clause flies."""
-    return any(airborne(e) for e in frame.subjects())

@@ -22,14 +22,8 @@ _STAYING = frozenset({'keep', 'be', 'fly', 'drive', 'track', 'follow', 'hover', 
 
 def condition(frame: Frame) -> bool:
     """Read a clause that is nothing but a condition."""
-    return (
-        _gap_limit(frame)
-        or _limit(frame)
-        or _apart(frame)
-        or _in_view(frame)
-        or _delivery(frame)
-        or _near(frame)
-    )
+    readers = (_gap_limit, _limit, _apart, _in_view, _delivery, _near)
+    return any(reader(frame) for reader in readers)
 
 
 def distance_conditions(frame: Frame) -> bool:
@@ -118,6 +112,7 @@ def _gap_limit(frame: Frame) -> bool:
         return False
     phrases = frame.free(AdjunctKind.PHRASE, 'between', 'to', 'from', 'of')
     nouns = [*words[0].nouns, *(n for p in phrases for n in p.nouns)]
+    frame.scene.clause.subjects = ()  # nobody acts: `them` may be anyone
     ends = frame.objects([n for n in nouns if n.kind in ACTORS])
     if len(ends) != 2 or not values.accepts('condition_distance', length.measure):
         return False

@@ -11,7 +11,6 @@ from aurora_core.parsing.constructions.flight_types import FlightValues
 from aurora_core.parsing.constructions.flight_values import take_flight_values
 from aurora_core.parsing.constructions.flyers import flyers
 from aurora_core.parsing.frames import Frame
-from aurora_core.parsing.measures import COUNT
 from aurora_core.parsing.pieces import Link
 from aurora_core.parsing.scene import Entity, MissionDraft
 from aurora_core.spec.scenario import StatedCondition
@@ -315,8 +314,3 @@ def _state_ranges(frame: Frame, draft: MissionDraft, found: FlightValues) -> Non
             )
             frame.scene.conditions.append(made)
             frame.scene.clause.ids[made.id] = None
-
-
-def waypoints_without_unit(adjunct: Adjunct) -> bool:
-    """Return whether an adjunct is a plain count."""
-    return adjunct.measure is not None and adjunct.measure.dimension == COUNT

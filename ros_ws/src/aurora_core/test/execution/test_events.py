@@ -1,0 +1,348 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Events: each trigger, delays, the sight rule of alerts, and what actions command."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from aurora_core.grounding.grounded import ReleaseOn
+from aurora_core.knowledge.map_types import Building
+from aurora_core.spec.parameter import Parameter
+from aurora_core.spec.scenario import (
+    AgentAction,
+    AltitudeTrigger,
+    ArrivalTrigger,
+    DistanceTrigger,
+    Event,
+    EventDoneTrigger,
+    MessageTrigger,
+    MissionDoneTrigger,
+    SendMessage,
+    SpeedTrigger,
+    TimeTrigger,
+    UavAction,
+    VisibilityTrigger,
+)
+from aurora_core.trace.layout import GroundCommandKind, UavCommandColumn, UavMode
+from aurora_core.trace.records import LinkEventKind, ScenarioEventKind
+
+Make = Callable[..., Parameter]
+Build = Callable[..., Any]
+
+WALL = Building(
+    id='wall',
+    ring=((40.0, -50.0), (60.0, -50.0), (60.0, 50.0), (40.0, 50.0)),
+    holes=(),
+    height_m=100.0,
+    height_source='',
+    kind='block',
+    name='',
+)
+
+
+def _event(trigger: Any, action: Any = None, **fields: Any) -> Event:
+    return Event(id=fields.pop('id', 'e1'), trigger=trigger, action=action, **fields)
+
+
+def _triggered(scene: Any) -> list[tuple[int, str]]:
+    return [(tick, subject) for tick, subject, _ in scene.notes(ScenarioEventKind.TRIGGERED)]
+
+
+def test_an_event_without_a_trigger_happens_at_the_start(stage: Build) -> None:
+    scene = stage(events=(_event(None, AgentAction(do='stop', agent='ego')),))
+    scene.step(3)
+    assert _triggered(scene) == [(0, 'e1')]
+    assert [t for t, _, _ in scene.notes(ScenarioEventKind.ACTION)] == [0]
+
+
+@pytest.mark.parametrize('at_s', [0.0, 0.05, 0.3, 0.35, 2.0])
+def test_time(at_s: float, stage: Build, parameter: Make) -> None:
+    scene = stage(events=(_event(TimeTrigger(on='time', at_s=parameter(at_s, 's'))),))
+    scene.step(50)
+    assert _triggered(scene) == [(round(at_s / 0.05), 'e1')]
+
+
+def _distance(kind: str, parameter: Make, other: str = 'ego') -> Event:
+    return _event(DistanceTrigger(on=kind, a='van1', b=other, value_m=parameter(20.0)))  # type: ignore[arg-type]
+
+
+def test_distance_below(stage: Build, parameter: Make) -> None:
+    scene = stage(events=(_distance('distance_below', parameter),))
+    for x in (40.0, 20.001, 20.0, 5.0):
+        scene.put('van1', x).step()
+    assert _triggered(scene) == [(2, 'e1')]
+
+
+def test_distance_below_holds_from_the_start(stage: Build, parameter: Make) -> None:
+    scene = stage(events=(_distance('distance_below', parameter),))
+    scene.put('van1', 5.0).step()
+    assert _triggered(scene) == [(0, 'e1')]
+
+
+def test_distance_above_asks_for_a_change(stage: Build, parameter: Make) -> None:
+    scene = stage(events=(_distance('distance_above', parameter),))
+    for x in (30.0, 30.0, 19.0, 19.9, 20.0):
+        scene.put('van1', x).step()
+    assert _triggered(scene) == [(4, 'e1')]
+
+
+def test_distance_to_a_place(stage: Build, parameter: Make) -> None:
+    scene = stage(events=(_distance('distance_below', parameter, 'intersection'),))
+    for x in (250.0, 281.0):
+        scene.put('van1', x).step()
+    assert _triggered(scene) == [(1, 'e1')]
+
+
+def test_distance_is_in_space(stage: Build, parameter: Make) -> None:
+    trigger = DistanceTrigger(on='distance_below', a='uav1', b='van1', value_m=parameter(50.0))
+    scene = stage(events=(_event(trigger),))
+    scene.fly('uav1', 0.0, 0.0, 30.0).put('van1', 41.0).step()
+    scene.put('van1', 39.0).step()
+    assert _triggered(scene) == [(1, 'e1')]
+
+
+def test_a_body_that_is_gone_is_at_no_distance(stage: Build, parameter: Make) -> None:
+    scene = stage(events=(_distance('distance_below', parameter),))
+    scene.put('van1', 5.0).remove('van1').step(3)
+    assert _triggered(scene) == []
+
+
+def test_altitude(stage: Build, parameter: Make) -> None:
+    trigger = AltitudeTrigger(on='altitude_reached', uav='uav1', value_m=parameter(25.0))
+    scene = stage(events=(_event(trigger),))
+    for z in (0.0, 24.99, 25.0):
+        scene.fly('uav1', 0.0, 0.0, z).step()
+    assert _triggered(scene) == [(2, 'e1')]
+
+
+def test_speed_above_and_below(stage: Build, parameter: Make) -> None:
+    events = (
+        _event(
+            SpeedTrigger(on='speed_above', who='ego', value_mps=parameter(5.0, 'm/s')), id='e1'
+        ),
+        _event(
+            SpeedTrigger(on='speed_below', who='ego', value_mps=parameter(2.0, 'm/s')), id='e2'
+        ),
+    )
+    scene = stage(events=events)
+    for speed in (0.0, 4.9, 5.0, 3.0, 2.0):
+        scene.put('ego', 0.0, speed=speed).step()
+    # Standing at the start is no slowing down.
+    assert _triggered(scene) == [(2, 'e1'), (4, 'e2')]
+
+
+def test_the_speed_of_who_is_gone_counts_for_nothing(stage: Build, parameter: Make) -> None:
+    trigger = SpeedTrigger(on='speed_above', who='ego', value_mps=parameter(5.0, 'm/s'))
+    scene = stage(events=(_event(trigger),))
+    scene.put('ego', 0.0, speed=9.0).remove('ego').step(3)
+    assert _triggered(scene) == []
+
+
+def test_speed_of_a_uav(stage: Build, parameter: Make) -> None:
+    trigger = SpeedTrigger(on='speed_above', who='uav1', value_mps=parameter(5.0, 'm/s'))
+    scene = stage(events=(_event(trigger),))
+    scene.fly('uav1', 0.0, 0.0, 30.0).step()
+    scene.uav[0, 3:6] = (3.0, 0.0, 4.0)
+    scene.step()
+    assert _triggered(scene) == [(1, 'e1')]
+
+
+def test_arrival(stage: Build) -> None:
+    scene = stage(events=(_event(ArrivalTrigger(on='arrives', who='ego', place='intersection')),))
+    for x in (280.0, 290.0):
+        scene.put('ego', x).step()
+    assert _triggered(scene) == [(1, 'e1')]
+
+
+def test_visible_counts_from_the_end_of_the_ascent(stage: Build) -> None:
+    trigger = VisibilityTrigger(on='visible', observer='uav1', target='van1')
+    scene = stage(events=(_event(trigger),))
+    scene.put('van1', 10.0).fly('uav1', 0.0, 0.0, 20.0).step(3)
+    scene.fly('uav1', 0.0, 0.0, 29.0).step()
+    assert _triggered(scene) == [(3, 'e1')]
+
+
+def test_occluded_asks_for_sight_before(stage: Build) -> None:
+    trigger = VisibilityTrigger(on='occluded', observer='uav1', target='van1')
+    scene = stage(events=(_event(trigger),), buildings=(WALL,))
+    scene.put('van1', 10.0).fly('uav1', 0.0, 0.0, 30.0).step(2)
+    assert _triggered(scene) == []
+    scene.put('van1', 100.0).step()
+    assert _triggered(scene) == [(2, 'e1')]
+
+
+def test_message_received(stage: Build, parameter: Make) -> None:
+    send = SendMessage(do='send_message', sender='van1', receiver='ego')
+    events = (
+        _event(TimeTrigger(on='time', at_s=parameter(0.5, 's')), send, id='e1'),
+        _event(MessageTrigger(on='message_received', by='ego'), id='e2'),
+        _event(MessageTrigger(on='message_received', by='ego', sender='van1'), id='e3'),
+        _event(MessageTrigger(on='message_received', by='ego', sender='uav1'), id='e4'),
+        _event(MessageTrigger(on='message_received', by='van1'), id='e5'),
+    )
+    scene = stage(events=events, links=(('van1', 'ego'),))
+    scene.put('ego', 30.0).step(40)
+    delivered = [
+        r.tick for o in scene.outputs for r in o.links if r.kind is LinkEventKind.DELIVERED
+    ]
+    assert delivered == [12]
+    assert _triggered(scene) == [(10, 'e1'), (13, 'e2'), (13, 'e3')]
+
+
+def test_event_done_with_a_delay(stage: Build, parameter: Make) -> None:
+    stop = AgentAction(do='stop', agent='ego')
+    events = (
+        _event(
+            TimeTrigger(on='time', at_s=parameter(1.0, 's')),
+            stop,
+            id='e1',
+            delay_s=parameter(0.5, 's'),
+        ),
+        _event(
+            EventDoneTrigger(on='event_done', event='e1', after_s=parameter(2.0, 's')), id='e2'
+        ),
+        _event(EventDoneTrigger(on='event_done', event='e1'), id='e3'),
+    )
+    scene = stage(events=events)
+    scene.step(100)
+    assert _triggered(scene) == [(20, 'e1'), (30, 'e3'), (70, 'e2')]
+    actions = [(t, s) for t, s, _ in scene.notes(ScenarioEventKind.ACTION)]
+    assert actions == [(30, 'e1'), (30, 'e3'), (70, 'e2')]
+
+
+def test_mission_done(stage: Build) -> None:
+    scene = stage(events=(_event(MissionDoneTrigger(on='mission_done', uav='uav1')),), hold_s=1.0)
+    scene.put('van1', 0.0).fly('uav1', 0.0, 0.0, 30.0).step(40)
+    [(tick, _)] = _triggered(scene)
+    phases = {d: t for t, _, d in scene.notes(ScenarioEventKind.PHASE)}
+    assert tick == phases['landing']
+
+
+def test_an_event_happens_once(stage: Build, parameter: Make) -> None:
+    event = _distance('distance_below', parameter).model_copy(
+        update={'action': AgentAction(do='stop', agent='ego')}
+    )
+    scene = stage(events=(event,))
+    for x in (5.0, 50.0, 5.0, 50.0, 5.0):
+        scene.put('van1', x).step()
+    assert len(_triggered(scene)) == 1
+    assert [c for c in scene.commands() if c[2] == GroundCommandKind.SET_SPEED] == [
+        (0, 'ego', int(GroundCommandKind.SET_SPEED), 0.0)
+    ]
+
+
+def _alert(parameter: Make, **fields: Any) -> Event:
+    return _distance('distance_below', parameter).model_copy(
+        update={
+            'action': SendMessage(do='send_message', sender='uav1', receiver='ego'),
+            **fields,
+        }
+    )
+
+
+def _sent(scene: Any) -> list[int]:
+    return [r.tick for o in scene.outputs for r in o.links if r.kind is LinkEventKind.SENT]
+
+
+def test_an_alert_waits_for_ascent_capture_and_sight(stage: Build, parameter: Make) -> None:
+    scene = stage(events=(_alert(parameter),), links=(('uav1', 'ego'),), buildings=(WALL,))
+    scene.put('van1', 10.0).step(5)
+    assert _triggered(scene) == [(0, 'e1')]
+    scene.fly('uav1', 100.0, 0.0, 30.0).step(5)  # ascended; behind the wall, far away
+    assert _sent(scene) == []
+    scene.fly('uav1', 25.0, 0.0, 30.0).step(5)  # sees the van, but has not captured it
+    assert _sent(scene) == []
+    scene.fly('uav1', 15.0, 0.0, 30.0).step(5)
+    assert _sent(scene) == [15]
+    assert [t for t, _, _ in scene.notes(ScenarioEventKind.ACTION)] == [15]
+
+
+def test_an_alert_is_not_sent_while_the_actor_is_hidden(stage: Build, parameter: Make) -> None:
+    scene = stage(events=(_alert(parameter),), links=(('uav1', 'ego'),), buildings=(WALL,))
+    scene.put('ego', 10.0).put('van1', 100.0).fly('uav1', 100.0, 0.0, 30.0).step(2)
+    assert scene.machines[0].captured
+    scene.fly('uav1', 100.0, 0.0, 30.0).put('van1', 20.0).step(3)
+    assert _triggered(scene)
+    assert _sent(scene) == []
+    scene.fly('uav1', 20.0, 0.0, 30.0).step()
+    assert _sent(scene) == [5]
+
+
+def test_a_vehicle_sends_without_a_sight_rule(stage: Build, parameter: Make) -> None:
+    send = SendMessage(do='send_message', sender='ego', receiver='van1')
+    event = _distance('distance_below', parameter).model_copy(update={'action': send})
+    scene = stage(events=(event,), links=(('uav1', 'ego'), ('ego', 'van1')))
+    scene.put('van1', 5.0).step(5)
+    assert [r.link for o in scene.outputs for r in o.links][:1] == ['l1']
+
+
+def test_a_message_goes_over_one_link_only(stage: Build, parameter: Make) -> None:
+    send = SendMessage(do='send_message', sender='ego', receiver='van1')
+    event = _event(TimeTrigger(on='time', at_s=parameter(0.0, 's')), send)
+    scene = stage(events=(event,), links=(('ego', 'van1'), ('ego', 'van1')))
+    scene.step(10)
+    assert len(_sent(scene)) == 1
+
+
+def test_a_delayed_alert_waits_its_delay(stage: Build, parameter: Make) -> None:
+    event = _alert(parameter, delay_s=parameter(1.0, 's'))
+    scene = stage(events=(event,), links=(('uav1', 'ego'),))
+    scene.put('van1', 5.0).fly('uav1', 5.0, 0.0, 30.0).step(40)
+    assert _triggered(scene) == [(0, 'e1')]
+    assert _sent(scene) == [20]
+
+
+SET = int(GroundCommandKind.SET_SPEED)
+DECELERATION = int(GroundCommandKind.SET_DECELERATION)
+
+
+@pytest.mark.parametrize(
+    ('action', 'speed', 'expected'),
+    [
+        ('stop', 10.0, [(SET, 0.0)]),
+        ('yield', 10.0, [(SET, 0.0)]),
+        ('brake', 10.0, [(DECELERATION, 6.0), (SET, 0.0)]),
+        ('slow', 10.0, [(SET, 5.0)]),
+        ('accelerate', 10.0, [(SET, 14.0)]),
+        ('accelerate', 0.0, [(SET, 4.0)]),
+        ('start', 0.0, [(int(GroundCommandKind.RELEASE_SPEED), 0.0)]),
+    ],
+)
+def test_what_actions_command(
+    action: str, speed: float, expected: list[tuple[int, float]], stage: Build
+) -> None:
+    event = _event(None, AgentAction(do=action, agent='ego'))  # type: ignore[arg-type]
+    scene = stage(events=(event,), releases={'ego': (ReleaseOn.NEVER, '')})
+    scene.put('ego', 0.0, speed=speed).step()
+    found = [(kind, value) for _, agent, kind, value in scene.commands() if agent == 'ego']
+    assert found[1:] == expected
+
+
+@pytest.mark.parametrize('action', ['slow', 'accelerate', 'brake'])
+def test_a_stated_speed_is_commanded(action: str, stage: Build, parameter: Make) -> None:
+    wanted = AgentAction(do=action, agent='ego', value_mps=parameter(3.0, 'm/s'))  # type: ignore[arg-type]
+    scene = stage(events=(_event(None, wanted),))
+    scene.put('ego', 0.0, speed=10.0).step()
+    assert scene.commands()[-1][2:] == (SET, 3.0)
+
+
+def test_an_action_of_who_is_gone_commands_nothing(stage: Build) -> None:
+    scene = stage(events=(_event(None, AgentAction(do='slow', agent='ego')),))
+    scene.put('ego', 0.0, speed=10.0).remove('ego').step()
+    assert [c for c in scene.commands() if c[2] == SET] == []
+
+
+def test_land_ends_the_mission(stage: Build, parameter: Make) -> None:
+    event = _event(
+        TimeTrigger(on='time', at_s=parameter(1.0, 's')), UavAction(do='land', uav='uav1')
+    )
+    scene = stage(events=(event,))
+    scene.put('van1', 0.0).fly('uav1', 0.0, 0.0, 30.0).follow(21)
+    assert scene.machines[0].missions_done
+    scene.follow(400)
+    assert scene.outputs[-1].uav_commands[0, UavCommandColumn.MODE] == UavMode.IDLE
+    assert scene.machines[0].landed

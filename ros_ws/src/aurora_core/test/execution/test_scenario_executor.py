@@ -1,0 +1,297 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Release, flight, links, sight claims and the end of a run."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from aurora_core.grounding.grounded import ReleaseOn
+from aurora_core.knowledge.map_types import Building
+from aurora_core.spec.parameter import Parameter
+from aurora_core.spec.scenario import Event, SendMessage, TimeTrigger
+from aurora_core.trace.layout import GroundCommandKind, UavCommandColumn, UavMode, UavPhase
+from aurora_core.trace.records import LinkEventKind, LossReason, ScenarioEventKind
+
+SET, RELEASE = int(GroundCommandKind.SET_SPEED), int(GroundCommandKind.RELEASE_SPEED)
+
+# Between x = 40 and 60, far higher than the UAV.
+WALL = Building(
+    id='wall',
+    ring=((40.0, -50.0), (60.0, -50.0), (60.0, 50.0), (40.0, 50.0)),
+    holes=(),
+    height_m=100.0,
+    height_source='',
+    kind='block',
+    name='',
+)
+
+
+def _message_at(make: Callable[..., Parameter], at_s: float, sender: str, receiver: str) -> Event:
+    return Event(
+        id='e1',
+        trigger=TimeTrigger(on='time', at_s=make(at_s, 's')),
+        action=SendMessage(do='send_message', sender=sender, receiver=receiver),
+    )
+
+
+def test_held_agents_stand_and_free_ones_drive_from_the_start(stage: Callable[..., Any]) -> None:
+    scene = stage(releases={'van1': (ReleaseOn.CAPTURED, 'uav1')}, speeds={'ego': 7.0})
+    scene.put('van1', 100.0).put('ego', 200.0).step()
+    assert scene.commands() == [(0, 'van1', SET, 0.0), (0, 'ego', SET, 7.0)]
+    scene.step(5)
+    assert len(scene.commands()) == 2  # said once
+
+
+def test_release_on_capture_not_before(stage: Callable[..., Any]) -> None:
+    scene = stage(releases={'van1': (ReleaseOn.CAPTURED, 'uav1')})
+    scene.put('van1', 100.0).fly('uav1', 0.0, 0.0, 30.0).step(3)
+    assert scene.machines[0].ascended_tick == 0
+    assert scene.notes(ScenarioEventKind.RELEASED) == []
+    scene.fly('uav1', 91.0, 0.0, 30.0).step()
+    assert scene.notes(ScenarioEventKind.RELEASED) == [(3, 'van1', '')]
+    assert scene.commands()[-1] == (3, 'van1', RELEASE, 0.0)
+    scene.step(5)
+    assert len(scene.notes(ScenarioEventKind.RELEASED)) == 1
+
+
+@pytest.mark.parametrize(
+    ('release', 'ready_after'), [(ReleaseOn.ASCENDED, 'ascent'), (ReleaseOn.OBSERVED, 'landing')]
+)
+def test_release_after_a_phase(
+    release: ReleaseOn, ready_after: str, stage: Callable[..., Any]
+) -> None:
+    scene = stage(releases={'ego': (release, 'uav1')}, hold_s=1.0)
+    scene.put('van1', 100.0).follow(300)
+    [(released, _, _)] = scene.notes(ScenarioEventKind.RELEASED)
+    phases = {detail: tick for tick, _, detail in scene.notes(ScenarioEventKind.PHASE)}
+    # A phase is noted at the tick of the decision; the ascent ends where the mission begins.
+    assert released == (phases['m0'] if ready_after == 'ascent' else phases['landing'])
+
+
+def test_an_agent_that_stands_still_is_never_released(stage: Callable[..., Any]) -> None:
+    scene = stage(releases={'van1': (ReleaseOn.NEVER, '')}, hold_s=1.0)
+    scene.put('van1', 100.0).follow(400)
+    assert [c for c in scene.commands() if c[1] == 'van1'] == [(0, 'van1', SET, 0.0)]
+
+
+def test_capture_may_be_the_sample_that_ends_the_ascent(stage: Callable[..., Any]) -> None:
+    scene = stage()
+    scene.put('van1', 3.0).fly('uav1', 0.0, 0.0, 27.9).step(4)
+    scene.fly('uav1', 0.0, 0.0, 28.0).step()
+    assert scene.machines[0].ascended_tick == scene.machines[0].capture_tick == 4
+
+
+def test_phases_are_noted_once_with_their_names(stage: Callable[..., Any]) -> None:
+    scene = stage(hold_s=2.0)
+    scene.put('van1', 100.0).follow(1500)
+    names = [(s, d) for _, s, d in scene.notes(ScenarioEventKind.PHASE)]
+    assert names == [('uav1', 'ascent'), ('uav1', 'm0'), ('uav1', 'landing')]
+    for tick, _, name in scene.notes(ScenarioEventKind.PHASE):
+        # The note is made with the command that begins the phase.
+        phase = {'ascent': UavPhase.ASCENT, 'm0': UavPhase.MISSION, 'landing': UavPhase.LANDING}
+        assert scene.outputs[tick].uav_commands[0, UavCommandColumn.PHASE] == phase[name]
+    assert scene.machines[0].landed
+
+
+def test_landing_takes_the_nearest_spot_with_a_free_way(stage: Callable[..., Any]) -> None:
+    spots = ((70.0, 0.0), (0.0, 30.0), (-90.0, 0.0))
+    for buildings, expected in (((), (70.0, 0.0)), ((WALL,), (0.0, 30.0))):
+        scene = stage(buildings=buildings, landing_spots=spots, hold_s=10.0)
+        scene.put('van1', 30.0).follow(900)
+        assert scene.machines[0].landing_spot == expected
+
+
+def test_landing_climbs_over_what_is_in_the_way_when_no_way_is_free(
+    stage: Callable[..., Any],
+) -> None:
+    scene = stage(buildings=(WALL,), landing_spots=((90.0, 0.0),), hold_s=1.0)
+    scene.put('van1', 30.0).follow(600)
+    heights = [o.uav_commands[0, UavCommandColumn.Z] for o in scene.outputs]
+    assert max(heights) == pytest.approx(60.0, abs=1.1)  # the plan's safe altitude
+
+
+def test_two_uavs_do_not_land_next_to_each_other(stage: Callable[..., Any]) -> None:
+    scene = stage(
+        tracks={'uav1': 'van1', 'uav2': 'van1'},
+        landing_spots=((0.0, 0.0), (5.0, 0.0), (20.0, 0.0)),
+        hold_s=1.0,
+    )
+    scene.put('van1', 10.0).follow(1200)
+    spots = [m.landing_spot for m in scene.machines]
+    assert all(s is not None for s in spots)
+    (ax, ay), (bx, by) = spots
+    assert (ax - bx) ** 2 + (ay - by) ** 2 >= 100.0
+    assert all(m.landed for m in scene.machines)
+
+
+def test_a_link_delivers_after_its_latency(
+    stage: Callable[..., Any], parameter: Callable[..., Parameter]
+) -> None:
+    event = _message_at(parameter, 1.0, 'van1', 'ego')
+    scene = stage(links=(('van1', 'ego'),), events=(event,))
+    scene.put('van1', 0.0).put('ego', 50.0).step(40)
+    records = [(r.tick, r.kind, r.distance_m) for o in scene.outputs for r in o.links]
+    assert records == [
+        (20, LinkEventKind.SENT, 50.0),
+        (20, LinkEventKind.ATTEMPT_PASSED, 50.0),
+        (22, LinkEventKind.DELIVERED, 50.0),
+    ]
+    assert [r.sequence for o in scene.outputs for r in o.links] == [0, 1, 2]
+
+
+@pytest.mark.parametrize(
+    ('receiver_x', 'buildings', 'gone', 'reason'),
+    [
+        (600.0, (), False, LossReason.RANGE),
+        (300.0, (WALL,), False, LossReason.RANGE),
+        (300.0, (), False, LossReason.NONE),
+        (50.0, (), True, LossReason.RANGE),
+    ],
+)
+def test_range_sight_and_presence_decide_about_a_transmission(
+    receiver_x: float,
+    buildings: tuple[Building, ...],
+    gone: bool,
+    reason: LossReason,
+    stage: Callable[..., Any],
+    parameter: Callable[..., Parameter],
+) -> None:
+    event = _message_at(parameter, 0.0, 'van1', 'ego')
+    scene = stage(links=(('van1', 'ego'),), events=(event,), buildings=buildings)
+    scene.put('van1', 0.0).put('ego', receiver_x)
+    if gone:
+        scene.remove('ego')
+    scene.step(30)
+    kinds = {r.kind for o in scene.outputs for r in o.links}
+    assert (LinkEventKind.DELIVERED in kinds) is (reason is LossReason.NONE)
+    lost = {
+        r.reason for o in scene.outputs for r in o.links if r.kind is LinkEventKind.ATTEMPT_LOST
+    }
+    assert lost == ({reason} if reason is not LossReason.NONE else set())
+
+
+def test_sight_is_claimed_on_change_and_once_a_second(stage: Callable[..., Any]) -> None:
+    scene = stage(buildings=(WALL,))
+    scene.put('van1', 30.0).fly('uav1', 20.0, 0.0, 30.0).step(30)
+    scene.put('van1', 100.0).step(20)
+    claims = [(s.tick, s.target, s.visible) for o in scene.outputs for s in o.sights]
+    assert claims == [
+        (0, 'van1', True),
+        (20, 'van1', True),
+        (30, 'van1', False),
+        (40, 'van1', False),
+    ]
+    first = scene.outputs[0].sights[0]
+    assert first.slant_range_m == pytest.approx(np.sqrt(10.0**2 + (30.0 - 0.75) ** 2))
+
+
+def test_a_target_that_is_gone_is_not_visible(stage: Callable[..., Any]) -> None:
+    scene = stage()
+    scene.put('van1', 30.0).fly('uav1', 30.0, 0.0, 30.0).step(3)
+    scene.remove('van1').step()
+    assert [s.visible for o in scene.outputs for s in o.sights] == [True, False]
+
+
+def test_a_run_ends_when_everything_is_done_and_settled(stage: Callable[..., Any]) -> None:
+    scene = stage(hold_s=1.0, settle_ticks=10)
+    scene.put('van1', 20.0)
+    while not scene.follow().finished:
+        assert scene.tick < 3000
+    landed = next(
+        k for k, o in enumerate(scene.outputs) if o.uav_commands[0, 0] == UavMode.IDLE and k > 10
+    )
+    assert scene.tick - 1 == landed + 10
+    assert scene.outputs[-1].outcome == 'finished'
+    assert scene.notes(ScenarioEventKind.FINISHED) == [(scene.tick - 1, 'run', 'finished')]
+    assert not any(o.finished or o.outcome for o in scene.outputs[:-1])
+
+
+def test_a_run_does_not_end_before_its_least_length(stage: Callable[..., Any]) -> None:
+    scene = stage(hold_s=1.0, earliest_end_ticks=2000)
+    scene.put('van1', 20.0)
+    while not scene.follow().finished:
+        pass
+    assert scene.tick - 1 == 2000
+    assert scene.outputs[-1].outcome == 'finished'
+
+
+def test_a_stated_horizon_is_kept_exactly(stage: Callable[..., Any]) -> None:
+    scene = stage(hold_s=1.0, stated_horizon=True, horizon_ticks=1600)
+    scene.put('van1', 20.0)
+    while not scene.follow().finished:
+        pass
+    assert scene.tick - 1 == 1600
+    assert scene.outputs[-1].outcome == 'horizon'
+    assert scene.machines[0].landed
+
+
+def test_an_event_still_to_come_keeps_the_run_going_to_its_horizon(
+    stage: Callable[..., Any], parameter: Callable[..., Parameter]
+) -> None:
+    event = Event(id='e1', trigger=TimeTrigger(on='time', at_s=parameter(900.0, 's')))
+    scene = stage(hold_s=1.0, events=(event,), horizon_ticks=1500)
+    scene.put('van1', 20.0)
+    while not scene.follow().finished:
+        pass
+    assert scene.tick - 1 == 1500
+    assert scene.outputs[-1].outcome == 'horizon'
+
+
+def test_a_message_under_way_keeps_the_run_going(
+    stage: Callable[..., Any], parameter: Callable[..., Parameter]
+) -> None:
+    """No UAV is left flying, the event has happened, but its message is still being sent."""
+    event = _message_at(parameter, 0.0, 'van1', 'ego')
+    scene = stage(
+        links=(('van1', 'ego'),), events=(event,), tracks={'uav1': 'van1'}, settle_ticks=0
+    )
+    scene.put('ego', 900.0)
+    scene.machines[0].landed = True
+    scene.step(12)
+    assert not any(o.finished for o in scene.outputs)  # three retransmissions, 0.2 s apart
+    output = scene.step()
+    assert output.links[-1].kind is LinkEventKind.FAILED
+    assert output.finished
+
+
+def test_a_scene_without_uavs_runs_to_its_horizon(stage: Callable[..., Any]) -> None:
+    scene = stage(tracks={}, horizon_ticks=30)
+    scene.step(30)
+    assert not scene.outputs[-1].finished
+    assert scene.outputs[-1].uav_commands.shape == (0, 10)
+    assert scene.step().outcome == 'horizon'
+
+
+def test_a_uav_without_a_mission_stays_on_the_ground(stage: Callable[..., Any]) -> None:
+    scene = stage(tracks={'uav1': ''})
+    scene.step(50)
+    assert all(o.uav_commands[0, 0] == UavMode.IDLE for o in scene.outputs)
+    assert scene.notes(ScenarioEventKind.PHASE) == []
+
+
+def test_same_states_same_outputs(
+    stage: Callable[..., Any], parameter: Callable[..., Parameter]
+) -> None:
+    def run() -> list[Any]:
+        event = _message_at(parameter, 3.0, 'uav1', 'ego')
+        scene = stage(links=(('uav1', 'ego'),), events=(event,), loss=0.5, hold_s=3.0)
+        scene.put('van1', 40.0).put('ego', 60.0).follow(900)
+        return [
+            (o.ground_commands, o.uav_commands.tobytes(), o.links, o.sights, o.events)
+            for o in scene.outputs
+        ]
+
+    assert run() == run()
+
+
+def test_numbers_of_events_have_no_gap(stage: Callable[..., Any]) -> None:
+    scene = stage(releases={'van1': (ReleaseOn.CAPTURED, 'uav1')}, hold_s=1.0)
+    scene.put('van1', 20.0).follow(900)
+    numbers = [e.sequence for o in scene.outputs for e in o.events]
+    assert numbers == list(range(len(numbers)))
+    assert len(numbers) >= 4
