@@ -140,7 +140,7 @@ class RunDriver:
         finally:
             self._path.disarm()
             self._node.heartbeat.idle()
-        self._call(on.SYNC_STOP, StopSync.Request(run_number=run_number))
+        self._stop_clock(run)
         bag = self._stop_recording(run, complete=not was_cancelled)
         return Done(
             bag=bag,
@@ -226,6 +226,7 @@ class RunDriver:
             )
 
     def _stop_recording(self, run: ActiveRun, *, complete: bool) -> Path:
+        """Close the bag, after everything that was sent is in it if it is to be complete."""
         expected = dict(run.sent)
         expected[on.GROUND_STATE.full_name] = run.last_tick + 1
         if run.has_uavs:
@@ -238,14 +239,20 @@ class RunDriver:
             expected_topics=list(expected),
             expected_counts=list(expected.values()),
         )
-        response = self._call(on.RECORDER_STOP, request, self._settings.stop_limit_s)
+        limit_s = self._settings.stop_limit_s
+        response = self._caller.service(on.RECORDER_STOP, request, limit_s, await_restart=False)
         return Path(response.bag_uri)
+
+    def _stop_clock(self, run: ActiveRun) -> None:
+        request = StopSync.Request(run_number=run.run_number)
+        limit_s = self._settings.call_limit_s
+        self._caller.service(on.SYNC_STOP, request, limit_s, await_restart=False)
 
     def _give_up(self, run: ActiveRun, *, recording: bool) -> None:
         """Stop clock and recorder after a failure, whoever of them still answers."""
         self._path.disarm()
         try:
-            self._call(on.SYNC_STOP, StopSync.Request(run_number=run.run_number))
+            self._stop_clock(run)
         except AuroraError as err:
             self._node.get_logger().warning(f'while cleaning up: {err}')
         if not recording:

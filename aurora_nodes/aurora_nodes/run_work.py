@@ -12,9 +12,10 @@ from pathlib import Path
 
 from aurora_core.pipeline.run import run
 from aurora_core.pipeline.stages import RunControl, RunRequest, Stages
+from aurora_core.report.manifest import manifest_facts
 from aurora_core.report.process import this_process
 from aurora_core.report.run_folder import RunFolder, json_text, new_run_id
-from aurora_core.report.unfinished import Manifest
+from aurora_core.report.versions import product_versions
 from aurora_nodes.jobs import Job
 
 
@@ -44,6 +45,8 @@ def worker(
         stopping: Whether the node is being shut down.
     """
 
+    versions = product_versions()
+
     def work(job: Job) -> None:
         def progress(stage: str, fraction: float, sim_time_s: float) -> None:
             job.stage, job.fraction = stage, fraction
@@ -55,24 +58,10 @@ def worker(
             RunFolder(job.root, job.run_id),
             RunControl(progress=progress, cancelled=lambda: job.cancel.is_set() or stopping()),
             WallClock(),
-            manifest=_manifest(job),
+            versions=versions,
+            manifest=manifest_facts(datetime.now(UTC), this_process(), versions),
         )
         job.status = report.status.value
         job.report_json = json_text(report)
 
     return work
-
-
-def _manifest(job: Job) -> dict[str, object]:
-    request = job.request
-    return Manifest(
-        run_id=job.run_id,
-        started_utc=datetime.now(UTC).isoformat(timespec='seconds'),
-        engine=request.engine,
-        model=request.model,
-        map=request.map_name,
-        seed=request.seed,
-        allow_relax=request.allow_relax,
-        faults=request.faults,
-        process=this_process(),
-    ).model_dump(mode='json')

@@ -17,7 +17,7 @@ from pathlib import Path
 # Run as a folder (`python tools/aurora_setup`) in isolated mode, hence the plain imports.
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 
-from checks import check_machine
+from checks import check_machine, check_ros_choice
 from console import SetupError, say
 from environment import ensure_dev, ensure_run, is_current
 from layout import WHEELS, Layout
@@ -41,6 +41,7 @@ def main() -> int:
         layout.logs.mkdir(parents=True, exist_ok=True)
         with (layout.logs / 'lock').open('w') as lock:
             _wait_for(lock.fileno())
+            check_ros_choice(layout)
             check_machine(layout, fresh=not is_current(layout))
             ensure_run(layout)
             if arguments.dev:

@@ -27,7 +27,6 @@ def check_machine(layout: Layout, *, fresh: bool) -> None:
     Raises:
         SetupError: With what is missing and what to install.
     """
-    check_ros_choice(layout)
     check_compiler()
     check_python_parts(layout)
     if fresh:

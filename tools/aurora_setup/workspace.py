@@ -30,6 +30,8 @@ def ensure_workspace(layout: Layout) -> None:
     wanted = {name: digest_package(folder) for name, folder in packages.items()}
     wanted[_BASE] = digest_files([layout.run_lock, layout.workspace / 'colcon_defaults.yaml'])
     wanted[_BASE] += ' ' + ' '.join(run_key(layout).values())
+    if INTERFACES in wanted:
+        wanted[INTERFACES] += digest_files([_hook(layout)])
     stamp = layout.install / WORKSPACE_STAMP
     built = read_stamp(stamp)
     if built == wanted:
@@ -67,13 +69,15 @@ def _write_environment(layout: Layout, packages: dict[str, Path]) -> None:
 
 
 def _build(layout: Layout, names: list[str]) -> None:
-    if INTERFACES in names and _colcon(layout, names, unity=True) == 0:
-        return
+    rest = [name for name in names if name != INTERFACES]
     if INTERFACES in names:
-        # The shortcut depends on what the generators write; the plain way does not.
-        say('building the interfaces in one piece failed: trying without')
-        shutil.rmtree(layout.workspace / 'build' / INTERFACES, ignore_errors=True)
-    if _colcon(layout, names, unity=False) != 0:
+        # Else a message that was renamed would stay importable.
+        packages = f'lib/python{layout.python_tag}/site-packages'
+        for place in ('share', 'include', packages):
+            shutil.rmtree(layout.install / place / INTERFACES, ignore_errors=True)
+    if INTERFACES in names and not _build_interfaces_quickly(layout):
+        rest = names
+    if rest and _colcon(layout, rest) != 0:
         log = _log(layout)
         raise SetupError(
             f'colcon could not build the workspace; whole log: {log}, by package: '
@@ -81,18 +85,27 @@ def _build(layout: Layout, names: list[str]) -> None:
         )
 
 
+def _build_interfaces_quickly(layout: Layout) -> bool:
+    """Build the interfaces the short way, which depends on how the wheels' generators work."""
+    if layout.ros == SYSTEM:
+        return False
+    if _colcon(layout, [INTERFACES], f'-DCMAKE_PROJECT_{INTERFACES}_INCLUDE={_hook(layout)}') == 0:
+        return True
+    say(f'building {INTERFACES} the short way failed: trying the plain one')
+    shutil.rmtree(layout.workspace / 'build' / INTERFACES, ignore_errors=True)
+    return False
+
+
+def _hook(layout: Layout) -> Path:
+    return layout.root / 'tools' / 'cmake' / 'interfaces.cmake'
+
+
 def _log(layout: Layout) -> Path:
     return layout.logs / 'colcon.log'
 
 
-def _colcon(layout: Layout, names: list[str], *, unity: bool) -> int:
-    cmake = [
-        f'-DPython3_EXECUTABLE={layout.venv_python}',
-        '-DBUILD_TESTING=OFF',
-        '--no-warn-unused-cli',
-    ]
-    hook = layout.root / 'tools' / 'cmake' / 'unity.cmake' if unity else ''
-    cmake.append(f'-DCMAKE_PROJECT_{INTERFACES}_INCLUDE={hook}')
+def _colcon(layout: Layout, names: list[str], *more_cmake: str) -> int:
+    cmake = [f'-DPython3_EXECUTABLE={layout.venv_python}', '-DBUILD_TESTING=OFF', *more_cmake]
     workspace = layout.workspace
     command = [
         str(layout.venv_python), '-m', 'colcon', '--log-base', str(workspace / 'log'), 'build',

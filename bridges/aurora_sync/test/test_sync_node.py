@@ -7,6 +7,7 @@ from __future__ import annotations
 import signal
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -57,7 +58,7 @@ class Graph:
                 )
 
     def load(self, **changes: object) -> None:
-        fields = {
+        fields: dict[str, Any] = {
             'run_id': 'r',
             'run_number': RUN,
             'dt_s': 0.05,

@@ -27,6 +27,7 @@ from aurora_ros.heartbeat import HeartbeatWatch
 from aurora_ros.interfaces import Call
 
 _POLL_S = 0.01  # discovery of a server
+_RESTART_S = 5.0  # a server that is dead when the call begins may be just starting again
 _LOOK_S = 0.1  # between two looks at heartbeats and cancellation while an answer is awaited
 
 
@@ -57,13 +58,16 @@ class Caller:
                     call.type, call.name, callback_group=self._group
                 )
 
-    def service(self, call: Call, request: Any, limit_s: float) -> Any:
+    def service(
+        self, call: Call, request: Any, limit_s: float, *, await_restart: bool = True
+    ) -> Any:
         """Call a prepared service and return its response.
 
         Args:
             call: Interface.
             request: Request message.
             limit_s: Wall-clock limit for server and answer together.
+            await_restart: Give a server that is dead some seconds to come back.
 
         Raises:
             ExecutionError: No server, no answer within the limit, or the server died.
@@ -71,6 +75,8 @@ class Caller:
         """
         deadline = time.monotonic() + limit_s
         client = self._services[call.name]
+        if not await_restart:
+            self._check(call, deadline, limit_s)
         self._await_server(call, client.service_is_ready, deadline, limit_s)
         future = client.call_async(request)
         try:
@@ -78,6 +84,8 @@ class Caller:
         except ExecutionError:
             client.remove_pending_request(future)
             raise
+        if self._watch is not None:
+            self._watch.hear(call.server)
         response = future.result()
         raise_error(response, call.server)
         return response
@@ -139,10 +147,12 @@ class Caller:
         self, call: Call, is_ready: Callable[[], bool], deadline: float, limit_s: float
     ) -> None:
         pause = threading.Event()
-        while not is_ready():
-            if time.monotonic() > deadline or not self._node.context.ok():
+        restart_deadline = min(deadline, time.monotonic() + _RESTART_S)
+        while not is_ready() or self._is_dead(call):
+            until = restart_deadline if self._is_dead(call) else deadline
+            if time.monotonic() > until or not self._node.context.ok():
                 raise ExecutionError(
-                    f'nobody serves {call.name} (waited {limit_s:g} s)',
+                    f'nobody serves {call.name} (waited up to {limit_s:g} s)',
                     component=call.server,
                     hint=f'start it: is {call.server} running in this ROS_DOMAIN_ID?',
                 )
@@ -156,11 +166,14 @@ class Caller:
         if err is not None:
             raise ExecutionError(f'{call.name} failed: {err}', component=call.server) from err
 
+    def _is_dead(self, call: Call) -> bool:
+        return self._watch is not None and self._watch.is_dead(call.server)
+
     def _check(self, call: Call, deadline: float, limit_s: float) -> None:
         """Raise when it makes no sense to wait any longer."""
         if not self._node.context.ok():
             raise ExecutionError(f'shut down while waiting for {call.name}')
-        if self._watch is not None and self._watch.is_dead(call.server):
+        if self._is_dead(call):
             raise ExecutionError(
                 f'{call.server} died while {call.name} was waited for', component=call.server
             )

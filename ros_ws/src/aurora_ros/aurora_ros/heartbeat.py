@@ -65,11 +65,13 @@ class HeartbeatPublisher:
         self._thread.join(timeout=PERIOD_S)
 
     def _run(self) -> None:
-        while not self._stop.wait(PERIOD_S):
+        while True:
             try:
                 self._publisher.publish(self._message)
             except (InvalidHandle, rclpy_implementation.RCLError):
                 return  # the node is being shut down under us
+            if self._stop.wait(PERIOD_S):
+                return
 
 
 class HeartbeatWatch:
@@ -105,12 +107,12 @@ class HeartbeatWatch:
         silent_s = self._clock() - heard
         return silent_s > LIVELINESS_LEASE_S + PERIOD_S and self._lost_at > heard
 
-    def is_known(self, name: str) -> bool:
-        """Return whether a node has been heard."""
-        return name in self._heard
+    def hear(self, name: str) -> None:
+        """Take in any sign of life: a heartbeat, or the answer to a call."""
+        self._heard[name] = self._clock()
 
     def _on_heartbeat(self, message: Heartbeat) -> None:
-        self._heard[message.node] = self._clock()
+        self.hear(message.node)
 
     def _on_liveliness(self, info: QoSLivelinessChangedInfo) -> None:
         if info.alive_count_change < 0 or info.not_alive_count_change > 0:

@@ -48,11 +48,12 @@ CLOCK_HISTORY = QoSProfile(
 
 # Heartbeats: AUTOMATIC liveliness is asserted by the middleware's own thread, so a node that is
 # busy in a callback stays alive and one that was killed or stopped is noticed within the lease.
+# Transient local, so that a restarted node counts as alive as soon as it is discovered.
 HEARTBEAT = QoSProfile(
     history=HistoryPolicy.KEEP_LAST,
-    depth=10,
+    depth=1,
     reliability=ReliabilityPolicy.RELIABLE,
-    durability=DurabilityPolicy.VOLATILE,
+    durability=DurabilityPolicy.TRANSIENT_LOCAL,
     liveliness=LivelinessPolicy.AUTOMATIC,
     liveliness_lease_duration=Duration(seconds=LIVELINESS_LEASE_S),
 )

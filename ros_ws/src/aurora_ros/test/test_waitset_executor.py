@@ -145,7 +145,12 @@ def test_polled_subscriptions_are_left_to_their_owner(pair: Pair) -> None:
     for tick in range(5):
         publisher.publish(Tick(tick=tick))
     taken: list[bytes] = []
-    pair.until(lambda: not taken.extend(drain(tap)) and len(taken) == 5)
+
+    def all_taken() -> bool:
+        taken.extend(drain(tap))
+        return len(taken) == 5
+
+    pair.until(all_taken)
     assert not seen
     assert all(isinstance(item, bytes) for item in taken)
 

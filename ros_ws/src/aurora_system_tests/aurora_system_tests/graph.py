@@ -4,14 +4,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
 from aurora_ros.testing.domains import own_domain
 from aurora_ros.testing.partner import Partner, partner
-from aurora_ros.testing.processes import NodeProcess, nodes
+from aurora_ros.testing.processes import NodeProcess
 
 # Node name and the module that holds its `main`.
 MODULES = {
@@ -37,11 +37,20 @@ class RunningGraph:
         nodes: Processes by node name.
         play: The test's own node in the same domain.
         runs: Folder of all runs.
+        start: Starts a node of this graph.
     """
 
     nodes: dict[str, NodeProcess]
     play: Partner
     runs: Path
+    start: Callable[[str], NodeProcess]
+
+    def restart(self, name: str) -> None:
+        """Kill what is left of a node and start it again."""
+        self.nodes[name].kill()
+        self.nodes[name].ready_file.unlink(missing_ok=True)
+        self.nodes[name] = self.start(name)
+        self.nodes[name].await_ready()
 
     def logs(self) -> str:
         """What the nodes have printed, for a failing test."""
@@ -56,9 +65,17 @@ def running_graph(folder: Path, names: Sequence[str] = tuple(MODULES)) -> Iterat
     with ExitStack() as stack:
         domain = stack.enter_context(own_domain())
         play = stack.enter_context(partner(domain))
-        started = {
-            name: NodeProcess(MODULES[name], domain, folder, arguments.get(name, ()))
-            for name in names
-        }
-        stack.enter_context(nodes(*started.values()))
-        yield RunningGraph(nodes=started, play=play, runs=runs)
+
+        def start(name: str) -> NodeProcess:
+            return NodeProcess(MODULES[name], domain, folder, arguments.get(name, ()))
+
+        started = {name: start(name) for name in names}
+        stack.callback(_kill_all, started)
+        for node in started.values():
+            node.await_ready()
+        yield RunningGraph(nodes=started, play=play, runs=runs, start=start)
+
+
+def _kill_all(started: dict[str, NodeProcess]) -> None:
+    for node in started.values():
+        node.kill()

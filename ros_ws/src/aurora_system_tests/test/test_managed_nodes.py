@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -36,7 +37,7 @@ class Managed:
             for kind, service in ((ChangeState, 'change_state'), (GetState, 'get_state'))
         }
 
-    def _call(self, request: object, kind: type) -> object:
+    def _call(self, request: Any, kind: Any) -> Any:
         client = self._client[kind]
         assert client.wait_for_service(10.0)
         response = client.call(request, timeout_sec=10.0)
@@ -46,11 +47,11 @@ class Managed:
     def change(self, transition: int) -> bool:
         request = ChangeState.Request()
         request.transition.id = transition
-        return self._call(request, ChangeState).success
+        return bool(self._call(request, ChangeState).success)
 
     @property
     def state(self) -> int:
-        return self._call(GetState.Request(), GetState).current_state.id
+        return int(self._call(GetState.Request(), GetState).current_state.id)
 
 
 def endpoints(play: Partner, name: str) -> int:
@@ -110,7 +111,7 @@ def test_a_managed_node_goes_through_its_states_and_back(name: str, tmp_path: Pa
     ],
 )
 def test_an_inactive_node_refuses_a_load_and_serves_once_activated(
-    name: str, call: Call, fields: dict[str, object], tmp_path: Path
+    name: str, call: Call, fields: dict[str, Any], tmp_path: Path
 ) -> None:
     with own_domain() as domain, partner(domain) as play:
         process = NodeProcess(

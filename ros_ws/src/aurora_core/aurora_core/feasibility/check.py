@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from aurora_core.feasibility.verdict import Certificate, Feasibility, FeasibilityVerdict
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Limits
-from aurora_core.spec.parameter import Bound, Parameter, Provenance
+from aurora_core.spec.parameter import Bound, Parameter, Provenance, Unit
 from aurora_core.spec.scenario import (
     AgentAction,
     AltitudeTrigger,
@@ -188,6 +188,7 @@ def _broken(rule: _Rule) -> Iterator[Certificate]:
         return
     excluded = rule.high_is_excluded and limit == rule.high
     word = 'below' if excluded else ('at most' if limit == rule.high else 'at least')
+    unit = '' if parameter.unit is Unit.ONE else f' {parameter.unit.value}'
     yield Certificate(
         kind='limit_exceeded',
         reason=rule.reason,
@@ -199,8 +200,8 @@ def _broken(rule: _Rule) -> Iterator[Certificate]:
         nearest=None if excluded else limit,
         span=parameter.span,
         sentence=(
-            f'{rule.path} asks for {value:g} {parameter.unit.value}; '
-            f'it has to be {word} {limit:g} {parameter.unit.value} ({rule.limit_name}).'
+            f'{rule.path} asks for {value:g}{unit}; '
+            f'it has to be {word} {limit:g}{unit} ({rule.limit_name}).'
         ),
     )
 

@@ -133,7 +133,11 @@ class AgentPlacer:
             edges = finder.wandering_route(lane.edge_id, run_m, generator)
             try:
                 path = network.route_path(
-                    edges, record.vclass, start_lane_id=lane.id, start_pos_m=position
+                    edges,
+                    record.vclass,
+                    start_lane_id=lane.id,
+                    # The place itself stays on the lane; a lane change comes after it.
+                    start_pos_m=min(position + record.length_m, lane.length_m),
                 )
             except MapError:
                 continue

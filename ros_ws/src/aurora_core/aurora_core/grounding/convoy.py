@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from aurora_core.grounding.pace import Encounter, encounters
 from aurora_core.spec.parameter import Parameter, Provenance
-from aurora_core.spec.scenario import GroundAgent, ScenarioSpec
+from aurora_core.spec.scenario import GroundAgent, Placement, ScenarioSpec
 from aurora_core.spec.vocabulary import AgentType, BehaviorKind, Relation, Role
 
 # Relations that a convoy can hold, as (sign of the offset, lane shift).
@@ -33,6 +33,11 @@ DEFAULT_GAP_M = 20.0
 # Distance beyond the trigger distance at which two vehicles that are to meet start.
 ENCOUNTER_ROOM_M = 15.0
 
+# Gap in front of a group of vehicles that nothing relates to those before it.
+DETACHED_M = 40.0
+
+_SAME_PLACE_M = 1e-6
+
 STILL = frozenset({BehaviorKind.STOP, BehaviorKind.WAIT, BehaviorKind.PARK})
 
 
@@ -41,6 +46,16 @@ class ConvoyMember:
     """A vehicle of the convoy: arc offset (m, positive ahead) and lane shift from the origin."""
 
     agent: GroundAgent
+    offset_m: float
+    lane_shift: int
+
+
+@dataclass(frozen=True, slots=True)
+class _Tie:
+    """`agent` is `offset_m` ahead of `other` along the route, `lane_shift` lanes to its left."""
+
+    agent: str
+    other: str
     offset_m: float
     lane_shift: int
 
@@ -67,43 +82,58 @@ def split_scene(spec: ScenarioSpec) -> SceneSplit:
     vehicles = [a for a in spec.agents if a.type not in (AgentType.PEDESTRIAN, AgentType.RSU)]
     persons = tuple(a for a in spec.agents if a.type is AgentType.PEDESTRIAN)
     unsupported = [f'{a.id}: roadside units' for a in spec.agents if a.type is AgentType.RSU]
-    ties: dict[str, tuple[str, float, int]] = {}
     by_id = {a.id: a for a in vehicles}
     meetings = encounters(spec)
-    for agent in vehicles:
-        tie = _tie(agent, by_id, unsupported, meetings)
-        if tie is not None:
-            ties[agent.id] = tie
+    ties = [t for a in vehicles for t in _ties(a, by_id, unsupported, meetings)]
     origin = _origin(spec, vehicles, ties)
     if origin is None:
         return SceneSplit(
             convoy=(), free=tuple(vehicles), persons=persons, unsupported=tuple(unsupported)
         )
     offsets = _solve(origin, ties)
+    # Everybody who is watched or related to somebody else has to be on the same road, or no UAV
+    # could be planned for it: further groups line up behind.
+    targets = {m.target for m in spec.missions}
+    tied = {i for t in ties for i in (t.agent, t.other)}
+    for agent in vehicles:
+        if agent.id in offsets or agent.id not in targets | tied:
+            continue
+        group = _solve(agent.id, ties)
+        front = max(place[0] for place in group.values())
+        rear = min(place[0] for place in offsets.values())
+        shift_m = rear - DETACHED_M - front
+        offsets |= {i: (place[0] + shift_m, place[1]) for i, place in group.items()}
+    broken = {t.agent for t in ties if not _kept(t, offsets)}
+    unsupported += [
+        f'{a.id}: places that contradict each other' for a in vehicles if a.id in broken
+    ]
     convoy = tuple(
         ConvoyMember(agent=by_id[i], offset_m=offset, lane_shift=shift)
         for i, (offset, shift) in offsets.items()
     )
     free = tuple(a for a in vehicles if a.id not in offsets)
-    unsupported += [f'{a.id}: a second group of related vehicles' for a in free if a.id in ties]
     return SceneSplit(convoy=convoy, free=free, persons=persons, unsupported=tuple(unsupported))
 
 
-def _tie(
+def _ties(
     agent: GroundAgent,
     by_id: dict[str, GroundAgent],
     unsupported: list[str],
     meetings: tuple[Encounter, ...],
-) -> tuple[str, float, int] | None:
+) -> list[_Tie]:
+    others: dict[str, list[Placement]] = {}
     for placement in agent.placements:
         if placement.of in by_id and placement.relation in ALONG:
-            sign, shift = ALONG[placement.relation]
-            assert placement.of is not None
-            distance = _distance(agent.id, placement.of, placement.distance_m, meetings)
-            return placement.of, sign * distance, shift
-        where = f' {placement.of}' if placement.of is not None else ''
-        if placement.relation is not Relation.ON:
+            others.setdefault(str(placement.of), []).append(placement)
+        elif placement.relation is not Relation.ON:
+            where = f' {placement.of}' if placement.of is not None else ''
             unsupported.append(f'{agent.id}: placement {placement.relation.value}{where}')
+    if others:
+        return [
+            tie
+            for other, placements in others.items()
+            for tie in _placed(agent.id, other, placements, meetings)
+        ]
     for behavior in agent.behaviors:
         chases = behavior.kind in (
             BehaviorKind.FOLLOW,
@@ -114,12 +144,42 @@ def _tie(
         if chases and behavior.target in by_id:
             gap = behavior.closing_from_m
             assert behavior.target is not None
-            return behavior.target, -_distance(agent.id, behavior.target, gap, meetings), 0
+            distance = _distance(agent.id, behavior.target, gap, meetings)
+            return [_Tie(agent.id, behavior.target, -distance, 0)]
     for meeting in meetings:
         # Nothing says where the actor is: it comes from behind.
         if meeting.actor == agent.id and meeting.other in by_id:
-            return meeting.other, -_distance(agent.id, meeting.other, None, meetings), 0
-    return None
+            distance = _distance(agent.id, meeting.other, None, meetings)
+            return [_Tie(agent.id, meeting.other, -distance, 0)]
+    return []
+
+
+def _placed(
+    agent: str, other: str, placements: list[Placement], meetings: tuple[Encounter, ...]
+) -> list[_Tie]:
+    """Return the ties of an agent to one other: "ahead of it", "in the lane to its left"."""
+    shifts = [ALONG[p.relation][1] for p in placements if ALONG[p.relation][1] != 0]
+    shift = shifts[0] if shifts else 0
+    along = [p for p in placements if ALONG[p.relation][1] == 0]
+    # "In the same lane, 30 m behind it" says the lane once and the place once.
+    exact = [p for p in along if p.relation is not Relation.SAME_LANE] or along[:1]
+    if not exact:
+        return [_Tie(agent, other, 0.0, shift)]
+    return [
+        _Tie(
+            agent,
+            other,
+            ALONG[p.relation][0] * _distance(agent, other, p.distance_m, meetings),
+            shift,
+        )
+        for p in exact
+    ]
+
+
+def _kept(tie: _Tie, offsets: dict[str, tuple[float, int]]) -> bool:
+    own, other = offsets[tie.agent], offsets[tie.other]
+    along = own[0] - other[0] - tie.offset_m
+    return abs(along) < _SAME_PLACE_M and own[1] - other[1] == tie.lane_shift
 
 
 def _distance(
@@ -134,13 +194,12 @@ def _distance(
     return max([DEFAULT_GAP_M if stated is None else stated.value, *room])
 
 
-def _origin(
-    spec: ScenarioSpec, vehicles: list[GroundAgent], ties: dict[str, tuple[str, float, int]]
-) -> str | None:
+def _origin(spec: ScenarioSpec, vehicles: list[GroundAgent], ties: list[_Tie]) -> str | None:
     """Choose the origin: ego, else one that others refer to, else a target, else the first."""
     ids = [a.id for a in vehicles]
     ego = [a.id for a in vehicles if a.role is Role.EGO]
-    referred = [i for i in ids if i not in ties and any(t[0] == i for t in ties.values())]
+    placed, named = {t.agent for t in ties}, {t.other for t in ties}
+    referred = [i for i in ids if i in named - placed]
     targets = [m.target for m in spec.missions if m.target in ids]
     foreground = [a.id for a in vehicles if a.role is not Role.BACKGROUND]
     for group in (ego, referred, targets, foreground):
@@ -149,19 +208,19 @@ def _origin(
     return None
 
 
-def _solve(origin: str, ties: dict[str, tuple[str, float, int]]) -> dict[str, tuple[float, int]]:
+def _solve(origin: str, ties: list[_Tie]) -> dict[str, tuple[float, int]]:
     """Propagate offsets from the origin along the ties, in both directions."""
     offsets: dict[str, tuple[float, int]] = {origin: (0.0, 0)}
     changed = True
     while changed:
         changed = False
-        for agent, (other, offset, shift) in sorted(ties.items()):
-            if other in offsets and agent not in offsets:
-                base = offsets[other]
-                offsets[agent] = (base[0] + offset, base[1] + shift)
+        for tie in sorted(ties, key=lambda t: t.agent):
+            if tie.other in offsets and tie.agent not in offsets:
+                base = offsets[tie.other]
+                offsets[tie.agent] = (base[0] + tie.offset_m, base[1] + tie.lane_shift)
                 changed = True
-            elif agent in offsets and other not in offsets:
-                base = offsets[agent]
-                offsets[other] = (base[0] - offset, base[1] - shift)
+            elif tie.agent in offsets and tie.other not in offsets:
+                base = offsets[tie.agent]
+                offsets[tie.other] = (base[0] - tie.offset_m, base[1] - tie.lane_shift)
                 changed = True
     return offsets

@@ -17,7 +17,7 @@ from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.grounding.pace import moves
 from aurora_core.grounding.patterns import pattern_points, place_pattern
-from aurora_core.grounding.places import landmark_point
+from aurora_core.grounding.places import intersection_point, landmark_point
 from aurora_core.grounding.sites import Site, samples_along
 from aurora_core.grounding.spots import SpotFinder
 from aurora_core.knowledge.agent_types import AgentTypeRecord
@@ -119,6 +119,8 @@ class FlightPlanner:
         taken: list[tuple[float, float]],
     ) -> UavPlan | Rejected:
         """Choose the start of a UAV whose missions are planned; it could land there again."""
+        if not self._ways_between_are_free(flights, site):
+            return Rejected(reason='way_between_missions')
         first = _first_point(flights[0].plan, site)
         home = None
         for spot in self._spots.near(first[0], first[1], 6 + 20 * len(taken)):
@@ -142,6 +144,22 @@ class FlightPlanner:
             missions=tuple(f.plan for f in flights),
             safe_altitude_m=min(self._limits.uav_altitude_max_m, max(highest, over_all)),
         )
+
+    def _ways_between_are_free(self, flights: list[PlannedFlight], site: Site) -> bool:
+        """Check the straight ways between missions, at both altitudes.
+
+        Where a track mission ends is not known before; its ways are not checked.
+        """
+        for before, after in itertools.pairwise(f.plan for f in flights):
+            if before.mode is MissionMode.TRACK:
+                continue
+            x, y, z = _last_point(before)
+            to_x, to_y, to_z = _first_point(after, site)
+            for height in {z, to_z}:
+                way = ((x, y, height), (to_x, to_y, height))
+                if self._air.way_clearance_m(way) < self._settings.clearance_m:
+                    return False
+        return True
 
     def with_landing_spots(self, plan: UavPlan, site: Site) -> UavPlan:
         """Add the free spots along everything that the UAV flies over."""
@@ -191,8 +209,7 @@ class FlightPlanner:
         return best
 
     def _offsets(self, mission: UavMission, start: FloatArray) -> Iterator[tuple[float, float]]:
-        assert mission.standoff_m is not None
-        standoff = mission.standoff_m.value
+        standoff = 0.0 if mission.standoff_m is None else mission.standoff_m.value
         if standoff == 0.0:
             yield (0.0, 0.0)
             return
@@ -251,16 +268,9 @@ class FlightPlanner:
         centre: tuple[float, float, float, float],
         targets: FloatArray,
     ) -> PlannedFlight | Rejected:
-        standoff = 0.0 if mission.standoff_m is None else mission.standoff_m.value
-        bearings = 1 if standoff == 0.0 else self._settings.bearings
         reason = 'clearance'
-        for k in range(bearings):
-            angle = 2.0 * pi * k / bearings
-            point = (
-                centre[0] + standoff * cos(angle),
-                centre[1] + standoff * sin(angle),
-                mission.altitude_m.value,
-            )
+        for offset in self._offsets(mission, np.array(centre)):
+            point = (centre[0] + offset[0], centre[1] + offset[1], mission.altitude_m.value)
             clearance = self._air.points_clearance_m(np.array([point]))
             if clearance < self._settings.clearance_m:
                 continue
@@ -359,13 +369,8 @@ class FlightPlanner:
             mark_x, mark_y = landmark_point(self._map, target.removeprefix('landmark:'))
             return mark_x, mark_y, 1.0, 0.0
         if target == 'intersection':
-            junctions = [
-                j
-                for j in self._map.network.junctions.values()
-                if j.kind in ('traffic_light', 'priority', 'allway_stop', 'right_before_left')
-            ]
-            near = min(junctions, key=lambda j: ((j.x_m - x) ** 2 + (j.y_m - y) ** 2, j.id))
-            return near.x_m, near.y_m, hx, hy
+            near_x, near_y = intersection_point(self._map, (x, y))
+            return near_x, near_y, hx, hy
         if target in ('main_road', 'roadside'):
             return x, y, hx, hy
         return None
@@ -376,9 +381,14 @@ class FlightPlanner:
             assert seat is not None
             way = samples_along(seat.path, seat.arc_m, 900.0, 60.0)
             return [(float(p[0]), float(p[1])) for p in way]
-        last = plan.waypoints[-1] if plan.waypoints else plan.hover_point
-        assert last is not None
-        return [(last[0], last[1])]
+        x, y, _ = _last_point(plan)
+        return [(x, y)]
+
+
+def _last_point(plan: MissionPlan) -> Point3:
+    last = plan.waypoints[-1] if plan.waypoints else plan.hover_point
+    assert last is not None
+    return last
 
 
 def _first_point(plan: MissionPlan, site: Site) -> Point3:

@@ -17,6 +17,7 @@ from aurora_core.grounding.airspace import Airspace
 from aurora_core.grounding.convoy import SceneSplit, split_scene
 from aurora_core.grounding.flights import FlightPlanner, PlannedFlight, Rejected
 from aurora_core.grounding.grounded import AnchorScore, GroundedScenario
+from aurora_core.grounding.layers import layered
 from aurora_core.grounding.outcome import GroundingFailure
 from aurora_core.grounding.pace import convoy_pace_mps
 from aurora_core.grounding.realised import realised_values
@@ -79,6 +80,7 @@ class Grounder:
             spec: What to ground.
             seed: Seed of the run (background traffic).
         """
+        requested, spec = spec, layered(spec, self._limits)
         split = split_scene(spec)
         planner = FlightPlanner(
             map_model=self._map,
@@ -112,7 +114,7 @@ class Grounder:
             reasons = dict(sorted(rejected.items()))
             most = max(reasons, key=lambda r: (reasons[r], r)) if reasons else 'road'
             return GroundingFailure(reason=most, tried=scored, rejected_by=reasons)
-        return self._scenario(spec, split, best, scored, run_m, seed, planner)
+        return self._scenario(requested, split, best, scored, run_m, seed, planner)
 
     def _drive_speed(self, spec: ScenarioSpec, split: SceneSplit) -> float:
         stated = [

@@ -11,6 +11,9 @@ from aurora_core.grounding.grounded import GroundedScenario
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.spec.scenario import ScenarioSpec
 
+# Streets cross where at least this many ways lead on; the end of a street is no intersection.
+_CROSSING_WAYS = 3
+
 
 def place_positions(
     spec: ScenarioSpec, map_model: MapModel, grounded: GroundedScenario
@@ -48,11 +51,22 @@ def landmark_point(map_model: MapModel, name: str) -> tuple[float, float]:
     return mark.x_m, mark.y_m
 
 
+def intersection_point(map_model: MapModel, anchor: tuple[float, float]) -> tuple[float, float]:
+    """Return the centre of the intersection nearest to the anchor (x, y in m, ENU)."""
+    ways: dict[str, set[str]] = {}
+    for edge in map_model.network.edges.values():
+        if not edge.is_internal:
+            ways.setdefault(edge.from_junction, set()).add(edge.to_junction)
+            ways.setdefault(edge.to_junction, set()).add(edge.from_junction)
+    crossing = [name for name, onward in ways.items() if len(onward) >= _CROSSING_WAYS]
+    junctions = [map_model.network.junction(name) for name in crossing]
+    near = min(junctions, key=lambda j: (norm2(j.x_m - anchor[0], j.y_m - anchor[1]), j.id))
+    return near.x_m, near.y_m
+
+
 def _position(name: str, map_model: MapModel, anchor: tuple[float, float]) -> tuple[float, float]:
     if name.startswith('landmark:'):
         return landmark_point(map_model, name.removeprefix('landmark:'))
     if name == 'intersection':
-        junctions = [j for j in map_model.network.junctions.values() if j.kind != 'dead_end']
-        near = min(junctions, key=lambda j: (norm2(j.x_m - anchor[0], j.y_m - anchor[1]), j.id))
-        return near.x_m, near.y_m
+        return intersection_point(map_model, anchor)
     return anchor

@@ -5,7 +5,8 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterator, Mapping
+import itertools
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -175,6 +176,10 @@ def _site(
         places = [path.lane_position_at(a) for a in (arc_m - half_m, arc_m, arc_m + half_m)]
         if any(network.lane(place[0]).is_internal for place in places):
             return None  # nobody starts inside a junction
+        if any(
+            c.start_m < arc_m + half_m and arc_m - half_m < c.end_m for c in path.lane_changes()
+        ):
+            return None  # nor between two lanes
         seated.append(
             SeatedAgent(
                 member=member,
@@ -184,6 +189,8 @@ def _site(
                 lane_position_m=places[1][1],
             )
         )
+    if _overlap(seated, types):
+        return None
     origin = path_of(types[convoy[0].agent.type.value].vclass if convoy else ANY_CLASS, 0)
     if origin is None or origin_arc_m > origin.length_m:
         return None
@@ -197,6 +204,22 @@ def _site(
         free_run_m=(signals[0] if signals else origin.length_m) - front,
         steady=not any(s.path.has_lane_change for s in seated),
     )
+
+
+def _overlap(seated: Sequence[SeatedAgent], types: Mapping[str, AgentTypeRecord]) -> bool:
+    """Tell whether two boxes touch; lanes may join between the first edge and a place."""
+    for a, b in itertools.combinations(seated, 2):
+        first, second = (types[s.member.agent.type.value] for s in (a, b))
+        x, y, hx, hy = a.path.position_at(a.arc_m)
+        other_x, other_y, _, _ = b.path.position_at(b.arc_m)
+        dx, dy = other_x - x, other_y - y
+        along, across = abs(dx * hx + dy * hy), abs(dy * hx - dx * hy)
+        if (
+            along < (first.length_m + second.length_m) / 2.0
+            and across < (first.width_m + second.width_m) / 2.0
+        ):
+            return True
+    return False
 
 
 def samples_along(path: RoutePath, start_m: float, way_m: float, spacing_m: float) -> FloatArray:

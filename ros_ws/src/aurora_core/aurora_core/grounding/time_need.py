@@ -11,7 +11,14 @@ from __future__ import annotations
 from math import ceil
 
 from aurora_core.knowledge.limits import Limits
-from aurora_core.spec.scenario import ScenarioSpec, TimeTrigger, UavMission
+from aurora_core.spec.scenario import (
+    Event,
+    EventDoneTrigger,
+    ScenarioSpec,
+    SendMessage,
+    TimeTrigger,
+    UavMission,
+)
 from aurora_core.spec.vocabulary import MissionMode, Pattern
 
 # Slow speeds and times used for the bound, each below what the multirotor does.
@@ -20,6 +27,7 @@ _SINK_MPS = 0.8
 _CORNER_S = 8.0
 _TRANSIT_S = 40.0
 _EVENT_S = 45.0
+_SLOWEST_MPS = 0.2
 
 
 def horizon_s(spec: ScenarioSpec, limits: Limits) -> float:
@@ -37,8 +45,24 @@ def horizon_s(spec: ScenarioSpec, limits: Limits) -> float:
         (e.trigger.at_s.value for e in spec.events if isinstance(e.trigger, TimeTrigger)),
         default=0.0,
     )
-    need = max(by_uav.values(), default=0.0) + _EVENT_S * len(spec.events) + latest
+    need = max(by_uav.values(), default=0.0) + latest + sum(_event_s(spec, e) for e in spec.events)
     return float(min(limits.duration_max_s, max(limits.horizon_inferred_min_s, ceil(need))))
+
+
+def _event_s(spec: ScenarioSpec, event: Event) -> float:
+    """Return the time for an event to come about, with its stated delays and its message."""
+    need = _EVENT_S
+    if event.delay_s is not None:
+        need += event.delay_s.value
+    if isinstance(event.trigger, EventDoneTrigger) and event.trigger.after_s is not None:
+        need += event.trigger.after_s.value
+    if isinstance(event.action, SendMessage):
+        pair = (event.action.sender, event.action.receiver)
+        for link in spec.links:
+            if (link.sender, link.receiver) == pair:
+                tries = link.retransmissions.value * link.retransmission_interval_s.value
+                need += link.latency_s.value + tries
+    return need
 
 
 def _mission_s(mission: UavMission) -> float:
@@ -46,7 +70,11 @@ def _mission_s(mission: UavMission) -> float:
         assert mission.duration_s is not None
         return _TRANSIT_S + mission.duration_s.value
     assert mission.speed_mps is not None
-    return _TRANSIT_S + 1.5 * _route_m(mission) / mission.speed_mps.value + 4.0 * _CORNER_S
+    return (
+        _TRANSIT_S
+        + 1.5 * _route_m(mission) / max(_SLOWEST_MPS, mission.speed_mps.value)
+        + 4.0 * _CORNER_S
+    )
 
 
 def _route_m(mission: UavMission) -> float:

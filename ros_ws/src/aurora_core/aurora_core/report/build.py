@@ -28,6 +28,7 @@ from aurora_core.report.run_report import (
 from aurora_core.report.status import StatusFacts, status_of
 from aurora_core.report.summary import summary_of
 from aurora_core.spec.vocabulary import ClauseStatus
+from aurora_core.trace.trace import Integrity
 
 
 def build_report(facts: RunFacts) -> RunReport:
@@ -91,7 +92,9 @@ def _status_facts(
         judged=judged and bool(rows),
         undecided=verdict is not None and is_undecided(verdict),
         violated=not all(row.satisfied and row.exercised for row in rows),
-        encoded=all(clause.status is not ClauseStatus.NOT_ENCODED for clause in clauses),
+        # Without clauses nobody has shown that the whole prompt was read.
+        encoded=bool(clauses)
+        and all(clause.status is not ClauseStatus.NOT_ENCODED for clause in clauses),
         edited=facts.relaxed,
     )
 
@@ -156,16 +159,16 @@ def _metrics(
 
 def _trace(facts: RunFacts) -> TraceReport | None:
     execution, verdict = facts.execution, facts.verdict
-    if execution is None or verdict is None:
+    if execution is None:
         return None
     return TraceReport(
         bag=execution.bag,
         ticks=execution.ticks,
         sha256=execution.trace_sha256,
-        integrity=verdict.integrity,
-        notes=verdict.notes,
-        cross_check=verdict.cross_check,
-        verdict=verdict.status,
+        integrity=verdict.integrity if verdict is not None else Integrity.UNKNOWN,
+        notes=verdict.notes if verdict is not None else (),
+        cross_check=verdict.cross_check if verdict is not None else (),
+        verdict=verdict.status if verdict is not None else None,
     )
 
 

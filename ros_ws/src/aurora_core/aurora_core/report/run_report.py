@@ -155,7 +155,8 @@ class TraceReport(Document):
         integrity: State of the recording, apart from the margins.
         notes: What is damaged, for people.
         cross_check: Where the executor's record and the recomputation disagree.
-        verdict: What the trace alone shows, apart from the prompt's clauses.
+        verdict: What the trace alone shows, apart from the prompt's clauses; None when it was not
+            judged (cancelled, broken).
     """
 
     bag: str
@@ -164,7 +165,7 @@ class TraceReport(Document):
     integrity: Integrity
     notes: tuple[str, ...] = ()
     cross_check: tuple[Finding, ...] = ()
-    verdict: VerdictStatus
+    verdict: VerdictStatus | None = None
 
 
 class Digests(Document):

@@ -45,6 +45,8 @@ def summary_of(report: RunReport, grounding: GroundingOutcome | None) -> str:
 
 def _lost(report: RunReport) -> str:
     lost = [c for c in report.clauses if c.status is ClauseStatus.NOT_ENCODED]
+    if not lost:
+        return 'the prompt was not divided into clauses'
     return '; '.join(f'“{c.text}”' + (f' ({c.note})' if c.note else '') for c in lost)
 
 

@@ -14,8 +14,15 @@ NEAR = Path(distance_m=50.0, line_of_sight=True)
 
 def _settings(loss: float = 0.0, latency_s: float = 0.1) -> LinkSettings:
     return LinkSettings(
-        link_id='l1', sender='uav1', receiver='ego', loss=loss, latency_s=latency_s,
-        retransmissions=3, interval_s=0.2, range_sight_m=500.0, range_blocked_m=200.0,
+        link_id='l1',
+        sender='uav1',
+        receiver='ego',
+        loss=loss,
+        latency_s=latency_s,
+        retransmissions=3,
+        interval_s=0.2,
+        range_sight_m=500.0,
+        range_blocked_m=200.0,
     )
 
 
@@ -39,7 +46,14 @@ def test_message_arrives_after_exactly_the_latency() -> None:
 
 def test_latency_is_rounded_up_to_whole_ticks_without_representation_errors() -> None:
     assert [whole_ticks(s, DT_S) for s in (0.0, 0.05, 0.1, 0.15, 0.3, 0.35, 0.6, 0.11)] == [
-        0, 1, 2, 3, 6, 7, 12, 3,
+        0,
+        1,
+        2,
+        3,
+        6,
+        7,
+        12,
+        3,
     ]
 
 
@@ -55,7 +69,9 @@ def test_a_link_that_loses_all_gives_up_after_its_retransmissions() -> None:
 def test_out_of_range_is_its_own_reason_and_depends_on_sight() -> None:
     far = Path(distance_m=300.0, line_of_sight=False)
     records = _run(MessageLink(_settings(), DT_S, stream(1, 'link:l1')), far)
-    assert {r.reason for r in records if r.kind is LinkEventKind.ATTEMPT_LOST} == {LossReason.RANGE}
+    assert {r.reason for r in records if r.kind is LinkEventKind.ATTEMPT_LOST} == {
+        LossReason.RANGE
+    }
     seen = Path(distance_m=300.0, line_of_sight=True)
     records = _run(MessageLink(_settings(), DT_S, stream(1, 'link:l1')), seen)
     assert records[-1].kind is LinkEventKind.DELIVERED

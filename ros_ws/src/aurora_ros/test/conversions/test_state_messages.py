@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -40,7 +41,7 @@ RUN, DT_S = 12345678901234567890, 0.05
 BUILDER = message_builder(RUN, DT_S)
 
 
-def through_the_wire(message: object) -> object:
+def through_the_wire(message: Any) -> Any:
     return deserialize_message(serialize_message(message), type(message))
 
 

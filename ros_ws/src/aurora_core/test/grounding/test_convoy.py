@@ -1,0 +1,251 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Relations become offsets along one route; what cannot be placed is named."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from aurora_core.grounding.convoy import DETACHED_M, SceneSplit, split_scene
+from aurora_core.spec.parameter import Parameter
+from aurora_core.spec.scenario import (
+    Behavior,
+    DistanceTrigger,
+    Event,
+    GroundAgent,
+    Placement,
+    ScenarioSpec,
+    Uav,
+    UavMission,
+)
+from aurora_core.spec.vocabulary import AgentType, BehaviorKind, MissionMode, Relation, Role
+
+Make = Callable[..., Parameter]
+
+
+def _agent(
+    name: str,
+    *places: tuple[Relation, str | None, float | None],
+    make: Make | None = None,
+    does: tuple[BehaviorKind, str] | None = None,
+    kind: AgentType = AgentType.CAR,
+    role: Role = Role.OTHER,
+) -> GroundAgent:
+    placements = tuple(
+        Placement(
+            relation=relation,
+            of=of,
+            distance_m=None if distance is None or make is None else make(distance),
+        )
+        for relation, of, distance in places
+    )
+    behaviors = () if does is None else (Behavior(kind=does[0], target=does[1]),)
+    role = Role.EGO if name == 'ego' else role
+    return GroundAgent(id=name, type=kind, role=role, placements=placements, behaviors=behaviors)
+
+
+def _spec(*agents: GroundAgent, **fields: Any) -> ScenarioSpec:
+    return ScenarioSpec(prompt='x', agents=agents, **fields)
+
+
+def _places(split: SceneSplit) -> dict[str, tuple[float, int]]:
+    return {m.agent.id: (m.offset_m, m.lane_shift) for m in split.convoy}
+
+
+EGO = _agent('ego')
+
+
+@pytest.mark.parametrize(
+    ('relation', 'expected'),
+    [
+        (Relation.AHEAD, (35.0, 0)),
+        (Relation.SAME_LANE, (35.0, 0)),
+        (Relation.BEHIND, (-35.0, 0)),
+        (Relation.BEFORE, (-35.0, 0)),
+        (Relation.LEFT, (0.0, 1)),
+        (Relation.ADJACENT_LANE, (0.0, 1)),
+        (Relation.BESIDE, (0.0, 1)),
+        (Relation.RIGHT, (0.0, -1)),
+    ],
+)
+def test_each_relation(relation: Relation, expected: tuple[float, int], parameter: Make) -> None:
+    split = split_scene(_spec(_agent('a', (relation, 'ego', 35.0), make=parameter), EGO))
+    assert _places(split) == {'ego': (0.0, 0), 'a': expected}
+    assert split.unsupported == ()
+    assert split.convoy[0].agent.id == 'ego'
+
+
+def test_chains_in_both_directions(parameter: Make) -> None:
+    split = split_scene(
+        _spec(
+            _agent('c', (Relation.AHEAD, 'b', 10.0), make=parameter),
+            _agent('b', (Relation.AHEAD, 'ego', 30.0), make=parameter),
+            _agent('ego', (Relation.BEHIND, 'd', 15.0), make=parameter),
+            _agent('d'),
+            _agent('e', (Relation.RIGHT, 'd', None), (Relation.BEHIND, 'd', 5.0), make=parameter),
+        )
+    )
+    assert _places(split) == {
+        'ego': (0.0, 0),
+        'b': (30.0, 0),
+        'c': (40.0, 0),
+        'd': (15.0, 0),
+        'e': (10.0, -1),
+    }
+    assert split.free == ()
+
+
+def test_same_lane_and_behind_say_one_place(parameter: Make) -> None:
+    split = split_scene(
+        _spec(
+            EGO,
+            _agent(
+                'a', (Relation.SAME_LANE, 'ego', None), (Relation.BEHIND, 'ego', 30.0),
+                make=parameter,
+            ),
+        )
+    )
+    assert _places(split)['a'] == (-30.0, 0)
+    assert split.unsupported == ()
+
+
+def test_two_placements_that_agree(parameter: Make) -> None:
+    split = split_scene(
+        _spec(
+            EGO,
+            _agent('t', (Relation.AHEAD, 'ego', 50.0), make=parameter),
+            _agent('b', (Relation.AHEAD, 'ego', 20.0), (Relation.BEHIND, 't', 30.0), make=parameter),
+        )
+    )
+    assert _places(split) == {'ego': (0.0, 0), 't': (50.0, 0), 'b': (20.0, 0)}
+    assert split.unsupported == ()
+
+
+def test_placements_that_contradict_each_other_are_named(parameter: Make) -> None:
+    split = split_scene(
+        _spec(
+            _agent('ego', (Relation.BEHIND, 'a', 30.0), make=parameter),
+            _agent('a', (Relation.AHEAD, 'ego', 20.0), make=parameter),
+        )
+    )
+    assert split.unsupported == ('ego: places that contradict each other',)
+
+
+@pytest.mark.parametrize(
+    'kind', [BehaviorKind.FOLLOW, BehaviorKind.TAILGATE, BehaviorKind.APPROACH]
+)
+def test_who_chases_starts_behind(kind: BehaviorKind) -> None:
+    split = split_scene(_spec(_agent('a', does=(kind, 'ego')), EGO))
+    assert _places(split)['a'] == (-20.0, 0)
+
+
+def test_a_stated_closing_distance_is_kept(parameter: Make) -> None:
+    behavior = Behavior(kind=BehaviorKind.TAILGATE, target='ego', closing_from_m=parameter(45.0))
+    van = GroundAgent(id='van1', type=AgentType.VAN, behaviors=(behavior,))
+    assert _places(split_scene(_spec(van, EGO)))['van1'] == (-45.0, 0)
+
+
+def test_who_is_to_come_close_starts_farther_away(parameter: Make) -> None:
+    event = Event(
+        id='e1',
+        trigger=DistanceTrigger(on='distance_below', a='a', b='ego', value_m=parameter(25.0)),
+    )
+    split = split_scene(_spec(_agent('a'), EGO, events=(event,)))
+    assert _places(split)['a'][0] < -25.0
+
+
+@pytest.mark.parametrize(
+    ('agent', 'named'),
+    [
+        (_agent('a', (Relation.ONCOMING, 'ego', None)), 'a: placement oncoming ego'),
+        (_agent('a', (Relation.AT, 'intersection', None)), 'a: placement at intersection'),
+        (_agent('a', (Relation.PARKED_AT, 'roadside', None)), 'a: placement parked_at roadside'),
+        (_agent('r', kind=AgentType.RSU), 'r: roadside units'),
+    ],
+)
+def test_what_cannot_be_placed_is_named(agent: GroundAgent, named: str) -> None:
+    assert split_scene(_spec(agent, EGO)).unsupported == (named,)
+
+
+def test_a_second_placement_that_cannot_be_realised_is_named_too(parameter: Make) -> None:
+    agent = _agent(
+        'a', (Relation.AHEAD, 'ego', 20.0), (Relation.AT, 'crosswalk', None), make=parameter
+    )
+    split = split_scene(_spec(agent, EGO))
+    assert _places(split)['a'] == (20.0, 0)
+    assert split.unsupported == ('a: placement at crosswalk',)
+
+
+def test_on_the_road_needs_nothing() -> None:
+    assert split_scene(_spec(_agent('a', (Relation.ON, 'main_road', None)))).unsupported == ()
+
+
+def test_persons_and_unrelated_vehicles_are_apart() -> None:
+    split = split_scene(
+        _spec(
+            EGO,
+            _agent('p', kind=AgentType.PEDESTRIAN),
+            _agent('bg', role=Role.BACKGROUND, does=(BehaviorKind.CIRCULATE, 'main_road')),
+        )
+    )
+    assert [a.id for a in split.persons] == ['p']
+    assert [a.id for a in split.free] == ['bg']
+    assert list(_places(split)) == ['ego']
+
+
+def _tracking(make: Make, target: str) -> dict[str, Any]:
+    mission = UavMission(
+        id='m1',
+        uav='uav1',
+        mode=MissionMode.TRACK,
+        target=target,
+        altitude_m=make(30.0),
+        standoff_m=make(0.0),
+        duration_s=make(30.0, 's'),
+    )
+    return {'uavs': (Uav(id='uav1'),), 'missions': (mission,)}
+
+
+def test_a_watched_vehicle_is_on_the_road_with_the_ego(parameter: Make) -> None:
+    split = split_scene(_spec(EGO, _agent('m'), _agent('x'), **_tracking(parameter, 'm')))
+    assert _places(split) == {'ego': (0.0, 0), 'm': (-DETACHED_M, 0)}
+    assert [a.id for a in split.free] == ['x']
+
+
+def test_a_second_group_lines_up_behind_the_first(parameter: Make) -> None:
+    split = split_scene(
+        _spec(
+            EGO,
+            _agent('a', (Relation.BEHIND, 'ego', 30.0), make=parameter),
+            _agent('b', (Relation.AHEAD, 'c', 10.0), make=parameter),
+            _agent('c'),
+        )
+    )
+    places = _places(split)
+    assert places['a'] == (-30.0, 0)
+    assert places['b'] == (-30.0 - DETACHED_M, 0)
+    assert places['c'] == (-40.0 - DETACHED_M, 0)
+    assert split.unsupported == ()
+
+
+def test_without_an_ego_the_one_that_others_refer_to_is_the_origin(parameter: Make) -> None:
+    split = split_scene(
+        _spec(_agent('b', (Relation.AHEAD, 'a', 10.0), make=parameter), _agent('a'))
+    )
+    assert split.convoy[0].agent.id == 'a'
+    assert _places(split) == {'a': (0.0, 0), 'b': (10.0, 0)}
+    assert split_scene(_spec(_agent('x'), _agent('y'))).convoy[0].agent.id == 'x'
+
+
+def test_background_alone_has_no_convoy() -> None:
+    split = split_scene(_spec(_agent('x', role=Role.BACKGROUND)))
+    assert split.convoy == ()
+    assert [a.id for a in split.free] == ['x']
+
+
+def test_a_scene_without_vehicles() -> None:
+    split = split_scene(_spec(_agent('p', kind=AgentType.PEDESTRIAN)))
+    assert (split.convoy, split.free) == ((), ())

@@ -1,0 +1,86 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Routes are long enough, connected, and never lead into a dead end."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import pairwise
+
+import pytest
+
+from aurora_core.grounding.routes import RouteFinder
+from aurora_core.knowledge.map_model import MapModel
+from aurora_core.ports.random_streams import stream
+
+CASES = [('downtown', 'passenger'), ('downtown', 'bus'), ('junction', 'passenger')]
+
+
+def _edges(network_map: MapModel, vclass: str) -> list[str]:
+    return sorted({lane.edge_id for lane in network_map.network.driving_lanes(vclass)})
+
+
+@pytest.mark.parametrize(('name', 'vclass'), CASES)
+def test_straight_routes(name: str, vclass: str, map_of: Callable[[str], MapModel]) -> None:
+    network = map_of(name).network
+    finder = RouteFinder(network, vclass)
+    started = 0
+    for edge in _edges(map_of(name), vclass):
+        route = finder.straight_route(edge, 3000.0)
+        if not finder.endless(edge):
+            assert route == ()
+            continue
+        started += 1
+        assert route[0] == edge
+        assert sum(network.edge(e).length_m for e in route) >= 3000.0
+        assert all(finder.endless(e) for e in route)
+        for a, b in pairwise(route):
+            assert b in network.successors(a, vclass)
+        assert network.successors(route[-1], vclass)
+    assert started > 0
+
+
+@pytest.mark.parametrize(('name', 'vclass'), CASES)
+def test_wandering_routes(name: str, vclass: str, map_of: Callable[[str], MapModel]) -> None:
+    network = map_of(name).network
+    finder = RouteFinder(network, vclass)
+    edge = next(e for e in _edges(map_of(name), vclass) if finder.endless(e))
+    routes = {
+        finder.wandering_route(edge, 2000.0, stream(seed, 'test')) for seed in range(10)
+    }
+    for route in routes:
+        assert sum(network.edge(e).length_m for e in route) >= 2000.0
+        assert all(b in network.successors(a, vclass) for a, b in pairwise(route))
+        assert all(finder.endless(e) for e in route)
+    again = finder.wandering_route(edge, 2000.0, stream(3, 'test'))
+    assert again == finder.wandering_route(edge, 2000.0, stream(3, 'test'))
+    if name == 'downtown':
+        assert len(routes) > 5
+
+
+def test_straight_on_is_preferred_and_turning_round_is_the_last_resort(
+    map_of: Callable[[str], MapModel],
+) -> None:
+    network = map_of('downtown').network
+    finder = RouteFinder(network, 'passenger')
+    for edge in _edges(map_of('downtown'), 'passenger')[:40]:
+        if not finder.endless(edge):
+            continue
+        route = finder.straight_route(edge, 1000.0)
+        for a, b in pairwise(route):
+            onward = {
+                link.direction
+                for lane_id in network.edge(a).lane_ids
+                for link in network.connections_from(lane_id)
+                if finder.endless(network.lane(link.to_lane_id).edge_id)
+            }
+            taken = {
+                link.direction
+                for lane_id in network.edge(a).lane_ids
+                for link in network.connections_from(lane_id)
+                if network.lane(link.to_lane_id).edge_id == b
+            }
+            if 's' in onward:
+                assert 's' in taken, (a, b)
+            if onward - {'t'}:
+                assert taken != {'t'}, (a, b)

@@ -1,0 +1,108 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import io
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+from rich.console import Console
+
+from aurora_core.execution.faults import Fault
+from aurora_core.grounding.outcome import GroundingOutcome
+from aurora_core.monitor.verdict import Finding
+from aurora_core.report.build import build_report
+from aurora_core.report.check_report import build_check
+from aurora_core.report.terminal import print_check, print_report, print_verify
+from aurora_core.report.verify_report import VerifyReport, compare
+
+
+def _plain() -> Console:
+    return Console(file=io.StringIO(), width=60)
+
+
+def _terminal(**options: bool) -> Console:
+    return Console(
+        file=io.StringIO(), width=120, force_terminal=True, color_system='standard', **options
+    )
+
+
+def _text(console: Console) -> str:
+    assert isinstance(console.file, io.StringIO)
+    return console.file.getvalue()
+
+
+def test_plain_text_has_one_row_per_line_without_boxes(make: SimpleNamespace) -> None:
+    console = _plain()
+    fault = Fault(kind='link_loss', subject='*', value=1.0)
+    report = build_report(make.facts(faults=(fault,)))
+    print_report(report, console, Path('/runs/x'))
+    text = _text(console)
+    assert text.startswith('VERIFIED  ')
+    assert '\x1b' not in text
+    assert '│' not in text
+    row = next(line for line in text.splitlines() if 'uav1 keeps m1.visible' in line)
+    assert row.split()[-3:] == ['+0.2', '12.50', 's']
+    assert 'a' * 64 in text
+    assert '/runs/x' in text
+    assert 'injected fault: link_loss' in text
+
+
+def test_a_terminal_gets_a_table_and_no_color_is_heeded(
+    make: SimpleNamespace, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    report = build_report(make.facts(verdict=make.verdict(make.result(margin=-1.0))))
+    coloured = _terminal()
+    print_report(report, coloured)
+    assert '\x1b[1;31mVIOLATED' in _text(coloured)
+    monkeypatch.setenv('NO_COLOR', '1')
+    grey = _terminal()
+    print_report(report, grey)
+    assert '\x1b[1;31m' not in _text(grey)
+    assert 'VIOLATED' in _text(grey)
+
+
+def test_markup_in_a_prompt_is_just_text(make: SimpleNamespace) -> None:
+    console = _terminal()
+    grounding = GroundingOutcome(agsg=make.graph(), unsupported=('[red]x: [/red][bold]',))
+    print_report(build_report(make.facts(prompt='[red]a[/nope]', grounding=grounding)), console)
+    assert '[red]a[/nope]' in _text(console)
+
+
+def test_a_failed_condition_is_marked_without_colour_too(make: SimpleNamespace) -> None:
+    console = _plain()
+    print_report(build_report(make.facts(verdict=make.verdict(make.result(margin=-1.0)))), console)
+    assert any(line.split()[:2] == ['NO', 'uav1'] for line in _text(console).splitlines())
+
+
+def test_a_check_says_how_a_run_would_be_judged(make: SimpleNamespace) -> None:
+    console = _plain()
+    print_check(build_check(make.facts(execution=None, verdict=None)), console)
+    assert 'A run would be judged by:' in _text(console)
+
+
+def test_verify_says_whether_the_record_is_the_same(make: SimpleNamespace) -> None:
+    verdict = make.verdict(
+        cross_check=(Finding(kind='sight', subject='u', tick=1, time_s=0.05, text='not seen'),),
+        notes=('a note',),
+    )
+    other = make.verdict(make.result(margin=0.25))
+    texts = []
+    for recorded in (None, verdict, other):
+        console = _plain()
+        report = VerifyReport(
+            bag='b',
+            ticks=3,
+            trace_sha256='c' * 64,
+            verdict=verdict,
+            recorded=compare(recorded, verdict, 'v') if recorded is not None else None,
+        )
+        print_verify(report, console)
+        texts.append(_text(console))
+    assert 'verified by itself' in texts[0]
+    assert 'the same to the last bit' in texts[1]
+    assert 'DIFFERS' in texts[2]
+    assert 'recorded 0.25, recomputed 0.2' in texts[2]
+    assert 'not seen' in texts[0]
+    assert 'a note' in texts[0]
