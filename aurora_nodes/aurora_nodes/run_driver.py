@@ -34,6 +34,7 @@ CALLS = (
     on.RECORDER_STOP,
 )
 _LOOK_S = 0.05
+_STATE_LISTENERS = 2  # this node and the recorder
 _LATCHED = (on.AGSG, on.ROSTER, on.WORLD)
 _RECORDED = (*_LATCHED, on.GROUND_STATE, on.GROUND_COMMAND, on.COMM, on.SENSING, on.EVENTS)
 _RECORDED_WITH_UAVS = (*_RECORDED, on.UAV_STATE, on.UAV_COMMAND)
@@ -133,7 +134,7 @@ class RunDriver:
             self._publish_documents(order, run)
             self._path.arm(run)
             self._call(on.SYNC_START, StartSync.Request(run_number=run_number))
-            was_cancelled = self._await_end(run, cancelled)
+            self._await_end(run, cancelled)
         except AuroraError:
             self._give_up(run, recording=recording)
             raise
@@ -141,12 +142,8 @@ class RunDriver:
             self._path.disarm()
             self._node.heartbeat.idle()
         self._stop_clock(run)
-        bag = self._stop_recording(run, complete=not was_cancelled)
-        return Done(
-            bag=bag,
-            ticks=run.last_tick + 1,
-            outcome='cancelled' if was_cancelled else run.outcome or 'horizon',
-        )
+        bag = self._stop_recording(run, complete=True)
+        return Done(bag=bag, ticks=run.last_tick + 1, outcome=run.outcome or 'horizon')
 
     def _load(self, order: Order, run: ActiveRun) -> None:
         execution = order.execution
@@ -163,13 +160,19 @@ class RunDriver:
             ),
         )
         limit_s = self._settings.load_limit_s
-        self._call(on.GROUND_LOAD, ground_request(execution.ground_load, **common), limit_s)
+        self._call(
+            on.GROUND_LOAD,
+            ground_request(execution.ground_load, listeners=_STATE_LISTENERS, **common),
+            limit_s,
+        )
         if run.has_uavs:
-            self._call(on.UAV_LOAD, uav_request(execution.air_load, **common), limit_s)
-        publishers = self._path.command_publishers(run.has_uavs)
-        # The bridge and the recorder.
+            self._call(
+                on.UAV_LOAD,
+                uav_request(execution.air_load, listeners=_STATE_LISTENERS, **common),
+                limit_s,
+            )
         await_subscribers(
-            dict.fromkeys(publishers, 2),
+            self._path.listeners(run.has_uavs),
             limit_s=self._settings.call_limit_s,
             component=self._node.get_name(),
         )
@@ -196,23 +199,21 @@ class RunDriver:
             self._publishers[topic].publish(message)
             run.sent[topic.full_name] += 1
 
-    def _await_end(self, run: ActiveRun, cancelled: Callable[[], bool]) -> bool:
-        """Wait until sync ends the run; return whether it was cancelled.
+    def _await_end(self, run: ActiveRun, cancelled: Callable[[], bool]) -> None:
+        """Wait until sync ends the run; a cancelled one ends with its next tick.
 
         Raises:
             AuroraError: The run failed.
         """
         seen_tick, moved_at = run.last_tick, time.monotonic()
         while not run.ended.is_set():
-            if cancelled():
-                return True
+            run.stopping = run.stopping or cancelled()
             if run.last_tick != seen_tick:
                 seen_tick, moved_at = run.last_tick, time.monotonic()
             self._check_alive(run, time.monotonic() - moved_at)
             run.ended.wait(_LOOK_S)
         if run.error is not None:
             raise run.error
-        return False
 
     def _check_alive(self, run: ActiveRun, silent_s: float) -> None:
         names = ['sumo_bridge', 'sync', 'recorder', *(['uav_bridge'] if run.has_uavs else [])]

@@ -37,7 +37,8 @@ class ActiveRun:
     Attributes:
         last_tick: Last tick that was stepped, -1 before the first.
         sent: Messages published for the bag, by full topic name.
-        outcome: Of the step that ended the scenario.
+        stopping: Set to end the run with the next tick, which is then complete as all others.
+        outcome: finished or horizon (of the step that ended the scenario), or cancelled.
         ended: Set when sync has finished or failed the run.
         error: Why it failed.
     """
@@ -50,6 +51,7 @@ class ActiveRun:
     on_tick: Callable[[int], None]
     last_tick: int = -1
     sent: Counter[str] = field(default_factory=Counter)
+    stopping: bool = False
     outcome: str = ''
     ended: threading.Event = field(default_factory=threading.Event)
     error: AuroraError | None = None
@@ -82,10 +84,13 @@ class TickPath:
         node.subscription(on.UAV_STATE, self._on_uav)
         node.subscription(on.SYNC_STATUS, self._on_sync_status)
 
-    def command_publishers(self, with_uavs: bool) -> list[Publisher]:
-        """Return the publishers that bridge and recorder must have matched before tick 0."""
-        topics = (on.GROUND_COMMAND, on.UAV_COMMAND) if with_uavs else (on.GROUND_COMMAND,)
-        return [self._publishers[topic] for topic in topics]
+    def listeners(self, with_uavs: bool) -> dict[Publisher, int]:
+        """Return the publishers and how many must listen to each before tick 0."""
+        # Commands: bridge and recorder; records: recorder; done: sync.
+        counts = {on.GROUND_COMMAND: 2, on.COMM: 1, on.SENSING: 1, on.EVENTS: 1, on.TICK_DONE: 1}
+        if with_uavs:
+            counts[on.UAV_COMMAND] = 2
+        return {self._publishers[topic]: count for topic, count in counts.items()}
 
     def arm(self, run: ActiveRun) -> None:
         """Begin to answer the states of a run."""
@@ -129,8 +134,9 @@ class TickPath:
         for event in output.events:
             self._send(run, on.EVENTS, builder.event(event))
         run.last_tick = tick
-        run.outcome = output.outcome
-        if not output.finished:
+        finished = output.finished or run.stopping
+        run.outcome = output.outcome or ('cancelled' if run.stopping else '')
+        if not finished:
             commands = builder.ground_commands(tick + 1, output.ground_commands)
             self._send(run, on.GROUND_COMMAND, commands)
             if run.has_uavs:
@@ -141,7 +147,7 @@ class TickPath:
                 run_number=run.run_number,
                 tick=tick,
                 participant=self._node.get_name(),
-                finished=output.finished,
+                finished=finished,
             )
         )
         self._node.heartbeat.at(tick)

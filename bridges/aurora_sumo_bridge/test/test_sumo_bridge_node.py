@@ -175,6 +175,16 @@ def test_a_lost_tick_becomes_a_fault(graph: Graph) -> None:
     assert graph.faults[0].error_code == ExecutionError.default_code
 
 
+def test_a_load_waits_for_everybody_who_must_hear_the_state(graph: Graph) -> None:
+    with pytest.raises(ExecutionError, match=r'ground/state \(1 of 2\)'):
+        graph.load(listeners=2)
+    more = graph.play.collect(on.GROUND_STATE)
+    graph.load(listeners=2)
+    graph.send_tick(0)
+    graph.await_states(1)
+    assert wait_until(lambda: len(more) == 1, 5.0)
+
+
 def test_a_load_that_cannot_be_is_refused_with_code_and_reason(graph: Graph) -> None:
     with pytest.raises(MapError, match='expected digest 00'):
         graph.load(map_digest='00' * 32)

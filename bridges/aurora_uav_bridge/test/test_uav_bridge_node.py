@@ -16,7 +16,7 @@ import pytest
 
 pytest.importorskip('rclpy')
 
-from aurora_core.errors import AirSimulatorError, AuroraError
+from aurora_core.errors import AirSimulatorError, AuroraError, SimulatorError
 from aurora_core.trace.layout import (
     UAV_COMMAND_WIDTH,
     UAV_WIDTH,
@@ -135,7 +135,7 @@ def test_a_simulator_that_dies_becomes_a_fault_that_names_it(graph: Graph) -> No
 
 
 def test_a_load_out_of_range_is_refused_and_the_next_one_works(graph: Graph) -> None:
-    with pytest.raises(AirSimulatorError):
+    with pytest.raises(SimulatorError, match='home of uav1, x_m: expected a number'):
         graph.load(home_xy_m=array('d', [float('nan'), 0.0]))
     with pytest.raises(AirSimulatorError, match='load of the UAVs'):
         graph.load(home_yaw_enu_rad=array('d'))

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 import sys
 import traceback
@@ -222,6 +223,10 @@ for _group, _path in (
 
 def main() -> NoReturn:
     """Run the command line; usage errors leave with 64, Ctrl-C with 130."""
+    for stream in (sys.stdout, sys.stderr):
+        # The answer is UTF-8 whatever the locale; bytes that are no text must not break a message.
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(encoding='utf-8', errors='backslashreplace')
     sys.exit(run_command_line(sys.argv[1:]))
 
 

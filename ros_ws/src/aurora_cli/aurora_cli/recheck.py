@@ -15,6 +15,7 @@ from typing import Any
 
 from aurora_core.feasibility.verdict import Certificate
 from aurora_core.knowledge.config_files import config_path
+from aurora_core.spec.vocabulary import AgentType
 
 # Limit name of a certificate -> (key in limits.json of its lower end, of its upper end).
 _LIMITS: dict[str, tuple[str | None, str | None]] = {
@@ -154,6 +155,8 @@ def _missing(proof: Certificate) -> list[tuple[bool, str]]:
 
 def _closed_list(proof: Certificate) -> tuple[frozenset[str] | None, str]:
     """Return the list as the configuration has it now, read anew."""
+    if proof.path == 'agent types':
+        return frozenset(kind.value for kind in AgentType), 'the vocabulary'
     of_map = re.search(r'landmarks of (\S+)', proof.path)
     if of_map is not None:
         path = config_path('maps', of_map[1], 'landmarks.geojson')

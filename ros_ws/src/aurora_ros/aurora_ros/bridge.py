@@ -79,7 +79,7 @@ class LockstepBridge(ManagedNode):
         self.require_active()
         self._input.disarm()
         await_subscribers(
-            {self._state_publisher: 1, self._done_publisher: 1},
+            {self._state_publisher: max(1, request.listeners), self._done_publisher: 1},
             limit_s=MATCH_LIMIT_S,
             component=self.get_name(),
         )

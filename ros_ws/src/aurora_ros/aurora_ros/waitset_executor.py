@@ -65,6 +65,9 @@ class WaitSetExecutor(SingleThreadedExecutor):
 
     def spin_once(self, timeout_sec: float | None = None) -> None:
         """Wait for messages or other work and do it."""
+        if self._stale:
+            # A subscription that was destroyed lives on while we hold it.
+            self._release()
         if timeout_sec is not None or time.monotonic() >= self._hot_until_s:
             self._spin_stock(timeout_sec)
             return

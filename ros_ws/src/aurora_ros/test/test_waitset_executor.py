@@ -134,6 +134,22 @@ def test_a_subscription_made_or_destroyed_between_messages(pair: Pair) -> None:
     assert len(late) <= count + 1
 
 
+def test_a_destroyed_subscription_is_gone_although_no_message_follows(pair: Pair) -> None:
+    got: list[int] = []
+    subscription = pair.node.create_subscription(
+        Tick, 'v', lambda message: got.append(message.tick), qos.STREAM
+    )
+    publisher = pair.other.create_publisher(Tick, 'v', qos.STREAM)
+    pair.until(lambda: publisher.get_subscription_count() == 1)
+    for tick in range(20):
+        publisher.publish(Tick(tick=tick))
+        pair.until(lambda: len(got) > tick)  # noqa: B023
+    quiet_until_s = time.monotonic() + 0.1
+    pair.until(lambda: time.monotonic() > quiet_until_s)
+    pair.node.destroy_subscription(subscription)
+    pair.until(lambda: publisher.get_subscription_count() == 0)
+
+
 def test_polled_subscriptions_are_left_to_their_owner(pair: Pair) -> None:
     seen: list[int] = []
     tap = pair.node.create_subscription(

@@ -28,7 +28,11 @@ SPEED_GAIN_MPS = 4.0
 
 Note = Callable[[int, ScenarioEventKind, str, str], None]
 
+# Speed from which an agent can be seen to brake or stop (m/s).
+ON_THE_MOVE_MPS = 5.0
+
 _SPEED_ACTIONS = frozenset({'brake', 'stop', 'yield'})
+_FROM_MOTION = _SPEED_ACTIONS | {'slow'}
 
 
 @dataclass(slots=True)
@@ -85,7 +89,7 @@ class EventRunner:
             if state.done:
                 continue
             event = state.event
-            if state.triggered_tick is None and holds(event, tick, dt_s, seen, self._progress):
+            if state.triggered_tick is None and self._begins(event, tick, dt_s, seen, machines):
                 state.triggered_tick = tick
                 note(tick, ScenarioEventKind.TRIGGERED, event.id, '')
             if state.triggered_tick is None:
@@ -95,9 +99,29 @@ class EventRunner:
             if due and self._allowed(event, seen, machines):
                 commands += self._act(tick, event, seen, machines)
                 state.done = True
-                self._progress.done_tick[event.id] = tick
+                # What an agent is told shows in its state one tick later; a message is sent now.
+                shows = tick + 1 if isinstance(event.action, AgentAction) else tick
+                self._progress.done_tick[event.id] = shows
                 note(tick, ScenarioEventKind.ACTION, event.id, '')
         return commands
+
+    def _begins(
+        self,
+        event: Event,
+        tick: int,
+        dt_s: float,
+        seen: Observation,
+        machines: Sequence[MissionMachine],
+    ) -> bool:
+        if event.trigger is not None:
+            return holds(event, tick, dt_s, seen, self._progress)
+        # Nobody says when: once the UAVs watch, and once who is to brake or stop is on the move.
+        if any(m.first_capture_tick is None for m in machines):
+            return False
+        if not isinstance(event.action, AgentAction) or event.action.do not in _FROM_MOTION:
+            return True
+        speed_mps = seen.speed_mps(event.action.agent)
+        return speed_mps is not None and speed_mps >= ON_THE_MOVE_MPS
 
     def _allowed(
         self, event: Event, seen: Observation, machines: Sequence[MissionMachine]

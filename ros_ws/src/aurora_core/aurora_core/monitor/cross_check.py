@@ -21,6 +21,7 @@ from aurora_core.spec.scenario import (
     MessageTrigger,
     MissionDoneTrigger,
     SendMessage,
+    bodies_of,
 )
 from aurora_core.trace.layout import UavColumn, UavCommandColumn, UavMode
 from aurora_core.trace.records import LinkEventKind, ScenarioEventKind
@@ -58,6 +59,8 @@ def _claims(context: Context, kind: ScenarioEventKind, subject: str) -> list[int
 
 
 def _checkable(context: Context, event: Event) -> bool:
+    if not all(context.view.has(name) for name in bodies_of(event)):
+        return False  # an agent that could not be placed: its clause is incomplete
     if isinstance(event.trigger, ArrivalTrigger):
         return context.view.geometry.place_point(event.trigger.place) is not None
     return event.trigger is not None

@@ -10,7 +10,11 @@ from pathlib import Path
 from aurora_core.agsg.build import build_agsg, derived
 from aurora_core.agsg.graph import Agsg, Stage
 from aurora_core.agsg.message import read_agsg
-from aurora_core.conditions.condition import conditions_from_json, conditions_to_json
+from aurora_core.conditions.condition import (
+    Condition,
+    conditions_from_json,
+    conditions_to_json,
+)
 from aurora_core.conditions.derive import derive_conditions
 from aurora_core.errors import VerificationError
 from aurora_core.execution.faults import Fault
@@ -18,6 +22,7 @@ from aurora_core.execution.plan import Execution, build_execution, unsupported
 from aurora_core.feasibility.check import check_limits
 from aurora_core.feasibility.verdict import FeasibilityVerdict
 from aurora_core.grounding.ground import Grounder
+from aurora_core.grounding.grounded import GroundedScenario
 from aurora_core.grounding.outcome import GroundingFailure, GroundingOutcome
 from aurora_core.knowledge.agent_types import load_agent_types
 from aurora_core.knowledge.config_files import config_path
@@ -28,6 +33,7 @@ from aurora_core.monitor.verdict import Verdict
 from aurora_core.monitor.verify import verify
 from aurora_core.parsing.outcome import ParseContext, ParseOutcome
 from aurora_core.parsing.parser import parse_offline
+from aurora_core.spec.scenario import ScenarioSpec, bodies_of
 from aurora_core.temporal.schedule import plan_time
 from aurora_core.trace.bag_reader import BagContent, read_bag
 from aurora_core.trace.definitions import message_definitions
@@ -86,6 +92,7 @@ def ground_stage(agsg: Agsg, seed: int) -> GroundingOutcome:
         return GroundingOutcome(failure=grounded)
     schedule = plan_time(spec, grounded, known.limits)
     derivation = derive_conditions(spec, schedule.facts, known.limits, known.tolerances)
+    conditions = _judgeable(derivation.conditions, spec, grounded)
     graph = build_agsg(
         spec,
         map_digest=known.map(spec.world.map_name).digest,
@@ -93,8 +100,8 @@ def ground_stage(agsg: Agsg, seed: int) -> GroundingOutcome:
         iteration=agsg.iteration,
         grounding_json=grounded.canonical_json(),
         schedule_json=schedule.canonical_json(),
-        conditions=derivation.conditions,
-        conditions_json=conditions_to_json(derivation.conditions),
+        conditions=conditions,
+        conditions_json=conditions_to_json(conditions),
         realised={r.path: r.realised for r in grounded.realised},
     )
     missing = (
@@ -102,6 +109,18 @@ def ground_stage(agsg: Agsg, seed: int) -> GroundingOutcome:
         *(f'{u.element}: {u.what}' for u in derivation.underivable),
     )
     return GroundingOutcome(agsg=graph, unsupported=missing)
+
+
+def _judgeable(
+    conditions: tuple[Condition, ...], spec: ScenarioSpec, grounded: GroundedScenario
+) -> tuple[Condition, ...]:
+    """Leave out what is about agents that cannot be placed yet; their clauses are `incomplete`."""
+    placed = {a.id for a in grounded.agents}
+    absent = {a.id for a in spec.agents} - placed
+    events = {e.id for e in spec.events if bodies_of(e) & absent}
+    return tuple(
+        c for c in conditions if not absent & set(c.of) and c.arguments.event not in events
+    )
 
 
 def execution_stage(agsg: Agsg, seed: int, faults: tuple[Fault, ...]) -> Execution:

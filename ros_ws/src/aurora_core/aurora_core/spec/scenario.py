@@ -286,6 +286,13 @@ class Event(Document):
     span: Span | None = None
 
 
+def bodies_of(event: Event) -> frozenset[str]:
+    """Return every agent and UAV that an event's trigger and action refer to by id."""
+    names = ('a', 'b', 'uav', 'observer', 'target', 'who', 'by', 'sender', 'receiver', 'agent')
+    found = {getattr(part, name, None) for part in (event.trigger, event.action) for name in names}
+    return frozenset(n for n in found if n is not None and not _is_place(n))
+
+
 class StatedCondition(Document):
     """A condition the prompt itself states; quantity names are those of the contract."""
 

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The message link: latency, retransmission, range and reproducible loss."""
 
+from dataclasses import replace
 from itertools import count
 
 from aurora_core.comm.link import LinkSettings, MessageLink, Path, whole_ticks
@@ -95,3 +96,58 @@ def test_same_seed_same_losses_and_streams_are_separate() -> None:
     assert losses(1, 'link:l1') != losses(1, 'link:l2')
     share = sum(losses(1, 'link:l1')) / len(losses(1, 'link:l1'))
     assert 0.3 < share < 0.7
+
+
+def test_at_the_edge_of_the_range_a_message_passes() -> None:
+    for distance, passes in ((500.0, True), (500.0001, False)):
+        edge = Path(distance_m=distance, line_of_sight=True)
+        records = _run(MessageLink(_settings(), DT_S, stream(1, 'link:l1')), edge)
+        assert (records[-1].kind is LinkEventKind.DELIVERED) is passes
+
+
+def test_range_counts_where_both_are_when_it_is_sent_again() -> None:
+    link = MessageLink(_settings(), DT_S, stream(1, 'link:l1'))
+    sequence = count()
+    link.send(0, 1, 'e1')
+    records: list[LinkRecord] = []
+    for tick in range(20):
+        path = Path(distance_m=700.0 - 50.0 * tick, line_of_sight=True)
+        records += link.step(tick, lambda path=path: path, lambda: next(sequence))  # type: ignore[misc]
+    # Out of range at tick 0, in range when it is sent again after 0.2 s.
+    passed = next(r for r in records if r.kind is LinkEventKind.ATTEMPT_PASSED)
+    assert (passed.tick, passed.attempt, passed.distance_m) == (4, 1, 500.0)
+    assert records[-1].kind is LinkEventKind.DELIVERED
+
+
+def test_several_messages_are_under_way_at_once() -> None:
+    link = MessageLink(_settings(latency_s=0.5), DT_S, stream(1, 'link:l1'))
+    sequence = count()
+    records: list[LinkRecord] = []
+    for tick in range(30):
+        if tick in (0, 3):
+            link.send(tick, tick, f'e{tick}')
+        records += link.step(tick, lambda: NEAR, lambda: next(sequence))
+    delivered = [
+        (r.tick, r.message, r.event) for r in records if r.kind is LinkEventKind.DELIVERED
+    ]
+    assert delivered == [(10, 0, 'e0'), (13, 3, 'e3')]
+    assert [r.sequence for r in records] == list(range(6))
+    assert link.idle
+
+
+def test_out_of_range_uses_up_its_draw() -> None:
+    """One draw per attempt: a body that moves out of range changes no later loss."""
+
+    def losses_after_first(first_m: float) -> list[bool]:
+        settings = replace(_settings(loss=0.5), retransmissions=0)
+        link = MessageLink(settings, DT_S, stream(5, 'link:l1'))
+        sequence = count()
+        lost = []
+        for number in range(30):
+            path = Path(distance_m=first_m if number == 0 else 50.0, line_of_sight=True)
+            link.send(number, number, 'e1')
+            records = link.step(number, lambda path=path: path, lambda: next(sequence))  # type: ignore[misc]
+            lost.append(any(r.kind is LinkEventKind.ATTEMPT_LOST for r in records))
+        return lost[1:]
+
+    assert losses_after_first(9000.0) == losses_after_first(50.0)

@@ -103,7 +103,9 @@ def test_same_lane_and_behind_say_one_place(parameter: Make) -> None:
         _spec(
             EGO,
             _agent(
-                'a', (Relation.SAME_LANE, 'ego', None), (Relation.BEHIND, 'ego', 30.0),
+                'a',
+                (Relation.SAME_LANE, 'ego', None),
+                (Relation.BEHIND, 'ego', 30.0),
                 make=parameter,
             ),
         )
@@ -117,7 +119,9 @@ def test_two_placements_that_agree(parameter: Make) -> None:
         _spec(
             EGO,
             _agent('t', (Relation.AHEAD, 'ego', 50.0), make=parameter),
-            _agent('b', (Relation.AHEAD, 'ego', 20.0), (Relation.BEHIND, 't', 30.0), make=parameter),
+            _agent(
+                'b', (Relation.AHEAD, 'ego', 20.0), (Relation.BEHIND, 't', 30.0), make=parameter
+            ),
         )
     )
     assert _places(split) == {'ego': (0.0, 0), 't': (50.0, 0), 'b': (20.0, 0)}

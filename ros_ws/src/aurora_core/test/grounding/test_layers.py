@@ -60,9 +60,7 @@ def test_without_room_below_the_limit_nothing_moves(parameter: Make, limits: Lim
     assert _heights(layered(spec, limits)) == [115.0, 115.0]
 
 
-def test_one_uav_is_left_alone(
-    read_prompt: Callable[..., ScenarioSpec], limits: Limits
-) -> None:
+def test_one_uav_is_left_alone(read_prompt: Callable[..., ScenarioSpec], limits: Limits) -> None:
     spec = read_prompt('convoy')
     assert layered(spec, limits) == spec
 
@@ -72,7 +70,7 @@ def test_uavs_over_the_same_target_are_grounded_apart(
     ground: Callable[..., GroundedScenario],
     limits: Limits,
 ) -> None:
-    found = ground(read_prompt('Three drones track the bus.'))
+    found = ground(read_prompt('Three drones track the bus.', 'junction'), 'junction')
     assert len(found.uavs) == 3
     for a, b in combinations(found.uavs, 2):
         for first in a.missions:

@@ -16,9 +16,7 @@ Point2 = tuple[float, float]
 
 
 def _points(pattern: Pattern, length: float = 120.0, width: float = 70.0) -> tuple[Point2, ...]:
-    return pattern_points(
-        pattern, length_m=length, width_m=width, radius_m=45.0, waypoint_count=5
-    )
+    return pattern_points(pattern, length_m=length, width_m=width, radius_m=45.0, waypoint_count=5)
 
 
 def _extent(points: tuple[Point2, ...]) -> tuple[float, float]:

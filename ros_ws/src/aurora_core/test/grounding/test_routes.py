@@ -11,6 +11,7 @@ import pytest
 
 from aurora_core.grounding.routes import RouteFinder
 from aurora_core.knowledge.map_model import MapModel
+from aurora_core.knowledge.road_network import RoadNetwork
 from aurora_core.ports.random_streams import stream
 
 CASES = [('downtown', 'passenger'), ('downtown', 'bus'), ('junction', 'passenger')]
@@ -45,9 +46,7 @@ def test_wandering_routes(name: str, vclass: str, map_of: Callable[[str], MapMod
     network = map_of(name).network
     finder = RouteFinder(network, vclass)
     edge = next(e for e in _edges(map_of(name), vclass) if finder.endless(e))
-    routes = {
-        finder.wandering_route(edge, 2000.0, stream(seed, 'test')) for seed in range(10)
-    }
+    routes = {finder.wandering_route(edge, 2000.0, stream(seed, 'test')) for seed in range(10)}
     for route in routes:
         assert sum(network.edge(e).length_m for e in route) >= 2000.0
         assert all(b in network.successors(a, vclass) for a, b in pairwise(route))
@@ -56,6 +55,29 @@ def test_wandering_routes(name: str, vclass: str, map_of: Callable[[str], MapMod
     assert again == finder.wandering_route(edge, 2000.0, stream(3, 'test'))
     if name == 'downtown':
         assert len(routes) > 5
+
+
+@pytest.mark.parametrize(('name', 'vclass'), CASES)
+def test_nobody_wanders_back_where_there_is_another_way(
+    name: str, vclass: str, map_of: Callable[[str], MapModel]
+) -> None:
+    network = map_of(name).network
+    finder = RouteFinder(network, vclass)
+    for edge in [e for e in _edges(map_of(name), vclass) if finder.endless(e)][:20]:
+        route = finder.wandering_route(edge, 1500.0, stream(1, edge))
+        for a, b in pairwise(route):
+            ways = _directions(network, a)
+            others = [e for e, way in ways.items() if way != {'t'} and finder.endless(e)]
+            assert ways[b] != {'t'} or not others, (a, b)
+
+
+def _directions(network: RoadNetwork, edge: str) -> dict[str, set[str]]:
+    """Return the directions of the links to each following edge."""
+    found: dict[str, set[str]] = {}
+    for lane_id in network.edge(edge).lane_ids:
+        for link in network.connections_from(lane_id):
+            found.setdefault(network.lane(link.to_lane_id).edge_id, set()).add(link.direction)
+    return found
 
 
 def test_straight_on_is_preferred_and_turning_round_is_the_last_resort(

@@ -22,10 +22,8 @@ def _plain() -> Console:
     return Console(file=io.StringIO(), width=60)
 
 
-def _terminal(**options: bool) -> Console:
-    return Console(
-        file=io.StringIO(), width=120, force_terminal=True, color_system='standard', **options
-    )
+def _terminal() -> Console:
+    return Console(file=io.StringIO(), width=120, force_terminal=True, color_system='standard')
 
 
 def _text(console: Console) -> str:

@@ -20,7 +20,7 @@ _AGENTS = TypeAdapter(tuple[GroundAgentLoad, ...])
 
 
 def ground_request(
-    load: GroundLoad, *, run_id: str, run_number: int, horizon_s: float
+    load: GroundLoad, *, run_id: str, run_number: int, horizon_s: float, listeners: int
 ) -> LoadGround.Request:
     """Return the request that loads the ground simulator; paths stay behind, the digest goes."""
     return LoadGround.Request(
@@ -33,6 +33,7 @@ def ground_request(
         horizon_s=horizon_s,
         weather=load.weather,
         agents_json=_AGENTS.dump_json(load.agents).decode('utf-8'),
+        listeners=listeners,
     )
 
 
@@ -69,7 +70,7 @@ def ground_load(request: LoadGround.Request) -> GroundLoad:
 
 
 def uav_request(
-    load: AirLoad, *, run_id: str, run_number: int, horizon_s: float
+    load: AirLoad, *, run_id: str, run_number: int, horizon_s: float, listeners: int
 ) -> LoadUav.Request:
     """Return the request that loads the air simulator."""
     return LoadUav.Request(
@@ -88,6 +89,7 @@ def uav_request(
         wind_mean_east_mps=load.wind_mean_east_mps,
         wind_mean_north_mps=load.wind_mean_north_mps,
         wind_gust_mps=load.wind_gust_mps,
+        listeners=listeners,
     )
 
 

@@ -62,7 +62,7 @@ AIR = AirLoad(
     wind_mean_north_mps=-2.0,
     wind_gust_mps=0.5,
 )
-RUN: dict[str, Any] = {'run_id': 'r', 'run_number': 5, 'horizon_s': 60.0}
+RUN: dict[str, Any] = {'run_id': 'r', 'run_number': 5, 'horizon_s': 60.0, 'listeners': 2}
 
 
 def test_ground_load_survives() -> None:

@@ -296,6 +296,8 @@ def _street_names(
         # The lane and the place on it that the trajectories leave free.
         spots = [_freest(piece, ways, half_m, 9.0 / points_per_m) for piece in long_enough]
         best = min(range(len(spots)), key=lambda i: (spots[i][0], -len(long_enough[i])))
+        if spots[best][0] > 1:
+            continue  # it would be half hidden
         piece, k = long_enough[best], spots[best][1]
         dx, dy = _direction(piece, k)
         angle = math.degrees(math.atan2(dy, dx))

@@ -14,9 +14,10 @@ from matplotlib.patheffects import withStroke
 
 from aurora_core.conditions.condition import Condition
 from aurora_core.report.picture import style
+from aurora_core.report.picture.furniture import number_badge
 from aurora_core.report.picture.placing import Placer
 from aurora_core.report.picture.story import Moment
-from aurora_core.report.picture.tracks import Box, Track
+from aurora_core.report.picture.tracks import Box, Track, beside
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -28,13 +29,15 @@ _RIBBON_WIDTH = 9.5
 
 
 def colours_of(tracks: tuple[Track, ...]) -> dict[str, str]:
-    """Return a colour per ground agent: the ego's is fixed, background traffic is grey."""
+    """Return a colour per body: the ego's is fixed, background traffic is grey."""
     colours: dict[str, str] = {}
+    flown = {track.name for track in tracks if track.is_uav}
     free = [colour for colour in style.AGENT_COLOURS if colour != style.EGO_COLOUR]
     for track in tracks:
         if track.is_uav:
-            continue
-        if track.is_background:
+            index = sum(name in flown for name in colours)
+            colours[track.name] = style.UAV_COLOURS[index % len(style.UAV_COLOURS)]
+        elif track.is_background:
             colours[track.name] = style.BACKGROUND_AGENT
         elif track.entry.role == 'ego':
             colours[track.name] = style.EGO_COLOUR
@@ -313,108 +316,3 @@ class PathLayer:
 
     def _metres(self, x: float, y: float) -> tuple[float, float]:
         return self.box.west + x / self.scale, self.box.south + y / self.scale
-
-
-def beside(way_m: FloatArray, left_m: float) -> FloatArray:
-    """Return a way shifted to its left, (T, 2); where it stands still it keeps the direction."""
-    shifted = way_m.copy()
-    if left_m == 0.0:
-        return shifted
-    direction = np.zeros(2)
-    anchor: FloatArray | None = None
-    normals = np.zeros_like(way_m)
-    for k, point in enumerate(way_m):
-        if not np.isfinite(point).all():
-            continue
-        if anchor is None:
-            anchor = point
-        step = point - anchor
-        length = float(np.sqrt((step**2).sum()))
-        if length > 2.0:
-            direction, anchor = step / length, point
-        normals[k] = (-direction[1], direction[0])
-    moving = np.flatnonzero((normals != 0.0).any(axis=1))
-    if len(moving):
-        normals[: moving[0]] = normals[moving[0]]
-    # A running mean, so that the line bends as smoothly as the way.
-    kernel = np.ones(21) / 21.0
-    padded = np.pad(normals, ((10, 10), (0, 0)), mode='edge')
-    for axis in range(2):
-        shifted[:, axis] += left_m * np.convolve(padded[:, axis], kernel, mode='valid')
-    return shifted
-
-
-def number_badge(ax: Axes, x: float, y: float, number: int, colour: str, *, zorder: float) -> None:
-    """Draw a filled circle with a number at a point in data coordinates."""
-    ax.plot(
-        x,
-        y,
-        marker='o',
-        markersize=11.5,
-        markerfacecolor=colour,
-        markeredgecolor='white',
-        markeredgewidth=1.0,
-        zorder=zorder,
-        clip_on=False,
-    )
-    ax.annotate(
-        str(number),
-        (x, y),
-        color='white',
-        fontsize=6.6,
-        weight='bold',
-        ha='center',
-        va='center_baseline',
-        zorder=zorder + 0.05,
-        annotation_clip=False,
-    )
-
-
-def draw_scale(ax: Axes, box: Box) -> None:
-    """Draw scale bar and north arrow into the lower left and upper left corners."""
-    length = next(s for s in (10, 20, 50, 100, 200, 500, 1000, 2000) if s >= box.width / 9.0)
-    x, y = box.west + 0.022 * box.width, box.south + 0.045 * box.height
-    edge = [withStroke(linewidth=4.0, foreground='white')]
-    ax.plot(
-        [x, x + length],
-        [y, y],
-        color=style.INK,
-        linewidth=2.4,
-        solid_capstyle='butt',
-        zorder=8.0,
-        path_effects=[withStroke(linewidth=5.0, foreground='white')],
-    )
-    ax.text(
-        x + length / 2,
-        y + 0.012 * box.height,
-        f'{length} m',
-        ha='center',
-        va='bottom',
-        fontsize=7.5,
-        path_effects=edge,
-        zorder=8.0,
-    )
-    north = (box.west + 0.03 * box.width, box.north - 0.045 * box.height)
-    ax.add_patch(
-        FancyArrowPatch(
-            (north[0], north[1] - 0.075 * box.height),
-            north,
-            arrowstyle='-|>',
-            mutation_scale=14.0,
-            color=style.INK,
-            linewidth=1.6,
-            zorder=8.0,
-            path_effects=[withStroke(linewidth=4.0, foreground='white')],
-        )
-    )
-    ax.text(
-        north[0],
-        north[1] + 0.006 * box.height,
-        'N',
-        ha='center',
-        va='bottom',
-        weight='bold',
-        fontsize=9.0,
-        path_effects=edge,
-        zorder=8.0,
-    )

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -69,11 +70,20 @@ def moments_of(
     tracks: tuple[Track, ...],
     spec: ScenarioSpec | None,
     failures: tuple[Failure, ...],
+    altitudes: Mapping[str, float],
 ) -> tuple[Moment, ...]:
-    """Return the moments in order of time, at most a dozen or so; failures are never left out."""
+    """Return the moments in order of time, at most a dozen or so; failures are never left out.
+
+    Args:
+        trace: The run.
+        tracks: Its bodies.
+        spec: The request, for the words of missions and triggers.
+        failures: Conditions that do not hold.
+        altitudes: Realised altitude in metres by mission.
+    """
     by_name = {track.name: track for track in tracks}
     found = [
-        *_flights(trace, by_name, spec),
+        *_flights(trace, by_name, spec, altitudes),
         *_releases(trace, by_name),
         *_events(trace, by_name, spec),
         *_messages(trace, by_name),
@@ -87,7 +97,12 @@ def moments_of(
     return tuple(sorted(found, key=lambda m: (m.tick < 0, m.tick, _RANK.index(m.tone))))
 
 
-def _flights(trace: Trace, by_name: dict[str, Track], spec: ScenarioSpec | None) -> list[Moment]:
+def _flights(
+    trace: Trace,
+    by_name: dict[str, Track],
+    spec: ScenarioSpec | None,
+    altitudes: Mapping[str, float],
+) -> list[Moment]:
     """Take-off, each mission, landing and touch-down of every UAV."""
     found = []
     for record in trace.events:
@@ -99,7 +114,7 @@ def _flights(trace: Trace, by_name: dict[str, Track], spec: ScenarioSpec | None)
         elif record.detail == 'landing':
             text = 'mission done, goes to land'
         else:
-            text = _mission_words(record.detail, spec)
+            text = _mission_words(record.detail, spec, altitudes)
         found.append(
             Moment(
                 tick=record.tick,
@@ -124,11 +139,14 @@ def _flights(trace: Trace, by_name: dict[str, Track], spec: ScenarioSpec | None)
     return found
 
 
-def _mission_words(mission_id: str, spec: ScenarioSpec | None) -> str:
+def _mission_words(
+    mission_id: str, spec: ScenarioSpec | None, altitudes: Mapping[str, float]
+) -> str:
     mission = next((m for m in spec.missions if m.id == mission_id), None) if spec else None
     if mission is None:
         return f'begins {mission_id}'
-    return f'at {mission.altitude_m.value:g} m, {mission_words(mission)}'
+    altitude_m = altitudes.get(mission_id, mission.altitude_m.value)
+    return f'at {altitude_m:g} m, {mission_words(mission)}'
 
 
 def mission_words(mission: UavMission) -> str:

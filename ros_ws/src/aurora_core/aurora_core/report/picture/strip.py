@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 
 from aurora_core.conditions.condition import Condition
 from aurora_core.report.picture import style
-from aurora_core.report.picture.paths import number_badge
+from aurora_core.report.picture.furniture import number_badge
 from aurora_core.report.picture.story import Moment
 from aurora_core.report.picture.tracks import Track
 from aurora_core.spec.quantity import QuantityName
@@ -24,7 +24,6 @@ from aurora_core.trace.layout import UavPhase
 FloatArray = npt.NDArray[np.float64]
 
 _MOST_SERIES = 4
-_UAV_COLOUR = '#2c3440'
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -75,7 +74,8 @@ def series_of(
         if mission is not None and mission.mode is MissionMode.TRACK and mission.target:
             low = max(0.0, mission.standoff_m - mission.standoff_tolerance_m)
             high = mission.standoff_m + mission.standoff_tolerance_m
-            add(mission.uav, mission.target, flat=True, colour=_UAV_COLOUR, band=(low, high))
+            colour = colours.get(mission.uav, style.FAINT)
+            add(mission.uav, mission.target, flat=True, colour=colour, band=(low, high))
     for event in spec.events if spec is not None else ():
         if isinstance(event.trigger, DistanceTrigger):
             trigger = event.trigger
@@ -87,10 +87,13 @@ def series_of(
             add(a, b, flat=True, colour=colours.get(a, style.FAINT))
     if found:
         return tuple(found.values())
-    return _speeds(tracks, colours, dt_s)
+    return speeds_of(tracks, colours, dt_s)
 
 
-def _speeds(tracks: tuple[Track, ...], colours: dict[str, str], dt_s: float) -> tuple[Series, ...]:
+def speeds_of(
+    tracks: tuple[Track, ...], colours: dict[str, str], dt_s: float
+) -> tuple[Series, ...]:
+    """Return the ground speeds of UAVs and named agents."""
     shown = [t for t in tracks if t.is_uav] + [
         t for t in tracks if not t.is_uav and not t.is_background
     ]
@@ -103,23 +106,27 @@ def _speeds(tracks: tuple[Track, ...], colours: dict[str, str], dt_s: float) -> 
                 label=track.name,
                 values=np.concatenate(([0.0], speed)),
                 unit='m/s',
-                colour=_UAV_COLOUR if track.is_uav else colours[track.name],
+                colour=colours[track.name],
             )
         )
     return tuple(found)
 
 
 def draw_altitude(
-    ax: Axes, tracks: tuple[Track, ...], conditions: tuple[Condition, ...], dt_s: float
+    ax: Axes,
+    tracks: tuple[Track, ...],
+    conditions: tuple[Condition, ...],
+    colours: dict[str, str],
+    dt_s: float,
 ) -> None:
     """Draw the altitude of every UAV with the band that is asked for and the phases."""
     uavs = [track for track in tracks if track.is_uav]
-    for index, track in enumerate(uavs):
+    for track in uavs:
         times = np.arange(len(track.position_m)) * dt_s
         ax.plot(
             times,
             track.position_m[:, 2],
-            color=_UAV_COLOUR if index == 0 else style.AGENT_COLOURS[index % 7],
+            color=colours[track.name],
             linewidth=1.6,
             label=track.name,
             zorder=3.0,

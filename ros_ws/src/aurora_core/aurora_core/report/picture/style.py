@@ -27,6 +27,8 @@ ALTITUDE_STEPS = ('#ffe9a3', '#b5dfa5', '#6cc0c4', '#7d86dd')
 
 # Told apart also by people who see few colours (Okabe and Ito's set, the yellow left out).
 AGENT_COLOURS = ('#d55e00', '#0072b2', '#a3337f', '#00805f', '#8a5a00', '#4b55c4', '#b3123f')
+# Lines of UAVs in the diagrams.
+UAV_COLOURS = ('#2c3440', '#a3337f', '#8a5a00', '#4b55c4', '#00805f', '#b3123f')
 EGO_COLOUR = '#0072b2'
 
 TONE_COLOURS = {

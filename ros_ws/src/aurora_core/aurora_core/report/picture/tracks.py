@@ -178,3 +178,32 @@ def _around(parts: list[FloatArray], margin_m: float) -> Box:
         east=float(east) + margin_m,
         north=float(north) + margin_m,
     )
+
+
+def beside(way_m: FloatArray, left_m: float) -> FloatArray:
+    """Return a way shifted to its left, (T, 2); where it stands still it keeps the direction."""
+    shifted = way_m.copy()
+    if left_m == 0.0:
+        return shifted
+    direction = np.zeros(2)
+    anchor: FloatArray | None = None
+    normals = np.zeros_like(way_m)
+    for k, point in enumerate(way_m):
+        if not np.isfinite(point).all():
+            continue
+        if anchor is None:
+            anchor = point
+        step = point - anchor
+        length = float(np.sqrt((step**2).sum()))
+        if length > 2.0:
+            direction, anchor = step / length, point
+        normals[k] = (-direction[1], direction[0])
+    moving = np.flatnonzero((normals != 0.0).any(axis=1))
+    if len(moving):
+        normals[: moving[0]] = normals[moving[0]]
+    # A running mean, so that the line bends as smoothly as the way.
+    kernel = np.ones(21) / 21.0
+    padded = np.pad(normals, ((10, 10), (0, 0)), mode='edge')
+    for axis in range(2):
+        shifted[:, axis] += left_m * np.convolve(padded[:, axis], kernel, mode='valid')
+    return shifted

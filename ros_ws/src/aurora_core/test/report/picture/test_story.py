@@ -25,7 +25,7 @@ from aurora_core.trace.trace import Trace
 def _told(
     trace: Trace, spec: ScenarioSpec | None, failures: tuple[Failure, ...] = ()
 ) -> tuple[Moment, ...]:
-    return moments_of(trace, tracks_of(trace), spec, failures)
+    return moments_of(trace, tracks_of(trace), spec, failures, {})
 
 
 def _event(tick: int, kind: ScenarioEventKind, subject: str, detail: str = '') -> EventRecord:
@@ -75,6 +75,14 @@ def test_a_flight_is_told_from_take_off_to_landing(make: SimpleNamespace) -> Non
         'uav1 mission done, goes to land',
         'uav1 has landed',
     ]
+
+
+def test_a_mission_is_told_with_the_altitude_that_it_was_grounded_to(
+    make: SimpleNamespace,
+) -> None:
+    trace = make.trace()
+    told = moments_of(trace, tracks_of(trace), make.spec(), (), {'m1': 55.0})
+    assert 'uav1 at 55 m, tracks motorcycle1' in [moment.text for moment in told]
 
 
 def test_moments_lie_where_the_body_was(make: SimpleNamespace) -> None:

@@ -8,9 +8,15 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from aurora_core.report.picture.paths import beside, colours_of
+from aurora_core.report.picture.paths import colours_of
 from aurora_core.report.picture.style import BACKGROUND_AGENT, EGO_COLOUR
-from aurora_core.report.picture.tracks import Box, mission_end_tick, region_of, tracks_of
+from aurora_core.report.picture.tracks import (
+    Box,
+    beside,
+    mission_end_tick,
+    region_of,
+    tracks_of,
+)
 from aurora_core.trace.layout import GroundColumn
 
 

@@ -1,0 +1,54 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from aurora_cli.main import run_command_line
+
+
+@pytest.fixture
+def empty(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def _check(prompt: str, capsys: pytest.CaptureFixture[str]) -> tuple[int, dict[str, object]]:
+    code = run_command_line(['check', prompt, '--json'])
+    return code, json.loads(capsys.readouterr().out)
+
+
+def test_a_prompt_that_can_be_is_feasible_and_nothing_is_left_behind(
+    empty: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    code, report = _check('A drone hovers at 30 meters over the ego car.', capsys)
+    assert (code, report['result']) == (0, 'feasible')
+    assert report['conditions']
+    assert list(empty.iterdir()) == []
+
+
+def test_a_broken_limit_is_infeasible(empty: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    code, report = _check('A drone hovers at 2 meters altitude over the ego car.', capsys)
+    assert (code, report['result']) == (5, 'infeasible')
+
+
+def test_a_prompt_that_cannot_be_read_is_not_understood(
+    empty: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    code, report = _check('  ', capsys)
+    assert (code, report['result']) == (3, 'not_understood')
+    assert report['question']
+
+
+def test_a_file_may_hold_the_prompt(empty: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (empty / 'prompt').write_bytes(b'A drone hovers at 30 meters over the ego car.\r\n')
+    assert run_command_line(['check', '--prompt-file', 'prompt', '--json']) == 0
+    assert json.loads(capsys.readouterr().out)['prompt'].endswith('car.')
+
+
+def test_people_get_a_table(empty: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run_command_line(['check', 'A drone hovers at 30 meters over the ego car.']) == 0
+    assert capsys.readouterr().out.startswith('FEASIBLE')

@@ -1,0 +1,98 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+import json
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+
+Call = Callable[..., SimpleNamespace]
+
+
+@pytest.fixture
+def copy(here: Path, finished: SimpleNamespace) -> Path:
+    folder: Path = here / 'runs' / finished.folder.name
+    shutil.copytree(finished.folder, folder)
+    return folder
+
+
+def test_margins_are_those_of_the_run_to_the_last_bit(
+    copy: Path, finished: SimpleNamespace, call: Call
+) -> None:
+    done = call('verify', copy.name, '--json')
+    report = json.loads(done.out)
+    assert done.code == 0
+    assert report['recorded']['equal'] is True
+    assert report['trace_sha256'] == finished.report['trace']['sha256']
+    ours = {row['id']: row['margin'] for row in report['verdict']['results']}
+    assert ours == {row['id']: row['margin'] for row in finished.report['conditions']}
+
+
+def test_a_bag_alone_is_enough(copy: Path, here: Path, call: Call) -> None:
+    (copy / 'bag.0').rename(here / 'alone')
+    done = call('verify', 'alone')
+    assert done.code == 0
+    assert 'verified by itself' in done.out
+
+
+def test_a_record_that_was_changed_is_found(copy: Path, call: Call) -> None:
+    path = copy / 'verdict.0.json'
+    verdict = json.loads(path.read_text())
+    verdict['results'][0]['margin'] += 1e-12
+    path.write_text(json.dumps(verdict))
+    done = call('verify', str(copy))
+    assert done.code == 4
+    assert 'DIFFERS' in done.out
+    assert verdict['results'][0]['id'] in done.out
+
+
+def test_a_bag_that_was_cut_short_never_passes(copy: Path, call: Call) -> None:
+    bag = next((copy / 'bag.0').glob('*.mcap'))
+    data = bag.read_bytes()
+    bag.write_bytes(data[: len(data) * 9 // 10])
+    done = call('verify', str(copy), '--json')
+    assert done.code == 4
+    assert json.loads(done.out)['verdict']['integrity'] in ('altered', 'truncated')
+
+
+def test_what_is_not_there_is_a_usage_error(copy: Path, call: Call) -> None:
+    assert call('verify', 'nothing').code == 64
+    done = call('verify', str(copy), '--iteration', '3')
+    assert done.code == 64
+    assert 'it has 0' in done.err
+    assert call('verify', str(copy / 'bag.0'), '--iteration', '3').code == 64
+
+
+def test_a_run_without_a_bag_is_a_usage_error(here: Path, call: Call) -> None:
+    (here / 'refused').mkdir()
+    done = call('verify', 'refused')
+    assert done.code == 64
+    assert 'nothing was executed' in done.err
+
+
+def test_a_run_can_be_drawn_again(copy: Path, here: Path, call: Call) -> None:
+    assert call('picture', str(copy), '-o', 'again.png').code == 0
+    assert (here / 'again.png').read_bytes() == (copy / 'picture.png').read_bytes()
+    done = call('picture', str(copy / 'bag.0'), '-o', 'p.svg', '--json')
+    assert json.loads(done.out)['picture'] == 'p.svg'
+    assert b'<svg' in (here / 'p.svg').read_bytes()
+
+
+def test_a_bag_without_its_run_is_drawn_with_a_recomputed_verdict(
+    copy: Path, here: Path, call: Call
+) -> None:
+    (copy / 'bag.0').rename(here / 'alone')
+    assert call('picture', 'alone', '-o', 'p.png').code == 0
+    assert (here / 'p.png').read_bytes() == (copy / 'picture.png').read_bytes()
+
+
+@pytest.mark.parametrize(('name', 'code'), [('p.gif', 64), ('none/p.png', 4)])
+def test_a_picture_goes_only_where_it_can(
+    copy: Path, here: Path, call: Call, name: str, code: int
+) -> None:
+    assert call('picture', str(copy), '-o', name).code == code
+    assert sorted(path.name for path in here.iterdir()) == ['runs']

@@ -1,0 +1,68 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Places that a scenario names have one position, for the flight and for the verdict."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import sqrt
+
+import pytest
+import shapely
+
+from aurora_core.errors import MapError
+from aurora_core.grounding.grounded import GroundedScenario
+from aurora_core.grounding.places import intersection_point, landmark_point, place_positions
+from aurora_core.knowledge.map_model import MapModel
+from aurora_core.spec.scenario import ScenarioSpec
+
+Maps = Callable[[str], MapModel]
+
+
+@pytest.mark.parametrize('anchor', [(0.0, 0.0), (140.0, 0.0), (-160.0, 3.0), (0.0, 150.0)])
+def test_the_end_of_a_street_is_no_intersection(anchor: tuple[float, float], map_of: Maps) -> None:
+    assert intersection_point(map_of('junction'), anchor) == (0.0, 0.0)
+
+
+def test_the_nearest_intersection_is_taken(map_of: Maps) -> None:
+    the_map = map_of('downtown')
+    signals = [j for j in the_map.network.junctions.values() if j.has_signal]
+    assert len(signals) > 5
+    for junction in signals:
+        here = (junction.x_m + 4.0, junction.y_m - 3.0)
+        assert intersection_point(the_map, here) == (junction.x_m, junction.y_m)
+
+
+def test_a_landmark_is_never_inside_a_building(map_of: Maps) -> None:
+    the_map = map_of('downtown')
+    moved = 0
+    for mark in the_map.landmarks:
+        x, y = landmark_point(the_map, mark.name)
+        point = shapely.Point(x, y)
+        assert not any(shapely.Polygon(b.ring).contains(point) for b in the_map.buildings)
+        moved += (x, y) != (mark.x_m, mark.y_m)
+        assert sqrt((x - mark.x_m) ** 2 + (y - mark.y_m) ** 2) < 150.0
+    assert moved > 0
+    with pytest.raises(MapError, match='Nowhere'):
+        landmark_point(the_map, 'Nowhere')
+
+
+@pytest.mark.parametrize(
+    ('prompt', 'place'),
+    [
+        ('A drone hovers 40 m above the intersection for 20 seconds.', 'intersection'),
+        ('A drone hovers over the City Hall at 90 m for 20 seconds.', 'landmark:City Hall'),
+    ],
+)
+def test_the_flight_and_the_world_mean_the_same_place(
+    prompt: str,
+    place: str,
+    read_prompt: Callable[..., ScenarioSpec],
+    ground: Callable[..., GroundedScenario],
+    map_of: Maps,
+) -> None:
+    spec = read_prompt(prompt)
+    found = ground(spec)
+    point = found.uavs[0].missions[0].hover_point
+    assert point is not None
+    assert place_positions(spec, map_of('downtown'), found) == {place: (point[0], point[1])}
