@@ -223,7 +223,8 @@ class RecorderNode(AuroraNode):
         self.heartbeat.idle()
         if writer is None:
             return False
-        writer.close()
+        if not writer.closed:  # after a full disk it has given up by itself
+            writer.close()
         return True
 
 

@@ -12,6 +12,7 @@ import os
 import subprocess
 import sys
 import threading
+import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -26,7 +27,6 @@ from aurora_core.report.run_report import RunReport
 
 try:
     import rclpy
-    from rclpy.action import ActionClient
     from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
     from rclpy.node import Node
     from rclpy.signals import SignalHandlerOptions
@@ -118,6 +118,9 @@ def _client_node() -> Iterator[Node]:
             executor.spin()
         except ExternalShutdownException:
             return
+        except Exception:
+            rclpy.try_shutdown()  # whoever waits for an answer must not wait for ever
+            raise
 
     thread = threading.Thread(target=spin, name='rclpy', daemon=True)
     thread.start()
@@ -151,11 +154,17 @@ def _graph(node: Node, cancelled: Callable[[], bool]) -> Iterator[None]:
 
 
 def _is_served(node: Node, limit_s: float) -> bool:
-    client = ActionClient(node, on.RUN.type, on.RUN.name)
-    try:
-        return bool(client.wait_for_server(timeout_sec=limit_s))
-    finally:
-        client.destroy()
+    """Whether somebody serves the action, asked of the graph.
+
+    No client is made for the question: destroying one while another thread spins breaks the spin.
+    """
+    served = node.resolve_service_name(f'{on.RUN.name}/_action/send_goal')
+    deadline_s = time.monotonic() + limit_s
+    while time.monotonic() < deadline_s:
+        if any(name == served for name, _ in node.get_service_names_and_types()):
+            return True
+        time.sleep(_LOOK_S)
+    return False
 
 
 def _start(cancelled: Callable[[], bool]) -> None:

@@ -16,6 +16,8 @@ from rclpy.signals import SignalHandlerOptions
 NAME_PREFIX = '_ros2cli'
 
 DISCOVERY_LEAST_S = 0.5
+# As long as nobody has been seen: on a busy machine the first answer takes more than a second.
+DISCOVERY_ALONE_S = 2.0
 DISCOVERY_QUIET_S = 0.4
 DISCOVERY_MOST_S = 3.0
 _POLL_S = 0.05
@@ -44,14 +46,15 @@ def settle(look: Callable[[], object]) -> None:
         look: Returns any comparable view of the graph.
     """
     start_s = changed_s = time.monotonic()
-    seen = look()
+    alone = seen = look()
     while True:
         time.sleep(_POLL_S)
         now_s = time.monotonic()
         view = look()
         if view != seen:
             seen, changed_s = view, now_s
-        enough = now_s - start_s >= DISCOVERY_LEAST_S and now_s - changed_s >= DISCOVERY_QUIET_S
+        least_s = DISCOVERY_ALONE_S if view == alone else DISCOVERY_LEAST_S
+        enough = now_s - start_s >= least_s and now_s - changed_s >= DISCOVERY_QUIET_S
         if enough or now_s - start_s >= DISCOVERY_MOST_S:
             return
 

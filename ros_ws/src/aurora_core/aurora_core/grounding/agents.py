@@ -4,8 +4,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from math import sqrt
+import itertools
+from collections.abc import Iterator, Mapping
+from math import inf, sqrt
 
 import numpy as np
 
@@ -19,13 +20,15 @@ from aurora_core.grounding.sites import SeatedAgent, Site, tied_way_m
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Limits
 from aurora_core.knowledge.map_model import MapModel
+from aurora_core.knowledge.net_types import Lane
 from aurora_core.knowledge.route_path import RoutePath
 from aurora_core.knowledge.settings import Settings
 from aurora_core.spec.scenario import GroundAgent, ScenarioSpec, TimeTrigger
 from aurora_core.spec.vocabulary import BehaviorKind, MissionMode
 
-# Tries at random places before a free vehicle is given up.
+# Tries at random places before all places are looked through, and how far apart those are (m).
 _TRIES = 400
+_SCAN_M = 5.0
 
 
 class AgentPlacer:
@@ -122,13 +125,14 @@ class AgentPlacer:
         ]
         if not lanes:
             return None
-        for _ in range(_TRIES):
-            lane = lanes[int(generator.integers(len(lanes)))]
-            margin = record.length_m / 2.0 + 1.0
-            position = margin + float(generator.random()) * (lane.length_m - 2.0 * margin)
+        margin = record.length_m / 2.0 + 1.0
+        drawn = ((p, high) for p in _drawn(lanes, margin, generator))
+        # A crowd that fills the surroundings may spread over the whole map.
+        scanned = ((p, inf) for p in self._scanned(lanes, margin, centre))
+        for (lane, position), reach in itertools.chain(drawn, scanned):
             x, y, _, _ = network.position_on_lane(lane.id, position)
             away = sqrt((x - centre[0]) ** 2 + (y - centre[1]) ** 2)
-            if not low <= away <= high or not self._apart(x, y, others):
+            if not low <= away <= reach or not self._apart(x, y, others):
                 continue
             edges = finder.wandering_route(lane.edge_id, run_m, generator)
             try:
@@ -152,6 +156,20 @@ class AgentPlacer:
                 tied=False,
             )
         return None
+
+    def _scanned(
+        self, lanes: list[Lane], margin: float, centre: tuple[float, float]
+    ) -> Iterator[tuple[Lane, float]]:
+        """Yield places all over the lanes, nearest to the centre first, for crowded scenes."""
+        places = []
+        for lane in lanes:
+            for k in range(int((lane.length_m - 2.0 * margin) / _SCAN_M) + 1):
+                position = margin + k * _SCAN_M
+                x, y, _, _ = self._map.network.position_on_lane(lane.id, position)
+                away2 = (x - centre[0]) ** 2 + (y - centre[1]) ** 2
+                places.append((away2, lane.id, position, lane))
+        for _, _, position, lane in sorted(places, key=lambda p: p[:3]):
+            yield lane, position
 
     def _apart(self, x: float, y: float, others: list[GroundedAgent]) -> bool:
         gap = self._settings.grounding.background_gap_m
@@ -242,6 +260,15 @@ class AgentPlacer:
             }
         behind = self._settings.grounding.convoy_speed_factor_behind
         return {'speed_factor': factor if is_front else factor * behind}
+
+
+def _drawn(
+    lanes: list[Lane], margin: float, generator: np.random.Generator
+) -> Iterator[tuple[Lane, float]]:
+    """Yield random places on random lanes, `margin` (m) away from their ends."""
+    for _ in range(_TRIES):
+        lane = lanes[int(generator.integers(len(lanes)))]
+        yield lane, margin + float(generator.random()) * (lane.length_m - 2.0 * margin)
 
 
 def _line_from(path: RoutePath, arc_m: float) -> tuple[tuple[float, float], ...]:

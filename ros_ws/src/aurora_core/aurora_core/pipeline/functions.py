@@ -80,7 +80,8 @@ def parse_stage(prompt: str, map_name: str, seed: int) -> ParseOutcome:
 
 def check_stage(agsg: Agsg) -> FeasibilityVerdict:
     """Judge feasibility of a specification against the limits."""
-    return check_limits(agsg.spec, knowledge().limits)
+    known = knowledge()
+    return check_limits(agsg.spec, known.limits, known.types)
 
 
 def ground_stage(agsg: Agsg, seed: int) -> GroundingOutcome:

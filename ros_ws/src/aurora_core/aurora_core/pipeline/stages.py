@@ -13,6 +13,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal, Protocol
 
+from pydantic import NonNegativeInt
+
 from aurora_core.agsg.graph import Agsg
 from aurora_core.execution.faults import Fault
 from aurora_core.feasibility.verdict import FeasibilityVerdict
@@ -33,7 +35,7 @@ class RunRequest(Document):
 
     prompt: str
     map_name: str = 'downtown'
-    seed: int = 1
+    seed: NonNegativeInt = 1
     engine: Literal['local', 'ros'] = 'local'
     model: str = 'offline'
     allow_relax: bool = False

@@ -11,7 +11,7 @@ import pytest
 
 from aurora_core.grounding.grounded import ReleaseOn
 from aurora_core.knowledge.map_types import Building
-from aurora_core.spec.parameter import Parameter
+from aurora_core.spec.parameter import Parameter, Provenance, Unit
 from aurora_core.spec.scenario import (
     AgentAction,
     AltitudeTrigger,
@@ -52,11 +52,33 @@ def _triggered(scene: Any) -> list[tuple[int, str]]:
     return [(tick, subject) for tick, subject, _ in scene.notes(ScenarioEventKind.TRIGGERED)]
 
 
-def test_an_event_without_a_trigger_happens_at_the_start(stage: Build) -> None:
-    scene = stage(events=(_event(None, AgentAction(do='stop', agent='ego')),))
-    scene.step(3)
+NOW = TimeTrigger(
+    on='time',
+    at_s=Parameter(value=0.0, unit=Unit.SECOND, low=0.0, high=9.0, provenance=Provenance.DEFAULT),
+)
+
+
+def test_an_event_without_a_trigger_begins_once_the_uavs_watch(stage: Build) -> None:
+    scene = stage(events=(_event(None, AgentAction(do='start', agent='ego')),))
+    scene.put('van1', 5.0).step(3)
+    assert _triggered(scene) == []
+    scene.fly('uav1', 0.0, 0.0, 30.0).step()
+    assert scene.machines[0].captured
+    assert _triggered(scene) == [(3, 'e1')]
+    assert [t for t, _, _ in scene.notes(ScenarioEventKind.ACTION)] == [3]
+
+
+def test_without_uavs_an_event_without_a_trigger_begins_at_the_start(stage: Build) -> None:
+    scene = stage(tracks={}, events=(_event(None, AgentAction(do='start', agent='ego')),))
+    scene.step()
     assert _triggered(scene) == [(0, 'e1')]
-    assert [t for t, _, _ in scene.notes(ScenarioEventKind.ACTION)] == [0]
+
+
+def test_who_is_to_brake_some_time_is_on_the_move_first(stage: Build) -> None:
+    scene = stage(tracks={}, events=(_event(None, AgentAction(do='brake', agent='ego')),))
+    for speed in (0.0, 4.9, 5.0):
+        scene.put('ego', 0.0, speed=speed).step()
+    assert _triggered(scene) == [(2, 'e1')]
 
 
 @pytest.mark.parametrize('at_s', [0.0, 0.05, 0.3, 0.35, 2.0])
@@ -209,9 +231,10 @@ def test_event_done_with_a_delay(stage: Build, parameter: Make) -> None:
     )
     scene = stage(events=events)
     scene.step(100)
-    assert _triggered(scene) == [(20, 'e1'), (30, 'e3'), (70, 'e2')]
+    # What an agent does shows one tick after it was told.
+    assert _triggered(scene) == [(20, 'e1'), (31, 'e3'), (71, 'e2')]
     actions = [(t, s) for t, s, _ in scene.notes(ScenarioEventKind.ACTION)]
-    assert actions == [(30, 'e1'), (30, 'e3'), (70, 'e2')]
+    assert actions == [(30, 'e1'), (31, 'e3'), (71, 'e2')]
 
 
 def test_mission_done(stage: Build) -> None:
@@ -315,7 +338,7 @@ DECELERATION = int(GroundCommandKind.SET_DECELERATION)
 def test_what_actions_command(
     action: str, speed: float, expected: list[tuple[int, float]], stage: Build
 ) -> None:
-    event = _event(None, AgentAction(do=action, agent='ego'))  # type: ignore[arg-type]
+    event = _event(NOW, AgentAction(do=action, agent='ego'))  # type: ignore[arg-type]
     scene = stage(events=(event,), releases={'ego': (ReleaseOn.NEVER, '')})
     scene.put('ego', 0.0, speed=speed).step()
     found = [(kind, value) for _, agent, kind, value in scene.commands() if agent == 'ego']
@@ -325,13 +348,13 @@ def test_what_actions_command(
 @pytest.mark.parametrize('action', ['slow', 'accelerate', 'brake'])
 def test_a_stated_speed_is_commanded(action: str, stage: Build, parameter: Make) -> None:
     wanted = AgentAction(do=action, agent='ego', value_mps=parameter(3.0, 'm/s'))  # type: ignore[arg-type]
-    scene = stage(events=(_event(None, wanted),))
+    scene = stage(events=(_event(NOW, wanted),))
     scene.put('ego', 0.0, speed=10.0).step()
     assert scene.commands()[-1][2:] == (SET, 3.0)
 
 
 def test_an_action_of_who_is_gone_commands_nothing(stage: Build) -> None:
-    scene = stage(events=(_event(None, AgentAction(do='slow', agent='ego')),))
+    scene = stage(events=(_event(NOW, AgentAction(do='slow', agent='ego')),))
     scene.put('ego', 0.0, speed=10.0).remove('ego').step()
     assert [c for c in scene.commands() if c[2] == SET] == []
 
