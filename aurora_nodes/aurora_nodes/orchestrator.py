@@ -115,8 +115,8 @@ class OrchestratorNode(AuroraNode):
     ) -> RunPrompt.Response:
         try:
             job = self._submit(request)
-        except PromptError as err:
-            response.status = 'not_understood'
+        except AuroraError as err:
+            response.status = _refusal(err)
             write_error(response, err)
             return response
         while request.wait and not job.done.wait(_LOOK_S) and not self._gone:
@@ -129,7 +129,7 @@ class OrchestratorNode(AuroraNode):
         try:
             job = self._submit(goal.request)
         except AuroraError as err:
-            result.status = 'not_understood' if isinstance(err, PromptError) else 'error'
+            result.status = _refusal(err)
             write_error(result, err)
             goal.abort()
             return result
@@ -174,6 +174,11 @@ class OrchestratorNode(AuroraNode):
             response.status.append(run.status)
             response.prompt.append(run.request.prompt if isinstance(run, Job) else run.prompt)
         return response
+
+
+def _refusal(err: AuroraError) -> str:
+    """Return the status of a prompt that was not taken."""
+    return 'not_understood' if isinstance(err, PromptError) else 'error'
 
 
 def _fill(message: Any, job: Job) -> None:

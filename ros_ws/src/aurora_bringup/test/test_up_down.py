@@ -35,6 +35,11 @@ SILENT = 'while :; do sleep 0.02; done\n'
 MORTAL = 'touch "$AURORA_READY_FILE"\nwhile [ ! -e "$ORDER.die" ]; do sleep 0.02; done\nexit 5\n'
 
 
+def _hear_ctrl_c() -> None:
+    """Undo what a shell does to its background jobs, so that the fake nodes can trap SIGINT."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Graph:
     """A folder with fake nodes, a fake ros2 and the environment to use them."""
@@ -60,6 +65,7 @@ class Graph:
             text=True,
             timeout=DEADLINE_S,
             check=False,
+            preexec_fn=_hear_ctrl_c,
         )
 
     def foreground(self) -> subprocess.Popen[str]:
@@ -70,6 +76,7 @@ class Graph:
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
+            preexec_fn=_hear_ctrl_c,
         )
         assert process.stdout is not None
         for line in process.stdout:

@@ -15,7 +15,7 @@ import pytest
 pytest.importorskip('rclpy')
 
 from aurora_core.agsg.build import build_agsg
-from aurora_core.errors import ExecutionError
+from aurora_core.errors import ExecutionError, SpecError
 from aurora_core.pipeline.functions import ground_stage, knowledge, parse_stage
 from aurora_core.trace.bag_reader import read_bag
 from aurora_core.trace.definitions import message_definitions
@@ -156,6 +156,17 @@ def test_what_is_no_prompt_is_not_understood(
     assert response.status == 'not_understood'
     assert response.error_code == 200
     assert response.error_msg
+
+
+@pytest.mark.parametrize('options', ['{', '[]', '{"sead": 1}', '{"seed": -1}', '{"out": "runs"}'])
+def test_bad_options_are_refused_with_a_code_and_harm_nobody(
+    graph: RunningGraph, options: str
+) -> None:
+    response = run_prompt(graph, options_json=options)
+    assert response.status == 'error'
+    assert response.error_code == SpecError.default_code
+    assert response.error_msg
+    assert graph.play.call(on.LIST_RUNS, LIMIT_S, limit=1).error_code == 0
 
 
 def test_a_request_beyond_a_limit_is_infeasible(graph: RunningGraph) -> None:
