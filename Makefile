@@ -12,7 +12,7 @@ export PROMPT
 .PHONY: help setup demo up down test lint typecheck lock maps clean
 
 help: ## this list
-	@sed -nE 's/^([a-z]+):.*## (.*)/make \1\t\2/p' Makefile | expand -t 18
+	@sed -nE 's/^([a-z%-]+):.*## (.*)/make \1\t\2/p' Makefile | expand -t 18
 
 setup: ## virtual environment, ROS 2 and the workspace (seconds when nothing changed)
 	@tools/setup.sh
@@ -37,6 +37,10 @@ lint: ## ruff (lint and format) and the import rules
 typecheck: ## mypy --strict over sources and tests
 	@tools/setup.sh --dev --no-build
 	@_ROS_WHEELS_BOOTSTRAP_COMPLETE=1 .venv/bin/python tools/typecheck.py
+
+bench-%: ## one benchmark or campaign: lockstep, faults, bags, graphs, endurance (results in docs/bench)
+	@tools/setup.sh --dev
+	@tools/in_env.sh python -m aurora_bench.$* --results docs/bench
 
 lock: ## resolve requirements/*.in anew, with hashes (needs Python 3.11 and 3.12)
 	@tools/lock.sh
