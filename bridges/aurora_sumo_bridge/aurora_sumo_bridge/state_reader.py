@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from math import nan
+
 import libsumo
 import numpy as np
 
@@ -31,8 +33,15 @@ class StateReader:
     def __init__(self, bodies: tuple[Body, ...], dt_s: float) -> None:
         self._bodies = bodies
         self._dt_s = dt_s
-        self._rows: list[list[float]] = [[0.0] * GROUND_WIDTH for _ in bodies]
+        # All rows one after the other, and where the row of each agent lies.
+        self._values = [0.0] * (GROUND_WIDTH * len(bodies))
+        self._rows = tuple(
+            slice(GROUND_WIDTH * k, GROUND_WIDTH * (k + 1)) for k in range(len(bodies))
+        )
         self._present = [True] * len(bodies)
+        # A vehicle on a straight street keeps its angle: its heading is not worked out again.
+        self._angles_deg = [nan] * len(bodies)
+        self._headings = [(0.0, 0.0)] * len(bodies)
 
     def is_present(self, agent: int) -> bool:
         return self._present[agent]
@@ -40,7 +49,7 @@ class StateReader:
     def mark_gone(self, agent: int) -> None:
         """Note that an agent was taken out on command."""
         self._present[agent] = False
-        self._rows[agent][GroundColumn.PRESENT] = 0.0
+        self._set(agent, GroundColumn.PRESENT, 0.0)
 
     def read(self) -> FloatArray:
         """Return the state (N, GROUND_WIDTH) after a step.
@@ -48,21 +57,23 @@ class StateReader:
         Raises:
             GroundSimulatorError: A value is not finite or an agent is nowhere on the map.
         """
+        values, present = self._values, self._present
         for index, body in enumerate(self._bodies):
-            if not self._present[index]:
+            if not present[index]:
                 continue
             try:
                 if body.walker is None:
-                    self._rows[index] = _vehicle_row(body.agent_id, body.length_m)
+                    row = self._vehicle_row(index, body)
                 else:
-                    before_mps = self._rows[index][GroundColumn.SPEED]
-                    self._rows[index] = _person_row(body.agent_id, before_mps, self._dt_s)
+                    row = self._person_row(index, body)
             except libsumo.TraCIException as err:
                 if _UNKNOWN not in str(err):
                     raise GroundSimulatorError(
                         f"agent '{body.agent_id}' cannot be read: {err}"
                     ) from err
                 self.mark_gone(index)
+            else:
+                values[self._rows[index]] = row
         return self._packed()
 
     def read_spawned(self) -> FloatArray:
@@ -75,17 +86,19 @@ class StateReader:
             GroundSimulatorError: As `read`, or a vehicle does not have the asked speed.
         """
         self.read()
-        for body, row in zip(self._bodies, self._rows, strict=True):
+        for index, body in enumerate(self._bodies):
             asked_mps = body.agent.speed_mps
+            speed_mps = self._values[self._rows[index]][GroundColumn.SPEED]
             if body.heading is not None:
-                row[GroundColumn.HEADING_X], row[GroundColumn.HEADING_Y] = body.heading
-                row[GroundColumn.SPEED] = asked_mps
-            elif row[GroundColumn.SPEED] != asked_mps:
+                self._set(index, GroundColumn.HEADING_X, body.heading[0])
+                self._set(index, GroundColumn.HEADING_Y, body.heading[1])
+                self._set(index, GroundColumn.SPEED, asked_mps)
+            elif speed_mps != asked_mps:
                 raise GroundSimulatorError(
-                    f"agent '{body.agent_id}' starts at {row[GroundColumn.SPEED]:g} m/s, "
+                    f"agent '{body.agent_id}' starts at {speed_mps:g} m/s, "
                     f'asked for {asked_mps:g} m/s'
                 )
-            row[GroundColumn.ACCELERATION] = 0.0
+            self._set(index, GroundColumn.ACCELERATION, 0.0)
         return self._packed()
 
     def boxes(self) -> tuple[Box, ...]:
@@ -99,11 +112,11 @@ class StateReader:
                 length_m=body.length_m,
                 width_m=body.width_m,
             )
-            for body, row in zip(self._bodies, self._rows, strict=True)
+            for body, row in zip(self._bodies, self._packed().tolist(), strict=True)
         )
 
     def _packed(self) -> FloatArray:
-        state = np.array(self._rows, dtype=np.float64).reshape(len(self._rows), GROUND_WIDTH)
+        state = np.array(self._values, dtype=np.float64).reshape(len(self._bodies), GROUND_WIDTH)
         # Comparisons with NaN are false, so this finds it too.
         good = np.abs(state) < _FARTHEST_M
         if not good.all():
@@ -114,28 +127,36 @@ class StateReader:
             )
         return state
 
+    def _set(self, agent: int, column: GroundColumn, value: float) -> None:
+        self._values[GROUND_WIDTH * agent + column] = value
 
-def _vehicle_row(vehicle: str, length_m: float) -> list[float]:
-    front_x_m, front_y_m = _position_of(vehicle)
-    heading_x, heading_y = heading_from_sumo_angle(_angle_of(vehicle))
-    x_m, y_m = centre_from_front(front_x_m, front_y_m, heading_x, heading_y, length_m)
-    return [
-        x_m,
-        y_m,
-        heading_x,
-        heading_y,
-        _speed_of(vehicle),
-        _acceleration_of(vehicle),
-        1.0,
-    ]
+    def _vehicle_row(self, index: int, body: Body) -> tuple[float, ...]:
+        vehicle = body.agent.agent_id
+        front_x_m, front_y_m = _position_of(vehicle)
+        angle_deg = _angle_of(vehicle)
+        if angle_deg != self._angles_deg[index]:
+            self._angles_deg[index] = angle_deg
+            self._headings[index] = heading_from_sumo_angle(angle_deg)
+        heading_x, heading_y = self._headings[index]
+        x_m, y_m = centre_from_front(front_x_m, front_y_m, heading_x, heading_y, body.length_m)
+        return (
+            x_m,
+            y_m,
+            heading_x,
+            heading_y,
+            _speed_of(vehicle),
+            _acceleration_of(vehicle),
+            1.0,
+        )
 
-
-def _person_row(person: str, before_mps: float, dt_s: float) -> list[float]:
-    # SUMO's point of a person is taken as its centre: a body of 0.2 m that turns on the spot would
-    # otherwise jump by its own length.
-    x_m, y_m = libsumo.person.getPosition(person)
-    heading_x, heading_y = heading_from_sumo_angle(libsumo.person.getAngle(person))
-    speed_mps = libsumo.person.getSpeed(person)
-    # SUMO has no acceleration of persons.
-    acceleration_mps2 = (speed_mps - before_mps) / dt_s
-    return [x_m, y_m, heading_x, heading_y, speed_mps, acceleration_mps2, 1.0]
+    def _person_row(self, index: int, body: Body) -> tuple[float, ...]:
+        person = body.agent_id
+        # SUMO's point of a person is taken as its centre: a body of 0.2 m that turns on the spot
+        # would otherwise jump by its own length.
+        x_m, y_m = libsumo.person.getPosition(person)
+        heading_x, heading_y = heading_from_sumo_angle(libsumo.person.getAngle(person))
+        before_mps = self._values[self._rows[index]][GroundColumn.SPEED]
+        speed_mps = libsumo.person.getSpeed(person)
+        # SUMO has no acceleration of persons.
+        acceleration_mps2 = (speed_mps - before_mps) / self._dt_s
+        return (x_m, y_m, heading_x, heading_y, speed_mps, acceleration_mps2, 1.0)

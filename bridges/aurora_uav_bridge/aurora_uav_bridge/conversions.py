@@ -37,8 +37,16 @@ MAX_YAW_RAD = 100.0
 MAX_TAKEOFF_ALTITUDE_M = 1_000.0
 MAX_WIND_MPS = 50.0
 _FRAME_LOCAL_NED = 1
+# Parts of a state row.
+_POSITION = slice(UavColumn.X, UavColumn.VX)
+_VELOCITY = slice(UavColumn.VX, UavColumn.QW)
+_ATTITUDE = slice(UavColumn.QW, UavColumn.P)
+_RATES = slice(UavColumn.P, UavColumn.ARMED)
+_STATUS = slice(UavColumn.ARMED, UavColumn.LANDED + 1)
 _FLOWN = UavCommandColumn.TAKEOFF_ALTITUDE + 1
-_MODES = (UavMode.IDLE, UavMode.TAKEOFF, UavMode.OFFBOARD, UavMode.LAND)
+_MODES = {
+    float(mode): mode for mode in (UavMode.IDLE, UavMode.TAKEOFF, UavMode.OFFBOARD, UavMode.LAND)
+}
 
 
 def check_number(what: str, value: float, low: float, high: float) -> None:
@@ -120,7 +128,7 @@ def check_command(home: UavHome, tick: int, row: Sequence[float]) -> UavMode:
         and 0.0 <= altitude <= MAX_TAKEOFF_ALTITUDE_M
         and mode in _MODES
     ):
-        return UavMode(int(mode))
+        return _MODES[mode]
     # Something is wrong: find it.
     limits = {
         UavCommandColumn.X: (home.x_m - far, home.x_m + far),
@@ -135,7 +143,7 @@ def check_command(home: UavHome, tick: int, row: Sequence[float]) -> UavMode:
     where = f'command for {home.uav_id} at tick {tick}'
     for column, (low, high) in limits.items():
         check_number(f'{where}, {column.name}', row[column], low, high)
-    names = ', '.join(f'{int(m)} ({m.name})' for m in _MODES)
+    names = ', '.join(f'{int(m)} ({m.name})' for m in _MODES.values())
     raise CommandRangeError(f'{where}, MODE: expected one of {names}, found {mode!r}')
 
 
@@ -165,24 +173,23 @@ def fill_position(row: list[float], home: UavHome, fields: tuple[Any, ...]) -> N
     """Put LOCAL_POSITION_NED (wire order) into a state row."""
     _, north, east, down, v_north, v_east, v_down = fields
     x, y, z = ned_to_enu(north, east, down)
-    row[UavColumn.X : UavColumn.VX] = (home.x_m + x, home.y_m + y, z)
-    row[UavColumn.VX : UavColumn.QW] = ned_to_enu(v_north, v_east, v_down)
+    row[_POSITION] = (home.x_m + x, home.y_m + y, z)
+    row[_VELOCITY] = ned_to_enu(v_north, v_east, v_down)
 
 
 def fill_attitude(row: list[float], fields: tuple[Any, ...]) -> None:
     """Put ATTITUDE_QUATERNION (wire order) into a state row."""
-    _, w, x, y, z, roll_rate, pitch_rate, yaw_rate = fields[:8]
-    row[UavColumn.QW : UavColumn.P] = attitude_ned_to_enu(w, x, y, z)
-    row[UavColumn.P : UavColumn.ARMED] = frd_to_flu(roll_rate, pitch_rate, yaw_rate)
+    _, w, x, y, z, roll_rate, pitch_rate, yaw_rate, *_ = fields
+    row[_ATTITUDE] = attitude_ned_to_enu(w, x, y, z)
+    row[_RATES] = frd_to_flu(roll_rate, pitch_rate, yaw_rate)
 
 
 def fill_status(row: list[float], mode: int, armed: bool, landed: bool) -> None:
     """Put mode, armed and landed into a state row."""
-    row[UavColumn.ARMED] = 1.0 if armed else 0.0
-    row[UavColumn.MODE] = float(mode)
-    row[UavColumn.LANDED] = 1.0 if landed else 0.0
+    row[_STATUS] = (1.0 if armed else 0.0, float(mode), 1.0 if landed else 0.0)
 
 
 def all_finite(rows: Sequence[Sequence[float]]) -> bool:
-    """Return whether every number of every row is finite."""
-    return all(isfinite(value) for row in rows for value in row)
+    """Return whether every number of every row is finite (none is near the largest double)."""
+    # A sum keeps what is not finite: infinities of both signs make it NaN.
+    return isfinite(sum(map(sum, rows)))

@@ -48,6 +48,10 @@ _LAST_RETRY_S = 0.25
 # A step answered so often with "no such session" means it; fewer may be leftovers.
 _DISOWNED_LIMIT = 3
 _STATUS_TEXT = int(mavlink.MAVLINK_MSG_ID_STATUSTEXT)
+_ACK_ID = COMMAND_ACK.message_id
+_POSITION_ID = LOCAL_POSITION.message_id
+_ATTITUDE_ID = ATTITUDE.message_id
+_NAMED_INT_ID = NAMED_INT.message_id
 _POSITION, _ATTITUDE, _STATUS, _COMPLETE = 1, 2, 4, 7
 
 Packer = Callable[[], bytes]
@@ -238,39 +242,39 @@ class LockstepLink:
     def _take(self, datagram: bytes) -> None:
         """Take what a datagram brings for the question under way."""
         for frame in split(datagram):
-            if frame.component_id != AUTOPILOT_COMPONENT:
+            message_id, _, system_id, component_id, payload, _ = frame
+            if component_id != AUTOPILOT_COMPONENT:
                 continue
-            if frame.message_id == COMMAND_ACK.message_id:
+            if message_id == _ACK_ID:
                 self._take_ack(frame)
                 continue
-            i = self._index.get(frame.system_id)
+            i = self._index.get(system_id)
             if i is None or not self._newer.accept(frame):
                 continue
             if self._tick >= 0:
-                self._take_state(i, frame)
-            if frame.message_id == _STATUS_TEXT:
+                self._take_state(i, message_id, payload)
+            if message_id == _STATUS_TEXT:
                 message = self._decoder.decode(frame)
                 if message is not None:
                     self._text = str(message.text)
 
-    def _take_state(self, i: int, frame: Frame) -> None:
+    def _take_state(self, i: int, message_id: int, payload: bytes) -> None:
         """Take a piece of a vehicle's state at the tick that was asked for."""
-        message_id = frame.message_id
         row = self.rows[i]
-        if message_id == LOCAL_POSITION.message_id:
-            fields = LOCAL_POSITION.unpack(frame.payload)
+        if message_id == _POSITION_ID:
+            fields = LOCAL_POSITION.unpack(payload)
             if fields[0] != self._tick:
                 return
             conversions.fill_position(row, self._homes[i], fields)
             piece = _POSITION
-        elif message_id == ATTITUDE.message_id:
-            fields = ATTITUDE.unpack(frame.payload)
+        elif message_id == _ATTITUDE_ID:
+            fields = ATTITUDE.unpack(payload)
             if fields[0] != self._tick:
                 return
             conversions.fill_attitude(row, fields)
             piece = _ATTITUDE
-        elif message_id == NAMED_INT.message_id:
-            fields = NAMED_INT.unpack(frame.payload)
+        elif message_id == _NAMED_INT_ID:
+            fields = NAMED_INT.unpack(payload)
             status = unpack_status(fields[1], self._nonce)
             if fields[0] != self._tick or status is None:
                 return

@@ -50,6 +50,11 @@ class FlightMode(Enum):
         return int(main) << 16 | int(sub) << 24
 
 
+# Plain names: before Python 3.12 a member is slow to look up, and each physics step asks.
+_HOLD, _TAKEOFF = FlightMode.HOLD, FlightMode.TAKEOFF
+_LAND, _OFFBOARD = FlightMode.LAND, FlightMode.OFFBOARD
+
+
 class Result(IntEnum):
     """Answer to a command; the numbers of MAV_RESULT."""
 
@@ -110,7 +115,7 @@ class Autopilot:
         self.body.reset(half_yaw_sine, half_yaw_cosine)
         self._controller.reset()
         restore_defaults(self.settings)
-        self.mode = FlightMode.HOLD
+        self.mode = _HOLD
         self.armed = False
         self.landed = True
         self.time_s = 0.0
@@ -135,14 +140,14 @@ class Autopilot:
             return Answer(Result.TEMPORARILY_REJECTED, 'Arming denied: not landed')
         if 1.0 - 2.0 * (body.qx * body.qx + body.qy * body.qy) < _UPRIGHT:
             return Answer(Result.TEMPORARILY_REJECTED, 'Arming denied: not level')
-        if self.mode is FlightMode.OFFBOARD and not self.offboard_alive:
+        if self.mode is _OFFBOARD and not self.offboard_alive:
             return Answer(Result.TEMPORARILY_REJECTED, 'Arming denied: no offboard set-points')
         self.armed = True
         self._flown = False
         self._idle_s = 0.0
         self._contact_s = 0.0
         self._controller.reset()
-        if self.mode is FlightMode.TAKEOFF:
+        if self.mode is _TAKEOFF:
             self._begin_takeoff()
         return ACCEPTED
 
@@ -157,19 +162,19 @@ class Autopilot:
         """Climb to a height above the local origin; waits for arming when disarmed."""
         if not 0.0 < height_m < 10000.0:
             return Answer(Result.DENIED, 'Take-off denied: height out of range')
-        if self.mode is FlightMode.TAKEOFF and height_m == self._takeoff_z:
+        if self.mode is _TAKEOFF and height_m == self._takeoff_z:
             # A repeated command must not start the ramp again.
             return ACCEPTED
-        self.mode = FlightMode.TAKEOFF
+        self.mode = _TAKEOFF
         self._takeoff_z = height_m
         self._begin_takeoff()
         return ACCEPTED
 
     def land(self) -> Answer:
         """Descend here and disarm after touchdown; nothing to do on the ground."""
-        if not self.armed or self.mode is FlightMode.LAND:
+        if not self.armed or self.mode is _LAND:
             return ACCEPTED
-        self.mode = FlightMode.LAND
+        self.mode = _LAND
         self._stop_here()
         self._ramp_mps = -self.body.vz
         self._set_point.follow_z = False
@@ -177,8 +182,8 @@ class Autopilot:
 
     def hold(self) -> Answer:
         """Brake and stay; on the ground wait for the next command."""
-        if self.mode is not FlightMode.HOLD:
-            self.mode = FlightMode.HOLD
+        if self.mode is not _HOLD:
+            self.mode = _HOLD
             self._stop_here()
         return ACCEPTED
 
@@ -186,8 +191,8 @@ class Autopilot:
         """Follow the streamed set-points; they must be flowing already (PX4's rule)."""
         if not self.offboard_alive:
             return Answer(Result.TEMPORARILY_REJECTED, 'Offboard denied: no set-points')
-        if self.mode is not FlightMode.OFFBOARD:
-            self.mode = FlightMode.OFFBOARD
+        if self.mode is not _OFFBOARD:
+            self.mode = _OFFBOARD
             self._apply_target()
         return ACCEPTED
 
@@ -208,7 +213,7 @@ class Autopilot:
         """
         if not self.armed or self.landed:
             return Answer(Result.TEMPORARILY_REJECTED, 'Reposition denied: not flying')
-        self.mode = FlightMode.HOLD
+        self.mode = _HOLD
         self._stop_here()
         s = self._set_point
         if xy is not None:
@@ -226,7 +231,7 @@ class Autopilot:
         old, silent_s = self._target, self.time_s - self._target_time_s
         self._target = target
         self._target_time_s = self.time_s
-        if self.mode is not FlightMode.OFFBOARD:
+        if self.mode is not _OFFBOARD:
             return
         self._apply_target()
         if old is not None and 0.0 < silent_s <= _SMOOTH_S:
@@ -272,12 +277,12 @@ class Autopilot:
     def _command(self, h: float) -> Motors:
         """Return the motor thrusts of the current mode."""
         mode = self.mode
-        if mode is FlightMode.OFFBOARD:
+        if mode is _OFFBOARD:
             if not self.offboard_alive:
                 self.hold()
-        elif mode is FlightMode.TAKEOFF:
+        elif mode is _TAKEOFF:
             self._climb(h)
-        elif mode is FlightMode.LAND:
+        elif mode is _LAND:
             self._descend(h)
         if self.landed and not self._wants_up():
             # Idle on the ground: no integrator may wind up against the legs.
@@ -287,9 +292,9 @@ class Autopilot:
         return self._controller.update(h, self._set_point)
 
     def _wants_up(self) -> bool:
-        if self.mode is FlightMode.TAKEOFF:
+        if self.mode is _TAKEOFF:
             return True
-        if self.mode is not FlightMode.OFFBOARD:
+        if self.mode is not _OFFBOARD:
             return False
         s = self._set_point
         return s.z > self.body.z + _LIFT_M if s.follow_z else s.vz > _LIFT_M
@@ -307,7 +312,7 @@ class Autopilot:
             return
         self._idle_s += h
         settings = self.settings
-        over = self._flown or self.mode is FlightMode.LAND
+        over = self._flown or self.mode is _LAND
         patience_s = settings.disarm_landed_s if over else settings.disarm_preflight_s
         if self._idle_s >= patience_s:
             self._disarm()
@@ -315,7 +320,7 @@ class Autopilot:
     def _disarm(self) -> None:
         self.armed = False
         self._controller.reset()
-        self.mode = FlightMode.HOLD
+        self.mode = _HOLD
         self._stop_here()
 
     # Set-points of the modes --------------------------------------------------------------------
@@ -366,7 +371,7 @@ class Autopilot:
         s.vz = self._ramp_mps = speed
         body = self.body
         if abs(self._takeoff_z - body.z) < _REACHED_M and abs(body.vz) < _REACHED_MPS:
-            self.mode = FlightMode.HOLD
+            self.mode = _HOLD
             s.z, s.vz, s.az = self._takeoff_z, 0.0, 0.0
 
     def _descend(self, h: float) -> None:

@@ -119,10 +119,11 @@ class SimServer:
                     if frame.message_id == _COMMAND_LONG_ID and _is_lockstep(frame):
                         self._message(frame, source, link, out)
                     continue
-                if frame.message_id == _SET_POINT_ID:
+                message_id = frame.message_id
+                if message_id == _SET_POINT_ID:
                     session.take_set_point(frame.payload)
                     continue
-                if frame.message_id == _COMMAND_LONG_ID:
+                if message_id == _COMMAND_LONG_ID:
                     fields = COMMAND_LONG.unpack(frame.payload)
                     if fields[7] == CMD_STEP:
                         self._step(session, fields[0], frame, link, out)

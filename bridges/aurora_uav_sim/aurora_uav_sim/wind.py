@@ -41,12 +41,14 @@ class Wind:
         x: Wind towards east now, m/s (y north, z up).
     """
 
-    __slots__ = ('_gust', '_mean_x', '_mean_y', '_mean_z', '_noise', '_rng', 'gx', 'gy', 'gz',
-                 'x', 'y', 'z')  # fmt: skip
+    __slots__ = ('_gain', '_gust', '_h', '_mean_x', '_mean_y', '_mean_z', '_noise', '_rng',
+                 '_unit_drive', 'gx', 'gy', 'gz', 'x', 'y', 'z')  # fmt: skip
 
     def __init__(self) -> None:
         self._rng: np.random.Generator | None = None
         self._noise: list[float] = []
+        self._h = 0.0  # the step that the next two are for
+        self._gain = self._unit_drive = 0.0
         self.set(0.0, 0.0, 0.0, 0.0)
 
     def set(self, mean_x: float, mean_y: float, mean_z: float, gust_mps: float) -> None:
@@ -74,19 +76,27 @@ class Wind:
         gust = self._gust
         if gust == 0.0 or self._rng is None:
             return
-        if not self._noise:
+        noise = self._noise
+        if not noise:
             # Uniform on +-sqrt 3 has variance 1.
             draws = self._rng.random(_BLOCK) * (2.0 * sqrt(3.0)) - sqrt(3.0)
-            self._noise = draws.tolist()
-        noise = self._noise
-        gain = h / (_CORRELATION_S + h)
-        # An autoregression y += gain (n - y) has variance gain / (2 - gain): undo it.
-        drive = 0.5 * gust * sqrt((2.0 - gain) / gain)
+            self._noise = noise = draws.tolist()
+        if h != self._h:
+            self._h = h
+            self._gain = h / (_CORRELATION_S + h)
+            # An autoregression y += gain (n - y) has variance gain / (2 - gain): undo it.
+            self._unit_drive = sqrt((2.0 - self._gain) / self._gain)
+        gain = self._gain
+        drive = 0.5 * gust * self._unit_drive
         limit_z = _VERTICAL_SHARE * gust
         gx = self.gx + gain * (drive * noise.pop() - self.gx)
         gy = self.gy + gain * (drive * noise.pop() - self.gy)
         gz = self.gz + gain * (_VERTICAL_SHARE * drive * noise.pop() - self.gz)
-        self.gx = gx = min(max(gx, -gust), gust)
-        self.gy = gy = min(max(gy, -gust), gust)
-        self.gz = gz = min(max(gz, -limit_z), limit_z)
+        if not -gust <= gx <= gust:
+            gx = gust if gx > gust else -gust
+        if not -gust <= gy <= gust:
+            gy = gust if gy > gust else -gust
+        if not -limit_z <= gz <= limit_z:
+            gz = limit_z if gz > limit_z else -limit_z
+        self.gx, self.gy, self.gz = gx, gy, gz
         self.x, self.y, self.z = self._mean_x + gx, self._mean_y + gy, self._mean_z + gz

@@ -15,7 +15,7 @@ Source: MAVLink guide, "Packet Serialization" (MAVLink 1 and 2, checksum CRC-16/
 from __future__ import annotations
 
 import struct
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any, NamedTuple
 
 from pymavlink.dialects.v20 import common as mavlink
@@ -32,15 +32,20 @@ _CRC_EXTRA: dict[int, bytes] = {
     int(number): bytes([kind.crc_extra]) for number, kind in mavlink.mavlink_map.items()
 }
 
-# fastcrc (a dependency of pymavlink) in C; pymavlink's own Python code where it is missing.
-_fast_crc = mavlink.mcrf4xx
 
-
-def crc16(data: bytes) -> int:
-    """Return CRC-16/MCRF4XX of `data`."""
-    if _fast_crc is not None:
-        return int(_fast_crc(data))
+def slow_crc16(data: bytes) -> int:
+    """Return CRC-16/MCRF4XX of `data` by pymavlink's own Python code."""
     return int(mavlink.x25crc(data).crc)
+
+
+# fastcrc (a dependency of pymavlink) is C; it is missing on some platforms.
+crc16: Callable[[bytes], int] = mavlink.mcrf4xx or slow_crc16
+
+
+# Marker, payload length, flags that must be understood and need not be, sequence, sender, message.
+_V2 = struct.Struct('<BBBBBBBHB')
+# Marker, payload length, sequence, sender, message.
+_V1 = struct.Struct('<BBBBBB')
 
 
 class Frame(NamedTuple):
@@ -71,20 +76,21 @@ def split(datagram: bytes) -> Iterator[Frame]:
     start = 0
     while end - start >= 8:
         marker = datagram[start]
-        length = datagram[start + 1]
         if marker == _MARKER_V2 and end - start >= 12:
-            flags = datagram[start + 2]
+            (_, length, flags, _, sequence, system_id, component_id, low, high) = _V2.unpack_from(
+                datagram, start
+            )
+            message_id = high << 16 | low
             body = start + 10
-            message_id = int.from_bytes(datagram[start + 7 : body], 'little')
-            sender = start + 4
-            after = body + length + 2 + (_SIGNATURE_LENGTH if flags & _SIGNED else 0)
             known = flags & ~_SIGNED == 0
+            after = body + length + (2 + _SIGNATURE_LENGTH if flags & _SIGNED else 2)
         elif marker == _MARKER_V1:
+            _, length, sequence, system_id, component_id, message_id = _V1.unpack_from(
+                datagram, start
+            )
             body = start + 6
-            message_id = datagram[start + 5]
-            sender = start + 2
-            after = body + length + 2
             known = True
+            after = body + length + 2
         else:
             start += 1
             continue
@@ -95,9 +101,9 @@ def split(datagram: bytes) -> Iterator[Frame]:
             if crc == datagram[stop] | datagram[stop + 1] << 8:
                 yield Frame(
                     message_id,
-                    datagram[sender],
-                    datagram[sender + 1],
-                    datagram[sender + 2],
+                    sequence,
+                    system_id,
+                    component_id,
                     datagram[body:stop],
                     datagram[start:after],
                 )
@@ -125,9 +131,6 @@ class Decoder:
         return messages[0]
 
 
-_HEADER = struct.Struct('<BBBBBBHB')
-
-
 def pack(
     sequence: int, system_id: int, component_id: int, message_id: int, payload: bytes
 ) -> bytes:
@@ -141,14 +144,14 @@ def pack(
         payload: Full payload; its trailing zeros are cut off here.
     """
     payload = payload.rstrip(b'\0') or b'\0'
-    body = (
-        _HEADER.pack(
-            len(payload), 0, 0, sequence, system_id, component_id,
+    frame = (
+        _V2.pack(
+            _MARKER_V2, len(payload), 0, 0, sequence, system_id, component_id,
             message_id & 0xFFFF, message_id >> 16,
         )
         + payload
     )  # fmt: skip
-    return b'\xfd' + body + crc16(body + _CRC_EXTRA[message_id]).to_bytes(2, 'little')
+    return frame + crc16(frame[1:] + _CRC_EXTRA[message_id]).to_bytes(2, 'little')
 
 
 class Layout:
@@ -163,11 +166,9 @@ class Layout:
 
     def unpack(self, payload: bytes) -> tuple[Any, ...]:
         """Return the fields; cut-off zeros are put back, unknown extensions are cut off."""
-        missing = self.size - len(payload)
-        if missing > 0:
-            payload += bytes(missing)
-        elif missing < 0:
-            payload = payload[: self.size]
+        size = self.size
+        if len(payload) != size:
+            payload = payload[:size].ljust(size, b'\0')
         return self.structure.unpack(payload)
 
 
@@ -220,13 +221,14 @@ class Newer:
     __slots__ = ('_last',)
 
     def __init__(self) -> None:
-        self._last: dict[tuple[int, int], int] = {}
+        self._last: dict[int, int] = {}
 
     def accept(self, frame: Frame) -> bool:
         """Return whether the frame is newer than all of its sender so far."""
-        key = (frame.system_id, frame.component_id)
-        last = self._last.get(key)
-        if last is not None and not 0 < (frame.sequence - last) & 0xFF < 128:
+        _, sequence, system_id, component_id, _, _ = frame
+        sender = system_id << 8 | component_id
+        last = self._last.get(sender)
+        if last is not None and not 0 < (sequence - last) & 0xFF < 128:
             return False
-        self._last[key] = frame.sequence
+        self._last[sender] = sequence
         return True

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from aurora_cli.local_trace import TraceCollector
 from aurora_core.agsg.graph import Agsg
 from aurora_core.agsg.message import agsg_message
 from aurora_core.execution.plan import Execution
@@ -17,12 +18,12 @@ from aurora_core.execution.step_output import StepOutput
 from aurora_core.pipeline.stages import ExecutionResult, RunControl
 from aurora_core.ports.simulators import AirSimulator, FloatArray, GroundSimulator
 from aurora_core.trace import messages
-from aurora_core.trace.bag_reader import read_bag
 from aurora_core.trace.bag_writer import BagWriter
 from aurora_core.trace.definitions import MessageDefinitions
 from aurora_core.trace.hashing import trace_sha256
 from aurora_core.trace.messages import MessageBuilder, time_ns
 from aurora_core.trace.messages_world import world_message
+from aurora_core.trace.tick_encoding import TickEncoder
 
 # One run per bag: the stamp that tells runs of a graph apart is constant here.
 _RUN_NUMBER = 1
@@ -35,6 +36,7 @@ class _Recorder:
         self._writer = writer
         self._definitions = definitions
         self._build = MessageBuilder(definitions, _RUN_NUMBER, dt_s)
+        self._encode = TickEncoder(definitions, _RUN_NUMBER, dt_s)
         self._dt = dt_s
 
     def prologue(self, run_id: str, agsg: Agsg, execution: Execution) -> None:
@@ -51,11 +53,9 @@ class _Recorder:
 
     def states(self, tick: int, ground: FloatArray, uav: FloatArray) -> None:
         """Write the states of a tick."""
-        self._put(
-            messages.GROUND_STATE, tick, self._build.state(messages.GROUND_STATE, tick, ground)
-        )
+        self._rows(messages.GROUND_STATE, tick, ground)
         if len(uav):
-            self._put(messages.UAV_STATE, tick, self._build.state(messages.UAV_STATE, tick, uav))
+            self._rows(messages.UAV_STATE, tick, uav)
 
     def output(self, tick: int, output: StepOutput) -> None:
         """Write the records of a tick and the commands for the next one."""
@@ -66,19 +66,20 @@ class _Recorder:
         for event in output.events:
             self._put(messages.EVENTS, tick, self._build.event(event))
         after = tick + 1
-        self._put(
-            messages.GROUND_COMMAND,
-            after,
-            self._build.ground_commands(after, output.ground_commands),
-        )
+        cdr = self._encode.ground_commands(after, output.ground_commands)
+        self._write(messages.GROUND_COMMAND, after, cdr)
         if len(output.uav_commands):
-            rows = self._build.state(messages.UAV_COMMAND, after, output.uav_commands)
-            self._put(messages.UAV_COMMAND, after, rows)
+            self._rows(messages.UAV_COMMAND, after, output.uav_commands)
+
+    def _rows(self, topic: str, tick: int, rows: FloatArray) -> None:
+        self._write(topic, tick, self._encode.rows(topic, tick, rows))
 
     def _put(self, topic: str, tick: int, message: object) -> None:
-        type_name = messages.TOPICS[topic]
-        cdr = self._definitions.encode(type_name, message)
-        self._writer.write(topic, type_name, cdr, time_ns(tick, self._dt))
+        cdr = self._definitions.encode(messages.TOPICS[topic], message)
+        self._write(topic, tick, cdr)
+
+    def _write(self, topic: str, tick: int, cdr: bytes) -> None:
+        self._writer.write(topic, messages.TOPICS[topic], cdr, time_ns(tick, self._dt))
 
 
 def run_lockstep(
@@ -100,6 +101,7 @@ def run_lockstep(
     dt_s = execution.roster.dt_s
     outcome = 'finished'
     has_uavs = bool(execution.roster.uavs)
+    collected = TraceCollector(execution.roster)
     with BagWriter(bag_directory, definitions) as writer:
         try:
             recorder = _Recorder(writer, definitions, dt_s)
@@ -113,6 +115,7 @@ def run_lockstep(
             while True:
                 recorder.states(tick, ground_rows, uav_rows)
                 output = execution.stepper.step(tick, ground_rows, uav_rows)
+                collected.add(ground_rows, uav_rows, output)
                 recorder.output(tick, output)
                 control.progress(
                     'execute', min(1.0, tick * dt_s / execution.horizon_s), tick * dt_s
@@ -130,12 +133,12 @@ def run_lockstep(
         finally:
             ground.close()
             air.close()
-    content = read_bag(bag_directory, definitions)
+    trace = collected.trace()
     return ExecutionResult.model_validate(
         {
             'bag': bag_directory,
-            'ticks': content.trace.ticks,
-            'trace_sha256': trace_sha256(content.trace, content.world),
+            'ticks': trace.ticks,
+            'trace_sha256': trace_sha256(trace, execution.world),
             'outcome': outcome,
         }
     )

@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from aurora_core.mission.machine import TargetMotion
 from aurora_core.quantities import instant
+from aurora_core.quantities.instant_sight import InstantSight
 from aurora_core.quantities.world_geometry import WorldGeometry
 from aurora_core.trace.layout import GroundColumn
 from aurora_core.trace.roster import Roster
@@ -25,15 +26,22 @@ class Observation:
         ground: (N, GROUND_WIDTH).
         uav: (M, UAV_WIDTH).
         geometry: Solids and places of the world.
+        sight: Sight in that world between the bodies of the roster.
     """
 
     def __init__(
-        self, roster: Roster, ground: FloatArray, uav: FloatArray, geometry: WorldGeometry
+        self,
+        roster: Roster,
+        ground: FloatArray,
+        uav: FloatArray,
+        geometry: WorldGeometry,
+        sight: InstantSight,
     ) -> None:
         self._roster = roster
         self._ground = ground
         self._uav = uav
         self._geometry = geometry
+        self._sight = sight
 
     def position(self, name: str) -> Point3 | None:
         """Return the reference point (x, y, z in m, ENU), None when the body is gone."""
@@ -74,10 +82,7 @@ class Observation:
         """Return whether a UAV sees a target, and the slant range to its sight point in metres."""
         index = self._roster.uav_index(observer)
         assert index is not None
-        series = instant.sight(
-            self._geometry, self._roster, self._ground, self._uav[index], target
-        )
-        return bool(series.visible[0]), float(series.slant_range_m[0])
+        return self._sight.see(self._uav[index], target, self._ground)
 
     def visible(self, observer: str, target: str) -> bool:
         """Whether a UAV sees a target: present, in range and in sight."""

@@ -23,6 +23,7 @@ from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.grounding.grounded import GroundedAgent, ReleaseOn
 from aurora_core.mission.machine import MissionMachine
+from aurora_core.quantities.instant_sight import InstantSight
 from aurora_core.quantities.world_geometry import WorldGeometry
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.spec.vocabulary import MissionMode
@@ -38,6 +39,8 @@ from aurora_core.trace.records import (
 from aurora_core.trace.roster import Roster
 
 FloatArray = npt.NDArray[np.float64]
+
+_ASCENT = int(UavPhase.ASCENT)
 
 # Distance between the landing spots of two UAVs (m): twice the separation in flight.
 LANDING_APART_M = 10.0
@@ -91,6 +94,7 @@ class ScenarioExecutor:
         self._seen: dict[tuple[str, str], bool] = {}
         self._runner = EventRunner(setup.spec, setup.roster, setup.links, setup.arrival_m)
         self._done_tick: int | None = None
+        self._sight = InstantSight(setup.geometry, setup.roster)
 
     def step(self, tick: int, ground: FloatArray, uav: FloatArray) -> StepOutput:
         """Evaluate the states of `tick`, return the commands for tick + 1.
@@ -102,7 +106,7 @@ class ScenarioExecutor:
         """
         s = self._setup
         self._events = []
-        seen = Observation(s.roster, ground, uav, s.geometry)
+        seen = Observation(s.roster, ground, uav, s.geometry, self._sight)
         commands = self._initial_commands() if tick == 0 else []
         rows = self._fly(tick, uav, seen)
         commands += self._release(tick)
@@ -155,8 +159,10 @@ class ScenarioExecutor:
         return [GroundCommand(agent=index, kind=GroundCommandKind.RELEASE_SPEED)]
 
     def _release(self, tick: int) -> list[GroundCommand]:
+        commands: list[GroundCommand] = []
+        if not self._held:
+            return commands
         machines = {m.plan.id: m for m in self._setup.machines}
-        commands = []
         for index in sorted(self._held):
             agent = self._setup.agents[index]
             machine = machines.get(agent.release_uav)
@@ -177,7 +183,7 @@ class ScenarioExecutor:
             if tick == 0:
                 machine.start()
             # The first sample inside the altitude tolerance may be the capture as well.
-            climbing = machine.phase == int(UavPhase.ASCENT)
+            climbing = machine.phase == _ASCENT
             mission = machine.plan.missions[0] if climbing else machine.mission
             target = None
             if mission is not None and mission.mode is MissionMode.TRACK:
@@ -259,18 +265,19 @@ class ScenarioExecutor:
             return 'horizon'
         if s.stated_horizon or not s.machines:
             return ''
-        done = (
-            all(m.landed for m in s.machines)
-            and self._runner.done
-            and all(link.idle for link in s.links)
-        )
-        if not done:
+        if not self._all_done():
             self._done_tick = None
             return ''
         if self._done_tick is None:
             self._done_tick = tick
         settled = tick - self._done_tick >= s.settle_ticks
         return 'finished' if settled and tick >= s.earliest_end_ticks else ''
+
+    def _all_done(self) -> bool:
+        for machine in self._setup.machines:
+            if not machine.landed:  # the usual answer
+                return False
+        return self._runner.done and all(link.idle for link in self._setup.links)
 
 
 def _path(seen: Observation, sender: str, receiver: str) -> Path:

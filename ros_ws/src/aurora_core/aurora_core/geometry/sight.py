@@ -57,6 +57,12 @@ class SightModel:
         """The prisms, as given."""
         return self._table.prisms
 
+    def boxes(self) -> list[list[float]]:
+        """Return west, south, east, north and top (m) of the box around each prism."""
+        bounds, top = self._table.footprints.bounds, self._table.top
+        boxes: list[list[float]] = np.column_stack((bounds, top)).tolist()
+        return boxes
+
     def clearance(self, observer_xyz: FloatLike, target_xyz: FloatLike) -> float:
         """Return the margin of one line, bit for bit that of `clearance_series`.
 

@@ -18,15 +18,18 @@ from aurora_core.geometry.kernel import norm2
 from aurora_core.mission.plan import MissionPlan, UavPlan
 from aurora_core.mission.setpoint import FlightSettings, PursuitReference, RouteReference
 from aurora_core.spec.vocabulary import MissionMode
-from aurora_core.trace.layout import (
-    UAV_COMMAND_WIDTH,
-    UavColumn,
-    UavCommandColumn,
-    UavMode,
-    UavPhase,
-)
+from aurora_core.trace.layout import UavColumn, UavMode, UavPhase
 
 FloatArray = npt.NDArray[np.float64]
+
+# Plain numbers: members of an enum cost more to look up than what is done with them.
+_IDLE = int(UavPhase.IDLE)
+_ASCENT = int(UavPhase.ASCENT)
+_MISSION = int(UavPhase.MISSION)
+_LANDING = int(UavPhase.LANDING)
+_X, _Y, _Z = int(UavColumn.X), int(UavColumn.Y), int(UavColumn.Z)
+_VX, _VY, _VZ = int(UavColumn.VX), int(UavColumn.VY), int(UavColumn.VZ)
+_ARMED, _LANDED = int(UavColumn.ARMED), int(UavColumn.LANDED)
 
 # The UAV counts as arrived when it is this close to the last point of a way (m).
 ARRIVED_M = 1.0
@@ -55,7 +58,7 @@ class MissionMachine:
         self._plan = plan
         self._settings = settings
         self._dt = dt_s
-        self.phase = int(UavPhase.IDLE)
+        self.phase = _IDLE
         self.ascended_tick: int | None = None
         self.capture_tick: int | None = None
         self.first_capture_tick: int | None = None
@@ -75,15 +78,15 @@ class MissionMachine:
     @property
     def mission(self) -> MissionPlan | None:
         """The mission that is flown now, None before and after."""
-        index = self.phase - int(UavPhase.MISSION)
-        if self.phase < int(UavPhase.LANDING) and 0 <= index < len(self._plan.missions):
+        index = self.phase - _MISSION
+        if self.phase < _LANDING and 0 <= index < len(self._plan.missions):
             return self._plan.missions[index]
         return None
 
     @property
     def missions_done(self) -> bool:
         """Whether the last mission has ended (landing may go on)."""
-        return self.phase == int(UavPhase.LANDING)
+        return self.phase == _LANDING
 
     @property
     def captured(self) -> bool:
@@ -92,7 +95,7 @@ class MissionMachine:
 
     def start(self) -> None:
         """Leave the ground with the next command."""
-        self.phase = int(UavPhase.ASCENT) if self._plan.missions else int(UavPhase.IDLE)
+        self.phase = _ASCENT if self._plan.missions else _IDLE
 
     @property
     def landing_spot(self) -> tuple[float, float] | None:
@@ -109,8 +112,8 @@ class MissionMachine:
 
     def land_now(self) -> None:
         """End the missions; the landing begins with the next step."""
-        if int(UavPhase.IDLE) < self.phase < int(UavPhase.LANDING):
-            self._begin(int(UavPhase.LANDING))
+        if _IDLE < self.phase < _LANDING:
+            self._begin(_LANDING)
 
     def needs_landing_spot(self) -> bool:
         """Whether the executor has to choose a landing spot now."""
@@ -132,45 +135,46 @@ class MissionMachine:
         Returns:
             (UAV_COMMAND_WIDTH,) command row.
         """
-        if self.phase == int(UavPhase.ASCENT):
-            self._check_ascended(tick, state)
+        row: list[float] = state.tolist()
+        if self.phase == _ASCENT:
+            self._check_ascended(tick, row)
         mission = self.mission
         if mission is not None:
-            self._fly(mission, tick, state, target)
-        if self.missions_done:
-            self._fly_home(state)
-        return self._command(state)
+            self._fly(mission, tick, row, target)
+        if self.phase == _LANDING:
+            self._fly_home(row)
+        return self._command(row)
 
     def _first_altitude_m(self) -> float:
         return float(self._plan.missions[0].altitude_m)
 
-    def _check_ascended(self, tick: int, state: FloatArray) -> None:
-        z = float(state[UavColumn.Z])
+    def _check_ascended(self, tick: int, state: list[float]) -> None:
+        z = state[_Z]
         if abs(z - self._first_altitude_m()) <= self._plan.missions[0].ascent_tolerance_m:
             self.ascended_tick = tick
             self._start_reference(state)
-            self._begin(int(UavPhase.MISSION))
+            self._begin(_MISSION)
 
-    def _start_reference(self, state: FloatArray) -> None:
-        x, y, z = (float(state[c]) for c in (UavColumn.X, UavColumn.Y, UavColumn.Z))
+    def _start_reference(self, state: list[float]) -> None:
+        x, y, z = state[_X : _Z + 1]
         self._pursuit = PursuitReference(x, y, z)
-        self._pursuit.vz = float(state[UavColumn.VZ])
+        self._pursuit.vz = state[_VZ]
         self._airborne = True
 
     def _begin(self, phase: int) -> None:
         self.phase = phase
         self._route = None
-        if phase != int(UavPhase.LANDING):
+        if phase != _LANDING:
             self.capture_tick = None
 
     def _next_phase(self) -> int:
-        index = self.phase - int(UavPhase.MISSION) + 1
+        index = self.phase - _MISSION + 1
         if index < len(self._plan.missions):
-            return int(UavPhase.MISSION) + index
-        return int(UavPhase.LANDING)
+            return _MISSION + index
+        return _LANDING
 
     def _fly(
-        self, mission: MissionPlan, tick: int, state: FloatArray, target: TargetMotion | None
+        self, mission: MissionPlan, tick: int, state: list[float], target: TargetMotion | None
     ) -> None:
         if mission.mode is MissionMode.NAVIGATE:
             finished = self._fly_route(mission, tick, state)
@@ -180,7 +184,7 @@ class MissionMachine:
             self._begin(self._next_phase())
 
     def _fly_hold(
-        self, mission: MissionPlan, tick: int, state: FloatArray, target: TargetMotion | None
+        self, mission: MissionPlan, tick: int, state: list[float], target: TargetMotion | None
     ) -> bool:
         if mission.mode is MissionMode.HOVER:
             assert mission.hover_point is not None
@@ -211,11 +215,11 @@ class MissionMachine:
     def _meets(
         self,
         mission: MissionPlan,
-        state: FloatArray,
+        state: list[float],
         goal: tuple[float, float, float],
         target: TargetMotion | None,
     ) -> bool:
-        x, y, z = (float(state[c]) for c in (UavColumn.X, UavColumn.Y, UavColumn.Z))
+        x, y, z = state[_X : _Z + 1]
         if abs(z - mission.altitude_m) > mission.capture_altitude_m:
             return False
         if mission.mode is MissionMode.TRACK:
@@ -231,9 +235,9 @@ class MissionMachine:
             return False
         return (tick + 1) - self.capture_tick >= ceil(mission.duration_s / self._dt - 1e-9)
 
-    def _fly_route(self, mission: MissionPlan, tick: int, state: FloatArray) -> bool:
+    def _fly_route(self, mission: MissionPlan, tick: int, state: list[float]) -> bool:
         first = mission.waypoints[0]
-        x, y, z = (float(state[c]) for c in (UavColumn.X, UavColumn.Y, UavColumn.Z))
+        x, y, z = state[_X : _Z + 1]
         if self._route is None:
             near = norm2(x - first[0], y - first[1]) <= ARRIVED_M
             if near and abs(z - first[2]) <= ARRIVED_M:
@@ -253,48 +257,36 @@ class MissionMachine:
         last = mission.waypoints[-1]
         return self._route.done and norm2(x - last[0], y - last[1]) <= ARRIVED_M
 
-    def _fly_home(self, state: FloatArray) -> None:
+    def _fly_home(self, state: list[float]) -> None:
         if not self._airborne:  # told to land while still climbing
             self._start_reference(state)
         if self._landing_spot is None:
             return
-        x, y = float(state[UavColumn.X]), float(state[UavColumn.Y])
+        x, y = state[_X], state[_Y]
         spot = self._landing_spot
         if not self._descending:
-            climbing = float(state[UavColumn.Z]) < self._return_altitude_m - ARRIVED_M
+            climbing = state[_Z] < self._return_altitude_m - ARRIVED_M
             # Climb first, then across: the way was checked at the return altitude.
             across = (self._pursuit.x, self._pursuit.y) if climbing else spot
             goal = (across[0], across[1], self._return_altitude_m)
             self._pursuit.step(goal, (0.0, 0.0), self._settings, self._dt)
-        slow = norm2(float(state[UavColumn.VX]), float(state[UavColumn.VY])) <= 0.5
+        slow = norm2(state[_VX], state[_VY]) <= 0.5
         if not self._descending and norm2(x - spot[0], y - spot[1]) <= 0.5 and slow:
             self._descending = True
-        if self._descending and state[UavColumn.LANDED] > 0.5 and state[UavColumn.ARMED] < 0.5:
+        if self._descending and state[_LANDED] > 0.5 and state[_ARMED] < 0.5:
             self.landed = True
 
-    def _command(self, state: FloatArray) -> FloatArray:
-        row = np.zeros(UAV_COMMAND_WIDTH)
-        row[UavCommandColumn.PHASE] = self.phase
-        row[UavCommandColumn.YAW] = self._plan.home_yaw_enu_rad
-        if self.phase == int(UavPhase.IDLE) or self.landed:
-            row[UavCommandColumn.MODE] = UavMode.IDLE
-            row[UavCommandColumn.X : UavCommandColumn.Z + 1] = state[UavColumn.X : UavColumn.Z + 1]
-            return row
-        if self.phase == int(UavPhase.ASCENT):
-            row[UavCommandColumn.MODE] = UavMode.TAKEOFF
-            row[UavCommandColumn.X] = self._plan.home_x_m
-            row[UavCommandColumn.Y] = self._plan.home_y_m
-            row[UavCommandColumn.Z] = self._first_altitude_m()
-            row[UavCommandColumn.TAKEOFF_ALTITUDE] = self._first_altitude_m()
-            return row
-        row[UavCommandColumn.MODE] = UavMode.LAND if self._descending else UavMode.OFFBOARD
-        reference = self._pursuit
-        row[UavCommandColumn.X : UavCommandColumn.VZ + 1] = (
-            reference.x,
-            reference.y,
-            reference.z,
-            reference.vx,
-            reference.vy,
-            reference.vz,
-        )
-        return row
+    def _command(self, state: list[float]) -> FloatArray:
+        """Return the command row; the order is that of `UavCommandColumn`."""
+        yaw, phase = self._plan.home_yaw_enu_rad, float(self.phase)
+        if self.phase == _IDLE or self.landed:
+            here = state[_X : _Z + 1]
+            return np.array([float(UavMode.IDLE), *here, 0.0, 0.0, 0.0, yaw, 0.0, phase])
+        plan = self._plan
+        if self.phase == _ASCENT:
+            z = self._first_altitude_m()
+            home = (plan.home_x_m, plan.home_y_m)
+            return np.array([float(UavMode.TAKEOFF), *home, z, 0.0, 0.0, 0.0, yaw, z, phase])
+        mode = float(UavMode.LAND if self._descending else UavMode.OFFBOARD)
+        r = self._pursuit
+        return np.array([mode, r.x, r.y, r.z, r.vx, r.vy, r.vz, yaw, 0.0, phase])

@@ -45,6 +45,11 @@ class SightSeries:
     visible: BoolArray
 
 
+def occluder_reach_m(entry: RosterEntry) -> float:
+    """Return how near a line must come to a vehicle's centre to meet its box, and 1 m more."""
+    return (entry.length_m + entry.width_m) / 2.0 + _MISS_M
+
+
 def vehicle_clearance(
     observer: FloatArray,
     target: FloatArray,
@@ -77,7 +82,7 @@ def vehicle_clearance(
         along = (to[:, 0] * step[:, 0] + to[:, 1] * step[:, 1]) / safe
         along = np.minimum(np.maximum(along, 0.0), 1.0)
         rest = to - along[:, None] * step
-        reach = (entry.length_m + entry.width_m) / 2.0 + _MISS_M
+        reach = occluder_reach_m(entry)
         near = rest[:, 0] * rest[:, 0] + rest[:, 1] * rest[:, 1] <= reach * reach
         near &= states[:, GroundColumn.PRESENT] > 0.5
         k = np.flatnonzero(near)

@@ -14,6 +14,7 @@ from aurora_core.geometry.obstacles import ObstacleField
 from aurora_core.geometry.polygon import Polygon, PolygonSet
 from aurora_core.geometry.prism import Prism
 from aurora_core.geometry.sight import SightModel
+from aurora_core.geometry.sight_line import SightLine
 from aurora_core.knowledge.world import SurfaceKind, WorldModel
 
 FloatArray = npt.NDArray[np.float64]
@@ -46,6 +47,11 @@ class WorldGeometry:
     def sight(self) -> SightModel:
         """Buildings as occluders."""
         return SightModel(self._buildings)
+
+    @cached_property
+    def sight_line(self) -> SightLine:
+        """The same for one line at a time."""
+        return SightLine(self.sight)
 
     @cached_property
     def obstacles(self) -> ObstacleField:

@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""Write a rosbag2 bag (MCAP) that survives a kill: flushed to the disk every simulated second.
+"""Write a rosbag2 bag (MCAP) that survives a kill: flushed every simulated second.
+
+A flush hands everything to the operating system, so the death of this process loses nothing of
+it; the disk is brought up to date right after it, beside the work, for the death of the machine.
 
 `mcap.writer` is used because the writer of `rosbags` keeps everything in memory until it closes.
 `metadata.yaml` is written beside it so that `ros2 bag` and `rosbags` read the bag.
@@ -21,6 +24,7 @@ from mcap.writer import CompressionType, Writer
 
 from aurora_core.errors import BagError
 from aurora_core.trace.definitions import MessageDefinitions
+from aurora_core.trace.disk_sync import DiskSync
 
 METADATA_VERSION = 9
 FLUSH_NS = 1_000_000_000
@@ -75,6 +79,7 @@ class BagWriter:
             ) from err
         # Zstandard chunks: a run of ten agents shrinks to a fifth, at the cost of microseconds.
         self._writer = Writer(self._stream, compression=CompressionType.ZSTD)
+        self._sync = DiskSync(self._stream.fileno())
         self._guard(lambda: self._writer.start(profile='ros2', library='aurora'))
 
     def __enter__(self) -> BagWriter:
@@ -114,32 +119,29 @@ class BagWriter:
             )
         channel = self._channel(topic, type_name)
         count = self._counts[topic]
-        self._guard(
-            lambda: self._writer.add_message(
-                channel_id=channel,
-                log_time=time_ns,
-                publish_time=time_ns,
-                data=cdr,
-                sequence=count,
-            )
-        )
+        try:
+            self._writer.add_message(channel, time_ns, cdr, time_ns, count)
+        except OSError as err:
+            raise self._failure(err) from err
         self._counts[topic] = count + 1
-        self._first_ns = time_ns if self._first_ns is None else min(self._first_ns, time_ns)
-        self._last_ns = max(self._last_ns, time_ns)
+        if self._first_ns is None or time_ns < self._first_ns:
+            self._first_ns = time_ns
+        if time_ns > self._last_ns:
+            self._last_ns = time_ns
         if time_ns - self._flushed_ns >= FLUSH_NS:
             self._flushed_ns = time_ns
             self.flush()
 
     def flush(self) -> None:
-        """Bring everything written so far to the disk.
+        """Hand everything written so far to the operating system, and ask the disk for it.
 
         Raises:
-            BagError: The disk is full.
+            BagError: The disk is full or broken.
         """
 
         def bring() -> None:
             self._writer.flush()  # type: ignore[no-untyped-call]
-            os.fsync(self._stream.fileno())
+            self._sync.request()
 
         self._guard(bring)
 
@@ -156,6 +158,7 @@ class BagWriter:
         def finish() -> str:
             self._writer.finish()  # type: ignore[no-untyped-call]
             self._stream.flush()
+            self._sync.close()
             os.fsync(self._stream.fileno())
             self._stream.close()
             digest = file_sha256(self._directory / self._file_name)
@@ -199,6 +202,7 @@ class BagWriter:
     def _failure(self, err: OSError) -> BagError:
         # What follows a lost write could not be read: nothing more goes into the file.
         self._closed = True
+        self._sync.close()
         with suppress(OSError):
             self._stream.close()
         return BagError(

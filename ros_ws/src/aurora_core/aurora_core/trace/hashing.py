@@ -10,6 +10,7 @@ as int64 little-endian, strings UTF-8 with their length in front.
 from __future__ import annotations
 
 import hashlib
+import struct
 
 import numpy as np
 
@@ -17,36 +18,51 @@ from aurora_core.knowledge.world import WorldModel
 from aurora_core.trace.roster import Roster, RosterEntry
 from aurora_core.trace.trace import Trace
 
+# Encodings are handed to the digest in pieces of about this size.
+_PIECE_BYTES = 1 << 20
+_ONE = (1).to_bytes(8, 'little')
+_INT_HEAD = b'i' + _ONE
+_FLOAT_HEAD = b'f' + _ONE
+_EMPTY_TUPLE = b't' + bytes(8)
+_DOUBLE = struct.Struct('<d')
+
 
 class _Encoder:
     """Feeds a sha256 with typed, self-delimiting values."""
 
     def __init__(self) -> None:
         self._digest = hashlib.sha256()
+        self._buffer = bytearray()
 
     def add(self, value: object) -> None:
-        if isinstance(value, str):
-            data = value.encode('utf-8')
-            self._tagged(b's', len(data), data)
-        elif isinstance(value, bool | int | np.integer | np.bool_):
-            self._tagged(b'i', 1, int(value).to_bytes(8, 'little', signed=True))
-        elif isinstance(value, float):
-            self._tagged(b'f', 1, np.array([value], dtype='<f8').tobytes())
-        elif isinstance(value, np.ndarray):
+        buffer = self._buffer
+        if isinstance(value, np.ndarray):
             array = np.ascontiguousarray(value, dtype='<f8')
-            self._tagged(b'a', array.size, array.tobytes())
+            buffer += b'a' + array.size.to_bytes(8, 'little')
+            buffer += array.tobytes()
+            if len(buffer) > _PIECE_BYTES:
+                self._digest.update(buffer)
+                buffer.clear()
+        elif isinstance(value, str):
+            data = value.encode('utf-8')
+            buffer += b's' + len(data).to_bytes(8, 'little') + data
+        elif isinstance(value, float):
+            buffer += _FLOAT_HEAD + _DOUBLE.pack(value)
         elif isinstance(value, tuple | list):
-            self._tagged(b't', len(value), b'')
+            if not value:
+                buffer += _EMPTY_TUPLE
+                return
+            buffer += b't' + len(value).to_bytes(8, 'little')
             for item in value:
                 self.add(item)
+        elif isinstance(value, bool | int | np.integer | np.bool_):
+            buffer += _INT_HEAD + int(value).to_bytes(8, 'little', signed=True)
         else:
             raise TypeError(f'cannot encode {type(value).__name__}')
 
-    def _tagged(self, tag: bytes, size: int, data: bytes) -> None:
-        self._digest.update(tag + size.to_bytes(8, 'little'))
-        self._digest.update(data)
-
     def hexdigest(self) -> str:
+        self._digest.update(self._buffer)
+        self._buffer.clear()
         return self._digest.hexdigest()
 
 
@@ -91,16 +107,16 @@ def trace_sha256(trace: Trace, world: WorldModel) -> str:
         )
     for tick in range(trace.ticks):
         encoder.add(tick)
-        encoder.add(tuple(links.get(tick, ())))
-        encoder.add(tuple(events.get(tick, ())))
+        encoder.add(links.get(tick, ()))
+        encoder.add(events.get(tick, ()))
         encoder.add(
-            tuple(
+            [
                 (c.agent, int(c.kind), c.value, c.value2, c.text)
                 for c in trace.ground_commands[tick]
-            )
+            ]
         )
         encoder.add(trace.ground[tick])
-        encoder.add(tuple(sights.get(tick, ())))
+        encoder.add(sights.get(tick, ()))
         encoder.add(trace.uav_commands[tick])
         encoder.add(trace.uav[tick])
     return encoder.hexdigest()

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -50,16 +50,23 @@ class Roster:
     agents: tuple[RosterEntry, ...]
     uavs: tuple[RosterEntry, ...]
 
+    _agent_rows: dict[str, int] = field(init=False, repr=False, compare=False)
+    _uav_rows: dict[str, int] = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        """Index the bodies: rows are asked for every tick."""
+        object.__setattr__(self, '_agent_rows', _rows(self.agents))
+        object.__setattr__(self, '_uav_rows', _rows(self.uavs))
+
     def agent_index(self, body_id: str) -> int | None:
         """Return the row of a ground agent, or None when the id is not one."""
-        for index, entry in enumerate(self.agents):
-            if entry.body_id == body_id:
-                return index
-        return None
+        return self._agent_rows.get(body_id)
 
     def uav_index(self, body_id: str) -> int | None:
         """Return the row of a UAV, or None when the id is not one."""
-        for index, entry in enumerate(self.uavs):
-            if entry.body_id == body_id:
-                return index
-        return None
+        return self._uav_rows.get(body_id)
+
+
+def _rows(entries: tuple[RosterEntry, ...]) -> dict[str, int]:
+    """Return the row of each body id, the first one of equal ids."""
+    return {entry.body_id: row for row, entry in reversed(tuple(enumerate(entries)))}
