@@ -119,7 +119,9 @@ def note_of(damage: Iterable[tuple[Integrity, str]]) -> str:
     """Return what is damaged in one line, the first things first."""
     notes = list(dict.fromkeys(note for _, note in damage))
     more = [f'and {len(notes) - _NOTES} more'] if len(notes) > _NOTES else []
-    return '; '.join([*notes[:_NOTES], *more])
+    text = '; '.join([*notes[:_NOTES], *more])
+    # Names out of a bag must not steer the terminal that they are shown in.
+    return ''.join(c if c.isprintable() else '?' for c in text)
 
 
 def _required(read: Callable[[Any], _T], message: Any, where: str) -> _T:

@@ -20,8 +20,8 @@ from mcap.writer import Writer
 
 from aurora_core.errors import BagError
 from aurora_core.trace import messages
-from aurora_core.trace.bag_reader import read_bag
 from aurora_core.trace.bag_metadata import file_sha256
+from aurora_core.trace.bag_reader import read_bag
 from aurora_core.trace.bag_writer import BagWriter
 from aurora_core.trace.definitions import message_definitions
 from aurora_core.trace.messages import MessageBuilder, time_ns
