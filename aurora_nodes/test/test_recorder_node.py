@@ -17,7 +17,7 @@ pytest.importorskip('rclpy')
 from mcap.reader import make_reader
 
 from aurora_core.errors import BagError
-from aurora_core.trace.bag_writer import file_sha256
+from aurora_core.trace.bag_metadata import file_sha256
 from aurora_core.trace.definitions import message_definitions
 from aurora_core.trace.layout import GROUND_WIDTH
 from aurora_core.trace.records import EventRecord, ScenarioEventKind

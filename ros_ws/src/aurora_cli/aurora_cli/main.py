@@ -31,7 +31,7 @@ app = typer.Typer(
 )
 maps = typer.Typer(help='The maps of the configuration.', rich_markup_mode=None)
 certificate = typer.Typer(help='Certificates of infeasibility.', rich_markup_mode=None)
-bag = typer.Typer(help='Recordings.', rich_markup_mode=None, hidden=True)
+bag = typer.Typer(help='Recordings.', rich_markup_mode=None)
 app.add_typer(maps, name='map')
 app.add_typer(certificate, name='certificate')
 app.add_typer(bag, name='bag')
@@ -138,6 +138,39 @@ def verify_bag(run_or_bag: RunOrBag, iteration: Iteration = None, as_json: Json 
     _finish(command, as_json=as_json)
 
 
+@app.command('diff')
+def diff_runs(
+    first: RunOrBag, second: RunOrBag, iteration: Iteration = None, as_json: Json = False
+) -> None:
+    """Show where two recorded runs part: first differing tick, agent, value; margins."""
+
+    def command() -> int:
+        from aurora_cli.commands.diff import diff_command
+
+        return diff_command(first, second, iteration, as_json=as_json)
+
+    _finish(command, as_json=as_json)
+
+
+@bag.command('recover')
+def recover_recording(
+    run_or_bag: RunOrBag,
+    out: Annotated[
+        Path | None, typer.Option(metavar='FOLDER', help='Default: <bag>.recovered.')
+    ] = None,
+    iteration: Iteration = None,
+    as_json: Json = False,
+) -> None:
+    """Make a readable bag out of one that was cut short; the original stays as it is."""
+
+    def command() -> int:
+        from aurora_cli.commands.recover import recover_command
+
+        return recover_command(run_or_bag, out, iteration, as_json=as_json)
+
+    _finish(command, as_json=as_json)
+
+
 @app.command('picture')
 def draw_run(
     run_or_bag: RunOrBag,
@@ -209,12 +242,10 @@ def _later(name: str) -> Callable[[], None]:
 
 
 for _group, _path in (
-    (app, 'diff'),
     (app, 'doctor'),
     (app, 'bench'),
     (maps, 'map import'),
     (maps, 'map measure'),
-    (bag, 'bag recover'),
 ):
     _group.command(
         _path.rpartition(' ')[2], hidden=True, context_settings=Anything, add_help_option=False

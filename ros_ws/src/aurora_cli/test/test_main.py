@@ -36,12 +36,10 @@ from aurora_core.errors import MapError
         ['map', 'show', 'atlantis'],
         ['map', 'show', 'junction', '--picture', 'x.gif'],
         ['certificate', 'check'],
-        ['diff', 'a', 'b'],
         ['doctor'],
         ['bench', '--anything', 'x'],
         ['map', 'import', 'file', '--name', 'x'],
         ['map', 'measure', 'downtown'],
-        ['bag', 'recover', 'bag'],
     ],
 )
 def test_usage_errors_leave_with_64_and_say_why(

@@ -9,6 +9,7 @@ from aurora_cli.output import answer_console, print_json, quiet_stdout
 from aurora_core.conditions.condition import conditions_from_json
 from aurora_core.monitor.verify import verify
 from aurora_core.pipeline.functions import load_bag
+from aurora_core.report.recorded_trace import believed, recorded_trace
 from aurora_core.report.run_folder import StageFile
 from aurora_core.report.terminal import print_verify
 from aurora_core.report.verify_report import (
@@ -31,8 +32,12 @@ def verify_command(run_or_bag: str, iteration: int | None, *, as_json: bool) -> 
     found = find_bag(run_or_bag, iteration)
     with quiet_stdout():
         content, agsg = load_bag(found.bag)
+        trace = content.trace
+        sha256 = trace_sha256(trace, content.world)
+        if found.run is not None:
+            trace = believed(trace, sha256, recorded_trace(found.run, found.bag.name))
         conditions = conditions_from_json(content.world.conditions_json)
-        verdict = verify(content.trace, content.world, conditions, agsg.spec)
+        verdict = verify(trace, content.world, conditions, agsg.spec)
         recorded: Comparison | None = None
         if found.run is not None and found.iteration is not None:
             name = StageFile.VERDICT.name_at(found.iteration)
@@ -41,8 +46,8 @@ def verify_command(run_or_bag: str, iteration: int | None, *, as_json: bool) -> 
                 recorded = compare(written, verdict, name)
         report = VerifyReport(
             bag=str(found.bag),
-            ticks=content.trace.ticks,
-            trace_sha256=trace_sha256(content.trace, content.world),
+            ticks=trace.ticks,
+            trace_sha256=sha256,
             verdict=verdict,
             recorded=recorded,
         )

@@ -17,6 +17,7 @@ from pydantic import BaseModel
 from aurora_core.feasibility.verdict import FeasibilityVerdict
 from aurora_core.monitor.verdict import VERDICT_VERSION, Verdict
 from aurora_core.report.check_report import CheckReport
+from aurora_core.report.diff_report import DiffReport
 from aurora_core.report.run_report import RunReport
 from aurora_core.report.verify_report import VerifyReport
 from aurora_core.spec.scenario import ScenarioSpec
@@ -31,6 +32,7 @@ DOCUMENTS: dict[str, tuple[type[BaseModel], int]] = {
     'verdict': (Verdict, VERDICT_VERSION),
     'check': (CheckReport, 1),
     'verify': (VerifyReport, 1),
+    'diff': (DiffReport, 1),
 }
 
 

@@ -3,71 +3,78 @@
 """Read a bag back into a trace and a world, and say in what state the recording is.
 
 A damaged bag is read as far as it goes; it never raises for damage, only when there is nothing
-that could be judged at all.
+that could be judged at all. `docs/bags.md` has the table of what counts as which state.
 """
 
 from __future__ import annotations
 
-import struct
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, TypeVar
 
-import numpy as np
-import yaml
-import zstandard
-from mcap.exceptions import McapError
-from mcap.records import Channel, DataEnd, Message, Schema
-from mcap.stream_reader import StreamReader
+from mcap.records import Channel, DataEnd, Message, Metadata, Schema
 from rosbags.serde import SerdeError
 
 from aurora_core.errors import BagError
-from aurora_core.knowledge.world import WorldModel
 from aurora_core.trace import messages
-from aurora_core.trace.bag_writer import file_sha256
-from aurora_core.trace.commands import GroundCommand
-from aurora_core.trace.definitions import MessageDefinitions
-from aurora_core.trace.hashing import world_sha256
-from aurora_core.trace.layout import GROUND_WIDTH, UAV_COMMAND_WIDTH, UAV_WIDTH
-from aurora_core.trace.messages_world import read_world
-from aurora_core.trace.records import EventRecord, LinkRecord
-from aurora_core.trace.roster import Roster
-from aurora_core.trace.trace import Integrity, Trace
-
-Damage = list[tuple[Integrity, str]]
-_T = TypeVar('_T')
-
-# What the MCAP and CDR decoders raise on damaged bytes; a damaged length asks for any memory.
-_UNREADABLE = (
-    McapError,
-    SerdeError,
-    zstandard.ZstdError,
-    struct.error,
-    ValueError,
-    LookupError,
-    AssertionError,
-    EOFError,
-    MemoryError,
-    OverflowError,
+from aurora_core.trace.bag_content import (
+    RERUN,
+    BagContent,
+    Damage,
+    StoredMessage,
+    content_of,
 )
-# A tick number this many times beyond the number of stored ticks is damage, not a gap.
-_TICKS_AHEAD = 4
+from aurora_core.trace.bag_metadata import METADATA, BagMetadata, file_sha256, read_metadata
+from aurora_core.trace.checkpoints import CHECKPOINT, RECOVERY, ContentDigest, read_checkpoint
+from aurora_core.trace.definitions import MessageDefinitions
+from aurora_core.trace.mcap_scan import Defect, scan
+from aurora_core.trace.schema_check import check_schema
+from aurora_core.trace.trace import Integrity
+
+__all__ = [
+    'BagContent',
+    'StoredBag',
+    'StoredMessage',
+    'bag_folder',
+    'content_of',
+    'read_bag',
+    'read_stored',
+]
+
+# The longest run that is possible (30 min, 200 agents, 10 UAVs) has half of it.
+_CONTENT_LIMIT = 1 << 30
+# More notes of one kind say nothing more.
+_NOTES = 5
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class BagContent:
-    """A bag's content.
+class StoredBag:
+    """What a bag's files hold, as far as they can be read.
 
     Attributes:
-        trace: States, commands and claims, with the integrity of the recording.
-        world: The measured world.
-        agsg_message: The last Agsg message (decoded), None when there is none.
+        folder: Of the bag.
+        messages: In the order of the file.
+        damage: Of the files; what is wrong with the content shows in `content_of`.
     """
 
-    trace: Trace
-    world: WorldModel
-    agsg_message: Any
+    folder: Path
+    messages: tuple[StoredMessage, ...]
+    damage: tuple[tuple[Integrity, str], ...]
+
+
+def bag_files(path: Path) -> tuple[Path, ...]:
+    """Return the MCAP files that a bag folder, its metadata or an MCAP file name.
+
+    Raises:
+        BagError: There is no bag.
+    """
+    if path.is_file() and path.name != METADATA:
+        return (path,)
+    folder = path if path.is_dir() else path.parent
+    files = tuple(sorted(folder.glob('*.mcap')))
+    if not files:
+        raise BagError(f'no MCAP bag in {path}', hint='name a folder such as runs/<run_id>/bag.0')
+    return files
 
 
 def bag_folder(path: Path) -> Path:
@@ -76,223 +83,255 @@ def bag_folder(path: Path) -> Path:
     Raises:
         BagError: There is no bag.
     """
-    folder = path if path.is_dir() else path.parent
-    if not any(folder.glob('*.mcap')):
-        raise BagError(f'no MCAP bag in {path}', hint='name a folder such as runs/<run_id>/bag.0')
-    return folder
+    return bag_files(path)[0].parent
 
 
 def read_bag(path: Path, definitions: MessageDefinitions) -> BagContent:
     """Read a bag.
 
     Args:
-        path: Folder of the bag.
+        path: Folder of the bag, or its MCAP file.
         definitions: Layouts of the messages.
 
     Raises:
         BagError: There is no bag, or it lacks the roster or the world.
     """
-    folder = bag_folder(path)
-    files = sorted(folder.glob('*.mcap'))
-    damage: Damage = []
-    decoded: dict[str, list[Any]] = {topic: [] for topic in messages.TOPICS}
-    for file in files:
-        damage += _check_digest(folder, file)
-        for topic, message in _messages(file, definitions, damage):
-            decoded[topic].append(message)
-    if not decoded[messages.ROSTER] or not decoded[messages.WORLD]:
-        why = damage[0][1] if damage else 'the recording never started'
-        raise BagError(
-            f'{folder} holds no roster and world, so nothing can be judged: {why}',
-            hint='run the scenario again',
-        )
-    roster = _required(messages.read_roster, decoded[messages.ROSTER][-1], folder)
-    if not roster.dt_s > 0.0:
-        raise BagError(f'{folder}: the time step of the roster is {roster.dt_s} s')
-    world = _required(read_world, decoded[messages.WORLD][-1], folder)
-    if world_sha256(world) != str(decoded[messages.WORLD][-1].digest):
-        damage.append((Integrity.ALTERED, 'the world does not match its digest'))
-    agsg = decoded[messages.AGSG][-1] if decoded[messages.AGSG] else None
-    return BagContent(trace=_trace(roster, decoded, damage), world=world, agsg_message=agsg)
+    bag = read_stored(path, definitions)
+    return content_of(bag.messages, bag.damage, where=str(path))
 
 
-def _required(read: Callable[[Any], _T], message: Any, folder: Path) -> _T:
-    """Read what every judgement needs.
+def read_stored(path: Path, definitions: MessageDefinitions) -> StoredBag:
+    """Read the messages of a bag without judging them.
+
+    Args:
+        path: Folder of the bag, or its MCAP file.
+        definitions: Layouts of the messages.
 
     Raises:
-        BagError: Its content is damaged.
+        BagError: There is no bag, or it holds more than any recording.
     """
-    try:
-        return read(message)
-    except (ValueError, LookupError) as err:
-        raise BagError(
-            f'{folder}: {type(message).__name__} is damaged, so nothing can be judged: {err}',
-            hint='run the scenario again',
-        ) from err
+    files = bag_files(path)
+    damage: Damage = []
+    stored: list[StoredMessage] = []
+    for file in files:
+        reading = FileReading(file, definitions)
+        stored += reading.messages()
+        damage += reading.damage
+    return StoredBag(folder=files[0].parent, messages=tuple(stored), damage=tuple(damage))
 
 
-def _check_digest(folder: Path, file: Path) -> Damage:
-    metadata = folder / 'metadata.yaml'
-    try:
-        info = yaml.safe_load(metadata.read_text(encoding='utf-8'))['rosbag2_bagfile_information']
-        expected = info['custom_data']['aurora_file_sha256']
-    except OSError:
-        return [(Integrity.TRUNCATED, 'metadata.yaml is missing: the recording was not closed')]
-    except (yaml.YAMLError, LookupError, TypeError, ValueError):
-        return [(Integrity.ALTERED, 'metadata.yaml is damaged')]
-    if file_sha256(file) != expected:
-        return [(Integrity.ALTERED, f'{file.name} does not match the digest of its recording')]
-    return []
+class FileReading:
+    """One pass over one file.
 
+    Args:
+        file: The MCAP file; its metadata lies beside it.
+        definitions: Layouts of the messages.
 
-def _messages(
-    file: Path, definitions: MessageDefinitions, damage: Damage
-) -> Iterator[tuple[str, Any]]:
-    """Yield (topic, decoded message) as far as the file can be read, in file order."""
-    schemas: dict[int, Schema] = {}
-    channels: dict[int, Channel] = {}
-    ended = False
-    try:
-        with file.open('rb') as stream:
-            size = file.stat().st_size
-            for record in StreamReader(stream, record_size_limit=size).records:
-                if isinstance(record, Schema):
-                    schemas[record.id] = record
-                    _check_layout(record, definitions, damage)
-                elif isinstance(record, Channel):
-                    channels[record.id] = record
-                elif isinstance(record, DataEnd):
-                    ended = True
-                elif isinstance(record, Message) and record.channel_id in channels:
-                    channel = channels[record.channel_id]
-                    type_name = messages.TOPICS.get(channel.topic)
-                    if type_name is None:
-                        continue
-                    if schemas[channel.schema_id].name != type_name:
-                        damage.append(
-                            (Integrity.ALTERED, f'{channel.topic} has a foreign message type')
-                        )
-                        continue
-                    yield channel.topic, definitions.decode(type_name, record.data)
-    except OSError as err:
-        damage.append((Integrity.TRUNCATED, f'{file.name} cannot be read: {err}'))
-    except _UNREADABLE as err:
-        damage.append((Integrity.TRUNCATED, f'{file.name} breaks off: {type(err).__name__}'))
-    else:
-        if not ended:
-            damage.append((Integrity.TRUNCATED, f'{file.name} has no end'))
+    Attributes:
+        damage: What is wrong, once `messages` has come to its end.
+        defects: Those that are in the structure of the file.
+        metadata: Of the recording, None when there is none that can be read.
+    """
 
+    def __init__(self, file: Path, definitions: MessageDefinitions) -> None:
+        self._file = file
+        self._definitions = definitions
+        self._schemas: dict[int, Schema] = {}
+        # Type of the messages of a channel, '' for one that is left alone, and its topic.
+        self._channels: dict[int, tuple[str, str, bytes]] = {}
+        self._counts: dict[str, int] = {}
+        self._content = ContentDigest()
+        self._checked_ns = 0
+        self._checkpoints_fail: list[str] = []
+        self._checkpoint_seen = self._final_seen = False
+        self._ended = False
+        self._foreign: Damage = []
+        self._undecoded: list[str] = []
+        self._nameless = 0
+        self._recovery: Damage = []
+        self.damage: Damage = []
+        self.defects: list[Defect] = []
+        self.metadata: BagMetadata | None = None
 
-def _check_layout(schema: Schema, definitions: MessageDefinitions, damage: Damage) -> None:
-    if schema.name not in messages.TOPICS.values():
-        return
-    if schema.data != definitions.text(schema.name).encode('utf-8'):
-        damage.append((Integrity.UNKNOWN, f'{schema.name} was recorded with another layout'))
-
-
-def _trace(roster: Roster, decoded: dict[str, list[Any]], damage: Damage) -> Trace:
-    n, m = len(roster.agents), len(roster.uavs)
-    ground_states = _by_tick(decoded[messages.GROUND_STATE], damage)
-    uav_states = _by_tick(decoded[messages.UAV_STATE], damage)
-    last = _last_tick(ground_states, uav_states, damage)
-    ground = np.full((last + 1, n, GROUND_WIDTH), np.nan)
-    uav = np.full((last + 1, m, UAV_WIDTH), np.nan)
-    uav_commands = np.zeros((last + 1, m, UAV_COMMAND_WIDTH))
-    ground_commands: list[tuple[GroundCommand, ...]] = [()] * (last + 1)
-    for tick in [t for t in ground_states if t <= last]:
-        ground[tick] = _rows(ground_states[tick], GROUND_WIDTH, n, damage)
-    for tick in [t for t in uav_states if t <= last]:
-        uav[tick] = _rows(uav_states[tick], UAV_WIDTH, m, damage)
-    # Commands for the tick after the last one are recorded too; nothing came of them.
-    flown = _by_tick(decoded[messages.UAV_COMMAND], damage)
-    for tick in [t for t in flown if 0 < t <= last]:
-        uav_commands[tick] = _rows(flown[tick], UAV_COMMAND_WIDTH, m, damage)
-    driven = _by_tick(decoded[messages.GROUND_COMMAND], damage)
-    for tick in [t for t in driven if 0 < t <= last]:
-        for commands in _values(messages.read_ground_commands, [driven[tick]], damage):
-            ground_commands[tick] = commands
-    missing = tuple(
-        t
-        for t in range(last + 1)
-        if t not in ground_states
-        or (m > 0 and t not in uav_states)
-        or (t > 0 and t not in driven)
-        or (m > 0 and t > 0 and t not in flown)
-    )
-    if missing:
-        damage.append((Integrity.TRUNCATED, f'{len(missing)} ticks are incomplete'))
-    links = sorted(
-        _values(messages.read_link, decoded[messages.COMM], damage), key=lambda r: r.sequence
-    )
-    events = sorted(
-        _values(messages.read_event, decoded[messages.EVENTS], damage), key=lambda r: r.sequence
-    )
-    sights = sorted(
-        _values(messages.read_sight, decoded[messages.SENSING], damage),
-        key=lambda r: (r.tick, r.observer, r.target),
-    )
-    _check_sequence(links, 'message ledger', damage)
-    _check_sequence(events, 'scenario events', damage)
-    return Trace(
-        roster=roster,
-        ground=ground,
-        uav=uav,
-        uav_commands=uav_commands,
-        ground_commands=tuple(ground_commands),
-        links=tuple(links),
-        sights=tuple(sights),
-        events=tuple(events),
-        missing_ticks=missing,
-        integrity=_worst(damage),
-        integrity_note='; '.join(dict.fromkeys(note for _, note in damage)),
-    )
-
-
-def _worst(damage: Damage) -> Integrity:
-    found = {kind for kind, _ in damage}
-    for kind in (Integrity.ALTERED, Integrity.TRUNCATED, Integrity.UNKNOWN):
-        if kind in found:
-            return kind
-    return Integrity.INTACT
-
-
-def _by_tick(stored: list[Any], damage: Damage) -> dict[int, Any]:
-    by_tick = {int(x.tick): x for x in stored}
-    if len(by_tick) < len(stored):
-        kind = type(stored[0]).__name__
-        damage.append((Integrity.ALTERED, f'a tick is recorded twice ({kind})'))
-    return by_tick
-
-
-def _last_tick(ground: dict[int, Any], uav: dict[int, Any], damage: Damage) -> int:
-    """Return the last tick with states, -1 without any; tick numbers out of reach are damage."""
-    ticks = sorted({*ground, *uav})
-    reach = _TICKS_AHEAD * (len(ticks) + 1)
-    near = [t for t in ticks if t <= reach]
-    if len(near) < len(ticks):
-        damage.append((Integrity.ALTERED, f'{len(ticks) - len(near)} tick numbers are damaged'))
-    return near[-1] if near else -1
-
-
-def _values(read: Callable[[Any], _T], stored: list[Any], damage: Damage) -> Iterator[_T]:
-    """Yield the records that can be read."""
-    for message in stored:
+    def messages(self) -> Iterator[StoredMessage]:
+        """Yield what the topics of a trace carry; afterwards `damage` is complete."""
+        size = 0
         try:
-            yield read(message)
+            for record in scan(self._file):
+                if isinstance(record, Message):
+                    message = self._message(record)
+                    if message is not None:
+                        size += len(record.data)
+                        if size > _CONTENT_LIMIT:
+                            raise BagError(
+                                f'{self._file} holds more than {_CONTENT_LIMIT >> 20} MB of '
+                                'messages, which no run has',
+                                hint=RERUN,
+                            )
+                        yield message
+                elif isinstance(record, Defect):
+                    self.defects.append(record)
+                elif isinstance(record, Schema):
+                    self._schemas.setdefault(record.id, record)
+                elif isinstance(record, Channel):
+                    self._open(record)
+                elif isinstance(record, Metadata):
+                    self._note(record)
+                elif isinstance(record, DataEnd):
+                    self._ended = True
+        except OSError as err:
+            self.damage.append((Integrity.UNKNOWN, f'{self._file.name} cannot be read: {err}'))
+        self._judge()
+
+    def _open(self, channel: Channel) -> None:
+        if channel.id in self._channels:
+            return
+        topic = channel.topic
+        type_name = messages.TOPICS.get(topic, '')
+        if type_name:
+            problem = self._layout_problem(channel, type_name)
+            if problem:
+                self._foreign.append((Integrity.UNKNOWN, f'foreign schema on {topic}: {problem}'))
+                type_name = ''
+        self._channels[channel.id] = (type_name, topic, topic.encode('utf-8'))
+
+    def _layout_problem(self, channel: Channel, type_name: str) -> str:
+        if channel.message_encoding != 'cdr':
+            return f'its messages are encoded as {channel.message_encoding[:20]!r}, expected cdr'
+        schema = self._schemas.get(channel.schema_id)
+        if schema is None:
+            return 'the bag does not define it'
+        foreign = check_schema(schema, type_name, self._definitions)
+        return '' if foreign is None else foreign.text
+
+    def _message(self, record: Message) -> StoredMessage | None:
+        channel = self._channels.get(record.channel_id)
+        if channel is None:
+            self._nameless += 1
+            return None
+        type_name, topic, name = channel
+        self._content.add(name, record.log_time, record.data)
+        number = self._counts.get(topic, 0)
+        self._counts[topic] = number + 1
+        if not type_name:
+            return None
+        try:
+            value = self._definitions.decode(type_name, record.data)
+        except (SerdeError, MemoryError, OverflowError) as err:
+            self._undecoded.append(
+                f'{topic}: message {number} at {record.log_time / 1e9:.2f} s cannot be decoded '
+                f'({err})'
+            )
+            return None
+        return StoredMessage(topic=topic, cdr=record.data, value=value)
+
+    def _note(self, record: Metadata) -> None:
+        if record.name == RECOVERY:
+            kind, note = record.metadata.get('integrity', ''), record.metadata.get('note', '')
+            known = kind in (Integrity.ALTERED, Integrity.TRUNCATED)
+            self._recovery.append(
+                (
+                    Integrity(kind) if known else Integrity.UNKNOWN,
+                    f'recovered from a damaged bag: {note[:500]}',
+                )
+            )
+        elif record.name == CHECKPOINT:
+            self._checkpoint_seen = True
+            try:
+                checkpoint = read_checkpoint(record.metadata)
+            except ValueError:
+                self._checkpoints_fail.append('a checkpoint cannot be read')
+                return
+            self._final_seen |= checkpoint.final
+            if checkpoint == self._content.checkpoint(final=checkpoint.final):
+                # What failed before was the checkpoint, not what it is about.
+                if self._checkpoints_fail:
+                    self._checkpoints_fail = ['a checkpoint was changed']
+                self._checked_ns = checkpoint.time_ns
+            elif not self._checkpoints_fail:
+                self._checkpoints_fail.append(
+                    f'messages between {self._checked_ns / 1e9:.2f} s and '
+                    f'{checkpoint.time_ns / 1e9:.2f} s are not those that were recorded'
+                )
+
+    def _judge(self) -> None:
+        """Say what the state of the file is, from everything that was seen."""
+        cut = any(defect.cut for defect in self.defects)
+        damage: Damage = [*self._recovery, *self._foreign[:_NOTES]]
+        self.metadata = self._metadata(damage)
+        if self.metadata is not None:
+            damage += self._compare_with(self.metadata, cut)
+        for defect in self.defects:
+            kind = Integrity.TRUNCATED if defect.cut else Integrity.ALTERED
+            damage.append((kind, f'{self._file.name}: {_told(defect)}'))
+        if self._nameless:
+            damage.append(
+                (Integrity.ALTERED, f'{self._nameless} messages are on no topic that is named')
+            )
+        damage += [(Integrity.ALTERED, note) for note in self._undecoded[:_NOTES]]
+        if not self.defects and not self._nameless:
+            damage += [(Integrity.ALTERED, note) for note in self._checkpoints_fail]
+            if self._checkpoint_seen and self._ended and not self._final_seen:
+                damage.append((Integrity.ALTERED, 'the last checkpoint is missing'))
+        self.damage += damage
+
+    def _metadata(self, damage: Damage) -> BagMetadata | None:
+        try:
+            return read_metadata(self._file.parent)
+        except FileNotFoundError:
+            damage.append(
+                (Integrity.UNKNOWN, f'{METADATA} is missing: there is no digest to compare with')
+            )
+        except OSError as err:
+            damage.append((Integrity.UNKNOWN, f'{METADATA} cannot be read: {err}'))
         except ValueError as err:
-            damage.append((Integrity.ALTERED, f'{type(message).__name__} is damaged: {err}'))
+            damage.append((Integrity.ALTERED, f'{METADATA} is damaged: {str(err)[:200]}'))
+        return None
+
+    def _compare_with(self, metadata: BagMetadata, cut: bool) -> Damage:
+        if metadata.file_name != self._file.name:
+            return [
+                (
+                    Integrity.ALTERED,
+                    f'{METADATA} is about {metadata.file_name!r}, not {self._file.name!r}',
+                )
+            ]
+        if not metadata.sha256:
+            return [(Integrity.UNKNOWN, f'{METADATA} carries no digest: another program wrote it')]
+        if metadata.recovered_from and not self._recovery:
+            return [(Integrity.ALTERED, 'the note of its recovery was removed')]
+        if file_sha256(self._file) != metadata.sha256:
+            return self._changed(metadata, cut)
+        if metadata.content_sha256 and (
+            metadata.content_sha256 != self._content.checkpoint().sha256
+        ):
+            return [(Integrity.ALTERED, 'the messages are not those that were recorded')]
+        if metadata.content_sha256 and not self._checkpoint_seen:
+            return [(Integrity.ALTERED, 'the checkpoints of the recording are missing')]
+        return []
+
+    def _changed(self, metadata: BagMetadata, cut: bool) -> Damage:
+        size = self._file.stat().st_size
+        whole = metadata.file_bytes
+        if cut and all(defect.cut for defect in self.defects):
+            was = '' if whole is None else f' of {whole}'
+            return [(Integrity.TRUNCATED, f'{self._file.name} was cut short: {size} bytes{was}')]
+        note = f'{self._file.name} does not match the digest of its recording'
+        if self.defects or self._nameless or self._undecoded or self._checkpoints_fail:
+            return [(Integrity.ALTERED, note)]
+        # Nothing that was read shows it: look where a reader of messages need not look.
+        for record in scan(self._file, check_index=True):
+            if isinstance(record, Defect):
+                return [(Integrity.ALTERED, f'{note}: {record}')]
+        if metadata.content_sha256 == self._content.checkpoint().sha256:
+            note += '; every message is as recorded: the change is in its header or index'
+        return [(Integrity.ALTERED, note)]
 
 
-def _check_sequence(
-    records: list[LinkRecord] | list[EventRecord], name: str, damage: Damage
-) -> None:
-    """Records are numbered from 0: a gap is a lost record."""
-    if [r.sequence for r in records] != list(range(len(records))):
-        damage.append((Integrity.TRUNCATED, f'records of the {name} are missing'))
-
-
-def _rows(message: Any, width: int, count: int, damage: Damage) -> messages.FloatArray:
-    if len(message.data) != width * count:
-        damage.append((Integrity.ALTERED, f'tick {int(message.tick)} has a wrong number of rows'))
-        return np.full((count, width), np.nan)
-    return messages.read_rows(message, width)
+def _told(defect: Defect) -> str:
+    text = str(defect)
+    if defect.start_ns is not None and defect.end_ns is not None:
+        text += f', {defect.start_ns / 1e9:.2f} s to {defect.end_ns / 1e9:.2f} s'
+    if defect.messages:
+        text += f', {defect.messages} messages lost'
+    return text

@@ -1,35 +1,45 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""Write a rosbag2 bag (MCAP) that survives a kill: flushed every simulated second.
+"""Write a rosbag2 bag (MCAP) that survives a kill.
 
-A flush hands everything to the operating system, so the death of this process loses nothing of
-it; the disk is brought up to date right after it, beside the work, for the death of the machine.
-
-`mcap.writer` is used because the writer of `rosbags` keeps everything in memory until it closes.
-`metadata.yaml` is written beside it so that `ros2 bag` and `rosbags` read the bag.
+Everything goes to the kernel twice per simulated second, each time with a checkpoint of the digest
+so far: the death of this process loses nothing of that. The disk is brought up to date once per
+simulated second, beside the work, for the death of the machine. `mcap.writer` is used because the writer of `rosbags` keeps
+everything in memory until it closes. `metadata.yaml` is written beside it when the bag is closed,
+so that `ros2 bag` and `rosbags` read it; a bag without one was never closed.
 """
 
 from __future__ import annotations
 
-import hashlib
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
 
 import yaml
+from mcap.records import Schema
 from mcap.writer import CompressionType, Writer
+from rosbags.serde import SerdeError
 
 from aurora_core.errors import BagError
+from aurora_core.trace.bag_metadata import (
+    BagMetadata,
+    RecordedTopic,
+    file_sha256,
+    qos,
+    write_metadata,
+)
+from aurora_core.trace.checkpoints import CHECKPOINT, ContentDigest
 from aurora_core.trace.definitions import MessageDefinitions
 from aurora_core.trace.disk_sync import DiskSync
+from aurora_core.trace.messages import EVENTS, TOPICS
+from aurora_core.trace.records import ScenarioEventKind
 
-METADATA_VERSION = 9
-FLUSH_NS = 1_000_000_000
-
-_LATCHED = ('/aurora/agsg', '/aurora/roster', '/aurora/world', '/aurora/verdict')
+# Simulated time after which what was written leaves this process, and is on the disk.
+FLUSH_NS = 500_000_000
+SYNC_NS = 1_000_000_000
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -47,27 +57,42 @@ class BagSummary:
     sha256: str
 
 
+@dataclass(slots=True)
+class _Channel:
+    number: int
+    name: bytes
+    type_name: str
+    count: int = 0
+
+
 class BagWriter:
     """Writes one bag.
 
     Args:
         directory: Folder to create; it must not exist.
         definitions: Layouts of the messages.
+        recovered_from: Digest of the damaged file that the messages are from, '' for a recording.
 
     Raises:
         BagError: The folder exists or cannot be created.
     """
 
-    def __init__(self, directory: Path, definitions: MessageDefinitions) -> None:
+    def __init__(
+        self, directory: Path, definitions: MessageDefinitions, *, recovered_from: str = ''
+    ) -> None:
         self._directory = directory
         self._definitions = definitions
+        self._recovered_from = recovered_from
         self._file_name = f'{directory.name}_0.mcap'
-        self._channels: dict[str, tuple[int, str]] = {}
+        self._channels: dict[str, _Channel] = {}
         self._schemas: dict[str, int] = {}
-        self._counts: dict[str, int] = {}
+        self._content = ContentDigest()
+        self._checked = 0
         self._first_ns: int | None = None
         self._last_ns = 0
-        self._flushed_ns = 0
+        # The first tick after 0 is a flush: graph, roster and world are out at once.
+        self._flushed_ns = 1 - FLUSH_NS
+        self._synced_ns = 1 - SYNC_NS
         self._closed = False
         try:
             directory.mkdir(parents=True)
@@ -112,25 +137,34 @@ class BagWriter:
         Raises:
             BagError: The disk is full or the file cannot be written, or the bag is closed.
         """
-        if self._closed:
-            raise BagError(
-                f'the bag {self._directory} is closed and takes no message on {topic}',
-                hint='open a new bag',
-            )
-        channel = self._channel(topic, type_name)
-        count = self._counts[topic]
+        self._refuse_closed(f'takes no message on {topic}')
+        channel = self._channels.get(topic) or self._define(topic, type_name)
         try:
-            self._writer.add_message(channel, time_ns, cdr, time_ns, count)
+            self._writer.add_message(channel.number, time_ns, cdr, time_ns, channel.count)
         except OSError as err:
             raise self._failure(err) from err
-        self._counts[topic] = count + 1
+        channel.count += 1
+        self._content.add(channel.name, time_ns, cdr)
         if self._first_ns is None or time_ns < self._first_ns:
             self._first_ns = time_ns
         if time_ns > self._last_ns:
             self._last_ns = time_ns
         if time_ns - self._flushed_ns >= FLUSH_NS:
-            self._flushed_ns = time_ns
-            self.flush()
+            self._guard(lambda: self._bring(to_disk=time_ns - self._synced_ns >= SYNC_NS))
+        if topic == EVENTS and self._begins_phase(cdr):
+            # With the next tick: what belongs to this one is still to come.
+            self._flushed_ns = min(self._flushed_ns, time_ns + 1 - FLUSH_NS)
+            self._synced_ns = min(self._synced_ns, time_ns + 1 - SYNC_NS)
+
+    def define(self, topic: str, schema: Schema, encoding: str = 'cdr') -> None:
+        """Define a topic by a foreign schema; without it the topic gets ours.
+
+        Raises:
+            BagError: The bag is closed.
+        """
+        self._refuse_closed(f'takes no topic {topic}')
+        if topic not in self._channels:
+            self._open(topic, schema, encoding)
 
     def flush(self) -> None:
         """Hand everything written so far to the operating system, and ask the disk for it.
@@ -138,12 +172,16 @@ class BagWriter:
         Raises:
             BagError: The disk is full or broken.
         """
+        self._guard(lambda: self._bring(to_disk=True))
 
-        def bring() -> None:
-            self._writer.flush()  # type: ignore[no-untyped-call]
-            self._sync.request()
+    def note(self, name: str, values: Mapping[str, str]) -> None:
+        """Add an MCAP Metadata record.
 
-        self._guard(bring)
+        Raises:
+            BagError: The disk is full, or the bag is closed.
+        """
+        self._refuse_closed(f'takes no note {name}')
+        self._guard(lambda: self._writer.add_metadata(name, dict(values)))
 
     def close(self) -> BagSummary:
         """Finish the bag and write its metadata.
@@ -151,47 +189,94 @@ class BagWriter:
         Raises:
             BagError: The disk is full, or the bag was closed before (also by a failed write).
         """
-        if self._closed:
-            raise BagError(f'the bag {self._directory} is closed', hint='open a new bag')
+        self._refuse_closed('is not closed again')
         self._closed = True
-
-        def finish() -> str:
-            self._writer.finish()  # type: ignore[no-untyped-call]
-            self._stream.flush()
-            self._sync.close()
-            os.fsync(self._stream.fileno())
-            self._stream.close()
-            digest = file_sha256(self._directory / self._file_name)
-            temporary = self._directory / 'metadata.yaml.part'
-            with temporary.open('w', encoding='utf-8') as stream:
-                yaml.safe_dump(self._metadata(digest), stream, sort_keys=True)
-                stream.flush()
-                os.fsync(stream.fileno())
-            temporary.replace(self._directory / 'metadata.yaml')
-            return digest
-
         try:
-            digest = finish()
+            digest = self._finish()
         except OSError as err:
             raise self._failure(err) from err
-        return BagSummary(path=self._directory, counts=dict(self._counts), sha256=digest)
+        counts = {topic: channel.count for topic, channel in self._channels.items()}
+        return BagSummary(path=self._directory, counts=counts, sha256=digest)
 
-    def _channel(self, topic: str, type_name: str) -> int:
-        if topic not in self._channels:
-            if type_name not in self._schemas:
-                text = self._definitions.text(type_name).encode('utf-8')
-                self._schemas[type_name] = self._writer.register_schema(
-                    name=type_name, encoding='ros2msg', data=text
-                )
-            channel = self._writer.register_channel(
-                topic=topic,
-                message_encoding='cdr',
-                schema_id=self._schemas[type_name],
-                metadata={'offered_qos_profiles': yaml.safe_dump([_qos(topic)])},
+    def _bring(self, *, to_disk: bool) -> None:
+        self._writer.flush()  # type: ignore[no-untyped-call]
+        if self._content.messages > self._checked:
+            self._checkpoint(final=False)
+        self._stream.flush()
+        self._flushed_ns = self._last_ns
+        if to_disk:
+            self._sync.request()
+            self._synced_ns = self._last_ns
+
+    def _checkpoint(self, *, final: bool) -> None:
+        self._checked = self._content.messages
+        self._writer.add_metadata(CHECKPOINT, self._content.checkpoint(final=final).record())
+
+    def _begins_phase(self, cdr: bytes) -> bool:
+        try:
+            event = self._definitions.decode(TOPICS[EVENTS], cdr)
+        except SerdeError:
+            return False
+        return int(event.kind) == ScenarioEventKind.PHASE
+
+    def _finish(self) -> str:
+        self._writer.flush()  # type: ignore[no-untyped-call]
+        self._checkpoint(final=True)
+        self._writer.finish()  # type: ignore[no-untyped-call]
+        self._stream.flush()
+        self._sync.close()
+        os.fsync(self._stream.fileno())
+        self._stream.close()
+        path = self._directory / self._file_name
+        digest = file_sha256(path)
+        write_metadata(
+            self._directory,
+            BagMetadata(
+                file_name=self._file_name,
+                sha256=digest,
+                file_bytes=path.stat().st_size,
+                content_sha256=self._content.checkpoint().sha256,
+                recovered_from=self._recovered_from,
+                first_ns=self._first_ns or 0,
+                last_ns=self._last_ns,
+                topics={
+                    topic: RecordedTopic(
+                        type_name=channel.type_name,
+                        type_hash=self._definitions.type_hash(channel.type_name),
+                        count=channel.count,
+                    )
+                    for topic, channel in self._channels.items()
+                },
+            ),
+        )
+        return digest
+
+    def _define(self, topic: str, type_name: str) -> _Channel:
+        text = self._definitions.text(type_name).encode('utf-8')
+        return self._open(
+            topic, Schema(id=0, name=type_name, encoding='ros2msg', data=text), 'cdr'
+        )
+
+    def _open(self, topic: str, schema: Schema, encoding: str) -> _Channel:
+        if schema.name not in self._schemas:
+            self._schemas[schema.name] = self._writer.register_schema(
+                name=schema.name, encoding=schema.encoding, data=schema.data
             )
-            self._channels[topic] = (channel, type_name)
-            self._counts[topic] = 0
-        return self._channels[topic][0]
+        number = self._writer.register_channel(
+            topic=topic,
+            message_encoding=encoding,
+            schema_id=self._schemas[schema.name],
+            metadata={'offered_qos_profiles': yaml.safe_dump([qos(topic)])},
+        )
+        channel = _Channel(number, topic.encode('utf-8'), schema.name)
+        self._channels[topic] = channel
+        return channel
+
+    def _refuse_closed(self, what: str) -> None:
+        if self._closed:
+            raise BagError(
+                f'the bag {self._directory} is closed and {what}', hint='open a new bag'
+            )
 
     def _guard(self, action: Callable[[], object]) -> None:
         try:
@@ -208,67 +293,3 @@ class BagWriter:
         return BagError(
             f'cannot write the bag {self._directory}: {err}', hint='free some space on the disk'
         )
-
-    def _metadata(self, digest: str) -> dict[str, object]:
-        first = self._first_ns or 0
-        total = sum(self._counts.values())
-        start = {'nanoseconds_since_epoch': first}
-        length = {'nanoseconds': self._last_ns - first}
-        topics = [
-            {
-                'message_count': self._counts[topic],
-                'topic_metadata': {
-                    'name': topic,
-                    'type': type_name,
-                    'serialization_format': 'cdr',
-                    'offered_qos_profiles': [_qos(topic)],
-                    'type_description_hash': self._definitions.type_hash(type_name),
-                },
-            }
-            for topic, (_, type_name) in sorted(self._channels.items())
-        ]
-        return {
-            'rosbag2_bagfile_information': {
-                'version': METADATA_VERSION,
-                'storage_identifier': 'mcap',
-                'ros_distro': 'jazzy',
-                'compression_format': '',
-                'compression_mode': '',
-                'duration': length,
-                'starting_time': start,
-                'message_count': total,
-                'relative_file_paths': [self._file_name],
-                'files': [
-                    {
-                        'path': self._file_name,
-                        'starting_time': start,
-                        'duration': length,
-                        'message_count': total,
-                    }
-                ],
-                'topics_with_message_count': topics,
-                'custom_data': {'aurora_file_sha256': digest},
-            }
-        }
-
-
-def file_sha256(path: Path) -> str:
-    """Return the sha256 (hex) of a file."""
-    with path.open('rb') as stream:
-        return hashlib.file_digest(stream, 'sha256').hexdigest()
-
-
-def _qos(topic: str) -> dict[str, object]:
-    forever = {'sec': 9223372036, 'nsec': 854775807}
-    latched = topic in _LATCHED
-    return {
-        'history': 'keep_last' if latched else 'keep_all',
-        'depth': 1 if latched else 0,
-        'reliability': 'best_effort' if topic == '/clock' else 'reliable',
-        'durability': 'transient_local' if latched else 'volatile',
-        'deadline': forever,
-        'lifespan': forever,
-        'liveliness': 'automatic',
-        'liveliness_lease_duration': forever,
-        'avoid_ros_namespace_conventions': False,
-    }

@@ -50,8 +50,8 @@ class MessageDefinitions:
         return self._store.generate_msgdef(type_name, ros_version=2)[0]
 
     def type_hash(self, type_name: str) -> str:
-        """Return the RIHS01 hash of a type."""
-        return self._store.hash_rihs01(type_name)
+        """Return the RIHS01 hash of a type, '' for one that is not ours."""
+        return self._store.hash_rihs01(type_name) if type_name in self._store.types else ''
 
 
 @lru_cache(maxsize=1)

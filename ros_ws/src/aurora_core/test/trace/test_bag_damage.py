@@ -20,8 +20,9 @@ from mcap.writer import Writer
 
 from aurora_core.errors import BagError
 from aurora_core.trace import messages
+from aurora_core.trace.bag_metadata import file_sha256
 from aurora_core.trace.bag_reader import read_bag
-from aurora_core.trace.bag_writer import BagWriter, file_sha256
+from aurora_core.trace.bag_writer import BagWriter
 from aurora_core.trace.definitions import message_definitions
 from aurora_core.trace.messages import MessageBuilder, time_ns
 from aurora_core.trace.messages_world import world_message
@@ -133,10 +134,10 @@ def test_damaged_numbers_inside_messages_do_not_crash(
             _integrity(folder)
 
 
-def test_missing_metadata_means_not_closed(bag: Path) -> None:
+def test_without_metadata_nobody_can_vouch_for_a_whole_bag(bag: Path) -> None:
     (bag / 'metadata.yaml').unlink()
     content = read_bag(bag, message_definitions())
-    assert content.trace.integrity is Integrity.TRUNCATED
+    assert content.trace.integrity is Integrity.UNKNOWN
     assert 'metadata.yaml is missing' in content.trace.integrity_note
     assert content.trace.ticks == 60  # everything is still there to be judged
 
@@ -168,7 +169,7 @@ def test_changed_world_does_not_match_its_digest(
             writer.write(topic, type_name, definitions.encode(type_name, value), 0)
     found = read_bag(tmp_path / 'bag.0', definitions).trace
     assert found.integrity is Integrity.ALTERED
-    assert 'world does not match' in found.integrity_note
+    assert '/aurora/world: it does not match its digest' in found.integrity_note
 
 
 def _rewritten(
@@ -305,21 +306,28 @@ def _foreign(folder: Path, source: Path, schema_name: str | None, text: bytes | 
                 writer.add_message(ids[record.channel_id], record.log_time, record.data, 0)
         writer.finish()  # type: ignore[no-untyped-call]
     shutil.copy(source / 'metadata.yaml', folder)
-    _sign(folder)
+    path = folder / 'metadata.yaml'
+    info = yaml.safe_load(path.read_text(encoding='utf-8'))
+    info['rosbag2_bagfile_information']['custom_data'] = {'other': 'thing'}
+    path.write_text(yaml.safe_dump(info), encoding='utf-8')
 
 
 def test_a_foreign_type_on_a_known_topic(bag: Path, tmp_path: Path) -> None:
     _foreign(tmp_path / 'foreign', bag, 'std_msgs/msg/String', None)
     found = read_bag(tmp_path / 'foreign', message_definitions()).trace
-    assert found.integrity is Integrity.ALTERED
-    assert '/aurora/uav/state has a foreign message type' in found.integrity_note
+    assert found.integrity is Integrity.UNKNOWN
+    assert (
+        "foreign schema on /aurora/uav/state: its type is 'std_msgs/msg/String', "
+        'expected aurora_msgs/msg/UavState' in found.integrity_note
+    )
 
 
 def test_another_layout_of_the_same_type_cannot_be_vouched_for(bag: Path, tmp_path: Path) -> None:
     _foreign(tmp_path / 'foreign', bag, None, b'uint64 tick\nfloat64[] data')
     found = read_bag(tmp_path / 'foreign', message_definitions()).trace
     assert found.integrity is Integrity.UNKNOWN
-    assert 'another layout' in found.integrity_note
+    assert 'field 1 of aurora_msgs/msg/UavState is uint64 tick, expected' in found.integrity_note
+    assert np.isnan(found.uav).all()
 
 
 def test_foreign_topics_are_left_alone(
@@ -341,6 +349,6 @@ def test_no_bag_and_nothing_in_it(tmp_path: Path) -> None:
     with pytest.raises(BagError, match='no MCAP bag'):
         read_bag(tmp_path, message_definitions())
     BagWriter(tmp_path / 'bag.0', message_definitions()).close()
-    with pytest.raises(BagError, match='no roster and world') as caught:
+    with pytest.raises(BagError, match='holds no roster') as caught:
         read_bag(tmp_path / 'bag.0', message_definitions())
     assert caught.value.hint == 'run the scenario again'

@@ -16,8 +16,8 @@ import yaml
 from rosbags.highlevel import AnyReader
 
 from aurora_core.trace import messages
+from aurora_core.trace.bag_metadata import file_sha256
 from aurora_core.trace.bag_reader import BagContent, bag_folder, read_bag
-from aurora_core.trace.bag_writer import file_sha256
 from aurora_core.trace.definitions import message_definitions
 from aurora_core.trace.hashing import trace_sha256, world_sha256
 from aurora_core.trace.messages import time_ns

@@ -45,10 +45,10 @@ def test_after_a_kill_everything_up_to_the_last_flush_is_there(
     # The file as a kill would leave it: what the writer still holds in memory is lost.
     found = read_bag(tmp_path / 'bag.0', message_definitions()).trace
     assert found.integrity is Integrity.TRUNCATED
-    # Flushed when the command for tick 40 (t = 2 s) came, before the states of tick 40.
-    assert found.ticks == 40
-    assert np.array_equal(found.uav, trace.uav[:40])
-    assert found.ground_commands == trace.ground_commands[:40]
+    # Flushed with the first message of tick 1 (t = 0.05 s), then every half second.
+    assert found.ticks == 51
+    assert np.array_equal(found.uav, trace.uav[:51])
+    assert found.ground_commands == trace.ground_commands[:51]
     writer.flush()
     assert read_bag(tmp_path / 'bag.0', message_definitions()).trace.ticks == 55
     writer.close()
