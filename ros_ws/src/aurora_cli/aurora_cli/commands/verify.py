@@ -6,9 +6,7 @@ from __future__ import annotations
 
 from aurora_cli.bags import find_bag
 from aurora_cli.output import answer_console, print_json, quiet_stdout
-from aurora_core.conditions.condition import conditions_from_json
-from aurora_core.monitor.verify import verify
-from aurora_core.pipeline.functions import load_bag
+from aurora_core.pipeline.functions import load_bag, verify_content
 from aurora_core.report.run_folder import StageFile
 from aurora_core.report.terminal import print_verify
 from aurora_core.report.verify_report import (
@@ -31,8 +29,7 @@ def verify_command(run_or_bag: str, iteration: int | None, *, as_json: bool) -> 
     found = find_bag(run_or_bag, iteration)
     with quiet_stdout():
         content, agsg = load_bag(found.bag)
-        conditions = conditions_from_json(content.world.conditions_json)
-        verdict = verify(content.trace, content.world, conditions, agsg.spec)
+        verdict = verify_content(content, agsg)
         recorded: Comparison | None = None
         if found.run is not None and found.iteration is not None:
             name = StageFile.VERDICT.name_at(found.iteration)

@@ -9,7 +9,7 @@ that could be judged at all.
 from __future__ import annotations
 
 import struct
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
@@ -39,7 +39,7 @@ Damage = list[tuple[Integrity, str]]
 _T = TypeVar('_T')
 
 # What the MCAP and CDR decoders raise on damaged bytes; a damaged length asks for any memory.
-_UNREADABLE = (
+UNREADABLE = (
     McapError,
     SerdeError,
     zstandard.ZstdError,
@@ -70,6 +70,36 @@ class BagContent:
     agsg_message: Any
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StoredMessage:
+    """A message of a trace.
+
+    Attributes:
+        topic: One of `messages.TOPICS`.
+        cdr: Its bytes as they came off the wire.
+        value: The same, decoded.
+    """
+
+    topic: str
+    cdr: bytes
+    value: Any
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StoredBag:
+    """What a bag's files hold, as far as they can be read.
+
+    Attributes:
+        folder: Of the bag.
+        messages: In the order of the file.
+        damage: Of the files; what is wrong with the content shows in `content_of`.
+    """
+
+    folder: Path
+    messages: tuple[StoredMessage, ...]
+    damage: tuple[tuple[Integrity, str], ...]
+
+
 def bag_folder(path: Path) -> Path:
     """Return the bag folder of a path that may name the bag or a file in it.
 
@@ -92,31 +122,63 @@ def read_bag(path: Path, definitions: MessageDefinitions) -> BagContent:
     Raises:
         BagError: There is no bag, or it lacks the roster or the world.
     """
+    bag = read_stored(path, definitions)
+    return content_of(bag.messages, bag.damage, where=str(bag.folder))
+
+
+def read_stored(path: Path, definitions: MessageDefinitions) -> StoredBag:
+    """Read the messages of a bag without judging them.
+
+    Args:
+        path: Folder of the bag.
+        definitions: Layouts of the messages.
+
+    Raises:
+        BagError: There is no bag.
+    """
     folder = bag_folder(path)
-    files = sorted(folder.glob('*.mcap'))
     damage: Damage = []
-    decoded: dict[str, list[Any]] = {topic: [] for topic in messages.TOPICS}
-    for file in files:
+    stored: list[StoredMessage] = []
+    for file in sorted(folder.glob('*.mcap')):
         damage += _check_digest(folder, file)
-        for topic, message in _messages(file, definitions, damage):
-            decoded[topic].append(message)
+        stored += _messages(file, definitions, damage)
+    return StoredBag(folder=folder, messages=tuple(stored), damage=tuple(damage))
+
+
+def content_of(
+    stored: Iterable[StoredMessage], known_damage: Iterable[tuple[Integrity, str]], where: str
+) -> BagContent:
+    """Return the trace and the world that messages hold.
+
+    Args:
+        stored: Messages of one run; of one topic in the order in which they were published.
+        known_damage: What is known to be wrong with them.
+        where: Where they come from, for errors.
+
+    Raises:
+        BagError: Roster or world is missing or damaged.
+    """
+    damage: Damage = list(known_damage)
+    decoded: dict[str, list[Any]] = {topic: [] for topic in messages.TOPICS}
+    for message in stored:
+        decoded[message.topic].append(message.value)
     if not decoded[messages.ROSTER] or not decoded[messages.WORLD]:
         why = damage[0][1] if damage else 'the recording never started'
         raise BagError(
-            f'{folder} holds no roster and world, so nothing can be judged: {why}',
+            f'{where} holds no roster and world, so nothing can be judged: {why}',
             hint='run the scenario again',
         )
-    roster = _required(messages.read_roster, decoded[messages.ROSTER][-1], folder)
+    roster = _required(messages.read_roster, decoded[messages.ROSTER][-1], where)
     if not roster.dt_s > 0.0:
-        raise BagError(f'{folder}: the time step of the roster is {roster.dt_s} s')
-    world = _required(read_world, decoded[messages.WORLD][-1], folder)
+        raise BagError(f'{where}: the time step of the roster is {roster.dt_s} s')
+    world = _required(read_world, decoded[messages.WORLD][-1], where)
     if world_sha256(world) != str(decoded[messages.WORLD][-1].digest):
         damage.append((Integrity.ALTERED, 'the world does not match its digest'))
     agsg = decoded[messages.AGSG][-1] if decoded[messages.AGSG] else None
     return BagContent(trace=_trace(roster, decoded, damage), world=world, agsg_message=agsg)
 
 
-def _required(read: Callable[[Any], _T], message: Any, folder: Path) -> _T:
+def _required(read: Callable[[Any], _T], message: Any, where: str) -> _T:
     """Read what every judgement needs.
 
     Raises:
@@ -126,7 +188,7 @@ def _required(read: Callable[[Any], _T], message: Any, folder: Path) -> _T:
         return read(message)
     except (ValueError, LookupError) as err:
         raise BagError(
-            f'{folder}: {type(message).__name__} is damaged, so nothing can be judged: {err}',
+            f'{where}: {type(message).__name__} is damaged, so nothing can be judged: {err}',
             hint='run the scenario again',
         ) from err
 
@@ -147,8 +209,8 @@ def _check_digest(folder: Path, file: Path) -> Damage:
 
 def _messages(
     file: Path, definitions: MessageDefinitions, damage: Damage
-) -> Iterator[tuple[str, Any]]:
-    """Yield (topic, decoded message) as far as the file can be read, in file order."""
+) -> Iterator[StoredMessage]:
+    """Yield the messages as far as the file can be read, in file order."""
     schemas: dict[int, Schema] = {}
     channels: dict[int, Channel] = {}
     ended = False
@@ -173,10 +235,14 @@ def _messages(
                             (Integrity.ALTERED, f'{channel.topic} has a foreign message type')
                         )
                         continue
-                    yield channel.topic, definitions.decode(type_name, record.data)
+                    yield StoredMessage(
+                        topic=channel.topic,
+                        cdr=record.data,
+                        value=definitions.decode(type_name, record.data),
+                    )
     except OSError as err:
         damage.append((Integrity.TRUNCATED, f'{file.name} cannot be read: {err}'))
-    except _UNREADABLE as err:
+    except UNREADABLE as err:
         damage.append((Integrity.TRUNCATED, f'{file.name} breaks off: {type(err).__name__}'))
     else:
         if not ended:
