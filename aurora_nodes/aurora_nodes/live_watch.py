@@ -16,29 +16,15 @@ from dataclasses import dataclass
 from rclpy.clock import Clock
 from rclpy.clock_type import ClockType
 
-from aurora_core.errors import ConfigError
 from aurora_core.trace.trace import Integrity
 from aurora_msgs.msg import Ack, RunEnd, SyncStatus
-from aurora_nodes.live_run import WATCHED, LiveRun, RunTotals
+from aurora_nodes.live_run import LiveRun, RunTotals
 from aurora_ros import interfaces as on
 from aurora_ros import qos
 from aurora_ros.interfaces import Topic
 from aurora_ros.node import AuroraNode
 from aurora_ros.parameters import require_positive
 from aurora_ros.polling import PolledGroup, drain
-
-_TOPICS = (
-    on.AGSG,
-    on.ROSTER,
-    on.WORLD,
-    on.GROUND_STATE,
-    on.UAV_STATE,
-    on.GROUND_COMMAND,
-    on.UAV_COMMAND,
-    on.COMM,
-    on.SENSING,
-    on.EVENTS,
-)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -84,10 +70,8 @@ class LiveWatch:
         group = PolledGroup()
         self._taps = {
             topic.full_name: node.subscription(topic, _ignore, raw=True, group=group)
-            for topic in _TOPICS
+            for topic in on.JUDGED
         }
-        if self._taps.keys() != WATCHED.keys():
-            raise ConfigError('the monitor must hear every topic that is judged', component='monitor')
         self._statuses = node.subscription(_history(on.SYNC_STATUS), self._on_status)
         self._ends = node.subscription(_history(on.RUN_END), self._on_run_end)
         self._ack_publisher = node.publisher(on.ACK)

@@ -67,9 +67,7 @@ class MonitorNode(AuroraNode):
         """Judge a run that has ended."""
         where = f'run {totals.run_id} as it was heard'
         try:
-            judgement = self._beside(
-                lambda: judge(run.content(totals, self._definitions), where)
-            )
+            judgement = self._beside(lambda: judge(run.content(totals, self._definitions), where))
         except AuroraError as err:
             self._not_judged(totals, err)
         except Exception as err:  # noqa: BLE001 - a defect: logged, and told with the bag's verdict

@@ -234,7 +234,12 @@ class RunDriver:
             raise run.error
 
     def _check_alive(self, run: ActiveRun, silent_s: float) -> None:
-        names = ['sumo_bridge', 'sync', *self._observers, *(['uav_bridge'] if run.has_uavs else [])]
+        names = [
+            'sumo_bridge',
+            'sync',
+            *self._observers,
+            *(['uav_bridge'] if run.has_uavs else []),
+        ]
         dead = [name for name in names if self._watch.is_dead(name)]
         if dead:
             raise ExecutionError(f'{dead[0]} died at tick {run.last_tick + 1}', component=dead[0])

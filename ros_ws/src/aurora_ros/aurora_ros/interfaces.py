@@ -69,6 +69,20 @@ EVENTS = Topic(name='events', type=msg.ScenarioEvent, qos=qos.STREAM)
 MARGINS = Topic(name='margins', type=msg.Margins, qos=qos.LATCHED)
 VERDICT = Topic(name='verdict', type=msg.Verdict, qos=qos.LATCHED)
 
+# What a run is judged on: every one is in its bag, and heard by the live monitor.
+JUDGED = (
+    AGSG,
+    ROSTER,
+    WORLD,
+    GROUND_STATE,
+    UAV_STATE,
+    GROUND_COMMAND,
+    UAV_COMMAND,
+    COMM,
+    SENSING,
+    EVENTS,
+)
+
 RUN_PROMPT = Call(name='run_prompt', type=srv.RunPrompt, server='orchestrator')
 GET_RUN = Call(name='get_run', type=srv.GetRun, server='orchestrator')
 LIST_RUNS = Call(name='list_runs', type=srv.ListRuns, server='orchestrator')
