@@ -16,7 +16,7 @@ setup(
     zip_safe=False,
     maintainer='The AURORA authors',
     maintainer_email='aurora@example.com',
-    description='Orchestrator, parser, grounding, executor, monitor and recorder nodes',
+    description='Orchestrator, parser, grounding, executor, monitor, recorder and replay nodes',
     license='Apache-2.0',
     entry_points={
         'console_scripts': [
@@ -26,6 +26,7 @@ setup(
             'executor = aurora_nodes.executor:main',
             'monitor = aurora_nodes.monitor:main',
             'recorder = aurora_nodes.recorder:main',
+            'replay = aurora_nodes.replay:main',
         ]
     },
 )

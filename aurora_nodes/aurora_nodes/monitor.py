@@ -1,49 +1,132 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""The `monitor` node: service `/aurora/verify`."""
+"""The `monitor` node: judges a run as it was heard live, and its bag in `/aurora/verify`.
+
+The bag decides. What was heard live must give the same margins to the last bit; if it does not,
+something was lost or altered on one of the two ways, and nothing is claimed.
+"""
 
 from __future__ import annotations
 
+import threading
+import traceback
+from collections.abc import Callable
 from pathlib import Path
+from typing import TypeVar
 
-from aurora_core.errors import VerificationError
-from aurora_core.pipeline.functions import load_bag, verify_stage
-from aurora_core.trace.hashing import trace_sha256
+from aurora_core.errors import AuroraError, VerificationError
+from aurora_core.monitor.verdict import Verdict
+from aurora_core.trace.bag_reader import read_bag
+from aurora_core.trace.definitions import message_definitions
+from aurora_msgs.msg import Verdict as VerdictMessage
 from aurora_msgs.srv import VerifyTrace
+from aurora_nodes.judgement import Judgement, LiveOutcome, judge, reconcile
+from aurora_nodes.live_run import LiveRun, RunTotals
+from aurora_nodes.live_watch import LiveSettings, LiveWatch
 from aurora_ros import interfaces as on
-from aurora_ros.conversions.verdict import verdict_message
+from aurora_ros.conversions.verdict import margins_message, verdict_message
 from aurora_ros.main import run_node
-from aurora_ros.node import AuroraNode
+from aurora_ros.node import AuroraNode, defect
+from aurora_ros.parameters import declare
+
+_T = TypeVar('_T')
 
 
 class MonitorNode(AuroraNode):
-    """Bag in, verdict out."""
+    """Live run or bag in, verdict out."""
 
     def __init__(self) -> None:
         super().__init__('monitor')
-        self._publisher = self.publisher(on.VERDICT)
+        self._settings = declare(self, 'monitor', LiveSettings)
+        self._definitions = message_definitions()
+        self._verdicts = self.publisher(on.VERDICT)
+        self._margins = self.publisher(on.MARGINS)
+        self._heard: LiveOutcome | None = None
+        self._watch: LiveWatch | None = None
+        if self._settings.live:
+            self._watch = LiveWatch(self, self._settings, self._on_end)
         self.serve(on.VERIFY, self._verify)
 
     def _verify(
         self, request: VerifyTrace.Request, response: VerifyTrace.Response
     ) -> VerifyTrace.Response:
-        bag = Path(request.bag_uri)
-        content, graph = load_bag(bag)
-        asked = request.agsg.sha256
-        if asked and asked != graph.sha256:
+        bag, asked = Path(request.bag_uri), request.agsg.sha256
+        judgement = self._beside(lambda: judge(read_bag(bag, self._definitions), str(bag)))
+        if asked and asked != judgement.graph_sha256:
             raise VerificationError(
-                f'expected the bag of graph {asked[:12]}, found graph {graph.sha256[:12]}',
+                f'expected the bag of graph {asked[:12]}, found graph '
+                f'{judgement.graph_sha256[:12]}',
                 hint='name the bag of this run and iteration',
             )
-        response.verdict = verdict_message(
-            verify_stage(bag),
-            run_id=str(content.agsg_message.run_id),
-            iteration=graph.iteration,
-            end_s=content.trace.time_s(max(0, content.trace.ticks - 1)),
-            trace_sha256=trace_sha256(content.trace, content.world),
-        )
-        self._publisher.publish(response.verdict)
+        verdict = reconcile(judgement, self._heard)
+        response.verdict = _message(judgement, verdict, VerdictMessage.BAG)
+        self._verdicts.publish(response.verdict)
         return response
+
+    def _on_end(self, run: LiveRun, totals: RunTotals) -> None:
+        """Judge a run that has ended."""
+        where = f'run {totals.run_id} as it was heard'
+        try:
+            judgement = self._beside(lambda: judge(run.content(totals, self._definitions), where))
+        except AuroraError as err:
+            self._not_judged(totals, err)
+        except Exception as err:  # noqa: BLE001 - a defect: logged, and told with the bag's verdict
+            self.get_logger().error(traceback.format_exc())
+            self._not_judged(totals, defect(err, self.get_name()))
+        else:
+            self._heard = LiveOutcome(
+                run_id=totals.run_id, iteration=totals.iteration, judgement=judgement
+            )
+            self._publish(judgement, totals.run_number)
+
+    def _not_judged(self, totals: RunTotals, err: AuroraError) -> None:
+        self.get_logger().error(f'run {totals.run_id} cannot be judged as it was heard: {err}')
+        self._heard = LiveOutcome(
+            run_id=totals.run_id, iteration=totals.iteration, problem=str(err)
+        )
+
+    def _publish(self, judgement: Judgement, run_number: int) -> None:
+        self._margins.publish(
+            margins_message(
+                judgement.verdict,
+                run_number=run_number,
+                tick=judgement.last_tick,
+                end_s=judgement.end_s,
+            )
+        )
+        self._verdicts.publish(_message(judgement, judgement.verdict, VerdictMessage.LIVE))
+
+    def _beside(self, work: Callable[[], _T]) -> _T:
+        """Do long work in a thread, hearing and acknowledging a run meanwhile."""
+        results: list[_T] = []
+        errors: list[Exception] = []
+
+        def run() -> None:
+            try:
+                results.append(work())
+            except Exception as err:  # noqa: BLE001 - raised again in the node's thread
+                errors.append(err)
+
+        thread = threading.Thread(target=run, name='judge', daemon=True)
+        thread.start()
+        while thread.is_alive():
+            thread.join(self._settings.poll_period_s)
+            if self._watch is not None:
+                self._watch.look()
+        if errors:
+            raise errors[0]
+        return results[0]
+
+
+def _message(judgement: Judgement, verdict: Verdict, source: int) -> VerdictMessage:
+    return verdict_message(
+        verdict,
+        run_id=judgement.run_id,
+        iteration=judgement.iteration,
+        end_s=judgement.end_s,
+        trace_sha256=judgement.trace_sha256,
+        source=source,
+    )
 
 
 def main() -> int:

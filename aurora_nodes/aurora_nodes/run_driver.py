@@ -13,6 +13,7 @@ from typing import Any
 from aurora_core.agsg.graph import Agsg
 from aurora_core.errors import AuroraError, ExecutionError
 from aurora_core.execution.plan import Execution
+from aurora_msgs.msg import RunEnd
 from aurora_msgs.srv import LoadSync, StartRecording, StartSync, StopRecording, StopSync
 from aurora_nodes.tick_path import ActiveRun, TickPath
 from aurora_ros import interfaces as on
@@ -34,7 +35,6 @@ CALLS = (
     on.RECORDER_STOP,
 )
 _LOOK_S = 0.05
-_STATE_LISTENERS = 2  # this node and the recorder
 _LATCHED = (on.AGSG, on.ROSTER, on.WORLD)
 _RECORDED = (*_LATCHED, on.GROUND_STATE, on.GROUND_COMMAND, on.COMM, on.SENSING, on.EVENTS)
 _RECORDED_WITH_UAVS = (*_RECORDED, on.UAV_STATE, on.UAV_COMMAND)
@@ -50,6 +50,7 @@ class ExecutorSettings:
     stop_limit_s: float
     silence_limit_s: float
     feedback_period_s: float
+    live_monitor: bool
 
     def __post_init__(self) -> None:
         require_positive(self, 'call_limit_s', 'load_limit_s', 'stop_limit_s')
@@ -104,7 +105,8 @@ class RunDriver:
         self._settings = settings
         self._caller = Caller(node, watch)
         self._caller.prepare(*CALLS)
-        self._publishers = {topic: node.publisher(topic) for topic in _LATCHED}
+        self._publishers = {topic: node.publisher(topic) for topic in (*_LATCHED, on.RUN_END)}
+        self._observers = ['recorder', *(['monitor'] if settings.live_monitor else [])]
 
     def run(
         self, order: Order, *, on_tick: Callable[[int], None], cancelled: Callable[[], bool]
@@ -141,6 +143,7 @@ class RunDriver:
         finally:
             self._path.disarm()
             self._node.heartbeat.idle()
+        self._publish_end(order, run)
         self._stop_clock(run)
         bag = self._stop_recording(run, complete=True)
         return Done(bag=bag, ticks=run.last_tick + 1, outcome=run.outcome or 'horizon')
@@ -156,23 +159,24 @@ class RunDriver:
         self._call(
             on.SYNC_LOAD,
             LoadSync.Request(
-                **common, dt_s=run.dt_s, participants=participants, observers=['recorder']
+                **common, dt_s=run.dt_s, participants=participants, observers=self._observers
             ),
         )
         limit_s = self._settings.load_limit_s
+        listeners = 1 + len(self._observers)  # of a state: this node too
         self._call(
             on.GROUND_LOAD,
-            ground_request(execution.ground_load, listeners=_STATE_LISTENERS, **common),
+            ground_request(execution.ground_load, listeners=listeners, **common),
             limit_s,
         )
         if run.has_uavs:
             self._call(
                 on.UAV_LOAD,
-                uav_request(execution.air_load, listeners=_STATE_LISTENERS, **common),
+                uav_request(execution.air_load, listeners=listeners, **common),
                 limit_s,
             )
         await_subscribers(
-            self._path.listeners(run.has_uavs),
+            self._path.listeners(run.has_uavs, observers=len(self._observers)),
             limit_s=self._settings.call_limit_s,
             component=self._node.get_name(),
         )
@@ -199,6 +203,20 @@ class RunDriver:
             self._publishers[topic].publish(message)
             run.sent[topic.full_name] += 1
 
+    def _publish_end(self, order: Order, run: ActiveRun) -> None:
+        """Tell the observers how much of what was sent."""
+        sent = _sent(run)
+        self._publishers[on.RUN_END].publish(
+            RunEnd(
+                run_number=run.run_number,
+                run_id=order.run_id,
+                iteration=order.agsg.iteration,
+                last_tick=max(0, run.last_tick),
+                topics=list(sent),
+                counts=list(sent.values()),
+            )
+        )
+
     def _await_end(self, run: ActiveRun, cancelled: Callable[[], bool]) -> None:
         """Wait until sync ends the run; a cancelled one ends with its next tick.
 
@@ -216,7 +234,12 @@ class RunDriver:
             raise run.error
 
     def _check_alive(self, run: ActiveRun, silent_s: float) -> None:
-        names = ['sumo_bridge', 'sync', 'recorder', *(['uav_bridge'] if run.has_uavs else [])]
+        names = [
+            'sumo_bridge',
+            'sync',
+            *self._observers,
+            *(['uav_bridge'] if run.has_uavs else []),
+        ]
         dead = [name for name in names if self._watch.is_dead(name)]
         if dead:
             raise ExecutionError(f'{dead[0]} died at tick {run.last_tick + 1}', component=dead[0])
@@ -228,12 +251,7 @@ class RunDriver:
 
     def _stop_recording(self, run: ActiveRun, *, complete: bool) -> Path:
         """Close the bag, after everything that was sent is in it if it is to be complete."""
-        expected = dict(run.sent)
-        expected[on.GROUND_STATE.full_name] = run.last_tick + 1
-        if run.has_uavs:
-            expected[on.UAV_STATE.full_name] = run.last_tick + 1
-        if not complete:
-            expected.clear()
+        expected = _sent(run) if complete else {}
         request = StopRecording.Request(
             run_number=run.run_number,
             last_tick=max(0, run.last_tick),
@@ -265,3 +283,12 @@ class RunDriver:
 
     def _call(self, call: on.Call, request: object, limit_s: float | None = None) -> Any:
         return self._caller.service(call, request, limit_s or self._settings.call_limit_s)
+
+
+def _sent(run: ActiveRun) -> dict[str, int]:
+    """Return how many messages of each topic a complete run has."""
+    counts = dict(run.sent)
+    counts[on.GROUND_STATE.full_name] = run.last_tick + 1
+    if run.has_uavs:
+        counts[on.UAV_STATE.full_name] = run.last_tick + 1
+    return counts

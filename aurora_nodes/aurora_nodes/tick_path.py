@@ -84,12 +84,18 @@ class TickPath:
         node.subscription(on.UAV_STATE, self._on_uav)
         node.subscription(on.SYNC_STATUS, self._on_sync_status)
 
-    def listeners(self, with_uavs: bool) -> dict[Publisher, int]:
-        """Return the publishers and how many must listen to each before tick 0."""
-        # Commands: bridge and recorder; records: recorder; done: sync.
-        counts = {on.GROUND_COMMAND: 2, on.COMM: 1, on.SENSING: 1, on.EVENTS: 1, on.TICK_DONE: 1}
+    def listeners(self, with_uavs: bool, *, observers: int) -> dict[Publisher, int]:
+        """Return the publishers and how many must listen to each before tick 0.
+
+        Args:
+            with_uavs: Whether there are any.
+            observers: How many hear all of the run.
+        """
+        # Commands: bridge and observers; records: observers; done: sync.
+        counts = dict.fromkeys((on.COMM, on.SENSING, on.EVENTS), observers)
+        counts |= {on.GROUND_COMMAND: 1 + observers, on.TICK_DONE: 1}
         if with_uavs:
-            counts[on.UAV_COMMAND] = 2
+            counts[on.UAV_COMMAND] = 1 + observers
         return {self._publishers[topic]: count for topic, count in counts.items()}
 
     def arm(self, run: ActiveRun) -> None:

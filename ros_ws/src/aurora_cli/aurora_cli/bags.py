@@ -1,14 +1,11 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""Find the bag that RUN_OR_BAG names."""
+"""Find the bag that RUN_OR_BAG names; a name without a bag is the user's mistake."""
 
 from __future__ import annotations
 
-import re
-from dataclasses import dataclass
-from pathlib import Path
-
 from aurora_cli.output import UsageProblem
+<<<<<<< HEAD
 from aurora_core.trace.bag_metadata import METADATA
 
 _BAG = re.compile(r'bag\.(\d+)')
@@ -28,6 +25,11 @@ class FoundBag:
     bag: Path
     run: Path | None
     iteration: int | None
+=======
+from aurora_core.errors import BagError
+from aurora_core.report import find_bag as core
+from aurora_core.report.find_bag import FoundBag
+>>>>>>> h-replay
 
 
 def find_bag(text: str, iteration: int | None) -> FoundBag:
@@ -40,6 +42,7 @@ def find_bag(text: str, iteration: int | None) -> FoundBag:
     Raises:
         UsageProblem: There is no such thing.
     """
+<<<<<<< HEAD
     path = Path(text)
     if not path.exists() and (_DEFAULT_ROOT / text).is_dir():
         path = _DEFAULT_ROOT / text
@@ -73,3 +76,9 @@ def _in_run(path: Path, iteration: int | None) -> FoundBag:
         shown = ', '.join(str(number) for number in numbers)
         raise UsageProblem(f'{path} has no iteration {wanted}; it has {shown}')
     return FoundBag(bag=path / f'bag.{wanted}', run=path, iteration=wanted)
+=======
+    try:
+        return core.find_bag(text, iteration)
+    except BagError as err:
+        raise UsageProblem(err.message) from err
+>>>>>>> h-replay

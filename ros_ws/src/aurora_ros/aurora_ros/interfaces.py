@@ -58,6 +58,7 @@ HEARTBEAT = Topic(name='heartbeat', type=msg.Heartbeat, qos=qos.HEARTBEAT)
 AGSG = Topic(name='agsg', type=msg.Agsg, qos=qos.LATCHED)
 ROSTER = Topic(name='roster', type=msg.Roster, qos=qos.LATCHED)
 WORLD = Topic(name='world', type=msg.World, qos=qos.LATCHED)
+RUN_END = Topic(name='run_end', type=msg.RunEnd, qos=qos.LATCHED)
 GROUND_STATE = Topic(name='ground/state', type=msg.GroundState, qos=qos.STREAM)
 UAV_STATE = Topic(name='uav/state', type=msg.UavState, qos=qos.STREAM)
 GROUND_COMMAND = Topic(name='ground/command', type=msg.GroundCommand, qos=qos.STREAM)
@@ -65,7 +66,22 @@ UAV_COMMAND = Topic(name='uav/command', type=msg.UavCommand, qos=qos.STREAM)
 COMM = Topic(name='comm', type=msg.LinkEvent, qos=qos.STREAM)
 SENSING = Topic(name='sensing', type=msg.Visibility, qos=qos.STREAM)
 EVENTS = Topic(name='events', type=msg.ScenarioEvent, qos=qos.STREAM)
+MARGINS = Topic(name='margins', type=msg.Margins, qos=qos.LATCHED)
 VERDICT = Topic(name='verdict', type=msg.Verdict, qos=qos.LATCHED)
+
+# What a run is judged on: every one is in its bag, and heard by the live monitor.
+JUDGED = (
+    AGSG,
+    ROSTER,
+    WORLD,
+    GROUND_STATE,
+    UAV_STATE,
+    GROUND_COMMAND,
+    UAV_COMMAND,
+    COMM,
+    SENSING,
+    EVENTS,
+)
 
 RUN_PROMPT = Call(name='run_prompt', type=srv.RunPrompt, server='orchestrator')
 GET_RUN = Call(name='get_run', type=srv.GetRun, server='orchestrator')

@@ -30,6 +30,14 @@ LATCHED = QoSProfile(
     durability=DurabilityPolicy.TRANSIENT_LOCAL,
 )
 
+# The same topics for a reader that must see each value in turn, not only the last.
+LATCHED_HISTORY = QoSProfile(
+    history=HistoryPolicy.KEEP_LAST,
+    depth=100,
+    reliability=ReliabilityPolicy.RELIABLE,
+    durability=DurabilityPolicy.TRANSIENT_LOCAL,
+)
+
 # /clock: only the newest counts.
 CLOCK = QoSProfile(
     history=HistoryPolicy.KEEP_LAST,

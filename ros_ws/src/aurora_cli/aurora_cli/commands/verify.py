@@ -4,11 +4,11 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from aurora_cli.bags import find_bag
 from aurora_cli.output import answer_console, print_json, quiet_stdout
-from aurora_core.conditions.condition import conditions_from_json
-from aurora_core.monitor.verify import verify
-from aurora_core.pipeline.functions import load_bag
+from aurora_core.pipeline.functions import load_bag, verify_content
 from aurora_core.report.recorded_trace import believed, recorded_trace
 from aurora_core.report.run_folder import StageFile
 from aurora_core.report.terminal import print_verify
@@ -36,8 +36,7 @@ def verify_command(run_or_bag: str, iteration: int | None, *, as_json: bool) -> 
         sha256 = trace_sha256(trace, content.world)
         if found.run is not None:
             trace = believed(trace, sha256, recorded_trace(found.run, found.bag.name))
-        conditions = conditions_from_json(content.world.conditions_json)
-        verdict = verify(trace, content.world, conditions, agsg.spec)
+        verdict = verify_content(replace(content, trace=trace), agsg)
         recorded: Comparison | None = None
         if found.run is not None and found.iteration is not None:
             name = StageFile.VERDICT.name_at(found.iteration)

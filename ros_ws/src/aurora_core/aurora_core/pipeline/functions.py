@@ -146,15 +146,29 @@ def load_bag(bag: Path) -> tuple[BagContent, Agsg]:
         VerificationError: The bag holds no graph.
     """
     content = read_bag(bag, message_definitions())
+    return content, graph_of(content, str(bag))
+
+
+def graph_of(content: BagContent, where: str) -> Agsg:
+    """Return the graph that a run was recorded with.
+
+    Raises:
+        VerificationError: There is none.
+    """
     if content.agsg_message is None:
         raise VerificationError(
-            f'{bag} holds no scenario graph', hint='record /aurora/agsg with the run'
+            f'{where} holds no scenario graph', hint='record /aurora/agsg with the run'
         )
-    return content, read_agsg(content.agsg_message, derived)
+    return read_agsg(content.agsg_message, derived)
 
 
 def verify_stage(bag: Path) -> Verdict:
     """Recompute every margin from a bag alone."""
     content, agsg = load_bag(bag)
+    return verify_content(content, agsg)
+
+
+def verify_content(content: BagContent, agsg: Agsg) -> Verdict:
+    """Compute every margin of a run, wherever its messages come from."""
     conditions = conditions_from_json(content.world.conditions_json)
     return verify(content.trace, content.world, conditions, agsg.spec)

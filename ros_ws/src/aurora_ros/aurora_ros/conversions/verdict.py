@@ -1,19 +1,25 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""The monitor's verdict to its message; `verdict_json` is the truth."""
+"""The monitor's verdict to its messages; `verdict_json` is the truth."""
 
 from __future__ import annotations
 
 import math
 
 from aurora_core.monitor.verdict import ConditionResult, Verdict
-from aurora_msgs.msg import ConditionMargin
+from aurora_msgs.msg import ConditionMargin, Margins
 from aurora_msgs.msg import Verdict as VerdictMessage
 from aurora_ros.conversions.time import header
 
 
 def verdict_message(
-    verdict: Verdict, *, run_id: str, iteration: int, end_s: float, trace_sha256: str
+    verdict: Verdict,
+    *,
+    run_id: str,
+    iteration: int,
+    end_s: float,
+    trace_sha256: str,
+    source: int = VerdictMessage.BAG,
 ) -> VerdictMessage:
     """Return the message of a verdict.
 
@@ -23,6 +29,7 @@ def verdict_message(
         iteration: Repair iteration.
         end_s: Simulated time of the last tick.
         trace_sha256: Trace hash (hex).
+        source: What was judged, the bag or what was published live.
     """
     return VerdictMessage(
         header=header(1, end_s),
@@ -33,6 +40,24 @@ def verdict_message(
         integrity=verdict.integrity.value,
         trace_sha256=trace_sha256,
         verdict_json=verdict.canonical_json(),
+        source=source,
+    )
+
+
+def margins_message(verdict: Verdict, *, run_number: int, tick: int, end_s: float) -> Margins:
+    """Return the margins of a verdict by themselves.
+
+    Args:
+        verdict: What the trace shows.
+        run_number: Of the run.
+        tick: Last tick that was judged.
+        end_s: Simulated time of that tick.
+    """
+    return Margins(
+        header=header(1, end_s),
+        run_number=run_number,
+        tick=tick,
+        conditions=[_margin(result) for result in verdict.results],
     )
 
 

@@ -1,0 +1,208 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""`ros2 run aurora_nodes replay BAG`: publish a recorded run again, under its own clock.
+
+A monitor that listens judges it as if it happened now; its margins must be those of the bag to the
+last bit.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import math
+import signal
+import sys
+import threading
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from types import FrameType
+from typing import NoReturn
+
+import rclpy
+from pydantic import ValidationError
+from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.signals import SignalHandlerOptions
+from rclpy.utilities import remove_ros_args, try_shutdown
+from rich.console import Console
+
+from aurora_core.errors import AuroraError, BagError, VerificationError
+from aurora_core.monitor.verdict import Verdict
+from aurora_core.report.find_bag import find_bag
+from aurora_core.report.status import ExitCode
+from aurora_core.report.terminal import print_verify
+from aurora_core.report.verify_report import (
+    Comparison,
+    Difference,
+    VerifyReport,
+    compare,
+    verify_exit_code,
+)
+from aurora_core.trace.bag_reader import content_of, read_stored
+from aurora_core.trace.definitions import message_definitions
+from aurora_msgs.msg import Verdict as VerdictMessage
+from aurora_nodes.judgement import Judgement, judge
+from aurora_nodes.replay_node import ReplayNode
+from aurora_nodes.replay_plan import ReplayPlan, plan_replay
+
+_HEARD_LIVE = 'live monitor'
+_JOIN_LIMIT_S = 2.0
+
+
+class _Parser(argparse.ArgumentParser):
+    """Ends with the exit code that all commands of AURORA have for a usage error."""
+
+    def error(self, message: str) -> NoReturn:
+        self.print_usage(sys.stderr)
+        self.exit(int(ExitCode.USAGE), f'{self.prog}: {message}\n')
+
+
+def main() -> int:
+    """Replay the bag that the command line names and return the exit code."""
+    options = _options(remove_ros_args(sys.argv)[1:])
+    signal.signal(signal.SIGTERM, _interrupt)
+    try:
+        return int(_replay(options))
+    except AuroraError as err:
+        _say(f'{err.component}: {err.message}')
+        if err.hint:
+            _say(f'        {err.hint}')
+        return int(ExitCode.BROKEN)
+    except KeyboardInterrupt:
+        _say('interrupted')
+        return int(ExitCode.CANCELLED)
+
+
+def _options(arguments: Sequence[str]) -> argparse.Namespace:
+    parser = _Parser(prog='replay', description='Publish a recorded run under its own clock.')
+    parser.add_argument('bag', metavar='BAG', help='run folder, run id, bag folder or .mcap file')
+    parser.add_argument('--iteration', type=int, help='of a run folder; the last one by default')
+    parser.add_argument(
+        '--rate', type=float, help='times real time (default: as fast as the monitor follows)'
+    )
+    parser.add_argument(
+        '--no-monitor',
+        action='store_true',
+        help='only publish, in real time unless --rate says otherwise',
+    )
+    parser.add_argument('--json', action='store_true', help='one JSON document on standard output')
+    options = parser.parse_args(arguments)
+    if options.rate is not None and not 0.0 < options.rate < math.inf:
+        parser.error(f'--rate must be above 0, found {options.rate}')
+    if options.rate is None and options.no_monitor:
+        options.rate = 1.0
+    try:
+        options.bag = find_bag(options.bag, options.iteration).bag
+    except BagError as err:
+        parser.error(err.message)
+    return options
+
+
+def _replay(options: argparse.Namespace) -> ExitCode:
+    """Read, publish, compare.
+
+    Raises:
+        AuroraError: The bag holds nothing to replay, or the replay could not be brought to an end.
+    """
+    bag = read_stored(options.bag, message_definitions())
+    content = content_of(bag.messages, bag.damage, where=str(bag.folder))
+    plan = plan_replay(bag, content)
+    # Beforehand: nothing is published of a bag with which no verdict could be compared.
+    judged = None if options.no_monitor else judge(content, str(bag.folder))
+    for _, note in plan.damage:
+        _say(f'the recording is damaged and is replayed as far as it goes: {note}')
+    with _spinning(plan) as node:
+        node.await_quiet()
+        if judged is not None:
+            node.await_monitor()
+        began_s = time.monotonic()
+        node.play(rate=options.rate, paced=judged is not None)
+        took_s = time.monotonic() - began_s
+        heard = None if judged is None else node.await_verdict()
+    _say(
+        f'replayed run {plan.run_id}: {plan.last_tick + 1} ticks, '
+        f'{plan.last_tick * plan.dt_s:.2f} s of simulated time in {took_s:.2f} s'
+    )
+    if judged is None or heard is None:
+        return ExitCode.BROKEN if plan.damage else ExitCode.OK
+    report = _report(str(bag.folder), content.trace.ticks, judged, heard)
+    if options.json:
+        text = json.dumps(report.model_dump(mode='json'), indent=2, ensure_ascii=False)
+        sys.stdout.write(f'{text}\n')
+    else:
+        print_verify(report, Console(file=sys.stdout))
+    return verify_exit_code(report)
+
+
+def _report(bag: str, ticks: int, judged: Judgement, heard: VerdictMessage) -> VerifyReport:
+    """Hold the monitor's verdict against the bag's.
+
+    Raises:
+        VerificationError: What the monitor published is no verdict.
+    """
+    try:
+        live = Verdict.model_validate_json(heard.verdict_json)
+    except ValidationError as err:
+        raise VerificationError(
+            f'the monitor published a verdict that is not valid: {err}'
+        ) from err
+    recorded = compare(live, judged.verdict, _HEARD_LIVE)
+    if heard.trace_sha256 != judged.trace_sha256:
+        differs = Difference(
+            condition='trace',
+            recorded=None,
+            recomputed=None,
+            what=f'trace hash {heard.trace_sha256} instead of {judged.trace_sha256}',
+        )
+        recorded = Comparison(
+            file=recorded.file, equal=False, differences=(*recorded.differences, differs)
+        )
+    return VerifyReport(
+        bag=bag,
+        ticks=ticks,
+        trace_sha256=judged.trace_sha256,
+        verdict=judged.verdict,
+        recorded=recorded,
+    )
+
+
+@contextmanager
+def _spinning(plan: ReplayPlan) -> Iterator[ReplayNode]:
+    """Yield the node while a thread serves it."""
+    rclpy.init(args=sys.argv, signal_handler_options=SignalHandlerOptions.NO)
+    node: ReplayNode | None = None
+    thread: threading.Thread | None = None
+    try:
+        node = ReplayNode(plan)
+        executor = SingleThreadedExecutor()
+        executor.add_node(node)
+        thread = threading.Thread(target=_spin, args=(executor,), name='spin', daemon=True)
+        thread.start()
+        try:
+            yield node
+        finally:
+            node.leave()
+    finally:
+        try_shutdown()
+        if thread is not None:
+            thread.join(_JOIN_LIMIT_S)
+        if node is not None:
+            node.destroy_node()
+
+
+def _spin(executor: SingleThreadedExecutor) -> None:
+    try:
+        executor.spin()
+    except ExternalShutdownException:
+        return
+
+
+def _interrupt(_number: int, _frame: FrameType | None) -> NoReturn:
+    raise KeyboardInterrupt
+
+
+def _say(text: str) -> None:
+    """Write a line to standard error; standard output carries the answer alone."""
+    sys.stderr.write(f'replay: {text}\n')
+    sys.stderr.flush()

@@ -1,0 +1,72 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Find the bag that RUN_OR_BAG names."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+from aurora_core.errors import BagError
+
+_BAG = re.compile(r'bag\.(\d+)')
+_DEFAULT_ROOT = Path('runs')
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FoundBag:
+    """A bag and where it belongs.
+
+    Attributes:
+        bag: Folder (or file) of the bag.
+        run: Run folder, None for a bag that lies alone.
+        iteration: Which one, None for a bag that lies alone.
+    """
+
+    bag: Path
+    run: Path | None
+    iteration: int | None
+
+
+def find_bag(text: str, iteration: int | None) -> FoundBag:
+    """Return the bag of a run folder, run id, bag folder or MCAP file.
+
+    Args:
+        text: RUN_OR_BAG.
+        iteration: `--iteration`; the last one when None.
+
+    Raises:
+        BagError: There is no such thing.
+    """
+    path = Path(text)
+    if not path.exists() and (_DEFAULT_ROOT / text).is_dir():
+        path = _DEFAULT_ROOT / text
+    if not path.exists():
+        raise BagError(f'{text} is neither a run folder, nor a run in runs/, nor a bag')
+    if path.is_file():
+        path = path.parent
+    match = _BAG.fullmatch(path.absolute().name)
+    if any(path.glob('*.mcap')):
+        if iteration is not None and (match is None or int(match[1]) != iteration):
+            raise BagError(f'--iteration {iteration} does not fit the bag {path}')
+        parent = path.absolute().parent
+        run = parent if match is not None and (parent / 'manifest.json').exists() else None
+        number = int(match[1]) if match is not None and run is not None else None
+        return FoundBag(bag=path, run=run, iteration=number)
+    return _in_run(path, iteration)
+
+
+def _in_run(path: Path, iteration: int | None) -> FoundBag:
+    numbers = sorted(
+        int(match[1])
+        for child in path.glob('bag.*')
+        if (match := _BAG.fullmatch(child.name)) is not None
+    )
+    if not numbers:
+        raise BagError(f'{path} holds no bag: nothing was executed')
+    wanted = numbers[-1] if iteration is None else iteration
+    if wanted not in numbers:
+        shown = ', '.join(str(number) for number in numbers)
+        raise BagError(f'{path} has no iteration {wanted}; it has {shown}')
+    return FoundBag(bag=path / f'bag.{wanted}', run=path, iteration=wanted)
