@@ -25,6 +25,7 @@ class Job:
         root: Folder of all runs.
         cancel: Set to ask for the end; see `JobQueue.cancel`.
         done: Set once `status` and `report_json` (or `error`) are final.
+        news: Set when the stage changes and at the end; whoever waits for it clears it.
         stage: Stage that is going on, for feedback.
         fraction: Of the whole run, 0 to 1.
         sim_time_s: Simulated time.
@@ -35,6 +36,7 @@ class Job:
     root: Path
     cancel: threading.Event = field(default_factory=threading.Event)
     done: threading.Event = field(default_factory=threading.Event)
+    news: threading.Event = field(default_factory=threading.Event)
     state: str = QUEUED
     status: str = ''
     report_json: str = ''
@@ -162,3 +164,4 @@ class JobQueue:
                 self._running = None
             job.state = FINISHED
             job.done.set()
+            job.news.set()

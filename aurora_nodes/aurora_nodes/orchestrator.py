@@ -150,7 +150,9 @@ class OrchestratorNode(AuroraNode):
             fill_refusal(result, err)
             goal.abort()
             return result
-        while not job.done.wait(self._settings.feedback_period_s) and not self._gone:
+        while not job.done.is_set() and not self._gone:
+            job.news.wait(self._settings.feedback_period_s)
+            job.news.clear()
             if goal.is_cancel_requested and not job.cancel.is_set():
                 self._queue.cancel(job)
             goal.publish_feedback(

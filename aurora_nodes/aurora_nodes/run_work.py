@@ -62,8 +62,11 @@ def worker(
 
     def work(job: Job) -> None:
         def progress(stage: str, fraction: float, sim_time_s: float) -> None:
+            is_new = stage != job.stage
             job.stage, job.fraction = stage, fraction
             job.sim_time_s = max(job.sim_time_s, sim_time_s)
+            if is_new:
+                job.news.set()
 
         def cancelled() -> bool:
             return job.cancel.is_set() or stopping()
