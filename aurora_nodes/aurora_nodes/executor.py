@@ -13,7 +13,13 @@ import time
 import traceback
 from pathlib import Path
 
-from rclpy.action.server import ActionServer, CancelResponse, GoalResponse, ServerGoalHandle
+from rclpy.action.server import (
+    ActionServer,
+    CancelResponse,
+    GoalEvent,
+    GoalResponse,
+    ServerGoalHandle,
+)
 
 from aurora_core.errors import AuroraError
 from aurora_core.pipeline.functions import execution_stage
@@ -33,6 +39,8 @@ from aurora_ros.main import run_node
 from aurora_ros.node import defect
 from aurora_ros.parameters import declare
 
+_CLIENT = 'orchestrator'
+
 
 class ExecutorNode(ManagedNode):
     """One scenario at a time."""
@@ -47,7 +55,8 @@ class ExecutorNode(ManagedNode):
     def configure(self) -> None:
         """Create the endpoints."""
         self._path = TickPath(self)
-        self._driver = RunDriver(self, self._path, HeartbeatWatch(self), self._settings)
+        self._watch = HeartbeatWatch(self)
+        self._driver = RunDriver(self, self._path, self._watch, self._settings)
         self._server = ActionServer(
             self,
             on.EXECUTE.type,
@@ -77,6 +86,8 @@ class ExecutorNode(ManagedNode):
 
     def _on_accepted(self, handle: ServerGoalHandle) -> None:
         self._giving_up.clear()
+        # The goal is executed from now on; its end comes from the worker.
+        handle._update_state(GoalEvent.EXECUTE)
         self._worker = threading.Thread(target=self._work, args=(handle,), name='run', daemon=True)
         self._worker.start()
 
@@ -91,7 +102,7 @@ class ExecutorNode(ManagedNode):
         except Exception as err:  # noqa: BLE001 - a defect: logged, and the client is told
             self.get_logger().error(traceback.format_exc())
             write_error(result, defect(err, self.get_name()))
-        handle.execute(lambda goal: _end(goal, result))
+        self._server.notify_execute(handle, lambda goal: _end(goal, result))
 
     def _execute(self, handle: ServerGoalHandle) -> Done:
         goal = handle.request
@@ -99,6 +110,7 @@ class ExecutorNode(ManagedNode):
         request = run_request('', goal.options_json)
         execution = execution_stage(graph, request.seed, request.faults)
         feedback = _Feedback(handle, execution.roster.dt_s, self._settings.feedback_period_s)
+        orphaned = _Orphaned(self._watch)
         return self._driver.run(
             Order(
                 run_id=goal.agsg.run_id,
@@ -107,7 +119,7 @@ class ExecutorNode(ManagedNode):
                 bag_directory=Path(goal.bag_directory),
             ),
             on_tick=feedback,
-            cancelled=lambda: handle.is_cancel_requested or self._giving_up.is_set(),
+            cancelled=lambda: handle.is_cancel_requested or self._giving_up.is_set() or orphaned(),
         )
 
     def _fill(self, result: ExecuteScenario.Result, done: Done) -> None:
@@ -117,6 +129,25 @@ class ExecutorNode(ManagedNode):
         if done.outcome != 'cancelled':
             content = read_bag(done.bag, message_definitions())
             result.trace_sha256 = trace_sha256(content.trace, content.world)
+
+
+class _Orphaned:
+    """Tells that the orchestrator whose run this is has died; nobody waits for its end then.
+
+    A goal that somebody else has sent has nothing to do with the orchestrator, which is idle.
+    """
+
+    def __init__(self, watch: HeartbeatWatch) -> None:
+        self._watch = watch
+        self._owner: tuple[int, int] | None = None
+
+    def __call__(self) -> bool:
+        watch = self._watch
+        if self._owner is None:
+            if watch.is_busy(_CLIENT) and not watch.is_dead(_CLIENT):
+                self._owner = watch.process(_CLIENT)
+            return False
+        return watch.is_dead(_CLIENT) or watch.process(_CLIENT) != self._owner
 
 
 class _Feedback:

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -43,10 +44,11 @@ def read_finished(root: Path, run_id: str) -> FinishedRun | None:
         return None
 
 
-def list_finished(root: Path) -> list[FinishedRun]:
-    """Return the finished runs of a folder, the newest first."""
+def list_finished(root: Path) -> Iterator[FinishedRun]:
+    """Yield the finished runs of a folder, the newest first; each is read when its turn comes."""
     if not root.is_dir():
-        return []
-    names = sorted((path.name for path in root.iterdir() if path.is_dir()), reverse=True)
-    runs = [read_finished(root, name) for name in names]
-    return [run for run in runs if run is not None]
+        return
+    for name in sorted((path.name for path in root.iterdir()), reverse=True):
+        run = read_finished(root, name)
+        if run is not None:
+            yield run

@@ -17,14 +17,15 @@ COMPONENT = 'orchestrator'
 QUEUED, RUNNING, FINISHED = 'queued', 'running', 'finished'
 
 
-@dataclass(kw_only=True)
+@dataclass(kw_only=True, eq=False)
 class Job:
     """One run from submission to report.
 
     Attributes:
         root: Folder of all runs.
-        cancel: Set to ask for the end.
+        cancel: Set to ask for the end; see `JobQueue.cancel`.
         done: Set once `status` and `report_json` (or `error`) are final.
+        news: Set when the stage changes and at the end; whoever waits for it clears it.
         stage: Stage that is going on, for feedback.
         fraction: Of the whole run, 0 to 1.
         sim_time_s: Simulated time.
@@ -35,6 +36,7 @@ class Job:
     root: Path
     cancel: threading.Event = field(default_factory=threading.Event)
     done: threading.Event = field(default_factory=threading.Event)
+    news: threading.Event = field(default_factory=threading.Event)
     state: str = QUEUED
     status: str = ''
     report_json: str = ''
@@ -94,6 +96,19 @@ class JobQueue:
             self._waiting.append(job)
             self._changed.notify()
 
+    def cancel(self, job: Job) -> None:
+        """Ask for the end of a job; one that still waits in line ends at once.
+
+        Its folder and report are written in the calling thread: with `cancel` set, the work does
+        nothing else.
+        """
+        with self._changed:
+            job.cancel.set()
+            if job not in self._waiting:
+                return
+            self._waiting.remove(job)
+        self._finish(job)
+
     def get(self, run_id: str) -> Job | None:
         """Return a job by its run id."""
         with self._changed:
@@ -132,15 +147,21 @@ class JobQueue:
                 job = self._waiting.popleft()
                 self._running = job
                 job.state = RUNNING
-            try:
-                self._work(job)
-            except AuroraError as err:
-                job.error = err
-                job.status = 'error'
-            except Exception as err:  # noqa: BLE001 - told to the client; the next job must run
-                job.error = AuroraError(f'{type(err).__name__}: {err}', component=COMPONENT)
-                job.status = 'error'
-            with self._changed:
+            self._finish(job)
+
+    def _finish(self, job: Job) -> None:
+        """Work a job off; whatever happens, it is done afterwards."""
+        try:
+            self._work(job)
+        except AuroraError as err:
+            job.error = err
+            job.status = 'error'
+        except Exception as err:  # noqa: BLE001 - told to the client; the next job must run
+            job.error = AuroraError(f'{type(err).__name__}: {err}', component=COMPONENT)
+            job.status = 'error'
+        with self._changed:
+            if self._running is job:
                 self._running = None
-                job.state = FINISHED
-                job.done.set()
+            job.state = FINISHED
+            job.done.set()
+            job.news.set()

@@ -16,21 +16,22 @@ from typing import Any
 from rclpy.action.server import ActionServer, CancelResponse, ServerGoalHandle
 from rclpy.callback_groups import ReentrantCallbackGroup
 
-from aurora_core.errors import AuroraError, PromptError
+from aurora_core.errors import AuroraError
 from aurora_core.pipeline.functions import knowledge
 from aurora_core.report.process import process_lives
 from aurora_core.report.unfinished import close_unfinished
 from aurora_msgs.action import RunScenario
-from aurora_msgs.srv import GetRun, ListRuns, RunPrompt
-from aurora_nodes.finished_runs import FinishedRun, list_finished, read_finished
-from aurora_nodes.jobs import FINISHED, Job, JobQueue
+from aurora_msgs.srv import RunPrompt
+from aurora_nodes.attendance import Attendance, AttendanceLimits
+from aurora_nodes.jobs import Job, JobQueue
 from aurora_nodes.prompts import received_prompt
 from aurora_nodes.ros_stages import CALLS, RosStages, StageLimits
+from aurora_nodes.run_records import RunRecords, fill_refusal, fill_result
 from aurora_nodes.run_work import new_job, worker
+from aurora_nodes.supervision import Supervision, supervision_folder
 from aurora_ros import interfaces as on
 from aurora_ros.call import Caller
 from aurora_ros.conversions.options import run_request, runs_directory
-from aurora_ros.errors import write_error
 from aurora_ros.heartbeat import HeartbeatWatch
 from aurora_ros.main import Spinning, run_node
 from aurora_ros.node import AuroraNode
@@ -40,17 +41,20 @@ _LOOK_S = 0.1
 
 
 @dataclass(frozen=True, kw_only=True)
-class OrchestratorSettings(StageLimits):
+class OrchestratorSettings(StageLimits, AttendanceLimits):
     """See `config/orchestrator.param.yaml`."""
 
     runs_directory: str
     preload_map: str
     most_waiting: int
     feedback_period_s: float
+    assemble_s: float
+    restart_s: float
 
     def __post_init__(self) -> None:
-        super().__post_init__()
-        require_positive(self, 'most_waiting', 'feedback_period_s')
+        StageLimits.__post_init__(self)
+        AttendanceLimits.__post_init__(self)
+        require_positive(self, 'most_waiting', 'feedback_period_s', 'assemble_s', 'restart_s')
 
 
 class OrchestratorNode(AuroraNode):
@@ -66,19 +70,12 @@ class OrchestratorNode(AuroraNode):
                 self.get_logger().warning(f'run {run_id} was left unfinished: closed as error')
         self._stopping = threading.Event()
         self._gone = False
-        caller = Caller(self, HeartbeatWatch(self))
-        caller.prepare(*CALLS)
-        self._queue = JobQueue(
-            worker(
-                lambda run_id: RosStages(caller, self._settings, run_id),
-                self._stopping.is_set,
-            ),
-            most_waiting=self._settings.most_waiting,
-        )
         group = ReentrantCallbackGroup()
+        self._queue = self._make_queue(group)
+        records = RunRecords(self._queue, self._root)
         self.serve(on.RUN_PROMPT, self._run_prompt, group=group)
-        self.serve(on.GET_RUN, self._get_run, group=group)
-        self.serve(on.LIST_RUNS, self._list_runs, group=group)
+        self.serve(on.GET_RUN, records.get, group=group)
+        self.serve(on.LIST_RUNS, records.list, group=group)
         self._server = ActionServer(
             self,
             on.RUN.type,
@@ -86,6 +83,28 @@ class OrchestratorNode(AuroraNode):
             execute_callback=self._run,
             cancel_callback=lambda _goal: CancelResponse.ACCEPT,
             callback_group=group,
+        )
+
+    def _make_queue(self, group: ReentrantCallbackGroup) -> JobQueue:
+        """Connect the runs with the graph."""
+        settings = self._settings
+        # In a group of its own: signs of life are taken while other callbacks are at work.
+        watch = HeartbeatWatch(self, group=group)
+        supervision = Supervision(
+            supervision_folder(), supervised_s=settings.restart_s, alone_s=settings.assemble_s
+        )
+        attendance = Attendance(self, watch, supervision, settings)
+        caller = Caller(self, watch, guard=attendance.check)
+        caller.prepare(*CALLS)
+        return JobQueue(
+            worker(
+                lambda run_id, cancelled: RosStages(
+                    caller, attendance, settings, run_id, cancelled
+                ),
+                self._stopping.is_set,
+                supervision.note,
+            ),
+            most_waiting=settings.most_waiting,
         )
 
     def request_stop(self) -> None:
@@ -116,12 +135,11 @@ class OrchestratorNode(AuroraNode):
         try:
             job = self._submit(request)
         except AuroraError as err:
-            response.status = _refusal(err)
-            write_error(response, err)
+            fill_refusal(response, err)
             return response
         while request.wait and not job.done.wait(_LOOK_S) and not self._gone:
             pass
-        _fill(response, job)
+        fill_result(response, job)
         return response
 
     def _run(self, goal: ServerGoalHandle) -> RunScenario.Result:
@@ -129,13 +147,14 @@ class OrchestratorNode(AuroraNode):
         try:
             job = self._submit(goal.request)
         except AuroraError as err:
-            result.status = _refusal(err)
-            write_error(result, err)
+            fill_refusal(result, err)
             goal.abort()
             return result
-        while not job.done.wait(self._settings.feedback_period_s) and not self._gone:
-            if goal.is_cancel_requested:
-                job.cancel.set()
+        while not job.done.is_set() and not self._gone:
+            job.news.wait(self._settings.feedback_period_s)
+            job.news.clear()
+            if goal.is_cancel_requested and not job.cancel.is_set():
+                self._queue.cancel(job)
             goal.publish_feedback(
                 RunScenario.Feedback(
                     run_id=job.run_id,
@@ -145,50 +164,12 @@ class OrchestratorNode(AuroraNode):
                     worst_margin=float('nan'),
                 )
             )
-        _fill(result, job)
+        fill_result(result, job)
         if goal.is_cancel_requested:
             goal.canceled()
         else:
             goal.succeed()
         return result
-
-    def _get_run(self, request: GetRun.Request, response: GetRun.Response) -> GetRun.Response:
-        job = self._queue.get(request.run_id)
-        run = job or read_finished(self._root, request.run_id)
-        response.found = run is not None
-        if run is not None:
-            response.state, response.status = run.state, run.status
-            response.run_dir, response.report_json = str(run.run_dir), run.report_json
-        return response
-
-    def _list_runs(
-        self, request: ListRuns.Request, response: ListRuns.Response
-    ) -> ListRuns.Response:
-        jobs = self._queue.newest()
-        known = {job.run_id for job in jobs}
-        runs: list[Job | FinishedRun] = [*jobs]
-        runs += (run for run in list_finished(self._root) if run.run_id not in known)
-        for run in runs[: request.limit or None]:
-            response.run_id.append(run.run_id)
-            response.state.append(run.state)
-            response.status.append(run.status)
-            response.prompt.append(run.request.prompt if isinstance(run, Job) else run.prompt)
-        return response
-
-
-def _refusal(err: AuroraError) -> str:
-    """Return the status of a prompt that was not taken."""
-    return 'not_understood' if isinstance(err, PromptError) else 'error'
-
-
-def _fill(message: Any, job: Job) -> None:
-    """Write what is known of a job into a response or result."""
-    message.status = job.status if job.state == FINISHED else job.state
-    message.run_id = job.run_id
-    message.run_dir = str(job.run_dir)
-    message.report_json = job.report_json
-    if job.error is not None:
-        write_error(message, job.error)
 
 
 def main() -> int:

@@ -25,6 +25,7 @@ from aurora_nodes.recording import Belonging, RecordedTopic, Recording
 from aurora_ros import interfaces as on
 from aurora_ros import qos
 from aurora_ros.errors import write_error
+from aurora_ros.heartbeat import HeartbeatWatch
 from aurora_ros.interfaces import Topic
 from aurora_ros.main import run_node
 from aurora_ros.matching import wait_until
@@ -83,6 +84,7 @@ class RecorderNode(AuroraNode):
             ): self.subscription(topic, lambda _cdr: None, raw=True, group=group)
             for topic, belonging, first_tick in _TOPICS
         }
+        self._watch = HeartbeatWatch(self)
         self._ack_publisher = self.publisher(on.ACK)
         self._fault_publisher = self.publisher(on.FAULT)
         self.serve(on.RECORDER_START, self._start)
@@ -180,6 +182,9 @@ class RecorderNode(AuroraNode):
     def _on_idle(self) -> None:
         if self._recording is None:
             self._drain()
+        elif self._watch.is_dead('executor'):
+            self.get_logger().error('the executor died: its recording is closed')
+            self._close()
 
     def _on_poll(self) -> None:
         recording = self._recording

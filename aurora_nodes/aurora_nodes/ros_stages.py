@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
@@ -21,6 +22,7 @@ from aurora_core.spec.parameter import Document
 from aurora_core.temporal.schedule import Schedule
 from aurora_msgs.action import ExecuteScenario
 from aurora_msgs.srv import Check, GroundScenario, ParsePrompt, VerifyTrace
+from aurora_nodes.attendance import Attendance
 from aurora_ros import interfaces as on
 from aurora_ros.call import Caller
 from aurora_ros.conversions.messages import agsg_message
@@ -53,18 +55,37 @@ class RosStages:
     """One run's view of the graph.
 
     Args:
-        caller: With `CALLS` prepared.
+        caller: With `CALLS` prepared; its guard is `attendance.check`.
+        attendance: Looks after the participants from the first stage to `close`.
         limits: How long each stage may take.
         run_id: Stamp of the run's documents.
+        cancelled: Asked while participants are waited for.
     """
 
-    def __init__(self, caller: Caller, limits: StageLimits, run_id: str) -> None:
+    def __init__(
+        self,
+        caller: Caller,
+        attendance: Attendance,
+        limits: StageLimits,
+        run_id: str,
+        cancelled: Callable[[], bool],
+    ) -> None:
         self._caller = caller
+        self._attendance = attendance
         self._limits = limits
         self._run_id = run_id
+        self._cancelled = cancelled
+        self._began = False
+
+    def close(self) -> None:
+        """End the run, if it ever began: participants may go and be restarted."""
+        if self._began:
+            self._attendance.close()
 
     def parse(self, request: RunRequest) -> ParseOutcome:
-        """Let the parser read the prompt."""
+        """Let the parser read the prompt, once everybody whom a run needs is there."""
+        self._began = True
+        self._attendance.open(self._cancelled)
         response = self._caller.service(
             on.PARSE,
             ParsePrompt.Request(
@@ -90,6 +111,8 @@ class RosStages:
         self, agsg: Agsg, bag_directory: Path, request: RunRequest, control: RunControl
     ) -> ExecutionResult:
         """Let the executor run the scenario."""
+        if agsg.spec.uavs:
+            self._attendance.expect_air()
         horizon_s = Schedule.model_validate_json(agsg.schedule_json).horizon_s
         result = self._caller.action(
             on.EXECUTE,
@@ -116,7 +139,7 @@ class RosStages:
             raise ExecutionError(f'the executor answered with {fields}: {err}') from err
 
     def verify(self, agsg: Agsg, bag: Path) -> Verdict:
-        """Let the monitor judge the bag."""
+        """Let the monitor judge the bag; whoever took part must still be there at the end."""
         response = self._caller.service(
             on.VERIFY,
             VerifyTrace.Request(
@@ -124,7 +147,9 @@ class RosStages:
             ),
             self._limits.verify_s,
         )
-        return _document(Verdict, response.verdict.verdict_json, on.VERIFY)
+        verdict = _document(Verdict, response.verdict.verdict_json, on.VERIFY)
+        self._attendance.confirm()
+        return verdict
 
     def _stage(self, call: Call, kind: Any, agsg: Agsg, request: RunRequest) -> Any:
         limit_s = self._limits.check_s if call is on.CHECK else self._limits.ground_s

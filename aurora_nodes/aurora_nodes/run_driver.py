@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from aurora_core.agsg.graph import Agsg
-from aurora_core.errors import AuroraError, ExecutionError
+from aurora_core.errors import AuroraError, ParticipantSilentError
 from aurora_core.execution.plan import Execution
 from aurora_msgs.msg import RunEnd
 from aurora_msgs.srv import LoadSync, StartRecording, StartSync, StopRecording, StopSync
@@ -103,7 +103,9 @@ class RunDriver:
         self._path = path
         self._watch = watch
         self._settings = settings
-        self._caller = Caller(node, watch)
+        # Every wait of a run notices the death of anybody who takes part in it.
+        self._caller = Caller(node, watch, guard=self._check_participants)
+        self._participants: tuple[str, ...] = ()
         self._caller.prepare(*CALLS)
         self._publishers = {topic: node.publisher(topic) for topic in (*_LATCHED, on.RUN_END)}
         self._observers = ['recorder', *(['monitor'] if settings.live_monitor else [])]
@@ -128,6 +130,9 @@ class RunDriver:
             on_tick=on_tick,
         )
         self._node.heartbeat.busy(run_number)
+        self._participants = ('sync', 'sumo_bridge', *self._observers)
+        if run.has_uavs:
+            self._participants += ('uav_bridge',)
         recording = False
         try:
             self._load(order, run)
@@ -137,15 +142,18 @@ class RunDriver:
             self._path.arm(run)
             self._call(on.SYNC_START, StartSync.Request(run_number=run_number))
             self._await_end(run, cancelled)
+            self._path.disarm()
+            self._publish_end(order, run)
+            self._stop_clock(run)
+            bag = self._stop_recording(run, complete=True)
         except AuroraError:
+            self._participants = ()  # the clean-up goes on without whoever died
             self._give_up(run, recording=recording)
             raise
         finally:
+            self._participants = ()
             self._path.disarm()
             self._node.heartbeat.idle()
-        self._publish_end(order, run)
-        self._stop_clock(run)
-        bag = self._stop_recording(run, complete=True)
         return Done(bag=bag, ticks=run.last_tick + 1, outcome=run.outcome or 'horizon')
 
     def _load(self, order: Order, run: ActiveRun) -> None:
@@ -234,20 +242,19 @@ class RunDriver:
             raise run.error
 
     def _check_alive(self, run: ActiveRun, silent_s: float) -> None:
-        names = [
-            'sumo_bridge',
-            'sync',
-            *self._observers,
-            *(['uav_bridge'] if run.has_uavs else []),
-        ]
-        dead = [name for name in names if self._watch.is_dead(name)]
-        if dead:
-            raise ExecutionError(f'{dead[0]} died at tick {run.last_tick + 1}', component=dead[0])
+        self._check_participants()
         # sync names a silent participant before this; only a silent sync comes here.
         if silent_s > self._settings.silence_limit_s:
-            raise ExecutionError(
+            raise ParticipantSilentError(
                 f'no tick for {silent_s:.1f} s after tick {run.last_tick}', component='sync'
             )
+
+    def _check_participants(self) -> None:
+        """Raise when somebody who takes part in the run has died or was stopped."""
+        for name in self._participants:
+            cause = self._watch.cause_of_death(name)
+            if cause:
+                raise ParticipantSilentError(f'{name} {cause}', component=name)
 
     def _stop_recording(self, run: ActiveRun, *, complete: bool) -> Path:
         """Close the bag, after everything that was sent is in it if it is to be complete."""

@@ -9,12 +9,15 @@ import time
 from collections.abc import Callable
 from datetime import UTC, datetime
 from pathlib import Path
+from typing import Protocol
 
+from aurora_core.errors import AuroraError
 from aurora_core.pipeline.run import run
 from aurora_core.pipeline.stages import RunControl, RunRequest, Stages
 from aurora_core.report.manifest import manifest_facts
 from aurora_core.report.process import this_process
 from aurora_core.report.run_folder import RunFolder, json_text, new_run_id
+from aurora_core.report.run_report import ErrorReport
 from aurora_core.report.versions import product_versions
 from aurora_nodes.jobs import Job
 
@@ -35,33 +38,60 @@ def new_job(request: RunRequest, root: Path) -> Job:
     )
 
 
+class GraphStages(Stages, Protocol):
+    """Stages that hold something of the graph until they are closed."""
+
+    def close(self) -> None:
+        """Let go of it; safe to call when nothing is held."""
+
+
 def worker(
-    stages_of: Callable[[str], Stages], stopping: Callable[[], bool]
+    stages_of: Callable[[str, Callable[[], bool]], GraphStages],
+    stopping: Callable[[], bool],
+    broke: Callable[[AuroraError], None],
 ) -> Callable[[Job], None]:
     """Return the function that works off jobs.
 
     Args:
-        stages_of: Gives the stages of a run id.
+        stages_of: Gives the stages of a run id; the second argument tells of a cancel.
         stopping: Whether the node is being shut down.
+        broke: Told the error of a run that ended with one.
     """
 
     versions = product_versions()
 
     def work(job: Job) -> None:
         def progress(stage: str, fraction: float, sim_time_s: float) -> None:
+            is_new = stage != job.stage
             job.stage, job.fraction = stage, fraction
             job.sim_time_s = max(job.sim_time_s, sim_time_s)
+            if is_new:
+                job.news.set()
 
-        report = run(
-            job.request,
-            stages_of(job.run_id),
-            RunFolder(job.root, job.run_id),
-            RunControl(progress=progress, cancelled=lambda: job.cancel.is_set() or stopping()),
-            WallClock(),
-            versions=versions,
-            manifest=manifest_facts(datetime.now(UTC), this_process(), versions),
-        )
-        job.status = report.status.value
-        job.report_json = json_text(report)
+        def cancelled() -> bool:
+            return job.cancel.is_set() or stopping()
+
+        stages = stages_of(job.run_id, cancelled)
+        try:
+            report = run(
+                job.request,
+                stages,
+                RunFolder(job.root, job.run_id),
+                RunControl(progress=progress, cancelled=cancelled),
+                WallClock(),
+                versions=versions,
+                manifest=manifest_facts(datetime.now(UTC), this_process(), versions),
+            )
+            job.status = report.status.value
+            job.report_json = json_text(report)
+            if report.error is not None:
+                job.error = _error(report.error)
+                broke(job.error)
+        finally:
+            stages.close()
 
     return work
+
+
+def _error(told: ErrorReport) -> AuroraError:
+    return AuroraError(told.message, hint=told.hint, component=told.component, code=told.code)

@@ -23,7 +23,7 @@ def test_finished_runs_newest_first(tmp_path: Path) -> None:
     for run_id in (OLD, NEW):
         write(tmp_path, run_id, json.dumps({'status': 'verified', 'prompt': run_id}))
     (tmp_path / 'notes').mkdir()
-    runs = list_finished(tmp_path)
+    runs = list(list_finished(tmp_path))
     assert [run.run_id for run in runs] == [NEW, OLD]
     assert runs[0].prompt == NEW
     assert runs[0].run_dir == tmp_path / NEW
@@ -34,7 +34,7 @@ def test_finished_runs_newest_first(tmp_path: Path) -> None:
 def test_a_report_that_cannot_be_read_is_no_finished_run(tmp_path: Path, text: str) -> None:
     write(tmp_path, OLD, text)
     assert read_finished(tmp_path, OLD) is None
-    assert list_finished(tmp_path) == []
+    assert list(list_finished(tmp_path)) == []
 
 
 @pytest.mark.parametrize('run_id', ['', '..', '../x', '/etc', 'x'])
@@ -43,4 +43,4 @@ def test_a_run_id_never_leaves_the_folder(tmp_path: Path, run_id: str) -> None:
 
 
 def test_no_folder_has_no_runs(tmp_path: Path) -> None:
-    assert list_finished(tmp_path / 'gone') == []
+    assert list(list_finished(tmp_path / 'gone')) == []

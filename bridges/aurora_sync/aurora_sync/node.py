@@ -11,17 +11,18 @@ from rclpy.clock import Clock
 from rclpy.clock_type import ClockType
 from rosgraph_msgs.msg import Clock as ClockMessage
 
-from aurora_core.errors import AuroraError
+from aurora_core.errors import AuroraError, ParticipantSilentError
 from aurora_msgs.msg import Ack, Fault, SyncStatus, Tick, TickDone
 from aurora_msgs.srv import LoadSync, StartSync, StopSync
 from aurora_ros import interfaces as on
 from aurora_ros.conversions.time import stamp
 from aurora_ros.errors import read_error, write_error
+from aurora_ros.heartbeat import HeartbeatWatch
 from aurora_ros.lifecycle import ManagedNode
 from aurora_ros.main import run_node
 from aurora_ros.matching import await_subscribers
 from aurora_ros.parameters import declare, require_positive
-from aurora_sync.barrier import BarrierLoad, Phase, TickBarrier, tick_of_horizon
+from aurora_sync.barrier import EXECUTOR, BarrierLoad, Phase, TickBarrier, tick_of_horizon
 
 _STATES = {
     Phase.IDLE: SyncStatus.IDLE,
@@ -67,6 +68,7 @@ class SyncNode(ManagedNode):
         self.subscription(on.TICK_DONE, self._on_done)
         self.subscription(on.ACK, self._on_ack)
         self.subscription(on.FAULT, self._on_fault)
+        self._watch = HeartbeatWatch(self)
         self.serve(on.SYNC_LOAD, self._load)
         self.serve(on.SYNC_START, self._start)
         self.serve(on.SYNC_STOP, self._stop)
@@ -141,7 +143,18 @@ class SyncNode(ManagedNode):
 
     def _on_watchdog(self) -> None:
         self._barrier.check(time.monotonic())
+        self._check_executor()
         self._tell()
+
+    def _check_executor(self) -> None:
+        """Fail a run whose executor has died: nobody else would end it."""
+        status = self._barrier.status
+        if status.phase not in (Phase.LOADED, Phase.RUNNING):
+            return
+        cause = self._watch.cause_of_death(EXECUTOR)
+        if cause:
+            error = ParticipantSilentError(f'{EXECUTOR} {cause}', component=EXECUTOR)
+            self._barrier.fault(status.run_number, error)
 
     def _publish(self, tick: int | None) -> None:
         """Start a tick, if one is to be started, and tell of a change of state."""

@@ -17,6 +17,7 @@ from aurora_ros.conversions.states import uav_state, unpack
 from aurora_ros.main import run_node
 from aurora_ros.parameters import declare, require_positive
 from aurora_uav_bridge.mavlink_client import MavlinkClient
+from aurora_uav_bridge.presence import Presence
 from aurora_uav_bridge.transports import UdpTransport
 from aurora_uav_sim.protocol import mavlink_port
 
@@ -30,9 +31,10 @@ class UavBridgeSettings:
     port: int
     first_system_id: int
     answer_limit_s: float
+    presence_limit_s: float
 
     def __post_init__(self) -> None:
-        require_positive(self, 'first_system_id', 'answer_limit_s')
+        require_positive(self, 'first_system_id', 'answer_limit_s', 'presence_limit_s')
 
 
 class UavBridgeNode(LockstepBridge):
@@ -46,17 +48,31 @@ class UavBridgeNode(LockstepBridge):
         self._settings = declare(self, 'uav_bridge', UavBridgeSettings)
         self.wants_autostart = self._settings.autostart
         self._client: MavlinkClient | None = None
+        self._presence: Presence | None = None
+
+    def check_presence(self) -> None:
+        """Answer a roll call for the simulator too; in a run each tick asks it anyway.
+
+        Raises:
+            SimulatorSilentError: The simulator does not answer.
+        """
+        super().check_presence()
+        if self._client is not None:
+            return
+        if self._presence is None:
+            self._presence = Presence(self._transport())
+        self._presence.check(self._settings.presence_limit_s)
+
+    def cleanup(self) -> None:
+        """Free the socket."""
+        presence, self._presence = self._presence, None
+        if presence is not None:
+            presence.close()
 
     def open_run(self, request: LoadUav.Request) -> None:
         """Open a lockstep session with the simulator."""
         self.close_run()
-        settings = self._settings
-        port = settings.port or mavlink_port(
-            self.context.get_domain_id(), settings.first_system_id
-        )
-        self._client = MavlinkClient(
-            UdpTransport(port, settings.host), timeout_s=settings.answer_limit_s
-        )
+        self._client = MavlinkClient(self._transport(), timeout_s=self._settings.answer_limit_s)
         self._client.load(air_load(request))
 
     def state(self, run_number: int, dt_s: float) -> UavState:
@@ -73,6 +89,13 @@ class UavBridgeNode(LockstepBridge):
         client, self._client = self._client, None
         if client is not None:
             client.close()
+
+    def _transport(self) -> UdpTransport:
+        settings = self._settings
+        port = settings.port or mavlink_port(
+            self.context.get_domain_id(), settings.first_system_id
+        )
+        return UdpTransport(port, settings.host)
 
     @property
     def _loaded(self) -> MavlinkClient:

@@ -15,7 +15,13 @@ setup(
         ('share/aurora_bringup/launch', ['launch/aurora.launch.py']),
         (
             'lib/aurora_bringup',
-            ['scripts/up', 'scripts/down', 'scripts/common.bash', 'scripts/stopping.bash'],
+            [
+                'scripts/up',
+                'scripts/down',
+                'scripts/common.bash',
+                'scripts/stopping.bash',
+                'scripts/supervising.bash',
+            ],
         ),
     ],
     zip_safe=False,

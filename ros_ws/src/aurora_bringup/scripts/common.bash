@@ -3,8 +3,12 @@
 #
 # Sourced by up and down: which nodes there are, where their files lie, who is alive.
 #
-# Of each node the run folder holds NAME.pid (process id and its start time, so that a recycled id
-# is never taken for the node), NAME.ready while it serves, and its log.
+# The run folder holds of each node
+#   NAME.pid     process id, its start time and the boot, so that a recycled id is never taken for it
+#   NAME.ready   while it serves
+#   NAME.silent  put there by the orchestrator: a run found it silent although its process lives
+#   NAME.failed  put there by `up`: it will not be started again
+# and up.pid, lock (held by the `up` that supervises), busy (see supervising.bash), log/.
 
 # Package and executable, in the order of starting: what others wait for comes first.
 AURORA_NODES=(
@@ -19,30 +23,50 @@ AURORA_NODES=(
   'aurora_nodes parser'
   'aurora_nodes orchestrator'
 )
+AURORA_NAMES=("${AURORA_NODES[@]#* }")
 
 run_dir="${AURORA_RUN_DIR:-${HOME:-/tmp}/.ros/aurora}/domain-${ROS_DOMAIN_ID:-0}"
 log_dir="${ROS_LOG_DIR:-$run_dir/log}"
+boot=''
+read -r boot < /proc/sys/kernel/random/boot_id
 
 fail() { echo "$program: error: $*" >&2; exit 1; }
 
-# The kernel's start time of a process, in ticks since boot; empty if it is gone or a zombie.
-start_time() {
-  local stat
-  stat="$(cat "/proc/$1/stat" 2>/dev/null)" || return 0
+# Looks at a process without starting another one: sets `state` and `started` (in ticks since
+# boot); false when it has ended.
+look() {
+  local stat=''
+  state='' started=''
+  { read -r -d '' stat < "/proc/$1/stat"; } 2>/dev/null
   # The name (field 2) may hold blanks; after its bracket come state (field 3) and the rest.
-  read -ra stat <<< "${stat##*) }"
-  [ "${stat[0]}" = Z ] || echo "${stat[19]}"
+  # shellcheck disable=SC2086
+  set -- ${stat##*) }
+  [ $# -ge 20 ] || return 1
+  state="$1" started="${20}"
+  [ "$state" != Z ] && [ "$state" != X ]
 }
 
-# Process id of a name that is alive, from its pid file; empty otherwise.
+# Whether the process of a pid file is alive: sets `pid` and `state`.
+is_alive() {
+  local since='' then=''
+  pid=''
+  { read -r pid since then < "$run_dir/$1.pid"; } 2>/dev/null
+  [ -n "$pid" ] && [ "$then" = "$boot" ] && look "$pid" && [ "$started" = "$since" ]
+}
+
+# Process id of a name that is alive; empty otherwise.
 pid_of() {
-  local pid='' started=''
-  [ -r "$run_dir/$1.pid" ] && read -r pid started < "$run_dir/$1.pid"
-  if [ -n "$pid" ] && [ -n "$started" ] && [ "$(start_time "$pid")" = "$started" ]; then echo "$pid"; fi
+  local pid state started
+  if is_alive "$1"; then echo "$pid"; fi
 }
 
 # Notes a process: write_pid NAME PID
 write_pid() {
-  echo "$2 $(start_time "$2")" > "$run_dir/$1.pid.new"
+  local state started
+  look "$2" || return
+  echo "$2 $started $boot" > "$run_dir/$1.pid.new"
   mv -f "$run_dir/$1.pid.new" "$run_dir/$1.pid"
 }
+
+# Removes what a node that has ended leaves behind.
+forget() { rm -f "$run_dir/$1".{pid,ready,silent,failed,pid.new}; }

@@ -20,21 +20,22 @@ AURORA_SIGNALS=('INT 30' 'TERM 20' 'KILL 10')
 stop_group() {
   local name pid step signal patience living=() left=()
   for name in "$@"; do
-    pid="$(pid_of "$name")"
-    if [ -n "$pid" ]; then living+=("$name"); else rm -f "$run_dir/$name.pid" "$run_dir/$name.ready"; fi
+    if [ -n "$(pid_of "$name")" ]; then living+=("$name"); else forget "$name"; fi
   done
   for step in "${AURORA_SIGNALS[@]}"; do
     read -r signal patience <<< "$step"
     for name in "${living[@]}"; do
       pid="$(pid_of "$name")"
-      # To the group: a real `ros2 run` is the parent of the node.
-      [ -z "$pid" ] || kill -s "$signal" -- "-$pid" 2>/dev/null || true
+      [ -n "$pid" ] || continue
+      # To the group: a real `ros2 run` is the parent of the node. A stopped one must go on to end.
+      kill -s "$signal" -- "-$pid" 2>/dev/null || true
+      kill -s CONT -- "-$pid" 2>/dev/null || true
     done
     while [ ${#living[@]} -gt 0 ]; do
       left=()
       for name in "${living[@]}"; do
         if [ -n "$(pid_of "$name")" ]; then left+=("$name"); continue; fi
-        rm -f "$run_dir/$name.pid" "$run_dir/$name.ready"
+        forget "$name"
         case "$signal" in
           INT) echo "$name stopped" ;;
           *) echo "$name stopped (only SIG$signal did it)" ;;

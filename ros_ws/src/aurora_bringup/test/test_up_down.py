@@ -10,6 +10,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -33,6 +34,14 @@ BROKEN = 'echo "no map here" >&2; exit 3\n'
 SILENT = 'while :; do sleep 0.02; done\n'
 # Serves until a file appears, then ends by itself.
 MORTAL = 'touch "$AURORA_READY_FILE"\nwhile [ ! -e "$ORDER.die" ]; do sleep 0.02; done\nexit 5\n'
+# Locks the file of a run that is going on, as the orchestrator does, until told to let go.
+HOLDER = """
+import fcntl, sys
+lock = open(sys.argv[1], 'a')
+fcntl.flock(lock, fcntl.LOCK_SH)
+print('held', flush=True)
+input()
+"""
 
 
 def _hear_ctrl_c() -> None:
@@ -87,12 +96,25 @@ class Graph:
     def order(self) -> list[str]:
         return (self.folder / 'order').read_text().split()
 
+    def pid(self, name: str) -> int:
+        """Return the process id of a node or of `up`, 0 when none is noted."""
+        try:
+            return int((self.run_dir / f'{name}.pid').read_text().split()[0])
+        except (OSError, IndexError):
+            return 0
+
     def alive(self) -> list[str]:
-        return [
-            path.stem
-            for path in self.run_dir.glob('*.pid')
-            if _is_alive(int(path.read_text().split()[0]))
-        ]
+        """Return the nodes that are alive."""
+        names = [path.stem for path in self.run_dir.glob('*.pid')]
+        return [name for name in names if name != 'up' and _is_alive(self.pid(name))]
+
+    def serves_again(self, name: str, pid_before: int) -> bool:
+        pid = self.pid(name)
+        return pid not in (0, pid_before) and (self.run_dir / f'{name}.ready').exists()
+
+    def said(self) -> str:
+        """Return what a supervising process without a terminal has said."""
+        return (self.run_dir / 'log' / 'up.log').read_text()
 
 
 def _is_alive(pid: int) -> bool:
@@ -219,18 +241,6 @@ def test_ctrl_c_in_the_foreground_stops_everything(graph: Graph) -> None:
     assert sorted(graph.order()) == sorted(NODES)
 
 
-def test_a_node_that_dies_ends_up_with_its_name(graph: Graph) -> None:
-    graph.set_node('monitor', MORTAL)
-    up = graph.foreground()
-
-    (graph.folder / 'order.die').touch()
-    output, _ = up.communicate(timeout=DEADLINE_S)
-
-    assert up.returncode == 1
-    assert 'monitor ended; its log:' in output
-    assert graph.alive() == []
-
-
 def test_down_from_another_shell_ends_a_foreground_up_quietly(graph: Graph) -> None:
     up = graph.foreground()
 
@@ -265,6 +275,167 @@ def test_the_previous_log_is_kept_once(graph: Graph) -> None:
 
     assert log.read_text() == 'second\n'
     assert log.with_name('sync.log.1').read_text() == 'first\n'
+
+
+@contextmanager
+def a_run(graph: Graph) -> Iterator[None]:
+    """A run that is going on."""
+    holder = subprocess.Popen(
+        [sys.executable, '-c', HOLDER, str(graph.run_dir / 'busy')],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+    )
+    assert holder.stdout is not None
+    assert holder.stdout.readline() == b'held\n'
+    try:
+        yield
+    finally:
+        holder.communicate(b'\n')
+
+
+@pytest.mark.parametrize('cause', ['killed', 'stopped', 'silent'])
+def test_a_dead_idle_node_is_started_again(graph: Graph, cause: str) -> None:
+    graph.call('up', '--detach')
+    pids = {name: graph.pid(name) for name in NODES}
+
+    if cause == 'silent':
+        (graph.run_dir / 'sync.silent').touch()
+    else:
+        os.kill(pids['sync'], signal.SIGKILL if cause == 'killed' else signal.SIGSTOP)
+
+    _until(lambda: graph.serves_again('sync', pids['sync']))
+    _until(lambda: 'up: sync ' in graph.said())
+    assert not _is_alive(pids['sync'])
+    assert {name for name in NODES if graph.pid(name) != pids[name]} == {'sync'}
+    assert sorted(path.name for path in graph.run_dir.glob('sync.*')) == ['sync.pid', 'sync.ready']
+
+
+def test_nothing_is_started_again_during_a_run(graph: Graph) -> None:
+    graph.call('up', '--detach')
+    sync, executor = graph.pid('sync'), graph.pid('executor')
+    with a_run(graph):
+        os.kill(sync, signal.SIGKILL)
+        # Dead after it, and still there when several looks have passed.
+        os.kill(graph.pid('up'), 0)
+        _until(lambda: not _is_alive(sync))
+        time.sleep(1.0)
+        assert graph.pid('sync') in (0, sync)
+    _until(lambda: graph.serves_again('sync', sync))
+    assert graph.pid('executor') == executor
+
+
+def test_a_stopped_orchestrator_is_killed_although_it_holds_the_run(graph: Graph) -> None:
+    body = f'exec 5>> "$AURORA_SUPERVISION_DIR/busy"; [ -e "$ORDER.once" ] || flock -s 5\n{GOOD}'
+    graph.set_node('orchestrator', body)
+    graph.call('up', '--detach')
+    (graph.folder / 'order.once').touch()
+    before = graph.pid('orchestrator')
+
+    os.kill(before, signal.SIGSTOP)
+
+    _until(lambda: graph.serves_again('orchestrator', before))
+
+
+def test_a_node_that_keeps_dying_is_given_up_and_the_rest_stays(graph: Graph) -> None:
+    graph.set_node('monitor', MORTAL)
+    graph.call('up', '--detach')
+
+    (graph.folder / 'order.die').touch()
+
+    _until(lambda: 'monitor FAILED' in graph.said())
+    assert (graph.run_dir / 'monitor.failed').exists()
+    assert graph.said().count('up: monitor ended') == 3
+    assert sorted(graph.alive()) == sorted(set(NODES) - {'monitor'})
+    assert graph.call('down').returncode == 0
+    assert not (graph.run_dir / 'monitor.failed').exists()
+
+
+def test_up_after_the_supervisor_was_killed_begins_anew(graph: Graph) -> None:
+    graph.call('up', '--detach')
+    before = {name: graph.pid(name) for name in NODES}
+    os.kill(graph.pid('up'), signal.SIGKILL)
+    _until(lambda: not _is_alive(graph.pid('up')))
+
+    again = graph.call('up', '--detach')
+
+    assert again.returncode == 0, again.stderr
+    assert 'left of an up that was killed' in again.stderr
+    assert sorted(graph.alive()) == sorted(NODES)
+    assert not [pid for pid in before.values() if _is_alive(pid)]
+
+
+def test_files_of_before_a_crash_of_the_machine_mean_nothing(graph: Graph) -> None:
+    stranger = subprocess.Popen([sys.executable, '-c', 'input()'], stdin=subprocess.PIPE)
+    try:
+        fields = Path(f'/proc/{stranger.pid}/stat').read_text().rsplit(') ', 1)[1].split()
+        graph.run_dir.mkdir(parents=True)
+        for name in ('up', *NODES):
+            (graph.run_dir / f'{name}.pid').write_text(f'{stranger.pid} {fields[19]} other-boot\n')
+        for name in NODES:
+            (graph.run_dir / f'{name}.ready').touch()
+            (graph.run_dir / f'{name}.failed').touch()
+
+        assert graph.call('up', '--detach').returncode == 0
+
+        assert stranger.poll() is None
+        assert sorted(graph.alive()) == sorted(NODES)
+        assert list(graph.run_dir.glob('*.failed')) == []
+    finally:
+        stranger.kill()
+        stranger.wait()
+
+
+def test_down_while_up_is_starting_leaves_nothing(graph: Graph) -> None:
+    graph.set_node('parser', SILENT)
+    up = subprocess.Popen(
+        [str(SCRIPTS / 'up'), '--detach'],
+        env=graph.environment,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+    )
+    _until(lambda: graph.pid('parser') != 0)
+    pids = [graph.pid(name) for name in NODES]
+
+    down = graph.call('down')
+
+    assert down.returncode == 0, down.stderr
+    up.communicate(timeout=DEADLINE_S)
+    assert not [pid for pid in pids if pid and _is_alive(pid)]
+    assert list(graph.run_dir.glob('*.pid')) == []
+
+
+def test_a_stopped_supervisor_does_not_hold_up_down(graph: Graph) -> None:
+    graph.call('up', '--detach')
+    os.kill(graph.pid('up'), signal.SIGSTOP)
+
+    assert graph.call('down').returncode == 0
+
+    assert graph.alive() == []
+    assert not _is_alive(graph.pid('up')) if graph.pid('up') else True
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_during_a_detached_start_stops_everything(
+    graph: Graph, number: signal.Signals
+) -> None:
+    graph.set_node('parser', SILENT)
+    up = subprocess.Popen(
+        [str(SCRIPTS / 'up'), '--detach'],
+        env=graph.environment,
+        stdin=subprocess.DEVNULL,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        preexec_fn=_hear_ctrl_c,
+    )
+    _until(lambda: graph.pid('parser') != 0)
+
+    up.send_signal(number)
+
+    up.communicate(timeout=DEADLINE_S)
+    assert up.returncode == 143
+    assert graph.alive() == []
+    assert list(graph.run_dir.glob('*.pid')) == []
 
 
 @pytest.mark.parametrize('arguments', [('--unknown',), ('--timeout', 'soon')])

@@ -35,6 +35,7 @@ try:
     from aurora_ros import interfaces as on
     from aurora_ros.call import Caller
     from aurora_ros.conversions.options import options_json
+    from aurora_ros.errors import raise_error
     from aurora_ros.heartbeat import HeartbeatWatch
 except ImportError as err:
     raise ExecutionError(
@@ -50,6 +51,7 @@ _START_S = 90
 _STOP_S = 30.0
 _RUN_S = 2 * 3600.0
 _CANCEL_S = 30.0
+_END_S = 20.0  # for a command that was told to end
 _LOOK_S = 0.1
 
 _UP = ('ros2', 'run', 'aurora_bringup', 'up', '--detach', '--timeout', str(_START_S))
@@ -84,6 +86,7 @@ def run_over_ros(request: RunRequest, root: Path, control: RunControl) -> tuple[
             ),
             cancelled=control.cancelled,
             cancel_limit_s=_CANCEL_S,
+            raise_errors=False,
         )
     return _report(result), Path(result.run_dir)
 
@@ -94,6 +97,8 @@ def _options(request: RunRequest, root: Path) -> str:
 
 
 def _report(result: Any) -> RunReport:
+    if not result.report_json:
+        raise_error(result, 'orchestrator')
     try:
         return RunReport.model_validate_json(str(result.report_json))
     except ValidationError as err:
@@ -192,11 +197,15 @@ def _call(command: tuple[str, ...], cancelled: Callable[[], bool], limit_s: floa
             hint='source ros_ws/setup.bash puts it on PATH',
             component='aurora_cli',
         ) from err
-    waited_s = 0.0
+    deadline_s = time.monotonic() + limit_s
+    told = False
     while True:
         try:
             return process.wait(timeout=_LOOK_S)
         except subprocess.TimeoutExpired:
-            waited_s += _LOOK_S
-            if cancelled() or waited_s > limit_s:
+            if told and time.monotonic() > deadline_s:
+                process.kill()
+            elif not told and (cancelled() or time.monotonic() > deadline_s):
+                told = True
                 process.terminate()
+                deadline_s = time.monotonic() + _END_S

@@ -8,10 +8,14 @@ from abc import abstractmethod
 from dataclasses import dataclass
 from typing import Any
 
+from rclpy.clock import Clock
+from rclpy.clock_type import ClockType
+
 from aurora_core.errors import AuroraError
 from aurora_msgs.msg import Fault, SyncStatus, Tick, TickDone
 from aurora_ros import interfaces as on
 from aurora_ros.errors import write_error
+from aurora_ros.heartbeat import HeartbeatWatch
 from aurora_ros.interfaces import Call, Topic
 from aurora_ros.lifecycle import ManagedNode
 from aurora_ros.lockstep_input import LockstepInput
@@ -20,6 +24,8 @@ from aurora_ros.node import defect
 
 _ENDED = (SyncStatus.IDLE, SyncStatus.FINISHED, SyncStatus.FAILED)
 MATCH_LIMIT_S = 5.0
+_CLOCK = 'sync'
+_LOOK_S = 0.5
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -69,6 +75,8 @@ class LockstepBridge(ManagedNode):
         self.subscription(on.TICK, self._on_tick)
         self.subscription(self._interfaces.command, self._on_command)
         self.subscription(on.SYNC_STATUS, self._on_sync_status)
+        self._watch = HeartbeatWatch(self)
+        self.create_timer(_LOOK_S, self._on_look, clock=Clock(clock_type=ClockType.STEADY_TIME))
         self.serve(self._interfaces.load, self._load)
 
     def deactivate(self) -> None:
@@ -103,6 +111,12 @@ class LockstepBridge(ManagedNode):
 
     def _on_sync_status(self, message: SyncStatus) -> None:
         if message.run_number == self._input.run_number and message.state in _ENDED:
+            self._end_run()
+
+    def _on_look(self) -> None:
+        """Leave a run whose clock has died: no word of its end will come."""
+        if self._input.run_number is not None and self._watch.is_dead(_CLOCK):
+            self.get_logger().error(f'{_CLOCK} {self._watch.cause_of_death(_CLOCK)}: run given up')
             self._end_run()
 
     def _step(self) -> None:

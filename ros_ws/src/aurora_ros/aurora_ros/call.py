@@ -20,7 +20,7 @@ from rclpy.client import Client
 from rclpy.node import Node
 from rclpy.task import Future
 
-from aurora_core.errors import ExecutionError
+from aurora_core.errors import AuroraError, ExecutionError, ParticipantSilentError
 from aurora_ros.action_client import ThreadedActionClient
 from aurora_ros.errors import raise_error
 from aurora_ros.heartbeat import HeartbeatWatch
@@ -28,6 +28,7 @@ from aurora_ros.interfaces import Call
 
 _POLL_S = 0.01  # discovery of a server
 _RESTART_S = 5.0  # a server that is dead when the call begins may be just starting again
+_ABANDON_S = 3.0  # for the end of a goal that is given up
 _LOOK_S = 0.1  # between two looks at heartbeats and cancellation while an answer is awaited
 
 
@@ -37,11 +38,19 @@ class Caller:
     Args:
         node: Its executor must be spinning in another thread than the caller's.
         watch: Tells early that a server has died.
+        guard: Asked in every wait; raises when waiting makes no sense for another reason.
     """
 
-    def __init__(self, node: Node, watch: HeartbeatWatch | None = None) -> None:
+    def __init__(
+        self,
+        node: Node,
+        watch: HeartbeatWatch | None = None,
+        *,
+        guard: Callable[[], None] = lambda: None,
+    ) -> None:
         self._node = node
         self._watch = watch
+        self._guard = guard
         self._group = ReentrantCallbackGroup()
         self._services: dict[str, Client] = {}
         self._actions: dict[str, ThreadedActionClient] = {}
@@ -99,6 +108,7 @@ class Caller:
         on_feedback: Callable[[Any], None] = lambda _feedback: None,
         cancelled: Callable[[], bool] = lambda: False,
         cancel_limit_s: float = 10.0,
+        raise_errors: bool = True,
     ) -> Any:
         """Send a goal to a prepared action, wait for its end and return the result.
 
@@ -109,10 +119,11 @@ class Caller:
             on_feedback: Called with each feedback message in the executor's thread.
             cancelled: Asked ten times a second; the goal is cancelled once it is true.
             cancel_limit_s: Wall-clock limit from then on.
+            raise_errors: Raise the error that the result carries.
 
         Raises:
             ExecutionError: No server, goal refused, no result within the limit, server died.
-            AuroraError: The result carries an error.
+            AuroraError: The result carries an error, or the guard raised.
         """
         deadline = time.monotonic() + limit_s
         client = self._actions[call.name]
@@ -131,17 +142,32 @@ class Caller:
         result = handle.get_result_async()
         done = _event_of(result)
         cancelling = False
-        while not done.wait(_LOOK_S):
-            if cancelled() and not cancelling:
-                cancelling = True
-                handle.cancel_goal_async()
-                deadline, limit_s = time.monotonic() + cancel_limit_s, cancel_limit_s
-            self._check(call, deadline, limit_s)
+        try:
+            while not done.wait(_LOOK_S):
+                if cancelled() and not cancelling:
+                    cancelling = True
+                    handle.cancel_goal_async()
+                    deadline, limit_s = time.monotonic() + cancel_limit_s, cancel_limit_s
+                self._check(call, deadline, limit_s)
+        except AuroraError:
+            self._abandon(call, handle, done)
+            raise
         response = result.result()
         if response.status == GoalStatus.STATUS_UNKNOWN:
             raise ExecutionError(f'{call.server} lost the goal', component=call.server)
-        raise_error(response.result, call.server)
+        if raise_errors:
+            raise_error(response.result, call.server)
         return response.result
+
+    def _abandon(self, call: Call, handle: ClientGoalHandle, done: threading.Event) -> None:
+        """Ask for the end of a goal that nobody waits for any more; wait for it a little."""
+        if self._is_dead(call) or not self._node.context.ok():
+            return
+        handle.cancel_goal_async()
+        deadline = time.monotonic() + _ABANDON_S
+        while not done.wait(_LOOK_S):
+            if self._is_dead(call) or time.monotonic() > deadline:
+                return
 
     def _await_server(
         self, call: Call, is_ready: Callable[[], bool], deadline: float, limit_s: float
@@ -149,9 +175,10 @@ class Caller:
         pause = threading.Event()
         restart_deadline = min(deadline, time.monotonic() + _RESTART_S)
         while not is_ready() or self._is_dead(call):
+            self._guard()
             until = restart_deadline if self._is_dead(call) else deadline
             if time.monotonic() > until or not self._node.context.ok():
-                raise ExecutionError(
+                raise ParticipantSilentError(
                     f'nobody serves {call.name} (waited up to {limit_s:g} s)',
                     component=call.server,
                     hint=f'start it: is {call.server} running in this ROS_DOMAIN_ID?',
@@ -173,12 +200,14 @@ class Caller:
         """Raise when it makes no sense to wait any longer."""
         if not self._node.context.ok():
             raise ExecutionError(f'shut down while waiting for {call.name}')
-        if self._is_dead(call):
-            raise ExecutionError(
-                f'{call.server} died while {call.name} was waited for', component=call.server
+        cause = self._watch.cause_of_death(call.server) if self._watch is not None else ''
+        if cause:
+            raise ParticipantSilentError(
+                f'{call.server} {cause} while {call.name} was waited for', component=call.server
             )
+        self._guard()
         if time.monotonic() > deadline:
-            raise ExecutionError(
+            raise ParticipantSilentError(
                 f'{call.server} did not answer {call.name} within {limit_s:g} s',
                 component=call.server,
                 hint=f'see the log of {call.server}',

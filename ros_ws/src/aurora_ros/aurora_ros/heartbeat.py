@@ -7,10 +7,13 @@ Everything here runs on steady time: a timer on simulated time would stop with `
 
 from __future__ import annotations
 
+import os
 import threading
 import time
 from collections.abc import Callable
+from dataclasses import dataclass
 
+from rclpy.callback_groups import CallbackGroup
 from rclpy.event_handler import QoSLivelinessChangedInfo, SubscriptionEventCallbacks
 from rclpy.exceptions import InvalidHandle
 from rclpy.impl.implementation_singleton import rclpy_implementation
@@ -18,13 +21,14 @@ from rclpy.node import Node
 
 from aurora_msgs.msg import Heartbeat
 from aurora_ros import interfaces
+from aurora_ros.processes import ProcessState, pid_space, process_state
 from aurora_ros.qos import LIVELINESS_LEASE_S
 
 PERIOD_S = 0.5
 
 
 class HeartbeatPublisher:
-    """Publishes one node's sign of life from a thread of its own.
+    """Publishes one node's sign of life from a thread of its own, once `start` was called.
 
     Args:
         node: Its name is the name in the message.
@@ -33,10 +37,16 @@ class HeartbeatPublisher:
     def __init__(self, node: Node) -> None:
         topic = interfaces.HEARTBEAT
         self._publisher = node.create_publisher(topic.type, topic.name, topic.qos)
-        self._message = Heartbeat(node=node.get_name(), state=Heartbeat.IDLE)
+        self._message = Heartbeat(
+            node=node.get_name(), state=Heartbeat.IDLE, pid=os.getpid(), pid_space=pid_space()
+        )
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._run, name='heartbeat', daemon=True)
-        self._thread.start()
+
+    def start(self) -> None:
+        """Begin to publish; the node is complete and serves from now on."""
+        if not self._thread.is_alive() and not self._stop.is_set():
+            self._thread.start()
 
     def busy(self, run_number: int) -> None:
         """Say that a run has begun."""
@@ -62,58 +72,123 @@ class HeartbeatPublisher:
     def close(self) -> None:
         """Stop the thread."""
         self._stop.set()
-        self._thread.join(timeout=PERIOD_S)
+        if self._thread.is_alive():
+            self._thread.join(timeout=PERIOD_S)
 
     def _run(self) -> None:
-        while True:
+        while not self._stop.is_set():
             try:
                 self._publisher.publish(self._message)
             except (InvalidHandle, rclpy_implementation.RCLError):
                 return  # the node is being shut down under us
-            if self._stop.wait(PERIOD_S):
-                return
+            self._stop.wait(PERIOD_S)
+
+
+@dataclass(slots=True)
+class _Heard:
+    """What is known of one node.
+
+    Attributes:
+        at_s: Steady time of the last sign of life.
+        pid: Process id, 0 when the process cannot be looked at from here.
+        started: Start time of the process, to tell it from a later one with its id; 0 when it
+            had ended before it could be looked at.
+        busy: Whether the last heartbeat said so.
+    """
+
+    at_s: float
+    pid: int = 0
+    started: int = 0
+    busy: bool = False
 
 
 class HeartbeatWatch:
     """Knows which nodes are alive.
 
-    The middleware tells within the liveliness lease that somebody went away, but not who; the
-    messages tell who. A node counts as dead when it is silent for longer than the lease and the
-    middleware has lost a publisher since it was heard last.
+    Of a process that shares our process ids the kernel tells at once whether it has ended or was
+    stopped. Of any other, the middleware tells within the liveliness lease that somebody went
+    away, but not who; the messages tell who: dead is who is silent for longer than the lease
+    while the middleware has lost a publisher since it was heard last.
 
     Args:
         node: Subscribes for it.
         clock: Steady seconds.
+        group: Callback group of the subscription.
+        look: Gives the state of a process.
     """
 
-    def __init__(self, node: Node, clock: Callable[[], float] = time.monotonic) -> None:
+    def __init__(
+        self,
+        node: Node,
+        clock: Callable[[], float] = time.monotonic,
+        *,
+        group: CallbackGroup | None = None,
+        look: Callable[[int], ProcessState | None] = process_state,
+    ) -> None:
         self._clock = clock
-        self._heard: dict[str, float] = {}
-        self._lost_at = float('-inf')
+        self._look = look
+        self._heard: dict[str, _Heard] = {}
+        self._lost_at_s = float('-inf')
         topic = interfaces.HEARTBEAT
         self._subscription = node.create_subscription(
             topic.type,
             topic.name,
             self._on_heartbeat,
             topic.qos,
+            callback_group=group,
             event_callbacks=SubscriptionEventCallbacks(liveliness=self._on_liveliness),
         )
 
     def is_dead(self, name: str) -> bool:
-        """Return whether a node that was heard before has gone."""
+        """Return whether a node that was heard before has ended, was stopped or has gone."""
+        return bool(self.cause_of_death(name))
+
+    def cause_of_death(self, name: str) -> str:
+        """Return what happened to a node that was heard before; empty while it lives."""
         heard = self._heard.get(name)
         if heard is None:
-            return False
-        silent_s = self._clock() - heard
-        return silent_s > LIVELINESS_LEASE_S + PERIOD_S and self._lost_at > heard
+            return ''
+        silent_s = self._clock() - heard.at_s
+        silent = silent_s > LIVELINESS_LEASE_S + PERIOD_S
+        if not heard.pid:
+            return 'fell silent' if silent and self._lost_at_s > heard.at_s else ''
+        state = self._look(heard.pid)
+        if state is None or state.started != heard.started:
+            return f'died (process {heard.pid})'
+        # Somebody who looks at it with a debugger for a moment does no harm.
+        return f'was stopped (process {heard.pid})' if silent and state.stopped else ''
+
+    def was_heard(self, name: str) -> bool:
+        """Return whether a node has ever given a sign of life."""
+        return name in self._heard
+
+    def is_busy(self, name: str) -> bool:
+        """Return whether a node said last that a run is going on."""
+        heard = self._heard.get(name)
+        return heard is not None and heard.busy
+
+    def process(self, name: str) -> tuple[int, int]:
+        """Return process id and start time of a node, (0, 0) when they are not known."""
+        heard = self._heard.get(name)
+        return (heard.pid, heard.started) if heard is not None else (0, 0)
 
     def hear(self, name: str) -> None:
         """Take in any sign of life: a heartbeat, or the answer to a call."""
-        self._heard[name] = self._clock()
+        heard = self._heard.get(name)
+        if heard is None:
+            self._heard[name] = _Heard(self._clock())
+        else:
+            heard.at_s = self._clock()
 
     def _on_heartbeat(self, message: Heartbeat) -> None:
         self.hear(message.node)
+        heard = self._heard[message.node]
+        heard.busy = message.state == Heartbeat.BUSY
+        pid = int(message.pid) if message.pid_space and message.pid_space == pid_space() else 0
+        if pid != heard.pid:
+            state = self._look(pid) if pid else None
+            heard.pid, heard.started = pid, state.started if state is not None else 0
 
     def _on_liveliness(self, info: QoSLivelinessChangedInfo) -> None:
         if info.alive_count_change < 0 or info.not_alive_count_change > 0:
-            self._lost_at = self._clock()
+            self._lost_at_s = self._clock()

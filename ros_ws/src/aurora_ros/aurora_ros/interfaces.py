@@ -99,3 +99,8 @@ SYNC_START = Call(name='sync/start', type=srv.StartSync, server='sync')
 SYNC_STOP = Call(name='sync/stop', type=srv.StopSync, server='sync')
 RECORDER_START = Call(name='recorder/start', type=srv.StartRecording, server='recorder')
 RECORDER_STOP = Call(name='recorder/stop', type=srv.StopRecording, server='recorder')
+
+
+def roll_call(node: str) -> Call:
+    """Return the service by which a node says that it is present."""
+    return Call(name=f'{node}/roll_call', type=srv.RollCall, server=node)

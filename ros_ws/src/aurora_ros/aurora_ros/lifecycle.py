@@ -81,6 +81,14 @@ class ManagedNode(EndpointsMixin, LifecycleNode):
                 hint=f'ros2 lifecycle set /{NAMESPACE}/{self.get_name()} activate',
             )
 
+    def check_presence(self) -> None:
+        """Answer a roll call: only an active node is of use.
+
+        Raises:
+            ExecutionError: It is not active.
+        """
+        self.require_active()
+
     def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
         """Run `configure`."""
         self._permanent = self._endpoints()
@@ -127,7 +135,7 @@ class ManagedNode(EndpointsMixin, LifecycleNode):
     def _clean_up(self) -> None:
         self.cleanup()
         for endpoint, destroy in self._endpoints().items():
-            if endpoint not in self._permanent:
+            if endpoint not in self._permanent and endpoint is not self.roll_call_service:
                 destroy(endpoint)
 
     def _endpoints(self) -> dict[Any, Callable[[Any], Any]]:

@@ -84,6 +84,9 @@ def run_node(
         stop.wakes(executor)
         if isinstance(node, ManagedNode) and node.wants_autostart:
             node.autostart()
+        # Only now: nobody publishes or asks while this thread still creates endpoints.
+        node.serve_roll_call()
+        node.heartbeat.start()
         ready = _announce(node)
         _serve(node, executor, stop)
     except AuroraError as err:

@@ -8,15 +8,16 @@ import traceback
 from collections.abc import Callable
 from typing import Any, TypeVar
 
-from rclpy.callback_groups import CallbackGroup
+from rclpy.callback_groups import CallbackGroup, ReentrantCallbackGroup
 from rclpy.node import Node
 from rclpy.publisher import Publisher
+from rclpy.service import Service
 from rclpy.subscription import Subscription
 
 from aurora_core.errors import AuroraError
 from aurora_ros.errors import write_error
 from aurora_ros.heartbeat import HeartbeatPublisher
-from aurora_ros.interfaces import NAMESPACE, Call, Topic
+from aurora_ros.interfaces import NAMESPACE, Call, Topic, roll_call
 
 _Request = TypeVar('_Request')
 _Response = TypeVar('_Response')
@@ -24,6 +25,8 @@ _Response = TypeVar('_Response')
 
 class EndpointsMixin:
     """Create endpoints from the interface table instead of by name, type and QoS."""
+
+    roll_call_service: Service | None = None
 
     def publisher(self: Any, topic: Topic) -> Publisher:
         """Return a publisher of a topic."""
@@ -51,6 +54,25 @@ class EndpointsMixin:
     def is_idle(self) -> bool:
         """Whether nothing is under way that should be brought to an end before the exit."""
         return True
+
+    def check_presence(self) -> None:
+        """Answer a roll call: a node without anything behind it is present by answering.
+
+        Raises:
+            AuroraError: Something that a run needs of this node is missing.
+        """
+
+    def serve_roll_call(self: Any) -> None:
+        """Answer roll calls; the last endpoint to be made, so who reaches it reaches all."""
+        call = roll_call(self.get_name())
+
+        def answer(_request: Any, response: Any) -> Any:
+            self.check_presence()
+            return response
+
+        self.roll_call_service = self.create_service(
+            call.type, call.name, answering(self, answer), callback_group=ReentrantCallbackGroup()
+        )
 
     def serve(
         self: Any,
