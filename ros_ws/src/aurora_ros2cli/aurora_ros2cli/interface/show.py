@@ -63,7 +63,7 @@ def definition(
         indent: Depth of nesting; one tab each.
     """
     package = name.split('/')[0]
-    for raw in _path(name).read_text(encoding='utf-8').splitlines():
+    for raw in definition_path(name).read_text(encoding='utf-8').splitlines():
         line = raw.rstrip()
         code = line.split('#')[0].rstrip()
         if comments or code:
@@ -93,7 +93,15 @@ def nested_type(code: str, package: str) -> str | None:
     return f'{owner or package}/msg/{name}'
 
 
-def _path(name: str) -> Path:
+def definition_path(name: str) -> Path:
+    """Return the file that defines an interface.
+
+    Args:
+        name: `package/kind/Name`.
+
+    Raises:
+        CliError: If the name is malformed or names nothing.
+    """
     parts = name.split('/')
     if len(parts) != 3 or parts[1] not in KINDS:
         raise CliError(f"Invalid name '{name}'. Expected three parts separated by '/'")
