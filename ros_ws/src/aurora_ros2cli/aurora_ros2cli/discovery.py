@@ -27,6 +27,8 @@ QUIET_UNSURE_S = 1.0
 ALONE_S = 2.0
 # A participant that holds ports and never answers (a stopped process) ends the wait.
 MOST_S = 5.0
+# On a busy machine everything takes longer, as much as there are processes for each processor.
+_PATIENCE_MOST = 4.0
 _POLL_S = 0.02
 
 _PORTS_BASE = 7400
@@ -51,6 +53,7 @@ def look_around(
     domain = int(os.environ.get('ROS_DOMAIN_ID') or 0)
     start_s = changed_s = time.monotonic()
     alone = seen = _view(node)
+    patience = _patience()
     while True:
         if found is not None and found():
             return
@@ -59,19 +62,27 @@ def look_around(
         if view != seen:
             seen, changed_s = view, now_s
         passed_s = now_s - start_s
-        if passed_s >= max(MOST_S, least_s):
+        if passed_s >= max(MOST_S * patience, least_s):
             return
         expected = participants_here(domain)
-        if passed_s >= least_s and _enough(
-            expected, seen, passed_s, now_s - changed_s, seen == alone
-        ):
+        quiet_s = (now_s - changed_s) / patience
+        if passed_s >= least_s and enough(expected, seen, passed_s, quiet_s, seen == alone):
             return
         time.sleep(_POLL_S)
 
 
-def _enough(
+def enough(
     expected: int | None, view: tuple[int, ...], passed_s: float, quiet_s: float, alone: bool
 ) -> bool:
+    """Whether the graph can be taken as known.
+
+    Args:
+        expected: Participants on this machine, where that is known.
+        view: Participants and nodes that were found, and more.
+        passed_s: Time since the start (s).
+        quiet_s: Time since the view last changed (s), less on a busy machine.
+        alone: Whether the view is still what it was at the start.
+    """
     participants, nodes = view[:2]
     if expected is None:
         return quiet_s >= QUIET_UNSURE_S and (passed_s >= ALONE_S or not alone)
@@ -80,6 +91,15 @@ def _enough(
     if expected == 1 and participants == 1:
         return True  # nobody else has a port
     return quiet_s >= (QUIET_S if nodes >= participants else QUIET_UNSURE_S)
+
+
+def _patience() -> float:
+    """Return by how much longer than on an idle machine things take."""
+    try:
+        waiting = os.getloadavg()[0]
+    except OSError:
+        return 1.0
+    return min(max(waiting / (os.cpu_count() or 1), 1.0), _PATIENCE_MOST)
 
 
 def _view(node: Node) -> tuple[int, ...]:
