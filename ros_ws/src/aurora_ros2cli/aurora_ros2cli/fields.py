@@ -1,14 +1,14 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""Messages from and to plain YAML values."""
+"""Fill messages from plain YAML values."""
 
 from __future__ import annotations
 
-import array
 import importlib
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
+import yaml
 from rosidl_parser.definition import (
     AbstractNestedType,
     AbstractString,
@@ -18,8 +18,6 @@ from rosidl_parser.definition import (
     BoundedSequence,
     NamespacedType,
 )
-
-TRUNCATED = '...'
 
 # Generated messages check neither ranges nor lengths unless asked to; a value that does not fit
 # would be cut silently when it is sent. The stem of a type name gives its bits.
@@ -31,16 +29,44 @@ class FieldError(ValueError):
     """A value does not fit the field of a message."""
 
 
-def set_fields(message: Any, values: Any) -> None:
+Stamp = Callable[[Any], None]
+
+
+def read_fields(message: Any, text: str) -> list[Stamp]:
+    """Fill a message in place from YAML text.
+
+    Args:
+        message: Any generated message.
+        text: Field names to values; blank stands for none. `auto` for a header and `now` for a
+            time stand for the time of sending.
+
+    Returns:
+        Setters for those times, which take a `builtin_interfaces/msg/Time`.
+
+    Raises:
+        FieldError: If the text is no YAML, or its values do not fit the message.
+    """
+    try:
+        values = yaml.safe_load(text)
+    except yaml.YAMLError as err:
+        raise FieldError(str(err)) from err
+    stamps: list[Stamp] = []
+    set_fields(message, values, stamps)
+    return stamps
+
+
+def set_fields(message: Any, values: Any, stamps: list[Stamp] | None = None) -> None:
     """Fill a message in place.
 
     Args:
         message: Any generated message.
         values: Field names to values, as YAML gives them; None stands for an empty mapping.
+        stamps: Takes up a setter for each time that is asked for with `auto` or `now`.
 
     Raises:
         FieldError: If a field does not exist or a value does not fit it.
     """
+    stamps = [] if stamps is None else stamps
     values = {} if values is None else values
     if not isinstance(values, Mapping):
         raise FieldError(f'expected a mapping of fields, found {values!r}')
@@ -49,16 +75,39 @@ def set_fields(message: Any, values: Any) -> None:
         if name not in kinds:
             raise FieldError(f"'{type(message).__name__}' object has no attribute '{name}'")
         try:
-            setattr(message, name, _convert(kinds[name], value))
+            if _is_now(kinds[name], value):
+                stamps.append(_setter(message, name))
+            else:
+                setattr(message, name, _convert(kinds[name], value, stamps))
         except (AssertionError, TypeError, ValueError, OverflowError) as err:
             raise FieldError(f'{name}: {err}') from err
 
 
-def _convert(kind: Any, value: Any) -> Any:
+def _is_now(kind: Any, value: Any) -> bool:
+    words = {('std_msgs', 'Header'): 'auto', ('builtin_interfaces', 'Time'): 'now'}
+    return (
+        isinstance(kind, NamespacedType)
+        and isinstance(value, str)
+        and words.get((kind.namespaces[0], kind.name)) == value
+    )
+
+
+def _setter(message: Any, name: str) -> Stamp:
+    def stamp(time: Any) -> None:
+        field = getattr(message, name)
+        if hasattr(field, 'stamp'):
+            field.stamp = time
+        else:
+            setattr(message, name, time)
+
+    return stamp
+
+
+def _convert(kind: Any, value: Any, stamps: list[Stamp]) -> Any:
     if isinstance(kind, NamespacedType):
         module = importlib.import_module('.'.join(kind.namespaces))
         message = getattr(module, kind.name)()
-        set_fields(message, value)
+        set_fields(message, value, stamps)
         return message
     if isinstance(kind, AbstractNestedType):
         if not isinstance(value, list):
@@ -67,7 +116,7 @@ def _convert(kind: Any, value: Any) -> Any:
             raise FieldError(f'expected {kind.size} elements, found {len(value)}')
         if isinstance(kind, BoundedSequence) and len(value) > kind.maximum_size:
             raise FieldError(f'expected at most {kind.maximum_size} elements, found {len(value)}')
-        return [_convert(kind.value_type, item) for item in value]
+        return [_convert(kind.value_type, item, stamps) for item in value]
     if isinstance(kind, (AbstractString, AbstractWString)):
         if isinstance(value, (Mapping, list)) or value is None:
             raise FieldError(f'expected a string, found {value!r}')
@@ -102,29 +151,3 @@ def _integer(kind: Any, value: Any) -> int:
 
 def _is(kind: Any, *names: str) -> bool:
     return isinstance(kind, BasicType) and kind.typename in names
-
-
-def to_plain(value: Any, longest: int | None = 128) -> Any:
-    """Turn a message or a field value into what YAML can hold, in field order.
-
-    Args:
-        value: Message or value of a field.
-        longest: Strings and sequences are cut after this many elements; None cuts nothing.
-    """
-    if hasattr(value, 'get_fields_and_field_types'):
-        return {
-            name: to_plain(getattr(value, name), longest)
-            for name in value.get_fields_and_field_types()
-        }
-    if isinstance(value, bytes):
-        value = list(value)
-    elif isinstance(value, array.array) or hasattr(value, 'tolist'):
-        value = value.tolist()
-    if isinstance(value, str):
-        cut = longest is not None and len(value) > longest
-        return value[:longest] + TRUNCATED if cut else value
-    if isinstance(value, (list, tuple)):
-        cut = longest is not None and len(value) > longest
-        items = [to_plain(item, longest) for item in (value[:longest] if cut else value)]
-        return [*items, TRUNCATED] if cut else items
-    return value

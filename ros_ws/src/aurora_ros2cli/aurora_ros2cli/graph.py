@@ -1,35 +1,49 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""A short-lived hidden node that has looked around in the ROS graph."""
+"""A short-lived hidden node, and names in the graph."""
 
 from __future__ import annotations
 
+import argparse
+import os
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 import rclpy
+from rclpy.exceptions import InvalidTopicNameException
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.expand_topic_name import expand_topic_name
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 from rclpy.signals import SignalHandlerOptions
+from rclpy.validate_full_topic_name import validate_full_topic_name
+
+from aurora_ros2cli.discovery import look_around
+from aurora_ros2cli.errors import CliError
 
 # Hidden, as the names of ros2cli's own nodes are.
 NAME_PREFIX = '_ros2cli'
 
-DISCOVERY_LEAST_S = 0.5
-# As long as nobody has been seen: on a busy machine the first answer takes more than a second.
-DISCOVERY_ALONE_S = 2.0
-DISCOVERY_QUIET_S = 0.4
-DISCOVERY_MOST_S = 3.0
-_POLL_S = 0.05
+# Waiting is cut in slices: Python sees Ctrl-C only between two of them.
+_SLICE_S = 0.1
 
 
 @contextmanager
-def temporary_node(suffix: str = '') -> Iterator[Node]:
-    """Start rclpy with a hidden node; Ctrl-C raises KeyboardInterrupt."""
+def temporary_node(name: str | None = None, *, use_sim_time: bool = False) -> Iterator[Node]:
+    """Start rclpy with a node; Ctrl-C raises KeyboardInterrupt.
+
+    Args:
+        name: Node name; a hidden one of its own by default.
+        use_sim_time: Whether its clock follows `/clock`.
+    """
     rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
     try:
         node = rclpy.create_node(
-            f'{NAME_PREFIX}{suffix}', enable_rosout=False, start_parameter_services=False
+            name or f'{NAME_PREFIX}_{os.getpid()}',
+            enable_rosout=False,
+            start_parameter_services=False,
+            parameter_overrides=[Parameter('use_sim_time', value=use_sim_time)],
         )
         try:
             yield node
@@ -39,26 +53,96 @@ def temporary_node(suffix: str = '') -> Iterator[Node]:
         rclpy.shutdown()
 
 
-def settle(look: Callable[[], object]) -> None:
-    """Wait until discovery has gone quiet: what `look` returns no longer changes.
+def add_look_arguments(parser: argparse.ArgumentParser) -> None:
+    """Add the options of every verb that looks at the graph."""
+    parser.add_argument(
+        '--spin-time',
+        type=float,
+        default=0.0,
+        metavar='SPIN_TIME',
+        help='Spin time in seconds to wait for discovery (at least)',
+    )
+    parser.add_argument(
+        '-s', '--use-sim-time', action='store_true', help='Enable ROS simulation time'
+    )
+    parser.add_argument(
+        '--no-daemon', action='store_true', help='Accepted; there never is a daemon here'
+    )
+
+
+@contextmanager
+def settled_node(
+    arguments: argparse.Namespace, found: Callable[[Node], bool] | None = None
+) -> Iterator[Node]:
+    """Start a node that knows the graph.
 
     Args:
-        look: Returns any comparable view of the graph.
+        arguments: With the options of `add_look_arguments`.
+        found: Ends the looking early, once what is looked for is there.
     """
-    start_s = changed_s = time.monotonic()
-    alone = seen = look()
-    while True:
-        time.sleep(_POLL_S)
-        now_s = time.monotonic()
-        view = look()
-        if view != seen:
-            seen, changed_s = view, now_s
-        least_s = DISCOVERY_ALONE_S if view == alone else DISCOVERY_LEAST_S
-        enough = now_s - start_s >= least_s and now_s - changed_s >= DISCOVERY_QUIET_S
-        if enough or now_s - start_s >= DISCOVERY_MOST_S:
-            return
+    with temporary_node(use_sim_time=arguments.use_sim_time) as node:
+        look_around(
+            node,
+            least_s=arguments.spin_time,
+            found=None if found is None else lambda: found(node),
+        )
+        yield node
+
+
+def spin_until(node: Node, done: Callable[[], bool], limit_s: float | None = None) -> bool:
+    """Serve a node's callbacks until something holds.
+
+    Args:
+        node: The node.
+        done: Asked after each callback, and ten times a second at least.
+        limit_s: Give up after this time (s); None waits for ever.
+
+    Returns:
+        Whether it holds.
+    """
+    executor = SingleThreadedExecutor()
+    executor.add_node(node)
+    end_s = None if limit_s is None else time.monotonic() + limit_s
+    try:
+        while not done():
+            if end_s is not None and time.monotonic() >= end_s:
+                return False
+            executor.spin_once(timeout_sec=_SLICE_S)
+        return True
+    finally:
+        executor.remove_node(node)
+        executor.shutdown()
 
 
 def is_hidden(name: str) -> bool:
     """Whether any part of a graph name begins with an underscore."""
     return any(part.startswith('_') for part in name.split('/'))
+
+
+def full_name(node: Node, name: str) -> str:
+    """Return the absolute name of a topic, service or action.
+
+    Raises:
+        CliError: If no such name can exist.
+    """
+    try:
+        expanded: str = expand_topic_name(name, node.get_name(), node.get_namespace())
+        validate_full_topic_name(expanded)
+    except (InvalidTopicNameException, ValueError) as err:
+        raise CliError(str(err)) from err
+    return expanded
+
+
+def node_names(node: Node, *, hidden: bool) -> list[str]:
+    """Return the full names of the nodes in the graph, sorted; equal names stand side by side."""
+    return sorted(
+        f'{space.rstrip("/")}/{name}'
+        for name, space in node.get_node_names_and_namespaces()
+        if hidden or not name.startswith('_')
+    )
+
+
+def split_node_name(name: str) -> tuple[str, str]:
+    """Return the base name and the namespace of a full node name."""
+    space, _, base = name.rpartition('/')
+    return base, space or '/'

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""Message and service classes by their ROS names."""
+"""Message, service and action classes by their ROS names."""
 
 from __future__ import annotations
 
@@ -9,14 +9,15 @@ from typing import Any
 
 from aurora_ros2cli.errors import CliError
 
+_WORDS = {'msg': 'message', 'srv': 'service', 'action': 'action'}
 
-def load_type(name: str, kind: str, failure: str) -> Any:
+
+def load_type(name: str, kind: str) -> Any:
     """Import a generated class.
 
     Args:
         name: `package/kind/Name`, or `package/Name`.
-        kind: `msg` or `srv`.
-        failure: Message where there is no such class.
+        kind: `msg`, `srv` or `action`.
 
     Raises:
         CliError: If the name is malformed, of another kind, or nothing is found.
@@ -24,6 +25,7 @@ def load_type(name: str, kind: str, failure: str) -> Any:
     parts = name.split('/')
     if len(parts) == 2:
         parts.insert(1, kind)
+    failure = f'The passed {_WORDS[kind]} type is invalid'
     if len(parts) != 3 or parts[1] != kind or not all(part.isidentifier() for part in parts):
         raise CliError(failure)
     try:

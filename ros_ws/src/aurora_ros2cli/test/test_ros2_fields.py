@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""Messages from and to YAML values."""
+"""Messages from YAML values."""
 
 from __future__ import annotations
 
@@ -12,8 +12,7 @@ std_msgs = pytest.importorskip('std_msgs.msg')
 geometry_msgs = pytest.importorskip('geometry_msgs.msg')
 sensor_msgs = pytest.importorskip('sensor_msgs.msg')
 
-from aurora_ros2cli.fields import FieldError, set_fields, to_plain  # noqa: E402
-from aurora_ros2cli.topic import as_yaml  # noqa: E402
+from aurora_ros2cli.fields import FieldError, read_fields, set_fields  # noqa: E402
 
 
 def test_fields_of_every_kind_are_set() -> None:
@@ -92,26 +91,20 @@ def test_an_array_of_fixed_size_must_be_filled() -> None:
         set_fields(camera, {'k': [1.0, 2.0]})
 
 
-def test_a_message_becomes_yaml_in_field_order() -> None:
-    stamped = geometry_msgs.PointStamped()
-    stamped.header.frame_id = 'map'
+def test_times_of_sending_are_filled_in_later() -> None:
+    stamped = geometry_msgs.PoseStamped()
+    stamps = read_fields(stamped, '{header: auto, pose: {position: {x: 1}}}')
+    header = std_msgs.Header()
+    stamps += read_fields(header, '{stamp: now, frame_id: map}')
+    time = type(header.stamp)(sec=7)
 
-    assert as_yaml(stamped) == (
-        'header:\n  stamp:\n    sec: 0\n    nanosec: 0\n  frame_id: map\n'
-        'point:\n  x: 0.0\n  y: 0.0\n  z: 0.0\n'
-    )
+    for stamp in stamps:
+        stamp(time)
 
-
-def test_long_fields_are_cut_unless_asked_for() -> None:
-    text = std_msgs.String(data='x' * 200)
-    assert to_plain(text) == {'data': 'x' * 128 + '...'}
-    assert to_plain(text, None) == {'data': 'x' * 200}
-
-    numbers = std_msgs.Float64MultiArray(data=[0.5] * 200)
-    assert to_plain(numbers)['data'] == [0.5] * 128 + ['...']
+    assert (stamped.header.stamp.sec, stamped.pose.position.x) == (7, 1.0)
+    assert (header.stamp.sec, header.frame_id) == (7, 'map')
 
 
-def test_arrays_of_fixed_size_and_bytes_become_lists() -> None:
-    camera = sensor_msgs.CameraInfo()
-    assert to_plain(camera)['k'] == [0.0] * 9
-    assert to_plain(std_msgs.ByteMultiArray(data=[b'\x07']))['data'] == [[7]]
+def test_text_that_is_no_yaml_is_refused() -> None:
+    with pytest.raises(FieldError):
+        read_fields(std_msgs.String(), '{data: [')

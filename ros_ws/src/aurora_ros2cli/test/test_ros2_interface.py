@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from aurora_ros2cli.interface import nested_type
+from aurora_ros2cli.bag.schema import schema_text
+from aurora_ros2cli.interface.show import nested_type
 from aurora_ros2cli.main import main
 
 
@@ -96,3 +97,30 @@ def test_unknown_names_fail(
 )
 def test_which_lines_hold_a_nested_type(code: str, expected: str | None) -> None:
     assert nested_type(code, 'zoo') == expected
+
+
+def test_lists_of_interfaces(definitions: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    def lines(*arguments: str) -> list[str]:
+        assert main(['interface', *arguments]) == 0
+        return capsys.readouterr().out.splitlines()
+
+    assert lines('list') == [
+        'Messages:', '    zoo/msg/Beast', '    zoo/msg/Cage', 'Services:', '    zoo/srv/Feed',
+        'Actions:',
+    ]  # fmt: skip
+    assert lines('list', '-s') == ['Services:', '    zoo/srv/Feed']
+    assert lines('package', 'zoo') == ['zoo/msg/Beast', 'zoo/msg/Cage', 'zoo/srv/Feed']
+    assert lines('package', '-m', 'zoo') == ['zoo/msg/Beast', 'zoo/msg/Cage']
+    assert lines('packages') == ['zoo']
+    assert lines('packages', '-a') == []
+
+    assert main(['interface', 'package', 'sea']) == 1
+    assert capsys.readouterr().err == "Unknown package 'sea'\n"
+
+
+def test_the_schema_of_a_bag_holds_every_definition_once(definitions: Path) -> None:
+    text = schema_text('zoo/msg/Cage')
+
+    own, *nested = text.split('=' * 80 + '\n')
+    assert own.endswith('Beast[] beasts\n')
+    assert nested == ['MSG: zoo/Beast\n# A beast.\nuint8 LION = 1\nuint8 kind\nstring<=8 name\n']

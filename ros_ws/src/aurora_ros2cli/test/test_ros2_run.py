@@ -12,6 +12,9 @@ from pathlib import Path
 
 import pytest
 
+from aurora_ros2cli.commands import COMMANDS, Group
+from aurora_ros2cli.main import main
+
 ROOT = Path(__file__).resolve().parents[1]
 
 
@@ -129,6 +132,13 @@ def test_pkg_executables_and_list_of_all(prefix: Path) -> None:
     assert _ros2(prefix, 'pkg', 'executables', 'moor').stderr == "Package 'moor' not found\n"
 
 
+def test_pkg_prefix(prefix: Path) -> None:
+    assert _ros2(prefix, 'pkg', 'prefix', 'garage').stdout == f'{prefix}\n'
+    shared = _ros2(prefix, 'pkg', 'prefix', '--share', 'garage').stdout
+    assert shared == f'{prefix}/share/garage\n'
+    assert _ros2(prefix, 'pkg', 'prefix', 'moor').stderr == "Package 'moor' not found\n"
+
+
 def test_the_overlay_hides_the_underlay(prefix: Path, tmp_path: Path) -> None:
     overlay = tmp_path / 'overlay'
     marker = overlay / 'share' / 'ament_index' / 'resource_index' / 'packages' / 'garage'
@@ -170,3 +180,22 @@ def test_run_does_not_import_rclpy(prefix: Path) -> None:
     assert 'aurora_ros2cli.packages' in traced.stderr
     assert 'rclpy' not in traced.stderr
     assert 'yaml' not in traced.stderr
+
+
+def test_help_names_every_command_and_verb(prefix: Path) -> None:
+    top = _ros2(prefix, '--help').stdout
+    for name, entry in COMMANDS.items():
+        assert f'\n  {name} ' in top
+        if isinstance(entry, Group):
+            shown = _ros2(prefix, name, '-h').stdout
+            assert all(f'\n  {verb} ' in shown for verb in entry.verbs)
+
+
+def test_every_verb_has_a_module_with_help(capsys: pytest.CaptureFixture[str]) -> None:
+    pytest.importorskip('rclpy')
+    for name, entry in COMMANDS.items():
+        for verb in entry.verbs if isinstance(entry, Group) else ('',):
+            with pytest.raises(SystemExit) as stop:
+                main([name, *([verb] if verb else []), '--help'])
+            assert stop.value.code == 0
+            assert capsys.readouterr().out.startswith(f'usage: ros2 {name} {verb}'.rstrip())

@@ -11,11 +11,10 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from aurora_ros2cli.errors import CliError
+from aurora_ros2cli.interface.index import KINDS
 from aurora_ros2cli.output import emit
 from aurora_ros2cli.packages import package_prefix
-from aurora_ros2cli.verbs import add_verbs
 
-KINDS = ('msg', 'srv', 'action')
 # Type of a field: "Name", "package/Name", possibly with a length bound or brackets, then a
 # field name that is not a constant.
 _FIELD = re.compile(
@@ -25,22 +24,20 @@ _BUILT_IN = re.compile(r'^(bool|byte|char|w?string|u?int(8|16|32|64)|float(32|64
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Declare the verbs of the command."""
-    show = add_verbs(parser).add_parser('show', help='Output the interface definition')
-    comments = show.add_mutually_exclusive_group()
+    """Declare the options."""
+    comments = parser.add_mutually_exclusive_group()
     comments.add_argument(
         '--all-comments', action='store_true', help='Show all comments, also of nested types'
     )
     comments.add_argument(
         '--no-comments', action='store_true', help='Show no comments or whitespace'
     )
-    show.add_argument(
+    parser.add_argument(
         'type', help="Interface (e.g. 'std_msgs/msg/String'); '-' reads it from stdin"
     )
-    show.set_defaults(main=show_interface)
 
 
-def show_interface(arguments: argparse.Namespace) -> int:
+def main(arguments: argparse.Namespace) -> int:
     """Print a definition.
 
     Raises:
@@ -66,7 +63,7 @@ def definition(
         indent: Depth of nesting; one tab each.
     """
     package = name.split('/')[0]
-    for raw in _path(name).read_text(encoding='utf-8').splitlines():
+    for raw in definition_path(name).read_text(encoding='utf-8').splitlines():
         line = raw.rstrip()
         code = line.split('#')[0].rstrip()
         if comments or code:
@@ -96,7 +93,15 @@ def nested_type(code: str, package: str) -> str | None:
     return f'{owner or package}/msg/{name}'
 
 
-def _path(name: str) -> Path:
+def definition_path(name: str) -> Path:
+    """Return the file that defines an interface.
+
+    Args:
+        name: `package/kind/Name`.
+
+    Raises:
+        CliError: If the name is malformed or names nothing.
+    """
     parts = name.split('/')
     if len(parts) != 3 or parts[1] not in KINDS:
         raise CliError(f"Invalid name '{name}'. Expected three parts separated by '/'")
