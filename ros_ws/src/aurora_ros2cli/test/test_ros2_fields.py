@@ -115,3 +115,9 @@ def test_arrays_of_fixed_size_and_bytes_become_lists() -> None:
     camera = sensor_msgs.CameraInfo()
     assert to_plain(camera)['k'] == [0.0] * 9
     assert to_plain(std_msgs.ByteMultiArray(data=[b'\x07']))['data'] == [[7]]
+
+
+@pytest.mark.parametrize('text', ['a\0b', '\ud800'])
+def test_text_that_would_arrive_changed_is_refused(text: str) -> None:
+    with pytest.raises(FieldError, match=r'NUL|surrogate'):
+        set_fields(std_msgs.String(), {'data': text})
