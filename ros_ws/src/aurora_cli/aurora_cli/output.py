@@ -6,12 +6,14 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from aurora_core.errors import AuroraError
+from aurora_core.report.visible import visible
 
 if TYPE_CHECKING:
     from pydantic import BaseModel
@@ -22,14 +24,17 @@ BROKEN = 4
 USAGE = 64
 INTERRUPTED = 130
 
+# What JSON lets through and a terminal obeys: DEL, the controls of Latin-1, direction marks.
+_OBEYED = re.compile('[\x7f-\x9f\u200e\u200f\u202a-\u202e\u2066-\u2069]')
+
 
 class UsageProblem(Exception):  # noqa: N818  (a mistake of the user, not an error of ours)
     """The command line asks for something that cannot be: exit code 64."""
 
 
 def say(text: str) -> None:
-    """Write a line to standard error."""
-    sys.stderr.write(f'{text}\n')
+    """Write a line to standard error; what a terminal would obey in it is shown instead."""
+    sys.stderr.write(f'{visible(text)}\n')
     sys.stderr.flush()
 
 
@@ -43,7 +48,8 @@ def answer_console() -> Console:
 def print_json(document: BaseModel | dict[str, Any]) -> None:
     """Write one JSON document to standard output."""
     value = document if isinstance(document, dict) else document.model_dump(mode='json')
-    sys.stdout.write(json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False) + '\n')
+    text = json.dumps(value, indent=2, ensure_ascii=False, allow_nan=False)
+    sys.stdout.write(_OBEYED.sub(lambda found: f'\\u{ord(found[0]):04x}', text) + '\n')
     sys.stdout.flush()
 
 

@@ -99,8 +99,7 @@ def unreadable(request: RunRequest, raw: bytes, err: PromptError, run_id: str) -
         question += f'; {err.hint}'
     return RunFacts(
         run_id=run_id,
-        # For people; prompt.txt holds the bytes.
-        prompt=raw.decode('utf-8', 'replace').replace('\x00', '\ufffd'),
+        prompt=_legible(raw),
         engine=cast(str, request.engine),
         model=request.model,
         map_name=request.map_name,
@@ -109,3 +108,11 @@ def unreadable(request: RunRequest, raw: bytes, err: PromptError, run_id: str) -
         faults=request.faults,
         parse=ParseOutcome(question=question),
     )
+
+
+def _legible(raw: bytes) -> str:
+    r"""Return a prompt that cannot be read as text that can: every unreadable byte as `\xNN`.
+
+    `prompt.txt` holds the bytes. A NUL would cut the text where ROS carries it.
+    """
+    return raw.decode('utf-8', 'backslashreplace').replace('\x00', r'\x00')

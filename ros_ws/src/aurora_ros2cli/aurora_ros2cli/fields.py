@@ -123,7 +123,7 @@ def _convert(kind: Any, value: Any, stamps: list[Stamp]) -> Any:
         most = getattr(kind, 'maximum_size', None)
         if most is not None and len(str(value).encode()) > most:
             raise FieldError(f'expected at most {most} bytes, found {len(str(value).encode())}')
-        return str(value)
+        return _text(str(value))
     if _is(kind, 'boolean'):
         if not isinstance(value, (bool, int)):
             raise FieldError(f'expected true or false, found {value!r}')
@@ -133,6 +133,16 @@ def _convert(kind: Any, value: Any, stamps: list[Stamp]) -> Any:
     if _is(kind, 'float', 'double', 'long double'):
         return float(value)
     return _integer(kind, value)
+
+
+def _text(value: str) -> str:
+    if '\0' in value:
+        raise FieldError(f'a NUL would cut the string at {value.index(chr(0))}')
+    try:
+        value.encode()
+    except UnicodeEncodeError as err:
+        raise FieldError(f'expected Unicode, found a lone surrogate at {err.start}') from err
+    return value
 
 
 def _integer(kind: Any, value: Any) -> int:

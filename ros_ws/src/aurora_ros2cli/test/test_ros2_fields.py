@@ -108,3 +108,9 @@ def test_times_of_sending_are_filled_in_later() -> None:
 def test_text_that_is_no_yaml_is_refused() -> None:
     with pytest.raises(FieldError):
         read_fields(std_msgs.String(), '{data: [')
+
+
+@pytest.mark.parametrize('text', ['a\0b', '\ud800'])
+def test_text_that_would_arrive_changed_is_refused(text: str) -> None:
+    with pytest.raises(FieldError, match=r'NUL|surrogate'):
+        set_fields(std_msgs.String(), {'data': text})

@@ -7,6 +7,7 @@ from __future__ import annotations
 from aurora_core.errors import PromptError
 
 MAX_PROMPT_BYTES = 8192
+_REPLACEMENT = '\ufffd'
 
 
 def check_prompt_text(raw: bytes | str) -> str:
@@ -16,35 +17,22 @@ def check_prompt_text(raw: bytes | str) -> str:
         raw: UTF-8 bytes or text.
 
     Raises:
-        PromptError: Empty, blanks only, longer than 8 KiB of UTF-8, a NUL, or not valid UTF-8.
+        PromptError: Empty, blanks only, longer than 8 KiB of UTF-8, a NUL, not valid UTF-8, or
+            with characters that stand for bytes that somebody before us could not read.
     """
-    if isinstance(raw, bytes):
-        size = len(raw)
-        try:
-            text = raw.decode('utf-8')
-        except UnicodeDecodeError as err:
-            raise PromptError(
-                f'the prompt must be UTF-8, found byte 0x{raw[err.start]:02x} at {err.start}',
-                hint='save or send the text as UTF-8',
-            ) from err
-    else:
-        text = raw
-        try:
-            size = len(text.encode('utf-8'))
-        except UnicodeEncodeError as err:
-            raise PromptError(
-                f'the prompt must be valid Unicode, found a lone surrogate at {err.start}',
-                hint='save or send the text as UTF-8',
-            ) from err
-    if size > MAX_PROMPT_BYTES:
-        raise PromptError(
-            f'the prompt may have {MAX_PROMPT_BYTES} bytes, found {size}',
-            hint='describe one scenario per prompt',
-        )
+    text, size = _of_bytes(raw) if isinstance(raw, bytes) else _of_text(raw)
+    _check_size(size)
     if '\x00' in text:
         raise PromptError(
             f'the prompt must not contain NUL, found one at {text.index(chr(0))}',
             hint='remove the NUL character',
+        )
+    if _REPLACEMENT in text:
+        # ROS 2 and many editors put it where bytes are not UTF-8: what was meant is lost.
+        raise PromptError(
+            'the prompt must be the text that was written, found U+FFFD (something that could '
+            f'not be read on the way here) at {text.index(_REPLACEMENT)}',
+            hint='save or send the text as UTF-8',
         )
     if not text.strip():
         raise PromptError(
@@ -52,3 +40,33 @@ def check_prompt_text(raw: bytes | str) -> str:
             hint='for example: A drone follows a motorcycle at 40 meters altitude.',
         )
     return text
+
+
+def _of_bytes(raw: bytes) -> tuple[str, int]:
+    # The length first: bytes beyond the limit need not even be text.
+    _check_size(len(raw))
+    try:
+        return raw.decode('utf-8'), len(raw)
+    except UnicodeDecodeError as err:
+        raise PromptError(
+            f'the prompt must be UTF-8, found byte 0x{raw[err.start]:02x} at {err.start}',
+            hint='save or send the text as UTF-8',
+        ) from err
+
+
+def _of_text(text: str) -> tuple[str, int]:
+    try:
+        return text, len(text.encode('utf-8'))
+    except UnicodeEncodeError as err:
+        raise PromptError(
+            f'the prompt must be valid Unicode, found a lone surrogate at {err.start}',
+            hint='save or send the text as UTF-8',
+        ) from err
+
+
+def _check_size(size: int) -> None:
+    if size > MAX_PROMPT_BYTES:
+        raise PromptError(
+            f'the prompt may have {MAX_PROMPT_BYTES} bytes, found {size}',
+            hint='describe one scenario per prompt',
+        )

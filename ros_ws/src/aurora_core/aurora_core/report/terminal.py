@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from rich.console import Console
-from rich.markup import escape
+from rich.markup import escape as escape_markup
 from rich.table import Table
 
 from aurora_core.monitor.verdict import VerdictStatus
@@ -22,6 +22,7 @@ from aurora_core.report.run_report import (
 from aurora_core.report.status import Status
 from aurora_core.report.summary import margin_value
 from aurora_core.report.verify_report import VerifyReport
+from aurora_core.report.visible import one_line
 from aurora_core.spec.vocabulary import ClauseStatus
 
 _COLOURS = {
@@ -96,10 +97,15 @@ def print_check(report: CheckReport, console: Console) -> None:
         line(console, f'horizon  {report.horizon_s:g} s of simulated time')
 
 
+def _safe(text: str) -> str:
+    """Return text from outside as the terminal may have it."""
+    return escape_markup(one_line(text))
+
+
 def headline(console: Console, word: str, colour: str, text: str) -> None:
     """Print the verdict in one line, the reason after it."""
     console.print(
-        f'[bold {colour}]{escape(word.replace("_", " ").upper())}[/]  {escape(text)}',
+        f'[bold {colour}]{_safe(word.replace("_", " ").upper())}[/]  {_safe(text)}',
         highlight=False,
         soft_wrap=not console.is_terminal,
     )
@@ -107,7 +113,7 @@ def headline(console: Console, word: str, colour: str, text: str) -> None:
 
 def line(console: Console, text: str) -> None:
     """Print a line of plain text that is never wrapped or coloured."""
-    console.print(escape(text), highlight=False, soft_wrap=True)
+    console.print(_safe(text), highlight=False, soft_wrap=True)
 
 
 def print_conditions(title: str, rows: Sequence[ConditionReport], console: Console) -> None:
@@ -192,16 +198,17 @@ def print_table(
     if not console.is_terminal:
         _plain(title, columns, rows, console)
         return
-    table = Table(title=escape(title), title_justify='left', title_style='bold', expand=False)
+    table = Table(title=_safe(title), title_justify='left', title_style='bold', expand=False)
     for index, name in enumerate(columns):
         table.add_column(name, justify='right' if index in right else 'left')
     marked = set(bad)
     for index, row in enumerate(rows):
-        table.add_row(*(escape(cell) for cell in row), style='red' if index in marked else None)
+        table.add_row(*(_safe(cell) for cell in row), style='red' if index in marked else None)
     console.print(table, highlight=False)
 
 
 def _plain(title: str, columns: Row, rows: Sequence[Row], console: Console) -> None:
+    rows = [tuple(one_line(cell) for cell in row) for row in rows]
     widths = [max(len(row[k]) for row in (columns, *rows)) for k in range(len(columns))]
     line(console, f'{title}:')
     for row in rows:

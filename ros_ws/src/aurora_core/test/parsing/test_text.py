@@ -18,6 +18,10 @@ from aurora_core.parsing.text import MAX_PROMPT_BYTES, check_prompt_text
         ('a drone\x00', 'NUL'),
         (b'a drone\xff', 'UTF-8'),
         ('a drone \ud800', 'surrogate'),
+        ('a drone \ufffd', 'could not be read'),
+        ('a drone \ufffd'.encode(), 'could not be read'),
+        # The limit comes first: what is beyond it need not be text.
+        (b'\xff' * (MAX_PROMPT_BYTES + 1), '8192'),
         ('a' * (MAX_PROMPT_BYTES + 1), '8192'),
         ('é' * (MAX_PROMPT_BYTES // 2 + 1), '8192'),
     ],

@@ -64,4 +64,16 @@ def _given(options: str) -> dict[str, Any]:
         raise SpecError(f'options_json is not JSON: {err}') from err
     if not isinstance(given, dict):
         raise SpecError(f'options_json: expected a JSON object, found {given!r}')
+    _check_text(given)
     return given
+
+
+def _check_text(given: dict[str, Any]) -> None:
+    """Refuse what JSON can write and no string of an answer can carry."""
+    text = json.dumps(given, ensure_ascii=False)
+    try:
+        text.encode('utf-8')
+    except UnicodeEncodeError as err:
+        raise SpecError('options_json: expected Unicode, found a lone surrogate') from err
+    if '\\u0000' in text:
+        raise SpecError('options_json: expected no NUL in a string, found one')

@@ -46,3 +46,9 @@ def test_unknown_names_and_values_are_refused(options: str) -> None:
 def test_a_folder_that_depends_on_where_the_node_runs_is_refused(options: str) -> None:
     with pytest.raises(SpecError, match='absolute path'):
         runs_directory(options)
+
+
+@pytest.mark.parametrize('options', [r'{"out": "/\ud800"}', r'{"out": "/\u0000"}'])
+def test_text_that_no_answer_could_carry_is_refused(options: str) -> None:
+    with pytest.raises(SpecError, match=r'surrogate|NUL'):
+        runs_directory(options)
