@@ -5,31 +5,9 @@
 from __future__ import annotations
 
 from aurora_cli.output import UsageProblem
-<<<<<<< HEAD
-from aurora_core.trace.bag_metadata import METADATA
-
-_BAG = re.compile(r'bag\.(\d+)')
-_DEFAULT_ROOT = Path('runs')
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class FoundBag:
-    """A bag and where it belongs.
-
-    Attributes:
-        bag: Folder (or file) of the bag.
-        run: Run folder, None for a bag that lies alone.
-        iteration: Which one, None for a bag that lies alone.
-    """
-
-    bag: Path
-    run: Path | None
-    iteration: int | None
-=======
 from aurora_core.errors import BagError
 from aurora_core.report import find_bag as core
 from aurora_core.report.find_bag import FoundBag
->>>>>>> h-replay
 
 
 def find_bag(text: str, iteration: int | None) -> FoundBag:
@@ -42,43 +20,7 @@ def find_bag(text: str, iteration: int | None) -> FoundBag:
     Raises:
         UsageProblem: There is no such thing.
     """
-<<<<<<< HEAD
-    path = Path(text)
-    if not path.exists() and (_DEFAULT_ROOT / text).is_dir():
-        path = _DEFAULT_ROOT / text
-    if not path.exists():
-        raise UsageProblem(f'{text} is neither a run folder, nor a run in runs/, nor a bag')
-    if path.is_file() and path.name == METADATA:
-        path = path.parent
-    folder = path.parent if path.is_file() else path
-    match = _BAG.fullmatch(folder.absolute().name)
-    # A file that is named is the bag, whatever it holds: its reader says what is wrong with it.
-    if path.is_file() or any(path.glob('*.mcap')):
-        if iteration is not None and (match is None or int(match[1]) != iteration):
-            raise UsageProblem(f'--iteration {iteration} does not fit the bag {path}')
-        parent = folder.absolute().parent
-        run = parent if match is not None and (parent / 'manifest.json').exists() else None
-        number = int(match[1]) if match is not None and run is not None else None
-        return FoundBag(bag=path, run=run, iteration=number)
-    return _in_run(path, iteration)
-
-
-def _in_run(path: Path, iteration: int | None) -> FoundBag:
-    numbers = sorted(
-        int(match[1])
-        for child in path.glob('bag.*')
-        if (match := _BAG.fullmatch(child.name)) is not None
-    )
-    if not numbers:
-        raise UsageProblem(f'{path} holds no bag: nothing was executed')
-    wanted = numbers[-1] if iteration is None else iteration
-    if wanted not in numbers:
-        shown = ', '.join(str(number) for number in numbers)
-        raise UsageProblem(f'{path} has no iteration {wanted}; it has {shown}')
-    return FoundBag(bag=path / f'bag.{wanted}', run=path, iteration=wanted)
-=======
     try:
         return core.find_bag(text, iteration)
     except BagError as err:
         raise UsageProblem(err.message) from err
->>>>>>> h-replay

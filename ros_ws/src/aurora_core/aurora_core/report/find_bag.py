@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from aurora_core.errors import BagError
+from aurora_core.trace.bag_metadata import METADATA
 
 _BAG = re.compile(r'bag\.(\d+)')
 _DEFAULT_ROOT = Path('runs')
@@ -44,13 +45,15 @@ def find_bag(text: str, iteration: int | None) -> FoundBag:
         path = _DEFAULT_ROOT / text
     if not path.exists():
         raise BagError(f'{text} is neither a run folder, nor a run in runs/, nor a bag')
-    if path.is_file():
+    if path.is_file() and path.name == METADATA:
         path = path.parent
-    match = _BAG.fullmatch(path.absolute().name)
-    if any(path.glob('*.mcap')):
+    folder = path.parent if path.is_file() else path
+    match = _BAG.fullmatch(folder.absolute().name)
+    # A file that is named is the bag, whatever it holds: its reader says what is wrong with it.
+    if path.is_file() or any(path.glob('*.mcap')):
         if iteration is not None and (match is None or int(match[1]) != iteration):
             raise BagError(f'--iteration {iteration} does not fit the bag {path}')
-        parent = path.absolute().parent
+        parent = folder.absolute().parent
         run = parent if match is not None and (parent / 'manifest.json').exists() else None
         number = int(match[1]) if match is not None and run is not None else None
         return FoundBag(bag=path, run=run, iteration=number)
