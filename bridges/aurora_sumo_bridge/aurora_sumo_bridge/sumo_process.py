@@ -27,6 +27,8 @@ from aurora_core.errors import GroundSimulatorError
 LANE_CHANGE_DURATION_S = 3
 LARGEST_SEED = 2**31 - 1
 ERROR_LINES_KEPT = 6
+# The root element stands right at the beginning.
+_FIRST_BYTES = 4096
 
 _owner: weakref.ref[SumoProcess] | None = None
 
@@ -143,7 +145,7 @@ def check_xml_root(path: Path, roots: set[str]) -> None:
     try:
         with gzip.open(path) if path.suffix == '.gz' else path.open('rb') as stream:
             while not found:
-                chunk = stream.read(65536)
+                chunk = stream.read(_FIRST_BYTES)
                 parser.Parse(chunk, not chunk)
                 if not chunk:
                     break

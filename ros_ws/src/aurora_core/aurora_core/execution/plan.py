@@ -7,31 +7,21 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-import numpy as np
-
 from aurora_core.agsg.graph import Agsg
 from aurora_core.comm.link import LinkSettings, MessageLink
 from aurora_core.errors import ExecutionError
 from aurora_core.execution.fault_port import FaultPort, loss_with_faults
 from aurora_core.execution.faults import Fault
+from aurora_core.execution.map_parts import MapParts, map_parts
 from aurora_core.execution.scenario_executor import ExecutionSetup, ScenarioExecutor
 from aurora_core.execution.step_output import Stepper
-from aurora_core.grounding.airspace import Airspace
 from aurora_core.grounding.grounded import GroundedAgent, GroundedScenario
-from aurora_core.grounding.places import landmark_point, place_positions
+from aurora_core.grounding.places import place_positions
 from aurora_core.knowledge.config_files import config_path
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.settings import Settings
-from aurora_core.knowledge.world import (
-    CentreLine,
-    NamedPlace,
-    SignalPost,
-    Surface,
-    SurfaceKind,
-    Wind,
-    WorldModel,
-)
+from aurora_core.knowledge.world import NamedPlace, Wind, WorldModel
 from aurora_core.mission.machine import MissionMachine
 from aurora_core.mission.setpoint import FlightSettings
 from aurora_core.ports.random_streams import stream
@@ -71,6 +61,7 @@ def build_execution(
     settings: Settings,
     seed: int,
     faults: tuple[Fault, ...] = (),
+    parts: MapParts | None = None,
 ) -> Execution:
     """Build the execution of a grounded graph.
 
@@ -82,6 +73,7 @@ def build_execution(
         settings: Execution settings.
         seed: Seed of the run.
         faults: Faults to inject.
+        parts: Parts of that map, built here when not given.
 
     Raises:
         ExecutionError: The graph is not grounded, or on another map, or an event sends a message
@@ -100,8 +92,8 @@ def build_execution(
     dt_s = settings.run.dt_s
     roster = _roster(grounded, dt_s)
     places = place_positions(agsg.spec, map_model, grounded)
-    world = build_world(map_model, grounded, limits, places, agsg.conditions_json)
-    airspace = Airspace(map_model.buildings, map_model.zones)
+    parts = map_parts(map_model) if parts is None else parts
+    world = build_world(map_model, grounded, limits, places, agsg.conditions_json, parts)
     flight = FlightSettings(**settings.flight.model_dump())
     links = tuple(_link(link, limits, dt_s, seed, faults) for link in agsg.spec.links)
     executor = ScenarioExecutor(
@@ -111,8 +103,8 @@ def build_execution(
             agents=grounded.agents,
             machines=tuple(MissionMachine(u, flight, dt_s) for u in grounded.uavs),
             links=links,
-            airspace=airspace,
-            geometry=WorldGeometry(world),
+            airspace=parts.airspace,
+            geometry=WorldGeometry(world, parts.sight_line),
             landing_clearance_m=limits.clearance_min_m + 1.0,
             arrival_m=tolerances.arrival_m,
             horizon_ticks=round(schedule.horizon_s / dt_s),
@@ -153,22 +145,9 @@ def build_world(
     limits: Limits,
     places: Mapping[str, tuple[float, float]],
     conditions_json: str,
+    parts: MapParts,
 ) -> WorldModel:
     """Return the world of a run, self-contained, from the map and the scenario's weather."""
-    network = map_model.network
-    surfaces = [
-        Surface(
-            surface_id=f'carriageway_{k}',
-            kind=SurfaceKind.DRIVING,
-            ring=np.array(polygon.exterior.coords)[:-1],
-            holes=tuple(np.array(hole.coords)[:-1] for hole in polygon.interiors),
-        )
-        for k, polygon in enumerate(network.carriageway.geoms)
-    ]
-    surfaces += [
-        Surface(surface_id=c.id, kind=SurfaceKind.CROSSING, ring=np.array(c.polygon))
-        for c in network.crossings
-    ]
     return WorldModel(
         map_name=map_model.name,
         map_digest=map_model.digest,
@@ -183,36 +162,19 @@ def build_world(
         ),
         buildings=map_model.buildings,
         no_fly_zones=map_model.zones,
-        surfaces=tuple(surfaces),
-        lanes=tuple(
-            CentreLine(
-                lane_id=lane.id,
-                street_name=network.edge(lane.edge_id).street_name,
-                points=np.array(lane.polyline),
-                width_m=lane.width_m,
-                speed_limit_mps=lane.speed_limit_mps,
-            )
-            for lane in network.driving_lanes('passenger')
-        ),
-        signals=tuple(
-            SignalPost(junction_id=j.id, x_m=j.x_m, y_m=j.y_m)
-            for j in sorted(network.junctions.values(), key=lambda j: j.id)
-            if j.has_signal
-        ),
-        places=_named_places(map_model, places),
+        surfaces=parts.surfaces,
+        lanes=parts.lanes,
+        signals=parts.signals,
+        places=_named_places(parts, places),
         limits=limits,
         conditions_json=conditions_json,
     )
 
 
 def _named_places(
-    map_model: MapModel, resolved: Mapping[str, tuple[float, float]]
+    parts: MapParts, resolved: Mapping[str, tuple[float, float]]
 ) -> tuple[NamedPlace, ...]:
-    points = {
-        f'landmark:{mark.name}': landmark_point(map_model, mark.name)
-        for mark in map_model.landmarks
-    }
-    points |= resolved
+    points = parts.landmarks | dict(resolved)
     return tuple(NamedPlace(name=n, x_m=x, y_m=y) for n, (x, y) in sorted(points.items()))
 
 

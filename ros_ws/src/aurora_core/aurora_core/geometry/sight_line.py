@@ -29,10 +29,13 @@ class SightLine:
 
     Args:
         model: Answers what is not settled here.
+
+    Attributes:
+        model: As given.
     """
 
     def __init__(self, model: SightModel) -> None:
-        self._model = model
+        self.model = model
         self._cells: dict[tuple[int, int], list[Box]] = {}
         for west, south, east, north, top in model.boxes():
             box = (
@@ -48,7 +51,7 @@ class SightLine:
 
     def free(self, p: Point3, q: Point3) -> bool:
         """Return whether `SightModel.clearance(p, q)` is above 0 (ENU metres)."""
-        return self._surely_free(p, q) or self._model.clearance(p, q) > 0.0
+        return self._surely_free(p, q) or self.model.clearance(p, q) > 0.0
 
     def _surely_free(self, p: Point3, q: Point3) -> bool:
         px, py, pz = p

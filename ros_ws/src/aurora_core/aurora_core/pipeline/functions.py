@@ -18,6 +18,7 @@ from aurora_core.conditions.condition import (
 from aurora_core.conditions.derive import derive_conditions
 from aurora_core.errors import VerificationError
 from aurora_core.execution.faults import Fault
+from aurora_core.execution.map_parts import MapParts, map_parts
 from aurora_core.execution.plan import Execution, build_execution, unsupported
 from aurora_core.feasibility.check import check_limits
 from aurora_core.feasibility.verdict import FeasibilityVerdict
@@ -49,12 +50,19 @@ class Knowledge:
         self.types = load_agent_types()
         self._maps: dict[str, MapModel] = {}
         self._grounders: dict[str, Grounder] = {}
+        self._parts: dict[str, MapParts] = {}
 
     def map(self, name: str) -> MapModel:
         """Return a map by name (verified against its digest when first loaded)."""
         if name not in self._maps:
             self._maps[name] = load_map(name)
         return self._maps[name]
+
+    def parts(self, name: str) -> MapParts:
+        """Return what the runs on a map share."""
+        if name not in self._parts:
+            self._parts[name] = map_parts(self.map(name))
+        return self._parts[name]
 
     def grounder(self, name: str) -> Grounder:
         """Return the grounder of a map."""
@@ -135,6 +143,7 @@ def execution_stage(agsg: Agsg, seed: int, faults: tuple[Fault, ...]) -> Executi
         settings=known.settings,
         seed=seed,
         faults=faults,
+        parts=known.parts(agsg.map_name),
     )
 
 

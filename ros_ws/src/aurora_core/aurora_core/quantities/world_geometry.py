@@ -25,10 +25,14 @@ class WorldGeometry:
 
     Args:
         world: The measured world.
+        sight_line: Its buildings as occluders, when that exists already.
     """
 
-    def __init__(self, world: WorldModel) -> None:
+    def __init__(self, world: WorldModel, sight_line: SightLine | None = None) -> None:
         self.world = world
+        if sight_line is not None:
+            self.sight_line = sight_line
+            self.sight = sight_line.model
 
     @cached_property
     def _buildings(self) -> tuple[Prism, ...]:

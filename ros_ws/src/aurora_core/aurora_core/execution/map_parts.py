@@ -1,0 +1,79 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""What every run on a map shares, built once: its share of the recorded world, and its solids."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from aurora_core.geometry.sight_line import SightLine
+from aurora_core.grounding.airspace import Airspace
+from aurora_core.grounding.places import landmark_point
+from aurora_core.knowledge.map_model import MapModel
+from aurora_core.knowledge.world import CentreLine, SignalPost, Surface, SurfaceKind
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MapParts:
+    """Parts of a map.
+
+    Attributes:
+        airspace: What stands in the way of a flight.
+        sight_line: Its buildings as occluders.
+        surfaces: Carriageways and crossings.
+        lanes: Centre lines for cars.
+        signals: Junctions with signals.
+        landmarks: x, y in m by `landmark:<name>`.
+    """
+
+    airspace: Airspace
+    sight_line: SightLine
+    surfaces: tuple[Surface, ...]
+    lanes: tuple[CentreLine, ...]
+    signals: tuple[SignalPost, ...]
+    landmarks: dict[str, tuple[float, float]]
+
+
+def map_parts(map_model: MapModel) -> MapParts:
+    """Return the parts of a map."""
+    network = map_model.network
+    airspace = Airspace(map_model.buildings, map_model.zones)
+    surfaces = [
+        Surface(
+            surface_id=f'carriageway_{k}',
+            kind=SurfaceKind.DRIVING,
+            ring=np.array(polygon.exterior.coords)[:-1],
+            holes=tuple(np.array(hole.coords)[:-1] for hole in polygon.interiors),
+        )
+        for k, polygon in enumerate(network.carriageway.geoms)
+    ]
+    surfaces += [
+        Surface(surface_id=c.id, kind=SurfaceKind.CROSSING, ring=np.array(c.polygon))
+        for c in network.crossings
+    ]
+    return MapParts(
+        airspace=airspace,
+        sight_line=SightLine(airspace.sight),
+        surfaces=tuple(surfaces),
+        lanes=tuple(
+            CentreLine(
+                lane_id=lane.id,
+                street_name=network.edge(lane.edge_id).street_name,
+                points=np.array(lane.polyline),
+                width_m=lane.width_m,
+                speed_limit_mps=lane.speed_limit_mps,
+            )
+            for lane in network.driving_lanes('passenger')
+        ),
+        signals=tuple(
+            SignalPost(junction_id=j.id, x_m=j.x_m, y_m=j.y_m)
+            for j in sorted(network.junctions.values(), key=lambda j: j.id)
+            if j.has_signal
+        ),
+        landmarks={
+            f'landmark:{mark.name}': landmark_point(map_model, mark.name)
+            for mark in map_model.landmarks
+        },
+    )
