@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from aurora_core.quantities import instant, kernels, motion
 from aurora_core.quantities.angle import bearing_error_deg, compass_bearing_deg
+from aurora_core.quantities.instant_sight import InstantSight
 from aurora_core.quantities.phases import tracked
 from aurora_core.quantities.sight import radio_sight_series, sight_series
 from aurora_core.quantities.ticks import first_tick, last_tick, whole_ticks
@@ -76,6 +77,8 @@ def test_sight_at_one_tick_has_the_bits_of_the_series(view: RunView, target: str
         assert instant.visible(view.geometry, trace.roster, ground, uav[0], target) is bool(
             series.visible[tick]
         )
+        seen = InstantSight(view.geometry, trace.roster).see(uav[0], target, ground)
+        assert seen == (bool(series.visible[tick]), series.slant_range_m[tick])
         free = instant.radio_sight(view.geometry, trace.roster, ground, uav, 'uav1', target)
         assert free is bool(radio[tick])
 

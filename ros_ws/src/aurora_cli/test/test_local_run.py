@@ -1,0 +1,57 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The local engine's trace hash is that of what lies in the bag."""
+
+from __future__ import annotations
+
+import gc
+from pathlib import Path
+
+import pytest
+
+from aurora_cli.local_engine import LocalStages
+from aurora_core.agsg.build import build_agsg
+from aurora_core.agsg.graph import Agsg
+from aurora_core.pipeline.functions import knowledge
+from aurora_core.pipeline.stages import RunControl, RunRequest
+from aurora_core.trace.bag_reader import read_bag
+from aurora_core.trace.definitions import message_definitions
+from aurora_core.trace.hashing import trace_sha256
+from aurora_core.trace.trace import Integrity
+
+PROMPT = (
+    'A van tailgates the ego car closely, closing from 45 meters; a tracking drone alerts the ego '
+    'when the van comes within 20 meters.'
+)
+FAULT = {'kind': 'keep_away', 'subject': 'van1', 'at_s': 3.0}
+
+
+def grounded(request: RunRequest) -> Agsg:
+    stages = LocalStages()
+    spec = stages.parse(request).spec
+    assert spec is not None
+    graph = build_agsg(spec, map_digest=knowledge().map(request.map_name).digest)
+    agsg = stages.ground(graph, request).agsg
+    assert agsg is not None
+    return agsg
+
+
+@pytest.mark.parametrize('faults', [(), (FAULT,)])
+@pytest.mark.parametrize('stop_after_s', [8.0, 1000.0])
+def test_the_hash_is_that_of_the_bag(
+    faults: tuple[dict[str, object], ...], stop_after_s: float, tmp_path: Path
+) -> None:
+    request = RunRequest.model_validate({'prompt': PROMPT, 'faults': faults})
+    simulated_s = [0.0]
+
+    def progress(_stage: str, _share: float, now_s: float) -> None:
+        simulated_s[0] = now_s
+
+    control = RunControl(progress=progress, cancelled=lambda: simulated_s[0] >= stop_after_s)
+    result = LocalStages().execute(grounded(request), tmp_path / 'r' / 'bag.0', request, control)
+    content = read_bag(result.bag, message_definitions())
+    assert content.trace.integrity is Integrity.INTACT
+    assert result.ticks == content.trace.ticks
+    assert result.trace_sha256 == trace_sha256(content.trace, content.world)
+    assert (result.outcome == 'cancelled') is (stop_after_s < 1000.0)
+    assert gc.isenabled()

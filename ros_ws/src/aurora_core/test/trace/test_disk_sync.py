@@ -1,0 +1,60 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The disk is asked beside the work: at once, once for many requests, and its errors are told."""
+
+from __future__ import annotations
+
+import os
+import threading
+
+import pytest
+
+from aurora_core.trace.disk_sync import DiskSync
+
+WAIT_S = 20.0
+
+
+def test_requests_that_come_during_a_call_become_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    calls: list[int] = []
+    begun, proceed, second = threading.Event(), threading.Event(), threading.Event()
+
+    def slow_disk(descriptor: int) -> None:
+        calls.append(descriptor)
+        if len(calls) == 1:
+            begun.set()
+            assert proceed.wait(WAIT_S)
+        else:
+            second.set()
+
+    monkeypatch.setattr(os, 'fsync', slow_disk)
+    with DiskSync(7) as sync:
+        sync.request()
+        assert begun.wait(WAIT_S)
+        for _ in range(5):
+            sync.request()
+        proceed.set()
+        assert second.wait(WAIT_S)
+    assert calls == [7, 7]
+
+
+def test_an_error_is_told_at_the_next_request(monkeypatch: pytest.MonkeyPatch) -> None:
+    def broken_disk(_descriptor: int) -> None:
+        raise OSError(5, 'Input/output error')
+
+    monkeypatch.setattr(os, 'fsync', broken_disk)
+    sync = DiskSync(7)
+    sync.request()
+    for thread in threading.enumerate():
+        if thread.name == 'disk-sync':
+            thread.join(WAIT_S)
+    with pytest.raises(OSError, match='Input/output'):
+        sync.request()
+    sync.close()
+
+
+def test_no_thread_is_left() -> None:
+    before = threading.active_count()
+    for _ in range(3):
+        with DiskSync(0):
+            pass
+    assert threading.active_count() == before
