@@ -42,9 +42,16 @@ from aurora_uav_sim.wire import (
 # The identity that companion computers use by custom.
 OWN_SYSTEM = 245
 OWN_COMPONENT = int(mavlink.MAV_COMP_ID_ONBOARD_COMPUTER)
-# An answer takes 0.1 ms; ask again after this, then after twice as long, up to the last.
+# When to ask again: after several times what an answer usually takes (0.1 ms, more with many
+# vehicles or little processor), within these limits; then after a growing time. A repetition too
+# early costs the simulator a second answer, one too late costs each lost datagram its wait.
+_LEAST_RETRY_S = 0.002
 _FIRST_RETRY_S = 0.01
 _LAST_RETRY_S = 0.25
+_USUAL_ANSWERS = 8.0
+_RETRY_GROWTH = 1.5
+# Weight of the newest answer in the usual time.
+_NEWEST = 0.125
 # A step answered so often with "no such session" means it; fewer may be leftovers.
 _DISOWNED_LIMIT = 3
 _STATUS_TEXT = int(mavlink.MAVLINK_MSG_ID_STATUSTEXT)
@@ -90,6 +97,7 @@ class LockstepLink:
         self._sequence = sequence
         self._newer = Newer()
         self._decoder = Decoder()
+        self._usual_answer_s = _FIRST_RETRY_S / _USUAL_ANSWERS
         # What the present question waits for: an acknowledgement ...
         self._ack_of = (-1, -1)
         self._acks: list[int] = []
@@ -209,33 +217,31 @@ class LockstepLink:
         self, packer: Packer, done: Callable[[], bool], what: str, limit_s: float
     ) -> None:
         transport = self._transport
-        start_s = -1.0
-        wait_s = _FIRST_RETRY_S
+        start_s = transport.steady_time_s()
+        asked_s = start_s
+        wait_s = min(max(_USUAL_ANSWERS * self._usual_answer_s, _LEAST_RETRY_S), _FIRST_RETRY_S)
         while True:
             transport.send(packer())
             left_s = wait_s
-            resend_s = -1.0
             while left_s > 0.0:
                 datagram = transport.receive(left_s)
                 if datagram is None:
                     break
                 self._take(datagram)
                 if done():
+                    if asked_s == start_s:
+                        # Only the answer to a single question tells how long one takes.
+                        took_s = transport.steady_time_s() - start_s
+                        self._usual_answer_s += _NEWEST * (took_s - self._usual_answer_s)
                     return
-                now_s = transport.steady_time_s()
-                if resend_s < 0.0:
-                    resend_s = now_s + wait_s
-                left_s = resend_s - now_s
-            now_s = transport.steady_time_s()
-            if start_s < 0.0:
-                # The first wait is over; the clock is not read on the fast path.
-                start_s = now_s - wait_s
-            if now_s - start_s >= limit_s:
+                left_s = asked_s + wait_s - transport.steady_time_s()
+            asked_s = transport.steady_time_s()
+            if asked_s - start_s >= limit_s:
                 raise SimulatorSilentError(
                     f'{transport.peer} did not answer within {limit_s:g} s ({what})',
                     hint='is it running? ros2 run aurora_uav_sim uav_sim',
                 )
-            wait_s = min(2.0 * wait_s, _LAST_RETRY_S)
+            wait_s = min(_RETRY_GROWTH * wait_s, _LAST_RETRY_S)
 
     # Answers ------------------------------------------------------------------------------------
 

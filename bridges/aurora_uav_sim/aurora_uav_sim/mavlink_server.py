@@ -129,6 +129,10 @@ class SimServer:
                         self._step(session, fields[0], frame, link, out)
                         continue
             self._message(frame, source, link, out)
+            opened = self._session
+            if opened is not None and opened is not session and opened.source == source:
+                # What its owner sent before, for an older session, must not act in this one.
+                opened.newer.accept(frame)
         return _datagrams(out)
 
     def _new_link(self, source: Hashable) -> Link:

@@ -189,6 +189,17 @@ def test_a_late_duplicate_of_an_old_session_is_denied(
     assert server.vehicles[1].autopilot.time_s > 0.0
 
 
+def test_a_late_step_of_an_older_session_does_not_act(server: SimServer, station: Any) -> None:
+    """Its tick fits, its set-points are all there, and it comes from the right place."""
+    enter(station, nonce=1)
+    late = [station.pack(set_point(1, system)) for system in (1, 2)]
+    late.append(station.pack(step_message(1)))
+    assert enter(station, nonce=2) == ACCEPTED
+    assert [server.handle(frame, station.source) for frame in late] == [[], [], []]
+    assert server.vehicles[1].autopilot.time_s == 0.0
+    assert ack_of(step(station, 1)).result == ACCEPTED
+
+
 def test_a_new_client_on_the_same_port_counts_from_0_again(station: Any) -> None:
     enter(station, nonce=1)
     for _ in range(5):

@@ -336,6 +336,38 @@ def test_random_but_intact_frames_never_raise(server: SimServer, station: Any) -
     assert station.result(REQUEST_MESSAGE, 0) == ACCEPTED
 
 
+@pytest.mark.parametrize('fill', ['random', 'nan', 'ones'])
+def test_intact_frames_of_strangers_change_nothing_in_a_session(
+    server: SimServer, station: Any, fill: str
+) -> None:
+    """Every message of the dialect, also from the owner's address with wrong ids and numbers."""
+    from aurora_uav_sim import wire
+
+    assert station.result(CMD_LOCKSTEP, 1, 7, 50_000, 3, 0, 0, 0) == ACCEPTED
+    rng = random.Random(13)
+    before = [vehicle.autopilot.body.z for vehicle in server.vehicles.values()]
+    for number, message_id in enumerate(list(mavlink.mavlink_map) * 3):
+        payload = {
+            'random': rng.randbytes(255), 'nan': b'\x00\x00\xc0\x7f' * 63, 'ones': b'\xff' * 255
+        }[fill]  # fmt: skip
+        raw = wire.pack(number & 0xFF, rng.randrange(1, 255), 99, message_id, payload)
+        server.handle(raw, 'stranger')
+        server.handle(raw, station.source)
+        server.handle(raw + raw[: rng.randrange(len(raw))], station.source)
+    server.poll(0.5)
+    assert server.in_lockstep
+    assert [vehicle.autopilot.body.z for vehicle in server.vehicles.values()] == before
+    assert {vehicle.autopilot.time_s for vehicle in server.vehicles.values()} == {0.0}
+    assert not any(vehicle.autopilot.armed for vehicle in server.vehicles.values())
+    # The session goes on as if nothing had been.
+    for system in (1, 2):
+        message = mavlink.MAVLink_set_position_target_local_ned_message(
+            1, system, 1, 1, 0x9C0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0.0, 0
+        )
+        station.send(message)
+    assert station.result(CMD_STEP, 1) == ACCEPTED
+
+
 def test_many_sources_do_not_pile_up(server: SimServer, station: Any) -> None:
     server.poll(0.0)
     beat = station.pack(HEARTBEAT)

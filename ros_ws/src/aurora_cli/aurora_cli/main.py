@@ -233,6 +233,27 @@ def check_certificate(
     _finish(command, as_json=as_json)
 
 
+@app.command('doctor')
+def examine(
+    fix: Annotated[
+        bool, typer.Option('--fix', help='Remove what is provably ours and dead; close dead runs.')
+    ] = False,
+    runs: Annotated[Path, typer.Option(help='Folder of the run folders.')] = Path('runs'),
+    model: Model = 'offline',
+    as_json: Json = False,
+) -> None:
+    """Look for what is wrong with this machine and environment; each finding with its fix."""
+
+    def command() -> int:
+        from aurora_cli.commands.doctor import doctor_command
+        from aurora_cli.doctor.machine import Machine
+
+        machine = Machine(runs=runs, model=model)
+        return doctor_command(machine, repair=fix, json_wanted=as_json)
+
+    _finish(command, as_json=as_json)
+
+
 def _later(name: str) -> Callable[[], None]:
     def command() -> None:
         raise UsageProblem(f'{name} is not available in this version')
@@ -242,7 +263,6 @@ def _later(name: str) -> Callable[[], None]:
 
 
 for _group, _path in (
-    (app, 'doctor'),
     (app, 'bench'),
     (maps, 'map import'),
     (maps, 'map measure'),

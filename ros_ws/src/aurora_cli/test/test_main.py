@@ -36,7 +36,7 @@ from aurora_core.errors import MapError
         ['map', 'show', 'atlantis'],
         ['map', 'show', 'junction', '--picture', 'x.gif'],
         ['certificate', 'check'],
-        ['doctor'],
+        ['doctor', '--no-such-option'],
         ['bench', '--anything', 'x'],
         ['map', 'import', 'file', '--name', 'x'],
         ['map', 'measure', 'downtown'],

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -57,13 +57,29 @@ class RunningGraph:
         return '\n'.join(f'--- {name}\n{node.log}' for name, node in self.nodes.items())
 
 
+Arguments = Callable[[int], Mapping[str, Sequence[str]]]
+
+
 @contextmanager
-def running_graph(folder: Path, names: Sequence[str] = tuple(MODULES)) -> Iterator[RunningGraph]:
-    """Yield a graph of the named nodes; whatever is left of it at the end is killed."""
+def running_graph(
+    folder: Path,
+    names: Sequence[str] = tuple(MODULES),
+    more_arguments: Arguments = lambda _domain: {},
+) -> Iterator[RunningGraph]:
+    """Yield a graph of the named nodes; whatever is left of it at the end is killed.
+
+    Args:
+        folder: For run folders, logs and ready files.
+        names: Nodes to start.
+        more_arguments: Gives command lines by node name, for a ROS domain.
+    """
     runs = folder / 'runs'
-    arguments = {'orchestrator': ['--ros-args', '-p', f'runs_directory:={runs}']}
     with ExitStack() as stack:
         domain = stack.enter_context(own_domain())
+        arguments = {
+            'orchestrator': ['--ros-args', '-p', f'runs_directory:={runs}'],
+            **more_arguments(domain),
+        }
         play = stack.enter_context(partner(domain))
 
         def start(name: str) -> NodeProcess:
