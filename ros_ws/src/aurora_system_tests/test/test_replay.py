@@ -176,6 +176,7 @@ def test_a_truncated_bag_is_replayed_as_far_as_it_goes(scene: Scene, tmp_path: P
     code, output, errors = replay(scene, bag, '--json')
     assert code == 4, errors
     assert 'replayed as far as it goes: ' in errors
+    assert output, errors
     document = json.loads(output)
     assert 0 < document['ticks'] < scene.report['trace']['ticks']
     assert document['verdict']['status'] == 'inconclusive'
