@@ -43,6 +43,7 @@ class RunTotals:
 
     Attributes:
         counts: Messages by topic.
+        replayed: It was no run, but a recording of one.
         damage: Known damage of a recording that is replayed.
     """
 
@@ -50,6 +51,7 @@ class RunTotals:
     run_id: str
     iteration: int
     counts: Mapping[str, int]
+    replayed: bool = False
     damage: tuple[tuple[Integrity, str], ...] = ()
 
 

@@ -99,8 +99,8 @@ class LiveWatch:
     def _on_status(self, status: SyncStatus) -> None:
         run = self._run
         if status.state == SyncStatus.LOADED:
-            if run is None or run.run_number != status.run_number:
-                self._begin(status.run_number)
+            # Also with the same number: a replay that was killed is begun again.
+            self._begin(status.run_number)
         elif run is None or status.run_number != run.run_number:
             return
         elif status.state == SyncStatus.FINISHED:
@@ -181,6 +181,7 @@ def _totals(message: RunEnd) -> RunTotals:
         run_id=message.run_id,
         iteration=message.iteration,
         counts=dict(zip(message.topics, message.counts, strict=True)),
+        replayed=message.replayed,
         damage=tuple(
             (Integrity(kind), note)
             for kind, note in zip(message.damage_kinds, message.damage_notes, strict=True)

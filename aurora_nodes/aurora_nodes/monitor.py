@@ -15,9 +15,10 @@ from pathlib import Path
 from typing import TypeVar
 
 from aurora_core.errors import AuroraError, VerificationError
-from aurora_core.monitor.verdict import Verdict
+from aurora_core.monitor.verdict import Verdict, VerdictStatus
 from aurora_core.trace.bag_reader import read_bag
 from aurora_core.trace.definitions import message_definitions
+from aurora_core.trace.trace import Integrity
 from aurora_msgs.msg import Verdict as VerdictMessage
 from aurora_msgs.srv import VerifyTrace
 from aurora_nodes.judgement import Judgement, LiveOutcome, judge, reconcile
@@ -74,16 +75,38 @@ class MonitorNode(AuroraNode):
             self.get_logger().error(traceback.format_exc())
             self._not_judged(totals, defect(err, self.get_name()))
         else:
-            self._heard = LiveOutcome(
-                run_id=totals.run_id, iteration=totals.iteration, judgement=judgement
-            )
+            self._remember(totals, judgement, '')
             self._publish(judgement, totals.run_number)
 
+    def _remember(self, totals: RunTotals, judgement: Judgement | None, problem: str) -> None:
+        """Keep the outcome for the bag that will come; a replay has one already."""
+        if not totals.replayed:
+            self._heard = LiveOutcome(
+                run_id=totals.run_id,
+                iteration=totals.iteration,
+                judgement=judgement,
+                problem=problem,
+            )
+
     def _not_judged(self, totals: RunTotals, err: AuroraError) -> None:
+        """Say so, to whoever waits for the verdict too."""
         self.get_logger().error(f'run {totals.run_id} cannot be judged as it was heard: {err}')
-        self._heard = LiveOutcome(
-            run_id=totals.run_id, iteration=totals.iteration, problem=str(err)
+        self._remember(totals, None, str(err))
+        verdict = Verdict(
+            status=VerdictStatus.INCONCLUSIVE,
+            results=(),
+            integrity=Integrity.UNKNOWN,
+            notes=(str(err),),
         )
+        message = verdict_message(
+            verdict,
+            run_id=totals.run_id,
+            iteration=totals.iteration,
+            end_s=0.0,
+            trace_sha256='',
+            source=VerdictMessage.LIVE,
+        )
+        self._verdicts.publish(message)
 
     def _publish(self, judgement: Judgement, run_number: int) -> None:
         self._margins.publish(

@@ -114,10 +114,12 @@ def _replay(options: argparse.Namespace) -> ExitCode:
         _say(f'the recording is damaged and is replayed as far as it goes: {note}')
     with _spinning(plan) as node:
         node.await_quiet()
-        if judged is not None:
+        if judged is None:
+            node.await_listeners()
+        else:
             node.await_monitor()
         began_s = time.monotonic()
-        node.play(rate=options.rate, paced=judged is not None)
+        node.play(rate=options.rate, monitored=judged is not None)
         took_s = time.monotonic() - began_s
         heard = None if judged is None else node.await_verdict()
     _say(

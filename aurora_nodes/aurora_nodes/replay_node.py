@@ -73,7 +73,7 @@ class ReplayNode(AuroraNode):
         self._verdict: Verdict | None = None
         self._busy: dict[str, bool] = {}
         self._running = ''
-        self._began = False
+        self._began = self._ended = False
         self._outlets = {topic.full_name: self.publisher(topic) for topic in on.JUDGED}
         self._clock_outlet = self.publisher(on.CLOCK)
         self._status_outlet = self.publisher(on.SYNC_STATUS)
@@ -103,6 +103,10 @@ class ReplayNode(AuroraNode):
                 hint='wait for its end, or use another ROS_DOMAIN_ID',
             )
 
+    def await_listeners(self) -> None:
+        """Wait until whoever was discovered is heard; not longer than for a monitor."""
+        wait_until(self._all_matched, self._settings.monitor_limit_s)
+
     def await_monitor(self) -> None:
         """Wait until a monitor hears everything and is heard.
 
@@ -114,25 +118,29 @@ class ReplayNode(AuroraNode):
             raise ExecutionError(
                 f'no monitor listens in this ROS_DOMAIN_ID (waited {limit_s:g} s)',
                 component=_COMPONENT,
-                hint=f'start one with: ros2 run aurora_nodes monitor; or {_ALONE}',
+                hint=f'start one: ros2 run aurora_nodes monitor (its `live` true); or {_ALONE}',
             )
 
-    def play(self, *, rate: float | None, paced: bool) -> None:
+    def play(self, *, rate: float | None, monitored: bool) -> None:
         """Publish the whole run.
 
         Args:
             rate: Times real time; None: no limit of that kind.
-            paced: Wait for the monitor's acknowledgements.
+            monitored: Tell the monitor and wait for its acknowledgements. Without that, one that
+                hears us by chance pays no attention: it may miss messages.
 
         Raises:
             ExecutionError: A run began, the monitor stopped acknowledging or died, or a message
                 could not be published.
         """
-        self._began = True
-        self._tell(SyncStatus.LOADED)
+        self._began = monitored
+        self.heartbeat.busy(self._plan.run_number)
+        if monitored:
+            self._tell(SyncStatus.LOADED)
         for document in self._plan.documents:
             self._send(document)
-        self._tell(SyncStatus.RUNNING)
+        if monitored:
+            self._tell(SyncStatus.RUNNING)
         sent: dict[str, int] = {}
         began_s = time.monotonic()
         for tick, group in enumerate(self._plan.ticks):
@@ -140,7 +148,7 @@ class ReplayNode(AuroraNode):
             if rate is not None:
                 due_s = began_s + min(tick, self._plan.last_tick) * self._plan.dt_s / rate
                 self._await(lambda due_s=due_s: time.monotonic() >= due_s, until_s=due_s)
-            if paced and sent:
+            if monitored and sent:
                 self._await_acknowledged(min(sent.values()) - self._settings.credit_ticks)
             if tick <= self._plan.last_tick:
                 self._clock_outlet.publish(ClockMessage(clock=stamp(tick, self._plan.dt_s)))
@@ -149,9 +157,10 @@ class ReplayNode(AuroraNode):
                 if message.topic in _STREAMS:
                     sent[message.topic] = tick
         self._check()
-        self._tell(SyncStatus.FINISHED)
-        self._began = False
-        self._end_outlet.publish(self._end())
+        if monitored:
+            self._tell(SyncStatus.FINISHED)
+            self._ended = True
+            self._end_outlet.publish(self._end())
 
     def await_verdict(self) -> Verdict:
         """Wait for what the monitor has found out.
@@ -174,7 +183,7 @@ class ReplayNode(AuroraNode):
 
     def leave(self) -> None:
         """Tell the listeners that nothing more comes, and let the last messages reach them."""
-        if self._began:
+        if self._began and not self._ended:
             self._tell(SyncStatus.IDLE)
         limit = Duration(seconds=1)
         for publisher in (*self._outlets.values(), self._status_outlet, self._end_outlet):
@@ -203,6 +212,7 @@ class ReplayNode(AuroraNode):
             run_id=self._plan.run_id,
             iteration=self._plan.iteration,
             last_tick=self._plan.last_tick,
+            replayed=True,
             topics=list(counts),
             counts=list(counts.values()),
             damage_kinds=[kind.value for kind, _ in self._plan.damage],
@@ -244,7 +254,7 @@ class ReplayNode(AuroraNode):
                 component=_COMPONENT,
                 hint='replay again when it has ended',
             )
-        if self._watch.is_dead(MONITOR):
+        if self._began and self._watch.is_dead(MONITOR):
             raise ExecutionError('the monitor died during the replay', component=MONITOR)
 
     def _is_occupied(self) -> bool:
@@ -255,12 +265,9 @@ class ReplayNode(AuroraNode):
         return ' and '.join([self._running, *busy] if self._running else busy)
 
     def _monitor_matched(self) -> bool:
-        senders = [*self._outlets.values(), self._status_outlet, self._end_outlet]
-        for publisher in senders:
+        for publisher in (*self._outlets.values(), self._status_outlet, self._end_outlet):
             listeners = self.get_subscriptions_info_by_topic(publisher.topic_name)
             if MONITOR not in {info.node_name for info in listeners}:
-                return False
-            if publisher.get_subscription_count() < len(listeners):
                 return False
         for subscription in self._heard:
             speakers = self.get_publishers_info_by_topic(subscription.topic_name)
@@ -268,9 +275,19 @@ class ReplayNode(AuroraNode):
                 return False
             if subscription.get_publisher_count() < len(speakers):
                 return False
-        return True
+        return self._all_matched()
+
+    def _all_matched(self) -> bool:
+        return all(
+            publisher.get_subscription_count()
+            >= len(self.get_subscriptions_info_by_topic(publisher.topic_name))
+            for publisher in (*self._outlets.values(), self._status_outlet, self._end_outlet)
+        )
 
     def _on_heartbeat(self, message: Heartbeat) -> None:
+        """Notice who is busy: the monitor, which takes whatever comes, and we do not count."""
+        if message.node in (MONITOR, self.get_name()):
+            return
         with self._changed:
             self._busy[message.node] = message.state == Heartbeat.BUSY
             self._changed.notify_all()
