@@ -8,11 +8,11 @@ verbs can share a module; the parsed arguments hold `command` and `verb`.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 
-@dataclass(frozen=True, slots=True)
-class Verb:
+# Not dataclasses: importing those would take a tenth of the time of `ros2 run`.
+class Verb(NamedTuple):
     """One verb, or a command that has none.
 
     Attributes:
@@ -24,8 +24,7 @@ class Verb:
     help: str
 
 
-@dataclass(frozen=True, slots=True)
-class Group:
+class Group(NamedTuple):
     """A command with verbs."""
 
     help: str

