@@ -6,9 +6,12 @@ from __future__ import annotations
 
 import argparse
 import os
+import signal
+import threading
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from types import FrameType
 
 import rclpy
 from rclpy.exceptions import InvalidTopicNameException
@@ -108,14 +111,43 @@ def spin_until(node: Node, done: Callable[[], bool], limit_s: float | None = Non
     executor.add_node(node)
     end_s = None if limit_s is None else time.monotonic() + limit_s
     try:
-        while not done():
-            if end_s is not None and time.monotonic() >= end_s:
-                return False
-            executor.spin_once(timeout_sec=_SLICE_S)
-        return True
+        with _interrupt_between_callbacks() as struck:
+            while not done():
+                if struck.is_set() or (end_s is not None and time.monotonic() >= end_s):
+                    return False
+                executor.spin_once(timeout_sec=_SLICE_S)
+            return True
     finally:
         executor.remove_node(node)
         executor.shutdown()
+
+
+@contextmanager
+def _interrupt_between_callbacks() -> Iterator[threading.Event]:
+    """Hold Ctrl-C back until the block ends; a second one strikes at once.
+
+    Amid a callback it would leave the callback group blocked, and cancelling a goal after it
+    would never be answered.
+
+    Raises:
+        KeyboardInterrupt: After the block, if Ctrl-C came.
+    """
+    struck = threading.Event()
+
+    def strike(_number: int, _frame: FrameType | None) -> None:
+        if struck.is_set():
+            raise KeyboardInterrupt
+        struck.set()
+
+    previous = signal.getsignal(signal.SIGINT)
+    if previous is signal.default_int_handler:  # in a background job it is ignored
+        signal.signal(signal.SIGINT, strike)
+    try:
+        yield struck
+    finally:
+        signal.signal(signal.SIGINT, previous)
+    if struck.is_set():
+        raise KeyboardInterrupt
 
 
 def is_hidden(name: str) -> bool:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+from collections.abc import Callable
 from typing import Any
 
 from action_msgs.msg import GoalStatus
@@ -64,25 +65,33 @@ def main(arguments: argparse.Namespace) -> int:
     name = f'{NAME_PREFIX}_send_goal_{arguments.action_type.replace("/", "_")}'
     with temporary_node(name) as node:
         client = ActionClient(node, action, full_name(node, arguments.action_name))
-        emit('Waiting for an action server to become available...')
-        spin_until(node, client.server_is_ready)
-        for stamp in stamps:
-            stamp(node.get_clock().now().to_msg())
-        emit(f'Sending goal:\n     {as_yaml(goal, WHOLE)}')
-        feedback = _emit_feedback if arguments.feedback else None
-        handle = _answer(node, client.send_goal_async(goal, feedback), 'sending goal')
-        if not handle.accepted:
-            emit('Goal was rejected.')
-            return 0
-        emit(f'Goal accepted with ID: {bytes(handle.goal_id.uuid).hex()}\n')
         try:
-            result = _answer(node, handle.get_result_async(), 'getting result')
-        except KeyboardInterrupt:
-            _cancel(node, handle)
-            raise
-        emit(f'Result:\n    {as_yaml(result.result, WHOLE)}')
-        emit(f'Goal finished with status: {_STATUS.get(result.status, "UNKNOWN")}')
+            emit('Waiting for an action server to become available...')
+            spin_until(node, client.server_is_ready)
+            for stamp in stamps:
+                stamp(node.get_clock().now().to_msg())
+            _send(node, client, goal, _emit_feedback if arguments.feedback else None)
+        finally:
+            client.destroy()  # the node does not do it, and would stay in the graph
     return 0
+
+
+def _send(
+    node: Node, client: ActionClient, goal: Any, feedback: Callable[[Any], None] | None
+) -> None:
+    emit(f'Sending goal:\n     {as_yaml(goal, WHOLE)}')
+    handle = _answer(node, client.send_goal_async(goal, feedback), 'sending goal')
+    if not handle.accepted:
+        emit('Goal was rejected.')
+        return
+    emit(f'Goal accepted with ID: {bytes(handle.goal_id.uuid).hex()}\n')
+    try:
+        result = _answer(node, handle.get_result_async(), 'getting result')
+    except KeyboardInterrupt:
+        _cancel(node, handle)
+        raise
+    emit(f'Result:\n    {as_yaml(result.result, WHOLE)}')
+    emit(f'Goal finished with status: {_STATUS.get(result.status, "UNKNOWN")}')
 
 
 def _emit_feedback(feedback: Any) -> None:
