@@ -83,7 +83,7 @@ def test_a_recording_is_readable_by_rosbags(
         assert process.poll() is None
 
     process.send_signal(number)
-    _, err = process.communicate(timeout=20)
+    _, err = process.communicate(timeout=60)
 
     assert process.returncode == 0
     assert 'Traceback' not in err
@@ -141,13 +141,18 @@ def test_play_publishes_the_bytes(ros2: Ros2, started: Started, bag: Path) -> No
     listener = started('topic', 'echo', '/zoo/sung', 'std_msgs/msg/String', '--csv')
     clock = started('topic', 'echo', '/clock', 'rosgraph_msgs/msg/Clock', '--once', '--csv')
 
-    done = ros2('bag', 'play', str(bag), '--rate', '4', '--clock', '10', '--delay', '2')
+    for topic in ('/zoo/sung', '/clock'):
+        while 'Subscription count: 1' not in ros2('topic', 'info', topic).stdout:
+            assert listener.poll() is None
+            assert clock.poll() is None
+
+    done = ros2('bag', 'play', str(bag), '--rate', '4', '--clock', '10')
 
     assert done.returncode == 0, done.stderr
     assert '[rosbag2_player]: Set rate to 4' in done.stderr
     listener.send_signal(signal.SIGINT)
-    assert listener.communicate(timeout=20)[0] == 'hi\nhi\nhi\n'
-    assert clock.communicate(timeout=20)[0].startswith('5,')
+    assert listener.communicate(timeout=60)[0] == 'hi\nhi\nhi\n'
+    assert clock.communicate(timeout=60)[0].startswith('5,')
 
 
 def test_play_in_a_loop_of_one_topic_until_ctrl_c(started: Started, bag: Path) -> None:
@@ -158,10 +163,10 @@ def test_play_in_a_loop_of_one_topic_until_ctrl_c(started: Started, bag: Path) -
     wait_for(process, 'Set rate to 50')
     # Latched as it was recorded; heard although the subscription came later.
     listener = started('topic', 'echo', '--once', '/zoo/replayed', 'std_msgs/msg/String')
-    assert listener.communicate(timeout=30)[0] == 'data: hi\n---\n'
+    assert listener.communicate(timeout=60)[0] == 'data: hi\n---\n'
 
     process.send_signal(signal.SIGINT)
-    _, err = process.communicate(timeout=10)
+    _, err = process.communicate(timeout=60)
 
     assert process.returncode == 2
     assert 'Traceback' not in err

@@ -70,7 +70,7 @@ def test_a_service_that_is_not_there_is_awaited_until_ctrl_c(started: Started) -
     assert process.stdout.readline() == 'waiting for service to become available...\n'
 
     process.send_signal(signal.SIGINT)
-    _, err = process.communicate(timeout=10)
+    _, err = process.communicate(timeout=60)
 
     assert process.returncode == 2
     assert err == ''
@@ -110,7 +110,7 @@ def test_ctrl_c_cancels_the_goal(started: Started) -> None:
         assert process.poll() is None
 
     process.send_signal(signal.SIGINT)
-    out, err = process.communicate(timeout=20)
+    out, err = process.communicate(timeout=60)
 
     assert 'Canceling goal...\n' in out
     assert out.endswith('Goal canceled.\n')

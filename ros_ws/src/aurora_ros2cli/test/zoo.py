@@ -60,7 +60,7 @@ def execute(goal: Any) -> Any:
                 goal.canceled()
                 return result
             goal.publish_feedback(ExecuteScenario.Feedback(tick=tick))
-            threading.Event().wait(0.02)
+            threading.Event().wait(0.05)
     goal.publish_feedback(ExecuteScenario.Feedback(sim_time_s=0.5, tick=10))
     if goal.request.bag_directory == 'nowhere':
         goal.abort()

@@ -28,8 +28,8 @@ _STATUS = {
     GoalStatus.STATUS_CANCELED: 'CANCELED',
     GoalStatus.STATUS_ABORTED: 'ABORTED',
 }
-# Ctrl-C asks the server to cancel; a server that is gone must not keep the command.
-_CANCEL_LIMIT_S = 5.0
+# Ctrl-C asks the server to cancel; one that is gone must not keep the command for ever.
+_CANCEL_LIMIT_S = 30.0
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -80,15 +80,16 @@ def _send(
     node: Node, client: ActionClient, goal: Any, feedback: Callable[[Any], None] | None
 ) -> None:
     emit(f'Sending goal:\n     {as_yaml(goal, WHOLE)}')
-    handle = _answer(node, client.send_goal_async(goal, feedback), 'sending goal')
-    if not handle.accepted:
-        emit('Goal was rejected.')
-        return
-    emit(f'Goal accepted with ID: {bytes(handle.goal_id.uuid).hex()}\n')
+    sending = client.send_goal_async(goal, feedback)
     try:
+        handle = _answer(node, sending, 'sending goal')
+        if not handle.accepted:
+            emit('Goal was rejected.')
+            return
+        emit(f'Goal accepted with ID: {bytes(handle.goal_id.uuid).hex()}\n')
         result = _answer(node, handle.get_result_async(), 'getting result')
     except KeyboardInterrupt:
-        _cancel(node, handle)
+        _cancel(node, sending)
         raise
     emit(f'Result:\n    {as_yaml(result.result, WHOLE)}')
     emit(f'Goal finished with status: {_STATUS.get(result.status, "UNKNOWN")}')
@@ -105,11 +106,20 @@ def _answer(node: Node, future: Any, what: str) -> Any:
     return future.result()
 
 
-def _cancel(node: Node, handle: Any) -> None:
+def _cancel(node: Node, sending: Any) -> None:
     emit('Canceling goal...')
-    future = handle.cancel_goal_async()
-    if not spin_until(node, future.done, _CANCEL_LIMIT_S):
-        raise CliError(f'Failed to cancel goal: no answer within {_CANCEL_LIMIT_S:g} s')
-    if not future.result().goals_canceling:
-        raise CliError('Failed to cancel goal')
-    emit('Goal canceled.')
+    # The goal may run already although the server's answer has not come yet.
+    answered = spin_until(node, sending.done, _CANCEL_LIMIT_S)
+    if answered and sending.exception() is None and not sending.result().accepted:
+        emit('Goal was rejected.')
+        return
+    if answered and sending.exception() is None:
+        future = sending.result().cancel_goal_async()
+        answered = spin_until(node, future.done, _CANCEL_LIMIT_S)
+        if answered and future.result().goals_canceling:
+            emit('Goal canceled.')
+            return
+    raise CliError(
+        'Failed to cancel goal'
+        + ('' if answered else f': the server did not answer within {_CANCEL_LIMIT_S:g} s')
+    )
