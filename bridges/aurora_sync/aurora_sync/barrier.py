@@ -5,8 +5,10 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from enum import Enum
+from types import MappingProxyType
 
 from aurora_core.errors import AuroraError, ExecutionError, ParticipantSilentError
 
@@ -80,11 +82,19 @@ class TickBarrier:
 
     Args:
         credit_ticks: How far the clock may be ahead of the slowest observer.
+        own_credit_ticks: The same for observers that have less, by name.
         silence_limit_s: A run fails when nothing has moved for this long.
     """
 
-    def __init__(self, *, credit_ticks: int, silence_limit_s: float) -> None:
+    def __init__(
+        self,
+        *,
+        credit_ticks: int,
+        silence_limit_s: float,
+        own_credit_ticks: Mapping[str, int] = MappingProxyType({}),
+    ) -> None:
         self._credit_ticks = credit_ticks
+        self._own_credit_ticks = own_credit_ticks
         self._silence_limit_s = silence_limit_s
         self._load = BarrierLoad(run_number=0, last_tick=0, participants=())
         self._status = BarrierStatus()
@@ -230,16 +240,18 @@ class TickBarrier:
         if self._ending or tick >= self._load.last_tick:
             self._status = replace(self._status, phase=Phase.FINISHED)
             return None
-        if self._slowest_ack() + self._credit_ticks < tick + 1:
+        if any(self._limit_of(name) < tick + 1 for name in self._acked):
             return None
         return self._begin(tick + 1, now_s)
 
-    def _slowest_ack(self) -> int:
-        return min(self._acked.values(), default=self._status.tick)
+    def _limit_of(self, observer: str) -> int:
+        """Return the last tick that may begin before an observer has acknowledged more."""
+        credit = self._own_credit_ticks.get(observer, self._credit_ticks)
+        return self._acked[observer] + credit
 
     def _waited_for(self) -> tuple[str, str]:
         for name in self._load.participants:
             if name in self._missing:
                 return name, 'finish'
-        slowest = min(self._load.observers, key=lambda name: self._acked[name])
+        slowest = min(self._load.observers, key=self._limit_of)
         return slowest, 'store the ticks before'

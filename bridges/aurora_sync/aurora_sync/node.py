@@ -39,11 +39,13 @@ class SyncSettings:
 
     autostart: bool
     credit_ticks: int
+    recorder_credit_ticks: int
     silence_limit_s: float
     watchdog_period_s: float
 
     def __post_init__(self) -> None:
-        require_positive(self, 'credit_ticks', 'silence_limit_s', 'watchdog_period_s')
+        require_positive(self, 'credit_ticks', 'recorder_credit_ticks')
+        require_positive(self, 'silence_limit_s', 'watchdog_period_s')
 
 
 class SyncNode(ManagedNode):
@@ -61,6 +63,7 @@ class SyncNode(ManagedNode):
         self._barrier = TickBarrier(
             credit_ticks=self._settings.credit_ticks,
             silence_limit_s=self._settings.silence_limit_s,
+            own_credit_ticks={'recorder': self._settings.recorder_credit_ticks},
         )
         self._clock_publisher = self.publisher(on.CLOCK)
         self._tick_publisher = self.publisher(on.TICK)

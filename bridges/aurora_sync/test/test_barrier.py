@@ -112,6 +112,24 @@ def test_the_clock_waits_for_an_observer_outside_its_credit() -> None:
     assert finish(made, 3) is None
 
 
+def test_an_observer_with_less_credit_holds_the_clock_first() -> None:
+    made = TickBarrier(credit_ticks=9, silence_limit_s=5.0, own_credit_ticks={'recorder': 2})
+    made.load(
+        BarrierLoad(
+            run_number=RUN,
+            last_tick=99,
+            participants=PARTICIPANTS,
+            observers=('monitor', 'recorder'),
+        )
+    )
+    made.start(RUN, 0.0)
+    assert finish(made, 0) == 1
+    assert finish(made, 1) is None
+    made.check(5.1)
+    assert made.status.error is not None
+    assert made.status.error.component == 'recorder'
+
+
 def test_a_silent_participant_is_named_and_the_one_that_waits_for_it_is_not() -> None:
     made = barrier()
     made.start(RUN, 100.0)

@@ -86,7 +86,7 @@ def graph(tmp_path: Path) -> Iterator[Graph]:
             'aurora_sync.node',
             domain,
             tmp_path,
-            ['--ros-args', '-p', 'silence_limit_s:=0.5', '-p', 'credit_ticks:=10'],
+            ['--ros-args', '-p', 'silence_limit_s:=0.5', '-p', 'recorder_credit_ticks:=10'],
         )
         with nodes(process):
             yield Graph(process, play)

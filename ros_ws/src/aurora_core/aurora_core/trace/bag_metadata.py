@@ -26,6 +26,7 @@ _CONTENT = 'aurora_content_sha256'
 _RECOVERED = 'aurora_recovered_from'
 # Ours has some 5 kB; what is much longer is not read at all.
 _SIZE_LIMIT = 1 << 20
+_DEPTH_LIMIT = 50
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -96,7 +97,9 @@ def read_metadata(folder: Path) -> BagMetadata:
     if path.stat().st_size > _SIZE_LIMIT:
         raise ValueError(f'it has {path.stat().st_size} bytes')
     try:
-        document = yaml.load(path.read_bytes(), Loader=_LOADER)  # noqa: S506  (a safe loader)
+        text = path.read_bytes()
+        _check_depth(text)
+        document = yaml.load(text, Loader=_LOADER)  # noqa: S506  (a safe loader)
         info = document['rosbag2_bagfile_information']
         custom = info.get('custom_data') or {}
         length = custom.get(_BYTES)
@@ -116,7 +119,7 @@ def read_metadata(folder: Path) -> BagMetadata:
                 for entry in info['topics_with_message_count']
             },
         )
-    except (yaml.YAMLError, LookupError, TypeError, AttributeError, RecursionError) as err:
+    except (yaml.YAMLError, LookupError, TypeError, AttributeError) as err:
         raise ValueError(f'{type(err).__name__}: {err}') from err
 
 
@@ -141,6 +144,23 @@ def qos(topic: str) -> dict[str, object]:
         'liveliness_lease_duration': forever,
         'avoid_ros_namespace_conventions': False,
     }
+
+
+def _check_depth(text: bytes) -> None:
+    """Refuse what is nested deeply: the loader in C recurses, and dies when the stack ends.
+
+    Raises:
+        ValueError: It is nested deeply.
+        YAMLError: It is no YAML.
+    """
+    depth = 0
+    for event in yaml.parse(text, Loader=_LOADER):
+        if isinstance(event, yaml.CollectionStartEvent):
+            depth += 1
+            if depth > _DEPTH_LIMIT:
+                raise ValueError(f'it is nested more than {_DEPTH_LIMIT} deep')
+        elif isinstance(event, yaml.CollectionEndEvent):
+            depth -= 1
 
 
 def _document(metadata: BagMetadata) -> dict[str, object]:

@@ -314,8 +314,8 @@ class FileReading:
         size = self._file.stat().st_size
         whole = metadata.file_bytes
         if cut and all(defect.cut for defect in self.defects):
-            was = '' if whole is None else f' of {whole}'
-            return [(Integrity.TRUNCATED, f'{self._file.name} was cut short: {size} bytes{was}')]
+            was = f': {size} bytes of {whole}' if whole is not None and size < whole else ''
+            return [(Integrity.TRUNCATED, f'{self._file.name} was cut short{was}')]
         note = f'{self._file.name} does not match the digest of its recording'
         if self.defects or self._nameless or self._undecoded or self._checkpoints_fail:
             return [(Integrity.ALTERED, note)]

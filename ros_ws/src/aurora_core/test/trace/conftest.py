@@ -4,8 +4,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import importlib.util
+import random
+import resource
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 import pytest
@@ -245,3 +251,55 @@ def make_world() -> MakeWorld:
 def record() -> Record:
     """Record a trace in a folder."""
     return _record  # type: ignore[return-value]
+
+
+@contextmanager
+def _full_disk(size: int) -> Iterator[None]:
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, hard))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+
+
+@pytest.fixture
+def full_disk() -> Callable[[int], AbstractContextManager[None]]:
+    """Let the kernel refuse to write a file beyond `size` bytes."""
+    return _full_disk
+
+
+def _fuzz(data: bytes, seed: int) -> bytes:
+    generator = random.Random(seed)
+    damaged = bytearray(data)
+    for _ in range(generator.choice((1, 1, 1, 5, 40))):
+        damaged[generator.randrange(len(damaged))] ^= 1 << generator.randrange(8)
+    kind = generator.randrange(8)
+    at = generator.randrange(len(damaged))
+    if kind == 0:
+        del damaged[at:]
+    elif kind == 1:
+        del damaged[at : at + generator.randrange(1, 2000)]
+    elif kind == 2:
+        damaged[at:at] = generator.randbytes(generator.randrange(1, 2000))
+    return bytes(damaged)
+
+
+@pytest.fixture
+def fuzz() -> Callable[[bytes, int], bytes]:
+    """Damage bytes at random places, by a seed."""
+    return _fuzz
+
+
+@pytest.fixture(scope='session')
+def forging() -> ModuleType:
+    """The names of `forging`."""
+    if 'forging' not in sys.modules:
+        path = Path(__file__).parent / 'forging.py'
+        spec = importlib.util.spec_from_file_location('forging', path)
+        assert spec is not None
+        assert spec.loader is not None
+        module = importlib.util.module_from_spec(spec)
+        sys.modules['forging'] = module
+        spec.loader.exec_module(module)
+    return sys.modules['forging']

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import random
+import re
 import shutil
 from collections.abc import Callable
 from dataclasses import replace
@@ -59,10 +60,9 @@ def _integrity(folder: Path) -> Integrity:
 def _sign(folder: Path) -> None:
     """Write the digest of the present file into the metadata, as a forger would."""
     path = folder / 'metadata.yaml'
-    info = yaml.safe_load(path.read_text(encoding='utf-8'))
+    text = path.read_text(encoding='utf-8')
     digest = file_sha256(folder / FILE)
-    info['rosbag2_bagfile_information']['custom_data']['aurora_file_sha256'] = digest
-    path.write_text(yaml.safe_dump(info), encoding='utf-8')
+    path.write_text(re.sub('(aurora_file_sha256: ).*', rf'\g<1>{digest}', text))
 
 
 @pytest.mark.parametrize('signed', [False, True])
@@ -81,7 +81,7 @@ def test_any_flipped_bit_is_noticed(bag: Path) -> None:
     whole = (bag / FILE).read_bytes()
     generator = random.Random(2)
     # The first bytes and the records' lengths are where a reader is hurt most.
-    places = [*range(0, 120, 2), *generator.sample(range(len(whole)), 90)]
+    places = [*range(0, 120, 3), *generator.sample(range(len(whole)), 60)]
     for place in places:
         damaged = bytearray(whole)
         damaged[place] ^= 1 << generator.randrange(8)
@@ -92,7 +92,7 @@ def test_any_flipped_bit_is_noticed(bag: Path) -> None:
 def test_flipped_bits_under_a_forged_digest_do_not_crash(bag: Path) -> None:
     whole = (bag / FILE).read_bytes()
     generator = random.Random(3)
-    for place in generator.sample(range(len(whole)), 70):
+    for place in generator.sample(range(len(whole)), 50):
         damaged = bytearray(whole)
         damaged[place] ^= 1 << generator.randrange(8)
         (bag / FILE).write_bytes(damaged)
@@ -122,7 +122,7 @@ def test_damaged_numbers_inside_messages_do_not_crash(
     generator = random.Random(4)
     number = 0
     for damaged_topic in encoded:
-        for _ in range(8):
+        for _ in range(5):
             number += 1
             folder = tmp_path / f'bag.{number}'
             with BagWriter(folder, definitions) as writer:

@@ -4,9 +4,10 @@
 
 from __future__ import annotations
 
-import resource
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+import errno
+import os
+from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -15,23 +16,12 @@ import pytest
 
 from aurora_core.errors import BagError
 from aurora_core.trace import messages
-from aurora_core.trace.bag_reader import read_bag
+from aurora_core.trace.bag_reader import read_bag, read_stored
 from aurora_core.trace.bag_writer import BagWriter
 from aurora_core.trace.definitions import message_definitions
 from aurora_core.trace.messages import MessageBuilder
 from aurora_core.trace.messages_world import world_message
 from aurora_core.trace.trace import Integrity, Trace
-
-
-@contextmanager
-def _full_disk(size: int) -> Iterator[None]:
-    """Let the kernel refuse to write a file beyond `size` bytes."""
-    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (size, hard))
-    try:
-        yield
-    finally:
-        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
 
 
 def test_after_a_kill_everything_up_to_the_last_flush_is_there(
@@ -79,6 +69,7 @@ def test_a_full_disk_is_an_error_and_the_bag_stays_readable(
     tmp_path: Path,
     make_trace: Callable[..., Trace],
     make_world: Callable[..., Any],
+    full_disk: Callable[..., Any],
 ) -> None:
     definitions = message_definitions()
     trace = make_trace(ticks=2000, agents=10)
@@ -102,7 +93,7 @@ def test_a_full_disk_is_an_error_and_the_bag_stays_readable(
                 cdr = definitions.encode(type_name, message)
                 writer.write(topic, type_name, cdr, tick * 50_000_000)
 
-    with _full_disk(60_000), pytest.raises(BagError, match='cannot write the bag') as caught:
+    with full_disk(60_000), pytest.raises(BagError, match='cannot write the bag') as caught:
         store_all()
     assert 'space' in caught.value.hint
     assert writer.closed
@@ -119,9 +110,10 @@ def test_a_disk_that_is_full_at_the_end_leaves_no_metadata(
     make_trace: Callable[..., Trace],
     make_world: Callable[..., Any],
     record: Callable[..., Any],
+    full_disk: Callable[..., Any],
 ) -> None:
     writer = record(tmp_path / 'bag.0', make_trace(ticks=19), make_world(), close=False)
-    with _full_disk(1000), pytest.raises(BagError, match='cannot write the bag'):
+    with full_disk(1000), pytest.raises(BagError, match='cannot write the bag'):
         writer.close()
     assert not (tmp_path / 'bag.0' / 'metadata.yaml').exists()
     with pytest.raises(BagError, match='is closed'):
@@ -143,3 +135,55 @@ def test_leaving_the_block_closes_the_bag_also_after_an_error(tmp_path: Path) ->
     ):
         raise RuntimeError('simulator')
     assert (tmp_path / 'bag.0' / 'metadata.yaml').is_file()
+
+
+def test_a_phase_is_out_with_the_next_tick(
+    tmp_path: Path, make_trace: Callable[..., Trace], make_world: Callable[..., Any]
+) -> None:
+    definitions = message_definitions()
+    trace = make_trace(ticks=9)
+    build = MessageBuilder(definitions, 1, 0.05)
+    with BagWriter(tmp_path / 'bag.0', definitions) as writer:
+
+        def put(topic: str, tick: int, message: Any) -> None:
+            type_name = messages.TOPICS[topic]
+            writer.write(topic, type_name, definitions.encode(type_name, message), tick * 10**8)
+
+        put(messages.ROSTER, 0, build.roster('r', trace.roster))
+        put(messages.WORLD, 0, world_message(definitions, build.header(0), 'r', make_world()))
+        for k in range(4):
+            put(messages.GROUND_STATE, k, build.state(messages.GROUND_STATE, k, trace.ground[k]))
+        assert _stored(tmp_path) == 2  # the first message after t = 0 took what was there along
+        put(messages.EVENTS, 3, build.event(replace(trace.events[1], tick=3)))
+        put(messages.GROUND_STATE, 4, build.state(messages.GROUND_STATE, 4, trace.ground[4]))
+        assert _stored(tmp_path) == 2  # a fault is no phase
+        put(messages.EVENTS, 4, build.event(replace(trace.events[0], tick=4)))
+        assert _stored(tmp_path) == 2
+        put(messages.GROUND_STATE, 5, build.state(messages.GROUND_STATE, 5, trace.ground[5]))
+        assert _stored(tmp_path) == 6
+
+
+def _stored(folder: Path) -> int:
+    """Return how many ground states have left the process."""
+    stored = read_stored(folder / 'bag.0', message_definitions()).messages
+    return sum(message.topic == messages.GROUND_STATE for message in stored)
+
+
+def test_a_disk_that_fails_later_is_an_error_too(
+    tmp_path: Path,
+    make_trace: Callable[..., Trace],
+    make_world: Callable[..., Any],
+    record: Callable[..., Any],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    writer = record(tmp_path / 'bag.0', make_trace(ticks=10), make_world(), close=False)
+
+    def full(_descriptor: int) -> None:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr('os.fsync', full)
+    with pytest.raises(BagError, match='No space left on device') as caught:
+        writer.close()
+    assert 'free some space' in caught.value.hint
+    assert caught.value.component == 'recorder'
+    assert sorted(path.name for path in (tmp_path / 'bag.0').iterdir()) == ['bag.0_0.mcap']
