@@ -11,6 +11,9 @@ from pathlib import Path
 
 from aurora_bench.results import Goal
 
+# Names that belong to ROS graphs of other processes: the local engine loads no DDS.
+_FOREIGN = 'fastrtps'
+
 # Memory may grow by this share: allocators do not give back every page.
 MEMORY_SHARE = 0.05
 
@@ -23,7 +26,7 @@ class Holdings:
         memory_mib: Resident memory of the process.
         descriptors: Open file descriptors.
         threads: Threads, those of libraries too.
-        shared_memory: Names in /dev/shm (the whole machine's).
+        shared_memory: Names in /dev/shm, of the whole machine but for those of DDS.
     """
 
     memory_mib: float
@@ -40,13 +43,12 @@ def holdings() -> Holdings:
         for line in Path('/proc/self/status').read_text(encoding='ascii').splitlines()
     )
     shared = Path('/dev/shm')
+    names = [p.name for p in shared.iterdir()] if shared.is_dir() else []
     return Holdings(
         memory_mib=int(status['VmRSS'].split()[0]) / 1024.0,
         descriptors=len(os.listdir('/proc/self/fd')),
         threads=int(status['Threads']),
-        shared_memory=frozenset(p.name for p in shared.iterdir())
-        if shared.is_dir()
-        else frozenset(),
+        shared_memory=frozenset(name for name in names if _FOREIGN not in name),
     )
 
 
