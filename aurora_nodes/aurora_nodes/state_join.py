@@ -24,6 +24,11 @@ class StateJoin:
         self._next = 0
         self._rows: dict[str, FloatArray] = {}
 
+    @property
+    def missing(self) -> str:
+        """The first source whose next state has not come."""
+        return next(source for source in self._sources if source not in self._rows)
+
     def put(
         self, source: str, run_number: int, tick: int, rows: FloatArray
     ) -> tuple[int, dict[str, FloatArray]] | None:

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import signal
 import socket
@@ -79,7 +80,7 @@ def run_node(
             signal_handler_options=SignalHandlerOptions.NO,
         )
         node = create()
-        executor = _executor(spinning, threads)
+        executor = _executor(spinning, threads, node)
         executor.add_node(node)
         stop.wakes(executor)
         if isinstance(node, ManagedNode) and node.wants_autostart:
@@ -87,6 +88,9 @@ def run_node(
         # Only now: nobody publishes or asks while this thread still creates endpoints.
         node.serve_roll_call()
         node.heartbeat.start()
+        # What start-up made stays: the garbage collector need not look at it again and again.
+        gc.collect()
+        gc.freeze()
         ready = _announce(node)
         _serve(node, executor, stop)
     except AuroraError as err:
@@ -158,10 +162,12 @@ def _serve(node: AuroraNode | ManagedNode, executor: Executor, stop: _Stop) -> N
             raise
 
 
-def _executor(spinning: Spinning, threads: int) -> Executor:
+def _executor(spinning: Spinning, threads: int, node: AuroraNode | ManagedNode) -> Executor:
     if spinning is Spinning.MANY_THREADS:
         return MultiThreadedExecutor(num_threads=threads)
-    return WaitSetExecutor() if is_supported() else SingleThreadedExecutor()
+    if not is_supported():
+        return SingleThreadedExecutor()
+    return WaitSetExecutor(awaited=lambda: node.awaited)
 
 
 def _announce(node: AuroraNode | ManagedNode) -> Path | None:
