@@ -81,7 +81,7 @@ class WaitSetExecutor(SingleThreadedExecutor):
         """Leave out what the short way looks after while it does."""
         if self._leaving_out_messages and entity in self._streams:
             return False
-        return super().can_execute(entity)
+        return bool(super().can_execute(entity))
 
     def spin_once(self, timeout_sec: float | None = None) -> None:
         """Wait for messages or other work and do it."""
