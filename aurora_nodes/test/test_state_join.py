@@ -28,15 +28,17 @@ def test_a_tick_is_complete_with_its_last_state_in_any_order() -> None:
     assert ready[0] == 1
 
 
-def test_the_state_that_is_missing_is_told() -> None:
+def test_the_missing_state_that_came_last_before_is_told_first() -> None:
     join = StateJoin(RUN, ('ground', 'air'))
-    assert join.missing == 'ground'
-    join.put('ground', RUN, 0, ROWS)
     assert join.missing == 'air'
     join.put('air', RUN, 0, ROWS)
     assert join.missing == 'ground'
-    join.put('air', RUN, 1, ROWS)
+    join.put('ground', RUN, 0, ROWS)
     assert join.missing == 'ground'
+    join.put('ground', RUN, 1, ROWS)
+    assert join.missing == 'air'
+    join.put('air', RUN, 1, ROWS)
+    assert join.missing == 'air'
 
 
 def test_without_uavs_the_ground_state_is_enough() -> None:
