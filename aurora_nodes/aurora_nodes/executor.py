@@ -20,6 +20,7 @@ from rclpy.action.server import (
     GoalResponse,
     ServerGoalHandle,
 )
+from rclpy.subscription import Subscription
 
 from aurora_core.errors import AuroraError
 from aurora_core.pipeline.functions import execution_stage
@@ -49,6 +50,7 @@ class ExecutorNode(ManagedNode):
         super().__init__('executor')
         self._settings = declare(self, 'executor', ExecutorSettings)
         self.wants_autostart = self._settings.autostart
+        self._path: TickPath | None = None
         self._worker: threading.Thread | None = None
         self._giving_up = threading.Event()
 
@@ -74,6 +76,11 @@ class ExecutorNode(ManagedNode):
     def request_stop(self) -> None:
         """Cancel a run that is going on."""
         self._giving_up.set()
+
+    @property
+    def awaited(self) -> Subscription | None:
+        """The state that the next step of a run lacks."""
+        return self._path.awaited if self._path is not None else None
 
     @property
     def is_idle(self) -> bool:

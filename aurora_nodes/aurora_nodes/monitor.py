@@ -154,4 +154,4 @@ def _message(judgement: Judgement, verdict: Verdict, source: int) -> VerdictMess
 
 def main() -> int:
     """Run the node until it is told to end."""
-    return run_node(MonitorNode)
+    return run_node(MonitorNode, background=True)

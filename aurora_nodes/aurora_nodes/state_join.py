@@ -21,8 +21,14 @@ class StateJoin:
     def __init__(self, run_number: int, sources: tuple[str, ...]) -> None:
         self._run_number = run_number
         self._sources = sources
+        self._latest_first = sources[::-1]
         self._next = 0
         self._rows: dict[str, FloatArray] = {}
+
+    @property
+    def missing(self) -> str:
+        """A source whose next state has not come: of several, the one that came last before."""
+        return next(source for source in self._latest_first if source not in self._rows)
 
     def put(
         self, source: str, run_number: int, tick: int, rows: FloatArray
@@ -43,5 +49,6 @@ class StateJoin:
         if len(self._rows) < len(self._sources):
             return None
         rows_by_source, self._rows = self._rows, {}
+        self._latest_first = tuple(reversed(rows_by_source))
         self._next = tick + 1
         return tick, rows_by_source

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from rclpy.publisher import Publisher
+from rclpy.subscription import Subscription
 
 from aurora_core.errors import AuroraError
 from aurora_core.execution.step_output import StepOutput, Stepper
@@ -80,9 +81,16 @@ class TickPath:
                 on.FAULT,
             )
         }
-        node.subscription(on.GROUND_STATE, self._on_ground)
-        node.subscription(on.UAV_STATE, self._on_uav)
+        self._states = {
+            GROUND: node.subscription(on.GROUND_STATE, self._on_ground),
+            AIR: node.subscription(on.UAV_STATE, self._on_uav),
+        }
         node.subscription(on.SYNC_STATUS, self._on_sync_status)
+
+    @property
+    def awaited(self) -> Subscription | None:
+        """The state that the next step lacks; None between runs."""
+        return None if self._run is None else self._states[self._join.missing]
 
     def listeners(self, with_uavs: bool, *, observers: int) -> dict[Publisher, int]:
         """Return the publishers and how many must listen to each before tick 0.
@@ -133,21 +141,14 @@ class TickPath:
 
     def _publish(self, run: ActiveRun, tick: int, output: StepOutput) -> None:
         builder = run.builder
-        for link in output.links:
-            self._send(run, on.COMM, builder.link(link))
-        for sight in output.sights:
-            self._send(run, on.SENSING, builder.sight(sight))
-        for event in output.events:
-            self._send(run, on.EVENTS, builder.event(event))
-        run.last_tick = tick
         finished = output.finished or run.stopping
-        run.outcome = output.outcome or ('cancelled' if run.stopping else '')
         if not finished:
-            commands = builder.ground_commands(tick + 1, output.ground_commands)
-            self._send(run, on.GROUND_COMMAND, commands)
+            # Before the word that the tick is done, so that no bridge has to wait a second time.
             if run.has_uavs:
                 rows = uav_command(run.run_number, tick + 1, run.dt_s, output.uav_commands)
                 self._send(run, on.UAV_COMMAND, rows)
+            commands = builder.ground_commands(tick + 1, output.ground_commands)
+            self._send(run, on.GROUND_COMMAND, commands)
         self._publishers[on.TICK_DONE].publish(
             TickDone(
                 run_number=run.run_number,
@@ -156,6 +157,15 @@ class TickPath:
                 finished=finished,
             )
         )
+        # The clock goes on while the rest is written: nobody's next tick depends on it.
+        for link in output.links:
+            self._send(run, on.COMM, builder.link(link))
+        for sight in output.sights:
+            self._send(run, on.SENSING, builder.sight(sight))
+        for event in output.events:
+            self._send(run, on.EVENTS, builder.event(event))
+        run.last_tick = tick
+        run.outcome = output.outcome or ('cancelled' if run.stopping else '')
         self._node.heartbeat.at(tick)
         run.on_tick(tick)
 

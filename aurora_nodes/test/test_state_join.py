@@ -28,6 +28,19 @@ def test_a_tick_is_complete_with_its_last_state_in_any_order() -> None:
     assert ready[0] == 1
 
 
+def test_the_missing_state_that_came_last_before_is_told_first() -> None:
+    join = StateJoin(RUN, ('ground', 'air'))
+    assert join.missing == 'air'
+    join.put('air', RUN, 0, ROWS)
+    assert join.missing == 'ground'
+    join.put('ground', RUN, 0, ROWS)
+    assert join.missing == 'ground'
+    join.put('ground', RUN, 1, ROWS)
+    assert join.missing == 'air'
+    join.put('air', RUN, 1, ROWS)
+    assert join.missing == 'air'
+
+
 def test_without_uavs_the_ground_state_is_enough() -> None:
     join = StateJoin(RUN, ('ground',))
     assert [join.put('ground', RUN, tick, ROWS) is not None for tick in range(3)] == [True] * 3

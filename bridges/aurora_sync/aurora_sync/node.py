@@ -163,7 +163,6 @@ class SyncNode(ManagedNode):
         """Start a tick, if one is to be started, and tell of a change of state."""
         if tick is not None:
             self.heartbeat.at(tick)
-            self._clock_publisher.publish(ClockMessage(clock=stamp(tick, self._dt_s)))
             self._tick_publisher.publish(
                 Tick(
                     run_number=self._barrier.status.run_number,
@@ -171,6 +170,8 @@ class SyncNode(ManagedNode):
                     time_s=tick * self._dt_s,
                 )
             )
+            # Second: the tick waits for nobody, and nobody's tick depends on the clock.
+            self._clock_publisher.publish(ClockMessage(clock=stamp(tick, self._dt_s)))
         self._tell()
 
     def _tell(self) -> None:

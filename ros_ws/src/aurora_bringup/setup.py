@@ -19,6 +19,7 @@ setup(
                 'scripts/up',
                 'scripts/down',
                 'scripts/common.bash',
+                'scripts/seats.bash',
                 'scripts/stopping.bash',
                 'scripts/supervising.bash',
             ],

@@ -35,6 +35,7 @@ start() {
     trap - INT TERM HUP USR1 PIPE
     # Before it becomes the node: whoever ends us in between finds it all the same.
     write_pid "$2" "$BASHPID"
+    take_seat "$2"
     AURORA_READY_FILE="$run_dir/$2.ready" AURORA_SUPERVISION_DIR="$run_dir" \
       exec ros2 run "$1" "$2" < /dev/null > "$log" 2>&1 8>&- 9>&- {silence}>&-
   ) &

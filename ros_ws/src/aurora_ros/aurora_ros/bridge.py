@@ -10,6 +10,7 @@ from typing import Any
 
 from rclpy.clock import Clock
 from rclpy.clock_type import ClockType
+from rclpy.subscription import Subscription
 
 from aurora_core.errors import AuroraError
 from aurora_msgs.msg import Fault, SyncStatus, Tick, TickDone
@@ -67,13 +68,20 @@ class LockstepBridge(ManagedNode):
     def close_run(self) -> None:
         """Leave the simulator after a run; the next one loads it again."""
 
+    @property
+    def awaited(self) -> Subscription | None:
+        """The tick first, since its command usually comes before it."""
+        if self._input.run_number is None:
+            return None
+        return self._ticks if self._input.lacks_tick else self._commands
+
     def configure(self) -> None:
         """Create the endpoints."""
         self._state_publisher = self.publisher(self._interfaces.state)
         self._done_publisher = self.publisher(on.TICK_DONE)
         self._fault_publisher = self.publisher(on.FAULT)
-        self.subscription(on.TICK, self._on_tick)
-        self.subscription(self._interfaces.command, self._on_command)
+        self._ticks = self.subscription(on.TICK, self._on_tick)
+        self._commands = self.subscription(self._interfaces.command, self._on_command)
         self.subscription(on.SYNC_STATUS, self._on_sync_status)
         self._watch = HeartbeatWatch(self)
         self.create_timer(_LOOK_S, self._on_look, clock=Clock(clock_type=ClockType.STEADY_TIME))

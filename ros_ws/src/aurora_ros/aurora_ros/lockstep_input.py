@@ -35,6 +35,11 @@ class LockstepInput(Generic[_T]):
         """The run that is served, None between runs."""
         return self._run_number
 
+    @property
+    def lacks_tick(self) -> bool:
+        """Whether the next tick has not begun; else its input is what is missing."""
+        return not self._ticked
+
     def arm(self, run_number: int) -> None:
         """Begin with tick 0 of a run and forget everything before."""
         self._run_number = run_number

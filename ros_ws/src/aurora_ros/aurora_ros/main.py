@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import signal
 import socket
@@ -51,6 +52,7 @@ def run_node(
     *,
     spinning: Spinning = Spinning.ONE_THREAD,
     threads: int = 16,
+    background: bool = False,
     arguments: Sequence[str] | None = None,
 ) -> int:
     """Create a node, serve until SIGINT or SIGTERM, clean up.
@@ -64,11 +66,16 @@ def run_node(
         create: Makes the node; a `ManagedNode` starts itself unless its `autostart` is false.
         spinning: Kind of executor.
         threads: Threads of `MANY_THREADS`.
+        background: For observers: whoever works on the next tick is never interrupted by what
+            arrives here. No less computing time is given.
         arguments: Command line; None takes the process's own.
 
     Returns:
         Exit code: 0 after an ordinary end, 1 when the node could not start.
     """
+    if background:
+        # Before the middleware's threads are made: they inherit it.
+        os.sched_setscheduler(0, os.SCHED_BATCH, os.sched_param(0))
     stop = _Stop()
     node: AuroraNode | ManagedNode | None = None
     executor: Executor | None = None
@@ -79,7 +86,7 @@ def run_node(
             signal_handler_options=SignalHandlerOptions.NO,
         )
         node = create()
-        executor = _executor(spinning, threads)
+        executor = _executor(spinning, threads, node)
         executor.add_node(node)
         stop.wakes(executor)
         if isinstance(node, ManagedNode) and node.wants_autostart:
@@ -87,6 +94,9 @@ def run_node(
         # Only now: nobody publishes or asks while this thread still creates endpoints.
         node.serve_roll_call()
         node.heartbeat.start()
+        # What start-up made stays: the garbage collector need not look at it again and again.
+        gc.collect()
+        gc.freeze()
         ready = _announce(node)
         _serve(node, executor, stop)
     except AuroraError as err:
@@ -158,10 +168,12 @@ def _serve(node: AuroraNode | ManagedNode, executor: Executor, stop: _Stop) -> N
             raise
 
 
-def _executor(spinning: Spinning, threads: int) -> Executor:
+def _executor(spinning: Spinning, threads: int, node: AuroraNode | ManagedNode) -> Executor:
     if spinning is Spinning.MANY_THREADS:
         return MultiThreadedExecutor(num_threads=threads)
-    return WaitSetExecutor() if is_supported() else SingleThreadedExecutor()
+    if not is_supported():
+        return SingleThreadedExecutor()
+    return WaitSetExecutor(awaited=lambda: node.awaited)
 
 
 def _announce(node: AuroraNode | ManagedNode) -> Path | None:

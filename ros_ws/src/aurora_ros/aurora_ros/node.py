@@ -47,6 +47,14 @@ class EndpointsMixin:
         )
         return created
 
+    @property
+    def awaited(self) -> Subscription | None:
+        """The one subscription without whose next message the node cannot go on.
+
+        Messages of others need not wake it meanwhile. None: any message matters.
+        """
+        return None
+
     def request_stop(self) -> None:
         """Begin to end what is under way; the node still serves until `is_idle`."""
 

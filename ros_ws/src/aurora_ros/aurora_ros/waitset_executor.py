@@ -1,18 +1,22 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""A single-threaded executor with a short way for subscriptions.
+"""A single-threaded executor with a short way for streams.
 
 The stock executor builds a wait set of every entity and a coroutine per callback: most of the cost
-of a tick. Here messages that follow each other closely are waited for in a wait set of the
-subscriptions alone and their callbacks are called directly. Everything else (services, timers,
-actions, events) goes the stock way: at once while no messages flow, every few milliseconds while
-they do.
+of a tick. Here the messages of streams (QoS keep all: states, commands, ticks) are waited for in a
+wait set of those subscriptions alone while they flow, and their callbacks are called directly.
+Everything else (services, timers, actions, events, single messages such as heartbeats) goes the
+stock way: at once while no stream flows, some times a second while one does.
+
+Being woken costs more than a message. A node that needs several messages before it can go on says
+which one it lacks (`awaited`); the others are taken when that one comes.
 """
 
 from __future__ import annotations
 
 import inspect
 import time
+from collections.abc import Callable
 from typing import Any
 
 from rclpy.context import Context
@@ -24,21 +28,22 @@ from rclpy.executors import (
     TimeoutException,
 )
 from rclpy.impl.implementation_singleton import rclpy_implementation as _rclpy
+from rclpy.qos import HistoryPolicy
 from rclpy.subscription import Subscription
 
 from aurora_ros.polling import PolledGroup
 
-_HOT_S = 0.01  # how long after a message the next one is waited for in the short way
-_STOCK_PERIOD_S = 0.02  # how long services and timers may wait meanwhile
+_HOT_S = 0.02  # how long after a message of a stream the next one is waited for in the short way
+_STOCK_PERIOD_S = 0.05  # how long everything else may wait meanwhile
 _STOCK_CALLBACKS = 100  # at most, before subscriptions have their turn again
+_HOT_NS = int(_HOT_S * 1e9)
 _BURST = 100  # messages of one subscription before the others have their turn
 
 
 def is_supported() -> bool:
     """Return whether this rclpy has the wait set that the short way is built on."""
     return all(
-        hasattr(_rclpy.WaitSet, name)
-        for name in ('clear_entities', 'add_subscription', 'add_guard_condition', 'wait')
+        hasattr(_rclpy.WaitSet, name) for name in ('clear_entities', 'add_subscription', 'wait')
     ) and hasattr(_rclpy.Subscription, 'take_message')
 
 
@@ -47,14 +52,23 @@ class WaitSetExecutor(SingleThreadedExecutor):
 
     Args:
         context: None: the default one.
+        awaited: Asked before each wait in the short way: the one subscription without whose next
+            message nothing can go on, or None when any message matters.
     """
 
-    def __init__(self, *, context: Context | None = None) -> None:
+    def __init__(
+        self,
+        *,
+        context: Context | None = None,
+        awaited: Callable[[], Subscription | None] = lambda: None,
+    ) -> None:
         self._stale = True
+        self._awaited = awaited
         self._hot_until_s = 0.0
         self._stock_due_s = 0.0
+        self._leaving_out_messages = False
         self._entered: list[Any] = []
-        self._by_pointer: dict[int, Subscription] = {}
+        self._streams: tuple[Subscription, ...] = ()
         self._wait_set: Any = None
         super().__init__(context=context)
 
@@ -62,6 +76,12 @@ class WaitSetExecutor(SingleThreadedExecutor):
         """Notice that an entity was created or destroyed, or that the context has ended."""
         self._stale = True
         super().wake()
+
+    def can_execute(self, entity: Any) -> bool:
+        """Leave out what the short way looks after while it does."""
+        if self._leaving_out_messages and entity in self._streams:
+            return False
+        return bool(super().can_execute(entity))
 
     def spin_once(self, timeout_sec: float | None = None) -> None:
         """Wait for messages or other work and do it."""
@@ -95,7 +115,7 @@ class WaitSetExecutor(SingleThreadedExecutor):
         error = handler.exception()
         if error is not None:
             raise error
-        if isinstance(entity, Subscription):
+        if isinstance(entity, Subscription) and _is_stream(entity):
             self._hot_until_s = time.monotonic() + _HOT_S
         return True
 
@@ -105,30 +125,34 @@ class WaitSetExecutor(SingleThreadedExecutor):
             self._rebuild()
         wait_set = self._wait_set
         wait_set.clear_entities()
-        for subscription in self._by_pointer.values():
+        awaited = self._awaited()
+        for subscription in (awaited,) if awaited in self._streams else self._streams:
             wait_set.add_subscription(subscription.handle)
-        guard = wait_set.add_guard_condition(self._guard.handle)
-        interrupt = wait_set.add_guard_condition(self._sigint_gc.handle)
-        wait_set.wait(int(_HOT_S * 1e9))
+        wait_set.wait(_HOT_NS)
         took = False
-        for pointer in wait_set.get_ready_entities('subscription'):
-            took = self._take(self._by_pointer.get(pointer)) or took
+        for subscription in self._streams:
+            took = self._take(subscription) or took
         now_s = time.monotonic()
         if took:
             self._hot_until_s = now_s + _HOT_S
-        woken = wait_set.is_ready('guard_condition', guard) or wait_set.is_ready(
-            'guard_condition', interrupt
-        )
-        if woken or now_s >= self._stock_due_s:
+        if now_s >= self._stock_due_s:
             self._stock_due_s = now_s + _STOCK_PERIOD_S
+            self._spin_stock_without_messages()
+
+    def _spin_stock_without_messages(self) -> None:
+        """Serve whatever else is ready."""
+        self._leaving_out_messages = True
+        try:
             for _ in range(_STOCK_CALLBACKS):
                 if not self._spin_stock(0.0):
                     break
+        finally:
+            self._leaving_out_messages = False
 
-    def _take(self, subscription: Subscription | None) -> bool:
+    def _take(self, subscription: Subscription) -> bool:
         """Call back with what has arrived; return whether there was anything."""
         for count in range(_BURST):
-            if subscription is None or self._stale:
+            if self._stale:
                 return count > 0
             taken = subscription.handle.take_message(subscription.msg_type, subscription.raw)
             if taken is None:
@@ -140,32 +164,35 @@ class WaitSetExecutor(SingleThreadedExecutor):
         """Make the wait set of the subscriptions that there are now."""
         self._stale = False
         self._release()
+        streams = []
         for node in self.get_nodes():
             for subscription in node.subscriptions:
-                if not _is_plain(subscription):
+                if not _is_stream(subscription):
                     continue
                 try:
                     subscription.handle.__enter__()
                 except InvalidHandle:
                     continue
                 self._entered.append(subscription.handle)
-                self._by_pointer[subscription.handle.pointer] = subscription
+                streams.append(subscription)
+        self._streams = tuple(streams)
         context: Any = self._context.handle
         with context:
-            self._wait_set = _rclpy.WaitSet(len(self._by_pointer), 2, 0, 0, 0, 0, context)
+            self._wait_set = _rclpy.WaitSet(len(streams), 0, 0, 0, 0, 0, context)
 
     def _release(self) -> None:
         """Allow the subscriptions that were waited for to be destroyed."""
         for handle in self._entered:
             handle.__exit__(None, None, None)
         self._entered.clear()
-        self._by_pointer.clear()
+        self._streams = ()
 
 
-def _is_plain(subscription: Subscription) -> bool:
-    """Return whether a callback may be called directly: a function of the message alone."""
+def _is_stream(subscription: Subscription) -> bool:
+    """Return whether the callback of a subscription is called in the short way."""
     return (
-        not isinstance(subscription.callback_group, PolledGroup)
+        subscription.qos_profile.history == HistoryPolicy.KEEP_ALL
+        and not isinstance(subscription.callback_group, PolledGroup)
         and not inspect.iscoroutinefunction(subscription.callback)
         and subscription._callback_type is Subscription.CallbackType.MessageOnly
     )

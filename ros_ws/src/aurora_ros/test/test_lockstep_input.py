@@ -65,6 +65,20 @@ def test_another_run_and_repeated_ticks_are_ignored() -> None:
     assert made.take() is None
 
 
+def test_what_is_missing_is_told() -> None:
+    made = armed()
+    assert made.lacks_tick
+    made.tick(RUN, 0)
+    made.take()
+    made.put(RUN, 1, 'command 1')
+    assert made.lacks_tick
+    made.tick(RUN, 1)
+    made.take()
+    made.tick(RUN, 2)
+    assert made.take() is None
+    assert not made.lacks_tick
+
+
 def test_a_lost_tick_is_an_error() -> None:
     made = armed()
     with pytest.raises(ExecutionError, match='expected tick 0, found tick 1') as caught:
