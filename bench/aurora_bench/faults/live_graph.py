@@ -12,10 +12,10 @@ import signal
 import subprocess
 import time
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 
 from aurora_core.errors import AuroraError
-from aurora_uav_sim.protocol import mavlink_port
 
 NAMES = (
     'uav_sim', 'sync', 'sumo_bridge', 'uav_bridge', 'recorder',
@@ -25,8 +25,7 @@ _START_S = 300
 UP = ('ros2', 'run', 'aurora_bringup', 'up', '--timeout', str(_START_S))
 DOWN = ('ros2', 'run', 'aurora_bringup', 'down')
 CALL_LIMIT_S = 400.0
-# Every domain has a block of UDP ports (DDS specification, 9.6.1.1).
-_FIRST_PORT, _PORTS = 7400, 250
+_SOCKET = re.compile(r'socket:\[(\d+)\]')
 _LOOK_S = 0.02
 
 
@@ -34,6 +33,19 @@ class CampaignError(AuroraError):
     """The campaign itself cannot go on."""
 
     default_component = 'bench'
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Footprint:
+    """What processes use beside their own memory.
+
+    Attributes:
+        shared_memory: Files of Fast DDS that they have mapped.
+        sockets: Inodes of their sockets.
+    """
+
+    shared_memory: frozenset[str]
+    sockets: frozenset[int]
 
 
 class LiveGraph:
@@ -145,16 +157,20 @@ class LiveGraph:
         """Return resident memory (KiB) and open descriptors of every node."""
         return {name: (_rss_kib(self.pid(name)), _descriptors(self.pid(name))) for name in NAMES}
 
-    def shared_memory(self) -> set[str]:
-        """Return the files of Fast DDS in shared memory that its processes have mapped."""
-        found: set[str] = set()
+    def footprint(self) -> Footprint:
+        """Return what its processes use now that must be gone when they are."""
+        memory: set[str] = set()
+        sockets: set[int] = set()
         for pid in self.processes():
+            process = Path(f'/proc/{pid}')
             try:
-                maps = Path(f'/proc/{pid}/maps').read_text(errors='replace')
+                maps = (process / 'maps').read_text(errors='replace')
+                targets = [os.readlink(path) for path in (process / 'fd').iterdir()]
             except OSError:
-                continue
-            found.update(re.findall(r'/dev/shm/\S*fast\S*', maps))
-        return found
+                continue  # it has just ended
+            memory.update(re.findall(r'/dev/shm/\S*fast\S*', maps))
+            sockets.update(int(found[1]) for t in targets if (found := _SOCKET.fullmatch(t)))
+        return Footprint(shared_memory=frozenset(memory), sockets=frozenset(sockets))
 
     def processes(self) -> list[int]:
         """Return every process that was started for this graph, whoever its parent is."""
@@ -170,26 +186,21 @@ class LiveGraph:
                 found.append(int(path.name))
         return sorted(found)
 
-    def sockets(self) -> list[int]:
-        """Return the UDP ports of the domain that somebody is bound to."""
-        first = _FIRST_PORT + _PORTS * self._domain
-        block = {*range(first, first + _PORTS), mavlink_port(self._domain)}
-        lines = Path('/proc/net/udp').read_text().splitlines()[1:]
-        ports = {int(line.split()[1].rpartition(':')[2], 16) for line in lines}
-        return sorted(ports & block)
-
-    def leftovers(self, shared_memory: set[str]) -> list[str]:
+    def leftovers(self, used: Footprint) -> list[str]:
         """Return what is left of a graph that was stopped.
 
         Args:
-            shared_memory: Files that its processes had mapped.
+            used: By its processes while it was running.
         """
-        files = [path.name for path in self.run_dir.iterdir() if path.suffix]
-        left = [f'process {pid}' for pid in self.processes()]
-        left += [f'file {name}' for name in sorted(files)]
-        left += [f'UDP port {port}' for port in self.sockets()]
-        left += [f'shared memory {name}' for name in sorted(shared_memory) if Path(name).exists()]
-        return left
+        lines = Path('/proc/net/udp').read_text().splitlines()[1:]
+        bound = {int(line.split()[9]) for line in lines}
+        memory = (name for name in sorted(used.shared_memory) if Path(name).exists())
+        return [
+            *(f'process {pid}' for pid in self.processes()),
+            *(f'file {path.name}' for path in self.run_dir.iterdir() if path.suffix),
+            *(f'UDP socket {inode}' for inode in sorted(used.sockets & bound)),
+            *(f'shared memory {name}' for name in memory),
+        ]
 
 
 def wait_for(what: str, is_true: Callable[[], bool], limit_s: float) -> float:

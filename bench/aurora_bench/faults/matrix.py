@@ -127,7 +127,8 @@ def run_cell(graph: LiveGraph, client: Client, cell: Cell, expected_hash: str) -
     wait_for('every node serves', graph.is_whole, WHOLE_LIMIT_S)
     run = client.begin(PROMPT)
     if not run.wait_until(lambda now: _is_time(now, cell.phase)):
-        return CellResult(cell=cell, note=f'never came to {cell.phase}: {run.error}')
+        ended = f'{run.result.status}, {run.result.error_msg}' if run.result else run.error
+        return CellResult(cell=cell, note=f'ended before {cell.phase}: {ended}')
     os.kill(graph.pid(cell.component), signal.Signals[cell.blow])
     struck_s = time.monotonic()
     hit_at = f'{run.stage} {run.sim_time_s:.1f} s'

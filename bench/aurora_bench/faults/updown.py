@@ -56,13 +56,13 @@ def run_round(graph: LiveGraph, number: int) -> Round:
     if ending is Ending.DOWN:
         graph.up()
         ready_s = time.monotonic()
-        memory = graph.shared_memory()
+        used = graph.footprint()
         done = graph.call(('ros2', 'run', 'aurora_bringup', 'down'))
         code, said = done.returncode, done.stdout
     else:
         process = graph.foreground()
         ready_s = time.monotonic()
-        memory = graph.shared_memory()
+        used = graph.footprint()
         process.send_signal(signal.Signals[ending])
         said, _ = process.communicate(timeout=CALL_LIMIT_S)
         code = process.returncode
@@ -71,7 +71,7 @@ def run_round(graph: LiveGraph, number: int) -> Round:
         up_s=round(ready_s - begun_s, 2),
         down_s=round(time.monotonic() - ready_s, 2),
         exit_code=code,
-        shared_memory=len(memory),
+        shared_memory=len(used.shared_memory),
         forced=tuple(line for line in said.splitlines() if 'only SIG' in line),
-        left=tuple(graph.leftovers(memory)),
+        left=tuple(graph.leftovers(used)),
     )
