@@ -39,6 +39,7 @@ class Kernel:
 
     def __init__(self) -> None:
         self.states: dict[int, ProcessState] = {7: ProcessState(started=70, stopped=False)}
+        self.dumping: set[int] = set()
 
     def __call__(self, pid: int) -> ProcessState | None:
         return self.states.get(pid)
@@ -55,7 +56,7 @@ def watch(clock: Clock, kernel: Kernel) -> Iterator[HeartbeatWatch]:
     with own_domain() as domain:
         rclpy.init(context=context, domain_id=domain)
         node = Node('watcher', context=context)
-        yield HeartbeatWatch(node, clock, look=kernel)
+        yield HeartbeatWatch(node, clock, look=kernel, dumps=kernel.dumping.__contains__)
         node.destroy_node()
         rclpy.shutdown(context=context)
 
@@ -126,6 +127,15 @@ def test_a_stopped_process_is_dead_once_it_is_silent_for_longer_than_the_lease(
     assert not watch.is_dead('sync')
     clock.now_s += 1.6
     assert watch.cause_of_death('sync') == 'was stopped (process 7)'
+
+
+def test_a_crashed_process_is_dead_while_its_core_is_still_being_written(
+    watch: HeartbeatWatch, kernel: Kernel, clock: Clock
+) -> None:
+    hear_process(watch, 'sync', 7)
+    kernel.dumping.add(7)
+    clock.now_s += 1.6
+    assert watch.cause_of_death('sync') == 'crashed (process 7)'
 
 
 def test_a_starved_process_that_lives_is_not_taken_for_the_one_that_went(

@@ -9,6 +9,7 @@ the next cell's run shows that the graph works.
 from __future__ import annotations
 
 import json
+import resource
 import signal
 import time
 from collections.abc import Callable, Iterator
@@ -95,6 +96,7 @@ def run_and(graph: RunningGraph, moment: Moment, act: Callable[[], None]) -> tup
 def test_a_dead_node_is_named_and_the_run_is_over(
     graph: RunningGraph, watch: HeartbeatWatch, name: str, blow: signal.Signals, moment: Moment
 ) -> None:
+    resource.prlimit(graph.nodes[name].pid, resource.RLIMIT_CORE, (0, 0))  # no files of a crash
     result, seconds = run_and(graph, moment, lambda: graph.nodes[name].send(blow))
     assert result.status == 'error', graph.logs()
     report = json.loads(result.report_json)

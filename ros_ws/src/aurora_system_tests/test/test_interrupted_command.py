@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""`aurora run --engine ros` is interrupted: the run is cancelled, and who started a graph ends it."""
+"""`aurora run --engine ros` is interrupted: the run is cancelled, a graph of its own is ended."""
 
 from __future__ import annotations
 
