@@ -40,15 +40,15 @@ Moment = Callable[[RunScenario.Feedback], bool]
 
 
 def loading(feedback: RunScenario.Feedback) -> bool:
-    return feedback.stage == 'execute'
+    return bool(feedback.stage == 'execute')
 
 
 def flying(feedback: RunScenario.Feedback) -> bool:
-    return feedback.sim_time_s >= 5.0
+    return bool(feedback.sim_time_s >= 5.0)
 
 
 def verifying(feedback: RunScenario.Feedback) -> bool:
-    return feedback.stage == 'verify'
+    return bool(feedback.stage == 'verify')
 
 
 @pytest.fixture(scope='module')
