@@ -26,7 +26,8 @@ class Run:
         stage: As the feedback said last.
         sim_time_s: The same.
         result: Of the action, once it is there.
-        ended_s: Steady time of that.
+        reported_s: Steady time when its report was begun: the end was noticed; 0 before.
+        ended_s: Steady time of the result.
         error: What broke on the client's side.
     """
 
@@ -35,6 +36,7 @@ class Run:
         self.run_id = ''
         self.sim_time_s = 0.0
         self.result: Any = None
+        self.reported_s = 0.0
         self.ended_s = 0.0
         self.error = ''
         self._partner = partner
@@ -60,6 +62,8 @@ class Run:
     def _on_feedback(self, feedback: RunScenario.Feedback) -> None:
         self.run_id = feedback.run_id
         self.stage = feedback.stage
+        if feedback.stage in ('report', 'done') and not self.reported_s:
+            self.reported_s = time.monotonic()
         self.sim_time_s = max(self.sim_time_s, feedback.sim_time_s)
 
     def _work(self) -> None:

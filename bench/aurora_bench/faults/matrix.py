@@ -74,7 +74,8 @@ class CellResult(Document):
 
     Attributes:
         hit_at: Stage and simulated time of the feedback at the moment of the blow.
-        seconds: From the blow to the result of the run.
+        seconds: From the blow to the result of the run, with report and picture.
+        noticed_s: From the blow to the begin of the report.
         named: Component of the report's error.
         left: What of the run was still going on LEFT_LIMIT_S later.
         next_status: Of a prompt sent at once.
@@ -86,6 +87,7 @@ class CellResult(Document):
     cell: Cell
     hit_at: str = ''
     seconds: float | None = None
+    noticed_s: float | None = None
     status: str = ''
     named: str = ''
     error_code: int = 0
@@ -140,6 +142,7 @@ def run_cell(graph: LiveGraph, client: Client, cell: Cell, expected_hash: str) -
         'cell': cell,
         'hit_at': hit_at,
         'seconds': round(run.ended_s - struck_s, 2),
+        'noticed_s': round((run.reported_s or run.ended_s) - struck_s, 2),
         'status': str(result.status),
         'named': text.partition(':')[0],
         'error_code': int(result.error_code),

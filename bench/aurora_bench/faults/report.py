@@ -85,6 +85,7 @@ def _matrix_table(results: Sequence[CellResult]) -> Table:
             r.cell.component,
             r.cell.blow,
             r.cell.phase,
+            r.noticed_s,
             r.seconds,
             r.status or r.note,
             r.named,
@@ -97,7 +98,7 @@ def _matrix_table(results: Sequence[CellResult]) -> Table:
     ]
     return Table(
         headings=(
-            'component', 'signal', 'phase', 'noticed [s]', 'status', 'named', 'left',
+            'component', 'signal', 'phase', 'noticed [s]', 'answer [s]', 'status', 'named', 'left',
             'next prompt', 'took [s]', 'held',
         ),
         rows=rows,
