@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from aurora_core.errors import AuroraError, ExecutionError, ParticipantSilentError
 from aurora_nodes.supervision import Supervision
 from aurora_ros.heartbeat import HeartbeatWatch
-from aurora_ros.node import AuroraNode
 from aurora_ros.parameters import require_positive
 from aurora_ros.roll_call import Question, RollCall
 
@@ -19,6 +18,7 @@ from aurora_ros.roll_call import Question, RollCall
 _ALWAYS = ('sync', 'sumo_bridge', 'recorder', 'monitor', 'executor')
 _AIR = 'uav_bridge'
 _AT_WORK = ('grounding', 'parser')  # needed while they work; the call to them notices
+EVERYBODY = (*_ALWAYS, _AIR, *_AT_WORK)
 _PAUSE_S = 0.05  # between two roll calls while somebody is missing
 
 
@@ -40,7 +40,7 @@ class Attendance:
     uav_bridge is asked about it every second (while a run is flown the lockstep itself asks).
 
     Args:
-        node: The orchestrator; its executor must be spinning.
+        roll_call: With clients for `EVERYBODY`.
         watch: Hears the heartbeats.
         supervision: Restarts dead nodes, when there is one.
         limits: Of the roll call.
@@ -48,16 +48,15 @@ class Attendance:
 
     def __init__(
         self,
-        node: AuroraNode,
+        roll_call: RollCall,
         watch: HeartbeatWatch,
         supervision: Supervision,
         limits: AttendanceLimits,
     ) -> None:
-        self._heartbeat = node.heartbeat
         self._limits = limits
         self._watch = watch
         self._supervision = supervision
-        self._roll_call = RollCall(node, watch, (*_ALWAYS, _AIR, *_AT_WORK))
+        self._roll_call = roll_call
         self._needed: tuple[str, ...] = ()
         self._processes: dict[str, tuple[int, int]] = {}
         self._question: Question | None = None
@@ -120,14 +119,12 @@ class Attendance:
 
     def close(self) -> None:
         """End the watch; dead nodes may be restarted again."""
-        self._heartbeat.idle()
         self._needed = ()
         self._processes = {}
         self._drop_question()
         self._supervision.end_run()
 
     def _begin(self) -> None:
-        self._heartbeat.busy(0)
         self._needed = _ALWAYS
         self._processes = {name: self._watch.process(name) for name in _ALWAYS}
 

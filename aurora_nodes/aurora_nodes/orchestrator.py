@@ -22,7 +22,7 @@ from aurora_core.report.process import process_lives
 from aurora_core.report.unfinished import close_unfinished
 from aurora_msgs.action import RunScenario
 from aurora_msgs.srv import RunPrompt
-from aurora_nodes.attendance import Attendance, AttendanceLimits
+from aurora_nodes.attendance import EVERYBODY, Attendance, AttendanceLimits
 from aurora_nodes.jobs import Job, JobQueue
 from aurora_nodes.prompts import received_prompt
 from aurora_nodes.ros_stages import CALLS, RosStages, StageLimits
@@ -36,6 +36,7 @@ from aurora_ros.heartbeat import HeartbeatWatch
 from aurora_ros.main import Spinning, run_node
 from aurora_ros.node import AuroraNode
 from aurora_ros.parameters import declare, require_positive
+from aurora_ros.roll_call import RollCall
 
 _LOOK_S = 0.1
 
@@ -93,19 +94,24 @@ class OrchestratorNode(AuroraNode):
         supervision = Supervision(
             supervision_folder(), supervised_s=settings.restart_s, alone_s=settings.assemble_s
         )
-        attendance = Attendance(self, watch, supervision, settings)
+        roll_call = RollCall(self, watch, EVERYBODY)
+        attendance = Attendance(roll_call, watch, supervision, settings)
         caller = Caller(self, watch, guard=attendance.check)
         caller.prepare(*CALLS)
-        return JobQueue(
-            worker(
-                lambda run_id, cancelled: RosStages(
-                    caller, attendance, settings, run_id, cancelled
-                ),
-                self._stopping.is_set,
-                supervision.note,
-            ),
-            most_waiting=settings.most_waiting,
+        work = worker(
+            lambda run_id, cancelled: RosStages(caller, attendance, settings, run_id, cancelled),
+            self._stopping.is_set,
+            supervision.note,
         )
+
+        def busy_work(job: Job) -> None:
+            self.heartbeat.busy(0)
+            try:
+                work(job)
+            finally:
+                self.heartbeat.idle()
+
+        return JobQueue(busy_work, most_waiting=settings.most_waiting)
 
     def request_stop(self) -> None:
         """Cancel what is running; its report is still written."""

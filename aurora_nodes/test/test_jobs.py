@@ -37,6 +37,9 @@ class Work:
     def __call__(self, job: Job) -> None:
         self.order.append(job.run_id)
         self.begun.release()
+        if job.cancel.is_set():  # as the pipeline does: it ends before the first stage
+            job.status = 'cancelled'
+            return
         assert self.may_end.acquire(timeout=LIMIT_S)
         if self.error is not None:
             raise self.error
@@ -136,3 +139,42 @@ def test_old_finished_jobs_are_forgotten_and_waiting_ones_never() -> None:
     assert len(queue.newest()) <= 4
     assert queue.newest()[0].run_id == 'g'
     queue.close()
+
+
+def test_a_cancelled_job_in_line_ends_at_once_and_the_running_one_goes_on(
+    queue: JobQueue, work: Work
+) -> None:
+    first, second, third = job('a'), job('b'), job('c')
+    queue.submit(first)
+    assert work.begun.acquire(timeout=LIMIT_S)
+    queue.submit(second)
+    queue.submit(third)
+    queue.cancel(second)
+    assert second.done.is_set()
+    assert (second.state, second.status) == (FINISHED, 'cancelled')
+    assert (first.state, third.state) == (RUNNING, QUEUED)
+    work.may_end.release()
+    work.may_end.release()
+    assert third.done.wait(LIMIT_S)
+    assert (first.status, third.status) == ('verified', 'verified')
+    assert work.order == ['a', 'b', 'c']
+
+
+def test_cancelling_the_running_job_only_asks_for_its_end(queue: JobQueue, work: Work) -> None:
+    one = job('a')
+    queue.submit(one)
+    assert work.begun.acquire(timeout=LIMIT_S)
+    queue.cancel(one)
+    assert one.cancel.is_set()
+    assert not one.done.is_set()
+    work.may_end.release()
+    assert one.done.wait(LIMIT_S)
+    assert work.order == ['a']
+
+
+def test_the_end_of_a_job_is_news(queue: JobQueue, work: Work) -> None:
+    one = job('a')
+    work.may_end.release()
+    queue.submit(one)
+    assert one.news.wait(LIMIT_S)
+    assert one.done.is_set()

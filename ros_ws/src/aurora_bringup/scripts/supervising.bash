@@ -10,7 +10,7 @@
 
 TRIES=3            # restarts of one node ...
 TRIES_WITHIN_S=60  # ... within this time; then it is FAILED
-RESTART_LIMIT_S=30 # until a restarted node must serve
+RESTART_LIMIT_S=60 # until a restarted node must serve
 STOPPED_LOOKS=4    # a node that is stopped so many looks in a row counts as dead
 LOOK_S=0.25
 

@@ -113,8 +113,9 @@ def test_unfinished_runs_are_closed_before_the_next_one(here: Path, call: Call) 
     assert json.loads(dead.file('report.json').read_text())['status'] == 'error'
 
 
-def test_ctrl_c_ends_as_cancelled_with_a_readable_folder(
-    tmp_path: Path, shell: SimpleNamespace
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_as_cancelled_with_a_readable_folder(
+    tmp_path: Path, shell: SimpleNamespace, number: signal.Signals
 ) -> None:
     prompt = 'A drone hovers at 20 meters over the ego car for 300 seconds.'
     process = subprocess.Popen(
@@ -130,7 +131,7 @@ def test_ctrl_c_ends_as_cancelled_with_a_readable_folder(
         assert time.monotonic() < deadline
         if b'execute' in line:
             break
-    process.send_signal(signal.SIGINT)
+    process.send_signal(number)
     answer, _ = process.communicate(timeout=60)
     assert process.returncode == 130
     report = json.loads(answer)

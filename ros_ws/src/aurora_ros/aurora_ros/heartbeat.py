@@ -21,7 +21,7 @@ from rclpy.node import Node
 
 from aurora_msgs.msg import Heartbeat
 from aurora_ros import interfaces
-from aurora_ros.processes import ProcessState, pid_space, process_state
+from aurora_ros.processes import ProcessState, is_dumping_core, pid_space, process_state
 from aurora_ros.qos import LIVELINESS_LEASE_S
 
 PERIOD_S = 0.5
@@ -115,6 +115,7 @@ class HeartbeatWatch:
         clock: Steady seconds.
         group: Callback group of the subscription.
         look: Gives the state of a process.
+        dumps: Tells whether a process has crashed and is being written to a core file.
     """
 
     def __init__(
@@ -124,9 +125,11 @@ class HeartbeatWatch:
         *,
         group: CallbackGroup | None = None,
         look: Callable[[int], ProcessState | None] = process_state,
+        dumps: Callable[[int], bool] = is_dumping_core,
     ) -> None:
         self._clock = clock
         self._look = look
+        self._dumps = dumps
         self._heard: dict[str, _Heard] = {}
         self._lost_at_s = float('-inf')
         topic = interfaces.HEARTBEAT
@@ -156,7 +159,9 @@ class HeartbeatWatch:
         if state is None or state.started != heard.started:
             return f'died (process {heard.pid})'
         # Somebody who looks at it with a debugger for a moment does no harm.
-        return f'was stopped (process {heard.pid})' if silent and state.stopped else ''
+        if silent and state.stopped:
+            return f'was stopped (process {heard.pid})'
+        return f'crashed (process {heard.pid})' if silent and self._dumps(heard.pid) else ''
 
     def was_heard(self, name: str) -> bool:
         """Return whether a node has ever given a sign of life."""

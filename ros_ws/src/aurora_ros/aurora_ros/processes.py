@@ -51,3 +51,14 @@ def process_state(pid: int) -> ProcessState | None:
     if state in _ENDED:
         return None
     return ProcessState(started=int(fields[19]), stopped=state in _STOPPED)
+
+
+def is_dumping_core(pid: int) -> bool:
+    """Return whether a process has crashed and the kernel is still writing its memory to a file.
+
+    That takes seconds for a large process, in which it still looks alive otherwise.
+    """
+    try:
+        return b'\nCoreDumping:\t1' in Path(f'/proc/{pid}/status').read_bytes()
+    except OSError:
+        return False

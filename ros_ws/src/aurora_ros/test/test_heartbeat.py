@@ -17,6 +17,7 @@ from rclpy.node import Node
 
 from aurora_msgs.msg import Heartbeat
 from aurora_ros.heartbeat import HeartbeatWatch
+from aurora_ros.processes import ProcessState, pid_space
 from aurora_ros.testing.domains import own_domain
 
 
@@ -33,19 +34,39 @@ def clock() -> Clock:
     return Clock()
 
 
+class Kernel:
+    """Processes of the test's own."""
+
+    def __init__(self) -> None:
+        self.states: dict[int, ProcessState] = {7: ProcessState(started=70, stopped=False)}
+        self.dumping: set[int] = set()
+
+    def __call__(self, pid: int) -> ProcessState | None:
+        return self.states.get(pid)
+
+
 @pytest.fixture
-def watch(clock: Clock) -> Iterator[HeartbeatWatch]:
+def kernel() -> Kernel:
+    return Kernel()
+
+
+@pytest.fixture
+def watch(clock: Clock, kernel: Kernel) -> Iterator[HeartbeatWatch]:
     context = Context()
     with own_domain() as domain:
         rclpy.init(context=context, domain_id=domain)
         node = Node('watcher', context=context)
-        yield HeartbeatWatch(node, clock)
+        yield HeartbeatWatch(node, clock, look=kernel, dumps=kernel.dumping.__contains__)
         node.destroy_node()
         rclpy.shutdown(context=context)
 
 
 def hear(watch: HeartbeatWatch, name: str) -> None:
     watch._on_heartbeat(Heartbeat(node=name))
+
+
+def hear_process(watch: HeartbeatWatch, name: str, pid: int, state: int = 0) -> None:
+    watch._on_heartbeat(Heartbeat(node=name, pid=pid, pid_space=pid_space(), state=state))
 
 
 def lose(watch: HeartbeatWatch) -> None:
@@ -81,3 +102,72 @@ def test_the_silent_one_is_dead_after_a_loss_and_lives_when_it_speaks_again(
     assert not watch.is_dead('recorder')
     hear(watch, 'sync')
     assert not watch.is_dead('sync')
+
+
+def test_a_process_that_has_ended_is_dead_at_once(watch: HeartbeatWatch, kernel: Kernel) -> None:
+    hear_process(watch, 'sync', 7)
+    assert not watch.is_dead('sync')
+    del kernel.states[7]
+    assert watch.cause_of_death('sync') == 'died (process 7)'
+
+
+def test_another_process_with_the_same_id_is_not_the_node(
+    watch: HeartbeatWatch, kernel: Kernel
+) -> None:
+    hear_process(watch, 'sync', 7)
+    kernel.states[7] = ProcessState(started=71, stopped=False)
+    assert watch.is_dead('sync')
+
+
+def test_a_stopped_process_is_dead_once_it_is_silent_for_longer_than_the_lease(
+    watch: HeartbeatWatch, kernel: Kernel, clock: Clock
+) -> None:
+    hear_process(watch, 'sync', 7)
+    kernel.states[7] = ProcessState(started=70, stopped=True)
+    assert not watch.is_dead('sync')
+    clock.now_s += 1.6
+    assert watch.cause_of_death('sync') == 'was stopped (process 7)'
+
+
+def test_a_crashed_process_is_dead_while_its_core_is_still_being_written(
+    watch: HeartbeatWatch, kernel: Kernel, clock: Clock
+) -> None:
+    hear_process(watch, 'sync', 7)
+    kernel.dumping.add(7)
+    clock.now_s += 1.6
+    assert watch.cause_of_death('sync') == 'crashed (process 7)'
+
+
+def test_a_starved_process_that_lives_is_not_taken_for_the_one_that_went(
+    watch: HeartbeatWatch, clock: Clock
+) -> None:
+    hear_process(watch, 'sync', 7)
+    lose(watch)
+    clock.now_s += 60.0
+    assert not watch.is_dead('sync')
+
+
+def test_a_restarted_node_is_another_process(watch: HeartbeatWatch, kernel: Kernel) -> None:
+    hear_process(watch, 'sync', 7)
+    assert watch.process('sync') == (7, 70)
+    kernel.states = {8: ProcessState(started=80, stopped=False)}
+    hear_process(watch, 'sync', 8)
+    assert watch.process('sync') == (8, 80)
+    assert not watch.is_dead('sync')
+    assert watch.process('recorder') == (0, 0)
+
+
+def test_a_process_of_another_machine_is_judged_by_the_middleware(
+    watch: HeartbeatWatch, kernel: Kernel
+) -> None:
+    kernel.states.clear()
+    watch._on_heartbeat(Heartbeat(node='sync', pid=7, pid_space='elsewhere'))
+    assert not watch.is_dead('sync')
+
+
+def test_busy_is_what_the_node_said_last(watch: HeartbeatWatch) -> None:
+    assert not watch.is_busy('sync')
+    hear_process(watch, 'sync', 7, Heartbeat.BUSY)
+    assert watch.is_busy('sync')
+    hear_process(watch, 'sync', 7, Heartbeat.IDLE)
+    assert not watch.is_busy('sync')
