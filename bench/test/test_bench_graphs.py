@@ -6,7 +6,9 @@ from __future__ import annotations
 
 import os
 import socket
+from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -22,12 +24,12 @@ from aurora_uav_sim.protocol import mavlink_port
 DOMAIN = 71
 
 
-def row(number: int, **changes: str) -> RunRow:
-    fields = {'run_id': f'r{number}', 'status': 'verified', 'sha256': f'{number}'} | changes
-    return RunRow(
-        round=number, domain=DOMAIN, prompt='p', seed=1, expected_status='verified',
-        expected_sha256=str(number), **fields,
+def row(number: int, **changes: Any) -> RunRow:
+    good = RunRow(
+        round=number, domain=DOMAIN, prompt='p', seed=1, run_id=f'r{number}', status='verified',
+        expected_status='verified', sha256=str(number), expected_sha256=str(number),
     )  # fmt: skip
+    return replace(good, **changes)
 
 
 def outcome(*rows: RunRow, problems: tuple[str, ...] = ()) -> Outcome:
