@@ -14,6 +14,8 @@ from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+from rclpy.type_support import check_for_type_support
+
 from aurora_bench.graphs.one_graph import OneGraph
 from aurora_bench.progress import Progress
 from aurora_cli.clock import MonotonicClock
@@ -155,6 +157,8 @@ def campaign(
             list(pool.map(OneGraph.up, all_graphs))
         outcome.up_s = time.monotonic() - begin_s
         progress.note(f'{graphs} graphs are up')
+        # Two threads that load the same interface for the first time can meet half of it.
+        check_for_type_support(RunScenario)
         partners = [stack.enter_context(partner(graph.domain)) for graph in all_graphs]
         for graph, play in zip(all_graphs, partners, strict=True):
             outcome.problems += _problems_seen_by(play, graph)
