@@ -34,7 +34,8 @@ def test_a_share_out_of_range_is_refused(name: str, value: float) -> None:
 
 @pytest.mark.parametrize('name', ['loss', 'duplication', 'reordering', 'truncation', 'corruption'])
 def test_each_fault_comes_as_often_as_asked_and_by_itself(name: str) -> None:
-    bad = link(**{name: 0.2})
+    bad = link()
+    bad.faults = LinkFaults(**{name: 0.2})
     for _ in range(DATAGRAMS):
         bad.carry(frame())
     assert bad.counts['sent'] == DATAGRAMS

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable
 from pathlib import Path
 
 from aurora_cli.doctor.machine import Finding, Machine
@@ -31,7 +32,7 @@ def shared_memory(machine: Machine) -> list[Finding]:
     ]
     if not files:
         return []
-    used = _used_paths(machine.proc, machine.shm)
+    used = used_paths(machine.proc, machine.shm, process_ids(machine.proc))
     dead = tuple(path for path in files if str(path) not in used)
     if not dead:
         return []
@@ -95,11 +96,11 @@ def _is_ours_and_old(path: Path, machine: Machine) -> bool:
     return facts.st_uid == machine.uid and machine.wall_s() - facts.st_mtime > _YOUNG_S
 
 
-def _used_paths(proc: Path, shm: Path) -> set[str]:
-    """Every path below `shm` that some process has mapped or open."""
+def used_paths(proc: Path, shm: Path, pids: Iterable[int]) -> set[str]:
+    """Return every path below `shm` that one of some processes has mapped or open."""
     used: set[str] = set()
     wanted = f'{shm}/'
-    for pid in process_ids(proc):
+    for pid in pids:
         folder = proc / str(pid)
         try:
             for line in (

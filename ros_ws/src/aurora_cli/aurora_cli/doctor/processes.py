@@ -56,11 +56,20 @@ def _state(words: list[str], proc: Path) -> str:
     boot = _read(proc / 'sys' / 'kernel' / 'random' / 'boot_id').strip()
     if len(words) > 2 and boot and words[2] != boot:
         return ''
+    state, started = look(int(words[0]), proc)
+    return state if len(words) < 2 or started == words[1] else ''
+
+
+def look(pid: int, proc: Path) -> tuple[str, str]:
+    """Return state and start time of a process; ('', '') when it has ended.
+
+    One that has ended and whose parent has not asked for its exit code (`Z`) has ended.
+    """
     # The name in parentheses may hold blanks: state and start time come after it.
-    fields = _read(proc / words[0] / 'stat').rpartition(')')[2].split()
+    fields = _read(proc / str(pid) / 'stat').rpartition(')')[2].split()
     if len(fields) < 20 or fields[0] in ('Z', 'X'):
-        return ''
-    return fields[0] if len(words) < 2 or fields[19] == words[1] else ''
+        return '', ''
+    return fields[0], fields[19]
 
 
 def command_line(pid: int, proc: Path) -> str:
@@ -71,6 +80,15 @@ def command_line(pid: int, proc: Path) -> str:
 def process_ids(proc: Path) -> list[int]:
     """Return the ids of all processes."""
     return sorted(int(path.name) for path in proc.iterdir() if path.name.isdecimal())
+
+
+def descendants(pid: int, proc: Path) -> list[int]:
+    """Return the ids of all processes below a process."""
+    found = []
+    for path in sorted((proc / str(pid) / 'task').glob('*/children')):
+        for child in map(int, _read(path).split()):
+            found += [child, *descendants(child, proc)]
+    return found
 
 
 def _read(path: Path) -> str:
