@@ -6,7 +6,8 @@ from __future__ import annotations
 
 import os
 import platform
-from collections.abc import Mapping
+import time
+from collections.abc import Callable, Mapping
 from datetime import UTC, datetime
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -20,6 +21,7 @@ from aurora_core.spec.parameter import Document
 _PACKAGES = ('ros-jazzy-rclpy', 'ros-jazzy-rmw-fastrtps-cpp', 'pymavlink', 'mcap', 'numba')
 _CPU_NAMES = ('model name', 'Model', 'Hardware')
 UNKNOWN = 'unknown'
+_IDLE = (3, 4)  # columns idle and iowait of /proc/stat
 
 
 class Machine(Document):
@@ -57,6 +59,35 @@ def machine_facts() -> Machine:
         load_average=os.getloadavg(),
         versions=dict(sorted({**product_versions(), **_package_versions()}.items())),
     )
+
+
+def busy_share(
+    seconds: float = 1.0,
+    stat: Path = Path('/proc/stat'),
+    pause: Callable[[float], None] = time.sleep,
+) -> float:
+    """Return the share of all cores that somebody used for a while, from 0 to 1.
+
+    Call it while the campaign itself does nothing: what is found is other people's work, beside
+    which wall times mean little.
+
+    Args:
+        seconds: Wall time to look at.
+        stat: The kernel's counters.
+        pause: Lets the time pass.
+    """
+    before = _core_times(stat)
+    pause(seconds)
+    after = _core_times(stat)
+    spent = [b - a for a, b in zip(before, after, strict=True)]
+    total = sum(spent)
+    return 1.0 - sum(spent[k] for k in _IDLE) / total if total > 0 else 0.0
+
+
+def _core_times(stat: Path) -> list[int]:
+    fields = stat.read_text(encoding='ascii').split('\n', 1)[0].split()
+    # user, nice, system, idle, iowait, irq, softirq, steal; guests are part of user.
+    return [int(field) for field in fields[1:9]]
 
 
 def cpu_model(cpuinfo: Path) -> str:

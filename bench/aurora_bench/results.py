@@ -45,7 +45,7 @@ class Goal(Document):
         name: What is asked.
         target: The bound in words, e.g. "at least 40".
         figure: What was found, e.g. "51.3"; "not measured" when it was not.
-        met: None when it was not measured.
+        met: None when that cannot be said.
     """
 
     name: str
@@ -152,7 +152,7 @@ def write_whole(path: Path, data: bytes) -> None:
 
 def goal_table(goals: Sequence[Goal]) -> Table:
     """Return the goals as a table."""
-    words = {True: 'met', False: 'NOT MET', None: 'not measured'}
+    words = {True: 'met', False: 'NOT MET', None: 'not judged'}
     return Table(
         headings=('goal', 'target', 'found', ''),
         rows=tuple((goal.name, goal.target, goal.figure, words[goal.met]) for goal in goals),

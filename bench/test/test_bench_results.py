@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from aurora_bench.machine import UNKNOWN, Machine, cpu_model, machine_facts
+from aurora_bench.machine import UNKNOWN, Machine, busy_share, cpu_model, machine_facts
 from aurora_bench.plotting import new_figure, save_figure
 from aurora_bench.progress import Progress
 from aurora_bench.results import (
@@ -58,8 +58,9 @@ def test_results_hold_machine_goals_and_values(tmp_path: Path) -> None:
     assert [goal['met'] for goal in document['goals']] == [True, False, None]
     text = markdown_file.read_text(encoding='utf-8')
     assert text.startswith('# Speed\n\n2026-01-31T12:00:00Z · 2 cores, A processor · 8 GiB')
-    assert '| fast  | at least 40  | 51           | met          |' in text
+    assert '| fast  | at least 40  | 51           | met        |' in text
     assert 'NOT MET' in text
+    assert 'not judged' in text
     assert '| local  |    10 |' in text
     assert text.endswith('A note.\n')
     assert sorted(path.name for path in folder.iterdir()) == ['speed.json', 'speed.md']
@@ -138,3 +139,15 @@ def test_equal_figures_are_equal_files(tmp_path: Path) -> None:
         contents.append([path.read_bytes() for path in save_figure(figure, tmp_path, name)])
     assert contents[0] == contents[1]
     assert contents[0][0].startswith(b'\x89PNG')
+
+
+def test_the_busy_share_counts_everything_but_idle_and_waiting(tmp_path: Path) -> None:
+    stat = tmp_path / 'stat'
+    stat.write_text('cpu  10 0 10 100 0 0 0 0 0 0\ncpu0 1 2\n', encoding='ascii')
+
+    def later(_seconds: float) -> None:
+        stat.write_text('cpu  20 0 15 170 10 0 0 5 0 0\ncpu0 1 2\n', encoding='ascii')
+
+    # 100 more in all: 10 user, 5 system, 5 stolen, 70 idle, 10 waiting for a disk.
+    assert busy_share(1.0, stat, later) == pytest.approx(0.2)
+    assert busy_share(1.0, stat, lambda _seconds: None) == 0.0

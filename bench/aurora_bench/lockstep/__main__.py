@@ -16,8 +16,9 @@ from pathlib import Path
 
 from aurora_bench.lockstep.campaign import Campaign, Plan
 from aurora_bench.lockstep.figure import draw
+from aurora_bench.lockstep.goals import goals, one_hash_each
 from aurora_bench.lockstep.scenarios import Configuration, ScenarioRefusedError
-from aurora_bench.lockstep.summary import NOTES, document, goals, one_hash_each, tables
+from aurora_bench.lockstep.summary import document, notes, tables
 from aurora_bench.machine import machine_facts
 from aurora_bench.progress import Progress
 from aurora_bench.results import goal_table, markdown_table, write_results
@@ -47,7 +48,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             title='Speed of the lockstep',
             goals=found,
             tables=shown,
-            notes=NOTES,
+            notes=notes(campaign),
             machine=machine,
         )
         pictures = draw(campaign.measured, options.results)

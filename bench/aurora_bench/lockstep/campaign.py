@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING
 
 from aurora_bench.lockstep.figures import Engine, Measured, RunFigures
 from aurora_bench.lockstep.scenarios import Configuration, grounded
+from aurora_bench.machine import busy_share
 from aurora_bench.progress import Progress
 from aurora_core.agsg.graph import Agsg
 from aurora_core.pipeline.functions import verify_stage
@@ -25,6 +26,8 @@ _LONG_S = 100
 _LONG_REPETITIONS = 2
 _BARRIER_REPETITIONS = 3
 _LOAD_REPETITIONS = 5
+# Of all cores: above that, wall times say more about the others than about us.
+_QUIET_SHARE = 0.15
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -73,6 +76,7 @@ class Campaign:
         self._plan = plan
         self._progress = progress
         self._graphs: dict[Configuration, Agsg] = {}
+        self.busy: list[float] = []
         self.measured: list[Measured] = []
         self.recorder_pairs: dict[Engine, list[tuple[RunFigures, RunFigures]]] = {}
         self.barrier_us: list[float] = []
@@ -90,10 +94,22 @@ class Campaign:
             self._progress.step(f'grounding {configuration}')
             self._graphs[configuration] = grounded(configuration)
         with tempfile.TemporaryDirectory(prefix='aurora-bench-') as folder:
+            self._look_around()
             if 'local' in self._plan.engines:
                 self._local(Path(folder) / 'local')
+                self._look_around()
             if 'ros' in self._plan.engines:
                 self._ros(Path(folder))
+                self._look_around()
+
+    @property
+    def is_quiet(self) -> bool:
+        """Whether nobody else used the machine at any of the looks."""
+        return max(self.busy, default=0.0) <= _QUIET_SHARE
+
+    def _look_around(self) -> None:
+        self.busy.append(busy_share())
+        self._progress.note(f'others use {self.busy[-1]:.0%} of the cores')
 
     def _local(self, folder: Path) -> None:
         from aurora_bench.lockstep import local_runs
@@ -163,7 +179,9 @@ class Campaign:
             place = folder / f'{engine}{number}'
             pairs.append((record(place / 'with' / 'bag'), skip(place / 'without' / 'bag')))
         self.recorder_pairs[engine] = pairs
-        self._progress.step(f'{engine} without recorder: {_factors([p[1] for p in pairs])}')
+        self._progress.step(
+            f'{engine}, by turns without recorder: {_factors([p[1] for p in pairs])}'
+        )
 
     def _repeat(
         self,

@@ -11,7 +11,8 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Patch
 
 from aurora_bench.lockstep.figures import Engine, Measured
-from aurora_bench.lockstep.summary import SPEED_GOALS, shown_parts
+from aurora_bench.lockstep.goals import SPEED_GOALS
+from aurora_bench.lockstep.summary import shown_parts
 from aurora_bench.plotting import COLOURS, new_figure, save_figure
 
 _ENGINE_COLOURS: dict[Engine, str] = {'local': COLOURS[0], 'ros': COLOURS[1]}
@@ -39,7 +40,7 @@ def draw(measured: Sequence[Measured], folder: Path) -> tuple[Path, Path]:
     Raises:
         ResultsError: A file cannot be written.
     """
-    figure, (left, right) = new_figure(12.0, 4.8, panels=2)
+    figure, (left, right) = new_figure(12.5, 4.8, panels=2)
     one_uav = [each for each in measured if each.uavs == 1]
     _draw_speed(left, one_uav)
     _draw_shares(right, one_uav)
@@ -90,11 +91,12 @@ def _draw_speed(axes: Axes, measured: Sequence[Measured]) -> None:
     shown = [each.real_time_factor for each in measured]
     low = min([*(factor.low for factor in shown), 25.0])
     high = max([*(factor.high for factor in shown), 300.0])
-    axes.set_ylim(low / 1.3, high * 1.5)
+    axes.set_ylim(low / 1.3, high * 2.5)
     axes.set_xlabel('ground agents (1 UAV)')
     axes.set_ylabel('simulated seconds per wall second')
     axes.set_title('Speed of the tick loop (median, least, greatest)')
-    axes.legend(loc='best', fontsize=8.5)
+    axes.set_xlim(agents[0] / 1.4, max(agents[-1], SPEED_GOALS[1][1]) * 2.2)
+    axes.legend(loc='upper right', frameon=False, fontsize=8.5)
 
 
 def _draw_shares(axes: Axes, measured: Sequence[Measured]) -> None:
@@ -124,4 +126,7 @@ def _draw_shares(axes: Axes, measured: Sequence[Measured]) -> None:
     axes.set_ylabel('CPU time of a tick, microseconds')
     axes.set_title(f'Where the time of a tick goes ({shortest} s runs)')
     handles = [Patch(color=colour, label=label) for label, colour in used.items()]
-    axes.legend(handles=handles[::-1], loc='upper left', fontsize=8.5)
+    beside = (1.01, 1.0)  # right of the axes: the bars need all of them
+    axes.legend(
+        handles=handles[::-1], loc='upper left', bbox_to_anchor=beside, frameon=False, fontsize=8.5
+    )

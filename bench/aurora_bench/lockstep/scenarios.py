@@ -3,8 +3,8 @@
 """Scenarios with N ground agents and U UAVs, through the product's own pipeline.
 
 One UAV: a prompt, read by the parser and grounded as any other. More UAVs: the specification of
-that prompt, in which the one track mission is repeated for each further UAV, 6 m higher each time,
-then grounded as any other. The same arguments give the same graph, byte for byte.
+that prompt, in which the one track mission is repeated for each further UAV, 10 m higher each
+time, then grounded as any other. The same arguments give the same graph, byte for byte.
 """
 
 from __future__ import annotations
@@ -25,7 +25,8 @@ SEED = 1
 
 _STANDOFF_M = 35
 _LOWEST_M = 30
-_STEP_M = 6
+# As grounding itself would layer them: twice the separation in flight.
+_STEP_M = 10
 # Take-off and approach before the mission; the landing after it may last beyond the end.
 _WAY_S = 40
 _SHORTEST_MISSION_S = 5
