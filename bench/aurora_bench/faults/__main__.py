@@ -67,7 +67,8 @@ def _matrix(
         results.append(result)
         progress.step(
             f'{cell.name}: {"held" if result.held else "NOT HELD"} {result.status} '
-            f'{result.named} noticed after {result.noticed_s} s, answer {result.seconds} s (hit at {result.hit_at}), then '
+            f'{result.named} noticed after {result.noticed_s} s, answer {result.seconds} s '
+            f'(hit at {result.hit_at}), then '
             f'{result.next_status} after {result.next_s} s {result.left or ""} {result.note}'
             f'{"" if result.held else " | " + result.message}'
         )
