@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import argparse
+import signal
 import sys
 import tempfile
 from pathlib import Path
@@ -24,6 +25,8 @@ from aurora_ros.testing.partner import partner
 def main(argv: list[str] | None = None) -> int:
     """Run the campaign; 1 when something does not hold."""
     options = _options(argv)
+    # As Ctrl-C: what was started is stopped.
+    signal.signal(signal.SIGTERM, lambda _number, _frame: sys.exit(143))
     chosen = cells(options.only) if options.matrix else []
     steps = len(chosen) + options.updown + (options.prompts + 1 if options.prompts else 0)
     progress = Progress('faults', steps)
