@@ -19,6 +19,7 @@ _ALWAYS = ('sync', 'sumo_bridge', 'recorder', 'monitor', 'executor')
 _AIR = 'uav_bridge'
 _AT_WORK = ('grounding', 'parser')  # needed while they work; the call to them notices
 EVERYBODY = (*_ALWAYS, _AIR, *_AT_WORK)
+_UNKNOWN = (0, 0)  # process of a node that no heartbeat has told of
 _PAUSE_S = 0.05  # between two roll calls while somebody is missing
 
 
@@ -135,13 +136,20 @@ class Attendance:
     def _dead(self) -> AuroraError | None:
         for name in self._needed:
             cause = self._watch.cause_of_death(name)
-            if not cause and self._watch.process(name) != self._processes[name]:
+            if not cause and self._is_another(name):
                 cause = 'was restarted during the run'
             if cause:
                 return ParticipantSilentError(
                     f'{name} {cause}', component=name, hint=f'see the log of {name}'
                 )
         return None
+
+    def _is_another(self, name: str) -> bool:
+        process = self._watch.process(name)
+        if self._processes[name] == _UNKNOWN:
+            # It answered the roll call before its first heartbeat said which process it is.
+            self._processes[name] = process
+        return process not in (_UNKNOWN, self._processes[name])
 
     def _ask_air(self) -> None:
         """Raise what the last question has brought; ask the next one when it is time."""

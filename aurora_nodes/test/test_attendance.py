@@ -101,6 +101,18 @@ def test_whoever_dies_in_a_run_is_named_and_nobody_counts_outside_of_one() -> No
     setup.attendance.check()
 
 
+def test_a_node_that_answers_before_its_first_heartbeat_was_not_restarted() -> None:
+    setup = Setup()
+    process = setup.watch.processes.pop('sync')
+    setup.open()
+    setup.attendance.check()
+    setup.watch.processes['sync'] = process
+    setup.attendance.check()
+    setup.watch.processes['sync'] = (99, 20)
+    with pytest.raises(ParticipantSilentError, match='sync was restarted'):
+        setup.attendance.check()
+
+
 def test_a_node_that_was_restarted_in_a_run_would_fake_continuity() -> None:
     setup = Setup()
     setup.open()
