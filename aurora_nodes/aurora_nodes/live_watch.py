@@ -62,7 +62,7 @@ class LiveWatch:
         self._on_end = on_end
         self._run: LiveRun | None = None
         self._totals: RunTotals | None = None
-        self._deadline_s = 0.0
+        self._deadline_s = float('inf')
         self._acked = -1
         # What came since the last look while no run was known: a run is announced on another
         # topic, which its first messages may overtake.
@@ -73,17 +73,24 @@ class LiveWatch:
             for topic in on.JUDGED
         }
         self._statuses = node.subscription(_history(on.SYNC_STATUS), self._on_status)
-        self._ends = node.subscription(_history(on.RUN_END), self._on_run_end)
+        self._ends = node.subscription(_history(on.RUN_END), self._on_end_message)
         self._ack_publisher = node.publisher(on.ACK)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         node.create_timer(settings.idle_period_s, self._on_idle, clock=steady)
-        self._poll = node.create_timer(settings.poll_period_s, self._on_poll, clock=steady)
+        self._poll = node.create_timer(settings.poll_period_s, self.poll, clock=steady)
         self._poll.cancel()
+
+    @property
+    def is_ending(self) -> bool:
+        """Whether a run has ended of which not everything is there yet."""
+        return self._run is not None and self._deadline_s < float('inf')
 
     def look(self) -> None:
         """Take what has arrived and acknowledge it; for whoever keeps the node's thread busy."""
         for status in drain(self._statuses):
             self._on_status(status)
+        for end in drain(self._ends):
+            self._on_run_end(end)
         for topic, tap in self._taps.items():
             heard = list(drain(tap))
             if self._run is not None:
@@ -134,9 +141,12 @@ class LiveWatch:
             self._close()
             return
         self._deadline_s = time.monotonic() + self._settings.end_limit_s
-        self._on_poll()
 
-    def _on_poll(self) -> None:
+    def _on_end_message(self, message: RunEnd) -> None:
+        self._on_run_end(message)
+        self.poll()
+
+    def poll(self) -> None:
         """Take what has arrived; go on to the end once everything is there."""
         self.look()
         run, totals = self._run, self._totals

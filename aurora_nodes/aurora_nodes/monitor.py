@@ -9,10 +9,14 @@ something was lost or altered on one of the two ways, and nothing is claimed.
 from __future__ import annotations
 
 import threading
+import time
 import traceback
 from collections.abc import Callable
 from pathlib import Path
 from typing import TypeVar
+
+from rclpy.exceptions import InvalidHandle
+from rclpy.impl.implementation_singleton import rclpy_implementation
 
 from aurora_core.errors import AuroraError, VerificationError
 from aurora_core.monitor.verdict import Verdict, VerdictStatus
@@ -43,6 +47,7 @@ class MonitorNode(AuroraNode):
         self._verdicts = self.publisher(on.VERDICT)
         self._margins = self.publisher(on.MARGINS)
         self._heard: LiveOutcome | None = None
+        self._judging: threading.Thread | None = None
         self._watch: LiveWatch | None = None
         if self._settings.live:
             self._watch = LiveWatch(self, self._settings, self._on_end)
@@ -59,24 +64,45 @@ class MonitorNode(AuroraNode):
                 f'{judgement.graph_sha256[:12]}',
                 hint='name the bag of this run and iteration',
             )
+        while self._watch is not None and self._watch.is_ending:
+            time.sleep(self._settings.poll_period_s)
+            self._watch.poll()
+        self._await(self._judging)
         verdict = reconcile(judgement, self._heard)
         response.verdict = _message(judgement, verdict, VerdictMessage.BAG)
         self._verdicts.publish(response.verdict)
         return response
 
+    @property
+    def is_idle(self) -> bool:
+        """Whether nothing is being judged."""
+        return self._judging is None or not self._judging.is_alive()
+
     def _on_end(self, run: LiveRun, totals: RunTotals) -> None:
-        """Judge a run that has ended."""
+        """Judge a run that has ended, in a thread: the node goes on to serve."""
+        before = self._judging
+        self._judging = threading.Thread(
+            target=self._judge_live, args=(run, totals, before), name='live', daemon=True
+        )
+        self._judging.start()
+
+    def _judge_live(
+        self, run: LiveRun, totals: RunTotals, before: threading.Thread | None
+    ) -> None:
+        if before is not None:
+            before.join()
         where = f'run {totals.run_id} as it was heard'
         try:
-            judgement = self._beside(lambda: judge(run.content(totals, self._definitions), where))
+            judgement = judge(run.content(totals, self._definitions), where)
+            self._remember(totals, judgement, '')
+            self._publish(judgement, totals.run_number)
+        except (InvalidHandle, rclpy_implementation.RCLError):
+            return  # the node is being shut down under us
         except AuroraError as err:
             self._not_judged(totals, err)
         except Exception as err:  # noqa: BLE001 - a defect: logged, and told with the bag's verdict
             self.get_logger().error(traceback.format_exc())
             self._not_judged(totals, defect(err, self.get_name()))
-        else:
-            self._remember(totals, judgement, '')
-            self._publish(judgement, totals.run_number)
 
     def _remember(self, totals: RunTotals, judgement: Judgement | None, problem: str) -> None:
         """Keep the outcome for the bag that will come; a replay has one already."""
@@ -130,15 +156,18 @@ class MonitorNode(AuroraNode):
             except Exception as err:  # noqa: BLE001 - raised again in the node's thread
                 errors.append(err)
 
-        thread = threading.Thread(target=run, name='judge', daemon=True)
+        thread = threading.Thread(target=run, name='bag', daemon=True)
         thread.start()
-        while thread.is_alive():
-            thread.join(self._settings.poll_period_s)
-            if self._watch is not None:
-                self._watch.look()
+        self._await(thread)
         if errors:
             raise errors[0]
         return results[0]
+
+    def _await(self, thread: threading.Thread | None) -> None:
+        while thread is not None and thread.is_alive():
+            thread.join(self._settings.poll_period_s)
+            if self._watch is not None:
+                self._watch.look()
 
 
 def _message(judgement: Judgement, verdict: Verdict, source: int) -> VerdictMessage:

