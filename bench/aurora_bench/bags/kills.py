@@ -21,6 +21,7 @@ import numpy as np
 from rosbags.highlevel import AnyReader
 
 from aurora_bench.bags.judge import judge
+from aurora_core.errors import ExecutionError
 from aurora_core.trace.bag_reader import read_bag
 from aurora_core.trace.bag_recover import recover_bag
 from aurora_core.trace.definitions import MessageDefinitions
@@ -33,6 +34,7 @@ PROMPT = (
     'A drone ascends to 40 meters and then follows a motorcycle as it drives through the streets.'
 )
 LIMIT_S = 120.0
+_TRIES = 3
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -84,10 +86,7 @@ def kill_recorders(
     with running_graph(folder) as graph:
         killer = _Killer()
         graph.play.on(on.TICK, killer.on_tick)
-        whole = _run(graph)
-        if whole.status != 'verified':
-            raise RuntimeError(f'the undisturbed run ended as {whole.status}\n{graph.logs()}')
-        reference = read_bag(Path(whole.run_dir) / 'bag.0', definitions).trace
+        reference = _undisturbed(graph, definitions)
         last_s = reference.time_s(reference.ticks - 1)
         for _ in range(count):
             killer.arm(graph.nodes['recorder'].pid, chance.uniform(0.0, last_s - 1.0))
@@ -96,8 +95,25 @@ def kill_recorders(
             graph.restart('recorder')
 
 
+def _undisturbed(graph: RunningGraph, definitions: MessageDefinitions) -> Trace:
+    """Return the trace of a run that nobody disturbs.
+
+    Raises:
+        ExecutionError: None is verified.
+    """
+    # A machine that is busy with other work may miss a heartbeat: that is no finding here.
+    for _ in range(_TRIES):
+        whole = _run(graph)
+        if whole.status == 'verified':
+            return read_bag(Path(whole.run_dir) / 'bag.0', definitions).trace
+    raise ExecutionError(
+        f'the undisturbed run ended as {whole.status}: {whole.error_msg}\n{graph.logs()}'
+    )
+
+
 def _run(graph: RunningGraph) -> Any:
-    return graph.play.send_goal(on.RUN, RunScenario.Goal(prompt=PROMPT), LIMIT_S)
+    goal = RunScenario.Goal(prompt=PROMPT)
+    return graph.play.send_goal(on.RUN, goal, LIMIT_S, raise_errors=False)
 
 
 def _look(result: Any, killed_s: float, reference: Trace, definitions: MessageDefinitions) -> Kill:

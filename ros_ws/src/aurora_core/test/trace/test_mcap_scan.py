@@ -46,7 +46,7 @@ def _defects(path: Path, *, check_index: bool = False) -> list[Defect]:
     return [r for r in scan(path, check_index=check_index) if isinstance(r, Defect)]
 
 
-def _chunks(data: bytes) -> list[int]:
+def _chunks(data: bytes | bytearray) -> list[int]:
     """Return where the chunk records begin."""
     found, at = [], data.find(MARK)
     while at >= 0:
@@ -170,10 +170,12 @@ def test_any_number_of_false_chunks_takes_no_time(
     file: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     looked: list[int] = []
-    monkeypatch.setattr(
-        'aurora_core.trace.mcap_scan._Scan._is_chunk',
-        lambda _self, offset: bool(looked.append(offset)),
-    )
+
+    def never(_self: object, offset: int) -> bool:
+        looked.append(offset)
+        return False
+
+    monkeypatch.setattr('aurora_core.trace.mcap_scan._Scan._is_chunk', never)
     file.write_bytes(MAGIC + b'\xff' * 60 + MARK * 10_000)
     assert _defects(file)[0].cut
     assert len(looked) <= 64
