@@ -34,7 +34,7 @@ from rclpy.subscription import Subscription
 from aurora_ros.polling import PolledGroup
 
 _HOT_S = 0.02  # how long after a message of a stream the next one is waited for in the short way
-_STOCK_PERIOD_S = 0.05  # how long everything else may wait meanwhile
+_STOCK_PERIOD_S = 0.1  # how long everything else may wait meanwhile
 _STOCK_CALLBACKS = 100  # at most, before subscriptions have their turn again
 _HOT_NS = int(_HOT_S * 1e9)
 _BURST = 100  # messages of one subscription before the others have their turn
