@@ -123,11 +123,9 @@ def test_tables_and_document(campaign: Campaign, plan: Plan) -> None:
     speed, local, ros, beside = (markdown_table(table) for table in tables(campaign, plan))
     first = [cell.strip() for cell in speed.splitlines()[4].split('|')]
     assert first[1:9] == ['local', '10', '1', '60', '3', '208', '183', '240']
-        speed.split(' ')
-    )
     assert '200.0 – 300.0' in speed
     assert 'sumo 45%, air 23%, executor 23%, recorder 9%' in speed
-    assert '| agents | UAVs |  s | sumo | air | executor | recorder |' in local
+    assert '| agents | UAVs |   s | sumo | air | executor | recorder |' in local
     assert '| sync | sumo_bridge |' in ros
     assert '| bare barrier [us/tick] ' in beside
     written = document(campaign, plan)
