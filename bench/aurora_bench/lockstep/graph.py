@@ -32,13 +32,15 @@ _UP_LIMIT_S = 120
 _UP_SLACK_S = 30.0
 _DOWN_LIMIT_S = 60.0
 
-# What a run needs, without the recorder: node name and the module that holds its main.
+# What a run needs but the recorder (the monitor watches every run): node name and the module that
+# holds its main.
 _MODULES = {
     'uav_sim': 'aurora_uav_sim.udp_main',
     'sync': 'aurora_sync.node',
     'sumo_bridge': 'aurora_sumo_bridge.node',
     'uav_bridge': 'aurora_uav_bridge.node',
     'recorder': 'aurora_bench.lockstep.null_recorder',
+    'monitor': 'aurora_nodes.monitor',
     'executor': 'aurora_nodes.executor',
 }
 
