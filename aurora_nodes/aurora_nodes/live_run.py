@@ -104,7 +104,11 @@ class LiveRun:
         return content_of(stored, damage, where=f'what was heard of run {totals.run_id}')
 
     def _own(self, topic: str, totals: RunTotals) -> Sequence[bytes]:
-        """Return the messages of a topic that belong to the run; forget the others."""
+        """Return the messages of a topic that belong to the run; forget the others.
+
+        A document that came twice counts once: the node that made a scenario graph publishes it
+        too, before the run.
+        """
         by_id = WATCHED[topic] is Belonging.BY_ID
         own = [
             cdr
@@ -115,8 +119,8 @@ class LiveRun:
                 else wire.run_and_tick(cdr)[0] == totals.run_number
             )
         ]
-        self._kept[topic] = own
-        return own
+        self._kept[topic] = list(dict.fromkeys(own)) if by_id else own
+        return self._kept[topic]
 
 
 def _decoded(topic: str, cdr: bytes, definitions: MessageDefinitions) -> object:

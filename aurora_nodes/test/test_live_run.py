@@ -76,6 +76,14 @@ def test_missing_and_too_many_are_told_apart(run: LiveRun) -> None:
     assert run.missing(sent) == {GROUND: -1}
 
 
+def test_a_document_of_the_run_that_came_twice_counts_once(run: LiveRun) -> None:
+    document = by_id(totals({}).run_id)
+    run.keep(messages.AGSG, [document, by_id('another'), document])
+    assert run.missing(totals({messages.AGSG: 1})) == {}
+    run.keep(messages.AGSG, [document + bytes(4)])
+    assert run.missing(totals({messages.AGSG: 1})) == {messages.AGSG: -1}
+
+
 def test_what_cannot_be_decoded_is_named(run: LiveRun) -> None:
     run.keep(messages.ROSTER, [by_id('r1')])
     with pytest.raises(BagError, match='a message on /aurora/roster cannot be decoded'):

@@ -12,7 +12,6 @@ from typing import Any
 
 from aurora_msgs.action import RunScenario
 from aurora_ros import interfaces as on
-from aurora_ros.heartbeat import HeartbeatWatch
 from aurora_ros.testing.partner import Partner
 
 RUN_LIMIT_S = 300.0
@@ -85,7 +84,7 @@ class Client:
 
     def __init__(self, partner: Partner) -> None:
         self._partner = partner
-        self._watch = HeartbeatWatch(partner.node)
+        self._watch = partner.watch
 
     def begin(self, prompt: str, options: dict[str, Any] | None = None) -> Run:
         """Send a prompt."""

@@ -20,6 +20,7 @@ from aurora_bench.lockstep.processes import cpu_s
 from aurora_bench.lockstep.ros_runs import client_of
 from aurora_bench.lockstep.scenarios import Configuration, grounded
 from aurora_bench.results import ResultsError
+from aurora_ros.processes import process_state
 from aurora_ros.testing.domains import own_domain
 
 SMALL = Configuration(agents=3, uavs=1, seconds=10)
@@ -87,7 +88,7 @@ def test_the_graph_gives_the_hash_of_the_local_engine(tmp_path: Path) -> None:
     assert verify_s > 0.0
     assert set(services) == {'sync', 'ground', 'uav'}
     for pid in running.pids.values():
-        assert not Path(f'/proc/{pid}').exists()
+        assert process_state(pid) is None
 
 
 @pytest.mark.ros

@@ -70,24 +70,25 @@ def run_over_ros(request: RunRequest, root: Path, control: RunControl) -> tuple[
         ExecutionError: The graph cannot be reached or started, or it gave no report.
         KeyboardInterrupt: Cancelled before the run began.
     """
-    with _client_node() as node, _graph(node, control.cancelled):
+    with _client_node() as node:
         caller = Caller(node, HeartbeatWatch(node))
         caller.prepare(on.RUN)
-        result = caller.action(
-            on.RUN,
-            RunScenario.Goal(
-                prompt=request.prompt,
-                prompt_bytes=len(request.prompt.encode('utf-8')),
-                options_json=_options(request, root),
-            ),
-            _RUN_S,
-            on_feedback=lambda feedback: control.progress(
-                feedback.stage, feedback.fraction, feedback.sim_time_s
-            ),
-            cancelled=control.cancelled,
-            cancel_limit_s=_CANCEL_S,
-            raise_errors=False,
-        )
+        with _graph(caller, control.cancelled):
+            result = caller.action(
+                on.RUN,
+                RunScenario.Goal(
+                    prompt=request.prompt,
+                    prompt_bytes=len(request.prompt.encode('utf-8')),
+                    options_json=_options(request, root),
+                ),
+                _RUN_S,
+                on_feedback=lambda feedback: control.progress(
+                    feedback.stage, feedback.fraction, feedback.sim_time_s
+                ),
+                cancelled=control.cancelled,
+                cancel_limit_s=_CANCEL_S,
+                raise_errors=False,
+            )
     return _report(result), Path(result.run_dir)
 
 
@@ -139,15 +140,15 @@ def _client_node() -> Iterator[Node]:
 
 
 @contextmanager
-def _graph(node: Node, cancelled: Callable[[], bool]) -> Iterator[None]:
+def _graph(caller: Caller, cancelled: Callable[[], bool]) -> Iterator[None]:
     """The running graph, else one that is started here and stopped afterwards."""
-    if _is_served(node, _DISCOVERY_S):
+    if _is_served(caller, _DISCOVERY_S):
         yield
         return
     say('aurora: no graph is running, starting one')
     try:
         _start(cancelled)
-        if not _is_served(node, _DISCOVERY_AFTER_START_S):
+        if not _is_served(caller, _DISCOVERY_AFTER_START_S):
             raise ExecutionError(
                 f'the graph was started, but nobody serves {on.RUN.name}',
                 hint='is ROS_DOMAIN_ID the same in every shell?',
@@ -158,18 +159,13 @@ def _graph(node: Node, cancelled: Callable[[], bool]) -> Iterator[None]:
         _call(_DOWN, lambda: False, _STOP_S)
 
 
-def _is_served(node: Node, limit_s: float) -> bool:
-    """Whether somebody serves the action, asked of the graph.
-
-    No client is made for the question: destroying one while another thread spins breaks the spin.
-    """
-    served = node.resolve_service_name(f'{on.RUN.name}/_action/send_goal')
+def _is_served(caller: Caller, limit_s: float) -> bool:
     deadline_s = time.monotonic() + limit_s
-    while time.monotonic() < deadline_s:
-        if any(name == served for name, _ in node.get_service_names_and_types()):
-            return True
+    while not caller.is_served(on.RUN):
+        if time.monotonic() > deadline_s:
+            return False
         time.sleep(_LOOK_S)
-    return False
+    return True
 
 
 def _start(cancelled: Callable[[], bool]) -> None:

@@ -29,6 +29,7 @@ from aurora_ros.interfaces import Call
 _POLL_S = 0.01  # discovery of a server
 _RESTART_S = 5.0  # a server that is dead when the call begins may be just starting again
 _ABANDON_S = 3.0  # for the end of a goal that is given up
+_ACCEPT_S = 30.0  # for an action server to be there and to answer a goal, which it does at once
 _LOOK_S = 0.1  # between two looks at heartbeats and cancellation while an answer is awaited
 
 
@@ -66,6 +67,16 @@ class Caller:
                 self._services[call.name] = self._node.create_client(
                     call.type, call.name, callback_group=self._group
                 )
+
+    def is_served(self, call: Call) -> bool:
+        """Return whether somebody serves a prepared call now, and is not known to be dead."""
+        action = self._actions.get(call.name)
+        ready = (
+            self._services[call.name].service_is_ready
+            if action is None
+            else action.server_is_ready
+        )
+        return bool(ready()) and not self._is_dead(call)
 
     def service(
         self, call: Call, request: Any, limit_s: float, *, await_restart: bool = True
@@ -115,7 +126,8 @@ class Caller:
         Args:
             call: Interface.
             goal: Goal message.
-            limit_s: Wall-clock limit for everything.
+            limit_s: Wall-clock limit from the accepted goal to its end; server and acceptance have
+                at most 30 s more.
             on_feedback: Called with each feedback message in the executor's thread.
             cancelled: Asked ten times a second; the goal is cancelled once it is true.
             cancel_limit_s: Wall-clock limit from then on.
@@ -125,13 +137,15 @@ class Caller:
             ExecutionError: No server, goal refused, no result within the limit, server died.
             AuroraError: The result carries an error, or the guard raised.
         """
-        deadline = time.monotonic() + limit_s
+        accept_s = min(limit_s, _ACCEPT_S)
+        deadline = time.monotonic() + accept_s
         client = self._actions[call.name]
-        self._await_server(call, client.server_is_ready, deadline, limit_s)
+        self._await_server(call, client.server_is_ready, deadline, accept_s)
         sent = client.send_goal_async(
             goal, feedback_callback=lambda message: on_feedback(message.feedback)
         )
-        self._await(sent, call, deadline, limit_s)
+        self._await(sent, call, deadline, accept_s)
+        deadline = time.monotonic() + limit_s
         handle: ClientGoalHandle = sent.result()
         if not handle.accepted:
             raise ExecutionError(

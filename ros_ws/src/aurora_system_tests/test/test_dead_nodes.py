@@ -59,7 +59,7 @@ def graph(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningGraph]:
 
 @pytest.fixture(scope='module')
 def watch(graph: RunningGraph) -> HeartbeatWatch:
-    return HeartbeatWatch(graph.play.node)
+    return graph.play.watch
 
 
 def run_and(graph: RunningGraph, moment: Moment, act: Callable[[], None]) -> tuple[Any, float]:

@@ -15,10 +15,14 @@ import pytest
 
 pytest.importorskip('rclpy')
 
+from rclpy.action import ActionClient
+
 from aurora_core.trace.bag_reader import read_bag
 from aurora_core.trace.definitions import message_definitions
 from aurora_core.trace.trace import Integrity
+from aurora_ros import interfaces as on
 from aurora_ros.testing.domains import own_domain
+from aurora_ros.testing.partner import partner
 
 pytestmark = pytest.mark.ros
 
@@ -40,7 +44,9 @@ def processes_of(mark: str) -> list[str]:
 
 
 def test_an_interrupted_command_leaves_a_readable_run_and_no_process(tmp_path: Path) -> None:
-    with own_domain() as domain:
+    with own_domain() as domain, partner(domain) as waiting:
+        # Somebody else who would like a run is no graph.
+        ActionClient(waiting.node, on.RUN.type, on.RUN.name)
         process = subprocess.Popen(
             [sys.executable, '-c', COMMAND, 'run', PROMPT, '--engine', 'ros', '--json'],
             cwd=tmp_path,

@@ -17,6 +17,7 @@ from rclpy.node import Node
 from rclpy.publisher import Publisher
 
 from aurora_ros.call import Caller
+from aurora_ros.heartbeat import HeartbeatWatch
 from aurora_ros.interfaces import NAMESPACE, Call, Topic
 from aurora_ros.matching import wait_until
 
@@ -33,7 +34,8 @@ class Partner:
     def __init__(self, node: Node) -> None:
         self.node = node
         self._group = ReentrantCallbackGroup()
-        self._caller = Caller(node)
+        self.watch = HeartbeatWatch(node)
+        self._caller = Caller(node, self.watch)
 
     def publisher(self, topic: Topic, subscribers: int = 1) -> Publisher:
         """Return a publisher that has at least so many subscribers.
