@@ -6,5 +6,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source ros_ws/setup.bash
+# Hundreds of node processes import the same modules; without their byte code each compiles them.
+unset PYTHONDONTWRITEBYTECODE
 mapfile -t packages < <(tools/packages.sh)
 exec python -m pytest "${packages[@]}" "$@"
