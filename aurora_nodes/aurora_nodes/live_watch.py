@@ -21,6 +21,7 @@ from aurora_msgs.msg import Ack, RunEnd, SyncStatus
 from aurora_nodes.live_run import LiveRun, RunTotals
 from aurora_ros import interfaces as on
 from aurora_ros import qos
+from aurora_ros.heartbeat import HeartbeatWatch
 from aurora_ros.interfaces import Topic
 from aurora_ros.node import AuroraNode
 from aurora_ros.parameters import require_positive
@@ -47,6 +48,7 @@ class LiveWatch:
     Args:
         node: The monitor.
         settings: Periods and limits.
+        watch: Tells whether the clock still lives, which says how a run ends.
         on_end: Called with a run that has ended, once everything that was sent is there or the
             limit for that has passed.
     """
@@ -55,10 +57,12 @@ class LiveWatch:
         self,
         node: AuroraNode,
         settings: LiveSettings,
+        watch: HeartbeatWatch,
         on_end: Callable[[LiveRun, RunTotals], None],
     ) -> None:
         self._node = node
         self._settings = settings
+        self._watch = watch
         self._on_end = on_end
         self._run: LiveRun | None = None
         self._totals: RunTotals | None = None
@@ -102,6 +106,9 @@ class LiveWatch:
     def _on_idle(self) -> None:
         if self._run is None:
             self.look()
+        elif self._watch.is_dead('sync'):
+            self._node.get_logger().error('sync died: the run is dropped')
+            self._close()
 
     def _on_status(self, status: SyncStatus) -> None:
         run = self._run

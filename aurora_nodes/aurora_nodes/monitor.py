@@ -30,6 +30,7 @@ from aurora_nodes.live_run import LiveRun, RunTotals
 from aurora_nodes.live_watch import LiveSettings, LiveWatch
 from aurora_ros import interfaces as on
 from aurora_ros.conversions.verdict import margins_message, verdict_message
+from aurora_ros.heartbeat import HeartbeatWatch
 from aurora_ros.main import run_node
 from aurora_ros.node import AuroraNode, defect
 from aurora_ros.parameters import declare
@@ -50,7 +51,7 @@ class MonitorNode(AuroraNode):
         self._judging: threading.Thread | None = None
         self._watch: LiveWatch | None = None
         if self._settings.live:
-            self._watch = LiveWatch(self, self._settings, self._on_end)
+            self._watch = LiveWatch(self, self._settings, HeartbeatWatch(self), self._on_end)
         self.serve(on.VERIFY, self._verify)
 
     def _verify(

@@ -156,6 +156,7 @@ def run_cell(graph: LiveGraph, client: Client, cell: Cell, expected_hash: str) -
         next_status=str(after.result.status) if after.result is not None else after.error,
         next_equal=trace_hash(after.result) == expected_hash,
         next_s=round(time.monotonic() - begun_s, 2),
+        note=str(after.result.error_msg) if after.result is not None else '',
     )
 
 

@@ -94,6 +94,7 @@ def run_and(graph: RunningGraph, moment: Moment, act: Callable[[], None]) -> tup
         ('recorder', signal.SIGKILL, flying),
         ('executor', signal.SIGKILL, flying),
         ('sync', signal.SIGSTOP, loading),
+        ('sync', signal.SIGKILL, flying),
         ('uav_sim', signal.SIGSTOP, flying),
         ('sumo_bridge', signal.SIGSEGV, verifying),
         ('uav_sim', signal.SIGKILL, verifying),
