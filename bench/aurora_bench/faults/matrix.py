@@ -117,9 +117,10 @@ class CellResult(Document):
 def cells(only: Iterable[str] = ()) -> list[Cell]:
     """Return the cells whose name holds one of the words, all without words."""
     words = tuple(only)
+    # In turn: `up` gives up a node that dies too often within a minute.
     every = [
         Cell(component=component, blow=blow, phase=phase)
-        for component, phase, blow in product(Component, Phase, Blow)
+        for phase, blow, component in product(Phase, Blow, Component)
     ]
     return [cell for cell in every if not words or any(word in cell.name for word in words)]
 

@@ -71,7 +71,12 @@ def test_aurora_commands_end_as_announced(tmp_path: Path) -> None:
                 code, output = shell(line.replace('<run_id>', newest.name), tmp_path, domain)
             else:
                 code, output = shell(line, tmp_path, domain)
-            assert code == expected_code(line), f'{line}\n{output}'
+            if line.startswith('aurora doctor'):
+                # What it finds is this machine's affair.
+                assert code in (0, 1), output
+                assert re.search(r'\d+ checks, ', output), output
+            else:
+                assert code == expected_code(line), f'{line}\n{output}'
 
 
 @pytest.mark.ros
