@@ -135,6 +135,7 @@ class RunDriver:
             self._participants += ('uav_bridge',)
         recording = False
         try:
+            self._await_participants()
             self._load(order, run)
             self._start_recording(order, run)
             recording = True
@@ -155,6 +156,12 @@ class RunDriver:
             self._path.disarm()
             self._node.heartbeat.idle()
         return Done(bag=bag, ticks=run.last_tick + 1, outcome=run.outcome or 'horizon')
+
+    def _await_participants(self) -> None:
+        """Wait for a sign of life of whoever was started again just before this run."""
+        deadline = time.monotonic() + self._settings.call_limit_s
+        while any(map(self._watch.is_dead, self._participants)) and time.monotonic() < deadline:
+            time.sleep(_LOOK_S)
 
     def _load(self, order: Order, run: ActiveRun) -> None:
         execution = order.execution

@@ -27,7 +27,7 @@ from aurora_ros.heartbeat import HeartbeatWatch
 from aurora_ros.interfaces import Call
 
 _POLL_S = 0.01  # discovery of a server
-_RESTART_S = 5.0  # a server that is dead when the call begins may be just starting again
+_RESTART_S = 15.0  # a server that is dead when the call begins may be just starting again
 _ABANDON_S = 3.0  # for the end of a goal that is given up
 _ACCEPT_S = 30.0  # for an action server to be there and to answer a goal, which it does at once
 _LOOK_S = 0.1  # between two looks at heartbeats and cancellation while an answer is awaited

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import faulthandler
 import gc
 import os
 import signal
@@ -36,6 +37,8 @@ READY_FILE_VARIABLE = 'AURORA_READY_FILE'
 
 # How long a node may go on serving after a signal to bring a run to a proper end.
 STOP_LIMIT_S = 2.5
+# After this time a node that was told to end is ended, wherever it hangs.
+_END_LIMIT_S = 8.0
 _SIGNALS = (signal.SIGINT, signal.SIGTERM)
 _POLL_S = 0.02
 
@@ -97,7 +100,7 @@ def run_node(
         # What start-up made stays: the garbage collector need not look at it again and again.
         gc.collect()
         gc.freeze()
-        ready = _announce(node)
+        ready = stop.ready = _announce(node)
         _serve(node, executor, stop)
     except AuroraError as err:
         get_logger('aurora').fatal(f'{err.component}: {err}')
@@ -114,10 +117,14 @@ def run_node(
 
 
 class _Stop:
-    """Takes the signals of the process: the first asks for an end, the second enforces it."""
+    """Takes the signals of the process: the first asks for an end, the second enforces it.
+
+    So does the time limit, after the log was told where every thread hangs.
+    """
 
     def __init__(self) -> None:
         self.requested = False
+        self.ready: Path | None = None
         self._executor: Executor | None = None
         # The main thread may be waiting inside the middleware, where a Python handler is not run.
         # The wake-up file is written by the C handler, at once.
@@ -138,7 +145,16 @@ class _Stop:
         self._next_signal()
         self.requested = True
         self._wake()
-        os._exit(128 + self._next_signal())
+        self._reader.settimeout(_END_LIMIT_S)
+        try:
+            os._exit(128 + self._next_signal())
+        except TimeoutError:
+            sys.stderr.write(f'told to end {_END_LIMIT_S:g} s ago, cut off at:\n')
+            sys.stderr.flush()
+            faulthandler.dump_traceback(all_threads=True)
+            if self.ready is not None:
+                self.ready.unlink(missing_ok=True)
+            os._exit(0)
 
     def _next_signal(self) -> int:
         while (number := self._reader.recv(1)[0]) not in _SIGNALS:
