@@ -135,14 +135,11 @@ def test_options_that_no_answer_could_carry(graph: RunningGraph, options: str) -
 def ros2_call(graph: RunningGraph, *arguments: str, stdin: str = '') -> tuple[int, str, str]:
     """Call the service with our own `ros2`, as a shell would."""
     code = 'import sys\nfrom aurora_ros2cli.main import main\nsys.exit(main(sys.argv[1:]))'
-    environment = {
-        'ROS_DOMAIN_ID': str(graph.play.node.context.get_domain_id()),
-        'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
-    }
+    domain = str(graph.play.node.context.get_domain_id())
     done = subprocess.run(
         [sys.executable, '-c', code, 'service', 'call', '/aurora/run_prompt',
          'aurora_msgs/srv/RunPrompt', *arguments],
-        env={**os.environ, **environment}, input=stdin, text=True, capture_output=True,
+        env={**os.environ, 'ROS_DOMAIN_ID': domain}, input=stdin, text=True, capture_output=True,
         timeout=LIMIT_S, check=False,
     )  # fmt: skip
     assert 'Traceback' not in done.stderr, done.stderr

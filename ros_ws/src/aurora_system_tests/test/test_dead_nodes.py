@@ -84,7 +84,7 @@ def run_and(graph: RunningGraph, moment: Moment, act: Callable[[], None]) -> tup
         on_feedback=on_feedback,
         raise_errors=False,
     )
-    assert acted, (result.status, result.error_msg, 'the moment never came')
+    assert acted, (result.status, result.error_msg, 'the moment never came', graph.logs())
     return result, (reported or [time.monotonic()])[0] - acted[0]
 
 

@@ -43,7 +43,6 @@ class NodeProcess:
         self._log = folder / f'{module}.log'
         own = {
             'ROS_DOMAIN_ID': str(domain),
-            'ROS_AUTOMATIC_DISCOVERY_RANGE': 'LOCALHOST',
             'ROS_LOG_DIR': str(folder / 'ros_log'),
             READY_FILE_VARIABLE: str(self.ready_file),
         }
