@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from aurora_core.agsg.graph import Agsg
-from aurora_core.errors import AuroraError, ParticipantSilentError
+from aurora_core.errors import AuroraError, ExecutionError, ParticipantSilentError
 from aurora_core.execution.plan import Execution
 from aurora_msgs.msg import RunEnd
 from aurora_msgs.srv import LoadSync, StartRecording, StartSync, StopRecording, StopSync
@@ -22,7 +22,7 @@ from aurora_ros.conversions.loads import ground_request, uav_request
 from aurora_ros.conversions.messages import agsg_message, message_builder, world_message
 from aurora_ros.heartbeat import HeartbeatWatch
 from aurora_ros.lifecycle import ManagedNode
-from aurora_ros.matching import await_subscribers
+from aurora_ros.matching import await_subscribers, twins, wait_until
 from aurora_ros.parameters import require_positive
 
 CALLS = (
@@ -35,6 +35,7 @@ CALLS = (
     on.RECORDER_STOP,
 )
 _LOOK_S = 0.05
+_SETTLE_S = 0.6  # the others' leases of whoever died end within one announcement of ours
 _LATCHED = (on.AGSG, on.ROSTER, on.WORLD)
 _RECORDED = (*_LATCHED, on.GROUND_STATE, on.GROUND_COMMAND, on.COMM, on.SENSING, on.EVENTS)
 _RECORDED_WITH_UAVS = (*_RECORDED, on.UAV_STATE, on.UAV_COMMAND)
@@ -48,13 +49,14 @@ class ExecutorSettings:
     call_limit_s: float
     load_limit_s: float
     stop_limit_s: float
+    twin_limit_s: float
     silence_limit_s: float
     feedback_period_s: float
     live_monitor: bool
 
     def __post_init__(self) -> None:
         require_positive(self, 'call_limit_s', 'load_limit_s', 'stop_limit_s')
-        require_positive(self, 'silence_limit_s', 'feedback_period_s')
+        require_positive(self, 'twin_limit_s', 'silence_limit_s', 'feedback_period_s')
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -135,7 +137,7 @@ class RunDriver:
             self._participants += ('uav_bridge',)
         recording = False
         try:
-            self._await_participants()
+            self._await_participants(cancelled)
             self._load(order, run)
             self._start_recording(order, run)
             recording = True
@@ -157,11 +159,36 @@ class RunDriver:
             self._node.heartbeat.idle()
         return Done(bag=bag, ticks=run.last_tick + 1, outcome=run.outcome or 'horizon')
 
-    def _await_participants(self) -> None:
-        """Wait for a sign of life of whoever was started again just before this run."""
-        deadline = time.monotonic() + self._settings.call_limit_s
-        while any(map(self._watch.is_dead, self._participants)) and time.monotonic() < deadline:
-            time.sleep(_LOOK_S)
+    def _await_participants(self, cancelled: Callable[[], bool]) -> None:
+        """Wait for whoever was started again just before this run.
+
+        A node that was killed counts as a listener until its lease is over, so that no publisher
+        can tell by counting whether the one started in its place listens already.
+
+        Raises:
+            ExecutionError: A name is there twice for longer than any lease.
+        """
+        settings = self._settings
+        wait_until(
+            lambda: not any(map(self._watch.is_dead, self._participants)),
+            settings.call_limit_s,
+            _LOOK_S,
+        )
+        names = (self._node.get_name(), *self._participants)
+        if not twins(self._node, on.HEARTBEAT, names):
+            return
+        wait_until(
+            lambda: cancelled() or not twins(self._node, on.HEARTBEAT, names),
+            settings.twin_limit_s,
+            _LOOK_S,
+        )
+        for name in () if cancelled() else twins(self._node, on.HEARTBEAT, names):
+            raise ExecutionError(
+                f'two nodes are named {name} (waited {settings.twin_limit_s:g} s)',
+                component=name,
+                hint='another graph runs in this ROS_DOMAIN_ID: end it or use another domain',
+            )
+        time.sleep(_SETTLE_S)
 
     def _load(self, order: Order, run: ActiveRun) -> None:
         execution = order.execution

@@ -1,15 +1,18 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""Wait until publishers have their subscribers: a volatile writer drops what nobody matched."""
+"""Who is there: a volatile writer drops what nobody matched."""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping
+from collections import Counter
+from collections.abc import Callable, Collection, Mapping
 
+from rclpy.node import Node
 from rclpy.publisher import Publisher
 
 from aurora_core.errors import ExecutionError
+from aurora_ros.interfaces import Topic
 
 _POLL_S = 0.005
 
@@ -49,3 +52,19 @@ def await_subscribers(wanted: Mapping[Publisher, int], *, limit_s: float, compon
             component=component,
             hint='is every node of the graph running in this ROS_DOMAIN_ID?',
         )
+
+
+def twins(node: Node, topic: Topic, names: Collection[str]) -> list[str]:
+    """Return which of the named nodes the middleware knows more than once.
+
+    Args:
+        node: Asks, and shares its namespace with the others.
+        topic: One that each of them publishes once.
+        names: Node names without namespace.
+    """
+    counts = Counter(
+        info.node_name
+        for info in node.get_publishers_info_by_topic(node.resolve_topic_name(topic.name))
+        if info.node_namespace == node.get_namespace()
+    )
+    return [name for name in names if counts[name] > 1]
