@@ -137,9 +137,7 @@ class Attendance:
         for name in self._needed:
             cause = self._watch.cause_of_death(name)
             if not cause and self._is_another(name):
-                cause = (
-                    'was restarted during the run, or another graph runs in this ROS_DOMAIN_ID'
-                )
+                cause = 'was restarted during the run, or another graph runs in this ROS_DOMAIN_ID'
             if cause:
                 return ParticipantSilentError(
                     f'{name} {cause}', component=name, hint=f'see the log of {name}'
