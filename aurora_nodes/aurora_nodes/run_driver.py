@@ -192,7 +192,6 @@ class RunDriver:
 
     def _load(self, order: Order, run: ActiveRun) -> None:
         execution = order.execution
-        participants = ['sumo_bridge', *(['uav_bridge'] if run.has_uavs else []), 'executor']
         common: dict[str, Any] = {
             'run_id': order.run_id,
             'run_number': run.run_number,
@@ -201,7 +200,11 @@ class RunDriver:
         self._call(
             on.SYNC_LOAD,
             LoadSync.Request(
-                **common, dt_s=run.dt_s, participants=participants, observers=self._observers
+                **common,
+                dt_s=run.dt_s,
+                participants=[self._node.get_name()],
+                listeners=1 + run.has_uavs,
+                observers=self._observers,
             ),
         )
         limit_s = self._settings.load_limit_s

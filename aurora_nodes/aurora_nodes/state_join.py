@@ -30,6 +30,11 @@ class StateJoin:
         """A source whose next state has not come: of several, the one that came last before."""
         return next(source for source in self._latest_first if source not in self._rows)
 
+    @property
+    def lacking(self) -> tuple[str, ...]:
+        """The sources whose next state has not come."""
+        return tuple(source for source in self._sources if source not in self._rows)
+
     def put(
         self, source: str, run_number: int, tick: int, rows: FloatArray
     ) -> tuple[int, dict[str, FloatArray]] | None:

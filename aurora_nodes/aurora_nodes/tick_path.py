@@ -14,7 +14,7 @@ import numpy as np
 from rclpy.publisher import Publisher
 from rclpy.subscription import Subscription
 
-from aurora_core.errors import AuroraError
+from aurora_core.errors import AuroraError, ParticipantSilentError
 from aurora_core.execution.step_output import StepOutput, Stepper
 from aurora_core.trace.layout import GROUND_WIDTH, UAV_WIDTH
 from aurora_core.trace.messages import MessageBuilder
@@ -28,6 +28,7 @@ from aurora_ros.lifecycle import ManagedNode
 from aurora_ros.node import defect
 
 GROUND, AIR = 'ground', 'air'
+_BRIDGES = {GROUND: 'sumo_bridge', AIR: 'uav_bridge'}
 _NO_UAVS = np.zeros((0, UAV_WIDTH))
 
 
@@ -178,10 +179,23 @@ class TickPath:
         if run is None or message.run_number != run.run_number:
             return
         if message.state == SyncStatus.FAILED:
-            run.error = read_error(message, message.failed_participant or 'sync')
+            run.error = self._blame(message)
         if message.state in (SyncStatus.FAILED, SyncStatus.FINISHED):
             self.disarm()
             run.ended.set()
+
+    def _blame(self, message: SyncStatus) -> AuroraError | None:
+        """Return why sync gave up; the clock knows only that this node was silent, not why."""
+        error = read_error(message, message.failed_participant or 'sync')
+        lacking = self._join.lacking
+        if lacking and message.failed_participant == self._node.get_name():
+            name = _BRIDGES[lacking[0]]
+            return ParticipantSilentError(
+                f'{name} sent no state of tick {message.tick} in time',
+                component=name,
+                hint=f'see the log of {name}',
+            )
+        return error
 
     def _fail(self, run: ActiveRun, err: AuroraError) -> None:
         """Tell sync; the run ends here whether sync hears it or not."""

@@ -59,3 +59,12 @@ def test_a_lost_state_is_an_error(source: str) -> None:
     join = StateJoin(RUN, ('ground', 'air'))
     with pytest.raises(ExecutionError, match=f'{source} state of tick 0, found tick 1'):
         join.put(source, RUN, 1, ROWS)
+
+
+def test_who_is_waited_for_is_known() -> None:
+    join = StateJoin(RUN, ('ground', 'air'))
+    seen = [join.lacking]
+    for source in ('air', 'ground'):
+        join.put(source, RUN, 0, ROWS)
+        seen.append(join.lacking)
+    assert seen == [('ground', 'air'), ('ground',), ('ground', 'air')]

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import threading
 import time
 from collections.abc import Iterator
@@ -25,10 +26,12 @@ from aurora_core.temporal.schedule import Schedule
 from aurora_msgs.action import ExecuteScenario
 from aurora_msgs.msg import SyncStatus
 from aurora_ros import interfaces as on
+from aurora_ros import qos
 from aurora_ros.conversions.loads import ground_request, uav_request
 from aurora_ros.conversions.messages import agsg_message
 from aurora_ros.conversions.options import options_json
 from aurora_ros.interfaces import Call
+from aurora_ros.matching import wait_until
 from aurora_ros.testing.partner import Partner, partner
 
 _FIXED_LIMIT_S = 120.0
@@ -60,7 +63,12 @@ class GraphClient:
         self._marks: dict[int, _Mark] = {}
         self._last_tick = 0
         self._ended = threading.Event()
-        play.on(on.SYNC_STATUS, self._on_status)
+        # Each state in turn: a short run is over before the first one was looked at.
+        statuses = dataclasses.replace(on.SYNC_STATUS, qos=qos.LATCHED_HISTORY)
+        play.on(statuses, self._on_status)
+        # The clock says at its start that it is idle, also to whoever comes later.
+        if not wait_until(lambda: bool(self._marks), _STATUS_LIMIT_S):
+            raise ResultsError('the clock does not say in which state it is')
 
     def run(self, agsg: Agsg, bag_directory: Path, *, records: bool = True) -> RunFigures:
         """Execute, and time it.
@@ -120,7 +128,8 @@ class GraphClient:
         sync = on.SYNC_LOAD.type.Request(
             **common,
             dt_s=execution.roster.dt_s,
-            participants=['sumo_bridge', 'uav_bridge', 'executor'],
+            participants=['executor'],
+            listeners=2,
         )
         ground = ground_request(execution.ground_load, listeners=_LISTENERS, **common)
         air = uav_request(execution.air_load, listeners=_LISTENERS, **common)

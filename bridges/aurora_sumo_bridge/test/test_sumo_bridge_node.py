@@ -51,7 +51,6 @@ class Graph:
         self.process = process
         self.play = play
         self.states = play.collect(on.GROUND_STATE)
-        self.dones = play.collect(on.TICK_DONE)
         self.faults = play.collect(on.FAULT)
         self.tick = play.publisher(on.TICK)
         self.command = play.publisher(on.GROUND_COMMAND)
@@ -111,11 +110,6 @@ def test_states_follow_tick_and_command(graph: Graph) -> None:
     assert way_m == pytest.approx(0.25, abs=0.02)
     assert [(s.run_number, s.tick) for s in graph.states] == [(1, 0), (1, 1)]
     assert graph.states[1].header.stamp.nanosec == 50_000_000
-    assert wait_until(lambda: len(graph.dones) == 2, 5.0)
-    assert [(d.participant, d.tick) for d in graph.dones] == [
-        ('sumo_bridge', 0),
-        ('sumo_bridge', 1),
-    ]
 
 
 def test_a_tick_waits_for_its_own_command_whatever_comes_first(graph: Graph) -> None:
@@ -162,7 +156,7 @@ def test_a_command_that_sumo_refuses_becomes_a_fault_with_the_name(graph: Graph)
     assert graph.faults[0].node == 'sumo_bridge'
     assert graph.faults[0].run_number == 1
     assert graph.faults[0].error_code == GroundSimulatorError.default_code
-    assert len(graph.dones) == 1, 'no TickDone for a tick that failed'
+    assert len(graph.states) == 1, 'no state of a tick that failed'
 
 
 def test_a_lost_tick_becomes_a_fault(graph: Graph) -> None:

@@ -13,7 +13,6 @@ from types import MappingProxyType
 from aurora_core.errors import AuroraError, ExecutionError, ParticipantSilentError
 
 COMPONENT = 'sync'
-EXECUTOR = 'executor'
 
 
 class Phase(Enum):
@@ -107,11 +106,6 @@ class TickBarrier:
     def status(self) -> BarrierStatus:
         """State of the clock."""
         return self._status
-
-    @property
-    def listeners(self) -> int:
-        """How many hear the tick: every participant but the executor, which hears the states."""
-        return sum(name != EXECUTOR for name in self._load.participants)
 
     def load(self, load: BarrierLoad) -> None:
         """Prepare a run; one that is going on is given up.

@@ -22,8 +22,9 @@ from aurora_ros.lifecycle import ManagedNode
 from aurora_ros.main import run_node
 from aurora_ros.matching import await_subscribers
 from aurora_ros.parameters import declare, require_positive
-from aurora_sync.barrier import EXECUTOR, BarrierLoad, Phase, TickBarrier, tick_of_horizon
+from aurora_sync.barrier import BarrierLoad, Phase, TickBarrier, tick_of_horizon
 
+_EXECUTOR = 'executor'
 _STATES = {
     Phase.IDLE: SyncStatus.IDLE,
     Phase.LOADED: SyncStatus.LOADED,
@@ -56,6 +57,7 @@ class SyncNode(ManagedNode):
         self._settings = declare(self, 'sync', SyncSettings)
         self.wants_autostart = self._settings.autostart
         self._dt_s = 0.0
+        self._listeners = 0
         self._published: tuple[Phase, int] | None = None
 
     def configure(self) -> None:
@@ -89,6 +91,7 @@ class SyncNode(ManagedNode):
     def _load(self, request: LoadSync.Request, response: LoadSync.Response) -> LoadSync.Response:
         self.require_active()
         self._dt_s = request.dt_s
+        self._listeners = request.listeners
         self._barrier.load(
             BarrierLoad(
                 run_number=request.run_number,
@@ -106,7 +109,7 @@ class SyncNode(ManagedNode):
     ) -> StartSync.Response:
         self.require_active()
         await_subscribers(
-            {self._tick_publisher: self._barrier.listeners},
+            {self._tick_publisher: self._listeners},
             limit_s=self._settings.silence_limit_s,
             component=self.get_name(),
         )
@@ -154,9 +157,9 @@ class SyncNode(ManagedNode):
         status = self._barrier.status
         if status.phase not in (Phase.LOADED, Phase.RUNNING):
             return
-        cause = self._watch.cause_of_death(EXECUTOR)
+        cause = self._watch.cause_of_death(_EXECUTOR)
         if cause:
-            error = ParticipantSilentError(f'{EXECUTOR} {cause}', component=EXECUTOR)
+            error = ParticipantSilentError(f'{_EXECUTOR} {cause}', component=_EXECUTOR)
             self._barrier.fault(status.run_number, error)
 
     def _publish(self, tick: int | None) -> None:

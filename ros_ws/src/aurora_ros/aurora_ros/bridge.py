@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""`LockstepBridge`: what the two simulator bridges have in common as participants."""
+"""`LockstepBridge`: what the two simulator bridges have in common."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from rclpy.clock_type import ClockType
 from rclpy.subscription import Subscription
 
 from aurora_core.errors import AuroraError
-from aurora_msgs.msg import Fault, SyncStatus, Tick, TickDone
+from aurora_msgs.msg import Fault, SyncStatus, Tick
 from aurora_ros import interfaces as on
 from aurora_ros.errors import write_error
 from aurora_ros.heartbeat import HeartbeatWatch
@@ -39,7 +39,7 @@ class BridgeInterfaces:
 
 
 class LockstepBridge(ManagedNode):
-    """Waits for tick and command, advances its simulator, publishes the state, reports done.
+    """Waits for tick and command, advances its simulator, publishes the state.
 
     Args:
         name: Node name, also its name as a participant.
@@ -78,7 +78,6 @@ class LockstepBridge(ManagedNode):
     def configure(self) -> None:
         """Create the endpoints."""
         self._state_publisher = self.publisher(self._interfaces.state)
-        self._done_publisher = self.publisher(on.TICK_DONE)
         self._fault_publisher = self.publisher(on.FAULT)
         self._ticks = self.subscription(on.TICK, self._on_tick)
         self._commands = self.subscription(self._interfaces.command, self._on_command)
@@ -95,7 +94,7 @@ class LockstepBridge(ManagedNode):
         self.require_active()
         self._input.disarm()
         await_subscribers(
-            {self._state_publisher: max(1, request.listeners), self._done_publisher: 1},
+            {self._state_publisher: max(1, request.listeners)},
             limit_s=MATCH_LIMIT_S,
             component=self.get_name(),
         )
@@ -147,9 +146,6 @@ class LockstepBridge(ManagedNode):
             self._fail(defect(err, self.get_name()))
             return
         self._state_publisher.publish(message)
-        self._done_publisher.publish(
-            TickDone(run_number=run_number, tick=tick, participant=self.get_name())
-        )
         self.heartbeat.at(tick)
 
     def _fail(self, err: AuroraError) -> None:

@@ -210,7 +210,7 @@ class FileReading:
             self._nameless += 1
             return None
         type_name, topic, name = channel
-        self._content.add(name, record.log_time, record.data)
+        self._content.add([(name, record.log_time, record.data)])
         number = self._counts.get(topic, 0)
         self._counts[topic] = number + 1
         if not type_name:

@@ -6,7 +6,6 @@ Everything goes to the kernel twice per simulated second, each time with a check
 so far: the death of this process loses nothing of that. The disk is brought up to date once per
 simulated second, beside the work, for the death of the machine.
 
-`mcap.writer` is used because the writer of `rosbags` keeps everything in memory until it closes.
 `metadata.yaml` is written beside it when the bag is closed, so that `ros2 bag` and `rosbags` read
 it; a bag without one was never closed.
 """
@@ -22,7 +21,6 @@ from types import TracebackType
 
 import yaml
 from mcap.records import Schema
-from mcap.writer import CompressionType, Writer
 from rosbags.serde import SerdeError
 
 from aurora_core.errors import BagError
@@ -36,12 +34,15 @@ from aurora_core.trace.bag_metadata import (
 from aurora_core.trace.checkpoints import CHECKPOINT, ContentDigest
 from aurora_core.trace.definitions import MessageDefinitions
 from aurora_core.trace.disk_sync import DiskSync
+from aurora_core.trace.mcap_file import Entry, McapFile
 from aurora_core.trace.messages import EVENTS, TOPICS
 from aurora_core.trace.records import ScenarioEventKind
 
 # Simulated time after which what was written leaves this process, and is on the disk.
 FLUSH_NS = 500_000_000
 SYNC_NS = 1_000_000_000
+# Bytes of messages after which they do so anyway.
+_PENDING_BYTES = 1 << 20
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -90,6 +91,10 @@ class BagWriter:
         self._schemas: dict[str, int] = {}
         self._content = ContentDigest()
         self._checked = 0
+        # What has not left this process, and the same for the digest.
+        self._pending: list[Entry] = []
+        self._pending_bytes = 0
+        self._unhashed: list[tuple[bytes, int, bytes]] = []
         self._first_ns: int | None = None
         self._last_ns = 0
         # The first tick after 0 is a flush: graph, roster and world are out at once.
@@ -104,10 +109,11 @@ class BagWriter:
                 f'cannot create the bag {directory}: {err}',
                 hint='choose another output folder or free some space',
             ) from err
-        # Zstandard chunks: a run of ten agents shrinks to a fifth, at the cost of microseconds.
-        self._writer = Writer(self._stream, compression=CompressionType.ZSTD)
         self._sync = DiskSync(self._stream.fileno())
-        self._guard(lambda: self._writer.start(profile='ros2', library='aurora'))
+        try:
+            self._file = McapFile(self._stream, library='aurora')
+        except OSError as err:
+            raise self._failure(err) from err
 
     def __enter__(self) -> BagWriter:
         return self
@@ -141,17 +147,15 @@ class BagWriter:
         """
         self._refuse_closed(f'takes no message on {topic}')
         channel = self._channels.get(topic) or self._define(topic, type_name)
-        try:
-            self._writer.add_message(channel.number, time_ns, cdr, time_ns, channel.count)
-        except OSError as err:
-            raise self._failure(err) from err
+        self._pending.append(Entry(channel.number, channel.count, time_ns, cdr))
+        self._pending_bytes += len(cdr)
+        self._unhashed.append((channel.name, time_ns, cdr))
         channel.count += 1
-        self._content.add(channel.name, time_ns, cdr)
         if self._first_ns is None or time_ns < self._first_ns:
             self._first_ns = time_ns
         if time_ns > self._last_ns:
             self._last_ns = time_ns
-        if time_ns - self._flushed_ns >= FLUSH_NS:
+        if time_ns - self._flushed_ns >= FLUSH_NS or self._pending_bytes > _PENDING_BYTES:
             self._guard(lambda: self._bring(to_disk=time_ns - self._synced_ns >= SYNC_NS))
         if topic == EVENTS and self._begins_phase(cdr):
             # With the next tick: what belongs to this one is still to come.
@@ -183,7 +187,7 @@ class BagWriter:
             BagError: The disk is full, or the bag is closed.
         """
         self._refuse_closed(f'takes no note {name}')
-        self._guard(lambda: self._writer.add_metadata(name, dict(values)))
+        self._guard(lambda: self._file.add_metadata(name, values))
 
     def close(self) -> BagSummary:
         """Finish the bag and write its metadata.
@@ -201,7 +205,7 @@ class BagWriter:
         return BagSummary(path=self._directory, counts=counts, sha256=digest)
 
     def _bring(self, *, to_disk: bool) -> None:
-        self._writer.flush()  # type: ignore[no-untyped-call]
+        self._write_pending()
         if self._content.messages > self._checked:
             self._checkpoint(final=False)
         self._stream.flush()
@@ -210,9 +214,16 @@ class BagWriter:
             self._sync.request()
             self._synced_ns = self._last_ns
 
+    def _write_pending(self) -> None:
+        self._content.add(self._unhashed)
+        self._file.add_chunk(self._pending)
+        self._unhashed.clear()
+        self._pending.clear()
+        self._pending_bytes = 0
+
     def _checkpoint(self, *, final: bool) -> None:
         self._checked = self._content.messages
-        self._writer.add_metadata(CHECKPOINT, self._content.checkpoint(final=final).record())
+        self._file.add_metadata(CHECKPOINT, self._content.checkpoint(final=final).record())
 
     def _begins_phase(self, cdr: bytes) -> bool:
         try:
@@ -222,9 +233,9 @@ class BagWriter:
         return int(event.kind) == ScenarioEventKind.PHASE
 
     def _finish(self) -> str:
-        self._writer.flush()  # type: ignore[no-untyped-call]
+        self._write_pending()
         self._checkpoint(final=True)
-        self._writer.finish()  # type: ignore[no-untyped-call]
+        self._file.finish()
         self._stream.flush()
         self._sync.close()
         os.fsync(self._stream.fileno())
@@ -261,14 +272,14 @@ class BagWriter:
 
     def _open(self, topic: str, schema: Schema, encoding: str) -> _Channel:
         if schema.name not in self._schemas:
-            self._schemas[schema.name] = self._writer.register_schema(
-                name=schema.name, encoding=schema.encoding, data=schema.data
+            self._schemas[schema.name] = self._file.add_schema(
+                schema.name, schema.encoding, schema.data
             )
-        number = self._writer.register_channel(
-            topic=topic,
-            message_encoding=encoding,
-            schema_id=self._schemas[schema.name],
-            metadata={'offered_qos_profiles': yaml.safe_dump([qos(topic)])},
+        number = self._file.add_channel(
+            topic,
+            encoding,
+            self._schemas[schema.name],
+            {'offered_qos_profiles': yaml.safe_dump([qos(topic)])},
         )
         channel = _Channel(number, topic.encode('utf-8'), schema.name)
         self._channels[topic] = channel

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import hashlib
 import struct
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 # Names of MCAP Metadata records.
@@ -55,12 +55,15 @@ class ContentDigest:
         self.messages = 0
         self.time_ns = 0
 
-    def add(self, topic: bytes, time_ns: int, cdr: bytes | memoryview) -> None:
-        """Take in a message; `topic` is its name in UTF-8."""
-        self._digest.update(_HEAD.pack(len(topic), time_ns, len(cdr)) + topic)
-        self._digest.update(cdr)
-        self.messages += 1
-        self.time_ns = max(self.time_ns, time_ns)
+    def add(self, messages: Iterable[tuple[bytes, int, bytes | memoryview]]) -> None:
+        """Take in messages: topic name in UTF-8, simulated time, encoding."""
+        parts: list[bytes | memoryview] = []
+        for topic, time_ns, cdr in messages:
+            parts += (_HEAD.pack(len(topic), time_ns, len(cdr)), topic, cdr)
+            self.messages += 1
+            if time_ns > self.time_ns:
+                self.time_ns = time_ns
+        self._digest.update(b''.join(parts))
 
     def checkpoint(self, *, final: bool = False) -> Checkpoint:
         """Return where the digest stands."""
