@@ -132,7 +132,10 @@ def _look(result: Any, killed_s: float, reference: Trace, definitions: MessageDe
             problems.append('rosbags reads another number of messages')
     for path in (bag, Path(recovery.bag)):
         judgement = judge(path)
-        if not judgement.refused or judgement.integrity not in ('truncated', 'unknown'):
+        known = {'truncated', 'unknown'}
+        if recovery.last_complete_tick <= 0:
+            known.add('')  # killed within the first ticks: there may be nothing to judge
+        if not judgement.refused or judgement.integrity not in known:
             problems.append(f'{path.name} is {judgement.integrity}, exit code {judgement.code}')
     trace = read_bag(Path(recovery.bag), definitions).trace
     upto = recovery.last_complete_tick + 1

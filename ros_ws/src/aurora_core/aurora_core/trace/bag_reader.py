@@ -142,7 +142,9 @@ class FileReading:
         self._counts: dict[str, int] = {}
         self._content = ContentDigest()
         self._checked_ns = 0
+        # Not matched by the messages before it; explained by a later one that is.
         self._checkpoints_fail: list[str] = []
+        self._checkpoints_changed: list[str] = []
         self._checkpoint_seen = self._final_seen = False
         self._ended = False
         self._foreign: Damage = []
@@ -246,7 +248,11 @@ class FileReading:
             if checkpoint == self._content.checkpoint(final=checkpoint.final):
                 # What failed before was the checkpoint, not what it is about.
                 if self._checkpoints_fail:
-                    self._checkpoints_fail = ['a checkpoint was changed']
+                    self._checkpoints_fail.clear()
+                    self._checkpoints_changed.append(
+                        f'a checkpoint between {self._checked_ns / 1e9:.2f} s and '
+                        f'{checkpoint.time_ns / 1e9:.2f} s was changed'
+                    )
                 self._checked_ns = checkpoint.time_ns
             elif not self._checkpoints_fail:
                 self._checkpoints_fail.append(
@@ -270,7 +276,8 @@ class FileReading:
             )
         damage += [(Integrity.ALTERED, note) for note in self._undecoded[:_NOTES]]
         if not self.defects and not self._nameless:
-            damage += [(Integrity.ALTERED, note) for note in self._checkpoints_fail]
+            notes = [*self._checkpoints_changed[:_NOTES], *self._checkpoints_fail]
+            damage += [(Integrity.ALTERED, note) for note in notes]
             if self._checkpoint_seen and self._ended and not self._final_seen:
                 damage.append((Integrity.ALTERED, 'the last checkpoint is missing'))
         self.damage += damage
@@ -317,7 +324,8 @@ class FileReading:
             was = f': {size} bytes of {whole}' if whole is not None and size < whole else ''
             return [(Integrity.TRUNCATED, f'{self._file.name} was cut short{was}')]
         note = f'{self._file.name} does not match the digest of its recording'
-        if self.defects or self._nameless or self._undecoded or self._checkpoints_fail:
+        checkpoints = self._checkpoints_fail or self._checkpoints_changed
+        if self.defects or self._nameless or self._undecoded or checkpoints:
             return [(Integrity.ALTERED, note)]
         # Nothing that was read shows it: look where a reader of messages need not look.
         for record in scan(self._file, check_index=True):

@@ -134,6 +134,21 @@ def test_damaged_numbers_inside_messages_do_not_crash(
             _integrity(folder)
 
 
+def test_a_changed_checkpoint_is_located(bag: Path) -> None:
+    (file,) = bag.glob('*.mcap')
+    content = bytearray(file.read_bytes())
+    places = [found.end() for found in re.finditer(rb'sha256\x40\0\0\0', bytes(content))]
+    content[places[2]] ^= 1  # a hexadecimal digit
+    file.write_bytes(bytes(content))
+    found = read_bag(bag, message_definitions()).trace
+    assert found.integrity is Integrity.ALTERED
+    assert found.ticks == 60
+    said = re.search(r'a checkpoint between (\S+) s and (\S+) s was changed', found.integrity_note)
+    assert said is not None, found.integrity_note
+    begin_s, end_s = map(float, said.groups())
+    assert 0.0 < begin_s < end_s < 3.0
+
+
 def test_without_metadata_nobody_can_vouch_for_a_whole_bag(bag: Path) -> None:
     (bag / 'metadata.yaml').unlink()
     content = read_bag(bag, message_definitions())
