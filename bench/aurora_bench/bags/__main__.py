@@ -16,6 +16,7 @@ from typing import Any
 
 from aurora_bench.bags.damage import Case, Damager
 from aurora_bench.bags.judge import Judgement, judge
+from aurora_bench.interrupt import stop_on_sigterm
 from aurora_bench.machine import machine_facts
 from aurora_bench.progress import Progress
 from aurora_bench.results import Goal, Table, write_results
@@ -36,6 +37,7 @@ Judged = tuple[Case, Judgement]
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the campaign; return 1 when something that must hold does not."""
+    stop_on_sigterm()
     parser = argparse.ArgumentParser(prog='aurora_bench.bags', description=__doc__)
     parser.add_argument('--results', type=Path, default=Path('docs/bench'), metavar='FOLDER')
     parser.add_argument('--seed', type=int, default=1)

@@ -17,6 +17,7 @@ from pathlib import Path
 
 from aurora_bench.endurance.cases import cases
 from aurora_bench.endurance.holdings import Holdings, growth_goals, holdings
+from aurora_bench.interrupt import stop_on_sigterm
 from aurora_bench.machine import machine_facts
 from aurora_bench.progress import Progress
 from aurora_bench.results import Goal, Table, write_results
@@ -35,6 +36,7 @@ Outcome = tuple[str, str]
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the campaign; return 1 when something that must hold does not."""
+    stop_on_sigterm()
     parser = argparse.ArgumentParser(prog='aurora_bench.endurance', description=__doc__)
     parser.add_argument('--results', type=Path, default=Path('docs/bench'), metavar='FOLDER')
     parser.add_argument('--runs', type=int, default=100)

@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 import argparse
-import signal
 import sys
 import tempfile
 from pathlib import Path
@@ -16,6 +15,7 @@ from aurora_bench.faults.matrix import PROMPT, Cell, CellResult, cells, run_cell
 from aurora_bench.faults.prompts import PromptRounds, run_prompts
 from aurora_bench.faults.report import write_report
 from aurora_bench.faults.updown import Round, run_round
+from aurora_bench.interrupt import stop_on_sigterm
 from aurora_bench.progress import Progress
 from aurora_core.errors import AuroraError
 from aurora_ros.testing.domains import own_domain
@@ -25,8 +25,7 @@ from aurora_ros.testing.partner import partner
 def main(argv: list[str] | None = None) -> int:
     """Run the campaign; 1 when something does not hold."""
     options = _options(argv)
-    # As Ctrl-C: what was started is stopped.
-    signal.signal(signal.SIGTERM, lambda _number, _frame: sys.exit(143))
+    stop_on_sigterm()
     chosen = cells(options.only) if options.matrix else []
     steps = len(chosen) + options.updown + (options.prompts + 1 if options.prompts else 0)
     progress = Progress('faults', steps)

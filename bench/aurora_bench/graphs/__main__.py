@@ -11,6 +11,7 @@ import tempfile
 from pathlib import Path
 
 from aurora_bench.graphs.campaign import PROMPTS, Outcome, campaign
+from aurora_bench.interrupt import stop_on_sigterm
 from aurora_bench.machine import machine_facts
 from aurora_bench.progress import Progress
 from aurora_bench.results import Goal, Table, write_results
@@ -21,6 +22,7 @@ NAME = 'graphs'
 
 def main() -> int:
     """Run the campaign; return 0 when nothing crossed, leaked or was left behind."""
+    stop_on_sigterm()
     parser = argparse.ArgumentParser(prog=f'aurora_bench.{NAME}', description=__doc__)
     parser.add_argument('--results', type=Path, default=Path('docs/bench'), metavar='DIR')
     parser.add_argument('--graphs', type=int, default=4, help='graphs at once')

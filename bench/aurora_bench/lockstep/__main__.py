@@ -14,6 +14,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from aurora_bench.interrupt import stop_on_sigterm
 from aurora_bench.lockstep.campaign import Campaign, Plan
 from aurora_bench.lockstep.figure import draw
 from aurora_bench.lockstep.goals import goals, one_hash_each
@@ -29,6 +30,7 @@ _BROKEN, _USAGE = 4, 64
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Measure, write the results, print goals and table; return the exit code."""
+    stop_on_sigterm()
     options = _parser().parse_args(arguments)
     try:
         plan = _plan(options)

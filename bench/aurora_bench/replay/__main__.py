@@ -11,6 +11,7 @@ from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 
+from aurora_bench.interrupt import stop_on_sigterm
 from aurora_bench.machine import machine_facts
 from aurora_bench.progress import Progress
 from aurora_bench.replay.campaign import Campaign, Round
@@ -21,6 +22,7 @@ from aurora_system_tests.graph import running_graph
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the campaign; return 1 when a margin differs."""
+    stop_on_sigterm()
     parser = argparse.ArgumentParser(prog='aurora_bench.replay', description=__doc__)
     parser.add_argument('--prompts', type=int, default=30, help='how many runs')
     parser.add_argument('--results', type=Path, default=Path('docs/bench'), help='folder')
