@@ -179,16 +179,18 @@ class TickPath:
         if run is None or message.run_number != run.run_number:
             return
         if message.state == SyncStatus.FAILED:
-            run.error = self._blame(message)
+            run.error = self._blame(run, message)
         if message.state in (SyncStatus.FAILED, SyncStatus.FINISHED):
             self.disarm()
             run.ended.set()
 
-    def _blame(self, message: SyncStatus) -> AuroraError | None:
+    def _blame(self, run: ActiveRun, message: SyncStatus) -> AuroraError | None:
         """Return why sync gave up; the clock knows only that this node was silent, not why."""
         error = read_error(message, message.failed_participant or 'sync')
         lacking = self._join.lacking
-        if lacking and message.failed_participant == self._node.get_name():
+        # Of a tick that was stepped the states had come: then this node itself was too slow.
+        waited = run.last_tick < message.tick and bool(lacking)
+        if waited and message.failed_participant == self._node.get_name():
             name = _BRIDGES[lacking[0]]
             return ParticipantSilentError(
                 f'{name} sent no state of tick {message.tick} in time',

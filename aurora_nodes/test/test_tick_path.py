@@ -41,15 +41,16 @@ class Executor:
 
 
 @pytest.mark.parametrize(
-    ('heard', 'silent', 'named'),
+    ('heard', 'stepped', 'silent', 'named'),
     [
-        ((), 'executor', 'sumo_bridge'),
-        ((on.GROUND_STATE,), 'executor', 'uav_bridge'),
-        ((on.GROUND_STATE,), 'recorder', 'recorder'),
+        ((), -1, 'executor', 'sumo_bridge'),
+        ((on.GROUND_STATE,), -1, 'executor', 'uav_bridge'),
+        ((on.GROUND_STATE,), -1, 'recorder', 'recorder'),
+        ((), 0, 'executor', 'executor'),
     ],
 )
-def test_a_bridge_that_sent_no_state_is_named(
-    heard: tuple[Topic, ...], silent: str, named: str
+def test_a_bridge_that_sent_no_state_is_named_and_nobody_else(
+    heard: tuple[Topic, ...], stepped: int, silent: str, named: str
 ) -> None:
     node = Executor()
     path = TickPath(node)  # type: ignore[arg-type]
@@ -62,6 +63,7 @@ def test_a_bridge_that_sent_no_state_is_named(
         on_tick=lambda _tick: None,
     )
     path.arm(run)
+    run.last_tick = stepped
     for topic in heard:
         state = GroundState(run_number=RUN, tick=0, data=np.zeros(GROUND_WIDTH))
         node.callbacks[topic](state)

@@ -42,7 +42,7 @@ class LockstepBridge(ManagedNode):
     """Waits for tick and command, advances its simulator, publishes the state.
 
     Args:
-        name: Node name, also its name as a participant.
+        name: Node name.
         interfaces: What it serves.
     """
 

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Blocking calls with wall-clock limits, made from a worker thread (never a nested spin).
 
-A service client whose server was killed waits for ever and `service_is_ready` stays true for
-20 s, so each wait has a limit and asks the heartbeats in between.
+A service client whose server was killed waits for ever and `service_is_ready` stays true
+until its lease is over, so each wait has a limit and asks the heartbeats in between.
 """
 
 from __future__ import annotations

@@ -39,6 +39,7 @@ READY_FILE_VARIABLE = 'AURORA_READY_FILE'
 STOP_LIMIT_S = 2.5
 # After this time a node that was told to end is ended, wherever it hangs.
 _END_LIMIT_S = 8.0
+_HUNG = 1  # exit code then: it did not end well
 _SIGNALS = (signal.SIGINT, signal.SIGTERM)
 _POLL_S = 0.02
 
@@ -154,7 +155,7 @@ class _Stop:
             faulthandler.dump_traceback(all_threads=True)
             if self.ready is not None:
                 self.ready.unlink(missing_ok=True)
-            os._exit(0)
+            os._exit(_HUNG)
 
     def _next_signal(self) -> int:
         while (number := self._reader.recv(1)[0]) not in _SIGNALS:

@@ -63,7 +63,6 @@ class BagSummary:
 @dataclass(slots=True)
 class _Channel:
     number: int
-    name: bytes
     type_name: str
     count: int = 0
 
@@ -91,10 +90,10 @@ class BagWriter:
         self._schemas: dict[str, int] = {}
         self._content = ContentDigest()
         self._checked = 0
-        # What has not left this process, and the same for the digest.
+        # What has not left this process, and topic names by channel number for its digest.
         self._pending: list[Entry] = []
         self._pending_bytes = 0
-        self._unhashed: list[tuple[bytes, int, bytes]] = []
+        self._names: dict[int, bytes] = {}
         self._first_ns: int | None = None
         self._last_ns = 0
         # The first tick after 0 is a flush: graph, roster and world are out at once.
@@ -149,7 +148,6 @@ class BagWriter:
         channel = self._channels.get(topic) or self._define(topic, type_name)
         self._pending.append(Entry(channel.number, channel.count, time_ns, cdr))
         self._pending_bytes += len(cdr)
-        self._unhashed.append((channel.name, time_ns, cdr))
         channel.count += 1
         if self._first_ns is None or time_ns < self._first_ns:
             self._first_ns = time_ns
@@ -215,9 +213,8 @@ class BagWriter:
             self._synced_ns = self._last_ns
 
     def _write_pending(self) -> None:
-        self._content.add(self._unhashed)
+        self._content.add((self._names[m.channel], m.time_ns, m.data) for m in self._pending)
         self._file.add_chunk(self._pending)
-        self._unhashed.clear()
         self._pending.clear()
         self._pending_bytes = 0
 
@@ -281,7 +278,8 @@ class BagWriter:
             self._schemas[schema.name],
             {'offered_qos_profiles': yaml.safe_dump([qos(topic)])},
         )
-        channel = _Channel(number, topic.encode('utf-8'), schema.name)
+        self._names[number] = topic.encode('utf-8')
+        channel = _Channel(number, schema.name)
         self._channels[topic] = channel
         return channel
 
