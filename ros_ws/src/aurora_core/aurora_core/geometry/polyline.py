@@ -14,8 +14,6 @@ from aurora_core.geometry.arrays import FloatArray, FloatLike, as_rows, frozen
 
 _START_TIE_M = 2.0  # branches this much farther than the nearest one compete for the start
 DEFAULT_WINDOW_M = 10.0
-_WAY_ON_ROUTE = 2.0  # a curve may be longer than its chord
-_WAY_OFF_ROUTE = 4.0  # a way across a block cuts three of its sides
 
 
 class Polyline:
@@ -110,57 +108,9 @@ class Polyline:
         else:
             reach = DEFAULT_WINDOW_M if window_m is None else window_m
             low, high, anchor = near_s - reach, near_s + reach, near_s
-        return self._nearest(x_m, y_m, low, high, anchor, extend)
+        return self.nearest_place(x_m, y_m, low, high, anchor, extend)
 
-    def project_series(
-        self,
-        xy: FloatLike,
-        start_s: float = 0.0,
-        *,
-        window_m: float = DEFAULT_WINDOW_M,
-        extend: bool = False,
-    ) -> FloatArray:
-        """Return the progress of a body along a route that may cross or repeat itself.
-
-        Each sample is searched near the previous one: within the window plus twice the distance
-        moved (a curve is longer than its chord). A body farther from the route than the window
-        has left it; the reach then grows by four times its way until it is back, so it may
-        rejoin farther on but does not jump to a lap far away. The first sample lies on whichever
-        branch is nearest to it; of branches about equally near (2 m) the one nearest to
-        `start_s`.
-
-        Args:
-            xy: (T, 2) metres; rows that are not finite (body absent) are skipped.
-            start_s: Where the body is expected at first, metres.
-            window_m: Reach of the search.
-            extend: As in `project`.
-
-        Returns:
-            (T,) arc length in metres; NaN in skipped rows.
-        """
-        rows = as_rows('xy', xy, 2)
-        out = np.full(len(rows), np.nan)
-        anchor, travelled = start_s, 0.0
-        last: tuple[float, float] | None = None
-        on_route = True
-        for k, (x, y) in enumerate(rows.tolist()):
-            if not (math.isfinite(x) and math.isfinite(y)):
-                continue
-            if last is None:
-                s, lateral = self._first(x, y, start_s, extend)
-            else:
-                dx, dy = x - last[0], y - last[1]
-                travelled += math.sqrt(dx * dx + dy * dy)
-                reach = window_m + (_WAY_ON_ROUTE if on_route else _WAY_OFF_ROUTE) * travelled
-                s, lateral = self._nearest(x, y, anchor - reach, anchor + reach, anchor, extend)
-            out[k] = s
-            last = (x, y)
-            on_route = abs(lateral) <= window_m
-            if on_route:
-                anchor, travelled = s, 0.0
-        return out
-
-    def _first(self, x: float, y: float, start_s: float, extend: bool) -> tuple[float, float]:
+    def first_place(self, x: float, y: float, start_s: float, extend: bool) -> tuple[float, float]:
         """Return the best of the local nearest places by distance to the expected start."""
         found = [
             self._on_segment(k, x, y, -math.inf, math.inf, extend) for k in range(len(self._step))
@@ -180,7 +130,7 @@ class Polyline:
         s, square, side = min(runs, key=lambda run: abs(run[0] - start_s))
         return s, _signed(square, side)
 
-    def _nearest(
+    def nearest_place(
         self, x: float, y: float, low: float, high: float, anchor: float, extend: bool
     ) -> tuple[float, float]:
         count = len(self._step)

@@ -14,7 +14,7 @@ from aurora_core.geometry.box import box_gap_series
 from aurora_core.geometry.obstacles import point_box_distance
 from aurora_core.quantities.kernels import distance_2d
 from aurora_core.quantities.motion import distance
-from aurora_core.quantities.view import Body, RunView
+from aurora_core.quantities.view import Body, RunView, Series
 from aurora_core.trace.layout import GroundColumn
 
 FloatArray = npt.NDArray[np.float64]
@@ -50,17 +50,15 @@ class _Least:
     def __init__(self, ticks: int, ceiling: float) -> None:
         self.values = np.full(ticks, ceiling)
         self.which: npt.NDArray[np.intp] = np.full(ticks, -1, dtype=np.intp)
-        self.names: list[str] = []
+        self.count = 0
 
-    def add(self, name: str, ticks: npt.NDArray[np.intp], values: FloatArray) -> None:
+    def add(self, ticks: npt.NDArray[np.intp], values: FloatArray) -> None:
+        """Take in the next signal at some ticks."""
         less = values < self.values[ticks]
         if less.any():
             self.values[ticks[less]] = values[less]
-            self.which[ticks[less]] = len(self.names)
-        self.names.append(name)
-
-    def result(self) -> LeastSeries:
-        return LeastSeries(values=self.values, which=self.which, names=tuple(self.names))
+            self.which[ticks[less]] = self.count
+        self.count += 1
 
 
 def _reach(body: Body) -> float:
@@ -75,6 +73,13 @@ def body_gap(view: RunView) -> LeastSeries:
     UAV and ground body: distance of the UAV's centre from the box in space less half the UAV's
     greatest extent, below 0 when they overlap. At most CLEARANCE_CUTOFF_M.
     """
+    values, which = view.series(('body_gap',), _body_gap)
+    names = [f'{a.body_id} and {b.body_id}' for a, b in combinations(view.agents, 2)]
+    names += [f'{uav.body_id} and {body.body_id}' for uav in view.uavs for body in view.agents]
+    return LeastSeries(values=values, which=which, names=tuple(names))
+
+
+def _body_gap(view: RunView) -> Series:
     least = _Least(view.ticks, CLEARANCE_CUTOFF_M)
     for a, b in combinations(view.agents, 2):
         ra, rb = view.rows(a), view.rows(b)
@@ -93,13 +98,13 @@ def body_gap(view: RunView) -> LeastSeries:
             b.entry.length_m,
             b.entry.width_m,
         )
-        least.add(f'{a.body_id} and {b.body_id}', k, gap)
+        least.add(k, gap)
     for uav in view.uavs:
         half = max(uav.entry.length_m, uav.entry.width_m, uav.entry.height_m) / 2.0
         for body in view.agents:
             k, away = _to_box(view, uav, body, least.values + half)
-            least.add(f'{uav.body_id} and {body.body_id}', k, away - half)
-    return least.result()
+            least.add(k, away - half)
+    return least.values, least.which
 
 
 def _box(rows: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
@@ -139,16 +144,19 @@ def obstacle_clearance(view: RunView, uav: Body) -> LeastSeries:
 
     Never from the ground. Metres, at most CLEARANCE_CUTOFF_M.
     """
-    least = _Least(view.ticks, CLEARANCE_CUTOFF_M)
-    every = np.arange(view.ticks, dtype=np.intp)
-    point = view.reference(uav.body_id)
-    least.add(
-        'a building', every, view.geometry.obstacles.clearance_series(point, CLEARANCE_CUTOFF_M)
-    )
-    for body in view.agents:
-        k, away = _to_box(view, uav, body, least.values)
-        least.add(body.body_id, k, away)
-    return least.result()
+
+    def compute(part: RunView) -> Series:
+        least = _Least(part.ticks, CLEARANCE_CUTOFF_M)
+        every = np.arange(part.ticks, dtype=np.intp)
+        point = part.reference(uav.body_id)
+        least.add(every, part.geometry.obstacles.clearance_series(point, CLEARANCE_CUTOFF_M))
+        for body in part.agents:
+            least.add(*_to_box(part, uav, body, least.values))
+        return least.values, least.which
+
+    values, which = view.series(('obstacle_clearance', uav.body_id), compute)
+    names = ('a building', *(body.body_id for body in view.agents))
+    return LeastSeries(values=values, which=which, names=names)
 
 
 def separation(view: RunView, a: str, b: str) -> FloatArray:
@@ -158,5 +166,10 @@ def separation(view: RunView, a: str, b: str) -> FloatArray:
 
 def no_fly_distance(view: RunView, uav: Body) -> FloatArray:
     """Return the signed distance from the nearest no-fly zone, negative inside, (T,) metres."""
-    point = view.reference(uav.body_id)
-    return view.geometry.zones.distance_series(point, CLEARANCE_CUTOFF_M)
+
+    def compute(part: RunView) -> Series:
+        point = part.reference(uav.body_id)
+        return (part.geometry.zones.distance_series(point, CLEARANCE_CUTOFF_M),)
+
+    values: FloatArray = view.series(('no_fly', uav.body_id), compute)[0]
+    return values

@@ -16,8 +16,9 @@ import numpy.typing as npt
 
 from aurora_core.errors import MapError
 from aurora_core.geometry.polyline import Polyline
+from aurora_core.geometry.route_follower import RouteFollower
 from aurora_core.quantities.kernels import distance_2d
-from aurora_core.quantities.view import Body, RunView
+from aurora_core.quantities.view import Body, RunView, Series
 from aurora_core.trace.layout import GroundColumn, GroundCommandKind
 
 FloatArray = npt.NDArray[np.float64]
@@ -44,20 +45,55 @@ def along_route(view: RunView, follower: Body, leader: Body) -> AlongRoute:
 
     Samples at which one of them is absent hold what its last position gives.
     """
-    lead = np.zeros(view.ticks)
-    offset = np.zeros(view.ticks)
-    for start, stop, route in _routes(view, follower):
-        own = view.reference(follower.body_id)[start:stop, :2]
-        other = view.reference(leader.body_id)[start:stop, :2]
-        own_s = route.project_series(own, 0.0, extend=True)
-        expected = float(own_s[0]) + distance_2d(
-            float(other[0, 0] - own[0, 0]), float(other[0, 1] - own[0, 1])
-        )
-        other_s = route.project_series(other, expected, extend=True)
-        lead[start:stop] = other_s - own_s
-        offset[start:stop] = _offset(route, other, other_s)
+    key = ('along_route', follower.body_id, leader.body_id)
+    lead, offset = view.series(key, _Progress(follower, leader))
     half = (follower.entry.length_m + leader.entry.length_m) / 2.0
     return AlongRoute(lead_m=lead, gap_m=lead - half, offset_m=offset)
+
+
+class _Progress:
+    """Lead and offset of two bodies, part after part of a run."""
+
+    def __init__(self, follower: Body, leader: Body) -> None:
+        self._follower = follower
+        self._leader = leader
+        self._route: Polyline | None = None
+        self._own: RouteFollower | None = None
+        self._other: RouteFollower | None = None
+
+    def __call__(self, part: RunView) -> Series:
+        lead = np.zeros(part.ticks)
+        offset = np.zeros(part.ticks)
+        own = part.reference(self._follower.body_id)[:, :2]
+        other = part.reference(self._leader.body_id)[:, :2]
+        changes = _changes(part, self._follower)
+        if self._route is None:
+            changes.insert(0, (0, _planned(part, self._follower)))
+        elif not changes or changes[0][0] > 0:
+            changes.insert(0, (0, None))  # goes on
+        marks = [tick for tick, _ in changes] + [part.ticks]
+        for (start, stop), (_, route) in zip(pairwise(marks), changes, strict=True):
+            if stop > start:
+                here = slice(start, stop)
+                lead[here], offset[here] = self._along(route, own[here], other[here])
+        return lead, offset
+
+    def _along(
+        self, new: Polyline | None, own: FloatArray, other: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        if new is not None:
+            self._route, self._other = new, None
+            self._own = RouteFollower(new, extend=True)
+        assert self._route is not None  # the first part begins with a route
+        assert self._own is not None
+        own_s = self._own.follow(own)
+        if self._other is None:
+            expected = float(own_s[0]) + distance_2d(
+                float(other[0, 0] - own[0, 0]), float(other[0, 1] - own[0, 1])
+            )
+            self._other = RouteFollower(self._route, expected, extend=True)
+        other_s = self._other.follow(other)
+        return other_s - own_s, _offset(self._route, other, other_s)
 
 
 def _offset(route: Polyline, xy: FloatArray, s: FloatArray) -> FloatArray:
@@ -71,21 +107,16 @@ def _offset(route: Polyline, xy: FloatArray, s: FloatArray) -> FloatArray:
     return distance_2d(xy[:, 0] - at[:, 0], xy[:, 1] - at[:, 1])
 
 
-def _routes(view: RunView, body: Body) -> list[tuple[int, int, Polyline]]:
-    """Return the routes of a body with the ticks [start, stop) at which they are in force."""
-    changes: list[tuple[int, Polyline]] = [(0, _planned(view, body))]
+def _changes(view: RunView, body: Body) -> list[tuple[int, Polyline | None]]:
+    """Return the new routes of a body with the ticks from which on they are in force."""
+    found: list[tuple[int, Polyline | None]] = []
     for tick, commands in enumerate(view.trace.ground_commands):
         for command in commands:
             if command.agent == body.row and command.kind is GroundCommandKind.SET_ROUTE:
                 route = _of_edges(view, command.text.split())
                 if route is not None:
-                    changes.append((tick, route))
-    marks = [tick for tick, _ in changes] + [view.ticks]
-    return [
-        (start, stop, route)
-        for (start, stop), (_, route) in zip(pairwise(marks), changes, strict=True)
-        if stop > start
-    ]
+                    found.append((tick, route))
+    return found
 
 
 def _planned(view: RunView, body: Body) -> Polyline:

@@ -16,7 +16,7 @@ import numpy.typing as npt
 
 from aurora_core.geometry.sight import SIGHT_CLEAR_M, box_sight_series
 from aurora_core.quantities.kernels import distance_3d
-from aurora_core.quantities.view import RunView
+from aurora_core.quantities.view import RunView, Series
 from aurora_core.quantities.world_geometry import WorldGeometry
 from aurora_core.trace.layout import GroundColumn
 from aurora_core.trace.roster import RosterEntry
@@ -138,35 +138,48 @@ def sight_of(
 
 def sight_series(view: RunView, observer: str, target: str) -> SightSeries:
     """Return the sight of a body or place from a UAV over the whole run."""
-    exclude = frozenset(
-        view.body(name).row
-        for name in (observer, target)
-        if view.has(name) and not view.body(name).is_uav
+
+    def compute(part: RunView) -> Series:
+        sight = sight_of(
+            part.geometry,
+            part.sight_point(observer),
+            part.sight_point(target),
+            part.trace.ground,
+            part.trace.roster.agents,
+            _rows_of(part, observer, target),
+            part.present(target),
+        )
+        return sight.slant_range_m, sight.clearance_m, sight.margin_m, sight.visible
+
+    slant, clearance, margin, visible = view.series(('sight', observer, target), compute)
+    return SightSeries(
+        slant_range_m=slant, clearance_m=clearance, margin_m=margin, visible=visible
     )
-    return sight_of(
-        view.geometry,
-        view.sight_point(observer),
-        view.sight_point(target),
-        view.trace.ground,
-        view.trace.roster.agents,
-        exclude,
-        view.present(target),
+
+
+def _rows_of(view: RunView, a: str, b: str) -> frozenset[int]:
+    """Return the rows of the ground agents among two bodies."""
+    return frozenset(
+        view.body(name).row for name in (a, b) if view.has(name) and not view.body(name).is_uav
     )
 
 
 def radio_sight_series(view: RunView, a: str, b: str) -> BoolArray:
     """Return where two radios have line of sight: no building, no third vehicle between."""
-    exclude = frozenset(
-        view.body(name).row for name in (a, b) if view.has(name) and not view.body(name).is_uav
-    )
-    return radio_sight_of(
-        view.geometry,
-        view.sight_point(a),
-        view.sight_point(b),
-        view.trace.ground,
-        view.trace.roster.agents,
-        exclude,
-    )
+
+    def compute(part: RunView) -> Series:
+        free = radio_sight_of(
+            part.geometry,
+            part.sight_point(a),
+            part.sight_point(b),
+            part.trace.ground,
+            part.trace.roster.agents,
+            _rows_of(part, a, b),
+        )
+        return (free,)
+
+    free: BoolArray = view.series(('radio', a, b), compute)[0]
+    return free
 
 
 def radio_sight_of(

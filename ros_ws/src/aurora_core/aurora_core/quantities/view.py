@@ -4,8 +4,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -22,6 +24,7 @@ from aurora_core.trace.trace import Trace
 
 FloatArray = npt.NDArray[np.float64]
 BoolArray = npt.NDArray[np.bool_]
+Series = tuple[npt.NDArray[Any], ...]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -61,6 +64,19 @@ class RunView:
             for entries, is_uav in ((trace.roster.agents, False), (trace.roster.uavs, True))
             for row, entry in enumerate(entries)
         }
+        self._series: dict[tuple[str, ...], Series] = {}
+
+    def series(self, key: tuple[str, ...], compute: Callable[[RunView], Series]) -> Series:
+        """Return series that are costly, worked out once however many signals ask for them.
+
+        Args:
+            key: Names the series.
+            compute: Works them out, (T,) each, sample by sample: what it returns for a run that
+                goes on begins with what it returns for the run so far.
+        """
+        if key not in self._series:
+            self._series[key] = compute(self)
+        return self._series[key]
 
     @property
     def dt_s(self) -> float:
@@ -161,11 +177,7 @@ class RunView:
         """Return the run cut before tick `stop`, as if nothing had been recorded after it."""
         trace = self.trace
         cut = replace(
-            trace,
-            ground=trace.ground[:stop],
-            uav=trace.uav[:stop],
-            uav_commands=trace.uav_commands[:stop],
-            ground_commands=trace.ground_commands[:stop],
+            trace.states(0, stop),
             links=tuple(record for record in trace.links if record.tick < stop),
             sights=tuple(record for record in trace.sights if record.tick < stop),
             events=tuple(record for record in trace.events if record.tick < stop),

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 import numpy as np
@@ -64,3 +64,16 @@ class Trace:
     def time_s(self, tick: int) -> float:
         """Return the simulated time of a tick."""
         return tick * self.roster.dt_s
+
+    def states(self, start: int, stop: int) -> Trace:
+        """Return the states and commands of the ticks [start, stop), without the claims."""
+        return replace(
+            self,
+            ground=self.ground[start:stop],
+            uav=self.uav[start:stop],
+            uav_commands=self.uav_commands[start:stop],
+            ground_commands=self.ground_commands[start:stop],
+            links=(),
+            sights=(),
+            events=(),
+        )
