@@ -1,0 +1,218 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Robustness of growing traces: what is final, what is open, what would be if the trace ended.
+
+A stream hands out each value once, as soon as no continuation can change it. Of the operands it
+keeps what the values still open depend on. Only comparisons select values, as in `windows`.
+
+Source: Deshmukh et al. 2017, robust online monitoring of signal temporal logic (robust
+satisfaction intervals).
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+
+import numpy as np
+
+from aurora_core.stl.formula import Predicate
+from aurora_core.stl.robustness import SampledSignals, predicate_robustness
+from aurora_core.stl.windows import Extremum, FloatArray
+
+NOTHING: FloatArray = np.empty(0, dtype=np.float64)
+INF = float('inf')
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Bounds:
+    """Limits of the values from one sample on, (m,) with m >= 1; the last hold for ever after.
+
+    They hold for every finite continuation that is long enough for the value to exist.
+    """
+
+    low: FloatArray
+    high: FloatArray
+
+    def __len__(self) -> int:
+        """Return m."""
+        return len(self.low)
+
+    def since(self, skipped: int) -> Bounds:
+        """Return the bounds from `skipped` samples later on."""
+        skipped = min(skipped, len(self) - 1)
+        return Bounds(low=self.low[skipped:], high=self.high[skipped:])
+
+    def extended(self, length: int) -> Bounds:
+        """Return the same bounds with at least `length` of them written out."""
+        more = max(0, length - len(self))
+        return Bounds(
+            low=np.concatenate((self.low, np.full(more, self.low[-1]))),
+            high=np.concatenate((self.high, np.full(more, self.high[-1]))),
+        )
+
+
+class Stream(ABC):
+    """The robustness of one formula along a growing trace.
+
+    Attributes:
+        start: First sample that ever has a value.
+        lag: Samples at the end of a trace that have none.
+        known: First sample whose value is not final.
+        samples: Samples so far.
+    """
+
+    def __init__(self, *, start: int, lag: int) -> None:
+        self.start = start
+        self.lag = lag
+        self.known = start
+        self.samples = 0
+
+    @property
+    def stop(self) -> int:
+        """First sample after the last value, if the trace ended here."""
+        return max(self.start, self.samples - self.lag)
+
+    def push(self, signals: SampledSignals) -> FloatArray:
+        """Take new samples and return the values that became final, from `known` on."""
+        self.samples += signals.samples
+        final = self._advance(signals)
+        self.known += len(final)
+        return final
+
+    @abstractmethod
+    def _advance(self, signals: SampledSignals) -> FloatArray:
+        """Return the values from `known` on that are final with these samples."""
+
+    @abstractmethod
+    def bounds(self) -> Bounds:
+        """Return the bounds of the values from `known` on."""
+
+    @abstractmethod
+    def ended(self) -> FloatArray:
+        """Return the values from `known` up to `stop`, if the trace ended here."""
+
+
+class Operand:
+    """A stream and those of its final values that are still needed.
+
+    Args:
+        stream: The operand.
+        base: First sample that is needed; may lie before the stream's start by `padding`.
+        padding: Neutral values in front of the first.
+    """
+
+    def __init__(self, stream: Stream, *, base: int, padding: FloatArray = NOTHING) -> None:
+        self.stream = stream
+        self.base = base
+        self.values = padding
+
+    def push(self, signals: SampledSignals) -> None:
+        """Take new samples."""
+        fresh = self.stream.push(signals)
+        fresh = fresh[max(0, self._next - (self.stream.known - len(fresh))) :]
+        if len(fresh):
+            self.values = np.concatenate((self.values, fresh))
+
+    def drop(self, count: int) -> None:
+        """Forget the first values."""
+        if count:
+            # A view would keep all of a long push alive.
+            self.values = self.values[count:].copy()
+            self.base += count
+
+    def bounds(self) -> Bounds:
+        """Return the bounds of the values from `base` on."""
+        rows = self.stream.bounds().since(max(0, self._next - self.stream.known))
+        return Bounds(
+            low=np.concatenate((self.values, rows.low)),
+            high=np.concatenate((self.values, rows.high)),
+        )
+
+    def ended(self) -> FloatArray:
+        """Return the values from `base` on, if the trace ended here."""
+        rest = self.stream.ended()[max(0, self._next - self.stream.known) :]
+        return np.concatenate((self.values, rest))
+
+    @property
+    def certain(self) -> int:
+        """How many values from `base` on exist however short the rest of the trace is."""
+        return max(0, self.stream.stop - self.base)
+
+    @property
+    def _next(self) -> int:
+        return self.base + len(self.values)
+
+
+class Samples(Stream):
+    """A predicate: final at once, open beyond the last sample."""
+
+    def __init__(self, predicate: Predicate) -> None:
+        super().__init__(start=0, lag=0)
+        self._predicate = predicate
+
+    def _advance(self, signals: SampledSignals) -> FloatArray:
+        return predicate_robustness(self._predicate, signals.values[self._predicate.signal])
+
+    def bounds(self) -> Bounds:
+        return Bounds(low=np.array([-INF]), high=np.array([INF]))
+
+    def ended(self) -> FloatArray:
+        return NOTHING
+
+
+class Negation(Stream):
+    """Not."""
+
+    def __init__(self, operand: Stream) -> None:
+        super().__init__(start=operand.start, lag=operand.lag)
+        self._operand = operand
+
+    def _advance(self, signals: SampledSignals) -> FloatArray:
+        return -self._operand.push(signals)
+
+    def bounds(self) -> Bounds:
+        rows = self._operand.bounds()
+        return Bounds(low=-rows.high, high=-rows.low)
+
+    def ended(self) -> FloatArray:
+        return -self._operand.ended()
+
+
+class Pair(Stream):
+    """And, or: the lesser or the greater of two."""
+
+    def __init__(self, left: Stream, right: Stream, extremum: Extremum) -> None:
+        super().__init__(start=max(left.start, right.start), lag=max(left.lag, right.lag))
+        self._left = Operand(left, base=self.start)
+        self._right = Operand(right, base=self.start)
+        self._extremum = extremum
+
+    def _advance(self, signals: SampledSignals) -> FloatArray:
+        self._left.push(signals)
+        self._right.push(signals)
+        final = self._combine(self._left.values, self._right.values)
+        self._left.drop(len(final))
+        self._right.drop(len(final))
+        return final
+
+    def bounds(self) -> Bounds:
+        left, right = aligned(self._left, self._right)
+        return Bounds(
+            low=self._combine(left.low, right.low), high=self._combine(left.high, right.high)
+        )
+
+    def ended(self) -> FloatArray:
+        return self._combine(self._left.ended(), self._right.ended())
+
+    def _combine(self, left: FloatArray, right: FloatArray) -> FloatArray:
+        both = min(len(left), len(right))
+        result: FloatArray = self._extremum.ufunc(left[:both], right[:both])
+        return result
+
+
+def aligned(left: Operand, right: Operand, *, more: int = 0) -> tuple[Bounds, Bounds]:
+    """Return the bounds of two operands with one base, as long as the longer and `more`."""
+    a, b = left.bounds(), right.bounds()
+    length = max(len(a), len(b)) + more
+    return a.extended(length), b.extended(length)
