@@ -70,6 +70,10 @@ class LiveRun:
         """Take in messages of a topic, of whatever run they are."""
         self._kept[topic].extend(cdrs)
 
+    def since(self, topic: str, count: int) -> list[bytes]:
+        """Return the messages of a topic after the first `count`; valid until the run ends."""
+        return self._kept[topic][count:]
+
     @property
     def stored_tick(self) -> int:
         """Last tick of which every stream that has begun is here, -1 before the first."""

@@ -18,6 +18,7 @@ from rclpy.clock_type import ClockType
 
 from aurora_core.trace.trace import Integrity
 from aurora_msgs.msg import Ack, RunEnd, SyncStatus
+from aurora_nodes.live_margins import LiveMargins
 from aurora_nodes.live_run import LiveRun, RunTotals
 from aurora_ros import interfaces as on
 from aurora_ros import qos
@@ -37,9 +38,12 @@ class LiveSettings:
     idle_period_s: float
     ack_ticks: int
     end_limit_s: float
+    margins_period_s: float
+    margins_lag_ticks: int
 
     def __post_init__(self) -> None:
         require_positive(self, 'poll_period_s', 'idle_period_s', 'ack_ticks', 'end_limit_s')
+        require_positive(self, 'margins_period_s', 'margins_lag_ticks')
 
 
 class LiveWatch:
@@ -49,6 +53,7 @@ class LiveWatch:
         node: The monitor.
         settings: Periods and limits.
         watch: Tells whether the clock still lives, which says how a run ends.
+        margins: Looks ahead while the run goes on.
         on_end: Called with a run that has ended, once everything that was sent is there or the
             limit for that has passed.
     """
@@ -58,11 +63,13 @@ class LiveWatch:
         node: AuroraNode,
         settings: LiveSettings,
         watch: HeartbeatWatch,
+        margins: LiveMargins,
         on_end: Callable[[LiveRun, RunTotals], None],
     ) -> None:
         self._node = node
         self._settings = settings
         self._watch = watch
+        self._margins = margins
         self._on_end = on_end
         self._run: LiveRun | None = None
         self._totals: RunTotals | None = None
@@ -128,10 +135,12 @@ class LiveWatch:
         for topic, heard in self._early.items():
             self._run.keep(topic, heard)
         self._early.clear()
+        self._margins.begin(self._run)
         self._poll.reset()
         self._node.heartbeat.busy(run_number)
 
     def _close(self) -> None:
+        self._margins.end()
         self._run = self._totals = None
         self._acked = -1
         self._deadline_s = float('inf')
@@ -159,6 +168,8 @@ class LiveWatch:
         run, totals = self._run, self._totals
         if run is None:
             return
+        if totals is None:
+            self._margins.look()
         overdue = time.monotonic() > self._deadline_s
         if totals is None:
             if overdue:

@@ -26,10 +26,15 @@ from aurora_core.trace.trace import Integrity
 from aurora_msgs.msg import Verdict as VerdictMessage
 from aurora_msgs.srv import VerifyTrace
 from aurora_nodes.judgement import Judgement, LiveOutcome, judge, reconcile
+from aurora_nodes.live_margins import LiveMargins, Preview
 from aurora_nodes.live_run import LiveRun, RunTotals
 from aurora_nodes.live_watch import LiveSettings, LiveWatch
 from aurora_ros import interfaces as on
-from aurora_ros.conversions.verdict import margins_message, verdict_message
+from aurora_ros.conversions.verdict import (
+    margins_message,
+    outlooks_message,
+    verdict_message,
+)
 from aurora_ros.heartbeat import HeartbeatWatch
 from aurora_ros.main import run_node
 from aurora_ros.node import AuroraNode, defect
@@ -51,7 +56,16 @@ class MonitorNode(AuroraNode):
         self._judging: threading.Thread | None = None
         self._watch: LiveWatch | None = None
         if self._settings.live:
-            self._watch = LiveWatch(self, self._settings, HeartbeatWatch(self), self._on_end)
+            previews = LiveMargins(
+                self._definitions,
+                self._settings.margins_period_s,
+                self._settings.margins_lag_ticks,
+                self._preview,
+                self.get_logger().warning,
+            )
+            self._watch = LiveWatch(
+                self, self._settings, HeartbeatWatch(self), previews, self._on_end
+            )
         self.serve(on.VERIFY, self._verify)
 
     def _verify(
@@ -134,6 +148,17 @@ class MonitorNode(AuroraNode):
             source=VerdictMessage.LIVE,
         )
         self._verdicts.publish(message)
+
+    def _preview(self, preview: Preview) -> None:
+        self._margins.publish(
+            outlooks_message(
+                preview.scene.conditions,
+                preview.outlooks,
+                run_number=preview.run_number,
+                tick=preview.tick,
+                end_s=preview.end_s,
+            )
+        )
 
     def _publish(self, judgement: Judgement, run_number: int) -> None:
         self._margins.publish(

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from enum import StrEnum
 from functools import cached_property
 
 import numpy as np
@@ -35,6 +36,15 @@ BoolArray = npt.NDArray[np.bool_]
 TickArray = npt.NDArray[np.intp]
 
 
+class Later(StrEnum):
+    """What may still happen to a measurement while the run goes on."""
+
+    SAMPLES = 'samples'  # more samples follow, those that are there stay
+    RISES = 'rises'  # the value grows or stays
+    FALLS = 'falls'  # the value falls or stays
+    ANY = 'any'  # anything
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Measured:
     """Samples of a condition's signal.
@@ -48,6 +58,9 @@ class Measured:
         place_of: Body whose position is the worst place; default: the first one of `of`.
         plot: Ticks and values of the signal behind a share, for pictures.
         evidence: Topics that were used.
+        later: How it may change while what it is about goes on.
+        provisional: What it is about goes on until the end of the run.
+        counted: Of a share: samples at which it held, and all samples.
     """
 
     ticks: TickArray
@@ -58,6 +71,9 @@ class Measured:
     place_of: str | None = None
     plot: tuple[TickArray, FloatArray] | None = None
     evidence: tuple[str, ...] = ()
+    later: Later = Later.SAMPLES
+    provisional: bool = False
+    counted: tuple[int, int] | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -72,13 +88,23 @@ class Missing:
 Evaluation = Measured | Missing
 
 
-def at_tick(tick: int, value: float, story: str = '', evidence: tuple[str, ...] = ()) -> Measured:
+def at_tick(
+    tick: int,
+    value: float,
+    story: str = '',
+    evidence: tuple[str, ...] = (),
+    *,
+    later: Later = Later.ANY,
+    provisional: bool = False,
+) -> Measured:
     """Return the measurement of one number at one tick."""
     return Measured(
         ticks=np.array([tick], dtype=np.intp),
         values=np.array([value], dtype=np.float64),
         story=story,
         evidence=evidence,
+        later=later,
+        provisional=provisional,
     )
 
 
@@ -89,18 +115,23 @@ class Context:
         view: The run.
         spec: Its specification.
         conditions: All conditions of the run.
+        ended: Judge the run as if it had been finished with its last tick.
     """
 
     def __init__(
-        self, view: RunView, spec: ScenarioSpec, conditions: tuple[Condition, ...]
+        self,
+        view: RunView,
+        spec: ScenarioSpec,
+        conditions: tuple[Condition, ...],
+        *,
+        ended: bool = False,
     ) -> None:
+        self._ended = ended
         self.view = view
         self.spec = spec
         self.conditions = conditions
         self._flights: dict[tuple[str, float], FlightPhases] = {}
         self._phases: dict[tuple[str, str], MissionPhase] = {}
-        self._sight: dict[tuple[str, str], SightSeries] = {}
-        self._along: dict[tuple[str, str], AlongRoute] = {}
 
     def time_s(self, tick: int) -> float:
         """Return the simulated time of a tick."""
@@ -108,7 +139,7 @@ class Context:
 
     def complete(self, condition: Condition) -> bool:
         """Tell whether the run was recorded to its end."""
-        return self.view.complete(condition.arguments.horizon_s)
+        return self._ended or self.view.complete(condition.arguments.horizon_s)
 
     def flight(self, mission: MissionArguments, touchdown_m: float) -> FlightPhases:
         """Return the phases of the flight that a mission belongs to."""
@@ -138,19 +169,11 @@ class Context:
 
     def sight(self, observer: str, target: str) -> SightSeries:
         """Return the sight of a target from a UAV."""
-        key = (observer, target)
-        if key not in self._sight:
-            self._sight[key] = sight_series(self.view, observer, target)
-        return self._sight[key]
+        return sight_series(self.view, observer, target)
 
     def along(self, follower: str, leader: str) -> AlongRoute:
         """Return progress of a leader over a follower."""
-        key = (follower, leader)
-        if key not in self._along:
-            self._along[key] = along_route(
-                self.view, self.view.body(follower), self.view.body(leader)
-            )
-        return self._along[key]
+        return along_route(self.view, self.view.body(follower), self.view.body(leader))
 
     @cached_property
     def links(self) -> tuple[LinkModel, ...]:

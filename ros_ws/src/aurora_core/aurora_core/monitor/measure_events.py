@@ -8,7 +8,14 @@ import numpy as np
 
 from aurora_core.conditions.condition import Condition
 from aurora_core.errors import VerificationError
-from aurora_core.monitor.evaluation import Context, Evaluation, Measured, Missing, at_tick
+from aurora_core.monitor.evaluation import (
+    Context,
+    Evaluation,
+    Later,
+    Measured,
+    Missing,
+    at_tick,
+)
 from aurora_core.monitor.verdict import Reason
 from aurora_core.quantities.ledger import LinkModel, Message
 from aurora_core.spec.scenario import DistanceTrigger
@@ -60,7 +67,7 @@ def measure_event_delay(context: Context, condition: Condition) -> Evaluation:
     waited_s = context.time_s(context.view.ticks - trigger)
     if waited_s > condition.threshold:
         story = f'{begin}; {event_id} was not carried out in the {waited_s:.2f} s after it'
-        return at_tick(trigger, waited_s, story, topics)
+        return at_tick(trigger, waited_s, story, topics, later=Later.RISES, provisional=True)
     return context.short(condition)
 
 
@@ -124,7 +131,8 @@ def measure_visible_at_send(context: Context, condition: Condition) -> Evaluatio
     if gone is not None:
         return gone
     margin = context.sight(condition.of[0], condition.of[1]).margin_m
-    return Measured(ticks=ticks, values=margin[ticks], evidence=('comm', 'ground/state', 'world'))
+    topics = ('comm', 'ground/state', 'world')
+    return Measured(ticks=ticks, values=margin[ticks], evidence=topics, provisional=True)
 
 
 def measure_delivered(context: Context, condition: Condition) -> Evaluation:
@@ -171,6 +179,7 @@ def measure_delivered(context: Context, condition: Condition) -> Evaluation:
         story=stories[worst],
         place_of=condition.of[-1],
         evidence=('comm',),
+        provisional=True,
     )
 
 
@@ -212,5 +221,8 @@ def measure_delivery_latency(context: Context, condition: Condition) -> Evaluati
     if not values:
         return _never(context, condition, f'nothing passed {model.link_id}')
     return Measured(
-        ticks=np.array(ticks, dtype=np.intp), values=np.array(values), evidence=('comm',)
+        ticks=np.array(ticks, dtype=np.intp),
+        values=np.array(values),
+        evidence=('comm',),
+        provisional=True,
     )

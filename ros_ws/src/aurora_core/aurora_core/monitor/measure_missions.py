@@ -8,7 +8,14 @@ import numpy as np
 
 from aurora_core.conditions.condition import Condition, MissionArguments
 from aurora_core.errors import VerificationError
-from aurora_core.monitor.evaluation import Context, Evaluation, Measured, Missing, at_tick
+from aurora_core.monitor.evaluation import (
+    Context,
+    Evaluation,
+    Later,
+    Measured,
+    Missing,
+    at_tick,
+)
 from aurora_core.monitor.measure_route import route_flown
 from aurora_core.monitor.shares import share_of
 from aurora_core.monitor.verdict import Reason
@@ -58,7 +65,14 @@ def measure_capture_time(context: Context, condition: Condition) -> Evaluation:
         waited_s = context.time_s(context.view.ticks - (phase.ready_tick or 0))
         if waited_s > condition.threshold:
             story = f'{mission.uav} had not captured after {waited_s:.2f} s'
-            return at_tick(context.view.ticks - 1, waited_s, story, _topics(condition))
+            return at_tick(
+                context.view.ticks - 1,
+                waited_s,
+                story,
+                _topics(condition),
+                later=Later.RISES,
+                provisional=True,
+            )
         return context.short(condition)
     return missing
 
@@ -76,7 +90,8 @@ def measure_mission_completed(context: Context, condition: Condition) -> Evaluat
     if condition.arguments.aspect == 'time':
         value = context.time_s(phase.stop_tick - phase.capture_tick)
         story = f'{mission.mission} lasted {value:.2f} s after capture'
-        return at_tick(phase.stop_tick - 1, value, story, _topics(condition))
+        last_tick = phase.stop_tick - 1
+        return at_tick(last_tick, value, story, _topics(condition), later=Later.RISES)
     flown = route_flown(context, condition, mission)
     last = flown[-1]
     missed = [k for k, passage in enumerate(flown) if passage.tick is None]
@@ -86,7 +101,7 @@ def measure_mission_completed(context: Context, condition: Condition) -> Evaluat
         return at_tick(phase.stop_tick - 1, -context.view.dt_s, story, _topics(condition))
     value = context.time_s(phase.stop_tick - last.tick)
     story = f'{mission.uav} had flown its route {value:.2f} s before the phase ended'
-    return at_tick(last.tick, value, story, _topics(condition))
+    return at_tick(last.tick, value, story, _topics(condition), later=Later.RISES)
 
 
 def _order(context: Context, condition: Condition) -> Evaluation:
@@ -114,7 +129,14 @@ def _order(context: Context, condition: Condition) -> Evaluation:
         f'{mission.mission} was commanded at {context.time_s(phase.command_tick):.2f} s, '
         f'the phase before it ended at {context.time_s(ready):.2f} s'
     )
-    return at_tick(phase.command_tick, context.time_s(slack), story, _topics(condition))
+    return at_tick(
+        phase.command_tick,
+        context.time_s(slack),
+        story,
+        _topics(condition),
+        later=Later.FALLS,
+        provisional=flight.landing_tick is None,
+    )
 
 
 def measure_phase_duration(context: Context, condition: Condition) -> Evaluation:
@@ -130,7 +152,7 @@ def measure_phase_duration(context: Context, condition: Condition) -> Evaluation
         f'{mission.mission} lasted from {context.time_s(phase.capture_tick):.2f} s to '
         f'{context.time_s(phase.stop_tick):.2f} s, {value:.2f} s'
     )
-    return at_tick(phase.stop_tick - 1, value, story, _topics(condition))
+    return at_tick(phase.stop_tick - 1, value, story, _topics(condition), later=Later.RISES)
 
 
 def measure_tracked_fraction(context: Context, condition: Condition) -> Evaluation:
@@ -170,7 +192,8 @@ def measure_visible_time(context: Context, condition: Condition) -> Evaluation:
         edges = np.flatnonzero(np.diff(np.concatenate(([False], seen, [False])).astype(np.int8)))
         count = int((edges[1::2] - edges[0::2]).max(initial=0))
     story = f'{condition.of[0]} saw {condition.of[1]} for {context.time_s(count):.2f} s'
-    return at_tick(int(ticks[-1]), context.time_s(count), story, _topics(condition))
+    last_tick, seen_s = int(ticks[-1]), context.time_s(count)
+    return at_tick(last_tick, seen_s, story, _topics(condition), later=Later.RISES)
 
 
 def measure_altitude_fraction(context: Context, condition: Condition) -> Evaluation:
@@ -214,7 +237,8 @@ def measure_landed(context: Context, condition: Condition) -> Evaluation:
         story = (
             f'{mission.uav} was not down at the end, {context.time_s(context.view.ticks - 1)} s'
         )
-        return at_tick(context.view.ticks - 1, earliest_s, story, topics)
+        last_tick = context.view.ticks - 1
+        return at_tick(last_tick, earliest_s, story, topics, later=Later.RISES, provisional=True)
     return context.short(condition)
 
 
@@ -225,4 +249,5 @@ def measure_endurance(context: Context, condition: Condition) -> Evaluation:
         return ticks
     value = context.time_s(int(ticks[-1]) - int(ticks[0]) + 1)
     story = f'{condition.of[0]} was in the air for {value:.2f} s'
-    return at_tick(int(ticks[-1]), value, story, (f'uav/state[{condition.of[0]}]',))
+    topics = (f'uav/state[{condition.of[0]}]',)
+    return at_tick(int(ticks[-1]), value, story, topics, later=Later.RISES)

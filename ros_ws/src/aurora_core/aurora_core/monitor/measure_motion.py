@@ -14,6 +14,7 @@ from aurora_core.monitor.evaluation import (
     Context,
     Evaluation,
     FloatArray,
+    Later,
     Measured,
     Missing,
     at_tick,
@@ -104,7 +105,8 @@ def measure_distance(context: Context, condition: Condition) -> Evaluation:
         if end == 0:
             return Missing(reason=Reason.TARGET_GONE, story='not both are there at t = 0', tick=0)
         nearest = int(np.argmin(values[:end]))
-        return at_tick(nearest, float(values[0] - values[nearest]), evidence=_topics(condition))
+        closer_m = float(values[0] - values[nearest])
+        return at_tick(nearest, closer_m, evidence=_topics(condition), later=Later.RISES)
     return _measure(context, condition, _distance)
 
 
@@ -142,7 +144,8 @@ def measure_speed(context: Context, condition: Condition) -> Evaluation:
     if aspect == 'greatest_deceleration':
         loss = motion.deceleration(context.view, body)
         hardest = int(np.argmax(loss))
-        return at_tick(hardest, float(loss[hardest]), evidence=_topics(condition))
+        most_mps2 = float(loss[hardest])
+        return at_tick(hardest, most_mps2, evidence=_topics(condition), later=Later.RISES)
     values = motion.speed(context.view, body)
     moved = first_tick(values >= condition.arguments.slow_mps)
     if moved is None:

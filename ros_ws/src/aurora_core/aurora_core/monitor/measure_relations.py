@@ -14,6 +14,7 @@ from aurora_core.monitor.evaluation import (
     Context,
     Evaluation,
     FloatArray,
+    Later,
     Measured,
     Missing,
     at_tick,
@@ -137,7 +138,8 @@ def _overtake(context: Context, condition: Condition) -> Evaluation:
     if start is None:
         return Missing(reason=Reason.PREMISE_NEVER, story=f'{a} was never behind {b}')
     farthest = start + int(np.argmax(lead[start:]))
-    return at_tick(farthest, float(lead[farthest]), evidence=_topics(condition))
+    most_m = float(lead[farthest])
+    return at_tick(farthest, most_m, evidence=_topics(condition), later=Later.RISES)
 
 
 def measure_relation_fraction(context: Context, condition: Condition) -> Evaluation:
@@ -203,4 +205,4 @@ def measure_distance_travelled(context: Context, condition: Condition) -> Evalua
     last = int(ticks[-1])
     value = float(motion.travelled(context.view, context.view.body(condition.of[0]))[last])
     story = f'{condition.of[0]} covered {value:.2f} m by {context.time_s(last):.2f} s'
-    return at_tick(last, value, story, _topics(condition))
+    return at_tick(last, value, story, _topics(condition), later=Later.RISES)

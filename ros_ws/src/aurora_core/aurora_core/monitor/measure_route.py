@@ -9,7 +9,14 @@ import numpy as np
 from aurora_core.conditions.condition import Condition, MissionArguments
 from aurora_core.errors import VerificationError
 from aurora_core.knowledge.world import SurfaceKind
-from aurora_core.monitor.evaluation import Context, Evaluation, Measured, Missing, at_tick
+from aurora_core.monitor.evaluation import (
+    Context,
+    Evaluation,
+    Later,
+    Measured,
+    Missing,
+    at_tick,
+)
 from aurora_core.monitor.shares import share_of
 from aurora_core.monitor.verdict import Reason
 from aurora_core.quantities import motion
@@ -72,7 +79,8 @@ def measure_waypoints_visited(context: Context, condition: Condition) -> Evaluat
         # A closing point is the first one again, not another waypoint.
         again = points[0] == points[-1] and flown[-1].tick is not None
         count = float(visited - 1 if again else visited)
-        return at_tick(flown[-1].nearest_tick, count, story, _topics(condition))
+        last_tick = flown[-1].nearest_tick
+        return at_tick(last_tick, count, story, _topics(condition), later=Later.RISES)
     worst = int(np.argmax([passage.nearest_m for passage in flown]))
     story += (
         f', point {worst + 1} with {flown[worst].nearest_m:.2f} m at '
@@ -83,6 +91,7 @@ def measure_waypoints_visited(context: Context, condition: Condition) -> Evaluat
         values=np.array([passage.nearest_m for passage in flown]),
         story=story,
         evidence=_topics(condition),
+        later=Later.ANY,
     )
 
 
@@ -126,7 +135,7 @@ def measure_over_carriageway(context: Context, condition: Condition) -> Evaluati
     best = int(np.argmax(shares))
     ticks = np.arange(flown[best].start, flown[best].stop, dtype=np.intp)
     what = f'on its best leg {mission.uav} was over a carriageway'
-    return share_of(context, ticks, over, None, what, _topics(condition))
+    return share_of(context, ticks, over, None, what, _topics(condition), growing=False)
 
 
 def measure_pattern_centre(context: Context, condition: Condition) -> Evaluation:
@@ -164,4 +173,4 @@ def measure_route_speed(context: Context, condition: Condition) -> Evaluation:
     off = bound_error(values, arguments.wanted, arguments.bound)
     what = f'{mission.uav} kept its speed'
     good = off <= arguments.sample_tolerance
-    return share_of(context, ticks, good, values, what, _topics(condition))
+    return share_of(context, ticks, good, values, what, _topics(condition), growing=False)

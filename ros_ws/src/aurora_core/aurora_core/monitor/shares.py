@@ -6,7 +6,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from aurora_core.monitor.evaluation import BoolArray, Context, FloatArray, Measured, TickArray
+from aurora_core.monitor.evaluation import (
+    BoolArray,
+    Context,
+    FloatArray,
+    Later,
+    Measured,
+    TickArray,
+)
 
 
 def share_of(
@@ -16,6 +23,8 @@ def share_of(
     values: FloatArray | None = None,
     what: str = 'it held',
     evidence: tuple[str, ...] = (),
+    *,
+    growing: bool = True,
 ) -> Measured:
     """Return the share of ticks at which something holds.
 
@@ -26,6 +35,7 @@ def share_of(
         values: (T,) signal behind it, for pictures; default: 1 and 0.
         what: For the story, for example "uav1 tracked bus1".
         evidence: Topics.
+        growing: While the run goes on ticks are added and none is taken away.
     """
     inside = good[ticks]
     count = int(np.count_nonzero(inside))
@@ -48,6 +58,8 @@ def share_of(
         worst_tick=int(ticks[-1]) if worst is None else worst[0],
         plot=(ticks, shown[ticks]),
         evidence=evidence,
+        later=Later.ANY,
+        counted=(count, len(ticks)) if growing else None,
     )
 
 

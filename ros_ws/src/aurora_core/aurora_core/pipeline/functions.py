@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from functools import lru_cache
 from pathlib import Path
+from typing import Any
 
 from aurora_core.agsg.build import build_agsg, derived
 from aurora_core.agsg.graph import Agsg, Stage
@@ -168,7 +169,16 @@ def graph_of(content: BagContent, where: str) -> Agsg:
         raise VerificationError(
             f'{where} holds no scenario graph', hint='record /aurora/agsg with the run'
         )
-    return read_agsg(content.agsg_message, derived)
+    return graph_from_message(content.agsg_message)
+
+
+def graph_from_message(message: Any) -> Agsg:
+    """Return the graph of an Agsg message.
+
+    Raises:
+        SpecError: Its parts do not fit each other.
+    """
+    return read_agsg(message, derived)
 
 
 def verify_stage(bag: Path) -> Verdict:

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import combinations
+from itertools import combinations, product
 
 import numpy as np
 import numpy.typing as npt
@@ -22,6 +22,8 @@ BoolArray = npt.NDArray[np.bool_]
 
 # Clearances beyond this are not told apart.
 CLEARANCE_CUTOFF_M = 50.0
+# Rounding of a distance is far below this.
+_GUARD_M = 1.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -50,15 +52,13 @@ class _Least:
     def __init__(self, ticks: int, ceiling: float) -> None:
         self.values = np.full(ticks, ceiling)
         self.which: npt.NDArray[np.intp] = np.full(ticks, -1, dtype=np.intp)
-        self.count = 0
 
-    def add(self, ticks: npt.NDArray[np.intp], values: FloatArray) -> None:
-        """Take in the next signal at some ticks."""
+    def add(self, number: int, ticks: npt.NDArray[np.intp], values: FloatArray) -> None:
+        """Take in the signal of a number at some ticks, in the order of the numbers."""
         less = values < self.values[ticks]
         if less.any():
             self.values[ticks[less]] = values[less]
-            self.which[ticks[less]] = self.count
-        self.count += 1
+            self.which[ticks[less]] = number
 
 
 def _reach(body: Body) -> float:
@@ -81,7 +81,9 @@ def body_gap(view: RunView) -> LeastSeries:
 
 def _body_gap(view: RunView) -> Series:
     least = _Least(view.ticks, CLEARANCE_CUTOFF_M)
-    for a, b in combinations(view.agents, 2):
+    pairs = list(combinations(view.agents, 2))
+    for number in _near(view):
+        a, b = pairs[number]
         ra, rb = view.rows(a), view.rows(b)
         apart = distance_2d(
             rb[:, GroundColumn.X] - ra[:, GroundColumn.X],
@@ -98,13 +100,29 @@ def _body_gap(view: RunView) -> Series:
             b.entry.length_m,
             b.entry.width_m,
         )
-        least.add(k, gap)
-    for uav in view.uavs:
+        least.add(number, k, gap)
+    flying = product(view.uavs, view.agents)
+    for number, (uav, body) in enumerate(flying, start=len(pairs)):
         half = max(uav.entry.length_m, uav.entry.width_m, uav.entry.height_m) / 2.0
-        for body in view.agents:
-            k, away = _to_box(view, uav, body, least.values + half)
-            least.add(k, away - half)
+        k, away = _to_box(view, uav, body, least.values + half)
+        least.add(number, k, away - half)
     return least.values, least.which
+
+
+def _near(view: RunView) -> list[int]:
+    """Return the numbers of the pairs of ground bodies that may come within the cutoff.
+
+    Of the others the rectangles that hold all their positions are farther apart than that.
+    """
+    if not view.agents:
+        return []
+    xy = view.trace.ground[:, :, GroundColumn.X : GroundColumn.Y + 1]
+    low, high = xy.min(axis=0), xy.max(axis=0)
+    reach = np.array([_reach(body) for body in view.agents])
+    a, b = np.triu_indices(len(reach), k=1)  # the order of `combinations`
+    apart = np.maximum(low[b] - high[a], low[a] - high[b]).max(axis=1)
+    far = apart > CLEARANCE_CUTOFF_M + reach[a] + reach[b] + _GUARD_M
+    return [int(number) for number in np.flatnonzero(~far)]
 
 
 def _box(rows: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
@@ -149,9 +167,10 @@ def obstacle_clearance(view: RunView, uav: Body) -> LeastSeries:
         least = _Least(part.ticks, CLEARANCE_CUTOFF_M)
         every = np.arange(part.ticks, dtype=np.intp)
         point = part.reference(uav.body_id)
-        least.add(every, part.geometry.obstacles.clearance_series(point, CLEARANCE_CUTOFF_M))
-        for body in part.agents:
-            least.add(*_to_box(part, uav, body, least.values))
+        to_building = part.geometry.obstacles.clearance_series(point, CLEARANCE_CUTOFF_M)
+        least.add(0, every, to_building)
+        for number, body in enumerate(part.agents, start=1):
+            least.add(number, *_to_box(part, uav, body, least.values))
         return least.values, least.which
 
     values, which = view.series(('obstacle_clearance', uav.body_id), compute)

@@ -5,8 +5,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
+from aurora_core.conditions.condition import Condition
+from aurora_core.monitor.online import Outlook
 from aurora_core.monitor.verdict import ConditionResult, Verdict
+from aurora_core.stl.online import OnlineVerdict
 from aurora_msgs.msg import ConditionMargin, Margins
 from aurora_msgs.msg import Verdict as VerdictMessage
 from aurora_ros.conversions.time import header
@@ -61,7 +65,55 @@ def margins_message(verdict: Verdict, *, run_number: int, tick: int, end_s: floa
     )
 
 
+def outlooks_message(
+    conditions: Sequence[Condition],
+    outlooks: Sequence[Outlook],
+    *,
+    run_number: int,
+    tick: int,
+    end_s: float,
+) -> Margins:
+    """Return what a run that goes on can still become.
+
+    Args:
+        conditions: What has to hold.
+        outlooks: One for each, in the same order.
+        run_number: Of the run.
+        tick: Last tick that was looked at.
+        end_s: Simulated time of that tick.
+    """
+    return Margins(
+        header=header(1, end_s),
+        run_number=run_number,
+        tick=tick,
+        conditions=[
+            _so_far(condition, outlook)
+            for condition, outlook in zip(conditions, outlooks, strict=True)
+        ],
+    )
+
+
+def _so_far(condition: Condition, outlook: Outlook) -> ConditionMargin:
+    now = outlook.now
+    return ConditionMargin(
+        id=condition.id,
+        sentence=condition.sentence,
+        has_margin=now is not None,
+        margin=_number(now),
+        normalised=_number(None if now is None else now / condition.scale),
+        unit=condition.unit,
+        satisfied=outlook.verdict in (OnlineVerdict.TRUE, OnlineVerdict.CURRENTLY_TRUE),
+        exercised=now is not None,
+        reason='',
+        worst_time_s=math.nan,
+        low=outlook.low,
+        high=outlook.high,
+        verdict=outlook.verdict.value,
+    )
+
+
 def _margin(result: ConditionResult) -> ConditionMargin:
+    decided = OnlineVerdict.TRUE if result.satisfied else OnlineVerdict.FALSE
     return ConditionMargin(
         id=result.id,
         sentence=result.sentence,
@@ -73,6 +125,9 @@ def _margin(result: ConditionResult) -> ConditionMargin:
         exercised=result.exercised,
         reason=result.reason.value if result.reason is not None else '',
         worst_time_s=_number(result.worst_time_s),
+        low=_number(result.margin),
+        high=_number(result.margin),
+        verdict=(OnlineVerdict.UNKNOWN if result.margin is None else decided).value,
     )
 
 
