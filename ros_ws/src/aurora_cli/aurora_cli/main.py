@@ -50,6 +50,10 @@ RunOrBag = Annotated[str, typer.Argument(metavar='RUN_OR_BAG', help='Run folder,
 Iteration = Annotated[
     int | None, typer.Option(min=0, help='Repair iteration, counted from 0; default: the last.')
 ]
+Plots = Annotated[
+    Path | None,
+    typer.Option(metavar='DIR', help='Draw each condition over time into this folder (PNG, SVG).'),
+]
 Anything = {'allow_extra_args': True, 'ignore_unknown_options': True}
 
 
@@ -127,13 +131,18 @@ def check_prompt(
 
 
 @app.command('verify')
-def verify_bag(run_or_bag: RunOrBag, iteration: Iteration = None, as_json: Json = False) -> None:
+def verify_bag(
+    run_or_bag: RunOrBag,
+    iteration: Iteration = None,
+    plots: Plots = None,
+    as_json: Json = False,
+) -> None:
     """Recompute every margin from the bag alone, and compare with the record."""
 
     def command() -> int:
         from aurora_cli.commands.verify import verify_command
 
-        return verify_command(run_or_bag, iteration, as_json=as_json)
+        return verify_command(run_or_bag, iteration, plots, as_json=as_json)
 
     _finish(command, as_json=as_json)
 

@@ -96,3 +96,14 @@ def test_a_picture_goes_only_where_it_can(
 ) -> None:
     assert call('picture', str(copy), '-o', name).code == code
     assert sorted(path.name for path in here.iterdir()) == ['runs']
+
+
+def test_each_condition_with_samples_is_drawn(copy: Path, here: Path, call: Call) -> None:
+    done = call('verify', str(copy), '--plots', 'drawn', '--json')
+    report = json.loads(done.out)
+    measured = [row['id'] for row in report['verdict']['results'] if row['margin'] is not None]
+    for kind, begin in (('png', b'\x89PNG'), ('svg', b'<?xml')):
+        files = sorted((here / 'drawn').glob(f'*.{kind}'))
+        assert [file.stem.partition('_')[2] for file in files] == measured
+        assert all(file.read_bytes().startswith(begin) for file in files)
+    assert call('verify', str(copy), '--plots', str(copy / 'report.json')).code == 4

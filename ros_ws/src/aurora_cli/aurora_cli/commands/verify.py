@@ -4,10 +4,18 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
+from pathlib import Path
 
 from aurora_cli.bags import find_bag
-from aurora_cli.output import answer_console, print_json, quiet_stdout
+from aurora_cli.files import write_file
+from aurora_cli.output import answer_console, print_json, quiet_stdout, say
+from aurora_core.agsg.graph import Agsg
+from aurora_core.conditions.condition import conditions_from_json
+from aurora_core.errors import ReportError
+from aurora_core.monitor.signals_for_plot import signals_for_plot
+from aurora_core.monitor.verdict import Verdict
 from aurora_core.pipeline.functions import load_bag, verify_content
 from aurora_core.report.recorded_trace import believed, recorded_trace
 from aurora_core.report.run_folder import StageFile
@@ -19,11 +27,20 @@ from aurora_core.report.verify_report import (
     read_recorded,
     verify_exit_code,
 )
+from aurora_core.trace.bag_reader import BagContent
 from aurora_core.trace.hashing import trace_sha256
 
 
-def verify_command(run_or_bag: str, iteration: int | None, *, as_json: bool) -> int:
+def verify_command(
+    run_or_bag: str, iteration: int | None, plots: Path | None, *, as_json: bool
+) -> int:
     """Verify a bag and return the exit code.
+
+    Args:
+        run_or_bag: What to verify.
+        iteration: Repair iteration of a run.
+        plots: Folder for a picture of each condition over time, None for none.
+        as_json: Print one JSON document.
 
     Raises:
         UsageProblem: There is no such run or bag.
@@ -50,8 +67,38 @@ def verify_command(run_or_bag: str, iteration: int | None, *, as_json: bool) -> 
             verdict=verdict,
             recorded=recorded,
         )
+        if plots is not None:
+            _write_plots(replace(content, trace=trace), agsg, verdict, plots)
     if as_json:
         print_json(report)
     else:
         print_verify(report, answer_console())
     return int(verify_exit_code(report))
+
+
+def _write_plots(content: BagContent, agsg: Agsg, verdict: Verdict, folder: Path) -> None:
+    """Write `<number>_<condition>.png` and `.svg` for each condition that has samples.
+
+    Raises:
+        ReportError: The folder cannot be written.
+    """
+    # Imported here: a verdict alone needs no drawing library.
+    from aurora_core.report.picture.condition_plot import draw_condition
+    from aurora_core.report.picture.draw import png_bytes, svg_bytes
+
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as err:
+        raise ReportError(
+            f'{folder} cannot be created: {err.strerror or err}', hint='name another folder'
+        ) from err
+    conditions = conditions_from_json(content.world.conditions_json)
+    signals = signals_for_plot(content.trace, content.world, conditions, agsg.spec)
+    results = {result.id: result for result in verdict.results}
+    for number, signal in enumerate(signals, start=1):
+        say(f'aurora: plot {number} of {len(signals)}: {signal.condition_id}')
+        figure = draw_condition(signal, results[signal.condition_id])
+        # Ids out of a bag must not name another folder.
+        name = f'{number:03}_{re.sub(r"[^A-Za-z0-9._-]", "_", signal.condition_id)}'
+        write_file(folder / f'{name}.png', png_bytes(figure))
+        write_file(folder / f'{name}.svg', svg_bytes(figure))

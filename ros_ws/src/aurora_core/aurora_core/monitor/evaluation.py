@@ -42,6 +42,7 @@ class Later(StrEnum):
     SAMPLES = 'samples'  # more samples follow, those that are there stay
     RISES = 'rises'  # the value grows or stays
     FALLS = 'falls'  # the value falls or stays
+    COUNTS = 'counts'  # a share of samples, of which more follow
     ANY = 'any'  # anything
 
 
@@ -60,7 +61,7 @@ class Measured:
         evidence: Topics that were used.
         later: How it may change while what it is about goes on.
         provisional: What it is about goes on until the end of the run.
-        counted: Of a share: samples at which it held, and all samples.
+        held: (m,) of a share: at which of the samples in `plot` it held.
     """
 
     ticks: TickArray
@@ -73,7 +74,7 @@ class Measured:
     evidence: tuple[str, ...] = ()
     later: Later = Later.SAMPLES
     provisional: bool = False
-    counted: tuple[int, int] | None = None
+    held: BoolArray | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -14,6 +14,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import inf
 
+import numpy as np
+
 from aurora_core.conditions.condition import Condition, Window
 from aurora_core.knowledge.world import WorldModel
 from aurora_core.monitor.evaluation import Context, Later, Measured, Missing
@@ -144,22 +146,24 @@ class _Followed:
         )
 
     def _bounds(self, view: RunView, measured: Measured) -> Bounds:
-        if measured.counted is not None:
-            good, count = measured.counted
-            horizon = whole_ticks(self._condition.arguments.horizon_s, view.dt_s) + 1
-            rest = max(0, horizon - view.ticks)
-            return _of_value(
-                self._predicate, good / (count + rest), (good + rest) / (count + rest)
-            )
         match measured.later:
             case Later.SAMPLES:
                 return self._of_samples(view, measured)
+            case Later.COUNTS:
+                return self._of_share(view, measured)
             case Later.RISES:
                 return _of_value(self._predicate, float(measured.values[0]), inf)
             case Later.FALLS:
                 return _of_value(self._predicate, -inf, float(measured.values[0]))
             case Later.ANY:
                 return _OPEN
+
+    def _of_share(self, view: RunView, measured: Measured) -> Bounds:
+        assert measured.held is not None  # it is a share
+        good, count = int(np.count_nonzero(measured.held)), len(measured.held)
+        horizon = whole_ticks(self._condition.arguments.horizon_s, view.dt_s) + 1
+        rest = max(0, horizon - view.ticks)
+        return _of_value(self._predicate, good / (count + rest), (good + rest) / (count + rest))
 
     def _of_samples(self, view: RunView, measured: Measured) -> Bounds:
         known = 0 if self._samples is None else self._samples.samples

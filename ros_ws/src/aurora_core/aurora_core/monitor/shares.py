@@ -58,8 +58,8 @@ def share_of(
         worst_tick=int(ticks[-1]) if worst is None else worst[0],
         plot=(ticks, shown[ticks]),
         evidence=evidence,
-        later=Later.ANY,
-        counted=(count, len(ticks)) if growing else None,
+        later=Later.COUNTS if growing else Later.ANY,
+        held=inside,
     )
 
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from aurora_core.conditions.condition import Condition
 from aurora_core.knowledge.world import WorldModel
-from aurora_core.monitor.evaluation import Context, FloatArray, Measured
+from aurora_core.monitor.evaluation import BoolArray, Context, FloatArray, Measured
 from aurora_core.monitor.measure import measure
 from aurora_core.monitor.verify import sampled
 from aurora_core.quantities.view import RunView
@@ -28,14 +28,15 @@ class PlotSignal:
 
     Attributes:
         condition_id: Which condition.
-        signal_name: What `values` are.
+        signal_name: Name in the formula.
         times_s: (n,) simulated time of each sample.
-        values: (n,) signal, in `unit`; of a share: the signal behind it.
-        unit: Unit of values, threshold and robustness.
-        threshold: Level that the values are compared with; None where the values are the signal
-            behind a share.
+        values: (n,) signal, in `unit`; of a share: what is behind it.
+        held: (n,) of a share: where it held.
+        unit: Unit of threshold and robustness, and of values unless it is a share.
+        threshold: Level that the signal (the share) is compared with.
         tolerance: Half width of the band around the threshold, 0 when there is none.
-        robustness: (n,) robustness of the predicate at each sample; empty for a share.
+        robustness: (n,) robustness of the predicate at each sample; of the share of the samples
+            up to then.
         margin: Robustness of the whole formula, None when it has none.
     """
 
@@ -43,8 +44,9 @@ class PlotSignal:
     signal_name: str
     times_s: FloatArray
     values: FloatArray
+    held: BoolArray | None
     unit: str
-    threshold: float | None
+    threshold: float
     tolerance: float
     robustness: FloatArray
     margin: float | None
@@ -72,29 +74,20 @@ def signals_for_plot(
 def _plot(context: Context, condition: Condition, measured: Measured) -> PlotSignal:
     formula = parse_formula(condition.formula)
     margin = robustness(formula, sampled(context, condition, measured)).at(0)
-    dt_s = context.view.dt_s
-    if measured.plot is not None:
-        ticks, values = measured.plot
-        return PlotSignal(
-            condition_id=condition.id,
-            signal_name=condition.signal,
-            times_s=ticks.astype(np.float64) * dt_s,
-            values=values,
-            unit='',
-            threshold=None,
-            tolerance=0.0,
-            robustness=values[:0],
-            margin=margin,
-        )
     predicate = next(predicates(formula))
+    ticks, values, judged = measured.ticks, measured.values, measured.values
+    if measured.plot is not None and measured.held is not None:
+        ticks, values = measured.plot
+        judged = np.cumsum(measured.held) / np.arange(1, len(measured.held) + 1)
     return PlotSignal(
         condition_id=condition.id,
         signal_name=condition.signal,
-        times_s=measured.ticks.astype(np.float64) * dt_s,
-        values=measured.values,
+        times_s=ticks.astype(np.float64) * context.view.dt_s,
+        values=values,
+        held=measured.held,
         unit=condition.unit,
         threshold=condition.threshold,
         tolerance=predicate.tolerance,
-        robustness=predicate_robustness(predicate, measured.values),
+        robustness=predicate_robustness(predicate, judged),
         margin=margin,
     )

@@ -223,7 +223,9 @@ def test_signals_for_pictures(tb: ModuleType) -> None:
     assert gap.threshold == 1.0
     assert gap.robustness == pytest.approx(1.0 - gap.values)
     share = drawn['m1.tracked']
-    assert share.threshold is None
-    assert len(share.times_s) > 500
+    assert share.threshold == 0.8
+    assert share.held is not None
+    assert len(share.times_s) == len(share.held) == len(share.robustness) > 500
+    assert share.robustness[-1] == share.margin
     case.run.missing = (0,)
     assert signals_for_plot(case.run.trace(), case.world, conditions, case.spec) == ()
