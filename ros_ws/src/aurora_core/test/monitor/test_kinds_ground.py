@@ -1,0 +1,179 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Kinds of behaviours and placements of ground agents: satisfied, violated, not judged."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from kind_rows import Row, cut, done_at, gone
+from trace_builder import FloatArray, number
+from trace_cases import Case, convoy_case, ground_case, spec, tailgate_case
+
+from aurora_core.monitor.verdict import Reason
+from aurora_core.spec.parameter import Unit
+from aurora_core.spec.scenario import Behavior, Placement
+from aurora_core.spec.vocabulary import BehaviorKind as B
+from aurora_core.spec.vocabulary import Relation
+
+T = 401  # 20 s
+TICK = np.arange(T)
+STILL = np.zeros(T)
+
+
+def _steady(mps: float) -> FloatArray:
+    return np.full(T, mps)
+
+
+def _alone(kind: B, speed: FloatArray) -> Case:
+    return ground_case(Behavior(kind=kind), speed)
+
+
+def _pair(kind: B, own: float, x: float, other: float) -> Case:
+    """car1 at 0 and car2 at x, each with a steady speed."""
+    return ground_case(Behavior(kind=kind, target='car2'), _steady(own), car2=(x, _steady(other)))
+
+
+def _then(first: float, later: float, tick: int = 200) -> FloatArray:
+    return np.where(tick > TICK, first, later)
+
+
+def _braking(mps2: float) -> FloatArray:
+    return np.maximum(10.0 - np.maximum(TICK - 100, 0) * 0.05 * mps2, 0.0)
+
+
+def _bus(x: float) -> Case:
+    """The bus is asked 20 m ahead of the ego; here it is at x."""
+    case = convoy_case()
+    case.run.agents[1].x += x - 20.0
+    return case
+
+
+def _bus_gone() -> Case:
+    return gone(convoy_case(), 1, 0, 4)
+
+
+def _leaves_route() -> Case:
+    """The bus leaves the route of the ego half-way to the landing command at tick 1050."""
+    case = convoy_case()
+    case.run.agents[1].y[525:] = 30.0
+    return case
+
+
+def _bearing(degrees: float) -> Case:
+    """car1 stands 20 m east of the ego and is asked at some bearing near it."""
+    case = ground_case(Behavior(kind=B.PARK), STILL, ego=(-20.0, STILL))
+    place = Placement(
+        relation=Relation.NEAR,
+        of='ego',
+        bearing_deg=number(degrees, Unit.DEGREE, explicit=True),
+    )
+    agents = (dict(case.spec.agents[0]) | {'placements': (place,)}, case.spec.agents[1])
+    case.spec = spec(agents=agents)
+    return case
+
+
+def _van(shift: float = 0.0, moves: bool = True) -> Case:
+    """The van is asked 45 m behind the ego at t = 0 and when it starts to close."""
+    case = tailgate_case(keeps_away=not moves)
+    van = case.run.agents[1]
+    van.x -= shift
+    if not moves:
+        van.x[:], van.speed[:] = -45.0, 0.0
+    return case
+
+
+EMPTY, GONE, SHORT = Reason.EMPTY_PHASE, Reason.TARGET_GONE, Reason.TRACE_SHORT
+NEVER = Reason.PREMISE_NEVER
+BEHAVIOURS = (
+    # 5 m/s for 20 s.
+    Row(id='car1.drive', make=lambda: _alone(B.DRIVE, _steady(5.0)), margin=100.0 - 20.0),
+    Row(id='car1.drive', make=lambda: _alone(B.DRIVE, STILL), margin=0.0 - 20.0),
+    Row(id='car1.drive', make=lambda: cut(_alone(B.DRIVE, _steady(5.0)), 300), reason=SHORT),
+    Row(id='car1.walk', make=lambda: _alone(B.WALK, _steady(1.5)), margin=30.0 - 20.0),
+    Row(id='car1.walk', make=lambda: _alone(B.WALK, _steady(0.5)), margin=10.0 - 20.0),
+    Row(id='car1.walk', make=lambda: cut(_alone(B.WALK, _steady(1.5)), 300), reason=SHORT),
+    Row(id='car1.circulate', make=lambda: _alone(B.CIRCULATE, _steady(5.0)), margin=100.0 - 50.0),
+    Row(id='car1.circulate', make=lambda: _alone(B.CIRCULATE, _steady(2.0)), margin=40.0 - 50.0),
+    Row(id='car1.circulate', make=lambda: cut(_alone(B.CIRCULATE, STILL), 300), reason=SHORT),
+    # 14.5 m between centres are 10 m between bumpers; 5 m are asked at more than 2 m/s.
+    Row(id='car1.follow', make=lambda: _pair(B.FOLLOW, 5.0, 14.5, 5.0), margin=1.0 - 0.8),
+    Row(id='car1.follow', make=lambda: _pair(B.FOLLOW, 5.0, 8.5, 5.0), margin=0.0 - 0.8),
+    # Over after 9 s, judged from 10 s on.
+    Row(
+        id='car1.follow', make=lambda: done_at(_pair(B.FOLLOW, 5.0, 14.5, 5.0), 181), reason=EMPTY
+    ),
+    # 9.5 m between centres are 5 m between bumpers: 0.5 s at 10 m/s; 44.5 m are 4 s.
+    Row(id='car1.tailgate', make=lambda: _pair(B.TAILGATE, 10.0, 9.5, 10.0), margin=1.0 - 0.5),
+    Row(id='car1.tailgate', make=lambda: _pair(B.TAILGATE, 10.0, 44.5, 10.0), margin=1.0 - 4.0),
+    # Exactly one second is not less than one second.
+    Row(
+        id='car1.tailgate',
+        make=lambda: _pair(B.TAILGATE, 10.0, 14.5, 10.0),
+        margin=0.0,
+        what='threshold',
+    ),
+    # 4.95 s are no stretch of 5 s.
+    Row(
+        id='car1.tailgate',
+        make=lambda: done_at(_pair(B.TAILGATE, 10.0, 9.5, 10.0), 100),
+        reason=EMPTY,
+    ),
+    # 5 m/s faster for 20 s from 40 m behind.
+    Row(id='car1.overtake', make=lambda: _pair(B.OVERTAKE, 10.0, 40.0, 5.0), margin=100.0 - 40.0),
+    Row(id='car1.overtake', make=lambda: _pair(B.OVERTAKE, 10.0, 140.0, 5.0), margin=-40.0),
+    Row(id='car1.overtake', make=lambda: _pair(B.OVERTAKE, 10.0, -40.0, 5.0), reason=NEVER),
+    Row(id='car1.approach', make=lambda: _pair(B.APPROACH, 1.0, 40.0, 0.0), margin=20.0 - 10.0),
+    Row(id='car1.approach', make=lambda: _pair(B.APPROACH, 1.0, 40.0, 2.0), margin=0.0 - 10.0),
+    Row(
+        id='car1.approach',
+        make=lambda: gone(_pair(B.APPROACH, 1.0, 40.0, 0.0), 1, 0),
+        reason=GONE,
+    ),
+    Row(id='car1.stop', make=lambda: _alone(B.STOP, _then(5.0, 0.02)), margin=0.1 - 0.02),
+    Row(id='car1.stop', make=lambda: _alone(B.STOP, _steady(5.0)), margin=0.1 - 5.0),
+    Row(
+        id='car1.stop',
+        make=lambda: _alone(B.STOP, _then(5.0, 0.0, T - 40)),  # 40 samples last 1.95 s
+        margin=0.1 - 5.0,
+        what='too-briefly',
+    ),
+    Row(id='car1.stop', make=lambda: _alone(B.STOP, STILL), reason=NEVER),
+    Row(id='car1.brake', make=lambda: _alone(B.BRAKE, _braking(5.0)), margin=5.0 - 4.0),
+    Row(id='car1.brake', make=lambda: _alone(B.BRAKE, _braking(2.0)), margin=2.0 - 4.0),
+    Row(id='car1.brake', make=lambda: gone(_alone(B.BRAKE, _braking(5.0)), 0, 50), reason=GONE),
+    Row(id='car1.park', make=lambda: _alone(B.PARK, STILL), margin=0.1),
+    Row(id='car1.park', make=lambda: _alone(B.PARK, _then(0.0, 5.0)), margin=0.1 - 5.0),
+    Row(id='car1.park', make=lambda: gone(_alone(B.PARK, STILL), 0, 50), reason=GONE),
+    Row(id='car1.wait', make=lambda: _alone(B.WAIT, _then(0.0, 5.0)), margin=0.1),
+    Row(id='car1.wait', make=lambda: _alone(B.WAIT, _steady(5.0)), margin=0.1 - 5.0),
+    Row(id='car1.wait', make=lambda: done_at(_alone(B.WAIT, STILL), 40), reason=EMPTY),
+)
+PLACEMENTS = (
+    Row(id='bus1.placed', make=convoy_case, margin=20.0),
+    Row(id='bus1.placed', make=lambda: _bus(-12.0), margin=-12.0),
+    Row(id='bus1.placed', make=_bus_gone, reason=GONE),
+    # 1 m is allowed on 20 m.
+    Row(id='bus1.placed.distance', make=convoy_case, margin=1.0),
+    Row(id='bus1.placed.distance', make=lambda: _bus(17.0), margin=1.0 - 3.0),
+    Row(id='bus1.placed.distance', make=_bus_gone, reason=GONE),
+    Row(id='bus1.placed.kept', make=convoy_case, margin=1.0 - 0.8),
+    Row(id='bus1.placed.kept', make=_leaves_route, margin=0.5 - 0.8),
+    Row(id='bus1.placed.kept', make=lambda: cut(convoy_case(), 900), reason=SHORT),
+    # East is 90 degrees; 15 are allowed.
+    Row(id='car1.placed.bearing', make=lambda: _bearing(100.0), margin=15.0 - 10.0),
+    Row(id='car1.placed.bearing', make=lambda: _bearing(60.0), margin=15.0 - 30.0),
+    Row(id='car1.placed.bearing', make=lambda: gone(_bearing(90.0), 1, 0), reason=GONE),
+    Row(id='van1.tailgate.from_start', make=_van, margin=1.0),
+    Row(id='van1.tailgate.from_start', make=lambda: _van(3.0), margin=1.0 - 3.0),
+    Row(id='van1.tailgate.from_start', make=lambda: gone(_van(), 1, 0, 9), reason=GONE),
+    Row(id='van1.tailgate.from_closing', make=_van, margin=1.0, within=0.01),
+    Row(id='van1.tailgate.from_closing', make=lambda: _van(3.0), margin=1.0 - 3.0, within=0.01),
+    Row(id='van1.tailgate.from_closing', make=lambda: _van(moves=False), reason=NEVER),
+)
+ROWS = BEHAVIOURS + PLACEMENTS
+
+
+@pytest.mark.parametrize('row', ROWS, ids=lambda row: row.name)
+def test_ground_kinds(row: Row) -> None:
+    row.check()

@@ -1,0 +1,129 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Kinds of route conditions: satisfied, violated, not judged.
+
+`survey_case` flies a rectangle of 100 m x 60 m from tick 200 on in steps of 0.4 m: every corner is
+a sample.
+"""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from kind_rows import Row, gone, grounded
+from trace_builder import DT_S, Run, flight, number, world
+from trace_cases import Case, facts_of, mission, spec, survey_case
+
+from aurora_core.conditions.plan_facts import MissionFacts
+from aurora_core.monitor.verdict import Reason
+from aurora_core.spec.parameter import Unit
+from aurora_core.spec.scenario import Uav
+from aurora_core.spec.vocabulary import MissionMode, Pattern
+
+RADIUS_M = 40.0
+
+
+def _corner(k: int) -> tuple[float, float, float]:
+    angle = 2.0 * math.pi * (k % 24) / 24
+    return RADIUS_M * math.cos(angle), RADIUS_M * math.sin(angle), 30.0
+
+
+def _orbit(flown_m: float) -> Case:
+    """A drone starts below the first point of a circle of 40 m and flies one of `flown_m`."""
+    ticks = 1401
+
+    def path(k: int) -> tuple[float, float, float]:
+        angle = max(0, k - 200) * DT_S * 8.0 / RADIUS_M
+        return flown_m * math.cos(angle), flown_m * math.sin(angle), 30.0
+
+    request = spec(
+        uavs=(Uav(id='uav1'),),
+        missions=(
+            mission(
+                'm1',
+                MissionMode.NAVIGATE,
+                pattern=Pattern.ORBIT,
+                radius_m=number(RADIUS_M, explicit=True),
+            ),
+        ),
+    )
+    facts = facts_of(
+        MissionFacts(
+            mission='m1',
+            uav='uav1',
+            mode=MissionMode.NAVIGATE,
+            altitude_m=30.0,
+            waypoints=tuple(_corner(k) for k in range(25)),
+        ),
+        horizon_s=70.0,
+    )
+    run = Run(ticks=ticks, flights=[flight(ticks, (RADIUS_M, 0.0), 30.0, path, landing=900)])
+    return Case(spec=request, facts=facts, world=world(), run=run)
+
+
+def _elsewhere() -> Case:
+    case = survey_case()
+    case.world = world(streets=((-1000.0, 500.0, 1000.0, 510.0),))
+    return case
+
+
+def _speed(value: float, **values: float) -> Case:
+    asked = number(value, Unit.METRE_PER_SECOND, explicit=True)
+    return survey_case(speed_mps=asked, **values)  # type: ignore[arg-type]
+
+
+def _count(skip: int | None = None) -> Case:
+    return survey_case(skip=skip, waypoint_count=number(4.0, Unit.ONE, explicit=True))
+
+
+def _on_ground() -> Case:
+    return grounded(_count())
+
+
+EMPTY = Reason.EMPTY_PHASE
+ROWS = (
+    Row(id='m1.waypoints', make=survey_case, margin=3.0),
+    # From (100, 0) straight to (0, 60): (100, 60) is passed at 60 * 100 / hypot(60, 100) m.
+    Row(
+        id='m1.waypoints',
+        make=lambda: survey_case(skip=2),
+        margin=3.0 - 6000.0 / math.hypot(60.0, 100.0),
+        within=0.001,
+    ),
+    Row(id='m1.waypoints', make=_on_ground, reason=EMPTY),
+    Row(id='m1.count', make=_count, margin=0.0),
+    Row(id='m1.count', make=lambda: _count(skip=2), margin=3.0 - 4.0),
+    Row(id='m1.count', make=_on_ground, reason=EMPTY),
+    Row(id='m1.closed', make=survey_case, margin=3.0),
+    # 200 steps of 0.4 m along the first leg, and no farther.
+    Row(id='m1.closed', make=lambda: survey_case(stop_after=400), margin=3.0 - 80.0),
+    Row(id='m1.closed', make=_on_ground, reason=EMPTY),
+    # 320 m of way, done 3 m before its end, at tick 200 + 317 / 0.4 = 993; landing from 1021 on.
+    Row(
+        id='m1.completed', make=survey_case, margin=(1021 - 993) * 0.05, within=0.06, what='route'
+    ),
+    Row(id='m1.completed', make=lambda: survey_case(skip=2), margin=-0.05, what='route'),
+    Row(id='m1.completed', make=_on_ground, reason=EMPTY, what='route'),
+    # The first leg lies over the street y = 0, 10 m wide.
+    Row(id='m1.over_streets', make=survey_case, margin=1.0 - 0.8),
+    Row(id='m1.over_streets', make=_elsewhere, margin=0.0 - 0.8),
+    Row(id='m1.over_streets', make=lambda: survey_case(stop_after=400), reason=EMPTY),
+    # The centre of the rectangle is (50, 30), where the ego stands.
+    Row(id='m1.centre', make=survey_case, margin=10.0),
+    Row(id='m1.centre', make=lambda: survey_case(ego_x=62.0), margin=10.0 - 12.0),
+    Row(id='m1.centre', make=lambda: gone(survey_case(), 0, 0), reason=Reason.TARGET_GONE),
+    Row(id='m1.speed', make=lambda: _speed(8.0), margin=1.0 - 0.8),
+    Row(id='m1.speed', make=lambda: _speed(8.0, speed=6.9), margin=0.0 - 0.8),
+    # 16 m/s need 85 m to be reached and 85 m to brake: no leg has that.
+    Row(id='m1.speed', make=lambda: _speed(16.0), reason=EMPTY),
+    # 5 m are allowed on 40 m.
+    Row(id='m1.radius', make=lambda: _orbit(42.0), margin=5.0 - 2.0),
+    Row(id='m1.radius', make=lambda: _orbit(46.0), margin=5.0 - 6.0),
+    Row(id='m1.radius', make=lambda: grounded(_orbit(42.0)), reason=EMPTY),
+)
+
+
+@pytest.mark.parametrize('row', ROWS, ids=lambda row: row.name)
+def test_route_kinds(row: Row) -> None:
+    row.check()
