@@ -5,14 +5,23 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
-from aurora_core.conditions.build import Inputs, Source, Target, Underivable, condition, number
+from aurora_core.conditions.build import Inputs, Target, Underivable, condition, number
 from aurora_core.conditions.condition import Condition, MissionArguments, Window
 from aurora_core.conditions.missions import mission_arguments
-from aurora_core.knowledge.limits import Tolerances
-from aurora_core.spec.parameter import Bound, Unit
+from aurora_core.conditions.stated_values import (
+    CannotSayError,
+    missions_of,
+    only,
+    sentence_of,
+    source_of,
+    target_of,
+    value_of,
+)
+from aurora_core.spec.parameter import Bound
 from aurora_core.spec.quantity import QuantityName
-from aurora_core.spec.scenario import StatedCondition
+from aurora_core.spec.scenario import StatedCondition, UavMission, is_place
 from aurora_core.spec.vocabulary import MissionMode
 
 # Quantities with a value at every sample: the worst one, a stretch or a share counts.
@@ -23,14 +32,17 @@ _SERIES = {
     'altitude': (QuantityName.ALTITUDE, 1),
     'speed': (QuantityName.SPEED, 1),
 }
-# Quantities with one value per mission phase or event.
-_SINGLE = {
-    'tracked_fraction': (QuantityName.TRACKED_FRACTION, 2),
-    'visible_fraction': (QuantityName.VISIBLE_FRACTION, 2),
-    'visible_time': (QuantityName.VISIBLE_TIME, 2),
-    'hover_drift': (QuantityName.HOVER_DRIFT, 1),
-    'event_time': (QuantityName.EVENT_TIME, 1),
+# Quantities that are about mission phases, of one mode only where the third entry says so.
+_PHASES = {
+    'tracked_fraction': (QuantityName.TRACKED_FRACTION, 2, MissionMode.TRACK),
+    'visible_fraction': (QuantityName.VISIBLE_FRACTION, 2, None),
+    'visible_time': (QuantityName.VISIBLE_TIME, 2, None),
+    'hover_drift': (QuantityName.HOVER_DRIFT, 1, MissionMode.HOVER),
 }
+# What a place has, too.
+_OF_PLACES = frozenset(
+    {'distance', 'horizontal_distance', 'tracked_fraction', 'visible_fraction', 'visible_time'}
+)
 _BOUNDS = {'>=': Bound.AT_LEAST, '>': Bound.AT_LEAST, '<=': Bound.AT_MOST, '<': Bound.AT_MOST}
 
 
@@ -38,117 +50,161 @@ def stated_conditions(inputs: Inputs) -> Iterator[Condition | Underivable]:
     """Yield the conditions that the prompt states."""
     for stated in inputs.spec.conditions:
         try:
-            made = _one(inputs, stated)
-        except _CannotSayError as reason:
+            made = tuple(_all(inputs, stated))
+        except CannotSayError as reason:
             yield Underivable(element=stated.id, what=str(reason), span=stated.span)
         else:
-            yield made
+            yield from made
 
 
-class _CannotSayError(Exception):
-    """The condition cannot be expressed yet; the text says what of it."""
-
-
-def _one(inputs: Inputs, stated: StatedCondition) -> Condition:
-    series, single = _SERIES.get(stated.quantity), _SINGLE.get(stated.quantity)
-    found = series or single
-    if found is None or len(stated.of) != found[1]:
-        raise _CannotSayError(f'condition on {stated.quantity} of {", ".join(stated.of)}')
-    quantity = found[0]
-    if quantity is QuantityName.EVENT_TIME:
-        window, mission = Window.MOMENT, None
+def _all(inputs: Inputs, stated: StatedCondition) -> Iterator[Condition]:
+    if stated.quantity in _SERIES:
+        yield _series(inputs, stated)
+    elif stated.quantity in _PHASES:
+        yield from _phases(inputs, stated)
+    elif stated.quantity == 'event_time':
+        yield _event_time(inputs, stated)
     else:
-        window, mission = _window(inputs, stated, quantity)
-    target = _target(inputs.tolerances, stated)
-    source = Source(
-        ids=(stated.id,),
-        spans=(stated.span, stated.value.span),
-        provenance=stated.value.provenance,
-        implied=False,
-    )
-    words = f'{stated.quantity.replace("_", " ")} of {" and ".join(stated.of)}'
-    sentence = f'{words} {stated.op} {number(stated.value.value)} {stated.value.unit.value}'
-    fraction = stated.fraction.value if stated.fraction is not None else None
-    hold_s = stated.hold_s.value if stated.hold_s is not None else None
-    by_s = stated.by_s.value if stated.by_s is not None else None
-    if single is not None and (fraction is not None or by_s is not None):
-        raise _CannotSayError(f'share or deadline of {stated.quantity}')
-    if fraction is not None:
-        if hold_s is not None or by_s is not None:
-            raise _CannotSayError('a share together with a stretch or a deadline')
-        return condition(
-            id=f'{stated.id}.share',
-            sentence=f'{sentence} for {number(100 * fraction)} % of the time',
-            quantity=quantity,
-            signal=f'{stated.quantity}_share({",".join(stated.of)})',
-            of=stated.of,
-            target=Target(op='>=', threshold=fraction, unit='1'),
-            fraction=fraction,
-            arguments=inputs.arguments(
-                window,
-                aspect='share',
-                mission=mission,
-                bound=_BOUNDS.get(stated.op, Bound.EXACTLY),
-                wanted=stated.value.value,
-                sample_tolerance=target.tolerance or 0.0,
-            ),
-            source=source,
-            every_sample=False,
-        )
-    aspect = 'action' if quantity is QuantityName.EVENT_TIME else ''
-    if quantity is QuantityName.VISIBLE_TIME and hold_s is not None:
-        aspect, hold_s = 'longest', None
+        raise _unknown(stated)
+
+
+def _unknown(stated: StatedCondition) -> CannotSayError:
+    return CannotSayError(f'condition on {stated.quantity} of {", ".join(stated.of)}')
+
+
+def _check_bodies(inputs: Inputs, stated: StatedCondition, count: int) -> None:
+    if len(stated.of) != count:
+        raise _unknown(stated)
+    bodies = {a.id for a in inputs.spec.agents} | {u.id for u in inputs.spec.uavs}
+    for name in stated.of:
+        if name not in bodies and not (is_place(name) and stated.quantity in _OF_PLACES):
+            raise _unknown(stated)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _When:
+    """The samples that a condition is about, as its arguments say it."""
+
+    window: Window
+    mission: MissionArguments | None = None
+    missions: tuple[MissionArguments, ...] = ()
+
+
+def _when(inputs: Inputs, stated: StatedCondition, missions: tuple[UavMission, ...]) -> _When:
+    flown = tuple(mission_arguments(inputs, mission) for mission in missions)
+    if len(flown) == 1:
+        return _When(window=Window.PHASE, mission=flown[0])
+    if flown:
+        if stated.hold_s is not None:
+            raise CannotSayError('a stretch over several missions')
+        return _When(window=Window.ON_MISSION, mission=flown[0], missions=flown)
+    flies = any(uav.id in stated.of for uav in inputs.spec.uavs)
+    return _When(window=Window.AIRBORNE if flies else Window.MISSIONS)
+
+
+def _series(inputs: Inputs, stated: StatedCondition) -> Condition:
+    quantity, count = _SERIES[stated.quantity]
+    _check_bodies(inputs, stated, count)
+    target = target_of(inputs.tolerances, stated)
+    if stated.fraction is not None:
+        if stated.hold_s is not None or stated.by_s is not None:
+            raise CannotSayError('a share together with a stretch or a deadline')
+        when = _when(inputs, stated, missions_of(inputs, stated))
+        return _share(inputs, stated, quantity, target, when)
+    # A deadline counts from scenario start, not from the phase.
+    when = _When(window=Window.RUN)
+    if stated.by_s is None:
+        when = _when(inputs, stated, missions_of(inputs, stated))
     return condition(
         id=f'{stated.id}.holds',
-        sentence=sentence,
+        sentence=sentence_of(stated),
         quantity=quantity,
         of=stated.of,
         target=target,
-        arguments=inputs.arguments(
-            # A deadline counts from scenario start, not from the phase.
-            Window.RUN if by_s is not None else window,
-            aspect=aspect,
-            mission=mission,
-            event=stated.of[0] if quantity is QuantityName.EVENT_TIME else None,
-        ),
-        source=source,
-        every_sample=single is None or quantity is QuantityName.HOVER_DRIFT,
-        hold_s=hold_s if single is None else None,
-        by_s=by_s,
+        arguments=inputs.arguments(when.window, mission=when.mission, missions=when.missions),
+        source=source_of(stated),
+        hold_s=value_of(stated.hold_s),
+        by_s=value_of(stated.by_s),
     )
 
 
-def _window(
-    inputs: Inputs, stated: StatedCondition, quantity: QuantityName
-) -> tuple[Window, MissionArguments | None]:
-    uavs = {uav.id for uav in inputs.spec.uavs}
-    mode = {
-        QuantityName.TRACKED_FRACTION: MissionMode.TRACK,
-        QuantityName.HOVER_DRIFT: MissionMode.HOVER,
-    }.get(quantity)
-    for mission in inputs.spec.missions:
-        if mission.uav in stated.of and mode in (None, mission.mode):
-            return Window.PHASE, mission_arguments(inputs, mission)
-    if quantity in (
-        QuantityName.TRACKED_FRACTION,
-        QuantityName.VISIBLE_FRACTION,
-        QuantityName.VISIBLE_TIME,
-        QuantityName.HOVER_DRIFT,
-    ):
-        raise _CannotSayError(f'{stated.quantity} without a mission of {", ".join(stated.of)}')
-    return (Window.AIRBORNE if set(stated.of) & uavs else Window.MISSIONS), None
+def _share(
+    inputs: Inputs,
+    stated: StatedCondition,
+    quantity: QuantityName,
+    target: Target,
+    when: _When,
+) -> Condition:
+    assert stated.fraction is not None
+    fraction = stated.fraction.value
+    return condition(
+        id=f'{stated.id}.share',
+        sentence=f'{sentence_of(stated)} for {number(100 * fraction)} % of the time',
+        quantity=quantity,
+        signal=f'{stated.quantity}_share({",".join(stated.of)})',
+        of=stated.of,
+        target=Target(op='>=', threshold=fraction, unit='1'),
+        fraction=fraction,
+        arguments=inputs.arguments(
+            when.window,
+            aspect='share',
+            mission=when.mission,
+            missions=when.missions,
+            bound=_BOUNDS.get(stated.op, Bound.EXACTLY),
+            wanted=stated.value.value,
+            sample_tolerance=target.tolerance or 0.0,
+        ),
+        source=source_of(stated),
+        every_sample=False,
+    )
 
 
-def _target(tolerances: Tolerances, stated: StatedCondition) -> Target:
-    value, unit = stated.value.value, stated.value.unit
-    tolerance = None
-    if stated.op == '==':
-        kind = {
-            Unit.METRE: tolerances.placement_vehicle_m,
-            Unit.METRE_PER_SECOND: tolerances.route_speed_mps,
-            Unit.SECOND: tolerances.duration_s,
-        }.get(unit, tolerances.duration_s)
-        if stated.quantity == 'altitude':
-            kind = tolerances.altitude_m
-        tolerance = kind.of(value, approximate=stated.value.approximate)
-    return Target(op=stated.op, threshold=value, unit=unit.value, tolerance=tolerance)
+def _phases(inputs: Inputs, stated: StatedCondition) -> Iterator[Condition]:
+    """Yield one condition per mission; the time of sight is summed up over all of them."""
+    quantity, count, mode = _PHASES[stated.quantity]
+    _check_bodies(inputs, stated, count)
+    missions = missions_of(inputs, stated, mode)
+    if not missions:
+        raise CannotSayError(f'{stated.quantity} without a mission of {", ".join(stated.of)}')
+    if quantity is QuantityName.VISIBLE_TIME:
+        only(stated, 'hold_s')
+        parts = [(f'{stated.id}.holds', missions)]
+    else:
+        only(stated)
+        parts = [(f'{stated.id}.holds.{m.id}', (m,)) for m in missions]
+        if len(missions) == 1:
+            parts = [(f'{stated.id}.holds', missions)]
+    for name, group in parts:
+        when = _when(inputs, stated, group)
+        yield condition(
+            id=name,
+            sentence=sentence_of(stated),
+            quantity=quantity,
+            of=stated.of,
+            target=target_of(inputs.tolerances, stated),
+            arguments=inputs.arguments(
+                when.window,
+                # With a stretch it is the longest one without a gap that counts.
+                aspect='' if stated.hold_s is None else 'longest',
+                mission=when.mission,
+                missions=when.missions,
+            ),
+            source=source_of(stated),
+            every_sample=quantity is QuantityName.HOVER_DRIFT,
+        )
+
+
+def _event_time(inputs: Inputs, stated: StatedCondition) -> Condition:
+    only(stated)
+    if len(stated.of) != 1 or stated.of[0] not in {event.id for event in inputs.spec.events}:
+        raise _unknown(stated)
+    return condition(
+        id=f'{stated.id}.holds',
+        sentence=sentence_of(stated),
+        quantity=QuantityName.EVENT_TIME,
+        of=stated.of,
+        target=target_of(inputs.tolerances, stated),
+        arguments=inputs.arguments(Window.MOMENT, aspect='action', event=stated.of[0]),
+        source=source_of(stated),
+        every_sample=False,
+    )

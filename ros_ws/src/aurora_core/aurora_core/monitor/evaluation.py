@@ -253,7 +253,10 @@ class Context:
                 missing = next((part for part in parts if isinstance(part, Missing)), None)
                 if missing is not None:
                     return missing
-                return np.concatenate([part for part in parts if not isinstance(part, Missing)])
+                # Phases of two UAVs overlap: a tick counts once.
+                return np.unique(
+                    np.concatenate([part for part in parts if not isinstance(part, Missing)])
+                )
             case Window.MOMENT:
                 raise VerificationError(f'condition {condition.id} has no window of samples')
 

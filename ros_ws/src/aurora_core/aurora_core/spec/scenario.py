@@ -290,7 +290,7 @@ def bodies_of(event: Event) -> frozenset[str]:
     """Return every agent and UAV that an event's trigger and action refer to by id."""
     names = ('a', 'b', 'uav', 'observer', 'target', 'who', 'by', 'sender', 'receiver', 'agent')
     found = {getattr(part, name, None) for part in (event.trigger, event.action) for name in names}
-    return frozenset(n for n in found if n is not None and not _is_place(n))
+    return frozenset(n for n in found if n is not None and not is_place(n))
 
 
 class StatedCondition(Document):
@@ -350,7 +350,7 @@ class ScenarioSpec(Document):
             raise ValueError(f'ids must be unique, repeated: {", ".join(repeated)}')
         bodies = {a.id for a in self.agents} | {u.id for u in self.uavs}
         for owner, reference in self._body_references():
-            if reference not in bodies and not _is_place(reference):
+            if reference not in bodies and not is_place(reference):
                 raise ValueError(f'{owner} refers to {reference!r}, which is not in the scene')
         uavs = {u.id for u in self.uavs}
         for mission in self.missions:
@@ -398,7 +398,8 @@ class ScenarioSpec(Document):
         )
 
 
-def _is_place(reference: str) -> bool:
+def is_place(reference: str) -> bool:
+    """Tell whether a reference names a place, not an element of the scene."""
     return reference.startswith('landmark:') or reference in (
         'intersection',
         'crosswalk',

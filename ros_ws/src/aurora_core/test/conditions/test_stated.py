@@ -1,0 +1,97 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Stated conditions: what each becomes, and what cannot be said of them yet."""
+
+from __future__ import annotations
+
+from types import ModuleType
+from typing import Any
+
+import pytest
+
+from aurora_core.conditions.condition import Condition, Window
+from aurora_core.conditions.derive import Derivation, derive_conditions
+from aurora_core.spec.parameter import Span, Unit
+
+
+def _derive(
+    tb: ModuleType, case: Any, quantity: str, of: tuple[str, ...], **more: Any
+) -> Derivation:
+    values = {'op': '<=', 'value': tb.number(10.0)} | more
+    stated = {'id': 'c1', 'quantity': quantity, 'of': of} | values
+    case.spec = tb.spec(**{**dict(case.spec), 'conditions': (stated,)})
+    return derive_conditions(case.spec, case.facts, tb.LIMITS, tb.TOLERANCES)
+
+
+def _stated(derivation: Derivation) -> list[Condition]:
+    return [c for c in derivation.conditions if not c.implied]
+
+
+def _two_hovers(tb: ModuleType) -> Any:
+    """uav1 hovers twice; the missions are said in clauses of their own."""
+    case = tb.hover_case()
+    (one,), (facts,) = case.spec.missions, case.facts.missions
+    spans = (Span(start=0, end=9), Span(start=10, end=19))
+    missions = [dict(one) | {'id': f'm{k}', 'span': spans[k - 1]} for k in (1, 2)]
+    case.spec = tb.spec(**{**dict(case.spec), 'missions': tuple(missions)})
+    case.facts = tb.facts_of(
+        facts, facts.model_validate(dict(facts) | {'mission': 'm2'}), horizon_s=70.0
+    )
+    return case
+
+
+def test_a_limit_on_a_flight_counts_in_every_mission(tb: ModuleType) -> None:
+    (one,) = _stated(_derive(tb, _two_hovers(tb), 'altitude', ('uav1',)))
+    assert one.arguments.window is Window.ON_MISSION
+    assert [m.mission for m in one.arguments.missions] == ['m1', 'm2']
+
+
+def test_a_limit_in_the_clause_of_a_mission_counts_there(tb: ModuleType) -> None:
+    said = Span(start=12, end=15)
+    (one,) = _stated(_derive(tb, _two_hovers(tb), 'altitude', ('uav1',), span=said))
+    assert one.arguments.window is Window.PHASE
+    assert one.arguments.mission is not None
+    assert one.arguments.mission.mission == 'm2'
+
+
+def test_a_limit_on_drift_is_one_condition_per_hover(tb: ModuleType) -> None:
+    made = _stated(_derive(tb, _two_hovers(tb), 'hover_drift', ('uav1',)))
+    assert [c.id for c in made] == ['c1.holds.m1', 'c1.holds.m2']
+
+
+@pytest.mark.parametrize(
+    ('quantity', 'of', 'extra', 'what'),
+    [
+        ('altitude', ('uav1',), 'hold_s', 'a stretch over several missions'),
+        ('hover_drift', ('uav1',), 'hold_s', 'stretch of hover_drift'),
+        ('visible_fraction', ('uav1', 'ego'), 'fraction', 'share of visible_fraction'),
+        ('visible_time', ('uav1', 'ego'), 'by_s', 'deadline of visible_time'),
+        (
+            'tracked_fraction',
+            ('uav1', 'ego'),
+            '',
+            'tracked_fraction without a mission of uav1, ego',
+        ),
+        ('event_time', ('e9',), '', 'condition on event_time of e9'),
+        ('distance', ('uav1', 'ghost'), '', 'condition on distance of uav1, ghost'),
+        ('speed', ('intersection',), '', 'condition on speed of intersection'),
+        ('speed', ('uav1', 'ego'), '', 'condition on speed of uav1, ego'),
+    ],
+)
+def test_what_cannot_be_said_is_never_left_out(
+    tb: ModuleType, quantity: str, of: tuple[str, ...], extra: str, what: str
+) -> None:
+    unit = Unit.ONE if extra == 'fraction' else Unit.SECOND
+    more = {extra: tb.number(0.5, unit)} if extra else {}
+    derivation = _derive(tb, _two_hovers(tb), quantity, of, **more)
+    assert _stated(derivation) == []
+    assert [(u.element, u.what) for u in derivation.underivable] == [('c1', what)]
+
+
+def test_a_share_that_is_asked_exactly_has_no_tolerance(tb: ModuleType) -> None:
+    value = tb.number(0.9, Unit.ONE)
+    case = tb.convoy_case()
+    made = _derive(tb, case, 'visible_fraction', ('uav1', 'bus1'), op='==', value=value)
+    (one,) = _stated(made)
+    assert one.formula == 'visible_fraction(uav1,bus1) == 0.9 +- 0 1'
+    assert one.scale == pytest.approx(0.09)
