@@ -131,6 +131,7 @@ class Arguments(Document):
         bound: How the number binds per sample.
         wanted: Number that each sample is compared with.
         sample_tolerance: Tolerance on it.
+        strict: A sample that is exactly the wanted number does not count.
         brake_mps2: Events: loss of speed that counts as braking.
         onset_mps2: Events: change of speed that counts as slowing down or speeding up.
         arrival_m: Events: distance from a place at which an agent is there.
@@ -158,6 +159,7 @@ class Arguments(Document):
     bound: Bound = Bound.EXACTLY
     wanted: FiniteFloat = 0.0
     sample_tolerance: FiniteFloat = 0.0
+    strict: bool = False
     brake_mps2: FiniteFloat = 0.0
     onset_mps2: FiniteFloat = 0.0
     arrival_m: FiniteFloat = 0.0

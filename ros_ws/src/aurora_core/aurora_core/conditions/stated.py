@@ -153,6 +153,7 @@ def _share(
             bound=_BOUNDS.get(stated.op, Bound.EXACTLY),
             wanted=stated.value.value,
             sample_tolerance=target.tolerance or 0.0,
+            strict=stated.op in ('<', '>'),
         ),
         source=source_of(stated),
         every_sample=False,

@@ -50,7 +50,12 @@ def source_of(stated: StatedCondition) -> Source:
 def sentence_of(stated: StatedCondition) -> str:
     """Return the comparison in words."""
     words = f'{stated.quantity.replace("_", " ")} of {" and ".join(stated.of)}'
-    return f'{words} {stated.op} {number(stated.value.value)} {stated.value.unit.value}'
+    text = f'{words} {stated.op} {number(stated.value.value)} {stated.value.unit.value}'
+    if stated.hold_s is not None:
+        text += f' for {number(stated.hold_s.value)} s without a break'
+    if stated.by_s is not None:
+        text += f' by {number(stated.by_s.value)} s'
+    return text
 
 
 def target_of(tolerances: Tolerances, stated: StatedCondition) -> Target:

@@ -82,8 +82,9 @@ def _measure(context: Context, condition: Condition, series: _Series) -> Evaluat
     values = series(context, condition)
     arguments = condition.arguments
     if arguments.aspect == 'share':
-        inside = bound_error(values, arguments.wanted, arguments.bound)
-        return share_of(context, ticks, inside <= arguments.sample_tolerance, values)
+        off = bound_error(values, arguments.wanted, arguments.bound)
+        good = off < 0.0 if arguments.strict else off <= arguments.sample_tolerance
+        return share_of(context, ticks, good, values)
     return Measured(ticks=ticks, values=values[ticks], evidence=_topics(condition))
 
 

@@ -88,6 +88,13 @@ def test_what_cannot_be_said_is_never_left_out(
     assert [(u.element, u.what) for u in derivation.underivable] == [('c1', what)]
 
 
+def test_a_stretch_and_a_deadline_are_in_the_sentence(tb: ModuleType) -> None:
+    more = {'hold_s': tb.number(4.0, Unit.SECOND), 'by_s': tb.number(9.0, Unit.SECOND)}
+    (one,) = _stated(_derive(tb, tb.hover_case(), 'distance', ('uav1', 'ego'), **more))
+    assert one.sentence == 'distance of uav1 and ego <= 10 m for 4 s without a break by 9 s'
+    assert one.formula == ('eventually [0, 9] s (always [0, 4] s (distance(uav1,ego) <= 10 m))')
+
+
 def test_a_share_that_is_asked_exactly_has_no_tolerance(tb: ModuleType) -> None:
     value = tb.number(0.9, Unit.ONE)
     case = tb.convoy_case()

@@ -159,6 +159,19 @@ GROUND = (
         margin=0.0 - 0.9,
         what='speed',
     ),
+    # Always exactly 5 m/s.
+    Row(
+        id='c1.share',
+        make=lambda: _cars('speed', ('car1',), '>=', 5.0, fraction=0.9),
+        margin=1.0 - 0.9,
+        what='threshold',
+    ),
+    Row(
+        id='c1.share',
+        make=lambda: _cars('speed', ('car1',), '>', 5.0, fraction=0.9),
+        margin=0.0 - 0.9,
+        what='threshold',
+    ),
     Row(
         id='c1.share',
         make=lambda: gone(_cars('speed', ('car1',), '>=', 6.0, fraction=0.9), 0, 9),
