@@ -293,7 +293,8 @@ class Context:
         if phase.capture_tick is not None:
             return None if over else self.short(condition)
         if mission.target is not None and self.view.has(mission.target):
-            absent = np.flatnonzero(~self.view.present(mission.target))
+            # What happens to it after the phase has not kept the UAV from capturing it.
+            absent = np.flatnonzero(~self.view.present(mission.target)[: phase.stop_tick])
             if len(absent):
                 gone_s = self.time_s(int(absent[0]))
                 return Missing(

@@ -63,18 +63,31 @@ def measure_capture_time(context: Context, condition: Condition) -> Evaluation:
     if lasted and missing.reason is not Reason.TARGET_GONE:
         # Not by the end of the record: at the earliest with the next tick.
         waited_s = context.time_s(context.view.ticks - (phase.ready_tick or 0))
-        if waited_s > condition.threshold:
+        if waited_s > condition.threshold or context.complete(condition):
             story = f'{mission.uav} had not captured after {waited_s:.2f} s'
-            return at_tick(
-                context.view.ticks - 1,
-                waited_s,
-                story,
-                _topics(condition),
-                later=Later.RISES,
-                provisional=True,
-            )
+            tick, topics = context.view.ticks - 1, _topics(condition)
+            return _not_yet(context, condition, tick, waited_s, story, topics)
         return context.short(condition)
     return missing
+
+
+def _not_yet(
+    context: Context,
+    condition: Condition,
+    tick: int,
+    earliest_s: float,
+    story: str,
+    topics: tuple[str, ...],
+) -> Measured:
+    """Return the measurement of a deadline for what has not happened by the end of the record.
+
+    One tick after the deadline stands for "never" where the run is over before it; should the run
+    go on, what is asked can still happen in time.
+    """
+    if earliest_s > condition.threshold:
+        return at_tick(tick, earliest_s, story, topics, later=Later.RISES, provisional=True)
+    never_s = condition.threshold + context.view.dt_s
+    return at_tick(tick, never_s, story, topics, later=Later.ANY, provisional=True)
 
 
 def measure_mission_completed(context: Context, condition: Condition) -> Evaluation:
@@ -233,12 +246,12 @@ def measure_landed(context: Context, condition: Condition) -> Evaluation:
             flight.landed_tick, value, f'{mission.uav} was down at {value:.2f} s', topics
         )
     earliest_s = context.time_s(context.view.ticks)
-    if earliest_s > condition.threshold:
+    if earliest_s > condition.threshold or context.complete(condition):
         story = (
             f'{mission.uav} was not down at the end, {context.time_s(context.view.ticks - 1)} s'
         )
         last_tick = context.view.ticks - 1
-        return at_tick(last_tick, earliest_s, story, topics, later=Later.RISES, provisional=True)
+        return _not_yet(context, condition, last_tick, earliest_s, story, topics)
     return context.short(condition)
 
 
