@@ -8,6 +8,13 @@ from collections.abc import Iterator
 
 from aurora_core.conditions.build import Inputs, Source, Target, Underivable, condition, number
 from aurora_core.conditions.condition import Condition, MissionArguments, Window
+from aurora_core.conditions.links import (
+    delivery_deadline_s,
+    is_needed,
+    link_between,
+    loses_messages,
+    ratio_condition,
+)
 from aurora_core.conditions.missions import mission_arguments
 from aurora_core.spec.parameter import Provenance
 from aurora_core.spec.quantity import QuantityName
@@ -17,7 +24,6 @@ from aurora_core.spec.scenario import (
     DistanceTrigger,
     Event,
     Link,
-    MessageTrigger,
     SendMessage,
     SpeedTrigger,
     TimeTrigger,
@@ -59,7 +65,7 @@ def event_conditions(inputs: Inputs) -> Iterator[Condition | Underivable]:
         source = Source(ids=(event.id,), spans=(event.span,))
         yield from _moment(inputs, event, source)
         if isinstance(event.action, SendMessage):
-            link = _link(inputs, event.action)
+            link = link_between(inputs.spec, event.action.sender, event.action.receiver)
             if link is None:
                 yield Underivable(
                     element=event.id,
@@ -67,6 +73,8 @@ def event_conditions(inputs: Inputs) -> Iterator[Condition | Underivable]:
                     span=event.span,
                 )
                 continue
+            if link.id not in used and loses_messages(link):
+                yield ratio_condition(inputs, link)
             used.add(link.id)
             yield from _alert(inputs, event, event.action, source)
             yield from _message(inputs, event, link)
@@ -153,17 +161,6 @@ def _at_least(seconds: float) -> Target:
     return Target(op='>=', threshold=seconds, unit='s')
 
 
-def _link(inputs: Inputs, action: SendMessage) -> Link | None:
-    return next(
-        (
-            link
-            for link in inputs.spec.links
-            if (link.sender, link.receiver) == (action.sender, action.receiver)
-        ),
-        None,
-    )
-
-
 def _sender_missions(inputs: Inputs, uav: str) -> tuple[MissionArguments, ...]:
     return tuple(
         mission_arguments(inputs, mission)
@@ -206,43 +203,17 @@ def _alert(
         )
 
 
-def _needed(inputs: Inputs, link: Link) -> bool:
-    """Tell whether an event waits for a message of the link."""
-    return any(
-        isinstance(event.trigger, MessageTrigger)
-        and event.trigger.by == link.receiver
-        and event.trigger.sender in (None, link.sender)
-        for event in inputs.spec.events
-    )
-
-
-def _message(inputs: Inputs, event: Event, link: Link) -> Iterator[Condition | Underivable]:
-    forbidden = (
-        link.retransmissions.provenance is Provenance.EXPLICIT
-        and link.retransmissions.value == 0.0
-        and link.loss.value > 0.0
-    )
+def _message(inputs: Inputs, event: Event, link: Link) -> Iterator[Condition]:
     of = (link.sender, link.receiver)
-    stated_latency = link.latency_s.provenance is Provenance.EXPLICIT
     realised_s = link.latency_s.value
-    if forbidden and not _needed(inputs, link):
-        yield Underivable(
-            element=link.id,
-            what='delivery ratio of a lossy link without retransmissions',
-            span=link.span,
-        )
-    else:
-        deadline_s = inputs.tolerances.delivery_s
-        if stated_latency:
-            again_s = link.retransmissions.value * link.retransmission_interval_s.value
-            deadline_s = realised_s + again_s
+    if is_needed(inputs.spec, link) or not loses_messages(link):
         yield condition(
             id=f'{event.id}.delivered',
             sentence=f'the message of {event.id} reaches {link.receiver}',
             quantity=QuantityName.DELIVERED,
             signal=f'delivery_time({event.id})',
             of=of,
-            target=Target(op='<=', threshold=deadline_s, unit='s'),
+            target=Target(op='<=', threshold=delivery_deadline_s(inputs, link), unit='s'),
             arguments=inputs.arguments(
                 Window.MOMENT, aspect='delivered', event=event.id, link=link.id
             ),
@@ -252,7 +223,7 @@ def _message(inputs: Inputs, event: Event, link: Link) -> Iterator[Condition | U
                 provenance=link.latency_s.provenance,
             ),
         )
-    if stated_latency:
+    if link.latency_s.provenance is Provenance.EXPLICIT:
         yield condition(
             id=f'{event.id}.latency',
             sentence=(

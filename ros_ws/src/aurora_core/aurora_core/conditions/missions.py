@@ -17,6 +17,7 @@ from aurora_core.conditions.build import (
     number_target,
     stated_by,
 )
+from aurora_core.conditions.completion import completed_condition, landed_condition
 from aurora_core.conditions.condition import Condition, MissionArguments, Window
 from aurora_core.conditions.plan_facts import MissionFacts
 from aurora_core.conditions.routes import route_conditions
@@ -133,7 +134,14 @@ def mission_conditions(inputs: Inputs) -> Iterator[Condition | Underivable]:
     for uav in inputs.spec.uavs:
         missions = [m for m in inputs.spec.missions if m.uav == uav.id]
         if missions and not missions[-1].ends_in_flight:
-            yield _landed(inputs, missions)
+            yield landed_condition(
+                inputs,
+                tuple(mission_arguments(inputs, m) for m in missions),
+                id=f'{uav.id}.landed',
+                source=Source(
+                    ids=tuple(m.id for m in missions), spans=tuple(m.span for m in missions)
+                ),
+            )
 
 
 def _course(
@@ -164,31 +172,7 @@ def _course(
         source=source,
         every_sample=False,
     )
-    if facts.duration_s is not None:
-        least = max(0.0, facts.duration_s - inputs.tolerances.duration_s.of(facts.duration_s))
-        yield condition(
-            id=f'{mission.id}.completed',
-            sentence=f'{uav} stays on {mission.id} for at least {number(least)} s',
-            quantity=QuantityName.MISSION_COMPLETED,
-            signal=f'phase_time({uav},{mission.id})',
-            of=(uav,),
-            target=Target(op='>=', threshold=least, unit='s'),
-            arguments=inputs.arguments(Window.PHASE, aspect='time', mission=arguments),
-            source=source,
-            every_sample=False,
-        )
-    else:
-        yield condition(
-            id=f'{mission.id}.completed',
-            sentence=f'{uav} has flown the whole route of {mission.id} when the phase ends',
-            quantity=QuantityName.MISSION_COMPLETED,
-            signal=f'time_after_route({uav},{mission.id})',
-            of=(uav,),
-            target=Target(op='>=', threshold=0.0, unit='s'),
-            arguments=inputs.arguments(Window.PHASE, aspect='route', mission=arguments),
-            source=source,
-            every_sample=False,
-        )
+    yield completed_condition(inputs, arguments, id=f'{mission.id}.completed', source=source)
 
 
 def _numbers(
@@ -341,21 +325,3 @@ def _hover(
             arguments=inputs.arguments(Window.PHASE, mission=arguments),
             source=stated_by(source, standoff),
         )
-
-
-def _landed(inputs: Inputs, missions: list[UavMission]) -> Condition:
-    uav = missions[-1].uav
-    horizon = inputs.facts.horizon_s
-    return condition(
-        id=f'{uav}.landed',
-        sentence=f'{uav} has landed by {number(horizon)} s',
-        quantity=QuantityName.LANDED,
-        signal=f'landing_time({uav})',
-        of=(uav,),
-        target=Target(op='<=', threshold=horizon, unit='s'),
-        arguments=inputs.arguments(
-            Window.RUN, missions=tuple(mission_arguments(inputs, m) for m in missions)
-        ),
-        source=Source(ids=tuple(m.id for m in missions), spans=tuple(m.span for m in missions)),
-        every_sample=False,
-    )

@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from aurora_core.conditions.build import Inputs, Target, Underivable, condition, number
 from aurora_core.conditions.condition import Condition, MissionArguments, Window
 from aurora_core.conditions.missions import mission_arguments
+from aurora_core.conditions.stated_flight import FLIGHT_QUANTITIES, stated_flight
+from aurora_core.conditions.stated_links import LINK_QUANTITIES, stated_link
 from aurora_core.conditions.stated_values import (
     CannotSayError,
     missions_of,
@@ -64,6 +66,10 @@ def _all(inputs: Inputs, stated: StatedCondition) -> Iterator[Condition]:
         yield from _phases(inputs, stated)
     elif stated.quantity == 'event_time':
         yield _event_time(inputs, stated)
+    elif stated.quantity in LINK_QUANTITIES:
+        yield from stated_link(inputs, stated)
+    elif stated.quantity in FLIGHT_QUANTITIES:
+        yield from stated_flight(inputs, stated)
     else:
         raise _unknown(stated)
 
@@ -72,13 +78,21 @@ def _unknown(stated: StatedCondition) -> CannotSayError:
     return CannotSayError(f'condition on {stated.quantity} of {", ".join(stated.of)}')
 
 
-def _check_bodies(inputs: Inputs, stated: StatedCondition, count: int) -> None:
-    if len(stated.of) != count:
+def _bodies(inputs: Inputs, stated: StatedCondition, count: int) -> tuple[str, ...]:
+    """Return whom a condition is about, a group by its members; only separation is about more."""
+    of = stated.of
+    apart = stated.quantity == 'separation'
+    if apart and len(of) == 1:
+        of = tuple(agent.id for agent in inputs.spec.agents if agent.group == of[0])
+    # All pairs of a group can be so near, or so far, but hardly have one distance.
+    group = apart and len(of) > count and stated.op != '=='
+    if len(set(of)) != len(of) or (len(of) != count and not group):
         raise _unknown(stated)
-    bodies = {a.id for a in inputs.spec.agents} | {u.id for u in inputs.spec.uavs}
-    for name in stated.of:
-        if name not in bodies and not (is_place(name) and stated.quantity in _OF_PLACES):
+    known = {a.id for a in inputs.spec.agents} | {u.id for u in inputs.spec.uavs}
+    for name in of:
+        if name not in known and not (is_place(name) and stated.quantity in _OF_PLACES):
             raise _unknown(stated)
+    return of
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -104,13 +118,13 @@ def _when(inputs: Inputs, stated: StatedCondition, missions: tuple[UavMission, .
 
 def _series(inputs: Inputs, stated: StatedCondition) -> Condition:
     quantity, count = _SERIES[stated.quantity]
-    _check_bodies(inputs, stated, count)
+    of = _bodies(inputs, stated, count)
     target = target_of(inputs.tolerances, stated)
     if stated.fraction is not None:
         if stated.hold_s is not None or stated.by_s is not None:
             raise CannotSayError('a share together with a stretch or a deadline')
         when = _when(inputs, stated, missions_of(inputs, stated))
-        return _share(inputs, stated, quantity, target, when)
+        return _share(inputs, stated, of, target, when)
     # A deadline counts from scenario start, not from the phase.
     when = _When(window=Window.RUN)
     if stated.by_s is None:
@@ -119,7 +133,7 @@ def _series(inputs: Inputs, stated: StatedCondition) -> Condition:
         id=f'{stated.id}.holds',
         sentence=sentence_of(stated),
         quantity=quantity,
-        of=stated.of,
+        of=of,
         target=target,
         arguments=inputs.arguments(when.window, mission=when.mission, missions=when.missions),
         source=source_of(stated),
@@ -131,7 +145,7 @@ def _series(inputs: Inputs, stated: StatedCondition) -> Condition:
 def _share(
     inputs: Inputs,
     stated: StatedCondition,
-    quantity: QuantityName,
+    of: tuple[str, ...],
     target: Target,
     when: _When,
 ) -> Condition:
@@ -140,9 +154,9 @@ def _share(
     return condition(
         id=f'{stated.id}.share',
         sentence=f'{sentence_of(stated)} for {number(100 * fraction)} % of the time',
-        quantity=quantity,
-        signal=f'{stated.quantity}_share({",".join(stated.of)})',
-        of=stated.of,
+        quantity=_SERIES[stated.quantity][0],
+        signal=f'{stated.quantity}_share({",".join(of)})',
+        of=of,
         target=Target(op='>=', threshold=fraction, unit='1'),
         fraction=fraction,
         arguments=inputs.arguments(
@@ -163,7 +177,7 @@ def _share(
 def _phases(inputs: Inputs, stated: StatedCondition) -> Iterator[Condition]:
     """Yield one condition per mission; the time of sight is summed up over all of them."""
     quantity, count, mode = _PHASES[stated.quantity]
-    _check_bodies(inputs, stated, count)
+    of = _bodies(inputs, stated, count)
     missions = missions_of(inputs, stated, mode)
     if not missions:
         raise CannotSayError(f'{stated.quantity} without a mission of {", ".join(stated.of)}')
@@ -181,7 +195,7 @@ def _phases(inputs: Inputs, stated: StatedCondition) -> Iterator[Condition]:
             id=name,
             sentence=sentence_of(stated),
             quantity=quantity,
-            of=stated.of,
+            of=of,
             target=target_of(inputs.tolerances, stated),
             arguments=inputs.arguments(
                 when.window,

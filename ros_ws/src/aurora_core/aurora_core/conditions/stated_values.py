@@ -32,6 +32,16 @@ def only(stated: StatedCondition, *allowed: str) -> None:
             raise CannotSayError(f'{word} of {stated.quantity}')
 
 
+def asked_true(stated: StatedCondition) -> None:
+    """Refuse what is not "yes" to a quantity that is yes or no.
+
+    Raises:
+        CannotSayError: It is asked not to be so.
+    """
+    if stated.op not in ('==', '>=') or stated.value.value != 1.0:
+        raise CannotSayError(f'{stated.quantity} {stated.op} {number(stated.value.value)}')
+
+
 def value_of(parameter: Parameter | None) -> float | None:
     """Return the number of a parameter that may be missing."""
     return None if parameter is None else parameter.value

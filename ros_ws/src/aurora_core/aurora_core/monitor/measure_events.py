@@ -17,11 +17,11 @@ from aurora_core.monitor.evaluation import (
     at_tick,
 )
 from aurora_core.monitor.verdict import Reason
-from aurora_core.quantities.ledger import LinkModel, Message
+from aurora_core.quantities.ledger import LinkModel, Message, binomial_interval
 from aurora_core.spec.scenario import DistanceTrigger
 from aurora_core.spec.vocabulary import MissionMode
 from aurora_core.stl.syntax import format_number
-from aurora_core.trace.records import LinkEventKind
+from aurora_core.trace.records import LinkEventKind, LossReason
 
 
 def _event_id(condition: Condition) -> str:
@@ -87,8 +87,23 @@ def measure_event_time(context: Context, condition: Condition) -> Evaluation:
 
 
 def _messages(context: Context, condition: Condition) -> tuple[Message, ...]:
-    event_id = _event_id(condition)
-    return tuple(message for message in context.messages if message.event == event_id)
+    """Return the messages of the condition's event, of its whole link when it names no event."""
+    event_id, link_id = condition.arguments.event, condition.arguments.link
+    return tuple(
+        message
+        for message in context.messages
+        if (message.link_id == link_id if event_id is None else message.event == event_id)
+    )
+
+
+def _more_may_follow(context: Context, condition: Condition) -> bool:
+    """Tell whether a condition on a whole link lacks the rest of its messages."""
+    return condition.arguments.event is None and not context.complete(condition)
+
+
+def _none_sent(context: Context, condition: Condition) -> Missing:
+    of = condition.arguments.event or condition.arguments.link
+    return _never(context, condition, f'no message of {of} was sent')
 
 
 def measure_sent_after_capture(context: Context, condition: Condition) -> Evaluation:
@@ -96,7 +111,7 @@ def measure_sent_after_capture(context: Context, condition: Condition) -> Evalua
     event_id = _event_id(condition)
     sent = _messages(context, condition)
     if not sent:
-        return _never(context, condition, f'no message of {event_id} was sent')
+        return _none_sent(context, condition)
     touchdown_m = condition.arguments.touchdown_m
     missions = condition.arguments.missions
     if condition.arguments.aspect == 'capture':
@@ -119,10 +134,9 @@ def measure_sent_after_capture(context: Context, condition: Condition) -> Evalua
 
 def measure_visible_at_send(context: Context, condition: Condition) -> Evaluation:
     """Metres of sight margin to the actor at each first transmission."""
-    event_id = _event_id(condition)
     sent = _messages(context, condition)
     if not sent:
-        return _never(context, condition, f'no message of {event_id} was sent')
+        return _none_sent(context, condition)
     ticks = np.array([message.sent_tick for message in sent], dtype=np.intp)
     ticks = ticks[ticks < context.view.ticks]
     if len(ticks) == 0:
@@ -136,26 +150,27 @@ def measure_visible_at_send(context: Context, condition: Condition) -> Evaluatio
 
 
 def measure_delivered(context: Context, condition: Condition) -> Evaluation:
-    """Seconds from sending to receipt, per message of an event; the latest one decides.
+    """Seconds from sending to receipt, per message of an event or a link; the latest one decides.
 
     A message that was given up counts as received one tick after its deadline, or one tick after
     the end of the record if that is later.
     """
-    event_id = _event_id(condition)
     sent = _messages(context, condition)
     if not sent:
-        return _never(context, condition, f'no message of {event_id} was sent')
+        return _none_sent(context, condition)
+    if _more_may_follow(context, condition):
+        return context.short(condition)
     model = _link_model(context, condition)
     ticks, values, stories = [], [], []
     for message in sent:
         value = _delivery_s(context, condition, message, model)
         if value is None:
             return context.short(condition)
-        trigger = context.events.trigger_tick(event_id)
+        trigger = context.events.trigger_tick(message.event)
         begin = (
-            trigger_story(context, event_id, trigger)
+            trigger_story(context, message.event, trigger)
             if trigger is not None and trigger <= message.sent_tick
-            else f'{event_id} was sent at {context.time_s(message.sent_tick):.2f} s'
+            else f'{message.event} was sent at {context.time_s(message.sent_tick):.2f} s'
         )
         arrived = message.delivered_tick
         if arrived is not None and arrived < context.view.ticks:
@@ -205,7 +220,9 @@ def _delivery_s(
 
 
 def measure_delivery_latency(context: Context, condition: Condition) -> Evaluation:
-    """Ticks by which recorded receipts are off the stated latency, per message that passed."""
+    """Seconds from sending to receipt; `steps`: ticks that receipts are off the link's latency."""
+    if condition.arguments.aspect != 'steps':
+        return measure_delivered(context, condition)
     model = _link_model(context, condition)
     numbers = {m.number: m for m in context.messages if m.link_id == model.link_id}
     ticks, values = [], []
@@ -226,3 +243,42 @@ def measure_delivery_latency(context: Context, condition: Condition) -> Evaluati
         evidence=('comm',),
         provisional=True,
     )
+
+
+def measure_delivery_ratio(context: Context, condition: Condition) -> Evaluation:
+    """Share of a link's messages that arrive; `model`: how far it is inside what chance allows."""
+    sent = _messages(context, condition)
+    if not sent:
+        return _none_sent(context, condition)
+    model = _link_model(context, condition)
+    if _more_may_follow(context, condition):
+        return context.short(condition)
+    if condition.arguments.aspect == 'model':
+        return _chance(context, condition, sent, model)
+    end = context.view.ticks
+    arrived = sum(m.delivered_tick is not None and m.delivered_tick < end for m in sent)
+    story = f'{arrived} of {len(sent)} messages reached {condition.of[-1]}'
+    return at_tick(sent[-1].sent_tick, arrived / len(sent), story, ('comm',), provisional=True)
+
+
+def _chance(
+    context: Context, condition: Condition, sent: tuple[Message, ...], model: LinkModel
+) -> Evaluation:
+    """Return how far the share of passed messages is inside its 99 % interval.
+
+    What was sent out of range is lost for certain and says nothing about chance.
+    """
+    tried = [
+        message.attempts[0]
+        for message in sent
+        if message.attempts and message.attempts[0].reason is not LossReason.RANGE
+    ]
+    if not tried:
+        return _never(context, condition, f'nothing was sent in range on {model.link_id}')
+    passed = sum(attempt.passed for attempt in tried)
+    low, high = binomial_interval(len(tried), 1.0 - model.loss)
+    slack = min(passed - low, high - passed) / len(tried)
+    story = (
+        f'{passed} of {len(tried)} messages passed {model.link_id}, chance allows {low} to {high}'
+    )
+    return at_tick(tried[-1].tick, slack, story, ('comm',), provisional=True)

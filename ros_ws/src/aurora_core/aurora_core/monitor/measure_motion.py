@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import combinations
 
 import numpy as np
 
@@ -21,10 +22,11 @@ from aurora_core.monitor.evaluation import (
 )
 from aurora_core.monitor.shares import share_of
 from aurora_core.monitor.verdict import Reason
-from aurora_core.quantities import motion
+from aurora_core.quantities import contact, motion
 from aurora_core.quantities.kernels import bound_error, distance_2d
 from aurora_core.quantities.ticks import first_tick
 from aurora_core.quantities.waypoints import pattern_centre
+from aurora_core.spec.parameter import Bound
 from aurora_core.trace.layout import UavCommandColumn
 
 _Series = Callable[[Context, Condition], FloatArray]
@@ -64,6 +66,17 @@ def _speed(context: Context, condition: Condition) -> FloatArray:
         greatest: FloatArray = np.max(each, axis=0)
         return greatest
     return motion.speed(view, body)
+
+
+def _separation(context: Context, condition: Condition) -> FloatArray:
+    pairs = combinations(condition.of, 2)
+    each = np.stack([contact.separation(context.view, a, b) for a, b in pairs])
+    # Of a group the pair counts that is worst: an upper bound has to hold for the farthest one.
+    upper = condition.op in ('<', '<=')
+    if condition.arguments.aspect == 'share':
+        upper = condition.arguments.bound is Bound.AT_MOST
+    worst: FloatArray = np.max(each, axis=0) if upper else np.min(each, axis=0)
+    return worst
 
 
 def _climb(context: Context, condition: Condition) -> FloatArray:
@@ -114,6 +127,11 @@ def measure_distance(context: Context, condition: Condition) -> Evaluation:
 def measure_horizontal_distance(context: Context, condition: Condition) -> Evaluation:
     """Samples of the distance in the plane; `centre`: from the centre of the pattern."""
     return _measure(context, condition, _horizontal)
+
+
+def measure_separation(context: Context, condition: Condition) -> Evaluation:
+    """Samples of the 3-D distance of two bodies, of a group: of its worst pair."""
+    return _measure(context, condition, _separation)
 
 
 def measure_altitude(context: Context, condition: Condition) -> Evaluation:

@@ -44,18 +44,6 @@ def _measured(
     )
 
 
-def measure_separation(context: Context, condition: Condition) -> Evaluation:
-    """3-D distance of two UAVs, metres."""
-    ticks = context.window(condition)
-    if isinstance(ticks, Missing):
-        return ticks
-    gone = context.gone(condition, ticks)
-    if gone is not None:
-        return gone
-    values = contact.separation(context.view, condition.of[0], condition.of[1])
-    return Measured(ticks=ticks, values=values[ticks], evidence=('uav/state',))
-
-
 def measure_presence(context: Context, condition: Condition) -> Evaluation:
     """1 while all bodies exist, 0 while one does not."""
     ticks = context.window(condition)

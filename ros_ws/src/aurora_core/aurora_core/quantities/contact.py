@@ -179,7 +179,7 @@ def obstacle_clearance(view: RunView, uav: Body) -> LeastSeries:
 
 
 def separation(view: RunView, a: str, b: str) -> FloatArray:
-    """Return the 3-D distance of two UAVs, (T,) metres."""
+    """Return the 3-D distance of two bodies, (T,) metres."""
     return distance(view, a, b)
 
 

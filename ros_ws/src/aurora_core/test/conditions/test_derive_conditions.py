@@ -189,7 +189,26 @@ def test_a_lossy_link_without_retransmissions_asks_for_no_delivery(tb: ModuleTyp
     case.spec = tb.spec(**{**dict(case.spec), 'links': (lossy,)})
     derivation = _derive(tb, case)
     assert 'e1.delivered' not in _ids(derivation)
-    assert [u.element for u in derivation.underivable] == ['l1']
+    assert 'l1.ratio' in _ids(derivation)
+    assert derivation.underivable == ()
+
+
+def test_a_message_that_an_event_needs_has_to_arrive_however_lossy_its_link(
+    tb: ModuleType,
+) -> None:
+    case = tb.tailgate_case()
+    (link,), (event,) = case.spec.links, case.spec.events
+    lossy = dict(link) | {
+        'loss': tb.number(0.3, Unit.ONE, explicit=True),
+        'retransmissions': tb.number(0.0, Unit.ONE, explicit=True),
+    }
+    waits = {
+        'id': 'e2',
+        'trigger': {'on': 'message_received', 'by': 'ego'},
+        'action': {'do': 'brake', 'agent': 'ego'},
+    }
+    case.spec = tb.spec(**{**dict(case.spec), 'links': (lossy,), 'events': (event, waits)})
+    assert {'e1.delivered', 'l1.ratio'} <= _ids(_derive(tb, case))
 
 
 def test_the_actor_is_who_is_not_told(tb: ModuleType) -> None:

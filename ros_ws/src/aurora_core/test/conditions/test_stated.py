@@ -76,6 +76,13 @@ def test_a_limit_on_drift_is_one_condition_per_hover(tb: ModuleType) -> None:
         ('distance', ('uav1', 'ghost'), '', 'condition on distance of uav1, ghost'),
         ('speed', ('intersection',), '', 'condition on speed of intersection'),
         ('speed', ('uav1', 'ego'), '', 'condition on speed of uav1, ego'),
+        ('separation', ('uav1', 'uav1'), '', 'condition on separation of uav1, uav1'),
+        ('separation', ('fleet',), '', 'condition on separation of fleet'),
+        ('delivered', ('uav1', 'ego'), '', 'delivered without a link of uav1, ego'),
+        ('waypoints_visited', ('uav1',), '', 'waypoints_visited without a mission of uav1'),
+        ('landed', ('ego',), '', 'landed without a mission of ego'),
+        ('landed', ('uav1',), 'hold_s', 'stretch of landed'),
+        ('mission_completed', ('uav1',), '', 'mission_completed <= 10'),
     ],
 )
 def test_what_cannot_be_said_is_never_left_out(
@@ -93,6 +100,23 @@ def test_a_stretch_and_a_deadline_are_in_the_sentence(tb: ModuleType) -> None:
     (one,) = _stated(_derive(tb, tb.hover_case(), 'distance', ('uav1', 'ego'), **more))
     assert one.sentence == 'distance of uav1 and ego <= 10 m for 4 s without a break by 9 s'
     assert one.formula == ('eventually [0, 9] s (always [0, 4] s (distance(uav1,ego) <= 10 m))')
+
+
+@pytest.mark.parametrize(
+    ('quantity', 'op', 'value', 'what'),
+    [
+        ('delivered', '==', 0.0, 'delivered == 0'),
+        ('delivery_latency', '>=', 1.0, 'delivery_latency >='),
+        ('delivery_ratio', '>=', 0.5, ''),
+    ],
+)
+def test_what_a_link_can_be_asked(
+    tb: ModuleType, quantity: str, op: str, value: float, what: str
+) -> None:
+    pair, number = ('uav1', 'ego'), tb.number(value, Unit.ONE)
+    derivation = _derive(tb, tb.tailgate_case(), quantity, pair, op=op, value=number)
+    assert [u.what for u in derivation.underivable] == ([what] if what else [])
+    assert len(_stated(derivation)) == (0 if what else 1)
 
 
 def test_a_share_that_is_asked_exactly_has_no_tolerance(tb: ModuleType) -> None:

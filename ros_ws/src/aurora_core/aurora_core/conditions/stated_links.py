@@ -1,0 +1,55 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Stated conditions on what a link delivers: every message of it counts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from aurora_core.conditions.build import Inputs, Target, condition
+from aurora_core.conditions.condition import Condition, Window
+from aurora_core.conditions.links import delivery_deadline_s, link_between
+from aurora_core.conditions.stated_values import (
+    CannotSayError,
+    asked_true,
+    only,
+    sentence_of,
+    source_of,
+    target_of,
+)
+from aurora_core.spec.quantity import QuantityName
+from aurora_core.spec.scenario import StatedCondition
+
+LINK_QUANTITIES = frozenset({'delivered', 'delivery_latency', 'delivery_ratio'})
+
+
+def stated_link(inputs: Inputs, stated: StatedCondition) -> Iterator[Condition]:
+    """Yield the condition on the link from the first to the second body of a stated one.
+
+    Raises:
+        CannotSayError: There is no such link, or the comparison has no meaning.
+    """
+    only(stated)
+    link = link_between(inputs.spec, *stated.of) if len(stated.of) == 2 else None
+    if link is None:
+        raise CannotSayError(f'{stated.quantity} without a link of {", ".join(stated.of)}')
+    quantity = QuantityName(stated.quantity)
+    target, signal = target_of(inputs.tolerances, stated), None
+    if quantity is QuantityName.DELIVERED:
+        asked_true(stated)
+        target = Target(op='<=', threshold=delivery_deadline_s(inputs, link), unit='s')
+        signal = f'delivery_time({link.id})'
+    elif quantity is QuantityName.DELIVERY_LATENCY and stated.op not in ('<=', '<'):
+        # A message that never arrives has no latency that could be long enough.
+        raise CannotSayError(f'delivery_latency {stated.op}')
+    yield condition(
+        id=f'{stated.id}.holds',
+        sentence=sentence_of(stated),
+        quantity=quantity,
+        signal=signal,
+        of=stated.of,
+        target=target,
+        arguments=inputs.arguments(Window.MOMENT, link=link.id),
+        source=source_of(stated),
+        every_sample=quantity is not QuantityName.DELIVERY_RATIO,
+    )
