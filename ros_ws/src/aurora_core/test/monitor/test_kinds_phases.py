@@ -163,8 +163,9 @@ def _tracks_city_hall(y: float) -> Case:
     return case
 
 
-def _to_city_hall(op: str, value: float) -> Case:
-    return stated(_over_city_hall(), 'horizontal_distance', ('uav1', CITY_HALL), op, value)
+def _to_city_hall(op: str, value: float, **more: float) -> Case:
+    pair = ('uav1', CITY_HALL)
+    return stated(_over_city_hall(), 'horizontal_distance', pair, op, value, **more)
 
 
 EMPTY = Reason.EMPTY_PHASE
@@ -238,6 +239,13 @@ PLACES = (
     Row(id='c1.holds', make=lambda: _to_city_hall('<=', 5.0), margin=5.0 - 1.45),
     Row(id='c1.holds', make=lambda: _to_city_hall('<=', 1.0), margin=1.0 - 1.45),
     Row(id='c1.holds', make=lambda: grounded(_to_city_hall('<=', 5.0)), reason=EMPTY),
+    Row(id='c1.share', make=lambda: _to_city_hall('<', 5.0, fraction=0.9), margin=1.0 - 0.9),
+    Row(id='c1.share', make=lambda: _to_city_hall('>', 5.0, fraction=0.9), margin=0.0 - 0.9),
+    Row(
+        id='c1.share',
+        make=lambda: grounded(_to_city_hall('<', 5.0, fraction=0.9)),
+        reason=EMPTY,
+    ),
     Row(id='m1.tracked', make=lambda: _tracks_city_hall(0.0), margin=1.0 - 0.8),
     # 10 m are allowed. It comes from y = 20.2 m past City Hall and is too far off at y < 0.5 m,
     # after 27 ticks; or it never comes near enough.

@@ -195,6 +195,18 @@ FLIGHT = (
         what='altitude',
     ),
     Row(
+        id='c1.share',
+        make=lambda: _hover('altitude', UP, '>=', 40.0, fraction=0.9),
+        margin=0.0 - 0.9,
+        what='altitude',
+    ),
+    Row(
+        id='c1.share',
+        make=lambda: grounded(_hover('altitude', UP, '<=', 35.0, fraction=0.9)),
+        reason=EMPTY,
+        what='altitude',
+    ),
+    Row(
         id='c1.holds', make=lambda: _hover('hover_drift', UP, '<=', 1.75), margin=0.0, within=1e-9
     ),
     Row(id='c1.holds', make=lambda: _hover('hover_drift', UP, '<', 1.5), margin=1.5 - 1.75),
