@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 import numpy as np
@@ -21,6 +21,7 @@ from aurora_core.conditions.condition import Condition
 from aurora_core.conditions.derive import derive_conditions
 from aurora_core.monitor.verdict import Reason
 from aurora_core.spec.parameter import Unit
+from aurora_core.trace.trace import Trace
 
 
 class Outcome(StrEnum):
@@ -88,6 +89,17 @@ def kind_of(condition: Condition) -> str:
     """Return the kind of a condition: its quantity, and which reading of it is meant."""
     aspect = condition.arguments.aspect
     return condition.quantity.value + (f'/{aspect}' if aspect else '')
+
+
+def trace_part(trace: Trace, start: int, stop: int) -> Trace:
+    """Return the ticks [start, stop), which are all there, with their claims."""
+    return replace(
+        trace.states(start, stop),
+        links=tuple(r for r in trace.links if start <= r.tick < stop),
+        sights=tuple(r for r in trace.sights if start <= r.tick < stop),
+        events=tuple(r for r in trace.events if start <= r.tick < stop),
+        missing_ticks=(),
+    )
 
 
 def cut(case: Case, stop: int) -> Case:

@@ -7,17 +7,21 @@ from __future__ import annotations
 import importlib.util
 from collections import defaultdict
 from functools import cache
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
 import pytest
-from kind_rows import Outcome, Row, kind_of
+from kind_rows import Outcome, Row, kind_of, trace_part
 from trace_cases import ground_case
 
 from aurora_core.conditions.condition import Condition
+from aurora_core.monitor.online import OnlineMonitor
+from aurora_core.monitor.verdict import Reason
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import Behavior
 from aurora_core.spec.vocabulary import BehaviorKind
+from aurora_core.stl.online import OnlineVerdict
 
 FOLDER = Path(__file__).parent
 OUTCOMES = frozenset(Outcome)
@@ -34,19 +38,23 @@ def _rows(path: Path) -> tuple[Row, ...]:
 
 
 @cache
+def _all_rows() -> tuple[Row, ...]:
+    """Return the rows of all tables."""
+    paths = sorted(p for p in FOLDER.glob('test_kinds_*.py') if p != Path(__file__))
+    return tuple(row for path in paths for row in _rows(path))
+
+
+@cache
 def _seen() -> tuple[dict[str, set[Outcome]], set[str]]:
     """Return the outcomes that the tables show of each kind, and all kinds of their requests."""
     shown: dict[str, set[Outcome]] = defaultdict(set)
     asked: set[str] = set()
-    for path in sorted(FOLDER.glob('test_kinds_*.py')):
-        if path == Path(__file__):
-            continue
-        for row in _rows(path):
-            conditions = row.conditions()
-            asked.update(kind_of(condition) for condition in conditions)
-            mine = next(condition for condition in conditions if condition.id == row.id)
-            for kind in _kinds(mine):
-                shown[kind].add(row.outcome(mine))
+    for row in _all_rows():
+        conditions = row.conditions()
+        asked.update(kind_of(condition) for condition in conditions)
+        mine = next(condition for condition in conditions if condition.id == row.id)
+        for kind in _kinds(mine):
+            shown[kind].add(row.outcome(mine))
     return shown, asked
 
 
@@ -81,3 +89,33 @@ def test_the_tables_of_the_stated_quantities_know_their_shares() -> None:
     _, asked = _seen()
     series = ('distance', 'horizontal_distance', 'separation', 'altitude', 'speed')
     assert {f'{quantity}/share' for quantity in series} <= asked
+
+
+@pytest.mark.parametrize('row', _all_rows(), ids=lambda row: row.name)
+def test_while_the_run_goes_on_the_margin_stays_inside_its_bounds(row: Row) -> None:
+    case = row.make()
+    # Beside the condition those that say which missions and events there are.
+    conditions = tuple(
+        c
+        for c in row.conditions()
+        if c.id == row.id or c.arguments.event is not None or c.id.endswith('.order')
+    )
+    trace = case.run.trace()
+    end = min(case.run.missing, default=trace.ticks)
+    marks = sorted({0, *np.linspace(1, end, 7).astype(int).tolist()})
+    monitor: OnlineMonitor | None = None
+    for start, stop in pairwise(marks):
+        part = trace_part(trace, start, stop)
+        if monitor is None:
+            monitor = OnlineMonitor(case.world, case.spec, conditions, part)
+        else:
+            monitor.extend(part)
+        (look,) = (o for o in monitor.outlooks() if o.condition_id == row.id)
+        if row.margin is None:
+            # Of a record that was cut short, "has driven far enough" may be known before.
+            known = row.reason is Reason.TRACE_SHORT
+            assert known or look.verdict is not OnlineVerdict.TRUE
+        else:
+            assert look.low - row.within <= row.margin <= look.high + row.within
+    if row.margin is not None and not case.run.missing:
+        assert look.now == pytest.approx(row.margin, abs=row.within)

@@ -88,6 +88,7 @@ def _long_flight() -> Case:
     case.run.agents.clear()
     case.run.flights = [flight(ticks, (100.0, 0.0), 30.0, landing=landing)]
     case.run.ticks = ticks
+    case.facts = case.facts.model_validate(dict(case.facts) | {'horizon_s': ticks * 0.05})
     (one,) = case.spec.missions
     case.spec = spec(uavs=case.spec.uavs, missions=(dict(one) | {'target': None},))
     return case
