@@ -2,19 +2,31 @@
 # SPDX-License-Identifier: Apache-2.0
 """Sliding extrema and the until recursion without loops over samples.
 
+Windows grow by doubling: what begins at sample i and is 2s long is what begins at i and is s long
+followed by what begins at i + s. Short windows are grown in pieces of the trace that stay in the
+processor's cache, where a pass costs a fraction of one through memory.
+
 Only comparisons select values here, nothing is computed: results are bit-identical however the
-work is split.
+work is split (but for the sign of zero, which has no meaning).
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
 from enum import Enum
 
 import numpy as np
 import numpy.typing as npt
 
 FloatArray = npt.NDArray[np.float64]
+# One row per quantity, one column per sample: what the window that begins there has.
+_Rows = FloatArray
+# Takes the windows from some samples, those that follow them, and the rows to write to.
+_Follow = Callable[[_Rows, _Rows, _Rows], None]
+
+# Samples. Best of what was measured on 1 MiB of second-level cache; half or twice is 20 % worse.
+_PIECE = 16384
+_SHORT = 4096
 
 
 class Extremum(Enum):
@@ -24,21 +36,13 @@ class Extremum(Enum):
     GREATEST = 'greatest'
 
     @property
-    def neutral(self) -> float:
-        """The value that never wins."""
-        return float('inf') if self is Extremum.LEAST else float('-inf')
-
-    @property
     def ufunc(self) -> np.ufunc:
         """numpy's binary function."""
         return np.minimum if self is Extremum.LEAST else np.maximum
 
 
 def sliding(values: FloatArray, width: int, extremum: Extremum) -> FloatArray:
-    """Return the extremum of every full window, in linear time whatever the width.
-
-    Blocks of `width` samples with running extrema forwards and backwards; a window is the end of
-    one block and the beginning of the next.
+    """Return the extremum of every full window.
 
     Args:
         values: (n,).
@@ -47,57 +51,27 @@ def sliding(values: FloatArray, width: int, extremum: Extremum) -> FloatArray:
 
     Returns:
         (n - width + 1,) extrema of values[i : i + width]; empty when no window fits.
-
-    Source: van Herk 1992; Gil and Werman 1993.
     """
-    n = len(values)
-    if width > n:
-        return np.empty(0, dtype=np.float64)
-    if width == 1:
-        return values.copy()
-    combine = extremum.ufunc
-    blocks = -(-n // width)
-    padded = np.full(blocks * width, extremum.neutral)
-    padded[:n] = values
-    grid = padded.reshape(blocks, width)
-    ahead: FloatArray = combine.accumulate(grid, axis=1).ravel()
-    behind: FloatArray = combine.accumulate(grid[:, ::-1], axis=1)[:, ::-1].ravel()
-    last = n - width
-    result: FloatArray = combine(behind[: last + 1], ahead[width - 1 : n])
-    return result
+    return sliding_clipped(values, width, extremum)[: max(0, len(values) - width + 1)]
 
 
 def sliding_clipped(values: FloatArray, width: int, extremum: Extremum) -> FloatArray:
-    """Return (n,) extrema of values[i : i + width], the last windows cut at the end."""
-    width = min(width, len(values))
-    if width == 0:
-        return np.empty(0, dtype=np.float64)
-    padded = np.concatenate((values, np.full(width - 1, extremum.neutral)))
-    return sliding(padded, width, extremum)
+    """Return (n,) extrema of values[i : i + width], the last windows cut at the end.
+
+    O(n log width).
+    """
+    combine = extremum.ufunc
+
+    def follow(now: _Rows, later: _Rows, out: _Rows) -> None:
+        combine(now, later, out=out)
+
+    return _grown(values[np.newaxis], width, follow)[0]
 
 
 def running_to_end(values: FloatArray, extremum: Extremum) -> FloatArray:
     """Return (n,) extrema of values[i:]."""
     result: FloatArray = extremum.ufunc.accumulate(values[::-1])[::-1]
     return result
-
-
-@dataclass(frozen=True, slots=True)
-class _Step:
-    """The function x -> max(low, min(high, x)) at each sample; closed under composition.
-
-    `until` at sample i is the composition of the steps i, i+1, ... with low = right, high = left.
-    """
-
-    low: FloatArray
-    high: FloatArray
-
-    def after(self, later: _Step) -> _Step:
-        """Return self applied to the result of `later`, sample by sample."""
-        return _Step(
-            np.maximum(self.low, np.minimum(self.high, later.low)),
-            np.minimum(self.high, later.high),
-        )
 
 
 def until_within(left: FloatArray, right: FloatArray, width: int) -> FloatArray:
@@ -114,33 +88,45 @@ def until_within(left: FloatArray, right: FloatArray, width: int) -> FloatArray:
     Returns:
         (n,).
     """
-    n = len(left)
+    return _grown(np.stack((right, left)), width, _until_follow)[0]
+
+
+def _until_follow(now: _Rows, later: _Rows, out: _Rows) -> None:
+    """Continue `until`: row 0 is its value, row 1 the least of `left` over the window.
+
+    The witness is in the first window, or it is later and `left` held over the first.
+    """
+    np.minimum(now[1], later[0], out=out[0])
+    np.maximum(now[0], out[0], out=out[0])
+    np.minimum(now[1], later[1], out=out[1])
+
+
+def _grown(rows: _Rows, width: int, follow: _Follow) -> _Rows:
+    """Return what windows of `width` samples have (cut at the end), from single samples."""
+    n = rows.shape[1]
     width = min(width, n)
-    if n == 0:
-        return np.empty(0, dtype=np.float64)
-    power = _Step(right, left)  # composition of 2^k steps from each sample on
-    found: _Step | None = None  # composition of the binary digits of `width` so far
-    covered = 0
-    size = 1
-    while True:
-        if width & size:
-            shifted = _shift(power, covered)
-            found = shifted if found is None else found.after(shifted)
-            covered += size
-        size *= 2
-        if size > width:
-            break
-        power = power.after(_shift(power, size // 2))
-    assert found is not None  # width >= 1 has a digit
-    return found.low
+    short = min(width, _SHORT)
+    if n <= _PIECE:
+        return _doubled(rows, 1, width, follow)
+    result = np.empty_like(rows)
+    for start in range(0, n, _PIECE):
+        piece = rows[:, start : start + _PIECE + short - 1]
+        result[:, start : start + _PIECE] = _doubled(piece, 1, short, follow)[:, :_PIECE]
+    return _doubled(result, short, width, follow)
 
 
-def _shift(step: _Step, ticks: int) -> _Step:
-    """Return the steps `ticks` later; beyond the end the step that has no witness."""
-    if ticks == 0:
-        return step
-    n = len(step.low)
-    none = np.full(min(ticks, n), float('-inf'))
-    return _Step(
-        np.concatenate((step.low[ticks:], none)), np.concatenate((step.high[ticks:], none))
-    )
+def _doubled(rows: _Rows, size: int, width: int, follow: _Follow) -> _Rows:
+    """Return what windows of `width` samples have, from those of `size`.
+
+    The last step may overlap: an extremum does not mind, and for `until` whatever the second
+    window has twice is in the first with a value at least as great.
+    """
+    spare = (np.empty_like(rows), np.empty_like(rows))
+    turn = 0
+    while size < width:
+        shift = min(size, width - size)
+        grown = spare[turn]
+        follow(rows[:, :-shift], rows[:, shift:], grown[:, :-shift])
+        grown[:, -shift:] = rows[:, -shift:]
+        rows, size, turn = grown, size + shift, 1 - turn
+    return rows
