@@ -12,19 +12,19 @@ work is split (but for the sign of zero, which has no meaning).
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from enum import Enum
 
 import numpy as np
 import numpy.typing as npt
 
 FloatArray = npt.NDArray[np.float64]
-# One row per quantity, one column per sample: what the window that begins there has.
-_Rows = FloatArray
-# Takes the windows from some samples, those that follow them, and the rows to write to.
-_Follow = Callable[[_Rows, _Rows, _Rows], None]
+# What the windows that begin at each sample have; one array per quantity.
+_Rows = Sequence[FloatArray]
+# Grows windows: rows, their size, the size wanted, room for the rows and one array more.
+_Grow = Callable[[_Rows, int, int, Sequence[FloatArray]], _Rows]
 
-# Samples. Best of what was measured on 1 MiB of second-level cache; half or twice is 20 % worse.
+# Samples. Best of what was measured with 1 MiB of second-level cache per core.
 _PIECE = 16384
 _SHORT = 4096
 
@@ -62,10 +62,17 @@ def sliding_clipped(values: FloatArray, width: int, extremum: Extremum) -> Float
     """
     combine = extremum.ufunc
 
-    def follow(now: _Rows, later: _Rows, out: _Rows) -> None:
-        combine(now, later, out=out)
+    def grow(rows: _Rows, size: int, width: int, room: Sequence[FloatArray]) -> _Rows:
+        (now,), (grown, spare) = rows, room
+        while size < width:
+            shift = min(size, width - size)
+            combine(now[:-shift], now[shift:], out=grown[:-shift])
+            grown[-shift:] = now[-shift:]
+            now, grown, spare = grown, spare, grown
+            size += shift
+        return (now,)
 
-    return _grown(values[np.newaxis], width, follow)[0]
+    return _grown((values,), width, grow)[0]
 
 
 def running_to_end(values: FloatArray, extremum: Extremum) -> FloatArray:
@@ -88,45 +95,45 @@ def until_within(left: FloatArray, right: FloatArray, width: int) -> FloatArray:
     Returns:
         (n,).
     """
-    return _grown(np.stack((right, left)), width, _until_follow)[0]
+    return _grown((right, left), width, _grow_until)[0]
 
 
-def _until_follow(now: _Rows, later: _Rows, out: _Rows) -> None:
-    """Continue `until`: row 0 is its value, row 1 the least of `left` over the window.
-
-    The witness is in the first window, or it is later and `left` held over the first.
-    """
-    np.minimum(now[1], later[0], out=out[0])
-    np.maximum(now[0], out[0], out=out[0])
-    np.minimum(now[1], later[1], out=out[1])
-
-
-def _grown(rows: _Rows, width: int, follow: _Follow) -> _Rows:
-    """Return what windows of `width` samples have (cut at the end), from single samples."""
-    n = rows.shape[1]
-    width = min(width, n)
-    short = min(width, _SHORT)
-    if n <= _PIECE:
-        return _doubled(rows, 1, width, follow)
-    result = np.empty_like(rows)
-    for start in range(0, n, _PIECE):
-        piece = rows[:, start : start + _PIECE + short - 1]
-        result[:, start : start + _PIECE] = _doubled(piece, 1, short, follow)[:, :_PIECE]
-    return _doubled(result, short, width, follow)
-
-
-def _doubled(rows: _Rows, size: int, width: int, follow: _Follow) -> _Rows:
-    """Return what windows of `width` samples have, from those of `size`.
-
-    The last step may overlap: an extremum does not mind, and for `until` whatever the second
-    window has twice is in the first with a value at least as great.
-    """
-    spare = (np.empty_like(rows), np.empty_like(rows))
-    turn = 0
+def _grow_until(rows: _Rows, size: int, width: int, room: Sequence[FloatArray]) -> _Rows:
+    """Grow (until, least of left): the witness comes now, or later and left holds meanwhile."""
+    until, held, spare = room
+    until[:], held[:] = rows
     while size < width:
         shift = min(size, width - size)
-        grown = spare[turn]
-        follow(rows[:, :-shift], rows[:, shift:], grown[:, :-shift])
-        grown[:, -shift:] = rows[:, -shift:]
-        rows, size, turn = grown, size + shift, 1 - turn
-    return rows
+        later = spare[:-shift]
+        np.minimum(held[:-shift], until[shift:], out=later)
+        np.maximum(until[:-shift], later, out=until[:-shift])
+        np.minimum(held[:-shift], held[shift:], out=later)
+        spare[-shift:] = held[-shift:]
+        held, spare = spare, held
+        size += shift
+    return until, held
+
+
+def _grown(rows: _Rows, width: int, grow: _Grow) -> _Rows:
+    """Return what windows of `width` samples have (cut at the end), from single samples.
+
+    The last doubling may be a smaller step, so that both windows overlap. An extremum does not
+    mind; for `until`, what the later window has twice counts less there than in the first.
+    """
+    n = len(rows[0])
+    width = min(width, n)
+    if n <= _PIECE:
+        return grow(rows, 1, width, _room(rows, n))
+    short = min(width, _SHORT)
+    near = [np.empty(n) for _ in rows]
+    room = _room(rows, _PIECE + short - 1)  # once: fresh memory costs more than the work in it
+    for start in range(0, n, _PIECE):
+        piece = [row[start : start + _PIECE + short - 1] for row in rows]
+        found = grow(piece, 1, short, [each[: len(piece[0])] for each in room])
+        for row, part in zip(near, found, strict=True):
+            row[start : start + _PIECE] = part[:_PIECE]
+    return grow(near, short, width, _room(rows, n)) if short < width else near
+
+
+def _room(rows: _Rows, n: int) -> list[FloatArray]:
+    return [np.empty(n) for _ in range(len(rows) + 1)]
