@@ -45,13 +45,14 @@ for tag in 3.11 3.12; do
   "$python" -m venv "$scratch/$tag"
   "$scratch/$tag/bin/python" -m pip install --quiet --upgrade pip 'pip-tools==7.6.2'
   # What is locked already, for 3.12 what 3.11 got, is preferred: same versions on both.
-  for kind in run dev system system-dev; do
+  for kind in run dev rivals system system-dev; do
     preferred="${kind#system-}-py3.11.txt"
     [ "$kind" != system ] || preferred=run-py3.11.txt
     if [ -f "$preferred" ]; then cp "$preferred" "$scratch/$kind-py$tag.txt"; fi
   done
   compile "$tag" run run
   compile "$tag" dev dev -c "run-py$tag.txt"
+  compile "$tag" rivals rivals
   # The system's ROS 2 Jazzy has Python 3.12 only.
   if [ "$tag" = 3.12 ]; then
     compile "$tag" system system
