@@ -36,6 +36,11 @@ class Extremum(Enum):
     GREATEST = 'greatest'
 
     @property
+    def neutral(self) -> float:
+        """The value that never wins."""
+        return float('inf') if self is Extremum.LEAST else float('-inf')
+
+    @property
     def ufunc(self) -> np.ufunc:
         """numpy's binary function."""
         return np.minimum if self is Extremum.LEAST else np.maximum
