@@ -90,7 +90,7 @@ def build_execution(
         )
     _check_links(agsg.spec)
     dt_s = settings.run.dt_s
-    roster = _roster(grounded, dt_s)
+    roster = build_roster(grounded, dt_s)
     places = place_positions(agsg.spec, map_model, grounded)
     parts = map_parts(map_model) if parts is None else parts
     world = build_world(map_model, grounded, limits, places, agsg.conditions_json, parts)
@@ -178,7 +178,8 @@ def _named_places(
     return tuple(NamedPlace(name=n, x_m=x, y_m=y) for n, (x, y) in sorted(points.items()))
 
 
-def _roster(grounded: GroundedScenario, dt_s: float) -> Roster:
+def build_roster(grounded: GroundedScenario, dt_s: float) -> Roster:
+    """Return the bodies of a grounded scenario in row order."""
     agents = tuple(
         RosterEntry(
             body_id=a.id,

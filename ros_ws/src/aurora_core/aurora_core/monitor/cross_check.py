@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""Claims of the executor against recomputation: events, messages, sight, phases."""
+"""Claims of the record against recomputation: events, messages, sight, phases, motion."""
 
 from __future__ import annotations
 
@@ -9,7 +9,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from aurora_core.conditions.condition import Condition
+from aurora_core.monitor.claim_check import claim_findings
 from aurora_core.monitor.evaluation import Context
+from aurora_core.monitor.motion_check import motion_findings
 from aurora_core.monitor.verdict import Finding
 from aurora_core.quantities.kernels import distance_3d
 from aurora_core.quantities.ledger import ledger_disagreements
@@ -42,6 +44,8 @@ def cross_check(context: Context) -> tuple[Finding, ...]:
         *_ledger(context),
         *_sights(context),
         *_phases(context),
+        *claim_findings(context),
+        *motion_findings(context),
     ]
     return tuple(sorted(findings, key=lambda f: (f.tick, f.kind, f.subject, f.text)))
 

@@ -12,6 +12,7 @@ from aurora_core.knowledge.world import WorldModel
 from aurora_core.monitor.cross_check import cross_check
 from aurora_core.monitor.evaluation import Context, Measured, Missing
 from aurora_core.monitor.measure import measure
+from aurora_core.monitor.plan_check import Plan, plan_findings
 from aurora_core.monitor.sentences import explain, explain_missing
 from aurora_core.monitor.verdict import ConditionResult, Finding, Reason, Verdict, VerdictStatus
 from aurora_core.quantities.view import RunView
@@ -24,7 +25,11 @@ from aurora_core.trace.trace import Integrity, Trace
 
 
 def verify(
-    trace: Trace, world: WorldModel, conditions: Sequence[Condition], spec: ScenarioSpec
+    trace: Trace,
+    world: WorldModel,
+    conditions: Sequence[Condition],
+    spec: ScenarioSpec,
+    plan: Plan | None = None,
 ) -> Verdict:
     """Recompute every margin.
 
@@ -36,6 +41,7 @@ def verify(
         world: The world it happened in.
         conditions: What has to hold.
         spec: The request (links and events).
+        plan: What the request gives when worked out anew; None compares nothing with it.
 
     Raises:
         VerificationError: The conditions do not fit the trace: a body or an event is missing in
@@ -54,13 +60,17 @@ def verify(
             f'the recording is {trace.integrity.value}: {trace.integrity_note}'.rstrip(': ')
         )
     context = Context(view, spec, tuple(conditions))
+    findings: tuple[Finding, ...] = ()
+    if plan is not None:
+        findings = plan_findings(conditions, trace.roster, world, plan)
+        if plan.world is None:
+            notes.append(f'the map {world.map_name} is not installed: its world is as recorded')
     if missing == 0:
         lost = Missing(reason=Reason.SAMPLES_MISSING, story='the first tick is missing')
         results = tuple(_without_margin(condition, lost, context) for condition in conditions)
-        findings: tuple[Finding, ...] = ()
     else:
         results = tuple(judge(context, condition, cut=missing) for condition in conditions)
-        findings = cross_check(context)
+        findings += cross_check(context)
     return Verdict(
         status=_status(trace.integrity, results, len(findings)),
         results=results,

@@ -17,20 +17,29 @@ from aurora_core.conditions.condition import (
     conditions_to_json,
 )
 from aurora_core.conditions.derive import derive_conditions
-from aurora_core.errors import VerificationError
+from aurora_core.errors import AuroraError, VerificationError
 from aurora_core.execution.faults import Fault
 from aurora_core.execution.map_parts import MapParts, map_parts
-from aurora_core.execution.plan import Execution, build_execution, unsupported
+from aurora_core.execution.plan import (
+    Execution,
+    build_execution,
+    build_roster,
+    build_world,
+    unsupported,
+)
 from aurora_core.feasibility.check import check_limits
 from aurora_core.feasibility.verdict import FeasibilityVerdict
 from aurora_core.grounding.ground import Grounder
 from aurora_core.grounding.grounded import GroundedScenario
 from aurora_core.grounding.outcome import GroundingFailure, GroundingOutcome
+from aurora_core.grounding.places import place_positions
 from aurora_core.knowledge.agent_types import load_agent_types
 from aurora_core.knowledge.config_files import config_path
 from aurora_core.knowledge.limits import Limits, Tolerances, load_limits, load_tolerances
 from aurora_core.knowledge.map_model import MapModel, load_map
 from aurora_core.knowledge.settings import Settings, load_settings
+from aurora_core.knowledge.world import WorldModel
+from aurora_core.monitor.plan_check import Plan
 from aurora_core.monitor.verdict import Verdict
 from aurora_core.monitor.verify import verify
 from aurora_core.parsing.outcome import ParseContext, ParseOutcome
@@ -190,4 +199,44 @@ def verify_stage(bag: Path) -> Verdict:
 def verify_content(content: BagContent, agsg: Agsg) -> Verdict:
     """Compute every margin of a run, wherever its messages come from."""
     conditions = conditions_from_json(content.world.conditions_json)
-    return verify(content.trace, content.world, conditions, agsg.spec)
+    plan = recorded_plan(content.world, agsg)
+    return verify(content.trace, content.world, conditions, agsg.spec, plan)
+
+
+def recorded_plan(world: WorldModel, agsg: Agsg) -> Plan:
+    """Return what the request and the grounding of a recording give when worked out anew.
+
+    Conditions quote the recorded limits: which limits are in force is compared by itself.
+
+    Raises:
+        VerificationError: The grounding is missing, or does not fit the request.
+    """
+    known = knowledge()
+    spec = agsg.spec
+    try:
+        grounded = GroundedScenario.model_validate_json(agsg.grounding_json)
+        facts = plan_time(spec, grounded, world.limits).facts
+        derivation = derive_conditions(spec, facts, world.limits, known.tolerances)
+        conditions = _judgeable(derivation.conditions, spec, grounded)
+        rebuilt = _rebuilt_world(spec, grounded)
+        roster = build_roster(grounded, known.settings.run.dt_s)
+    except (ValueError, LookupError, AuroraError) as err:
+        raise VerificationError(
+            f'the recorded grounding does not fit the recorded request: {err}',
+            hint='run the scenario again',
+        ) from err
+    return Plan(conditions=conditions, roster=roster, world=rebuilt)
+
+
+def _rebuilt_world(spec: ScenarioSpec, grounded: GroundedScenario) -> WorldModel | None:
+    """Return the world of a grounding, None when its map is not installed here."""
+    known = knowledge()
+    try:
+        map_model = known.map(grounded.map_name)
+    except AuroraError:
+        return None
+    if map_model.digest != grounded.map_digest:
+        return None
+    places = place_positions(spec, map_model, grounded)
+    parts = known.parts(grounded.map_name)
+    return build_world(map_model, grounded, known.limits, places, '[]', parts)

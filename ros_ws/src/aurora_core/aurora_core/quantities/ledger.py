@@ -50,6 +50,7 @@ class Attempt:
     """One transmission."""
 
     tick: int
+    number: int
     passed: bool
     reason: LossReason
 
@@ -101,7 +102,12 @@ def messages(view: RunView, models: tuple[LinkModel, ...]) -> tuple[Message, ...
             continue
         model = by_id[sent.link]
         attempts = tuple(
-            Attempt(tick=r.tick, passed=r.kind is LinkEventKind.ATTEMPT_PASSED, reason=r.reason)
+            Attempt(
+                tick=r.tick,
+                number=r.attempt,
+                passed=r.kind is LinkEventKind.ATTEMPT_PASSED,
+                reason=r.reason,
+            )
             for r in records
             if r.kind in (LinkEventKind.ATTEMPT_PASSED, LinkEventKind.ATTEMPT_LOST)
         )
@@ -196,6 +202,12 @@ def _course(view: RunView, model: LinkModel, records: list[LinkRecord]) -> list[
         if r.kind is kind
     }
     found = []
+    once = (LinkEventKind.SENT, LinkEventKind.DELIVERED, LinkEventKind.FAILED)
+    seen = set()
+    for record in records:
+        if record.kind in once and (record.message, record.kind) in seen:
+            found.append(_at(record, 'of this message a second time'))
+        seen.add((record.message, record.kind))
     complete = messages(view, (model,))
     numbers = {message.number for message in complete}
     for record in records:
@@ -212,6 +224,14 @@ def _course(view: RunView, model: LinkModel, records: list[LinkRecord]) -> list[
             if attempt.passed and k + 1 < len(attempts):
                 text = f'attempt {k + 1} after attempt {k} had passed'
                 found.append(Disagreement(tick=attempt.tick, subject=subject, text=text))
+            if attempt.number != k:
+                text = f'attempt {k} is numbered {attempt.number}'
+                found.append(Disagreement(tick=attempt.tick, subject=subject, text=text))
+        again = message.sent_tick + len(attempts) * spacing
+        lost = not any(attempt.passed for attempt in attempts)
+        if lost and len(attempts) <= model.retransmissions and again < view.ticks:
+            text = f'attempt {len(attempts)} was due at tick {again}, none is recorded'
+            found.append(Disagreement(tick=again, subject=subject, text=text))
         if len(attempts) > 1 + model.retransmissions:
             text = f'{len(attempts)} attempts, the link allows {1 + model.retransmissions}'
             found.append(Disagreement(tick=message.sent_tick, subject=subject, text=text))

@@ -27,7 +27,9 @@ def test_an_overlap_is_a_collision_with_its_depth_time_and_place(tb: ModuleType)
     case = tb.ground_case(
         Behavior(kind=BehaviorKind.DRIVE), np.full(T, 5.0), car2=(20.0, np.zeros(T))
     )
-    case.run.agents[0].x[:] = np.minimum(case.run.agents[0].x, 17.5)
+    one = case.run.agents[0]
+    one.x[:] = np.minimum(one.x, 17.5)
+    one.speed[1:] = np.diff(one.x) / tb.DT_S
     verdict = tb.judge(case)
     found = {r.id: r for r in verdict.results}['safety.collision']
     assert verdict.status is VerdictStatus.VIOLATED

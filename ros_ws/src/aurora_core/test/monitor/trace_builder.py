@@ -4,8 +4,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -204,6 +204,22 @@ class Run:
             )
         )
 
+    def _phases(self) -> Iterator[EventRecord]:
+        """What an executor tells of its commands; missions are called m1, m2, ..."""
+        for one in self.flights:
+            phase = one.commands[:, UavCommandColumn.PHASE].astype(int)
+            for tick in np.flatnonzero(phase[1:] != phase[:-1]).tolist():
+                number = int(phase[tick + 1])
+                index = number - UavPhase.MISSION
+                mission = 0 <= index < UavPhase.LANDING - UavPhase.MISSION
+                yield EventRecord(
+                    tick=tick,
+                    sequence=0,
+                    kind=ScenarioEventKind.PHASE,
+                    subject=one.id,
+                    detail=f'm{index + 1}' if mission else UavPhase(number).name.lower(),
+                )
+
     def trace(self) -> Trace:
         ground = np.zeros((self.ticks, len(self.agents), GROUND_WIDTH))
         entries = []
@@ -240,7 +256,7 @@ class Run:
             )
             for row, one in enumerate(self.flights)
         ]
-        events = list(self.events)
+        events = [*self.events, *self._phases()]
         if self.finished:
             events.append(
                 EventRecord(
@@ -267,7 +283,10 @@ class Run:
             ground_commands=tuple(self.ground_commands.get(k, ()) for k in range(self.ticks)),
             links=tuple(self.links),
             sights=tuple(self.sights),
-            events=tuple(events),
+            events=tuple(
+                replace(record, sequence=number)
+                for number, record in enumerate(sorted(events, key=lambda r: r.tick))
+            ),
             missing_ticks=self.missing,
             integrity=self.integrity,
         )

@@ -1,0 +1,54 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Speeds that are not those of the way are found; honest ones, jumps and removals are not."""
+
+from __future__ import annotations
+
+from types import ModuleType
+
+import numpy as np
+import pytest
+
+from aurora_core.monitor.verdict import VerdictStatus
+from aurora_core.trace.layout import UavColumn
+
+
+def test_a_forged_speed_of_a_vehicle_is_found_with_both_ways(tb: ModuleType) -> None:
+    case = tb.tailgate_case()
+    case.run.agents[1].speed[700:] *= 1.6
+    verdict = tb.judge(case)
+    found = [f for f in verdict.cross_check if f.kind == 'motion']
+    assert verdict.status is VerdictStatus.INCONCLUSIVE
+    assert [f.subject for f in found] == ['van1']
+    assert 700 < found[0].tick <= 720
+    assert 'in 1 s, its speed says' in found[0].text
+
+
+def test_a_forged_velocity_of_a_uav_is_found(tb: ModuleType) -> None:
+    case = tb.tailgate_case()
+    case.run.flights[0].states[600:700, UavColumn.VX] = 0.0
+    found = [f for f in tb.judge(case).cross_check if f.kind == 'motion']
+    assert [f.subject for f in found] == ['uav1']
+
+
+@pytest.mark.parametrize('share', [0.0, 0.05])
+def test_small_differences_are_none(tb: ModuleType, share: float) -> None:
+    case = tb.tailgate_case()
+    case.run.agents[1].speed[700:] *= 1.0 + share
+    assert not [f for f in tb.judge(case).cross_check if f.kind == 'motion']
+
+
+def test_a_jump_is_left_to_its_condition(tb: ModuleType) -> None:
+    case = tb.tailgate_case()
+    case.run.agents[1].y[900:] += 40.0
+    verdict = tb.judge(case)
+    assert not [f for f in verdict.cross_check if f.kind == 'motion']
+    assert not tb.result(verdict, 'safety.jump').satisfied
+
+
+def test_an_agent_that_is_gone_does_not_move(tb: ModuleType) -> None:
+    case = tb.tailgate_case()
+    van = case.run.agents[1]
+    van.present = np.where(np.arange(case.run.ticks) < 1100, 1.0, 0.0)
+    van.x[1100:] = van.x[1100]
+    assert not [f for f in tb.judge(case).cross_check if f.kind == 'motion']
