@@ -7,6 +7,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from aurora_core.agsg.graph import Agsg
+from aurora_core.execution.plan import Execution
 from aurora_core.feasibility.verdict import FeasibilityVerdict
 from aurora_core.grounding.outcome import GroundingOutcome
 from aurora_core.monitor.verdict import Verdict
@@ -31,6 +32,10 @@ class LocalStages:
         """Judge feasibility."""
         return functions.check_stage(agsg)
 
+    def execution(self, agsg: Agsg, request: RunRequest) -> Execution:
+        """Return what is run: loads, roster, world and the executor."""
+        return functions.execution_stage(agsg, request.seed, request.faults)
+
     def execute(
         self, agsg: Agsg, bag_directory: Path, request: RunRequest, control: RunControl
     ) -> ExecutionResult:
@@ -42,7 +47,7 @@ class LocalStages:
         from aurora_uav_bridge.transports import LoopbackTransport
         from aurora_uav_sim.mavlink_server import SimServer
 
-        execution = functions.execution_stage(agsg, request.seed, request.faults)
+        execution = self.execution(agsg, request)
         system_ids = tuple(entry.system_id for entry in execution.roster.uavs)
         air = MavlinkClient(LoopbackTransport(SimServer(system_ids or (1,))))
         return run_lockstep(

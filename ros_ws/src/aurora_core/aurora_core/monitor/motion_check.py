@@ -5,13 +5,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
 from aurora_core.monitor.evaluation import Context
 from aurora_core.monitor.verdict import Finding
-from aurora_core.quantities.kernels import distance_3d
 from aurora_core.quantities.motion import jump_speed
 from aurora_core.quantities.ticks import whole_ticks
 from aurora_core.quantities.view import Body
@@ -22,10 +22,10 @@ FloatArray = npt.NDArray[np.float64]
 
 # Way and speed are compared over this time: a lane change or a landing disturbs single ticks.
 _WINDOW_S = 1.0
-# What way and speed of a vehicle may differ by in it (m): a part of its own, a share of its length
-# and of the way, for the centre of a box cuts corners that the speed along the lane goes round.
+# What way and speed of a vehicle may differ by in it: so many metres, and a share of the way. In a
+# turn the centre of the box and its front, whose speed it is, go different ways besides: by half
+# its length per radian.
 _VEHICLE_M = 1.0
-_OF_LENGTH = 0.2
 _OF_WAY = 0.15
 # A UAV reports both of one point (m).
 _UAV_M = 0.5
@@ -47,24 +47,41 @@ def motion_findings(context: Context) -> Iterator[Finding]:
     for body in (*view.agents, *view.uavs):
         if body.entry.is_person:
             continue  # the simulator moves walkers aside without telling it as a speed
-        way, told, off, slack = _uav(context, body) if body.is_uav else _vehicle(context, body)
+        pace = _uav(context, body) if body.is_uav else _vehicle(context, body)
         counted = view.present(body.body_id)[1:] & view.present(body.body_id)[:-1]
         counted &= jump_speed(view, body)[1:] <= jump_mps
-        off[~counted] = 0.0
+        off = np.where(counted[:, None], pace.off_m, 0.0)
         apart = np.linalg.norm(_sums(off, window), axis=1)
-        wrong = np.flatnonzero(apart > slack + _OF_WAY * _sums(told, window) * (not body.is_uav))
+        wrong = np.flatnonzero(apart > pace.slack_m + _sums(pace.slack_each_m, window))
         if len(wrong):
             first = int(wrong[0])
+            way, told = (float(_sums(s, window)[first]) for s in (pace.way_m, pace.told_m))
             yield Finding(
                 kind='motion',
                 subject=body.body_id,
                 tick=first + window,
                 time_s=context.time_s(first + window),
-                text=(
-                    f'moved {float(_sums(way, window)[first]):.2f} m in {_WINDOW_S:g} s, its '
-                    f'speed says {float(_sums(told, window)[first]):.2f} m'
-                ),
+                text=f'moved {way:.2f} m in {_WINDOW_S:g} s, its speed says {told:.2f} m',
             )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Pace:
+    """How a body got on from tick to tick.
+
+    Attributes:
+        way_m: By its positions, (T - 1,).
+        told_m: By its speeds.
+        off_m: Difference of the two, (T - 1, 1) along its heading or (T - 1, 3).
+        slack_m: What their sum may be off at any time.
+        slack_each_m: And for what it does from tick to tick.
+    """
+
+    way_m: FloatArray
+    told_m: FloatArray
+    off_m: FloatArray
+    slack_m: float
+    slack_each_m: FloatArray
 
 
 def _sums(values: FloatArray, window: int) -> FloatArray:
@@ -74,24 +91,31 @@ def _sums(values: FloatArray, window: int) -> FloatArray:
     return sums
 
 
-def _vehicle(context: Context, body: Body) -> tuple[FloatArray, FloatArray, FloatArray, float]:
-    """Return way, way by speed, their difference (T - 1, 1) along the heading, and its slack."""
+def _vehicle(context: Context, body: Body) -> _Pace:
     rows = context.view.rows(body)
     step = np.diff(rows[:, GroundColumn.X : GroundColumn.Y + 1], axis=0)
-    heading = rows[:-1, GroundColumn.HEADING_X : GroundColumn.HEADING_Y + 1]
-    way = (step * heading).sum(axis=1)
+    heading = rows[:, GroundColumn.HEADING_X : GroundColumn.HEADING_Y + 1]
+    way = (step * heading[:-1]).sum(axis=1)
     told = rows[1:, GroundColumn.SPEED] * context.view.dt_s
-    return way, np.abs(told), (way - told)[:, None], _VEHICLE_M + _OF_LENGTH * body.entry.length_m
+    turned = np.linalg.norm(np.diff(heading, axis=0), axis=1)
+    return _Pace(
+        way_m=way,
+        told_m=told,
+        off_m=(way - told)[:, None],
+        slack_m=_VEHICLE_M,
+        slack_each_m=_OF_WAY * np.abs(told) + body.entry.length_m / 2.0 * turned,
+    )
 
 
-def _uav(context: Context, body: Body) -> tuple[FloatArray, FloatArray, FloatArray, float]:
-    """Return way, way by velocity, their difference (T - 1, 3), and its slack."""
+def _uav(context: Context, body: Body) -> _Pace:
     rows = context.view.rows(body)
     step = np.diff(rows[:, UavColumn.X : UavColumn.Z + 1], axis=0)
     velocity = rows[:, UavColumn.VX : UavColumn.VZ + 1]
     told = (velocity[1:] + velocity[:-1]) / 2.0 * context.view.dt_s
-    return _length(step), _length(told), step - told, _UAV_M
-
-
-def _length(vectors: FloatArray) -> FloatArray:
-    return distance_3d(vectors[:, 0], vectors[:, 1], vectors[:, 2])
+    return _Pace(
+        way_m=np.linalg.norm(step, axis=1),
+        told_m=np.linalg.norm(told, axis=1),
+        off_m=step - told,
+        slack_m=_UAV_M,
+        slack_each_m=np.zeros(len(step)),
+    )

@@ -1,0 +1,190 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""`python -m aurora_bench.mutation --results docs/bench` (also: `make bench-mutation`)."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+import tempfile
+from collections.abc import Iterable, Sequence
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from aurora_bench.interrupt import stop_on_sigterm
+from aurora_bench.machine import machine_facts
+from aurora_bench.mutation.campaign import Campaign, Outcome, recordings
+from aurora_bench.mutation.prompts import FAILING, SOUND
+from aurora_bench.progress import Progress
+from aurora_bench.results import Goal, Table, write_results
+
+BREAKING_LEAST = 500
+CAUGHT_LEAST = 0.99
+HARMLESS_LEAST = 300
+FALSE_ALARMS_MOST = 0.01
+BAGS_LEAST = 60
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the campaign; return 1 when something that must hold does not."""
+    stop_on_sigterm()
+    parser = argparse.ArgumentParser(prog='aurora_bench.mutation', description=__doc__)
+    parser.add_argument('--results', type=Path, default=Path('docs/bench'), metavar='FOLDER')
+    parser.add_argument('--seed', type=int, default=1, help='of the alterations')
+    parser.add_argument('--seeds', type=int, default=3, help='runs of each prompt')
+    parser.add_argument(
+        '--bag-every', type=int, default=25, help='one of so many goes through a bag as well'
+    )
+    parser.add_argument('--noisy', type=int, default=8, help='runs with noise for each recording')
+    options = parser.parse_args(arguments)
+    machine = machine_facts()
+    progress = Progress('mutation', (len(SOUND) + len(FAILING)) * options.seeds)
+    with tempfile.TemporaryDirectory(prefix='aurora_mutation_') as name:
+        campaign = Campaign(Path(name).resolve(), options.seed, progress)
+        for base in recordings(campaign.folder / 'runs', options.seeds, progress):
+            before = len(campaign.outcomes)
+            if base.seed == 1 and base.name in SOUND:
+                campaign.alter(base, options.bag_every)
+            campaign.leave(base, options.noisy if base.seed == 1 else 2)
+            judged = len(campaign.outcomes) - before
+            progress.step(f'{base.name}, seed {base.seed}, {base.status}: {judged} judged')
+        planted = list(campaign.plant())
+    goals = _goals(campaign.outcomes, planted)
+    write_results(
+        options.results,
+        'mutation',
+        _results(options, campaign.outcomes, planted),
+        title='Altered runs and executors with planted bugs',
+        goals=goals,
+        tables=_tables(campaign.outcomes, planted),
+        notes=(
+            'What an alteration breaks is known from what was done, by code of the campaign; the '
+            'verifier has to name it: a condition, a finding, or the reason why there is no '
+            'margin. "Stamped": every digest is that of the altered run.',
+        ),
+        machine=machine,
+    )
+    for goal in goals:
+        sys.stderr.write(f'{goal.name}: {goal.figure} (target {goal.target})\n')
+    return int(any(goal.met is False for goal in goals))
+
+
+def _goals(outcomes: Sequence[Outcome], planted: Sequence[Outcome]) -> list[Goal]:
+    breaking = [o for o in outcomes if not o.harmless and o.stamped]
+    unstamped = [o for o in outcomes if not o.harmless and not o.stamped]
+    harmless = [o for o in outcomes if o.harmless]
+    bags = [o for o in outcomes if o.bag and not o.harmless]
+    caught, alarms = _good(breaking), len(harmless) - _good(harmless)
+    return [
+        Goal(
+            name='altered runs that break something, digests stamped anew',
+            target=f'at least {BREAKING_LEAST}',
+            figure=str(len(breaking)),
+            met=len(breaking) >= BREAKING_LEAST,
+        ),
+        Goal(
+            name='of these found, and named for what they are',
+            target=f'at least {CAUGHT_LEAST:.0%}',
+            figure=f'{caught} of {len(breaking)} ({caught / max(1, len(breaking)):.2%})',
+            met=caught >= CAUGHT_LEAST * len(breaking),
+        ),
+        Goal(
+            name='the same without new digests: never better than inconclusive',
+            target=f'{len(unstamped)} of {len(unstamped)}',
+            figure=f'{_good(unstamped)} of {len(unstamped)}',
+            met=_good(unstamped) == len(unstamped),
+        ),
+        Goal(
+            name='untouched or harmlessly altered runs',
+            target=f'at least {HARMLESS_LEAST}',
+            figure=str(len(harmless)),
+            met=len(harmless) >= HARMLESS_LEAST,
+        ),
+        Goal(
+            name='of these with another status than before',
+            target=f'at most {FALSE_ALARMS_MOST:.0%}',
+            figure=f'{alarms} of {len(harmless)}',
+            met=alarms <= FALSE_ALARMS_MOST * len(harmless),
+        ),
+        Goal(
+            name='altered runs that went through a real bag',
+            target=f'at least {BAGS_LEAST}',
+            figure=f'{len(bags)}, {_good(bags)} judged as they must be',
+            met=len(bags) >= BAGS_LEAST and _good(bags) == len(bags),
+        ),
+        Goal(
+            name='executors with a planted bug, named',
+            target=f'{len(planted)} of {len(planted)}',
+            figure=f'{_good(planted)} of {len(planted)}',
+            met=_good(planted) == len(planted),
+        ),
+    ]
+
+
+def _good(outcomes: Iterable[Outcome]) -> int:
+    return sum(outcome.good for outcome in outcomes)
+
+
+def _tables(outcomes: Sequence[Outcome], planted: Sequence[Outcome]) -> list[Table]:
+    tables = []
+    for harmless, caption, heading in (
+        (False, 'Alterations that break something', 'found and named'),
+        (True, 'Runs that nothing was done to that matters', 'status kept'),
+    ):
+        rows = []
+        chosen = [o for o in outcomes if o.harmless is harmless]
+        for kind in dict.fromkeys(o.kind for o in chosen):
+            stamped = [o for o in chosen if o.kind == kind and o.stamped]
+            rest = [o for o in chosen if o.kind == kind and not o.stamped]
+            bags = sum(o.bag for o in chosen if o.kind == kind)
+            row: list[str | int] = [kind, len(stamped), _good(stamped)]
+            rows.append([*row, bags] if harmless else [*row, len(rest), _good(rest), bags])
+        headings = ['alteration', 'stamped', heading]
+        headings += [] if harmless else ['not stamped', 'not believed']
+        tables.append(Table(headings=[*headings, 'in bags'], rows=rows, caption=caption))
+    missed = [o for o in outcomes if not o.good]
+    if missed:
+        tables.append(
+            Table(
+                headings=('run', 'alteration', 'stamped', 'said'),
+                rows=[(o.base, f'{o.kind}: {o.name}', o.stamped, o.problem) for o in missed],
+                caption='Not judged as they must be',
+            )
+        )
+    tables.append(
+        Table(
+            headings=('the executor', 'ended', 'named'),
+            rows=[(o.name, o.status, o.problem) for o in planted],
+            caption='Planted bugs',
+        )
+    )
+    return tables
+
+
+def _results(
+    options: argparse.Namespace, outcomes: Sequence[Outcome], planted: Sequence[Outcome]
+) -> dict[str, Any]:
+    kinds: dict[str, dict[str, int]] = {}
+    for o in outcomes:
+        counts = kinds.setdefault(f'{"harmless: " if o.harmless else ""}{o.kind}', {})
+        for key, counted in (
+            ('judged', True),
+            ('good', o.good),
+            ('not_stamped', not o.stamped),
+            ('through_bag', o.bag),
+            (o.status, True),
+        ):
+            counts[key] = counts.get(key, 0) + int(counted)
+    return {
+        'seed': options.seed,
+        'seeds': options.seeds,
+        'prompts': {**SOUND, **FAILING},
+        'kinds': kinds,
+        'not_as_they_must_be': [asdict(o) for o in outcomes if not o.good],
+        'planted': [asdict(o) for o in planted],
+    }
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,173 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Record, alter, judge, count."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from random import Random
+
+from aurora_bench.bags.forge import mcap_of, rewrite, stamp
+from aurora_bench.mutation.bag import write_bag
+from aurora_bench.mutation.harmless import harmless_mutants
+from aurora_bench.mutation.judge import (
+    Judgement,
+    in_memory,
+    judge_bag,
+    through_bag,
+    unstamped_in_memory,
+)
+from aurora_bench.mutation.kinds import breaking_mutants
+from aurora_bench.mutation.mutant import Mutant, mutant, names_of
+from aurora_bench.mutation.prompts import FAILING, SOUND
+from aurora_bench.mutation.recording import Recording, record, run_prompt
+from aurora_bench.mutation.sabotage import PLANTED, SabotagedStages
+from aurora_bench.progress import Progress
+from aurora_core.errors import AuroraError
+from aurora_core.pipeline.functions import verify_stage
+from aurora_core.trace.definitions import message_definitions
+
+
+@dataclass(frozen=True, kw_only=True)
+class Outcome:
+    """One judgement of one mutant.
+
+    Attributes:
+        stamped: Every digest is in order.
+        bag: It went through a bag.
+        good: It was judged as it has to be.
+        problem: What was said instead.
+    """
+
+    kind: str
+    name: str
+    base: str
+    harmless: bool
+    stamped: bool
+    bag: bool
+    good: bool
+    status: str
+    problem: str = ''
+
+
+@dataclass
+class Campaign:
+    """All outcomes of a campaign.
+
+    Args:
+        folder: For recordings and bags.
+        seed: Of the alterations.
+        progress: Who is told.
+    """
+
+    folder: Path
+    seed: int
+    progress: Progress
+    outcomes: list[Outcome] = field(default_factory=list)
+
+    def alter(self, base: Recording, bag_every: int) -> None:
+        """Judge everything that breaks something in one run."""
+        definitions = message_definitions()
+        for number, one in enumerate(breaking_mutants(base, self.seed)):
+            self._add(one, in_memory(one), stamped=True, bag=False)
+            self._add(one, unstamped_in_memory(one, definitions), stamped=False, bag=False)
+            # The places differ from run to run, so that every kind gets its turn.
+            if (number + len(base.name)) % bag_every == 0:
+                for stamped in (True, False):
+                    found = through_bag(one, self.folder, definitions, stamped=stamped)
+                    self._add(one, found, stamped=stamped, bag=True)
+
+    def leave(self, base: Recording, noisy: int) -> None:
+        """Judge everything that breaks nothing in one run."""
+        random = Random(f'{self.seed}:{base.name}:{base.seed}')
+        for one in harmless_mutants(base, random, noisy):
+            self._add(one, in_memory(one), stamped=True, bag=False)
+        for one, bag in self._other_bags(base):
+            self._add(one, judge_bag(bag), stamped=True, bag=True)
+
+    def plant(self) -> Iterator[Outcome]:
+        """Run every executor with a planted bug."""
+        for planted in PLANTED:
+            stages = SabotagedStages(planted.sabotage)
+            report, bag = run_prompt(planted.name, planted.prompt, 1, self.folder, stages)
+            names = names_of(verify_stage(bag))
+            good = report.status in ('violated', 'inconclusive') and bool(names & planted.names)
+            self.progress.note(f'{planted.name}: {report.status}, {_named(names)}')
+            yield Outcome(
+                kind='planted bug',
+                name=planted.name,
+                base=planted.prompt,
+                harmless=False,
+                stamped=True,
+                bag=True,
+                good=good,
+                status=report.status,
+                problem=_named(names & planted.names if good else names),
+            )
+
+    def _other_bags(self, base: Recording) -> Iterator[tuple[Mutant, Path]]:
+        """The same messages in other bags."""
+        definitions = message_definitions()
+        same = mutant('written anew', 'other chunks', base, ())
+        yield same, write_bag(same, self.folder, definitions)
+        more = mutant('other topics in the bag', 'texts', base, ())
+        yield more, write_bag(more, self.folder, definitions, other_topics=True)
+        # One chunk between two checkpoints, as another writer of the format makes them.
+        bag = self.folder / base.bag.name
+        shutil.rmtree(bag)
+        shutil.copytree(base.bag, bag)
+        rewrite(mcap_of(base.bag), mcap_of(bag))
+        stamp(bag)
+        yield mutant('chunked anew', 'by another writer', base, ()), bag
+
+    def _add(self, one: Mutant, found: Judgement, *, stamped: bool, bag: bool) -> None:
+        if one.harmless:
+            good = found.status == one.base.status
+        elif stamped:
+            good = not found.passed and bool(found.names & one.names)
+        else:
+            good = found.status in ('inconclusive', 'refused')
+        problem = ''
+        if not good:
+            problem = f'{found.status}, {_named(found.names)} {found.text}'.strip()
+            self.progress.note(
+                f'NOT AS IT MUST BE: {one.base.name}, {one.kind}, {one.name}: {problem}'
+            )
+        self.outcomes.append(
+            Outcome(
+                kind=one.kind,
+                name=one.name,
+                base=one.base.name,
+                harmless=one.harmless,
+                stamped=stamped,
+                bag=bag,
+                good=good,
+                status=found.status,
+                problem=problem,
+            )
+        )
+
+
+def _named(names: frozenset[str]) -> str:
+    return ', '.join(sorted(names)[:6]) or 'nothing named'
+
+
+def recordings(folder: Path, seeds: int, progress: Progress) -> Iterator[Recording]:
+    """Record every prompt; with the first seed first.
+
+    Raises:
+        AuroraError: A prompt ended otherwise than the campaign needs: nothing could be said of it.
+    """
+    for seed in range(1, seeds + 1):
+        for name, prompt in {**SOUND, **FAILING}.items():
+            made = record(name, prompt, seed, folder)
+            wanted = 'verified' if name in SOUND else 'violated'
+            if seed == 1 and made.status != wanted:
+                raise AuroraError(f'{name} ended {made.status}, the campaign needs {wanted}')
+            if made.status not in ('verified', 'violated'):
+                progress.note(f'{name}, seed {seed}: {made.status}, left out')
+                continue
+            yield made

@@ -1,0 +1,330 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Executors with planted bugs: each does or tells something wrong while it runs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+import numpy.typing as npt
+
+from aurora_bench.mutation.prompts import SOUND
+from aurora_cli.local_engine import LocalStages
+from aurora_core.agsg.graph import Agsg
+from aurora_core.comm.link import MessageLink, Path
+from aurora_core.execution.events import EventRunner, Note
+from aurora_core.execution.observe import Observation
+from aurora_core.execution.plan import Execution
+from aurora_core.execution.scenario_executor import ScenarioExecutor
+from aurora_core.execution.step_output import StepOutput, Stepper
+from aurora_core.mission.machine import MissionMachine, TargetMotion
+from aurora_core.mission.plan import MissionPlan, UavPlan
+from aurora_core.pipeline.stages import RunRequest
+from aurora_core.spec.scenario import DistanceTrigger, Event
+from aurora_core.trace.commands import GroundCommand
+from aurora_core.trace.layout import UavPhase
+from aurora_core.trace.records import LinkEventKind, LinkRecord
+
+FloatArray = npt.NDArray[np.float64]
+Sabotage = Callable[[ScenarioExecutor], Stepper]
+Machines = Sequence[MissionMachine]
+
+_LATE_TICKS = 20
+_EARLY_M = 8.0
+_UNSEEN_TICK = 400
+_AGAIN_TICKS = 40
+
+
+class SabotagedStages(LocalStages):
+    """The local engine with another executor.
+
+    Args:
+        sabotage: Makes it of the honest one.
+    """
+
+    def __init__(self, sabotage: Sabotage) -> None:
+        self._sabotage = sabotage
+
+    def execution(self, agsg: Agsg, request: RunRequest) -> Execution:
+        """Return what is run, with the sabotaged executor."""
+        honest = super().execution(agsg, request)
+        assert isinstance(honest.stepper, ScenarioExecutor)
+        return replace(honest, stepper=self._sabotage(honest.stepper))
+
+
+class _LateRunner(EventRunner):
+    """Every trigger a second late."""
+
+    def _begins(
+        self, event: Event, tick: int, dt_s: float, seen: Observation, machines: Machines
+    ) -> bool:
+        held = self.__dict__.setdefault('_held', {})
+        if event.id not in held and super()._begins(event, tick, dt_s, seen, machines):
+            held[event.id] = tick
+        return event.id in held and tick >= held[event.id] + _LATE_TICKS
+
+
+class _EarlyRunner(EventRunner):
+    """Every distance is taken for a smaller one."""
+
+    def _begins(
+        self, event: Event, tick: int, dt_s: float, seen: Observation, machines: Machines
+    ) -> bool:
+        if isinstance(event.trigger, DistanceTrigger):
+            value = event.trigger.value_m
+            farther = dict(value) | {'value': value.value + _EARLY_M}
+            trigger = dict(event.trigger) | {'value_m': farther}
+            event = Event.model_validate(dict(event) | {'trigger': trigger})
+        return super()._begins(event, tick, dt_s, seen, machines)
+
+
+class _BlindRunner(EventRunner):
+    """Reports at some time what it has never seen."""
+
+    def _begins(
+        self, event: Event, tick: int, dt_s: float, seen: Observation, machines: Machines
+    ) -> bool:
+        return tick >= _UNSEEN_TICK
+
+    def _allowed(self, event: Event, seen: Observation, machines: Machines) -> bool:
+        return True
+
+
+class _RepeatingRunner(EventRunner):
+    """Does everything again after two seconds."""
+
+    def step(
+        self, tick: int, dt_s: float, seen: Observation, machines: Machines, note: Note
+    ) -> list[GroundCommand]:
+        for state in self._states:
+            first = state.triggered_tick
+            if state.done and first is not None and tick == first + _AGAIN_TICKS:
+                state.done = False
+        return super().step(tick, dt_s, seen, machines, note)
+
+
+class _SkippingMachine(MissionMachine):
+    """Leaves out its first mission."""
+
+    def _begin(self, phase: int) -> None:
+        super()._begin(phase + 1 if phase == UavPhase.MISSION else phase)
+
+
+class _FloatingMachine(MissionMachine):
+    """Calls itself landed while it stands in the air."""
+
+    def _fly_home(self, state: list[float]) -> None:
+        self.landed = True
+
+    def _command(self, state: list[float]) -> FloatArray:
+        landed, self.landed = self.landed, False
+        row = super()._command(state)
+        self.landed = landed
+        return row
+
+
+class _HastyMachine(MissionMachine):
+    """Takes every sample for the capture."""
+
+    def _meets(
+        self,
+        mission: MissionPlan,
+        state: list[float],
+        goal: tuple[float, float, float],
+        target: TargetMotion | None,
+    ) -> bool:
+        return True
+
+
+class _ForgingLink(MessageLink):
+    """Loses everything and tells of a receipt in the end."""
+
+    def step(
+        self, tick: int, path: Callable[[], Path], next_sequence: Callable[[], int]
+    ) -> list[LinkRecord]:
+        self._loss_at = lambda _tick: 1.0
+        return [
+            replace(r, kind=LinkEventKind.DELIVERED) if r.kind is LinkEventKind.FAILED else r
+            for r in super().step(tick, path, next_sequence)
+        ]
+
+
+class _SilentLink(MessageLink):
+    """Never tells of a receipt."""
+
+    def step(
+        self, tick: int, path: Callable[[], Path], next_sequence: Callable[[], int]
+    ) -> list[LinkRecord]:
+        records = super().step(tick, path, next_sequence)
+        return [r for r in records if r.kind is not LinkEventKind.DELIVERED]
+
+
+class _GivingUpLink(MessageLink):
+    """Does not send again what was lost."""
+
+    def step(
+        self, tick: int, path: Callable[[], Path], next_sequence: Callable[[], int]
+    ) -> list[LinkRecord]:
+        records = super().step(tick, path, next_sequence)
+        if any(r.kind is LinkEventKind.ATTEMPT_LOST for r in records):
+            self._messages.clear()
+        return records
+
+
+class _SeeingEverything:
+    """Claims to see whatever it looks for."""
+
+    def __init__(self, executor: ScenarioExecutor) -> None:
+        self._executor = executor
+
+    def step(self, tick: int, ground: FloatArray, uav: FloatArray) -> StepOutput:
+        output = self._executor.step(tick, ground, uav)
+        return replace(output, sights=tuple(replace(s, visible=True) for s in output.sights))
+
+
+def _runner(kind: type[EventRunner]) -> Sabotage:
+    def sabotage(executor: ScenarioExecutor) -> Stepper:
+        s = executor._setup
+        executor._runner = kind(s.spec, s.roster, s.links, s.arrival_m)
+        return executor
+
+    return sabotage
+
+
+def _machine(
+    kind: type[MissionMachine] = MissionMachine, plan: Callable[[UavPlan], UavPlan] = lambda p: p
+) -> Sabotage:
+    def sabotage(executor: ScenarioExecutor) -> Stepper:
+        machines = tuple(kind(plan(m.plan), m._settings, m._dt) for m in executor._setup.machines)
+        return ScenarioExecutor(replace(executor._setup, machines=machines))
+
+    return sabotage
+
+
+def _link(kind: type[MessageLink], **settings: str) -> Sabotage:
+    def sabotage(executor: ScenarioExecutor) -> Stepper:
+        links = tuple(
+            kind(replace(k.settings, **settings), k._dt, k._generator, k._loss_at)  # type: ignore[arg-type]
+            for k in executor._setup.links
+        )
+        other = ScenarioExecutor(replace(executor._setup, links=links))
+        if settings:  # the sender of an event would not find its link any more
+            other._runner._links = links
+            for state in other._runner._states:
+                action = dict(state.event.action or {}) | settings
+                event = dict(state.event) | {'action': action}
+                state.event = Event.model_validate(event)
+        return other
+
+    return sabotage
+
+
+def _lower(plan: UavPlan) -> UavPlan:
+    """Plan to fly at three fifths of the altitude."""
+    document = plan.model_dump()
+    for mission in document['missions']:
+        mission['altitude_m'] *= 0.6
+        if mission['hover_point'] is not None:
+            x, y, z = mission['hover_point']
+            mission['hover_point'] = (x, y, 0.6 * z)
+    return UavPlan.model_validate(document)
+
+
+def _after_the_ambulance(plan: UavPlan) -> UavPlan:
+    document = plan.model_dump()
+    for mission in document['missions']:
+        mission['target'] = 'ambulance1'
+    return UavPlan.model_validate(document)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Planted:
+    """One planted bug.
+
+    Attributes:
+        name: What the executor does wrong.
+        prompt: That it runs.
+        names: What counts as having found it, see `mutant.names_of`.
+    """
+
+    name: str
+    prompt: str
+    sabotage: Sabotage
+    names: frozenset[str]
+
+
+_UNSEEN = (
+    'A drone tracks the ego car from 30 meters altitude and alerts the ego when it sees a truck.'
+)
+
+
+def _planted(name: str, prompt: str, sabotage: Sabotage, *names: str) -> Planted:
+    return Planted(
+        name=name, prompt=SOUND.get(prompt, prompt), sabotage=sabotage, names=frozenset(names)
+    )
+
+
+PLANTED = (
+    _planted('trigger late by 1 s', 'tailgate', _runner(_LateRunner), 'finding:event'),
+    _planted(
+        'trigger early',
+        'tailgate',
+        _runner(_EarlyRunner),
+        'finding:event',
+        'condition:e1.not_before',
+    ),
+    _planted(
+        'alert of what was never seen',
+        _UNSEEN,
+        _runner(_BlindRunner),
+        'finding:event',
+        'condition:e1.actor_visible',
+    ),
+    _planted('event done twice', 'tailgate', _runner(_RepeatingRunner), 'finding:event'),
+    _planted('delivery forged', 'loss', _link(_ForgingLink), 'finding:message'),
+    _planted('delivery never recorded', 'tailgate', _link(_SilentLink), 'finding:message'),
+    _planted(
+        'retransmission missing',
+        'loss',
+        _link(_GivingUpLink),
+        'finding:message',
+        'condition:e1.delivered',
+    ),
+    _planted(
+        'message to another receiver',
+        'tailgate',
+        _link(MessageLink, receiver='van1'),
+        'finding:message',
+    ),
+    _planted('sight through buildings', 'circle', _SeeingEverything, 'finding:sight'),
+    _planted(
+        'mission skipped',
+        'two missions',
+        _machine(_SkippingMachine),
+        'condition:m1.order',
+        'condition:m1.completed',
+    ),
+    _planted(
+        'altitude too low',
+        'hover',
+        _machine(plan=_lower),
+        'condition:m1.order',
+        'condition:m1.altitude',
+    ),
+    _planted('landing skipped', 'hover', _machine(_FloatingMachine), 'condition:uav1.landed'),
+    _planted(
+        'another target tracked',
+        'convoy',
+        _machine(plan=_after_the_ambulance),
+        'condition:m1.tracked',
+    ),
+    _planted(
+        'capture taken too early',
+        'landmark',
+        _machine(_HastyMachine),
+        'condition:m1.completed',
+        'condition:m1.duration',
+    ),
+)

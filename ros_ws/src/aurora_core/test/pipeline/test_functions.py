@@ -1,0 +1,95 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a recording is compared with: worked out anew it is the same, on this map and another."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from aurora_core.agsg.build import build_agsg
+from aurora_core.agsg.graph import Agsg
+from aurora_core.conditions.condition import conditions_from_json
+from aurora_core.errors import VerificationError
+from aurora_core.execution.plan import Execution
+from aurora_core.monitor.plan_check import plan_findings
+from aurora_core.pipeline.functions import (
+    execution_stage,
+    ground_stage,
+    parse_stage,
+    recorded_plan,
+)
+
+PROMPT = (
+    'A van tailgates the ego car closely, closing from 45 meters; a tracking drone alerts the ego '
+    'when the van comes within 20 meters.'
+)
+
+
+@pytest.fixture(scope='module')
+def grounded() -> tuple[Agsg, Execution]:
+    spec = parse_stage(PROMPT, 'downtown', 1).spec
+    assert spec is not None
+    agsg = ground_stage(build_agsg(spec), 1).agsg
+    assert agsg is not None
+    return agsg, execution_stage(agsg, 1, ())
+
+
+def altered(agsg: Agsg, **documents: str) -> Agsg:
+    return Agsg.model_validate(dict(agsg) | documents)
+
+
+def test_what_is_recorded_is_what_the_request_gives(grounded: tuple[Agsg, Execution]) -> None:
+    agsg, execution = grounded
+    plan = recorded_plan(execution.world, agsg)
+    recorded = conditions_from_json(execution.world.conditions_json)
+    assert recorded
+    assert plan.world is not None
+    assert plan_findings(recorded, execution.roster, execution.world, plan) == ()
+
+
+def test_a_forged_grounding_shows_in_the_conditions(grounded: tuple[Agsg, Execution]) -> None:
+    agsg, execution = grounded
+    # 30 m, the altitude that was chosen, becomes 90 m in the grounding alone.
+    forged = altered(
+        agsg, grounding_json=agsg.grounding_json.replace('"altitude_m":30.0', '"altitude_m":90.0')
+    )
+    assert forged.grounding_json != agsg.grounding_json
+    plan = recorded_plan(execution.world, forged)
+    recorded = conditions_from_json(execution.world.conditions_json)
+    found = plan_findings(recorded, execution.roster, execution.world, plan)
+    assert 'condition' in {finding.kind for finding in found}
+
+
+def test_limits_of_another_installation_are_named(grounded: tuple[Agsg, Execution]) -> None:
+    agsg, execution = grounded
+    limits = type(execution.world.limits).model_validate(
+        dict(execution.world.limits) | {'clearance_min_m': 0.1}
+    )
+    world = replace(execution.world, limits=limits)
+    plan = recorded_plan(world, agsg)
+    found = plan_findings(plan.conditions, execution.roster, world, plan)
+    assert [(finding.kind, finding.subject) for finding in found] == [('world', 'limits')]
+
+
+def test_a_map_that_is_not_installed_leaves_the_world_as_recorded(
+    grounded: tuple[Agsg, Execution],
+) -> None:
+    agsg, execution = grounded
+    elsewhere = altered(
+        agsg, grounding_json=agsg.grounding_json.replace('"downtown"', '"atlantis"')
+    )
+    assert recorded_plan(execution.world, elsewhere).world is None
+    digest = execution.world.map_digest
+    older = altered(agsg, grounding_json=agsg.grounding_json.replace(digest, '0' * 64))
+    assert recorded_plan(execution.world, older).world is None
+
+
+@pytest.mark.parametrize('grounding', ['', '{}', 'nonsense'])
+def test_a_graph_without_a_grounding_cannot_be_judged(
+    grounded: tuple[Agsg, Execution], grounding: str
+) -> None:
+    agsg, execution = grounded
+    with pytest.raises(VerificationError, match='does not fit'):
+        recorded_plan(execution.world, altered(agsg, grounding_json=grounding))

@@ -1,0 +1,22 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""An executor with a bug is never believed: the verdict names what it did wrong."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from aurora_bench.mutation.mutant import names_of
+from aurora_bench.mutation.recording import run_prompt
+from aurora_bench.mutation.sabotage import PLANTED, Planted, SabotagedStages
+from aurora_core.pipeline.functions import verify_stage
+
+
+@pytest.mark.parametrize('planted', PLANTED, ids=lambda planted: planted.name)
+def test_a_planted_bug_is_named(planted: Planted, tmp_path: Path) -> None:
+    stages = SabotagedStages(planted.sabotage)
+    report, bag = run_prompt(planted.name, planted.prompt, 1, tmp_path, stages)
+    assert report.status in ('violated', 'inconclusive')
+    assert names_of(verify_stage(bag)) & planted.names
