@@ -8,11 +8,9 @@ import shutil
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from random import Random
 
 from aurora_bench.bags.forge import mcap_of, rewrite, stamp
 from aurora_bench.mutation.bag import write_bag
-from aurora_bench.mutation.harmless import harmless_mutants
 from aurora_bench.mutation.judge import (
     Judgement,
     in_memory,
@@ -20,7 +18,7 @@ from aurora_bench.mutation.judge import (
     through_bag,
     unstamped_in_memory,
 )
-from aurora_bench.mutation.kinds import breaking_mutants
+from aurora_bench.mutation.kinds import breaking_mutants, harmless_mutants
 from aurora_bench.mutation.mutant import Mutant, mutant, names_of
 from aurora_bench.mutation.prompts import FAILING, SOUND
 from aurora_bench.mutation.recording import Recording, record, run_prompt
@@ -82,8 +80,7 @@ class Campaign:
 
     def leave(self, base: Recording, noisy: int) -> None:
         """Judge everything that breaks nothing in one run."""
-        random = Random(f'{self.seed}:{base.name}:{base.seed}')
-        for one in harmless_mutants(base, random, noisy):
+        for one in harmless_mutants(base, self.seed, noisy):
             self._add(one, in_memory(one), stamped=True, bag=False)
         for one, bag in self._other_bags(base):
             self._add(one, judge_bag(bag), stamped=True, bag=True)

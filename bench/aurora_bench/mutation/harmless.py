@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""Alterations that break nothing: the status must stay."""
+"""Alterations that change no requirement at all: the status must stay."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from aurora_core.trace.trace import Trace
 _AWAY = 3
 
 
-def harmless_mutants(base: Recording, random: Random, noisy: int = 8) -> Iterator[Mutant]:
+def same_mutants(base: Recording, random: Random, noisy: int) -> Iterator[Mutant]:
     """Yield the run as it is, and alterations that change no requirement.
 
     Args:

@@ -87,18 +87,23 @@ def _moved(base: Recording, records: tuple[LinkRecord, ...], random: Random) -> 
         # More than the second that is allowed.
         names = {f'condition:{event}.within'}
         yield mutant(
-            'message delayed', f'{ticks} ticks', base, names, trace=_shift(base, records, ticks)
+            'message delayed', f'{ticks} ticks', base, names, trace=shifted(base, records, ticks)
         )
     for ticks in (random.randint(5, 20), random.randint(21, 60)):
         if trigger is None or trigger.on == 'visible' or sent - ticks < 1:
             continue
         names = {f'condition:{event}.not_before'}
         yield mutant(
-            'message too early', f'{ticks} ticks', base, names, trace=_shift(base, records, -ticks)
+            'message too early',
+            f'{ticks} ticks',
+            base,
+            names,
+            trace=shifted(base, records, -ticks),
         )
 
 
-def _shift(base: Recording, records: tuple[LinkRecord, ...], ticks: int) -> Trace:
+def shifted(base: Recording, records: tuple[LinkRecord, ...], ticks: int) -> Trace:
+    """Return the trace with a message, and the claim that it was sent, so many ticks later."""
     moved = tuple(replace(r, tick=r.tick + ticks) if r in records else r for r in base.trace.links)
 
     def claim(record: EventRecord) -> EventRecord:

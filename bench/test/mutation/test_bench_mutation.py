@@ -10,9 +10,8 @@ from random import Random
 import pytest
 
 from aurora_bench.mutation.bag import write_bag
-from aurora_bench.mutation.harmless import harmless_mutants
 from aurora_bench.mutation.judge import in_memory, judge_bag, through_bag, unstamped_in_memory
-from aurora_bench.mutation.kinds import breaking_mutants
+from aurora_bench.mutation.kinds import breaking_mutants, harmless_mutants
 from aurora_bench.mutation.mutant import Mutant, mutant
 from aurora_bench.mutation.prompts import SOUND
 from aurora_bench.mutation.recording import Recording, record
@@ -64,7 +63,7 @@ def test_a_bag_with_new_digests_is_judged_as_its_messages(
 
 
 def test_what_breaks_nothing_stays_verified(base: Recording) -> None:
-    for one in harmless_mutants(base, Random(SEED), noisy=3):
+    for one in harmless_mutants(base, SEED, noisy=3):
         assert in_memory(one).status == 'verified', f'{one.kind}: {one.name}'
 
 
