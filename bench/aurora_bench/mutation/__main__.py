@@ -32,11 +32,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog='aurora_bench.mutation', description=__doc__)
     parser.add_argument('--results', type=Path, default=Path('docs/bench'), metavar='FOLDER')
     parser.add_argument('--seed', type=int, default=1, help='of the alterations')
-    parser.add_argument('--seeds', type=int, default=3, help='runs of each prompt')
+    parser.add_argument('--seeds', type=int, default=2, help='runs of each prompt')
     parser.add_argument(
         '--bag-every', type=int, default=25, help='one of so many goes through a bag as well'
     )
-    parser.add_argument('--noisy', type=int, default=8, help='runs with noise for each recording')
+    parser.add_argument('--noisy', type=int, default=4, help='runs with noise for each recording')
     options = parser.parse_args(arguments)
     machine = machine_facts()
     progress = Progress('mutation', (len(SOUND) + len(FAILING)) * options.seeds)

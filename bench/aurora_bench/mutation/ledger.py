@@ -194,6 +194,16 @@ def _lost(base: Recording, records: tuple[LinkRecord, ...]) -> Iterator[Mutant]:
         'delivery forged', 'lost, yet received', base, {_MESSAGE}, trace=_with(base, forged)
     )
     others = tuple(r for r in base.trace.links if r not in records)
+    luckless = next((r for r in records if r.reason is LossReason.RANDOM), None)
+    if luckless is not None:
+        # Everything else about it is as it would be, had this attempt had luck.
+        sooner = passed.tick - luckless.tick
+        luck = [r for r in records if r.tick < luckless.tick or r.kind is _K.SENT]
+        luck.append(replace(luckless, kind=_K.ATTEMPT_PASSED, reason=LossReason.NONE))
+        receipt = replace(records[-1], attempt=luckless.attempt)
+        luck.append(replace(receipt, tick=receipt.tick - sooner))
+        trace = retold(_with(base, (*others, *luck)), base.world)
+        yield mutant('luck forged', 'passed at once', base, {'finding:chance'}, trace=trace)
     end = _given_up(base, records[0], link)
     if end[-1].tick < base.trace.ticks:
         trace = retold(_with(base, (*others, *end)), base.world)

@@ -14,6 +14,7 @@ from math import ceil
 
 import numpy as np
 
+from aurora_core.ports.random_streams import stream
 from aurora_core.trace.records import LinkEventKind, LinkRecord, LossReason
 
 
@@ -61,6 +62,11 @@ class _Message:
 def whole_ticks(duration_s: float, dt_s: float) -> int:
     """Return the least number of ticks that lasts `duration_s`, representation errors aside."""
     return ceil(duration_s / dt_s - 1e-9)
+
+
+def link_stream(seed: int, link_id: str) -> np.random.Generator:
+    """Return the draws of a link: one for each transmission."""
+    return stream(seed, f'link:{link_id}')
 
 
 class MessageLink:

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from aurora_core.agsg.graph import Agsg
-from aurora_core.comm.link import LinkSettings, MessageLink
+from aurora_core.comm.link import LinkSettings, MessageLink, link_stream
 from aurora_core.errors import ExecutionError
 from aurora_core.execution.fault_port import FaultPort, loss_with_faults
 from aurora_core.execution.faults import Fault
@@ -24,7 +24,6 @@ from aurora_core.knowledge.settings import Settings
 from aurora_core.knowledge.world import NamedPlace, Wind, WorldModel
 from aurora_core.mission.machine import MissionMachine
 from aurora_core.mission.setpoint import FlightSettings
-from aurora_core.ports.random_streams import stream
 from aurora_core.ports.simulators import AirLoad, GroundAgentLoad, GroundLoad, UavHome
 from aurora_core.quantities.world_geometry import WorldGeometry
 from aurora_core.spec.scenario import Link, ScenarioSpec, SendMessage
@@ -281,7 +280,7 @@ def _link(
             range_blocked_m=limits.link_range_blocked_m if stated is None else stated,
         ),
         dt_s,
-        stream(seed, f'link:{link.id}'),
+        link_stream(seed, link.id),
         loss_with_faults(link.id, link.loss.value, faults, dt_s),
     )
 

@@ -33,11 +33,13 @@ class Plan:
         conditions: Derived with the recorded limits and the tolerances in force.
         roster: Bodies of the recorded grounding.
         world: Of the installed map; None when the run was on a map that is not installed here.
+        seed: Of the run.
     """
 
     conditions: tuple[Condition, ...]
     roster: Roster
     world: WorldModel | None
+    seed: int
 
 
 def plan_findings(

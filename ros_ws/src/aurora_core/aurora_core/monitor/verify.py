@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from aurora_core.conditions.condition import Condition
 from aurora_core.errors import VerificationError
 from aurora_core.knowledge.world import WorldModel
+from aurora_core.monitor.chance_check import chance_findings
 from aurora_core.monitor.cross_check import cross_check
 from aurora_core.monitor.evaluation import Context, Measured, Missing
 from aurora_core.monitor.measure import measure
@@ -71,6 +72,8 @@ def verify(
     else:
         results = tuple(judge(context, condition, cut=missing) for condition in conditions)
         findings += cross_check(context)
+        if plan is not None:
+            findings += tuple(chance_findings(context, plan.seed))
     return Verdict(
         status=_status(trace.integrity, results, len(findings)),
         results=results,

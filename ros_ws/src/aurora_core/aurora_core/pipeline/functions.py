@@ -225,7 +225,7 @@ def recorded_plan(world: WorldModel, agsg: Agsg) -> Plan:
             f'the recorded grounding does not fit the recorded request: {err}',
             hint='run the scenario again',
         ) from err
-    return Plan(conditions=conditions, roster=roster, world=rebuilt)
+    return Plan(conditions=conditions, roster=roster, world=rebuilt, seed=grounded.seed)
 
 
 def _rebuilt_world(spec: ScenarioSpec, grounded: GroundedScenario) -> WorldModel | None:

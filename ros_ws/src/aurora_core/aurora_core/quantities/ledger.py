@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""Messages recomputed from the ledger: only whether chance lost an attempt is taken from it."""
+"""Messages recomputed from the ledger: only whether chance lost an attempt is taken from it.
+
+That is compared with the draws of the run in `monitor/chance_check.py`.
+"""
 
 from __future__ import annotations
 
