@@ -19,14 +19,15 @@ from aurora_bench.mutation.judge import (
     unstamped_in_memory,
 )
 from aurora_bench.mutation.kinds import breaking_mutants, harmless_mutants
-from aurora_bench.mutation.mutant import Mutant, mutant, names_of
+from aurora_bench.mutation.mutant import Mutant, mutant
 from aurora_bench.mutation.prompts import FAILING, SOUND
-from aurora_bench.mutation.recording import Recording, record, run_prompt
-from aurora_bench.mutation.sabotage import PLANTED, SabotagedStages
+from aurora_bench.mutation.recording import Recording, record
 from aurora_bench.progress import Progress
 from aurora_core.errors import AuroraError
 from aurora_core.pipeline.functions import verify_stage
 from aurora_core.trace.definitions import message_definitions
+from aurora_system_tests.local_runs import names_of, run_prompt
+from aurora_system_tests.planted_bugs import PLANTED, SabotagedStages
 
 
 @dataclass(frozen=True, kw_only=True)

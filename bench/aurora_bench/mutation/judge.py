@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from aurora_bench.mutation.bag import write_bag
-from aurora_bench.mutation.mutant import Mutant, names_of
+from aurora_bench.mutation.mutant import Mutant
 from aurora_core.agsg.build import derived
 from aurora_core.agsg.message import agsg_message, read_agsg
 from aurora_core.errors import AuroraError
@@ -21,6 +21,7 @@ from aurora_core.trace.bag_metadata import METADATA
 from aurora_core.trace.definitions import MessageDefinitions
 from aurora_core.trace.hashing import trace_sha256
 from aurora_core.trace.messages import MessageBuilder
+from aurora_system_tests.local_runs import names_of
 
 # The verifier refused to judge: not even inconclusive.
 REFUSED = 'refused'

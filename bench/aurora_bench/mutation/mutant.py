@@ -10,7 +10,6 @@ from dataclasses import dataclass, replace
 from aurora_bench.mutation.recording import Recording
 from aurora_core.agsg.graph import Agsg
 from aurora_core.knowledge.world import WorldModel
-from aurora_core.monitor.verdict import Verdict
 from aurora_core.trace.records import EventRecord, LinkRecord
 from aurora_core.trace.trace import Trace
 
@@ -23,8 +22,8 @@ class Mutant:
         kind: Family that it is counted in.
         name: What was done.
         base: The run before.
-        names: What counts as having found it (see `names_of`); known from what was done, not from
-            the verifier. Empty: it breaks nothing, and the status must stay.
+        names: What counts as having found it (see `local_runs.names_of`); known from what was
+            done, not from the verifier. Empty: it breaks nothing, and the status must stay.
     """
 
     kind: str
@@ -73,17 +72,3 @@ def _links(records: Iterable[LinkRecord]) -> tuple[LinkRecord, ...]:
 def _events(records: Iterable[EventRecord]) -> tuple[EventRecord, ...]:
     ordered = sorted(records, key=lambda r: r.tick)
     return tuple(replace(record, sequence=k) for k, record in enumerate(ordered))
-
-
-def names_of(verdict: Verdict) -> frozenset[str]:
-    """Return what a verdict complains of.
-
-    `condition:ID` for each that is not satisfied, `reason:REASON` for each without a margin,
-    `finding:KIND` for each claim that is not borne out, `integrity:STATE` when not intact.
-    """
-    found = {f'condition:{r.id}' for r in verdict.results if not r.satisfied}
-    found |= {f'reason:{r.reason.value}' for r in verdict.results if r.reason is not None}
-    found |= {f'finding:{f.kind}' for f in verdict.cross_check}
-    if verdict.integrity.value != 'intact':
-        found.add(f'integrity:{verdict.integrity.value}')
-    return frozenset(found)

@@ -4,8 +4,11 @@
 
 from __future__ import annotations
 
+from aurora_system_tests.planted_bugs import PROMPTS
+
 # These end verified: a change that breaks something must show.
 SOUND = {
+    **PROMPTS,
     'survey': (
         'In clear weather at midday, a drone flies a rectangular survey route at 30 meters '
         'altitude over the streets around the ego car.'
@@ -14,24 +17,9 @@ SOUND = {
         'A drone ascends to 40 meters and then follows a motorcycle as it drives through the '
         'streets.'
     ),
-    'convoy': (
-        'A bus drives ahead of the ego car and an ambulance follows behind it while two '
-        'background cars circulate; a drone tracks the bus from 35 meters.'
-    ),
-    'tailgate': (
-        'A van tailgates the ego car closely, closing from 45 meters; a tracking drone alerts the '
-        'ego when the van comes within 20 meters.'
-    ),
     'truck': (
         'A truck tailgates the ego car closely, closing from 50 meters; a tracking drone alerts '
         'the ego when the truck comes within 25 meters.'
-    ),
-    'hover': 'A drone hovers at 20 meters for 5 seconds.',
-    'landmark': 'A drone hovers over City Hall at 50 m for 20 seconds.',
-    'circle': 'A drone circles the bus at 40 meters.',
-    'loss': (
-        'A drone hovers at 30 meters; after 15 seconds the drone sends a message to the ego car '
-        'over a link with 60% loss and 200 ms latency.'
     ),
     'sight': 'A drone tracks the bus from 40 meters and alerts the ego car when it sees the bus.',
     'brake': (
@@ -42,9 +30,6 @@ SOUND = {
     'parked': (
         'A van is parked 20 meters behind the ego car; a drone hovers over the van at 30 meters '
         'for 10 seconds.'
-    ),
-    'two missions': (
-        'A drone hovers at 30 meters for 10 seconds, then tracks the ego car for 20 seconds.'
     ),
     'ahead': (
         'A taxi drives 30 meters ahead of the ego car; a drone tracks the taxi from 40 meters for '

@@ -5,29 +5,25 @@
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Mapping
 from dataclasses import dataclass
-from datetime import UTC, datetime
 from functools import cached_property
 from pathlib import Path
 
 import numpy as np
 
-from aurora_cli.clock import MonotonicClock
 from aurora_cli.local_engine import LocalStages
 from aurora_core.agsg.graph import Agsg
 from aurora_core.errors import AuroraError
 from aurora_core.knowledge.world import WorldModel
 from aurora_core.pipeline.functions import load_bag
-from aurora_core.pipeline.run import run
-from aurora_core.pipeline.stages import RunControl, RunRequest, Stages
-from aurora_core.report.run_folder import RunFolder, new_run_id
-from aurora_core.report.run_report import RunReport, TraceReport
+from aurora_core.pipeline.stages import Stages
+from aurora_core.report.run_report import TraceReport
 from aurora_core.spec.scenario import UavMission
 from aurora_core.trace.layout import UavCommandColumn, UavPhase
 from aurora_core.trace.records import LinkRecord
 from aurora_core.trace.trace import Trace
+from aurora_system_tests.local_runs import run_prompt
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -121,19 +117,3 @@ def record(
         world=content.world,
         agsg=agsg,
     )
-
-
-def run_prompt(
-    name: str,
-    prompt: str,
-    seed: int,
-    folder: Path,
-    stages: Stages,
-    faults: tuple[dict[str, object], ...] = (),
-) -> tuple[RunReport, Path]:
-    """Run a prompt; return its report and the folder of its bag."""
-    request = RunRequest.model_validate({'prompt': prompt, 'seed': seed, 'faults': faults})
-    run_id = new_run_id(datetime.now(UTC), os.urandom(3))
-    run_folder = RunFolder(folder / f'{name.replace(" ", "_")}_{seed}', run_id)
-    report = run(request, stages, run_folder, RunControl(), MonotonicClock())
-    return report, run_folder.bag_path(0)

@@ -8,10 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from aurora_bench.mutation.mutant import names_of
-from aurora_bench.mutation.recording import run_prompt
-from aurora_bench.mutation.sabotage import PLANTED, Planted, SabotagedStages
 from aurora_core.pipeline.functions import verify_stage
+from aurora_system_tests.local_runs import names_of, run_prompt
+from aurora_system_tests.planted_bugs import PLANTED, Planted, SabotagedStages
 
 
 @pytest.mark.parametrize('planted', PLANTED, ids=lambda planted: planted.name)

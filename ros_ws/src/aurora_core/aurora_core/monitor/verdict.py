@@ -96,10 +96,10 @@ class ConditionResult(Document):
 
 
 class Finding(Document):
-    """A claim of the executor that recomputation does not bear out.
+    """A claim of the recording that recomputation does not bear out.
 
     Attributes:
-        kind: event, message, sight or phase.
+        kind: event, message, chance, sight, phase, end, motion; condition, roster or world; live.
         subject: What the claim is about.
         tick: Where.
         time_s: Simulated time of that tick.

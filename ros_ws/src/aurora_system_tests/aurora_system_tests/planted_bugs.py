@@ -10,7 +10,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 import numpy.typing as npt
 
-from aurora_bench.mutation.prompts import SOUND
 from aurora_cli.local_engine import LocalStages
 from aurora_core.agsg.graph import Agsg
 from aurora_core.comm.link import MessageLink, Path
@@ -30,6 +29,28 @@ from aurora_core.trace.records import LinkEventKind, LinkRecord
 FloatArray = npt.NDArray[np.float64]
 Sabotage = Callable[[ScenarioExecutor], Stepper]
 Machines = Sequence[MissionMachine]
+
+# Runs that end verified when nothing is planted.
+PROMPTS = {
+    'convoy': (
+        'A bus drives ahead of the ego car and an ambulance follows behind it while two '
+        'background cars circulate; a drone tracks the bus from 35 meters.'
+    ),
+    'tailgate': (
+        'A van tailgates the ego car closely, closing from 45 meters; a tracking drone alerts the '
+        'ego when the van comes within 20 meters.'
+    ),
+    'hover': 'A drone hovers at 20 meters for 5 seconds.',
+    'landmark': 'A drone hovers over City Hall at 50 m for 20 seconds.',
+    'circle': 'A drone circles the bus at 40 meters.',
+    'loss': (
+        'A drone hovers at 30 meters; after 15 seconds the drone sends a message to the ego car '
+        'over a link with 60% loss and 200 ms latency.'
+    ),
+    'two missions': (
+        'A drone hovers at 30 meters for 10 seconds, then tracks the ego car for 20 seconds.'
+    ),
+}
 
 _LATE_TICKS = 20
 _EARLY_M = 8.0
@@ -246,7 +267,7 @@ class Planted:
     Attributes:
         name: What the executor does wrong.
         prompt: That it runs.
-        names: What counts as having found it, see `mutant.names_of`.
+        names: What counts as having found it, see `local_runs.names_of`.
     """
 
     name: str
@@ -262,7 +283,7 @@ _UNSEEN = (
 
 def _planted(name: str, prompt: str, sabotage: Sabotage, *names: str) -> Planted:
     return Planted(
-        name=name, prompt=SOUND.get(prompt, prompt), sabotage=sabotage, names=frozenset(names)
+        name=name, prompt=PROMPTS.get(prompt, prompt), sabotage=sabotage, names=frozenset(names)
     )
 
 
