@@ -64,8 +64,10 @@ class Grounder:
         limits: Limits,
         tolerances: Tolerances,
         settings: Settings,
+        configuration: str = '',
     ) -> None:
         self._map = map_model
+        self._configuration = configuration
         self._types = types
         self._limits = limits
         self._tolerances = tolerances
@@ -221,4 +223,5 @@ class Grounder:
             wind_mean_east_mps=self._limits.wind_mean_mps[weather],
             wind_gust_mps=self._limits.wind_gust_mps[weather],
             seed=seed,
+            configuration=self._configuration,
         )

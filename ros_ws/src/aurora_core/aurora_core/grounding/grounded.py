@@ -106,6 +106,8 @@ class GroundedScenario(Document):
     wind_mean_north_mps: FiniteFloat = 0.0
     wind_gust_mps: FiniteFloat = 0.0
     seed: int = 1
+    # Digest of version, limits, tolerances and settings that it was made with.
+    configuration: str = ''
 
     def canonical_json(self) -> str:
         """Return the byte-exact JSON text that travels in the graph."""

@@ -42,6 +42,17 @@ class Plan:
     seed: int
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class NotComparable:
+    """Nothing can be worked out anew.
+
+    Attributes:
+        why: For people.
+    """
+
+    why: str
+
+
 def plan_findings(
     conditions: Sequence[Condition], roster: Roster, world: WorldModel, plan: Plan
 ) -> tuple[Finding, ...]:

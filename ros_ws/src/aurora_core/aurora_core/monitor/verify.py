@@ -13,7 +13,7 @@ from aurora_core.monitor.chance_check import chance_findings
 from aurora_core.monitor.cross_check import cross_check
 from aurora_core.monitor.evaluation import Context, Measured, Missing
 from aurora_core.monitor.measure import measure
-from aurora_core.monitor.plan_check import Plan, plan_findings
+from aurora_core.monitor.plan_check import NotComparable, Plan, plan_findings
 from aurora_core.monitor.sentences import explain, explain_missing
 from aurora_core.monitor.verdict import ConditionResult, Finding, Reason, Verdict, VerdictStatus
 from aurora_core.quantities.view import RunView
@@ -30,7 +30,7 @@ def verify(
     world: WorldModel,
     conditions: Sequence[Condition],
     spec: ScenarioSpec,
-    plan: Plan | None = None,
+    plan: Plan | NotComparable | None = None,
 ) -> Verdict:
     """Recompute every margin.
 
@@ -62,7 +62,9 @@ def verify(
         )
     context = Context(view, spec, tuple(conditions))
     findings: tuple[Finding, ...] = ()
-    if plan is not None:
+    if isinstance(plan, NotComparable):
+        notes.append(plan.why)
+    if isinstance(plan, Plan):
         findings = plan_findings(conditions, trace.roster, world, plan)
         if plan.world is None:
             notes.append(f'the map {world.map_name} is not installed: its world is as recorded')
@@ -72,7 +74,7 @@ def verify(
     else:
         results = tuple(judge(context, condition, cut=missing) for condition in conditions)
         findings += cross_check(context)
-        if plan is not None:
+        if isinstance(plan, Plan):
             findings += tuple(chance_findings(context, plan.seed))
     return Verdict(
         status=_status(trace.integrity, results, len(findings)),

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import hashlib
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -39,11 +40,12 @@ from aurora_core.knowledge.limits import Limits, Tolerances, load_limits, load_t
 from aurora_core.knowledge.map_model import MapModel, load_map
 from aurora_core.knowledge.settings import Settings, load_settings
 from aurora_core.knowledge.world import WorldModel
-from aurora_core.monitor.plan_check import Plan
+from aurora_core.monitor.plan_check import NotComparable, Plan
 from aurora_core.monitor.verdict import Verdict
 from aurora_core.monitor.verify import verify
 from aurora_core.parsing.outcome import ParseContext, ParseOutcome
 from aurora_core.parsing.parser import parse_offline
+from aurora_core.report.versions import AURORA_VERSION
 from aurora_core.spec.scenario import ScenarioSpec, bodies_of
 from aurora_core.temporal.schedule import plan_time
 from aurora_core.trace.bag_reader import BagContent, read_bag
@@ -58,6 +60,12 @@ class Knowledge:
         self.tolerances: Tolerances = load_tolerances(config_path('tolerances.json'))
         self.settings: Settings = load_settings()
         self.types = load_agent_types()
+        self.configuration = _digest(
+            AURORA_VERSION,
+            config_path('limits.json').read_text('utf-8'),
+            config_path('tolerances.json').read_text('utf-8'),
+            self.settings.model_dump_json(),
+        )
         self._maps: dict[str, MapModel] = {}
         self._grounders: dict[str, Grounder] = {}
         self._parts: dict[str, MapParts] = {}
@@ -78,9 +86,18 @@ class Knowledge:
         """Return the grounder of a map."""
         if name not in self._grounders:
             self._grounders[name] = Grounder(
-                self.map(name), self.types, self.limits, self.tolerances, self.settings
+                self.map(name),
+                self.types,
+                self.limits,
+                self.tolerances,
+                self.settings,
+                self.configuration,
             )
         return self._grounders[name]
+
+
+def _digest(*texts: str) -> str:
+    return hashlib.sha256('\0'.join(texts).encode('utf-8')).hexdigest()
 
 
 @lru_cache(maxsize=1)
@@ -203,10 +220,11 @@ def verify_content(content: BagContent, agsg: Agsg) -> Verdict:
     return verify(content.trace, content.world, conditions, agsg.spec, plan)
 
 
-def recorded_plan(world: WorldModel, agsg: Agsg) -> Plan:
+def recorded_plan(world: WorldModel, agsg: Agsg) -> Plan | NotComparable:
     """Return what the request and the grounding of a recording give when worked out anew.
 
-    Conditions quote the recorded limits: which limits are in force is compared by itself.
+    That says something only with the configuration that the recording was made with: its margins
+    come from the bag alone, whatever is configured here.
 
     Raises:
         VerificationError: The grounding is missing, or does not fit the request.
@@ -215,6 +233,11 @@ def recorded_plan(world: WorldModel, agsg: Agsg) -> Plan:
     spec = agsg.spec
     try:
         grounded = GroundedScenario.model_validate_json(agsg.grounding_json)
+        if grounded.configuration != known.configuration:
+            return NotComparable(
+                why='recorded with another version, limits, tolerances or settings than those '
+                'here: conditions, bodies and world are taken as recorded'
+            )
         facts = plan_time(spec, grounded, world.limits).facts
         derivation = derive_conditions(spec, facts, world.limits, known.tolerances)
         conditions = _judgeable(derivation.conditions, spec, grounded)

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 
 import pytest
@@ -13,7 +14,8 @@ from aurora_core.agsg.graph import Agsg
 from aurora_core.conditions.condition import conditions_from_json
 from aurora_core.errors import VerificationError
 from aurora_core.execution.plan import Execution
-from aurora_core.monitor.plan_check import plan_findings
+from aurora_core.knowledge.world import WorldModel
+from aurora_core.monitor.plan_check import NotComparable, Plan, plan_findings
 from aurora_core.pipeline.functions import (
     execution_stage,
     ground_stage,
@@ -40,9 +42,15 @@ def altered(agsg: Agsg, **documents: str) -> Agsg:
     return Agsg.model_validate(dict(agsg) | documents)
 
 
+def plan_of(world: WorldModel, agsg: Agsg) -> Plan:
+    plan = recorded_plan(world, agsg)
+    assert isinstance(plan, Plan)
+    return plan
+
+
 def test_what_is_recorded_is_what_the_request_gives(grounded: tuple[Agsg, Execution]) -> None:
     agsg, execution = grounded
-    plan = recorded_plan(execution.world, agsg)
+    plan = plan_of(execution.world, agsg)
     recorded = conditions_from_json(execution.world.conditions_json)
     assert recorded
     assert plan.world is not None
@@ -56,7 +64,7 @@ def test_a_forged_grounding_shows_in_the_conditions(grounded: tuple[Agsg, Execut
         agsg, grounding_json=agsg.grounding_json.replace('"altitude_m":30.0', '"altitude_m":90.0')
     )
     assert forged.grounding_json != agsg.grounding_json
-    plan = recorded_plan(execution.world, forged)
+    plan = plan_of(execution.world, forged)
     recorded = conditions_from_json(execution.world.conditions_json)
     found = plan_findings(recorded, execution.roster, execution.world, plan)
     assert 'condition' in {finding.kind for finding in found}
@@ -68,9 +76,20 @@ def test_limits_of_another_installation_are_named(grounded: tuple[Agsg, Executio
         dict(execution.world.limits) | {'clearance_min_m': 0.1}
     )
     world = replace(execution.world, limits=limits)
-    plan = recorded_plan(world, agsg)
+    plan = plan_of(world, agsg)
     found = plan_findings(plan.conditions, execution.roster, world, plan)
     assert [(finding.kind, finding.subject) for finding in found] == [('world', 'limits')]
+
+
+def test_with_another_configuration_the_bag_speaks_for_itself(
+    grounded: tuple[Agsg, Execution],
+) -> None:
+    agsg, execution = grounded
+    document = json.loads(agsg.grounding_json)
+    document['configuration'] = 'f' * 64
+    plan = recorded_plan(execution.world, altered(agsg, grounding_json=json.dumps(document)))
+    assert isinstance(plan, NotComparable)
+    assert 'as recorded' in plan.why
 
 
 def test_a_map_that_is_not_installed_leaves_the_world_as_recorded(
@@ -80,10 +99,10 @@ def test_a_map_that_is_not_installed_leaves_the_world_as_recorded(
     elsewhere = altered(
         agsg, grounding_json=agsg.grounding_json.replace('"downtown"', '"atlantis"')
     )
-    assert recorded_plan(execution.world, elsewhere).world is None
+    assert plan_of(execution.world, elsewhere).world is None
     digest = execution.world.map_digest
     older = altered(agsg, grounding_json=agsg.grounding_json.replace(digest, '0' * 64))
-    assert recorded_plan(execution.world, older).world is None
+    assert plan_of(execution.world, older).world is None
 
 
 @pytest.mark.parametrize('grounding', ['', '{}', 'nonsense'])
