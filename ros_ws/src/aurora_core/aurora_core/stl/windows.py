@@ -68,12 +68,13 @@ def sliding_clipped(values: FloatArray, width: int, extremum: Extremum) -> Float
     combine = extremum.ufunc
 
     def grow(rows: _Rows, size: int, width: int, room: Sequence[FloatArray]) -> _Rows:
-        (now,), (grown, spare) = rows, room
+        now, spare = room
+        now[:] = rows[0]
         while size < width:
             shift = min(size, width - size)
-            combine(now[:-shift], now[shift:], out=grown[:-shift])
-            grown[-shift:] = now[-shift:]
-            now, grown, spare = grown, spare, grown
+            combine(now[:-shift], now[shift:], out=spare[:-shift])
+            spare[-shift:] = now[-shift:]
+            now, spare = spare, now
             size += shift
         return (now,)
 

@@ -88,6 +88,9 @@ def test_inputs_stay_as_they_are() -> None:
     kept = left.copy(), right.copy()
     until_within(left, right, 20)
     sliding(left, 20, Extremum.LEAST)
+    # Whoever writes into a result must not write into the signal, not even for windows of one.
+    sliding(left, 1, Extremum.LEAST)[:] = 0.0
+    until_within(left, right, 1)[:] = 0.0
     assert np.array_equal(left, kept[0])
     assert np.array_equal(right, kept[1])
 
