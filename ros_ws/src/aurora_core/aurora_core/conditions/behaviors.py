@@ -19,6 +19,7 @@ from aurora_core.conditions.build import (
     number_target,
 )
 from aurora_core.conditions.condition import Condition, Window
+from aurora_core.conditions.driving_speed import speed_conditions
 from aurora_core.spec.parameter import Provenance
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import Behavior, GroundAgent
@@ -45,7 +46,7 @@ def behavior_conditions(inputs: Inputs) -> Iterator[Condition | Underivable]:
             yield from derive(inputs, agent, behavior, name, source)
             yield from _closing(inputs, agent, behavior, name)
             if behavior.speed_mps is not None:
-                yield from _speed(inputs, agent, behavior, name)
+                yield from speed_conditions(inputs, agent, behavior, name)
 
 
 def _moves(
@@ -269,18 +270,6 @@ def _closing(
             ),
             source=source,
             every_sample=False,
-        )
-
-
-def _speed(
-    inputs: Inputs, agent: GroundAgent, behavior: Behavior, name: str
-) -> Iterator[Condition | Underivable]:
-    speed = behavior.speed_mps
-    if speed is not None and speed.provenance is Provenance.EXPLICIT:
-        yield Underivable(
-            element=agent.id,
-            what=f'speed of {number(speed.value)} m/s while it {behavior.kind.value}s',
-            span=speed.span,
         )
 
 

@@ -136,6 +136,7 @@ class Tolerances(_Table):
     arrival_m: NotNegative  # an agent this close to a place is there
     near_m: NotNegative  # "near" without a distance
     lane_offset_m: NotNegative  # offset inside one lane
+    free_road_m: NotNegative  # with no leader or junction so near a driver keeps its speed
     moving_speed_mps: NotNegative  # an agent this fast has moved
     onset_mps2: NotNegative  # change of speed with which slowing down or speeding up begins
     phase_follow_m: NotNegative  # how close a UAV keeps to its set-point when a phase has changed

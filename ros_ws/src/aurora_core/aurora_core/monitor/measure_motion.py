@@ -22,7 +22,7 @@ from aurora_core.monitor.evaluation import (
 )
 from aurora_core.monitor.shares import share_of
 from aurora_core.monitor.verdict import Reason
-from aurora_core.quantities import contact, motion
+from aurora_core.quantities import contact, free_road, motion
 from aurora_core.quantities.kernels import bound_error, distance_2d
 from aurora_core.quantities.ticks import first_tick
 from aurora_core.quantities.waypoints import pattern_centre
@@ -144,13 +144,38 @@ def measure_climb_rate(context: Context, condition: Condition) -> Evaluation:
     return _measure(context, condition, _climb)
 
 
+def _free_speed(context: Context, condition: Condition) -> Evaluation:
+    """Share of the samples on a free road at the requested speed."""
+    ticks = context.window(condition)
+    if isinstance(ticks, Missing):
+        return ticks
+    gone = context.gone(condition, ticks)
+    if gone is not None:
+        return gone
+    view, arguments = context.view, condition.arguments
+    body = view.body(condition.of[0])
+    free = free_road.under_way(view, body, arguments.slow_mps, arguments.low)
+    free &= free_road.free_of_junctions(view, body, arguments.high)
+    free &= free_road.free_of_leaders(view, body, arguments.high, arguments.offset_m)
+    ticks = ticks[free[ticks]]
+    if len(ticks) == 0:
+        story = f'{body.body_id} never drove free of leaders and junctions'
+        return Missing(reason=Reason.EMPTY_PHASE, story=story)
+    values = motion.speed(view, body)
+    good = bound_error(values, arguments.wanted, arguments.bound) <= arguments.sample_tolerance
+    what = f'{body.body_id} kept its speed'
+    return share_of(context, ticks, good, values, what, _topics(condition))
+
+
 def measure_speed(context: Context, condition: Condition) -> Evaluation:
     """Samples of the speed.
 
     Aspects: `horizontal`, `commanded`, `greatest` (of several bodies), `after_moving` (from when
-    it first moved), `greatest_deceleration` (one number).
+    it first moved), `greatest_deceleration` (one number), `free` (share on a free road).
     """
     aspect = condition.arguments.aspect
+    if aspect == 'free':
+        return _free_speed(context, condition)
     if aspect not in ('after_moving', 'greatest_deceleration'):
         return _measure(context, condition, _speed)
     ticks = context.window(condition)

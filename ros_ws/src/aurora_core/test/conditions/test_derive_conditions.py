@@ -138,7 +138,8 @@ def test_what_cannot_be_said_yet_is_reported(tb: ModuleType) -> None:
                 {'kind': 'yield', 'target': 'van1'},
                 {'kind': 'follow'},
                 {
-                    'kind': 'drive',
+                    'kind': 'tailgate',
+                    'target': 'van1',
                     'speed_mps': tb.number(8.0, Unit.METRE_PER_SECOND, explicit=True),
                 },
             ),
@@ -169,7 +170,7 @@ def test_what_cannot_be_said_yet_is_reported(tb: ModuleType) -> None:
         ('ego', 'placement parked_at'),
         ('ego', 'behaviour yield'),
         ('ego', 'behaviour follow'),
-        ('ego', 'speed of 8 m/s while it drives'),
+        ('ego', 'speed of 8 m/s while it tailgates'),
         ('e2', 'action cross'),
         ('e3', 'an event without trigger and action'),
         ('e4', 'message from ego to van1: no link'),

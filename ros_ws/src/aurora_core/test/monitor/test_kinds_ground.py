@@ -4,12 +4,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from kind_rows import Row, cut, done_at, gone
 from trace_builder import FloatArray, number
 from trace_cases import Case, convoy_case, ground_case, spec, tailgate_case
 
+from aurora_core.knowledge.world import CentreLine
 from aurora_core.monitor.verdict import Reason
 from aurora_core.spec.parameter import Unit
 from aurora_core.spec.scenario import Behavior, Placement
@@ -83,6 +86,20 @@ def _van(shift: float = 0.0, moves: bool = True) -> Case:
     return case
 
 
+def _cruise(speed: FloatArray, *, leader: float | None = None, lane: float | None = None) -> Case:
+    """car1 is asked to drive at 8 m/s; a leader keeps its distance; a lane ends after some way."""
+    asked = number(8.0, Unit.METRE_PER_SECOND, explicit=True)
+    others = {} if leader is None else {'car2': (leader, speed)}
+    case = ground_case(Behavior(kind=B.DRIVE, speed_mps=asked), speed, **others)
+    if lane is not None:
+        points = np.array([(0.0, 0.0), (lane, 0.0)])
+        line = CentreLine(
+            lane_id='a_0', street_name='', points=points, width_m=3.3, speed_limit_mps=14.0
+        )
+        case.world = replace(case.world, lanes=(line,))
+    return case
+
+
 EMPTY, GONE, SHORT = Reason.EMPTY_PHASE, Reason.TARGET_GONE, Reason.TRACE_SHORT
 NEVER = Reason.PREMISE_NEVER
 BEHAVIOURS = (
@@ -96,6 +113,38 @@ BEHAVIOURS = (
     Row(id='car1.circulate', make=lambda: _alone(B.CIRCULATE, _steady(5.0)), margin=100.0 - 50.0),
     Row(id='car1.circulate', make=lambda: _alone(B.CIRCULATE, _steady(2.0)), margin=40.0 - 50.0),
     Row(id='car1.circulate', make=lambda: cut(_alone(B.CIRCULATE, STILL), 300), reason=SHORT),
+    # 1 m/s is allowed; 8^2 / (2 * 1.5) = 21.33 m to reach the speed do not count: 54 ticks.
+    Row(id='car1.drive.speed', make=lambda: _cruise(_steady(7.5)), margin=1.0 - 0.8),
+    Row(id='car1.drive.speed', make=lambda: _cruise(_steady(6.5)), margin=0.0 - 0.8),
+    Row(
+        id='car1.drive.speed',
+        make=lambda: _cruise(_then(8.0, 5.0)),
+        margin=(200 - 54) / (401 - 54) - 0.8,
+        what='half',
+    ),
+    # What is within 50 m of the ends of a lane of 112 m, from 62 m on, does not count.
+    Row(
+        id='car1.drive.speed',
+        make=lambda: _cruise(_then(8.0, 5.0, 156), lane=112.0),
+        margin=1.0 - 0.8,
+        what='junction',
+    ),
+    # 54.4 m between centres are 49.9 m between bumpers, and 55 m are 50.5 m.
+    Row(
+        id='car1.drive.speed',
+        make=lambda: _cruise(_steady(8.0), leader=55.0),
+        margin=1.0 - 0.8,
+        what='leader',
+    ),
+    Row(id='car1.drive.speed', make=lambda: _cruise(_steady(8.0), leader=54.4), reason=EMPTY),
+    Row(
+        id='car1.drive.speed',
+        make=lambda: done_at(_cruise(_steady(8.0), lane=99.0), 361),
+        reason=EMPTY,
+        what='junction',
+    ),
+    Row(id='car1.drive.speed', make=lambda: _cruise(STILL), reason=EMPTY, what='stands'),
+    Row(id='car1.drive.speed', make=lambda: gone(_cruise(_steady(8.0)), 0, 300), reason=GONE),
     # 14.5 m between centres are 10 m between bumpers; 5 m are asked at more than 2 m/s.
     Row(id='car1.follow', make=lambda: _pair(B.FOLLOW, 5.0, 14.5, 5.0), margin=1.0 - 0.8),
     Row(id='car1.follow', make=lambda: _pair(B.FOLLOW, 5.0, 8.5, 5.0), margin=0.0 - 0.8),

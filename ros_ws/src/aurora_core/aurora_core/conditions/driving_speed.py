@@ -1,0 +1,69 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The condition that a stated driving speed implies: kept wherever the road is free."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from aurora_core.conditions.build import (
+    Inputs,
+    Source,
+    Target,
+    Underivable,
+    bound_words,
+    condition,
+    number,
+)
+from aurora_core.conditions.condition import Condition, Window
+from aurora_core.spec.parameter import Bound, Provenance
+from aurora_core.spec.quantity import QuantityName
+from aurora_core.spec.scenario import Behavior, GroundAgent
+from aurora_core.spec.vocabulary import BehaviorKind
+
+# Behaviours with a speed of their own: the others depend on a leader, or on a pavement.
+_OWN_SPEED = frozenset({BehaviorKind.DRIVE, BehaviorKind.CIRCULATE})
+
+
+def speed_conditions(
+    inputs: Inputs, agent: GroundAgent, behavior: Behavior, name: str
+) -> Iterator[Condition | Underivable]:
+    """Yield the condition of a behaviour with a stated speed."""
+    speed = behavior.speed_mps
+    if speed is None or speed.provenance is not Provenance.EXPLICIT:
+        return
+    if behavior.kind not in _OWN_SPEED:
+        yield Underivable(
+            element=agent.id,
+            what=f'speed of {number(speed.value)} m/s while it {behavior.kind.value}s',
+            span=speed.span,
+        )
+        return
+    t = inputs.tolerances
+    slack = t.route_speed_mps.of(speed.value, approximate=speed.approximate)
+    yield condition(
+        id=f'{name}.speed',
+        sentence=(
+            f'{agent.id} drives {bound_words(speed)} {number(speed.value)} m/s for '
+            f'{number(100 * t.route_speed_share)} % of the time with no leader or junction within '
+            f'{number(t.free_road_m)} m'
+        ),
+        quantity=QuantityName.SPEED,
+        signal=f'free_speed_share({agent.id})',
+        of=(agent.id,),
+        target=Target(op='>=', threshold=t.route_speed_share, unit='1'),
+        fraction=t.route_speed_share,
+        arguments=inputs.arguments(
+            Window.MISSIONS,
+            aspect='free',
+            bound=speed.bound,
+            wanted=speed.value,
+            sample_tolerance=0.0 if speed.bound is not Bound.EXACTLY else slack,
+            low=speed.value * speed.value / (2.0 * t.route_acceleration_mps2),
+            high=t.free_road_m,
+            offset_m=t.lane_offset_m,
+            slow_mps=t.moving_speed_mps,
+        ),
+        source=Source(ids=(agent.id,), spans=(speed.span,), provenance=speed.provenance),
+        every_sample=False,
+    )

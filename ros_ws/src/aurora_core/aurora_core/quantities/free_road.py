@@ -1,0 +1,58 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Where a driver is free to choose its speed: on its way, and no leader or junction near.
+
+Red lights stand at junctions; what is said of junctions covers them.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from aurora_core.quantities import motion
+from aurora_core.quantities.kernels import distance_2d
+from aurora_core.quantities.routes import along_route
+from aurora_core.quantities.ticks import first_tick
+from aurora_core.quantities.view import Body, RunView
+
+BoolArray = npt.NDArray[np.bool_]
+
+
+def free_of_junctions(view: RunView, body: Body, within_m: float) -> BoolArray:
+    """Return where no junction, that is no end of a lane, is nearer than `within_m`, (T,)."""
+    point = view.reference(body.body_id)
+    free = np.ones(view.ticks, dtype=np.bool_)
+    ends = {tuple(lane.points[k].tolist()) for lane in view.world.lanes for k in (0, -1)}
+    for x, y in sorted(ends):
+        free &= distance_2d(point[:, 0] - x, point[:, 1] - y) > within_m
+    return free
+
+
+def free_of_leaders(view: RunView, body: Body, within_m: float, offset_m: float) -> BoolArray:
+    """Return where no vehicle is ahead on the route with a gap of at most `within_m`, (T,).
+
+    Args:
+        view: The run.
+        body: The driver.
+        within_m: Bumper to bumper.
+        offset_m: How far from the route a vehicle may be to be in the way.
+    """
+    free = np.ones(view.ticks, dtype=np.bool_)
+    for other in view.agents:
+        if other.body_id == body.body_id or other.entry.is_person:
+            continue
+        along = along_route(view, body, other)
+        leads = (along.lead_m > 0.0) & (along.gap_m <= within_m) & (along.offset_m <= offset_m)
+        free &= ~(leads & view.present(other.body_id))
+    return free
+
+
+def under_way(view: RunView, body: Body, moving_mps: float, way_m: float) -> BoolArray:
+    """Return where a body has covered `way_m` since it first moved, (T,)."""
+    moved = first_tick(motion.speed(view, body) >= moving_mps)
+    if moved is None:
+        return np.zeros(view.ticks, dtype=np.bool_)
+    way = motion.travelled(view, body)
+    started: BoolArray = way - way[moved] > way_m
+    return started
