@@ -20,6 +20,7 @@ from aurora_core.conditions.build import (
 )
 from aurora_core.conditions.condition import Condition, Window
 from aurora_core.conditions.driving_speed import speed_conditions
+from aurora_core.conditions.manoeuvres import cross_condition, slow_condition, turn_condition
 from aurora_core.spec.parameter import Provenance
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import Behavior, GroundAgent
@@ -41,12 +42,19 @@ def behavior_conditions(inputs: Inputs) -> Iterator[Condition | Underivable]:
                     element=agent.id, what=f'behaviour {kind.value}', span=behavior.span
                 )
                 continue
-            name = f'{agent.id}.{kind.value}' + ('' if index == 0 else str(index + 1))
+            name = behavior_id(agent, index)
             source = Source(ids=(agent.id,), spans=(behavior.span or agent.span,))
             yield from derive(inputs, agent, behavior, name, source)
             yield from _closing(inputs, agent, behavior, name)
             if behavior.speed_mps is not None:
                 yield from speed_conditions(inputs, agent, behavior, name)
+
+
+def behavior_id(agent: GroundAgent, index: int) -> str:
+    """Return the id of the condition that a behaviour of an agent implies."""
+    return f'{agent.id}.{agent.behaviors[index].kind.value}' + (
+        '' if index == 0 else str(index + 1)
+    )
 
 
 def _moves(
@@ -283,6 +291,10 @@ _REGISTRY: dict[BehaviorKind, _Derive] = {
     BehaviorKind.APPROACH: _approach,
     BehaviorKind.STOP: _stop,
     BehaviorKind.BRAKE: _brake,
+    BehaviorKind.SLOW: slow_condition,
+    BehaviorKind.TURN_LEFT: turn_condition,
+    BehaviorKind.TURN_RIGHT: turn_condition,
+    BehaviorKind.CROSS: cross_condition,
     BehaviorKind.PARK: _park,
     BehaviorKind.WAIT: _wait,
 }

@@ -123,6 +123,10 @@ class Tolerances(_Table):
     stop_speed_mps: NotNegative
     stop_hold_s: NotNegative
     brake_mps2: NotNegative
+    slow_by_mps: NotNegative  # by how much an agent that slows down gets slower
+    turn_deg: NotNegative  # change of heading that is a turn
+    turn_within_s: NotNegative  # time that a turn may take: what takes longer is a bend
+    crossing_m: NotNegative  # a carriageway that is crossed is at least so wide
     circulate_distance_m: NotNegative
     phase_change_s: NotNegative
     limit_margin: NotNegative

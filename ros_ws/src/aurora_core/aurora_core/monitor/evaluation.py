@@ -26,7 +26,7 @@ from aurora_core.quantities.phases import (
 )
 from aurora_core.quantities.routes import AlongRoute, along_route
 from aurora_core.quantities.sight import SightSeries, sight_series
-from aurora_core.quantities.ticks import whole_ticks
+from aurora_core.quantities.ticks import first_tick, whole_ticks
 from aurora_core.quantities.triggers import EventRules, EventTimes
 from aurora_core.quantities.view import RunView
 from aurora_core.spec.scenario import Link, ScenarioSpec
@@ -312,6 +312,39 @@ class Context:
         return Missing(
             reason=Reason.EMPTY_PHASE, story=f'{mission.uav} {what} in {mission.mission}'
         )
+
+    def together_until(self, condition: Condition) -> int | Missing:
+        """Return the tick before which all bodies of a condition exist, for what happens once.
+
+        What has happened by then stays true when one of them leaves.
+        """
+        there = np.ones(self.view.ticks, dtype=np.bool_)
+        for name in condition.of:
+            there &= self.view.present(name)
+        end = first_tick(~there)
+        if end == 0:
+            names = ' and '.join(condition.of)
+            story = f'{names}: not in the simulation at t = 0'
+            return Missing(reason=Reason.TARGET_GONE, story=story, tick=0)
+        return self.view.ticks if end is None else end
+
+    def with_bodies(self, condition: Condition, ticks: TickArray) -> TickArray | Missing:
+        """Return the ticks to judge: all of them, with all bodies of the condition there.
+
+        Of what has to hold at some time (a stretch, a deadline) those before one of them leaves.
+        """
+        if condition.hold_s is None and condition.by_s is None:
+            gone = self.gone(condition, ticks)
+            return ticks if gone is None else gone
+        end = self.together_until(condition)
+        if isinstance(end, Missing):
+            return end
+        before = ticks[ticks < end]
+        if len(before):
+            return before
+        gone = self.gone(condition, ticks)
+        assert gone is not None  # no tick is left because somebody is absent
+        return gone
 
     def gone(self, condition: Condition, ticks: TickArray) -> Missing | None:
         """Return that a body of a condition is absent at one of the ticks, None when all exist."""

@@ -10,6 +10,7 @@ from aurora_core.conditions.condition import Condition
 from aurora_core.errors import VerificationError
 from aurora_core.monitor import (
     measure_events,
+    measure_manoeuvres,
     measure_missions,
     measure_motion,
     measure_relations,
@@ -44,6 +45,8 @@ _MEASURES: dict[Q, Callable[[Context, Condition], Evaluation]] = {
     Q.PLACEMENT: measure_relations.measure_placement,
     Q.RELATION_FRACTION: measure_relations.measure_relation_fraction,
     Q.FOLLOW_FRACTION: measure_relations.measure_follow_fraction,
+    Q.TURN: measure_manoeuvres.measure_turn,
+    Q.CROSSING: measure_manoeuvres.measure_crossing,
     Q.TIME_GAP: measure_relations.measure_time_gap,
     Q.DISTANCE_TRAVELLED: measure_relations.measure_distance_travelled,
     Q.EVENT_DELAY: measure_events.measure_event_delay,

@@ -20,6 +20,7 @@ from aurora_core.monitor.evaluation import (
     Missing,
     at_tick,
 )
+from aurora_core.monitor.measure_manoeuvres import measure_greatest_drop
 from aurora_core.monitor.shares import share_of
 from aurora_core.monitor.verdict import Reason
 from aurora_core.quantities import contact, free_road, motion
@@ -87,11 +88,10 @@ def _measure(context: Context, condition: Condition, series: _Series) -> Evaluat
     ticks = context.window(condition)
     if isinstance(ticks, Missing):
         return ticks
-    gone = None
     if condition.arguments.aspect != 'greatest':
-        gone = context.gone(condition, ticks)
-    if gone is not None:
-        return gone
+        ticks = context.with_bodies(condition, ticks)
+        if isinstance(ticks, Missing):
+            return ticks
     values = series(context, condition)
     arguments = condition.arguments
     if arguments.aspect == 'share':
@@ -171,27 +171,33 @@ def measure_speed(context: Context, condition: Condition) -> Evaluation:
     """Samples of the speed.
 
     Aspects: `horizontal`, `commanded`, `greatest` (of several bodies), `after_moving` (from when
-    it first moved), `greatest_deceleration` (one number), `free` (share on a free road).
+    it first moved), `greatest_deceleration` and `greatest_drop` (one number), `free` (share on a
+    free road).
     """
     aspect = condition.arguments.aspect
     if aspect == 'free':
         return _free_speed(context, condition)
+    if aspect == 'greatest_drop':
+        return measure_greatest_drop(context, condition)
     if aspect not in ('after_moving', 'greatest_deceleration'):
         return _measure(context, condition, _speed)
     ticks = context.window(condition)
     if isinstance(ticks, Missing):
         return ticks
-    gone = context.gone(condition, ticks)
-    if gone is not None:
-        return gone
     body = context.view.body(condition.of[0])
     if aspect == 'greatest_deceleration':
-        loss = motion.deceleration(context.view, body)
+        end = context.together_until(condition)
+        if isinstance(end, Missing):
+            return end
+        loss = motion.deceleration(context.view, body)[:end]
         hardest = int(np.argmax(loss))
         most_mps2 = float(loss[hardest])
         return at_tick(hardest, most_mps2, evidence=_topics(condition), later=Later.RISES)
+    ticks = context.with_bodies(condition, ticks)
+    if isinstance(ticks, Missing):
+        return ticks
     values = motion.speed(context.view, body)
-    moved = first_tick(values >= condition.arguments.slow_mps)
+    moved = first_tick(values >= condition.arguments.slow_mps, 0, int(ticks[-1]) + 1)
     if moved is None:
         return Missing(reason=Reason.PREMISE_NEVER, story=f'{body.body_id} never moved')
     later = ticks[ticks >= moved]

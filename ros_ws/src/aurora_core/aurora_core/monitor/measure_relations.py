@@ -128,12 +128,12 @@ def _overtake(context: Context, condition: Condition) -> Evaluation:
     ticks = context.window(condition)
     if isinstance(ticks, Missing):
         return ticks
-    gone = context.gone(condition, ticks)
-    if gone is not None:
-        return gone
+    end = context.together_until(condition)
+    if isinstance(end, Missing):
+        return end
     a, b = condition.of
     behind = context.along(a, b)  # on the route of the one that overtakes
-    lead = np.where(behind.offset_m <= condition.arguments.offset_m, -behind.lead_m, 0.0)
+    lead = np.where(behind.offset_m <= condition.arguments.offset_m, -behind.lead_m, 0.0)[:end]
     start = first_tick(lead < 0.0)
     if start is None:
         return Missing(reason=Reason.PREMISE_NEVER, story=f'{a} was never behind {b}')

@@ -12,6 +12,7 @@ from typing import Any
 from aurora_core.agsg.build import build_agsg, derived
 from aurora_core.agsg.graph import Agsg, Stage
 from aurora_core.agsg.message import read_agsg
+from aurora_core.conditions.behaviors import behavior_id
 from aurora_core.conditions.condition import (
     Condition,
     conditions_from_json,
@@ -22,6 +23,7 @@ from aurora_core.errors import AuroraError, VerificationError
 from aurora_core.execution.faults import Fault
 from aurora_core.execution.map_parts import MapParts, map_parts
 from aurora_core.execution.plan import (
+    NOT_CARRIED_OUT,
     Execution,
     build_execution,
     build_roster,
@@ -150,12 +152,20 @@ def ground_stage(agsg: Agsg, seed: int) -> GroundingOutcome:
 def _judgeable(
     conditions: tuple[Condition, ...], spec: ScenarioSpec, grounded: GroundedScenario
 ) -> tuple[Condition, ...]:
-    """Leave out what is about agents that cannot be placed yet; their clauses are `incomplete`."""
+    """Leave out what cannot be placed or carried out yet; its clauses are `incomplete`."""
     placed = {a.id for a in grounded.agents}
     absent = {a.id for a in spec.agents} - placed
     events = {e.id for e in spec.events if bodies_of(e) & absent}
+    undone = {
+        behavior_id(agent, index)
+        for agent in spec.agents
+        for index, behavior in enumerate(agent.behaviors)
+        if behavior.kind in NOT_CARRIED_OUT
+    }
     return tuple(
-        c for c in conditions if not absent & set(c.of) and c.arguments.event not in events
+        c
+        for c in conditions
+        if not absent & set(c.of) and c.arguments.event not in events and c.id not in undone
     )
 
 

@@ -36,6 +36,8 @@ class QuantityName(StrEnum):
     RELATION_FRACTION = 'relation_fraction'
     FOLLOW_FRACTION = 'follow_fraction'
     TIME_GAP = 'time_gap'
+    TURN = 'turn'
+    CROSSING = 'crossing'
     DISTANCE_TRAVELLED = 'distance_travelled'
     EVENT_DELAY = 'event_delay'
     SENT_AFTER_CAPTURE = 'sent_after_capture'

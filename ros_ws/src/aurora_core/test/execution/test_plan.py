@@ -372,6 +372,10 @@ def test_what_the_executor_cannot_do_is_named(
     }
     changed = ScenarioSpec.model_validate({**spec.model_dump(), 'events': [event]})
     assert unsupported(changed, found) == (f'{spec.events[0].id}: change_lane',)
+    first, *others = (a.model_dump() for a in spec.agents)
+    turning = {**first, 'behaviors': [{'kind': 'turn_left'}]}
+    changed = ScenarioSpec.model_validate({**spec.model_dump(), 'agents': [turning, *others]})
+    assert unsupported(changed, found) == (f'{first["id"]}: behaviour turn_left',)
     named = found.model_copy(update={'unsupported': ('p1: pedestrians',)})
     assert unsupported(spec, named) == ('p1: pedestrians',)
 

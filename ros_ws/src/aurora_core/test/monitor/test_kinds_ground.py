@@ -172,6 +172,19 @@ BEHAVIOURS = (
     Row(id='car1.overtake', make=lambda: _pair(B.OVERTAKE, 10.0, 40.0, 5.0), margin=100.0 - 40.0),
     Row(id='car1.overtake', make=lambda: _pair(B.OVERTAKE, 10.0, 140.0, 5.0), margin=-40.0),
     Row(id='car1.overtake', make=lambda: _pair(B.OVERTAKE, 10.0, -40.0, 5.0), reason=NEVER),
+    # 40 m are made up after 8 s; car2 leaves after 15 s, at tick 300, or after 5 s.
+    Row(
+        id='car1.overtake',
+        make=lambda: gone(_pair(B.OVERTAKE, 10.0, 40.0, 5.0), 1, 300),
+        margin=299 * 0.25 - 40.0,
+        what='leaves',
+    ),
+    Row(
+        id='car1.overtake',
+        make=lambda: gone(_pair(B.OVERTAKE, 10.0, 40.0, 5.0), 1, 100),
+        margin=99 * 0.25 - 40.0,
+        what='leaves',
+    ),
     Row(id='car1.approach', make=lambda: _pair(B.APPROACH, 1.0, 40.0, 0.0), margin=20.0 - 10.0),
     Row(id='car1.approach', make=lambda: _pair(B.APPROACH, 1.0, 40.0, 2.0), margin=0.0 - 10.0),
     Row(
@@ -188,9 +201,34 @@ BEHAVIOURS = (
         what='too-briefly',
     ),
     Row(id='car1.stop', make=lambda: _alone(B.STOP, STILL), reason=NEVER),
+    Row(
+        id='car1.stop',
+        make=lambda: gone(_alone(B.STOP, _then(5.0, 0.02)), 0, 300),
+        margin=0.1 - 0.02,
+        what='leaves',
+    ),
+    Row(
+        id='car1.stop',
+        make=lambda: gone(_alone(B.STOP, _then(5.0, 0.02)), 0, 100),
+        margin=0.1 - 5.0,
+        what='leaves',
+    ),
     Row(id='car1.brake', make=lambda: _alone(B.BRAKE, _braking(5.0)), margin=5.0 - 4.0),
     Row(id='car1.brake', make=lambda: _alone(B.BRAKE, _braking(2.0)), margin=2.0 - 4.0),
-    Row(id='car1.brake', make=lambda: gone(_alone(B.BRAKE, _braking(5.0)), 0, 50), reason=GONE),
+    Row(id='car1.brake', make=lambda: gone(_alone(B.BRAKE, _braking(5.0)), 0, 0), reason=GONE),
+    # It brakes from tick 100 on: it has braked when it leaves later, not when it leaves before.
+    Row(
+        id='car1.brake',
+        make=lambda: gone(_alone(B.BRAKE, _braking(5.0)), 0, 200),
+        margin=5.0 - 4.0,
+        what='leaves',
+    ),
+    Row(
+        id='car1.brake',
+        make=lambda: gone(_alone(B.BRAKE, _braking(5.0)), 0, 50),
+        margin=0.0 - 4.0,
+        what='leaves',
+    ),
     Row(id='car1.park', make=lambda: _alone(B.PARK, STILL), margin=0.1),
     Row(id='car1.park', make=lambda: _alone(B.PARK, _then(0.0, 5.0)), margin=0.1 - 5.0),
     Row(id='car1.park', make=lambda: gone(_alone(B.PARK, STILL), 0, 50), reason=GONE),

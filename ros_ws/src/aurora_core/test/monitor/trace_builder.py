@@ -75,7 +75,7 @@ class Agent:
     x: FloatArray
     y: FloatArray
     speed: FloatArray
-    heading: tuple[float, float] = (1.0, 0.0)
+    heading: tuple[float | FloatArray, float | FloatArray] = (1.0, 0.0)
     present: FloatArray | None = None
     role: str = 'other'
     route: tuple[tuple[float, float], ...] = ()
