@@ -14,18 +14,23 @@ from aurora_core.quantities import motion
 from aurora_core.quantities.kernels import distance_2d
 from aurora_core.quantities.routes import along_route
 from aurora_core.quantities.ticks import first_tick
-from aurora_core.quantities.view import Body, RunView
+from aurora_core.quantities.view import Body, RunView, Series
 
 BoolArray = npt.NDArray[np.bool_]
 
 
 def free_of_junctions(view: RunView, body: Body, within_m: float) -> BoolArray:
     """Return where no junction, that is no end of a lane, is nearer than `within_m`, (T,)."""
-    point = view.reference(body.body_id)
-    free = np.ones(view.ticks, dtype=np.bool_)
     ends = {tuple(lane.points[k].tolist()) for lane in view.world.lanes for k in (0, -1)}
-    for x, y in sorted(ends):
-        free &= distance_2d(point[:, 0] - x, point[:, 1] - y) > within_m
+
+    def compute(part: RunView) -> Series:
+        point = part.reference(body.body_id)
+        free = np.ones(part.ticks, dtype=np.bool_)
+        for x, y in sorted(ends):
+            free &= distance_2d(point[:, 0] - x, point[:, 1] - y) > within_m
+        return (free,)
+
+    free: BoolArray = view.series(('junctions', body.body_id, str(within_m)), compute)[0]
     return free
 
 
