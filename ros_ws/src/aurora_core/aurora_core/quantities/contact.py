@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import combinations, product
 
@@ -24,6 +25,8 @@ BoolArray = npt.NDArray[np.bool_]
 CLEARANCE_CUTOFF_M = 50.0
 # Rounding of a distance is far below this.
 _GUARD_M = 1.0
+# Ticks that are looked at together.
+_BLOCK = 64
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -81,48 +84,65 @@ def body_gap(view: RunView) -> LeastSeries:
 
 def _body_gap(view: RunView) -> Series:
     least = _Least(view.ticks, CLEARANCE_CUTOFF_M)
-    pairs = list(combinations(view.agents, 2))
-    for number in _near(view):
-        a, b = pairs[number]
-        ra, rb = view.rows(a), view.rows(b)
-        apart = distance_2d(
-            rb[:, GroundColumn.X] - ra[:, GroundColumn.X],
-            rb[:, GroundColumn.Y] - ra[:, GroundColumn.Y],
-        )
-        both = view.present(a.body_id) & view.present(b.body_id)
-        # Only where the boxes can be closer than the least so far is the exact gap needed.
-        k = np.flatnonzero(both & (apart - _reach(a) - _reach(b) < least.values))
-        gap = box_gap_series(
-            *_box(ra[k]),
-            a.entry.length_m,
-            a.entry.width_m,
-            *_box(rb[k]),
-            b.entry.length_m,
-            b.entry.width_m,
-        )
-        least.add(number, k, gap)
+    for start in range(0, view.ticks, _BLOCK):
+        ticks = np.arange(start, min(start + _BLOCK, view.ticks), dtype=np.intp)
+        for number, gap in _ground_gaps(view, ticks):
+            least.add(number, ticks, gap)
+    count = len(view.agents)
     flying = product(view.uavs, view.agents)
-    for number, (uav, body) in enumerate(flying, start=len(pairs)):
+    for number, (uav, body) in enumerate(flying, start=count * (count - 1) // 2):
         half = max(uav.entry.length_m, uav.entry.width_m, uav.entry.height_m) / 2.0
         k, away = _to_box(view, uav, body, least.values + half)
         least.add(number, k, away - half)
     return least.values, least.which
 
 
-def _near(view: RunView) -> list[int]:
-    """Return the numbers of the pairs of ground bodies that may come within the cutoff.
+def _ground_gaps(view: RunView, ticks: npt.NDArray[np.intp]) -> Iterator[tuple[int, FloatArray]]:
+    """Yield the gaps of the pairs of ground bodies that come within the cutoff, (len(ticks),).
+
+    All pairs at once, a few ticks at a time: for each pair by itself the calls would cost more
+    than the work.
+    """
+    rows = view.trace.ground[ticks]
+    number, a, b = _near(view, rows)
+    if len(number) == 0:
+        return
+    xy = rows[:, :, GroundColumn.X : GroundColumn.Y + 1]
+    delta = xy[:, b] - xy[:, a]
+    apart = distance_2d(delta[:, :, 0], delta[:, :, 1])
+    reach = np.array([_reach(body) for body in view.agents])
+    present = rows[:, :, GroundColumn.PRESENT] > 0.5
+    close = present[:, a] & present[:, b]
+    close &= apart - reach[a] - reach[b] < CLEARANCE_CUTOFF_M
+    tick, pair = np.nonzero(close)
+    length = np.array([body.entry.length_m for body in view.agents])
+    width = np.array([body.entry.width_m for body in view.agents])
+    gaps = np.full(close.shape, CLEARANCE_CUTOFF_M)
+    gaps[tick, pair] = box_gap_series(
+        *_box(rows[tick, a[pair]]),
+        length[a[pair]],
+        width[a[pair]],
+        *_box(rows[tick, b[pair]]),
+        length[b[pair]],
+        width[b[pair]],
+    )
+    for k in np.flatnonzero(close.any(axis=0)):
+        yield int(number[k]), gaps[:, k]
+
+
+def _near(view: RunView, rows: FloatArray) -> tuple[npt.NDArray[np.intp], ...]:
+    """Return the pairs of ground bodies that may come within the cutoff: number, rows of both.
 
     Of the others the rectangles that hold all their positions are farther apart than that.
     """
-    if not view.agents:
-        return []
-    xy = view.trace.ground[:, :, GroundColumn.X : GroundColumn.Y + 1]
+    xy = rows[:, :, GroundColumn.X : GroundColumn.Y + 1]
     low, high = xy.min(axis=0), xy.max(axis=0)
     reach = np.array([_reach(body) for body in view.agents])
     a, b = np.triu_indices(len(reach), k=1)  # the order of `combinations`
-    apart = np.maximum(low[b] - high[a], low[a] - high[b]).max(axis=1)
+    apart = np.maximum(low[b] - high[a], low[a] - high[b]).max(axis=1, initial=-np.inf)
     far = apart > CLEARANCE_CUTOFF_M + reach[a] + reach[b] + _GUARD_M
-    return [int(number) for number in np.flatnonzero(~far)]
+    number = np.flatnonzero(~far)
+    return number, a[number], b[number]
 
 
 def _box(rows: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:

@@ -79,7 +79,10 @@ def read_recorded(path: Path) -> Verdict | None:
 
 
 def compare(recorded: Verdict, recomputed: Verdict, file: str) -> Comparison:
-    """Compare two verdicts bit by bit (JSON keeps every bit of a float)."""
+    """Compare two verdicts bit by bit (JSON keeps every bit of a float).
+
+    Notes are left out: they tell of the installation that judged, not of the run.
+    """
     ours = {result.id: result for result in recomputed.results}
     theirs = {result.id: result for result in recorded.results}
     differences = []
@@ -97,9 +100,13 @@ def compare(recorded: Verdict, recomputed: Verdict, file: str) -> Comparison:
             )
     return Comparison(
         file=file,
-        equal=recorded.canonical_json() == recomputed.canonical_json(),
+        equal=_judged(recorded) == _judged(recomputed),
         differences=tuple(differences),
     )
+
+
+def _judged(verdict: Verdict) -> str:
+    return Verdict.model_validate(dict(verdict) | {'notes': ()}).canonical_json()
 
 
 def _difference(recorded: ConditionResult | None, recomputed: ConditionResult | None) -> str:

@@ -74,12 +74,7 @@ class OnlineRobustness:
             raise VerificationError(f'STL needs a time step above 0 s, found {dt_s}')
         self._dt_s = dt_s
         self._names = {predicate.signal for predicate in predicates(formula)}
-        self._declared = first_value(formula, dt_s=dt_s, clip=clip)
-        # What would be if the trace ended here is asked with clipped windows in any case.
-        self._clipped = self._declared if clip else first_value(formula, dt_s=dt_s, clip=True)
-        parts = (self._declared,) if clip else (self._declared, self._clipped)
-        # A formula that looks back beyond sample 0 never gets a value there: nothing to follow.
-        self._followed = [part for part in parts if part.exists]
+        self._first = first_value(formula, dt_s=dt_s, clip=clip)
         self._samples = 0
         self._closed = False
 
@@ -109,8 +104,9 @@ class OnlineRobustness:
             values={name: np.asarray(values, np.float64) for name, values in samples.items()},
             dt_s=self._dt_s,
         )
-        for part in self._followed:
-            part.push(signals)
+        # A formula that looks back beyond sample 0 never gets a value there: nothing to follow.
+        if self._first.exists:
+            self._first.push(signals)
         self._samples += signals.samples
 
     def bounds(self) -> tuple[float, float]:
@@ -119,25 +115,21 @@ class OnlineRobustness:
         They hold for every finite continuation after which there is a value, also for none, and
         never widen. Infinite where open; both the value once the trace is closed.
         """
-        if not self._declared.exists:
+        if not self._first.exists:
             return OPEN
-        value = self._declared.ended() if self._closed else None
-        low, high = self._declared.bounds() if value is None else (value, value)
+        value = self._first.ended() if self._closed else None
+        low, high = self._first.bounds() if value is None else (value, value)
         return low + 0.0, high + 0.0  # -0.0 becomes 0.0
 
     def now(self) -> float | None:
-        """Return the robustness if the trace ended here, windows cut at its end; None if none.
+        """Return the robustness if the trace ended here, None if it had none.
 
-        Without `clip` this may lie outside the bounds: those are for full windows.
+        The same bits as `robustness` of the samples so far at sample 0.
         """
-        value = self._clipped.ended() if self._clipped.exists else None
+        value = self._first.ended() if self._first.exists else None
         return None if value is None else value + 0.0
 
     def close(self) -> float | None:
-        """End the trace and return its robustness, None if it has none.
-
-        The same bits as `robustness` of all samples at sample 0.
-        """
+        """End the trace and return its robustness, None if it has none."""
         self._closed = True
-        value = self._declared.ended() if self._declared.exists else None
-        return None if value is None else value + 0.0
+        return self.now()

@@ -77,3 +77,10 @@ def test_exit_codes_are_those_of_the_contract(make: SimpleNamespace) -> None:
     assert verify_exit_code(_report(make.verdict(integrity=Integrity.ALTERED))) == 4
     nothing = Verdict(status=VerdictStatus.VERIFIED, results=(), integrity=Integrity.INTACT)
     assert verify_exit_code(_report(nothing)) == 4
+
+
+def test_a_note_about_the_installation_is_no_difference(make: SimpleNamespace) -> None:
+    recorded = make.verdict(make.result())
+    noted = Verdict.model_validate(dict(recorded) | {'notes': ('recorded elsewhere',)})
+    assert compare(recorded, noted, 'verdict.0.json').equal
+    assert verify_exit_code(_report(noted, recorded)) == 0
