@@ -1,0 +1,329 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""A prompt with its annotated requirements, as one line of a prompt file holds it.
+
+Numbers are in metres, seconds and metres per second, angles in degrees. A field that is left out
+is not required. The models are closed: an unknown field is an error.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, FiniteFloat, NonNegativeInt, StrictBool, StringConstraints
+
+from aurora_core.spec.parameter import Document
+from aurora_core.spec.vocabulary import (
+    AgentType,
+    BehaviorKind,
+    MissionMode,
+    Pattern,
+    Relation,
+)
+
+Id = Annotated[str, StringConstraints(pattern=r'^[a-z0-9]+(-[a-z0-9]+)*$')]
+Ref = Annotated[str, StringConstraints(min_length=1, max_length=64)]
+Category = Literal[
+    'hover', 'track', 'patrol', 'spatial', 'multi_agent', 'environment', 'communication',
+    'perception', 'sequential', 'conditional', 'boundary', 'infeasible', 'multi_uav',
+]  # fmt: skip
+Feasibility = Literal['feasible', 'boundary', 'infeasible']
+Because = Literal[
+    'altitude_limit', 'speed_limit', 'endurance', 'geofence', 'sensing_range', 'standoff',
+    'duration', 'count', 'clearance', 'separation', 'temporal_contradiction',
+    'spatial_contradiction', 'comm_range', 'missing_element', 'unsupported',
+]  # fmt: skip
+QuantityName = Literal[
+    'distance', 'horizontal_distance', 'separation', 'altitude', 'speed', 'tracked_fraction',
+    'visible_time', 'visible_fraction', 'delivery_latency', 'delivered', 'delivery_ratio',
+    'event_time', 'hover_drift', 'waypoints_visited', 'mission_completed', 'landed',
+]  # fmt: skip
+
+
+class _Requirement(Document):
+    """What every requirement has.
+
+    Attributes:
+        id: Unique in the prompt.
+        negate: It must not be so.
+        tol: Absolute tolerance of the only number, or of each number by field name; 1 % of the
+            value where none is given.
+    """
+
+    id: Id
+    negate: bool = False
+    tol: FiniteFloat | dict[str, FiniteFloat] | None = None
+
+
+class WorldRequirement(_Requirement):
+    """One field of the world."""
+
+    kind: Literal['world']
+    field: Literal['weather', 'time_of_day', 'map', 'traffic_density', 'duration_s']
+    value: str | FiniteFloat
+
+
+class AgentRequirement(_Requirement):
+    """A ground agent or a group of equal ones; a count of 0 means that none may appear."""
+
+    kind: Literal['agent']
+    ref: Ref
+    type: AgentType
+    count: NonNegativeInt = 1
+    role: Literal['ego', 'target', 'background'] | None = None
+
+
+class PlacementRequirement(_Requirement):
+    """Where an agent is, relative to a body or a place."""
+
+    kind: Literal['placement']
+    agent: Ref
+    relation: Relation
+    of: Ref | None = None
+    distance_m: FiniteFloat | None = None
+    bearing_deg: FiniteFloat | None = None
+
+
+class BehaviorRequirement(_Requirement):
+    """What an agent does."""
+
+    kind: Literal['behavior']
+    agent: Ref
+    behavior: BehaviorKind
+    target: Ref | None = None
+    speed_mps: FiniteFloat | None = None
+
+
+class UavRequirement(_Requirement):
+    """A UAV or a group of equal ones."""
+
+    kind: Literal['uav']
+    ref: Ref
+    count: NonNegativeInt = 1
+
+
+class MissionRequirement(_Requirement):
+    """A phase of a UAV's flight; altitude above ground, standoff horizontal."""
+
+    kind: Literal['mission']
+    ref: Ref
+    uav: Ref
+    mode: MissionMode
+    target: Ref | None = None
+    altitude_m: FiniteFloat | None = None
+    standoff_m: FiniteFloat | None = None
+    bearing_deg: FiniteFloat | None = None
+    duration_s: FiniteFloat | None = None
+    pattern: Pattern | None = None
+    size_m: tuple[FiniteFloat, FiniteFloat] | None = None
+    radius_m: FiniteFloat | None = None
+    waypoint_count: FiniteFloat | None = None
+    speed_mps: FiniteFloat | None = None
+
+
+class LinkRequirement(_Requirement):
+    """A directed radio link."""
+
+    kind: Literal['link']
+    sender: Ref
+    receiver: Ref
+    loss: FiniteFloat | None = None
+    latency_s: FiniteFloat | None = None
+    range_m: FiniteFloat | None = None
+    retransmissions: FiniteFloat | None = None
+
+
+class Trigger(Document):
+    """What makes an event happen; which fields go with `on` is in `FIELDS_OF_TRIGGER`."""
+
+    on: Literal[
+        'distance_below', 'distance_above', 'visible', 'occluded', 'time', 'altitude_reached',
+        'arrives', 'message_received', 'speed_below', 'speed_above', 'event_done', 'mission_done',
+    ]  # fmt: skip
+    a: Ref | None = None
+    b: Ref | None = None
+    value_m: FiniteFloat | None = None
+    observer: Ref | None = None
+    target: Ref | None = None
+    at_s: FiniteFloat | None = None
+    uav: Ref | None = None
+    who: Ref | None = None
+    place: Ref | None = None
+    by: Ref | None = None
+    from_: Annotated[Ref | None, Field(alias='from')] = None
+    value_mps: FiniteFloat | None = None
+    event: Ref | None = None
+    after_s: FiniteFloat | None = None
+
+
+FIELDS_OF_TRIGGER: dict[str, frozenset[str]] = {
+    'distance_below': frozenset({'a', 'b', 'value_m'}),
+    'distance_above': frozenset({'a', 'b', 'value_m'}),
+    'visible': frozenset({'observer', 'target'}),
+    'occluded': frozenset({'observer', 'target'}),
+    'time': frozenset({'at_s'}),
+    'altitude_reached': frozenset({'uav', 'value_m'}),
+    'arrives': frozenset({'who', 'place'}),
+    'message_received': frozenset({'by', 'from'}),
+    'speed_below': frozenset({'who', 'value_mps'}),
+    'speed_above': frozenset({'who', 'value_mps'}),
+    'event_done': frozenset({'event', 'after_s'}),
+    'mission_done': frozenset({'uav'}),
+}
+
+
+class Action(Document):
+    """What an event does; `change_mission` takes the fields of a mission."""
+
+    do: Literal[
+        'send_message', 'brake', 'stop', 'slow', 'accelerate', 'change_lane', 'yield', 'start',
+        'cross', 'change_mission', 'land', 'ascend',
+    ]  # fmt: skip
+    sender: Ref | None = None
+    receiver: Ref | None = None
+    agent: Ref | None = None
+    value_mps: FiniteFloat | None = None
+    uav: Ref | None = None
+    mode: MissionMode | None = None
+    target: Ref | None = None
+    altitude_m: FiniteFloat | None = None
+    standoff_m: FiniteFloat | None = None
+    bearing_deg: FiniteFloat | None = None
+    duration_s: FiniteFloat | None = None
+    pattern: Pattern | None = None
+    size_m: tuple[FiniteFloat, FiniteFloat] | None = None
+    radius_m: FiniteFloat | None = None
+    waypoint_count: FiniteFloat | None = None
+    speed_mps: FiniteFloat | None = None
+
+
+MISSION_FIELDS = frozenset(
+    {
+        'mode', 'target', 'altitude_m', 'standoff_m', 'bearing_deg', 'duration_s', 'pattern',
+        'size_m', 'radius_m', 'waypoint_count', 'speed_mps',
+    }
+)  # fmt: skip
+
+
+def fields_of_action(do: str) -> frozenset[str]:
+    """Return the fields that an action of this kind may have."""
+    if do == 'send_message':
+        return frozenset({'sender', 'receiver'})
+    if do == 'change_mission':
+        return MISSION_FIELDS | {'uav'}
+    if do in ('land', 'ascend'):
+        return frozenset({'uav', 'altitude_m'})
+    return frozenset({'agent', 'value_mps'})
+
+
+class EventRequirement(_Requirement):
+    """A trigger and what follows; one of the two may be missing."""
+
+    kind: Literal['event']
+    ref: Ref
+    trigger: Trigger | None = None
+    action: Action | None = None
+
+
+class OrderRequirement(_Requirement):
+    """One event or mission comes before another."""
+
+    kind: Literal['order']
+    first: Ref
+    then: Ref
+    within_s: FiniteFloat | None = None
+
+
+class ConditionRequirement(_Requirement):
+    """A condition that the prompt states."""
+
+    kind: Literal['condition']
+    quantity: QuantityName
+    of: tuple[Ref, ...]
+    op: Literal['<=', '<', '>=', '>', '==']
+    value: StrictBool | FiniteFloat
+    hold_s: FiniteFloat | None = None
+    by_s: FiniteFloat | None = None
+    fraction: FiniteFloat | None = None
+
+
+class RejectRequirement(_Requirement):
+    """The request must be refused, for this reason."""
+
+    kind: Literal['reject']
+    because: Because
+
+
+class AnyOfRequirement(_Requirement):
+    """One of several fair readings suffices."""
+
+    kind: Literal['any_of']
+    any_of: Annotated[tuple[Requirement, ...], Field(min_length=2)]
+
+
+Requirement = Annotated[
+    WorldRequirement
+    | AgentRequirement
+    | PlacementRequirement
+    | BehaviorRequirement
+    | UavRequirement
+    | MissionRequirement
+    | LinkRequirement
+    | EventRequirement
+    | OrderRequirement
+    | ConditionRequirement
+    | RejectRequirement
+    | AnyOfRequirement,
+    Field(discriminator='kind'),
+]
+
+
+class AnnotatedPrompt(Document):
+    """One line of a prompt file.
+
+    Attributes:
+        paraphrase_group: Prompts of one group ask for the same in other words.
+        end_to_end: Executed, not only parsed.
+        reference: A specification that says the same.
+        realization: Values that are known to work.
+        variation: By `<requirement id>.<field>`: the range in which a number still counts.
+    """
+
+    id: Id
+    category: Category
+    prompt: Annotated[str, StringConstraints(min_length=1)]
+    feasibility: Feasibility
+    paraphrase_group: Id | None
+    end_to_end: bool
+    requirements: Annotated[tuple[Requirement, ...], Field(min_length=1)]
+    reference: dict[str, Any] | None = None
+    realization: dict[str, Any] | None = None
+    variation: dict[str, tuple[FiniteFloat, FiniteFloat]] = Field(default_factory=dict)
+
+
+AnyOfRequirement.model_rebuild()
+AnnotatedPrompt.model_rebuild()
+
+
+def everything(requirements: tuple[Requirement, ...]) -> tuple[Requirement, ...]:
+    """Return all requirements: each `any_of`, followed by its readings."""
+    found: list[Requirement] = []
+    for requirement in requirements:
+        found.append(requirement)
+        if isinstance(requirement, AnyOfRequirement):
+            found += everything(requirement.any_of)
+    return tuple(found)
+
+
+def flat(requirements: tuple[Requirement, ...]) -> tuple[Requirement, ...]:
+    """Return requirements with the readings of every `any_of` in place of it."""
+    return tuple(r for r in everything(requirements) if not isinstance(r, AnyOfRequirement))
+
+
+def stated_fields(value: Document) -> dict[str, Any]:
+    """Return the fields that an annotation states, by their names in the file."""
+    return {
+        ('from' if name == 'from_' else name): item
+        for name in value.model_fields_set
+        if (item := getattr(value, name)) is not None
+    }

@@ -1,0 +1,51 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Validate prompt files: format, names, numbers, limits, paraphrases."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import lru_cache
+
+from aurora_bench.prompts.findings import Finding
+from aurora_bench.prompts.format import AnnotatedPrompt
+from aurora_bench.prompts.limits import check_limits
+from aurora_bench.prompts.numbers import check_numbers
+from aurora_bench.prompts.paraphrases import check_set
+from aurora_bench.prompts.reading import read_lines
+from aurora_bench.prompts.references import check_references
+from aurora_core.knowledge.agent_types import load_agent_types
+from aurora_core.knowledge.config_files import config_path
+from aurora_core.knowledge.limits import load_limits
+from aurora_core.knowledge.map_model import load_map
+
+
+def validate(
+    texts: Sequence[str], map_name: str = 'downtown'
+) -> tuple[tuple[AnnotatedPrompt, ...], tuple[Finding, ...]]:
+    """Return the readable prompts of all files and every finding.
+
+    Args:
+        texts: Contents of the files; ids must be unique over all of them.
+        map_name: Whose landmarks count as places.
+    """
+    prompts: list[AnnotatedPrompt] = []
+    findings: list[Finding] = []
+    for text in texts:
+        read, problems = read_lines(text)
+        prompts += read
+        findings += problems
+    landmarks = _landmarks(map_name)
+    limits = load_limits(config_path('limits.json'))
+    types = load_agent_types()
+    for prompt in prompts:
+        findings += check_references(prompt, landmarks)
+        findings += check_numbers(prompt)
+        findings += check_limits(prompt, limits, types)
+    findings += check_set(prompts)
+    return tuple(prompts), tuple(findings)
+
+
+@lru_cache
+def _landmarks(map_name: str) -> frozenset[str]:
+    return frozenset(mark.name for mark in load_map(map_name).landmarks)
