@@ -1,0 +1,65 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""`python -m aurora_bench.fidelity FILE`: parse every prompt, score it against its annotation."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+from aurora_bench.fidelity.answer import offline_answer
+from aurora_bench.fidelity.summary import Judged, as_json, judge, last_line, tables
+from aurora_bench.interrupt import stop_on_sigterm
+from aurora_bench.machine import machine_facts
+from aurora_bench.progress import Progress
+from aurora_bench.prompts.reading import read_prompts
+from aurora_bench.results import ResultsError, markdown_table, write_results
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Score a file; return 0, or 64 when it cannot be read."""
+    stop_on_sigterm()
+    parser = argparse.ArgumentParser(prog='aurora_bench.fidelity', description=__doc__)
+    parser.add_argument('file', type=Path, metavar='FILE', help='prompts, one JSON object a line')
+    parser.add_argument('--model', choices=('offline',), default='offline', help='who parses')
+    parser.add_argument('--map', default='downtown', help='map that the prompts are read against')
+    parser.add_argument('--seed', type=int, default=1)
+    parser.add_argument('--only', default='', help='prompts whose id begins so')
+    parser.add_argument('--results', type=Path, default=None, help='folder for JSON and Markdown')
+    parser.add_argument('--name', default='fidelity', help='of the files of results')
+    options = parser.parse_args(arguments)
+    machine = machine_facts()
+    try:
+        prompts = [p for p in read_prompts(options.file) if p.id.startswith(options.only)]
+    except ResultsError as err:
+        sys.stderr.write(f'{err}\n')
+        return 64
+    progress = Progress('fidelity', len(prompts))
+    judged: list[Judged] = []
+    for prompt in prompts:
+        done = judge(prompt, offline_answer(prompt.prompt, options.map, options.seed))
+        judged.append(done)
+        kinds = ', '.join(f'{m.kind} ({m.told})' for m in done.misses)
+        progress.step(f'{prompt.id}: {f"missed: {kinds}" if kinds else "all met"}')
+    shown = tables(judged)
+    sys.stdout.write('\n\n'.join(markdown_table(table) for table in shown) + '\n\n')
+    if options.results is not None:
+        document = {'file': options.file.name, 'model': options.model, **as_json(judged)}
+        _, written = write_results(
+            options.results,
+            options.name,
+            document,
+            title=f'Fidelity of {options.model} on {options.file.name}',
+            tables=shown,
+            notes=(f'`{last_line(judged)}`',),
+            machine=machine,
+        )
+        progress.note(f'see {written}')
+    sys.stdout.write(f'{last_line(judged)}\n')
+    return 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())

@@ -1,0 +1,197 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Which annotated fields of one requirement hold, under a binding: worlds, bodies, places, links.
+
+Every function returns one entry per annotated field: True when it holds. Of several elements that
+could be meant, the one that holds most counts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from aurora_bench.fidelity.binding import Binding
+from aurora_bench.fidelity.carriers import BehaviorFact, PlacementFact
+from aurora_bench.fidelity.numbers import NumberRule
+from aurora_bench.prompts.format import (
+    AgentRequirement,
+    BehaviorRequirement,
+    LinkRequirement,
+    MissionRequirement,
+    PlacementRequirement,
+    UavRequirement,
+    WorldRequirement,
+)
+from aurora_core.spec.parameter import Parameter
+from aurora_core.spec.scenario import ScenarioSpec, UavMission
+
+Fields = dict[str, bool]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Subject:
+    """What a comparison needs besides the requirement."""
+
+    spec: ScenarioSpec
+    binding: Binding
+    placements: tuple[PlacementFact, ...]
+    behaviors: tuple[BehaviorFact, ...]
+    before: frozenset[tuple[str, str]]
+
+
+def best(candidates: Iterable[Fields], names: Iterable[str]) -> Fields:
+    """Return the candidate with most fields held; none of them without a candidate."""
+    found = list(candidates)
+    return max(found, key=lambda f: sum(f.values())) if found else dict.fromkeys(names, False)
+
+
+def for_all(parts: list[Fields], names: Iterable[str]) -> Fields:
+    """Return what holds for every member of a group; nothing for an empty one."""
+    return {name: bool(parts) and all(part[name] for part in parts) for name in names}
+
+
+def world_fields(r: WorldRequirement, subject: Subject, rule: NumberRule) -> Fields:
+    """Compare one field of the world; an unstated one has its default."""
+    world = subject.spec.world
+    if r.field == 'duration_s':
+        return {'value': rule.counts('value', float(r.value), world.duration_s)}
+    found = {
+        'weather': world.weather,
+        'time_of_day': world.time_of_day,
+        'map': world.map_name,
+        'traffic_density': world.traffic_density or '',
+    }[r.field]
+    return {'value': str(found) == str(r.value)}
+
+
+def agent_fields(r: AgentRequirement, subject: Subject) -> Fields:
+    """Compare type, count and role of an agent or group."""
+    members = [a for a in subject.spec.agents if a.id in subject.binding.bodies.get(r.ref, ())]
+    if r.count == 0:
+        return {'count': not any(a.type is r.type for a in subject.spec.agents)}
+    fields = {'type': bool(members) and all(a.type is r.type for a in members)}
+    if r.count > 1:
+        fields['count'] = len(members) == r.count
+    if r.role is not None:
+        fields['role'] = bool(members) and all(a.role.value == r.role for a in members)
+    return fields
+
+
+def uav_fields(r: UavRequirement, subject: Subject) -> Fields:
+    """Compare the number of UAVs of a name."""
+    if r.count == 0:
+        return {'count': not subject.spec.uavs}
+    return {'count': len(subject.binding.bodies.get(r.ref, ())) == r.count}
+
+
+def placement_fields(r: PlacementRequirement, subject: Subject, rule: NumberRule) -> Fields:
+    """Compare a placement with all places that the specification gives the agent."""
+    names = ['relation', *_named(r.of, 'of'), *_numbers(r, 'distance_m', 'bearing_deg')]
+
+    def compare(fact: PlacementFact) -> Fields:
+        fields = {'relation': fact.relation is r.relation}
+        if r.of is not None:
+            fields['of'] = subject.binding.means(r.of, fact.of)
+        for name in names[len(fields) :]:
+            fields[name] = rule.counts(name, getattr(r, name), getattr(fact, name))
+        return fields
+
+    return for_all(
+        [
+            best((compare(f) for f in subject.placements if f.agent == member), names)
+            for member in subject.binding.of(r.agent)
+        ],
+        names,
+    )
+
+
+def behavior_fields(r: BehaviorRequirement, subject: Subject, rule: NumberRule) -> Fields:
+    """Compare a behaviour with everything that the agent does."""
+    names = ['behavior', *_named(r.target, 'target'), *_numbers(r, 'speed_mps')]
+
+    def compare(fact: BehaviorFact) -> Fields:
+        fields = {'behavior': fact.kind is r.behavior}
+        if r.target is not None:
+            fields['target'] = subject.binding.means(r.target, fact.target)
+        if r.speed_mps is not None:
+            fields['speed_mps'] = rule.counts('speed_mps', r.speed_mps, fact.speed_mps)
+        return fields
+
+    return for_all(
+        [
+            best((compare(f) for f in subject.behaviors if f.agent == member), names)
+            for member in subject.binding.of(r.agent)
+        ],
+        names,
+    )
+
+
+_MISSION_NUMBERS = (
+    'altitude_m', 'standoff_m', 'bearing_deg', 'duration_s', 'radius_m', 'waypoint_count',
+    'speed_mps',
+)  # fmt: skip
+
+
+def mission_names(r: MissionRequirement) -> list[str]:
+    """Return the annotated fields of a mission."""
+    names = ['uav', 'mode', *_named(r.target, 'target'), *_named(r.pattern, 'pattern')]
+    return [*names, *_numbers(r, *_MISSION_NUMBERS), *_numbers(r, 'size_m')]
+
+
+def mission_fields(
+    r: MissionRequirement, mission: UavMission, subject: Subject, rule: NumberRule
+) -> Fields:
+    """Compare a mission with one mission of the specification."""
+    fields: Fields = {'uav': subject.binding.means(r.uav, mission.uav)}
+    fields['mode'] = mission.mode is r.mode
+    if r.target is not None:
+        fields['target'] = subject.binding.means(r.target, mission.target)
+    if r.pattern is not None:
+        fields['pattern'] = mission.pattern is r.pattern
+    for name in _numbers(r, *_MISSION_NUMBERS):
+        fields[name] = rule.counts(name, getattr(r, name), getattr(mission, name))
+    if r.size_m is not None:
+        fields['size_m'] = size_counts(r.size_m, mission.size_m, rule, 'size_m')
+    return fields
+
+
+def size_counts(
+    wanted: tuple[float, float],
+    found: tuple[Parameter, Parameter] | None,
+    rule: NumberRule,
+    path: str,
+) -> bool:
+    """Whether a pattern has the wanted size; which side is called the length does not matter."""
+    if found is None:
+        return False
+    if wanted[1] == 0.0:  # a line has no width
+        return rule.counts(f'{path}.0', wanted[0], found[0])
+    return any(
+        rule.counts(f'{path}.0', wanted[0], one) and rule.counts(f'{path}.1', wanted[1], two)
+        for one, two in (found, found[::-1])
+    )
+
+
+def link_fields(r: LinkRequirement, subject: Subject, rule: NumberRule) -> Fields:
+    """Compare a link with the links of the specification."""
+    numbers = _numbers(r, 'loss', 'latency_s', 'range_m', 'retransmissions')
+    return best(
+        (
+            {
+                'sender': subject.binding.means(r.sender, link.sender),
+                'receiver': subject.binding.means(r.receiver, link.receiver),
+                **{n: rule.counts(n, getattr(r, n), getattr(link, n)) for n in numbers},
+            }
+            for link in subject.spec.links
+        ),
+        ['sender', 'receiver', *numbers],
+    )
+
+
+def _named(value: object, name: str) -> list[str]:
+    return [] if value is None else [name]
+
+
+def _numbers(requirement: object, *names: str) -> list[str]:
+    return [name for name in names if getattr(requirement, name) is not None]

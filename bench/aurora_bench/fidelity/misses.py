@@ -1,0 +1,74 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Name every requirement that an answer misses, and whether the user was told."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from enum import StrEnum
+
+from aurora_bench.fidelity.answer import Answer
+from aurora_bench.fidelity.evidence import evidence
+from aurora_bench.fidelity.score import PromptScore
+from aurora_bench.prompts.format import AnnotatedPrompt
+from aurora_core.spec.parameter import Document
+from aurora_core.spec.vocabulary import ClauseStatus
+
+
+class Told(StrEnum):
+    """What the user learns of a miss."""
+
+    SILENT = 'silent'  # its clause is called encoded, or no clause speaks of it
+    DISMISSED = 'dismissed'  # its clause is called `no_requirement`: wrongly, and just as silent
+    ADMITTED = 'admitted'  # its clause is called `not_encoded`, or a question is asked
+    REFUSED = 'refused'  # a feasible request was refused
+    BROKEN = 'broken'  # the product raised an error
+
+
+class Miss(Document):
+    """One requirement that is not wholly met.
+
+    Attributes:
+        prompt_id: Of the prompt.
+        requirement_id: In the prompt.
+        kind: Of the requirement.
+        fields: Annotated fields that do not hold.
+        told: See `Told`.
+        clause: Text of the clause that it was looked for in; empty when none was found.
+    """
+
+    prompt_id: str
+    requirement_id: str
+    kind: str
+    fields: tuple[str, ...]
+    told: Told
+    clause: str = ''
+
+
+def misses(prompt: AnnotatedPrompt, answer: Answer, score: PromptScore) -> Iterator[Miss]:
+    """Return every miss of one answer."""
+    for requirement, result in zip(prompt.requirements, score.requirements, strict=True):
+        if result.is_met:
+            continue
+        clauses = evidence(prompt, requirement, answer.clauses).clauses
+        statuses = {clause.status for clause in clauses}
+        if answer.error:
+            told = Told.BROKEN
+        elif answer.question or (answer.spec is None and not answer.reasons):
+            told = Told.ADMITTED
+        elif answer.reasons and prompt.feasibility != 'infeasible':
+            told = Told.REFUSED
+        elif ClauseStatus.NOT_ENCODED in statuses:
+            told = Told.ADMITTED
+        elif statuses == {ClauseStatus.NO_REQUIREMENT}:
+            told = Told.DISMISSED
+        else:
+            told = Told.SILENT
+        yield Miss(
+            prompt_id=prompt.id,
+            requirement_id=requirement.id,
+            kind=result.kind,
+            fields=tuple(name for name, held in result.fields.items() if not held),
+            told=told,
+            clause=clauses[0].text if clauses else '',
+        )

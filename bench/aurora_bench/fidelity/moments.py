@@ -1,0 +1,61 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Which missions and events of a specification come before which."""
+
+from __future__ import annotations
+
+from aurora_core.spec.scenario import (
+    Event,
+    EventDoneTrigger,
+    MessageTrigger,
+    MissionDoneTrigger,
+    ScenarioSpec,
+    SendMessage,
+    TimeTrigger,
+    UavAction,
+)
+
+
+def precedence(spec: ScenarioSpec) -> frozenset[tuple[str, str]]:
+    """Return all pairs (first, then) of mission and event ids that the specification fixes."""
+    pairs = {
+        (one.id, two.id)
+        for k, one in enumerate(spec.missions)
+        for two in spec.missions[k + 1 :]
+        if one.uav == two.uav
+    }
+    timed = [
+        (e.trigger.at_s.value, e.id) for e in spec.events if isinstance(e.trigger, TimeTrigger)
+    ]
+    pairs |= {(a, b) for at_a, a in timed for at_b, b in timed if at_a < at_b}
+    for event in spec.events:
+        pairs |= {(before, event.id) for before in _causes(event, spec)}
+        if isinstance(event.action, UavAction) and event.action.mission is not None:
+            pairs.add((event.id, event.action.mission))
+    return _closed(pairs)
+
+
+def _causes(event: Event, spec: ScenarioSpec) -> set[str]:
+    trigger = event.trigger
+    if isinstance(trigger, EventDoneTrigger):
+        return {trigger.event}
+    if isinstance(trigger, MissionDoneTrigger):
+        return {m.id for m in spec.missions if m.uav == trigger.uav}
+    if isinstance(trigger, MessageTrigger):
+        return {
+            other.id
+            for other in spec.events
+            if isinstance(other.action, SendMessage)
+            and other.action.receiver == trigger.by
+            and trigger.sender in (None, other.action.sender)
+        }
+    return set()
+
+
+def _closed(pairs: set[tuple[str, str]]) -> frozenset[tuple[str, str]]:
+    closed = set(pairs)
+    while True:
+        more = {(a, d) for a, b in closed for c, d in closed if b == c and a != d} - closed
+        if not more:
+            return frozenset(closed)
+        closed |= more

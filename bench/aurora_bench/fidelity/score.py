@@ -1,0 +1,236 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Score one answer against the requirements of its prompt."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from scipy.optimize import linear_sum_assignment
+
+from aurora_bench.fidelity.answer import Answer
+from aurora_bench.fidelity.binding import Binding, Names, candidate_bodies
+from aurora_bench.fidelity.carriers import behavior_facts, placement_facts
+from aurora_bench.fidelity.events import (
+    condition_fields,
+    event_fields,
+    event_names,
+    implied_event_fields,
+    order_fields,
+)
+from aurora_bench.fidelity.fields import (
+    Fields,
+    Subject,
+    agent_fields,
+    behavior_fields,
+    best,
+    for_all,
+    link_fields,
+    mission_fields,
+    mission_names,
+    placement_fields,
+    uav_fields,
+    world_fields,
+)
+from aurora_bench.fidelity.moments import precedence
+from aurora_bench.fidelity.numbers import NumberRule
+from aurora_bench.prompts.format import (
+    AgentRequirement,
+    AnnotatedPrompt,
+    AnyOfRequirement,
+    BehaviorRequirement,
+    ConditionRequirement,
+    EventRequirement,
+    LinkRequirement,
+    MissionRequirement,
+    OrderRequirement,
+    PlacementRequirement,
+    RejectRequirement,
+    Requirement,
+    UavRequirement,
+    WorldRequirement,
+)
+from aurora_core.spec.parameter import Document
+from aurora_core.spec.scenario import ScenarioSpec
+
+# A requirement that is wholly met outweighs any number of single fields.
+_WHOLE = 1000
+
+
+class RequirementScore(Document):
+    """One requirement and which of its annotated fields hold."""
+
+    id: str
+    kind: str
+    fields: dict[str, bool]
+
+    @property
+    def is_met(self) -> bool:
+        """Whether every annotated field holds."""
+        return all(self.fields.values())
+
+
+class PromptScore(Document):
+    """All requirements of a prompt.
+
+    Attributes:
+        requirements: In the order of the prompt.
+        extra: Agents and UAVs of the specification that nothing asked for.
+    """
+
+    requirements: tuple[RequirementScore, ...]
+    extra: tuple[str, ...] = ()
+
+
+def score(prompt: AnnotatedPrompt, answer: Answer) -> PromptScore:
+    """Return the score under the binding that satisfies most requirements."""
+    spec = answer.spec
+    if spec is None:
+        return _Scorer(prompt, ScenarioSpec(prompt=prompt.prompt), answer).nothing()
+    scorer = _Scorer(prompt, spec, answer)
+    chosen: tuple[int, PromptScore] | None = None
+    for bodies in candidate_bodies(prompt.requirements, spec):
+        found = scorer.under(bodies)
+        worth = sum(_WHOLE * r.is_met + sum(r.fields.values()) for r in found.requirements)
+        if chosen is None or worth > chosen[0]:
+            chosen = worth, found
+        if all(r.is_met for r in found.requirements):
+            break
+    assert chosen is not None  # the empty binding is always a candidate
+    return chosen[1]
+
+
+class _Scorer:
+    def __init__(self, prompt: AnnotatedPrompt, spec: ScenarioSpec, answer: Answer) -> None:
+        self._prompt = prompt
+        self._answer = answer
+        self._subject = Subject(
+            spec=spec,
+            binding=Binding(bodies={}),
+            placements=tuple(placement_facts(spec)),
+            behaviors=tuple(behavior_facts(spec)),
+            before=precedence(spec),
+        )
+
+    def nothing(self) -> PromptScore:
+        """Without a specification only a refusal can be right."""
+        scores = []
+        for r in self._prompt.requirements:
+            fields = self._fields(r)
+            is_refusal = isinstance(r, RejectRequirement) or (
+                isinstance(r, AnyOfRequirement) and 'because' in fields
+            )
+            held = fields if is_refusal else dict.fromkeys(fields, False)
+            scores.append(RequirementScore(id=r.id, kind=r.kind, fields=held))
+        return PromptScore(requirements=tuple(scores))
+
+    def under(self, bodies: Names) -> PromptScore:
+        """Return the score under one binding of agents and UAVs."""
+        self._subject = replace(self._subject, binding=Binding(bodies=bodies))
+        self._bind_moments()
+        scores = tuple(
+            RequirementScore(id=r.id, kind=r.kind, fields=self._fields(r))
+            for r in self._prompt.requirements
+        )
+        bound = frozenset().union(*bodies.values()) if bodies else frozenset()
+        spec = self._subject.spec
+        names = [*(a.id for a in spec.agents), *(u.id for u in spec.uavs)]
+        extra = [name for name in names if name not in bound]
+        return PromptScore(requirements=scores, extra=tuple(extra))
+
+    def _bind_moments(self) -> None:
+        """Give every mission and event requirement an element of its own."""
+        spec = self._subject.spec
+        top = self._prompt.requirements
+        missions = [r for r in top if isinstance(r, MissionRequirement)]
+        events = [r for r in top if isinstance(r, EventRequirement)]
+        moments: dict[str, str] = {}
+        held = [
+            [mission_fields(r, m, self._subject, self._rule(r)) for m in spec.missions]
+            for r in missions
+        ]
+        for k, n in _assigned(held):
+            moments[missions[k].ref] = spec.missions[n].id
+        # Events name other events: the second round knows what the first has bound.
+        for _ in range(2):
+            binding = replace(self._subject.binding, moments=moments)
+            self._subject = replace(self._subject, binding=binding)
+            held = [
+                [event_fields(r, e, self._subject, self._rule(r)) for e in spec.events]
+                for r in events
+            ]
+            bound = {events[k].ref: spec.events[n].id for k, n in _assigned(held)}
+            moments = {**moments, **bound}
+        binding = replace(self._subject.binding, moments=moments)
+        self._subject = replace(self._subject, binding=binding)
+
+    def _rule(self, r: Requirement) -> NumberRule:
+        return NumberRule(requirement=r, variation=self._prompt.variation)
+
+    def _fields(self, r: Requirement) -> Fields:
+        if isinstance(r, AnyOfRequirement):
+            readings = [self._fields(reading) for reading in r.any_of]
+            # Rather the reading that holds wholly, else the one that holds most of its fields.
+            return max(readings, key=lambda f: (all(f.values()), sum(f.values()) / len(f)))
+        fields = self._plain_fields(r)
+        return {'absent': not all(fields.values())} if r.negate else fields
+
+    def _plain_fields(self, r: Requirement) -> Fields:
+        subject, rule = self._subject, self._rule(r)
+        if isinstance(r, WorldRequirement):
+            return world_fields(r, subject, rule)
+        if isinstance(r, AgentRequirement):
+            return agent_fields(r, subject)
+        if isinstance(r, UavRequirement):
+            return uav_fields(r, subject)
+        if isinstance(r, PlacementRequirement):
+            return placement_fields(r, subject, rule)
+        if isinstance(r, BehaviorRequirement):
+            return behavior_fields(r, subject, rule)
+        if isinstance(r, LinkRequirement):
+            return link_fields(r, subject, rule)
+        if isinstance(r, ConditionRequirement):
+            return condition_fields(r, subject, rule)
+        if isinstance(r, OrderRequirement):
+            return order_fields(r, subject, rule)
+        if isinstance(r, MissionRequirement):
+            return self._mission(r, rule)
+        if isinstance(r, EventRequirement):
+            return self._event(r, rule)
+        assert isinstance(r, RejectRequirement)
+        return {'because': r.because in self._answer.reasons}
+
+    def _mission(self, r: MissionRequirement, rule: NumberRule) -> Fields:
+        subject, names = self._subject, mission_names(r)
+        missions = subject.spec.missions
+        flyers = subject.binding.of(r.uav)
+        if len(flyers) > 1:
+            each = [[m for m in missions if m.uav == flyer] for flyer in sorted(flyers)]
+        elif r in self._prompt.requirements:
+            bound = subject.binding.moments.get(r.ref)
+            each = [[m for m in missions if m.id == bound]]
+        else:  # one of several readings: it may share its mission with another requirement
+            each = [list(missions)]
+        return for_all(
+            [best((mission_fields(r, m, subject, rule) for m in own), names) for own in each],
+            names,
+        )
+
+    def _event(self, r: EventRequirement, rule: NumberRule) -> Fields:
+        subject = self._subject
+        bound = subject.binding.moments.get(r.ref)
+        is_own = r in self._prompt.requirements
+        events = [e for e in subject.spec.events if not is_own or e.id == bound]
+        held = [event_fields(r, e, subject, rule) for e in events]
+        return best([*held, *implied_event_fields(r, subject, rule)], event_names(r))
+
+
+def _assigned(held: Sequence[Sequence[Fields]]) -> list[tuple[int, int]]:
+    """Return the pairs of the assignment in which most requirements, then fields, hold."""
+    if not held or not held[0]:
+        return []
+    worth = np.array([[_WHOLE * all(f.values()) + sum(f.values()) for f in row] for row in held])
+    rows, columns = linear_sum_assignment(worth, maximize=True)
+    return [(int(k), int(n)) for k, n in zip(rows, columns, strict=True) if worth[k, n] > 0]

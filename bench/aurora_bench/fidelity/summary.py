@@ -1,0 +1,216 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Fidelity of many answers: by kind, by category, by style, and what went wrong besides."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from aurora_bench.fidelity.answer import Answer
+from aurora_bench.fidelity.misses import Miss, Told, misses
+from aurora_bench.fidelity.score import PromptScore, RequirementScore, score
+from aurora_bench.fidelity.wilson import Share
+from aurora_bench.prompts.format import AnnotatedPrompt
+from aurora_bench.prompts.statistics import style
+from aurora_bench.results import Cell, Table
+from aurora_core.spec.parameter import Document
+
+
+class Judged(Document):
+    """One prompt, its answer, its score and its misses."""
+
+    prompt: AnnotatedPrompt
+    answer: Answer
+    score: PromptScore
+    misses: tuple[Miss, ...]
+
+    @property
+    def is_missed_infeasibility(self) -> bool:
+        """It must be refused and was accepted."""
+        return self.prompt.feasibility == 'infeasible' and not self.answer.reasons
+
+    @property
+    def is_wrong_reason(self) -> bool:
+        """It was refused, as it must be, for a reason that no annotation names."""
+        return (
+            self.prompt.feasibility == 'infeasible'
+            and bool(self.answer.reasons)
+            and bool(self.misses)
+        )
+
+    @property
+    def is_false_refusal(self) -> bool:
+        """It must be accepted and was refused."""
+        return self.prompt.feasibility != 'infeasible' and bool(self.answer.reasons)
+
+
+def judge(prompt: AnnotatedPrompt, answer: Answer) -> Judged:
+    """Score one answer and name what it misses."""
+    result = score(prompt, answer)
+    return Judged(
+        prompt=prompt,
+        answer=answer,
+        score=result,
+        misses=tuple(misses(prompt, answer, result)),
+    )
+
+
+def requirement_share(scores: Sequence[RequirementScore]) -> Share:
+    """Return the share of requirements that are wholly met."""
+    return Share(met=sum(r.is_met for r in scores), total=len(scores))
+
+
+def field_share(scores: Sequence[RequirementScore]) -> Share:
+    """Return the share of annotated fields that hold."""
+    return Share(
+        met=sum(sum(r.fields.values()) for r in scores), total=sum(len(r.fields) for r in scores)
+    )
+
+
+def all_scores(judged: Sequence[Judged]) -> list[RequirementScore]:
+    """Return the scores of all requirements."""
+    return [r for j in judged for r in j.score.requirements]
+
+
+def last_line(judged: Sequence[Judged]) -> str:
+    """Return the one line that programs read."""
+    whole, fields = requirement_share(all_scores(judged)), field_share(all_scores(judged))
+    low, high = whole.interval
+    return (
+        f'requirement fidelity {whole.value:.3f} [{low:.3f}, {high:.3f}]  '
+        f'field fidelity {fields.value:.3f}'
+    )
+
+
+def tables(judged: Sequence[Judged]) -> tuple[Table, ...]:
+    """Return fidelity by kind, category and style, and what went wrong besides."""
+    lost = [m for j in judged for m in j.misses]
+    told = Counter(m.told for m in lost)
+    kinds = Counter((m.kind, ', '.join(m.fields), m.told.value) for m in lost)
+    return (
+        _table('kind', _split(judged, lambda _j, r: r.kind)),
+        _table('category', _split(judged, lambda j, _r: j.prompt.category)),
+        _table('style', _split(judged, lambda j, _r: style(j.prompt.prompt))),
+        Table(
+            headings=('what', 'number', 'of'),
+            rows=tuple((word, met, total) for word, met, total in counts(judged)),
+        ),
+        Table(
+            headings=('missed requirements', 'number'),
+            rows=tuple((word.value, told[word]) for word in Told),
+        ),
+        Table(
+            headings=('kind', 'fields that do not hold', 'told', 'number'),
+            rows=tuple((*key, n) for key, n in kinds.most_common(25)),
+            caption='Commonest misses',
+        ),
+    )
+
+
+def counts(judged: Sequence[Judged]) -> tuple[tuple[str, int, int], ...]:
+    """Return what is counted on its own: word, number, and out of how many."""
+    impossible = sum(j.prompt.feasibility == 'infeasible' for j in judged)
+    possible = len(judged) - impossible
+    lost = [m for j in judged for m in j.misses]
+    return (
+        ('prompts with every requirement met', sum(not j.misses for j in judged), len(judged)),
+        (
+            'infeasible prompts accepted',
+            sum(j.is_missed_infeasibility for j in judged),
+            impossible,
+        ),
+        (
+            'infeasible prompts refused for another reason',
+            sum(j.is_wrong_reason for j in judged),
+            impossible,
+        ),
+        ('feasible prompts refused', sum(j.is_false_refusal for j in judged), possible),
+        (
+            'prompts answered with a question',
+            sum(bool(j.answer.question) for j in judged),
+            len(judged),
+        ),
+        ('prompts that broke the product', sum(bool(j.answer.error) for j in judged), len(judged)),
+        (
+            'clauses falsely called no_requirement',
+            len({(m.prompt_id, m.clause) for m in lost if m.told is Told.DISMISSED}),
+            sum(c.status.value == 'no_requirement' for j in judged for c in j.answer.clauses),
+        ),
+        (
+            'agents and UAVs that nothing asked for',
+            sum(len(j.score.extra) for j in judged if j.prompt.feasibility != 'infeasible'),
+            sum(
+                len(j.answer.spec.agents) + len(j.answer.spec.uavs)
+                for j in judged
+                if j.answer.spec is not None and j.prompt.feasibility != 'infeasible'
+            ),
+        ),
+    )
+
+
+def as_json(judged: Sequence[Judged]) -> dict[str, Any]:
+    """Return everything as plain JSON values."""
+    scores = all_scores(judged)
+    return {
+        'requirement_fidelity': share_json(requirement_share(scores)),
+        'field_fidelity': share_json(field_share(scores)),
+        'by_kind': _split_json(_split(judged, lambda _j, r: r.kind)),
+        'by_category': _split_json(_split(judged, lambda j, _r: j.prompt.category)),
+        'by_style': _split_json(_split(judged, lambda j, _r: style(j.prompt.prompt))),
+        'counts': {word: {'number': met, 'of': total} for word, met, total in counts(judged)},
+        'prompts': [
+            {
+                'id': j.prompt.id,
+                'prompt': j.prompt.prompt,
+                'requirements': len(j.prompt.requirements),
+                'reasons': list(j.answer.reasons),
+                'question': j.answer.question,
+                'error': j.answer.error,
+                'extra': list(j.score.extra),
+                'misses': [m.model_dump(mode='json') for m in j.misses],
+            }
+            for j in judged
+        ],
+    }
+
+
+def share_json(share: Share) -> dict[str, float]:
+    """Return a share with its interval."""
+    low, high = share.interval
+    return {'value': share.value, 'low': low, 'high': high, 'met': share.met, 'total': share.total}
+
+
+Key = Callable[[Judged, RequirementScore], str]
+
+
+def _split(judged: Sequence[Judged], key: Key) -> dict[str, list[RequirementScore]]:
+    parts: dict[str, list[RequirementScore]] = {}
+    for j in judged:
+        for r in j.score.requirements:
+            parts.setdefault(key(j, r), []).append(r)
+    return dict(sorted(parts.items()))
+
+
+def _split_json(parts: dict[str, list[RequirementScore]]) -> dict[str, Any]:
+    return {
+        name: {
+            'requirements': share_json(requirement_share(scores)),
+            'fields': share_json(field_share(scores)),
+        }
+        for name, scores in parts.items()
+    }
+
+
+def _table(heading: str, parts: dict[str, list[RequirementScore]]) -> Table:
+    rows: list[tuple[Cell, ...]] = []
+    for name, scores in parts.items():
+        whole, fields = requirement_share(scores), field_share(scores)
+        low, high = whole.interval
+        interval = f'[{low:.3f}, {high:.3f}]'
+        rows.append((name, whole.total, whole.value, interval, fields.total, fields.value))
+    return Table(
+        headings=(heading, 'requirements', 'met', '95 % interval', 'fields', 'held'),
+        rows=tuple(rows),
+    )
