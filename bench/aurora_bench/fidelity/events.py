@@ -26,6 +26,7 @@ from aurora_core.spec.scenario import (
     UavAction,
 )
 
+_APART = {'separation', 'distance'}
 _NUMBERS = frozenset({'value_m', 'at_s', 'value_mps', 'after_s', 'altitude_m'})
 
 
@@ -153,11 +154,15 @@ def condition_fields(r: ConditionRequirement, subject: Subject, rule: NumberRule
 
     def compare(found: StatedCondition) -> Fields:
         fields = dict.fromkeys(names, False)
-        if found.quantity != r.quantity:
+        wanted, given = _bodies(r, subject), {of.casefold() for of in found.of}
+        # Of two bodies, separation and distance are one; what keeps all apart keeps some apart.
+        is_pair = len(wanted) == 2 and {r.quantity, found.quantity} == _APART
+        if found.quantity != r.quantity and not is_pair:
             return fields
+        is_part = r.quantity == 'separation' and len(wanted) > 1 and wanted <= given
         fields |= {
             'quantity': True,
-            'of': _bodies(r, subject) == {of.casefold() for of in found.of},
+            'of': wanted == given or is_part,
             'op': found.op == r.op,
             'value': rule.counts('value', float(r.value), found.value),
         }

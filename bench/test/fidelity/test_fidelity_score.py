@@ -346,6 +346,29 @@ def test_an_event_may_be_implied_by_a_mission_or_a_behaviour() -> None:
     assert missed(scored(right_spec(), requirements)) == {}
 
 
+@pytest.mark.parametrize(
+    ('quantity', 'of', 'expected'),
+    [
+        ('separation', ['me', 'drone'], {}),
+        ('separation', ['me', 'drone', 'van3'], {'r16': {'of'}}),  # a distance is of two
+        ('altitude', ['me', 'drone'], {'r16': {'quantity', 'of', 'op', 'value'}}),
+    ],
+)
+def test_separation_of_two_is_their_distance(
+    quantity: str, of: list[str], expected: dict[str, set[str]]
+) -> None:
+    spec = right_spec()
+    spec['conditions'][0].update(quantity=quantity, of=of)
+    assert missed(scored(spec)) == expected
+
+
+def test_what_keeps_all_apart_keeps_two_apart() -> None:
+    wanted = {**REQUIREMENTS[15], 'quantity': 'separation'}
+    spec = right_spec()
+    spec['conditions'][0].update(quantity='separation', of=['me', 'drone', 'van3'])
+    assert missed(scored(spec, [*REQUIREMENTS[1:5], wanted])) == {}
+
+
 def test_which_side_of_a_rectangle_is_long_does_not_matter() -> None:
     spec = right_spec()
     mission = spec['missions'][0]
