@@ -1,12 +1,13 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""`python -m aurora_bench.fidelity FILE`: parse every prompt, score it against its annotation."""
+"""`python -m aurora_bench.fidelity [FILE]`: parse every prompt and score the specification."""
 
 from __future__ import annotations
 
 import argparse
 import sys
 from collections.abc import Sequence
+from importlib.resources import files
 from pathlib import Path
 
 from aurora_bench.fidelity.answer import offline_answer
@@ -22,7 +23,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """Score a file; return 0, or 64 when it cannot be read."""
     stop_on_sigterm()
     parser = argparse.ArgumentParser(prog='aurora_bench.fidelity', description=__doc__)
-    parser.add_argument('file', type=Path, metavar='FILE', help='prompts, one JSON object a line')
+    parser.add_argument(
+        'file',
+        nargs='?',
+        type=Path,
+        default=Path(str(files('aurora_bench.prompts').joinpath('tune.jsonl'))),
+        metavar='FILE',
+        help='prompts, one JSON object a line (default: the shipped ones for tuning)',
+    )
     parser.add_argument('--model', choices=('offline',), default='offline', help='who parses')
     parser.add_argument('--map', default='downtown', help='map that the prompts are read against')
     parser.add_argument('--seed', type=int, default=1)

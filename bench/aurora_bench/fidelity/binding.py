@@ -4,18 +4,13 @@
 
 from __future__ import annotations
 
-import itertools
-from collections.abc import Iterator, Mapping, Sequence
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from aurora_bench.prompts.format import AgentRequirement, Requirement, UavRequirement
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.spec.vocabulary import AgentType, Place
-
-# More assignments than this are not tried one by one: names are then bound to their own type only,
-# and to the first few of it. Five names among five bodies are 1546 assignments.
-_MOST = 2000
-_FEW = 6
 
 Names = Mapping[str, frozenset[str]]
 
@@ -48,79 +43,54 @@ class Binding:
         return found.casefold() in folded
 
 
-def candidate_bodies(requirements: Sequence[Requirement], spec: ScenarioSpec) -> Iterator[Names]:
-    """Return the ways to bind agents and UAVs, best guesses first.
+@dataclass(frozen=True, kw_only=True)
+class Slot:
+    """A name of one body and the bodies that it may mean; None, for nothing, comes last."""
 
-    A name of one body takes any body or none; a group takes all that is left of its type.
-    """
-    agents = [r for r in requirements if isinstance(r, AgentRequirement) and r.count > 0]
-    uavs = [r for r in requirements if isinstance(r, UavRequirement) and r.count > 0]
-    type_of = {a.id: a.type for a in spec.agents}
-    single_agents = [r for r in agents if r.count == 1]
-    choices = [_choices(r, spec) for r in single_agents]
-    if _product(choices) > _MOST:
-        choices = [
-            [*[i for i in c if i is not None and type_of[i] is r.type][:_FEW], None]
-            for c, r in zip(choices, single_agents, strict=True)
-        ]
-    flyers = [u.id for u in spec.uavs]
-    single_uavs = [r.ref for r in uavs if r.count == 1]
-    for on_ground in _assignments([r.ref for r in single_agents], choices):
-        for in_air in _assignments(single_uavs, [[*flyers[:_FEW], None]] * len(single_uavs)):
-            bodies = {**on_ground, **in_air}
-            taken = frozenset().union(*bodies.values()) if bodies else frozenset()
-            for group in agents:
-                if group.count > 1:
-                    rest = {i for i, kind in type_of.items() if kind is group.type}
-                    bodies[group.ref] = frozenset(rest - taken)
-            for squad in uavs:
-                if squad.count > 1:
-                    bodies[squad.ref] = frozenset(flyers) - taken
-            if 'rsu' not in bodies:
-                units = {i for i, kind in type_of.items() if kind is AgentType.RSU}
-                bodies['rsu'] = frozenset(units)
-            yield bodies
+    name: str
+    choices: tuple[str | None, ...]
 
 
-def _choices(requirement: AgentRequirement, spec: ScenarioSpec) -> list[str | None]:
-    """Bodies of the right role and type first; none last."""
-    ranked = sorted(
-        spec.agents,
-        key=lambda a: (
-            (a.role.value == 'ego') != (requirement.role == 'ego'),
-            a.type is not requirement.type,
+def slots(requirements: Sequence[Requirement], spec: ScenarioSpec) -> tuple[Slot, ...]:
+    """Return the names of single agents and UAVs with their choices, best guesses first."""
+    singles = [r for r in requirements if isinstance(r, AgentRequirement) and r.count == 1]
+    wanted = Counter(r.type for r in singles)
+    flyers = tuple(u.id for u in spec.uavs)
+    return (
+        *(Slot(name=r.ref, choices=_choices(r, wanted[r.type], spec)) for r in singles),
+        *(
+            Slot(name=r.ref, choices=(*flyers, None))
+            for r in requirements
+            if isinstance(r, UavRequirement) and r.count == 1
         ),
     )
-    return [*(a.id for a in ranked), None]
 
 
-def _product(choices: Sequence[Sequence[str | None]]) -> int:
-    product = 1
-    for choice in choices:
-        product *= len(choice)
-    return product
+def bodies_of(
+    picked: Mapping[str, str | None], requirements: Sequence[Requirement], spec: ScenarioSpec
+) -> Names:
+    """Return the bodies of all names: a group takes all of its type that no single name took."""
+    bodies = {name: frozenset({p} if p is not None else ()) for name, p in picked.items()}
+    taken = frozenset(p for p in picked.values() if p is not None)
+    for r in requirements:
+        if isinstance(r, AgentRequirement) and r.count > 1:
+            bodies[r.ref] = frozenset(a.id for a in spec.agents if a.type is r.type) - taken
+        if isinstance(r, UavRequirement) and r.count > 1:
+            bodies[r.ref] = frozenset(u.id for u in spec.uavs) - taken
+    units = frozenset(a.id for a in spec.agents if a.type is AgentType.RSU)
+    bodies.setdefault('rsu', units)
+    return bodies
 
 
-def _assignments(
-    names: Sequence[str], choices: Sequence[Sequence[str | None]]
-) -> Iterator[dict[str, frozenset[str]]]:
-    """Return the assignments that use no body twice, at most `_MOST`."""
-    for picked in itertools.islice(_distinct(choices), _MOST):
-        yield {
-            name: frozenset({p} if p is not None else ())
-            for name, p in zip(names, picked, strict=True)
-        }
+def _choices(r: AgentRequirement, names: int, spec: ScenarioSpec) -> tuple[str | None, ...]:
+    """Return bodies that a name may mean: the right role and type first.
 
-
-def _distinct(
-    choices: Sequence[Sequence[str | None]], taken: frozenset[str] = frozenset()
-) -> Iterator[tuple[str | None, ...]]:
-    if not choices:
-        yield ()
-        return
-    for choice in choices[0]:
-        if choice is None:
-            yield from ((None, *rest) for rest in _distinct(choices[1:], taken))
-        elif choice not in taken:
-            for rest in _distinct(choices[1:], taken | {choice}):
-                yield (choice, *rest)
+    Other types count only when there are not enough bodies of the right one for all its names: a
+    van that was read as a truck is still the one meant.
+    """
+    right = [a for a in spec.agents if a.type is r.type]
+    bodies = right if len(right) >= names else list(spec.agents)
+    ranked = sorted(
+        bodies, key=lambda a: ((a.role.value == 'ego') != (r.role == 'ego'), a.type is not r.type)
+    )
+    return (*(a.id for a in ranked), None)

@@ -11,7 +11,7 @@ import numpy as np
 from scipy.optimize import linear_sum_assignment
 
 from aurora_bench.fidelity.answer import Answer
-from aurora_bench.fidelity.binding import Binding, Names, candidate_bodies
+from aurora_bench.fidelity.binding import Binding, Names, bodies_of, slots
 from aurora_bench.fidelity.carriers import behavior_facts, placement_facts
 from aurora_bench.fidelity.events import (
     condition_fields,
@@ -36,6 +36,7 @@ from aurora_bench.fidelity.fields import (
 )
 from aurora_bench.fidelity.moments import precedence
 from aurora_bench.fidelity.numbers import NumberRule
+from aurora_bench.fidelity.search import Picked, best_pick
 from aurora_bench.prompts.format import (
     AgentRequirement,
     AnnotatedPrompt,
@@ -90,16 +91,15 @@ def score(prompt: AnnotatedPrompt, answer: Answer) -> PromptScore:
     if spec is None:
         return _Scorer(prompt, ScenarioSpec(prompt=prompt.prompt), answer).nothing()
     scorer = _Scorer(prompt, spec, answer)
-    chosen: tuple[int, PromptScore] | None = None
-    for bodies in candidate_bodies(prompt.requirements, spec):
-        found = scorer.under(bodies)
-        worth = sum(_WHOLE * r.is_met + sum(r.fields.values()) for r in found.requirements)
-        if chosen is None or worth > chosen[0]:
-            chosen = worth, found
-        if all(r.is_met for r in found.requirements):
-            break
-    assert chosen is not None  # the empty binding is always a candidate
-    return chosen[1]
+
+    def under(picked: Picked) -> PromptScore:
+        return scorer.under(bodies_of(picked, prompt.requirements, spec))
+
+    def worth(picked: Picked) -> int:
+        found = under(picked).requirements
+        return sum(_WHOLE * r.is_met + sum(r.fields.values()) for r in found)
+
+    return under(best_pick(slots(prompt.requirements, spec), worth))
 
 
 class _Scorer:

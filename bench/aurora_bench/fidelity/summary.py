@@ -28,8 +28,10 @@ class Judged(Document):
 
     @property
     def is_missed_infeasibility(self) -> bool:
-        """It must be refused and was accepted."""
-        return self.prompt.feasibility == 'infeasible' and not self.answer.reasons
+        """It must be refused and was accepted (a question is no acceptance)."""
+        answer = self.answer
+        is_accepted = answer.spec is not None and not answer.reasons
+        return self.prompt.feasibility == 'infeasible' and is_accepted
 
     @property
     def is_wrong_reason(self) -> bool:
@@ -124,6 +126,11 @@ def counts(judged: Sequence[Judged]) -> tuple[tuple[str, int, int], ...]:
         (
             'infeasible prompts refused for another reason',
             sum(j.is_wrong_reason for j in judged),
+            impossible,
+        ),
+        (
+            'infeasible prompts answered with a question',
+            sum(bool(j.answer.question) for j in judged if j.prompt.feasibility == 'infeasible'),
             impossible,
         ),
         ('feasible prompts refused', sum(j.is_false_refusal for j in judged), possible),

@@ -324,6 +324,7 @@ def stated_fields(value: Document) -> dict[str, Any]:
     """Return the fields that an annotation states, by their names in the file."""
     return {
         ('from' if name == 'from_' else name): item
-        for name in value.model_fields_set
-        if (item := getattr(value, name)) is not None
+        # In the order of the model: a set has none, and results must be the same every time.
+        for name in type(value).model_fields
+        if name in value.model_fields_set and (item := getattr(value, name)) is not None
     }

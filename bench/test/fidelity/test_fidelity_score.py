@@ -326,6 +326,31 @@ def test_every_member_of_a_group_has_to_do_it() -> None:
     assert missed(scored(spec, [*requirements, *vans])) == {'r2': {'altitude_m'}}
 
 
+def test_many_bodies_are_bound_in_time() -> None:
+    types = ('car', 'van', 'bus', 'truck', 'motorcycle', 'bicycle', 'ambulance')
+    spec = {
+        'prompt': 'any',
+        'agents': [
+            {'id': f'{t}_{k}', 'type': t, 'behaviors': [{'kind': kind}]}
+            for t in types
+            for k, kind in enumerate(('stop', 'park', 'drive'))
+        ],
+        'uavs': [{'id': f'u{k}'} for k in range(4)],
+    }
+    requirements: list[Doc] = []
+    for t in types:
+        for k, kind in enumerate(('drive', 'wait')):
+            ref, n = f'{t}{k}', len(requirements)
+            requirements.append({'id': f'r{n}', 'kind': 'agent', 'ref': ref, 'type': t})
+            requirements.append(
+                {'id': f'r{n + 1}', 'kind': 'behavior', 'agent': ref, 'behavior': kind}
+            )
+    requirements += [{'id': f'u{k}', 'kind': 'uav', 'ref': f'uav{k}'} for k in range(4)]
+    lost = missed(scored(spec, requirements))
+    assert all(fields == {'behavior'} for fields in lost.values())
+    assert len(lost) == len(types)  # every one that drives is found, nobody waits
+
+
 def test_what_must_not_be_is_met_when_it_is_not() -> None:
     requirement = copy.deepcopy(REQUIREMENTS[0]) | {'negate': True}
     spec = right_spec()

@@ -95,7 +95,7 @@ EITHER = {
         (REJECT, Answer(spec=spec(500), reasons=('altitude_limit',)), (True, False, False)),
         (REJECT, Answer(spec=spec(500), reasons=('standoff',)), (False, False, True)),
         (REJECT, Answer(spec=spec(50)), (False, True, False)),
-        (REJECT, Answer(question='Which?'), (False, True, False)),
+        (REJECT, Answer(question='Which?'), (False, False, False)),
         (EITHER, Answer(reasons=('unsupported',)), (True, False, False)),
     ],
 )
