@@ -4,10 +4,14 @@
 
 from __future__ import annotations
 
+import importlib.util
+import sys
 from collections.abc import Callable, Mapping
 from functools import cache
+from pathlib import Path
 
 import pytest
+from hypothesis.strategies import SearchStrategy
 
 from aurora_core.grounding.ground import Grounder
 from aurora_core.grounding.grounded import GroundedScenario
@@ -149,3 +153,18 @@ def ground() -> Callable[..., GroundedScenario | GroundingFailure]:
 def parameter() -> Callable[..., Parameter]:
     """Make a parameter; by default one that the prompt states."""
     return _parameter
+
+
+@pytest.fixture(scope='session')
+def specifications() -> SearchStrategy[ScenarioSpec]:
+    """Any specification that the schema allows, for hypothesis."""
+    name = 'spec_strategies'
+    if name not in sys.modules:
+        place = Path(__file__).parent / 'spec' / f'{name}.py'
+        spec = importlib.util.spec_from_file_location(name, place)
+        assert spec is not None
+        assert spec.loader is not None
+        sys.modules[name] = module = importlib.util.module_from_spec(spec)
+        spec.loader.exec_module(module)
+    strategy: SearchStrategy[ScenarioSpec] = sys.modules[name].specifications()
+    return strategy

@@ -16,6 +16,7 @@ from aurora_core.conditions.placements import placement_conditions
 from aurora_core.conditions.plan_facts import PlanFacts
 from aurora_core.conditions.safety import safety_conditions
 from aurora_core.conditions.stated import stated_conditions
+from aurora_core.conditions.unsaid import unsaid
 from aurora_core.errors import VerificationError
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.spec.scenario import ScenarioSpec
@@ -71,6 +72,7 @@ def _all(inputs: Inputs) -> Iterator[Condition | Underivable]:
         behavior_conditions(inputs),
         event_conditions(inputs),
         safety_conditions(inputs),
+        unsaid(inputs),
     )
     for part in parts:
         yield from part

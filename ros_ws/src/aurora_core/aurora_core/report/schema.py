@@ -14,12 +14,14 @@ from typing import Any
 
 from pydantic import BaseModel
 
+from aurora_core.agsg.graph import Agsg
 from aurora_core.feasibility.verdict import FeasibilityVerdict
 from aurora_core.monitor.verdict import VERDICT_VERSION, Verdict
 from aurora_core.report.check_report import CheckReport
 from aurora_core.report.diff_report import DiffReport
 from aurora_core.report.run_report import RunReport
 from aurora_core.report.verify_report import VerifyReport
+from aurora_core.spec.parameter import OMITTED
 from aurora_core.spec.scenario import ScenarioSpec
 
 _DIALECT = 'https://json-schema.org/draft/2020-12/schema'
@@ -27,7 +29,8 @@ _DIALECT = 'https://json-schema.org/draft/2020-12/schema'
 # File stem -> document and its version.
 DOCUMENTS: dict[str, tuple[type[BaseModel], int]] = {
     'report': (RunReport, 1),
-    'spec': (ScenarioSpec, 1),
+    'scenario_spec': (ScenarioSpec, 1),
+    'agsg': (Agsg, 1),
     'feasibility': (FeasibilityVerdict, 1),
     'verdict': (Verdict, VERDICT_VERSION),
     'check': (CheckReport, 1),
@@ -49,14 +52,17 @@ def schema_text(name: str) -> str:
 
 
 def _complete(schema: Any) -> Any:
-    """Ask for every field: a document is always written whole, with its defaults."""
+    """Ask for every field: a document is written whole, with its defaults, but for those fields
+    that are left out when they have theirs.
+    """
     if isinstance(schema, list):
         return [_complete(item) for item in schema]
     if not isinstance(schema, dict):
         return schema
     whole = {key: _complete(item) for key, item in schema.items()}
     if isinstance(whole.get('properties'), dict) and whole.get('type') == 'object':
-        whole['required'] = sorted(whole['properties'])
+        fields = whole['properties'].items()
+        whole['required'] = sorted(name for name, field in fields if not field.get(OMITTED))
     return whole
 
 

@@ -5,15 +5,31 @@
 from __future__ import annotations
 
 from enum import StrEnum
-from typing import Self
+from typing import Any, Self
 
-from pydantic import BaseModel, ConfigDict, FiniteFloat, model_validator
+from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, model_validator
+
+# In the JSON schema: the field is left out of a document when it has its default.
+OMITTED = 'x-omitted-when-default'
 
 
 class Document(BaseModel):
     """Base of every value in the specification: frozen, closed, keyword-only."""
 
     model_config = ConfigDict(frozen=True, extra='forbid', allow_inf_nan=False)
+
+
+def omitted(default: object) -> Any:
+    """Return a field that is left out of documents when it has its default.
+
+    For what was added after documents were written: digests of specifications that do not use it
+    stay what they were.
+    """
+    return Field(
+        default=default,
+        exclude_if=lambda value: bool(value == default),
+        json_schema_extra={OMITTED: True},
+    )
 
 
 class Provenance(StrEnum):
@@ -81,8 +97,37 @@ class Parameter(Document):
 
     @model_validator(mode='after')
     def _consistent(self) -> Self:
+        if not self.low <= self.high:
+            raise ValueError(f'a domain needs low <= high, found [{self.low}, {self.high}]')
         if self.provenance is Provenance.EXPLICIT and self.span is None:
             raise ValueError('an explicit value needs the span of the prompt that states it')
         if self.provenance is not Provenance.EXPLICIT and not self.low <= self.value <= self.high:
             raise ValueError(f'{self.value} {self.unit} is outside [{self.low}, {self.high}]')
         return self
+
+
+# Unit by the end of a field's name; parameters named otherwise are pure numbers.
+_SUFFIXES = (
+    ('_mps', Unit.METRE_PER_SECOND),
+    ('_deg', Unit.DEGREE),
+    ('_m', Unit.METRE),
+    ('_s', Unit.SECOND),
+)
+
+
+class Element(Document):
+    """Base of the elements: a parameter has the unit that its field's name says."""
+
+    @model_validator(mode='after')
+    def _units_fit_names(self) -> Self:
+        for name in type(self).model_fields:
+            value = getattr(self, name)
+            for parameter in value if isinstance(value, tuple) else (value,):
+                wanted = self._unit_of(name)
+                if isinstance(parameter, Parameter) and parameter.unit is not wanted:
+                    raise ValueError(f'{name} is in {wanted}, found {parameter.unit}')
+        return self
+
+    def _unit_of(self, name: str) -> Unit:
+        """Return the unit of a field that holds a parameter."""
+        return next((unit for end, unit in _SUFFIXES if name.endswith(end)), Unit.ONE)

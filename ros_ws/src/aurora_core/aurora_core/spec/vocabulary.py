@@ -111,6 +111,14 @@ class Pattern(StrEnum):
     WAYPOINTS = 'waypoints'
 
 
+class LinkOcclusion(StrEnum):
+    """What it does to a message that something stands in the line of sight."""
+
+    SHORTENS = 'shortens'  # the range without sight counts
+    BLOCKS = 'blocks'  # nothing passes
+    IGNORED = 'ignored'  # as with sight
+
+
 class ClauseStatus(StrEnum):
     """What became of a clause of the prompt."""
 

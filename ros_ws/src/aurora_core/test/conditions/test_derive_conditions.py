@@ -152,7 +152,13 @@ def test_what_cannot_be_said_yet_is_reported(tb: ModuleType) -> None:
         {'id': 'e4', 'action': {'do': 'send_message', 'sender': 'ego', 'receiver': 'van1'}},
     )
     conditions = (
-        {'id': 'c1', 'quantity': 'beauty', 'of': ('ego',), 'op': '>=', 'value': tb.number(1.0)},
+        {
+            'id': 'c1',
+            'quantity': 'speed',
+            'of': ('uav1', 'ego'),
+            'op': '<=',
+            'value': tb.number(1.0, Unit.METRE_PER_SECOND),
+        },
         {
             'id': 'c2',
             'quantity': 'hover_drift',
@@ -175,7 +181,7 @@ def test_what_cannot_be_said_yet_is_reported(tb: ModuleType) -> None:
         ('e3', 'an event without trigger and action'),
         ('e4', 'message from ego to van1: no link'),
         ('l1', 'a link without a message'),
-        ('c1', 'condition on beauty of ego'),
+        ('c1', 'condition on speed of uav1, ego'),
         ('c2', 'hover_drift without a mission of uav1'),
     }
 

@@ -70,8 +70,8 @@ def agent(id: str, type: str, **values: object) -> GroundAgent:
 
 
 def spec(**values: object) -> ScenarioSpec:
-    """A specification."""
-    return ScenarioSpec.model_validate({'prompt': 'test'} | values)
+    """A specification; its prompt is long enough for the spans of the tests."""
+    return ScenarioSpec.model_validate({'prompt': 'test ' * 20} | values)
 
 
 def ramp(ticks: int, start: int, top: float, acceleration: float = 2.0) -> FloatArray:

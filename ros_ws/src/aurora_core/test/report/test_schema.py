@@ -10,9 +10,11 @@ from typing import Any
 import jsonschema
 import pytest
 
+from aurora_core.agsg.build import build_agsg
 from aurora_core.knowledge.config_files import config_path
 from aurora_core.report.build import build_report
 from aurora_core.report.schema import DOCUMENTS, schema_text, write_schemas
+from aurora_core.spec.scenario import ScenarioSpec
 
 
 def _without_words(value: Any) -> Any:
@@ -56,3 +58,23 @@ def test_all_files_are_written(tmp_path: Path) -> None:
     paths = write_schemas(tmp_path / 'new')
     assert [path.name for path in paths] == [f'{name}.schema.json' for name in DOCUMENTS]
     assert json.loads(paths[0].read_text('utf-8'))['$id'] == 'urn:aurora:report:1'
+
+
+def test_a_specification_fits_its_schema_with_and_without_later_fields() -> None:
+    schema = json.loads(schema_text('scenario_spec'))
+    plain = ScenarioSpec(prompt='x').model_dump(mode='json')
+    later = {**plain, 'prohibitions': [{'id': 'p1', 'forbids': 'world', 'weather': 'rain'}]}
+    for document in (plain, ScenarioSpec.model_validate(later).model_dump(mode='json')):
+        jsonschema.validate(document, schema)
+    changes: tuple[dict[str, Any], ...] = ({'schema_version': 2}, {'orders': [{}]}, {'world': {}})
+    for change in changes:
+        with pytest.raises(jsonschema.ValidationError):
+            jsonschema.validate({**plain, **change}, schema)
+
+
+def test_a_graph_fits_its_schema() -> None:
+    schema = json.loads(schema_text('agsg'))
+    document = build_agsg(ScenarioSpec(prompt='x')).model_dump(mode='json')
+    jsonschema.validate(document, schema)
+    with pytest.raises(jsonschema.ValidationError):
+        jsonschema.validate({**document, 'nodes': [{'id': 'a', 'type': 'tree'}]}, schema)

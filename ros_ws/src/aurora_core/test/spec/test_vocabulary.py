@@ -10,6 +10,7 @@ import pytest
 
 from aurora_core.spec import vocabulary
 from aurora_core.spec.quantity import QuantityName
+from aurora_core.spec.requirements import STATED_QUANTITIES
 
 _WORDS = {
     'AgentType': 'car truck bus van motorcycle bicycle pedestrian police ambulance firetruck rsu',
@@ -23,6 +24,7 @@ _WORDS = {
     'cross walk wait park change_lane turn_left turn_right emergency_run',
     'MissionMode': 'hover track navigate',
     'Pattern': 'rectangle line lawnmower orbit waypoints',
+    'LinkOcclusion': 'shortens blocks ignored',
     'ClauseStatus': 'encoded no_requirement not_encoded',
 }
 _QUANTITIES = (
@@ -39,4 +41,5 @@ def test_words_of_the_prompt_files(name: str) -> None:
 
 
 def test_quantities_that_a_prompt_can_name() -> None:
-    assert set(_QUANTITIES.split()) <= {q.value for q in QuantityName}
+    assert list(STATED_QUANTITIES) == _QUANTITIES.split()
+    assert set(STATED_QUANTITIES) <= {q.value for q in QuantityName}

@@ -1,0 +1,154 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Events: when `trigger` then `action`."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, Self
+
+from pydantic import Field, model_validator
+
+from aurora_core.spec.parameter import Element, Parameter, Span
+from aurora_core.spec.reference import Id, PlaceRef, is_place
+
+
+class DistanceTrigger(Element):
+    """3-D distance of two agents crosses a threshold."""
+
+    on: Literal['distance_below', 'distance_above']
+    a: Id
+    b: Id | PlaceRef
+    value_m: Parameter
+
+
+class TimeTrigger(Element):
+    """Scenario time reached."""
+
+    on: Literal['time']
+    at_s: Parameter
+
+
+class AltitudeTrigger(Element):
+    """A UAV reaches an altitude."""
+
+    on: Literal['altitude_reached']
+    uav: Id
+    value_m: Parameter
+
+
+class VisibilityTrigger(Element):
+    """A UAV sees (or loses sight of) a target."""
+
+    on: Literal['visible', 'occluded']
+    observer: Id
+    target: Id | PlaceRef
+
+
+class ArrivalTrigger(Element):
+    """An agent arrives at a place."""
+
+    on: Literal['arrives']
+    who: Id
+    place: PlaceRef
+
+
+class MessageTrigger(Element):
+    """A message is received."""
+
+    on: Literal['message_received']
+    by: Id
+    sender: Id | None = None
+
+
+class SpeedTrigger(Element):
+    """Speed crosses a threshold."""
+
+    on: Literal['speed_below', 'speed_above']
+    who: Id
+    value_mps: Parameter
+
+
+class EventDoneTrigger(Element):
+    """Another event is done, plus a delay."""
+
+    on: Literal['event_done']
+    event: Id
+    after_s: Parameter | None = None
+
+
+class MissionDoneTrigger(Element):
+    """A UAV has finished its missions."""
+
+    on: Literal['mission_done']
+    uav: Id
+
+
+Trigger = Annotated[
+    DistanceTrigger
+    | TimeTrigger
+    | AltitudeTrigger
+    | VisibilityTrigger
+    | ArrivalTrigger
+    | MessageTrigger
+    | SpeedTrigger
+    | EventDoneTrigger
+    | MissionDoneTrigger,
+    Field(discriminator='on'),
+]
+
+
+class SendMessage(Element):
+    """Send a message over the link between the two."""
+
+    do: Literal['send_message']
+    sender: Id
+    receiver: Id
+
+
+class AgentAction(Element):
+    """A ground agent changes what it does."""
+
+    do: Literal['brake', 'stop', 'slow', 'accelerate', 'change_lane', 'yield', 'start', 'cross']
+    agent: Id
+    value_mps: Parameter | None = None
+
+
+class UavAction(Element):
+    """A UAV changes what it does."""
+
+    do: Literal['land', 'ascend', 'change_mission']
+    uav: Id
+    altitude_m: Parameter | None = None
+    mission: Id | None = None
+
+    @model_validator(mode='after')
+    def _has_its_fields(self) -> Self:
+        if (self.do == 'change_mission') is (self.mission is None):
+            raise ValueError(f'a mission belongs to change_mission alone, found it with {self.do}')
+        if self.do == 'ascend' and self.altitude_m is None:
+            raise ValueError('ascend needs altitude_m')
+        return self
+
+
+EventAction = Annotated[SendMessage | AgentAction | UavAction, Field(discriminator='do')]
+
+
+class Event(Element):
+    """When `trigger` then `action`, within 1 s plus `delay_s`.
+
+    Without an action it is a milestone; without a trigger its cause is left open. Events that
+    wait for each other (`event_done`) are a chain.
+    """
+
+    id: Id
+    trigger: Trigger | None = None
+    action: EventAction | None = None
+    delay_s: Parameter | None = None
+    span: Span | None = None
+
+
+def bodies_of(event: Event) -> frozenset[str]:
+    """Return every agent and UAV that an event's trigger and action refer to by id."""
+    names = ('a', 'b', 'uav', 'observer', 'target', 'who', 'by', 'sender', 'receiver', 'agent')
+    found = {getattr(part, name, None) for part in (event.trigger, event.action) for name in names}
+    return frozenset(n for n in found if n is not None and not is_place(n))

@@ -1,0 +1,170 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""What is in the scene: world, ground agents, UAVs with their missions, message links."""
+
+from __future__ import annotations
+
+from typing import Self
+
+from pydantic import NonNegativeInt, model_validator
+
+from aurora_core.spec.parameter import Element, Parameter, Span, omitted
+from aurora_core.spec.reference import Id, PlaceRef
+from aurora_core.spec.vocabulary import (
+    AgentType,
+    BehaviorKind,
+    LinkOcclusion,
+    MissionMode,
+    Pattern,
+    Relation,
+    Role,
+    TimeOfDay,
+    TrafficDensity,
+    Weather,
+)
+
+
+class World(Element):
+    """Where and when: map name, weather, time of day, traffic, horizon (None = inferred).
+
+    Attributes:
+        seed: The seed that the prompt asks for; None: that of the run.
+    """
+
+    map_name: str = 'downtown'
+    weather: Weather = Weather.CLEAR
+    weather_span: Span | None = None
+    time_of_day: TimeOfDay = TimeOfDay.NOON
+    time_of_day_span: Span | None = None
+    traffic_density: TrafficDensity | None = None
+    duration_s: Parameter | None = None
+    seed: NonNegativeInt | None = omitted(None)
+    span: Span | None = None
+
+
+class Placement(Element):
+    """A place relative to an agent or a place.
+
+    Attributes:
+        relation: See `Relation`; ahead, behind, before, same_lane are measured along the route.
+        of: Agent id or place; None when the relation needs none (e.g. `on` the road).
+        distance_m: Between reference points.
+        bearing_deg: Compass bearing from `of`, when stated.
+        kept_in_motion: "drives ahead of", "follows behind": must hold along the route.
+    """
+
+    relation: Relation
+    of: Id | PlaceRef | None = None
+    distance_m: Parameter | None = None
+    bearing_deg: Parameter | None = None
+    kept_in_motion: bool = False
+    span: Span | None = None
+
+
+class Behavior(Element):
+    """What an agent does.
+
+    Attributes:
+        kind: See `BehaviorKind`.
+        target: Agent id or place it refers to.
+        speed_mps: Stated speed.
+        closing_from_m: Tailgate or approach: distance to `target` at t = 0 and when the
+            closing starts.
+    """
+
+    kind: BehaviorKind
+    target: Id | PlaceRef | None = None
+    speed_mps: Parameter | None = None
+    closing_from_m: Parameter | None = None
+    span: Span | None = None
+
+
+class GroundAgent(Element):
+    """One ground agent (a group of n is written as n agents with one `group` name)."""
+
+    id: Id
+    type: AgentType
+    role: Role = Role.OTHER
+    group: Id | None = None
+    placements: tuple[Placement, ...] = ()
+    behaviors: tuple[Behavior, ...] = ()
+    span: Span | None = None
+
+
+class UavMission(Element):
+    """One mission phase of one UAV; several of one UAV are flown in the order listed.
+
+    Attributes:
+        target: Agent id or place that is tracked, observed or flown around (None: the scene).
+        target_inferred: The prompt names no target; the scene rules chose it.
+        altitude_m: Above ground.
+        standoff_m: Horizontal distance from the target (track).
+        bearing_deg: Compass bearing of the UAV from the target, when stated.
+        duration_s: Of the mission phase alone.
+        dwell_s: How long the UAV stays at each waypoint of a route.
+        size_m: Pattern size (length, width), metres.
+        over_streets: "over the streets": at least one leg lies over a carriageway.
+        ends_in_flight: The request does not end with a landing.
+    """
+
+    id: Id
+    uav: Id
+    mode: MissionMode
+    target: Id | PlaceRef | None = None
+    target_inferred: bool = False
+    altitude_m: Parameter
+    standoff_m: Parameter | None = None
+    bearing_deg: Parameter | None = None
+    duration_s: Parameter | None = None
+    pattern: Pattern | None = None
+    size_m: tuple[Parameter, Parameter] | None = None
+    radius_m: Parameter | None = None
+    waypoint_count: Parameter | None = None
+    speed_mps: Parameter | None = None
+    dwell_s: Parameter | None = omitted(None)
+    over_streets: bool = False
+    ends_in_flight: bool = False
+    span: Span | None = None
+
+    @model_validator(mode='after')
+    def _mode_has_its_fields(self) -> Self:
+        if self.mode is MissionMode.TRACK and (self.target is None or self.standoff_m is None):
+            raise ValueError(f'mission {self.id}: track needs target and standoff_m')
+        if self.mode is MissionMode.NAVIGATE and (self.pattern is None or self.speed_mps is None):
+            raise ValueError(f'mission {self.id}: navigate needs pattern and speed_mps')
+        if self.mode is not MissionMode.NAVIGATE and self.duration_s is None:
+            raise ValueError(f'mission {self.id}: {self.mode} needs duration_s')
+        if self.mode is not MissionMode.NAVIGATE and self.dwell_s is not None:
+            raise ValueError(f'mission {self.id}: only a route has waypoints to dwell at')
+        return self
+
+
+class Uav(Element):
+    """One UAV (a group of n is written as n UAVs with one `group` name)."""
+
+    id: Id
+    group: Id | None = omitted(None)
+    span: Span | None = None
+
+
+class Link(Element):
+    """A directed message link.
+
+    Attributes:
+        sender: Agent or UAV; a roadside unit is an agent of the type `rsu`.
+        loss: Probability that one transmission is lost.
+        range_m: The same with and without sight; None: the limits' ranges.
+        retransmissions: Further transmissions of a message that was lost.
+        occlusion: What a building or vehicle between the two does.
+    """
+
+    id: Id
+    sender: Id
+    receiver: Id
+    loss: Parameter
+    latency_s: Parameter
+    range_m: Parameter | None = None
+    retransmissions: Parameter
+    retransmission_interval_s: Parameter
+    occlusion: LinkOcclusion = omitted(LinkOcclusion.SHORTENS)
+    span: Span | None = None
