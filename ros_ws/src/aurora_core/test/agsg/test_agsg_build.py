@@ -8,13 +8,13 @@ from collections.abc import Callable
 
 import pytest
 
-from aurora_core.agsg.build import ENVIRONMENT_ID, build_agsg, derived
-from aurora_core.agsg.graph import Agsg, EdgeType, NodeType, Stage
-from aurora_core.conditions.condition import conditions_to_json
-from aurora_core.conditions.derive import derive_conditions
+from aurora_core.agsg.build import build_agsg, derived
+from aurora_core.agsg.families import family_of_quantity
+from aurora_core.agsg.graph import Agsg, EdgeType, NodeType
 from aurora_core.grounding.grounded import GroundedScenario
-from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.spec.parameter import Parameter, Provenance
+from aurora_core.spec.quantity import QuantityName
+from aurora_core.spec.reference import ENVIRONMENT_ID
 from aurora_core.spec.scenario import (
     AgentAction,
     DistanceTrigger,
@@ -27,36 +27,8 @@ from aurora_core.spec.scenario import (
     VisibilityTrigger,
 )
 from aurora_core.spec.vocabulary import AgentType
-from aurora_core.temporal.schedule import plan_time
 
 NAMES = ['survey', 'motorcycle', 'convoy', 'tailgate']
-
-
-@pytest.fixture(scope='module')
-def full(
-    read_prompt: Callable[..., ScenarioSpec],
-    ground: Callable[..., GroundedScenario],
-    limits: Limits,
-    tolerances: Tolerances,
-) -> Callable[[str], Agsg]:
-    """Build the grounded graph of a prompt with its conditions."""
-
-    def build(name: str) -> Agsg:
-        spec = read_prompt(name)
-        grounded = ground(spec)
-        schedule = plan_time(spec, grounded, limits)
-        conditions = derive_conditions(spec, schedule.facts, limits, tolerances).conditions
-        return build_agsg(
-            spec,
-            map_digest=grounded.map_digest,
-            stage=Stage.GROUNDED,
-            grounding_json=grounded.canonical_json(),
-            schedule_json=schedule.canonical_json(),
-            conditions=conditions,
-            conditions_json=conditions_to_json(conditions),
-        )
-
-    return build
 
 
 @pytest.mark.parametrize('name', NAMES)
@@ -141,6 +113,122 @@ def test_edges_say_what_depends_on_what(full: Callable[[str], Agsg]) -> None:
     assert {e.target for e in convoy.edges if e.label == 'is judged by'} <= set(judged)
 
 
+def test_the_chain_of_the_paper(full: Callable[[str], Agsg]) -> None:
+    """Placement affects sensing, sensing triggers communication; conditions hang on all of it."""
+    edges = {(e.source, e.target, e.type) for e in full('tailgate').edges}
+    assert {
+        (ENVIRONMENT_ID, 'ego', EdgeType.SPATIAL),
+        (ENVIRONMENT_ID, 'uav1', EdgeType.SPATIAL),
+        ('ego', 'van1', EdgeType.SPATIAL),
+        ('van1', 'uav1', EdgeType.PERCEPTUAL),
+        ('uav1', 'e1', EdgeType.PERCEPTUAL),
+        ('e1', 'link1', EdgeType.COMMUNICATION),
+        (ENVIRONMENT_ID, 'link1', EdgeType.COMMUNICATION),
+        ('link1', 'e1.delivered', EdgeType.COMMUNICATION),
+        ('e1', 'e1.delivered', EdgeType.COMMUNICATION),
+        ('uav1', 'e1.actor_visible', EdgeType.PERCEPTUAL),
+        ('van1', 'm1.tracked', EdgeType.PERCEPTUAL),
+        ('e1', 'e1.within', EdgeType.TEMPORAL),
+        ('van1', 'van1.placed', EdgeType.SPATIAL),
+        ('uav1', 'uav1.landed', EdgeType.BEHAVIORAL),
+    } <= edges
+
+
+def test_every_condition_hangs_on_something(full: Callable[[str], Agsg]) -> None:
+    for name in NAMES:
+        agsg = full(name)
+        judged = {n.id for n in agsg.nodes if n.type is NodeType.CONDITION}
+        assert judged == {e.target for e in agsg.edges if e.target in judged}
+        for condition in judged:
+            assert len({e.type for e in agsg.edges if e.target == condition}) == 1
+
+
+def test_a_message_lets_a_vehicle_act(parameter: Callable[..., Parameter]) -> None:
+    numbers = {
+        'loss': parameter(0.0, '1'),
+        'latency_s': parameter(0.1, 's'),
+        'retransmissions': parameter(3.0, '1'),
+        'retransmission_interval_s': parameter(0.2, 's'),
+    }
+    spec = ScenarioSpec.model_validate(
+        {
+            'prompt': 'x',
+            'agents': [{'id': 'a', 'type': 'car', 'group': 'cars'}, {'id': 'b', 'type': 'rsu'}],
+            'uavs': [{'id': 'uav1'}],
+            'missions': [
+                {
+                    'id': 'm1',
+                    'uav': 'uav1',
+                    'mode': 'hover',
+                    'altitude_m': parameter(30.0),
+                    'duration_s': parameter(30.0, 's'),
+                }
+            ],
+            'links': [{'id': 'l1', 'sender': 'b', 'receiver': 'a', **numbers}],
+            'events': [
+                {
+                    'id': 'e1',
+                    'trigger': {'on': 'time', 'at_s': parameter(5.0, 's')},
+                    'action': {'do': 'send_message', 'sender': 'b', 'receiver': 'a'},
+                },
+                {
+                    'id': 'e2',
+                    'trigger': {'on': 'message_received', 'by': 'a'},
+                    'action': {'do': 'brake', 'agent': 'a'},
+                },
+                {'id': 'e3', 'action': {'do': 'send_message', 'sender': 'a', 'receiver': 'b'}},
+            ],
+            'conditions': [
+                {
+                    'id': 'c1',
+                    'quantity': 'speed',
+                    'of': ['cars'],
+                    'op': '<',
+                    'value': parameter(9.0, 'm/s'),
+                },
+            ],
+            'orders': [
+                {'id': 'o1', 'first': 'e1', 'then': 'm1', 'within_s': parameter(9.0, 's')},
+            ],
+            'prohibitions': [
+                {'id': 'p1', 'forbids': 'world', 'weather': 'rain'},
+                {'id': 'p2', 'forbids': 'event', 'action': {'do': 'land', 'uav': 'uav1'}},
+                {'id': 'p3', 'forbids': 'behavior', 'agent': 'a', 'kind': 'overtake'},
+            ],
+        }
+    )
+    agsg = build_agsg(spec)
+    edges = {(e.source, e.target, e.type) for e in agsg.edges}
+    assert {
+        (ENVIRONMENT_ID, 'e1', EdgeType.TEMPORAL),
+        ('e1', 'l1', EdgeType.COMMUNICATION),
+        ('l1', 'e2', EdgeType.COMMUNICATION),
+        ('e2', 'a', EdgeType.BEHAVIORAL),
+        ('e3', 'b', EdgeType.COMMUNICATION),  # no link: to the receiver itself
+        ('a', 'c1', EdgeType.BEHAVIORAL),  # by its group
+        ('e1', 'o1', EdgeType.TEMPORAL),
+        ('uav1', 'o1', EdgeType.TEMPORAL),  # a mission is its UAV's
+        (ENVIRONMENT_ID, 'p1', EdgeType.SPATIAL),
+        ('uav1', 'p2', EdgeType.TEMPORAL),
+        ('a', 'p3', EdgeType.BEHAVIORAL),
+    } <= edges
+    labels = {n.id: n.label for n in agsg.nodes if n.type is NodeType.CONDITION}
+    assert labels == {
+        'c1': 'speed of cars < 9',
+        'o1': 'e1 before m1',
+        'p1': 'no rain',
+        'p2': 'no land',
+        'p3': 'no a overtake',
+    }
+    owners = {p.path: p.owner for p in agsg.parameters}
+    assert owners['orders/o1/within_s'] == 'o1'
+    assert owners['missions/m1/altitude_m'] == 'uav1'
+
+
+def test_every_quantity_has_a_family() -> None:
+    assert {family_of_quantity(name.value) for name in QuantityName} == set(EdgeType)
+
+
 def test_events_of_sight_sequence_and_action(parameter: Callable[..., Parameter]) -> None:
     spec = ScenarioSpec(
         prompt='x',
@@ -172,8 +260,9 @@ def test_events_of_sight_sequence_and_action(parameter: Callable[..., Parameter]
     assert ('a', 'e1', EdgeType.PERCEPTUAL) in edges
     assert ('e1', 'e2', EdgeType.TEMPORAL) in edges
     assert ('e2', 'b', EdgeType.BEHAVIORAL) in edges
-    assert {e[0] for e in edges if e[1] == 'e3'} == {'a'}  # a place is no node
-    assert ('a', 'c1', EdgeType.BEHAVIORAL) in edges
+    # A place is no node: it belongs to the environment.
+    assert {e[0] for e in edges if e[1] == 'e3'} == {'a', ENVIRONMENT_ID}
+    assert ('a', 'c1', EdgeType.SPATIAL) in edges
     nodes = {n.id: n for n in agsg.nodes}
     assert nodes['c1'].type is NodeType.CONDITION
     assert nodes['e2'].label == 'event_done then brake'
