@@ -197,6 +197,42 @@ def draw_run(
     _finish(command, as_json=as_json)
 
 
+@app.command('graph')
+def export_graph(
+    run_or_prompt: Annotated[
+        str,
+        typer.Argument(
+            metavar='RUN_OR_PROMPT', help='Run folder, run id, bag, prompt, or - for a prompt.'
+        ),
+    ],
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            '-o', '--output', help='PNG, SVG, JSON, GraphML, DOT or Mermaid (.mmd) file.'
+        ),
+    ] = None,
+    why: Annotated[
+        str | None,
+        typer.Option(metavar='ID', help='What affects this condition, or what a parameter does.'),
+    ] = None,
+    seed: Seed = 1,
+    map_name: Map = 'downtown',
+    iteration: Iteration = None,
+    as_json: Json = False,
+) -> None:
+    """Show the scenario graph of a run or a prompt, and what in it affects what."""
+
+    def command() -> int:
+        from aurora_cli.commands.graph import GraphOptions, graph_command
+        from aurora_cli.requests import RunOptions
+
+        run = RunOptions(seed=seed, map_name=map_name)
+        options = GraphOptions(output=output, why=why, iteration=iteration, run=run)
+        return graph_command(run_or_prompt, options, as_json=as_json)
+
+    _finish(command, as_json=as_json)
+
+
 @maps.command('list')
 def list_maps(as_json: Json = False) -> None:
     """List the maps."""

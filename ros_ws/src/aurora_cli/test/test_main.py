@@ -33,6 +33,12 @@ from aurora_core.errors import MapError
         ['check', 'x', '--map', 'atlantis'],
         ['verify'],
         ['verify', 'not/there'],
+        ['graph'],
+        ['graph', 'A drone hovers.'],
+        ['graph', 'A drone hovers.', '-o', 'x.gif'],
+        ['graph', 'not/there', '-o', 'x.svg'],
+        ['graph', '20260101T000000Z-abcdef', '-o', 'x.svg'],
+        ['graph', 'A drone hovers.', '-o', 'x.svg', '--map', 'atlantis'],
         ['map', 'show', 'atlantis'],
         ['map', 'show', 'junction', '--picture', 'x.gif'],
         ['certificate', 'check'],
@@ -58,7 +64,15 @@ def test_usage_errors_leave_with_64_and_say_why(
 
 @pytest.mark.parametrize(
     'arguments',
-    [[], ['--help'], ['run', '--help'], ['check', '-h'], ['verify', '--help'], ['map', '--help']],
+    [
+        [],
+        ['--help'],
+        ['run', '--help'],
+        ['check', '-h'],
+        ['verify', '--help'],
+        ['map', '--help'],
+        ['graph', '--help'],
+    ],
 )
 def test_help_is_always_there(arguments: list[str], capsys: pytest.CaptureFixture[str]) -> None:
     assert run_command_line(arguments) == 0
