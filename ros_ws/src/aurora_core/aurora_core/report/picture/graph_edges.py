@@ -49,18 +49,19 @@ def draw_edges(
     for index, (route, family) in enumerate(edges):
         shift = _BETWEEN * (index - (len(edges) - 1) / 2)
         line = tuple((x + shift, y) for x, y in route)
-        _draw(axes, line, family)
+        _draw(axes, line, family, shift)
         lines.append(line)
     return lines
 
 
-def _draw(axes: Axes, line: Sequence[Point], family: EdgeType) -> None:
+def _draw(axes: Axes, line: Sequence[Point], family: EdgeType, shift: float) -> None:
     (x, y), up = line[-1], line[-2][1] > line[-1][1]
     back = _HEAD if up else -_HEAD
     ends = [*line[:-1], (x, y + back * 0.8)]
     points, codes = [ends[0]], [Path.MOVETO]
     for (x1, y1), (x2, y2) in pairwise(ends):
-        middle = (y1 + y2) / 2
+        # Lines side by side stay apart where they run flat: one bends before the other.
+        middle = (y1 + y2) / 2 - shift * ((x2 > x1) - (x2 < x1)) * (1.0 if y2 > y1 else -1.0)
         points += [(x1, middle), (x2, middle), (x2, y2)]
         codes += [Path.CURVE4] * 3
     colour = EDGE_COLOURS[family]
