@@ -44,7 +44,7 @@ def shell(line: str, folder: Path, domain: int) -> tuple[int, str]:
 
 
 def test_every_command_of_the_page(tmp_path: Path) -> None:
-    make, monitor, *replays, alone = LINES
+    margins, make, monitor, *replays, alone = LINES
     assert monitor == 'ros2 run aurora_nodes monitor'
     assert len(replays) == 3
     with own_domain() as domain:
@@ -56,6 +56,9 @@ def test_every_command_of_the_page(tmp_path: Path) -> None:
                 code, output = shell(line.replace('<run_id>', run.name), tmp_path, domain)
                 assert code == 0, f'{line}\n{output}'
                 assert 'to the last bit' in output or '"equal": true' in output
+            code, output = shell(f'{margins} --once', tmp_path, domain)
+            assert code == 0, output
+            assert 'verdict: ' in output
         code, output = shell(alone.replace('<run_id>', run.name), tmp_path, domain)
         assert code == 0, output
         assert f'replayed run {run.name}' in output
