@@ -18,6 +18,7 @@ from aurora_core.grounding.outcome import GroundingOutcome
 from aurora_core.monitor.verdict import Verdict
 from aurora_core.parsing.outcome import ParseOutcome
 from aurora_core.pipeline.stages import ExecutionResult, RunControl, RunRequest
+from aurora_core.ports.language_model import ModelCall
 from aurora_core.spec.parameter import Document
 from aurora_core.temporal.schedule import Schedule
 from aurora_msgs.action import ExecuteScenario
@@ -40,6 +41,7 @@ class StageLimits:
     """Wall-clock limits of the stages, s."""
 
     parse_s: float
+    parse_model_s: float
     ground_s: float
     check_s: float
     execute_fixed_s: float
@@ -47,7 +49,9 @@ class StageLimits:
     verify_s: float
 
     def __post_init__(self) -> None:
-        require_positive(self, 'parse_s', 'ground_s', 'check_s', 'execute_fixed_s', 'verify_s')
+        require_positive(
+            self, 'parse_s', 'parse_model_s', 'ground_s', 'check_s', 'execute_fixed_s', 'verify_s'
+        )
         require_positive(self, 'execute_per_simulated_s')
 
 
@@ -93,9 +97,9 @@ class RosStages:
                 prompt_bytes=len(request.prompt.encode('utf-8')),
                 options_json=options_json(request),
             ),
-            self._limits.parse_s,
+            self._limits.parse_s if request.model == 'offline' else self._limits.parse_model_s,
         )
-        return _document(ParseOutcome, response.outcome_json, on.PARSE)
+        return _parsed(response.outcome_json, response.transcript_jsonl)
 
     def ground(self, agsg: Agsg, request: RunRequest) -> GroundingOutcome:
         """Let the grounding node find places and a schedule."""
@@ -160,6 +164,14 @@ class RosStages:
             ),
             limit_s,
         )
+
+
+def _parsed(outcome_json: str, transcript_jsonl: str) -> ParseOutcome:
+    outcome = _document(ParseOutcome, outcome_json, on.PARSE)
+    lines = filter(None, transcript_jsonl.split('\n'))
+    calls = tuple(_document(ModelCall, line, on.PARSE) for line in lines)
+    fields = {name: getattr(outcome, name) for name in ParseOutcome.model_fields}
+    return ParseOutcome(**{**fields, 'model_calls': calls})
 
 
 def _document(kind: type[_Document], text: str, call: Call) -> _Document:

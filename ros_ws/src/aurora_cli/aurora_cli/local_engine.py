@@ -15,6 +15,7 @@ from aurora_core.parsing.outcome import ParseOutcome
 from aurora_core.pipeline import functions
 from aurora_core.pipeline.stages import ExecutionResult, RunControl, RunRequest
 from aurora_core.trace.definitions import message_definitions
+from aurora_llm.parse import read_prompt
 
 
 class LocalStages:
@@ -22,7 +23,7 @@ class LocalStages:
 
     def parse(self, request: RunRequest) -> ParseOutcome:
         """Read the prompt."""
-        return functions.parse_stage(request.prompt, request.map_name, request.seed)
+        return read_prompt(request)
 
     def ground(self, agsg: Agsg, request: RunRequest) -> GroundingOutcome:
         """Ground the graph."""

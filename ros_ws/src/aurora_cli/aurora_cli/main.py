@@ -43,7 +43,13 @@ Prompt = Annotated[
 PromptFile = Annotated[
     Path | None, typer.Option('--prompt-file', metavar='FILE', help='Read the prompt from a file.')
 ]
-Model = Annotated[str, typer.Option(help='Language model; offline needs no key and no network.')]
+Model = Annotated[
+    str,
+    typer.Option(
+        help='offline (no key, no network), or language models: NAME, provider/NAME[@URL], '
+        'recorded:FILE, several with commas in order; see config/models.yaml.'
+    ),
+]
 Seed = Annotated[int, typer.Option(help='Seed of everything that is drawn.')]
 Map = Annotated[str, typer.Option('--map', help='Map, see: aurora map list.')]
 RunOrBag = Annotated[str, typer.Argument(metavar='RUN_OR_BAG', help='Run folder, run id or bag.')]

@@ -11,7 +11,7 @@ from typing import cast
 from pydantic import ValidationError
 
 from aurora_cli.output import UsageProblem
-from aurora_core.errors import PromptError
+from aurora_core.errors import ConfigError, PromptError
 from aurora_core.execution.faults import Fault
 from aurora_core.knowledge.map_model import list_maps
 from aurora_core.parsing.outcome import ParseOutcome
@@ -19,6 +19,8 @@ from aurora_core.parsing.text import check_prompt_text
 from aurora_core.pipeline.stages import RunRequest
 from aurora_core.report.facts import RunFacts
 from aurora_core.report.versions import product_versions
+from aurora_llm.parse import check_model_name
+from aurora_llm.settings import RECORDED
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -43,10 +45,10 @@ def checked(options: RunOptions) -> RunRequest:
     """
     if options.seeds is not None:
         raise UsageProblem('--seeds is not available in this version: run each seed by itself')
-    if options.model != 'offline':
-        raise UsageProblem(
-            f'--model {options.model} is not available in this version: only offline is'
-        )
+    try:
+        check_model_name(options.model)
+    except ConfigError as err:
+        raise UsageProblem(f'--model {options.model}: {err}') from err
     if options.engine not in ('local', 'ros'):
         raise UsageProblem(f'--engine is local or ros, found {options.engine}')
     if options.seed < 0:
@@ -60,10 +62,18 @@ def checked(options: RunOptions) -> RunRequest:
             'map_name': options.map_name,
             'seed': options.seed,
             'engine': options.engine,
+            'model': _absolute(options.model),
             'allow_relax': options.allow_relax,
             'faults': tuple(fault(text) for text in options.faults),
         }
     )
+
+
+def _absolute(model: str) -> str:
+    """Name a recording by its full path: the graph was started in another folder."""
+    if not model.startswith(RECORDED):
+        return model
+    return f'{RECORDED}{Path(model.removeprefix(RECORDED)).absolute()}'
 
 
 def fault(text: str) -> Fault:

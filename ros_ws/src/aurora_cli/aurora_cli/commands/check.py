@@ -17,6 +17,7 @@ from aurora_core.pipeline.stages import RunRequest
 from aurora_core.report.check_report import build_check, check_exit_code
 from aurora_core.report.facts import RunFacts
 from aurora_core.report.terminal import print_check
+from aurora_llm.parse import read_prompt
 
 
 def check_command(
@@ -47,7 +48,7 @@ def _facts(request: RunRequest) -> RunFacts:
     parse = feasibility = grounding = None
     error: AuroraError | None = None
     try:
-        parse = functions.parse_stage(request.prompt, request.map_name, request.seed)
+        parse = read_prompt(request)
         if parse.spec is not None:
             digest = functions.knowledge().map(request.map_name).digest
             graph = build_agsg(parse.spec, map_digest=digest)
@@ -59,6 +60,7 @@ def _facts(request: RunRequest) -> RunFacts:
     return RunFacts(
         run_id='',
         prompt=request.prompt,
+        model=request.model,
         map_name=request.map_name,
         seed=request.seed,
         parse=parse,

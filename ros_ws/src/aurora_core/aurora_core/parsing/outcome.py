@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from enum import StrEnum
 
+from aurora_core.ports.language_model import ModelCall
 from aurora_core.spec.parameter import Document, Span
 from aurora_core.spec.scenario import Clause, ScenarioSpec
 
@@ -58,9 +59,11 @@ class ParseOutcome(Document):
         question: What was missing (status `not_understood`).
         refusals: What does not exist (status `infeasible`).
         clauses: Every clause of the prompt and what became of it.
+        model_calls: Every call to a language model, () when the offline parser read the prompt.
     """
 
     spec: ScenarioSpec | None = None
     question: str | None = None
     refusals: tuple[Refusal, ...] = ()
     clauses: tuple[Clause, ...] = ()
+    model_calls: tuple[ModelCall, ...] = ()

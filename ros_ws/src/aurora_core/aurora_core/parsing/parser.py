@@ -29,7 +29,7 @@ from aurora_core.errors import SpecError
 from aurora_core.parsing.assemble import build
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
 from aurora_core.parsing.coverage import unaccounted
-from aurora_core.parsing.nouns import landmark_words
+from aurora_core.parsing.nouns import landmark_phrases
 from aurora_core.parsing.outcome import ParseContext, ParseOutcome, Refusal, RefusalKind
 from aurora_core.parsing.reader import Reader
 from aurora_core.parsing.rules import settle
@@ -66,7 +66,7 @@ def parse_offline(prompt: str, context: ParseContext) -> ParseOutcome:
     """
     check_prompt_text(prompt)
     scene = Scene(prompt, context)
-    tagged = tag(tokenize(prompt), _landmarks(context.landmark_names))
+    tagged = tag(tokenize(prompt), landmark_phrases(context.landmark_names))
     reader = Reader(scene)
     reader.read(segment(tagged.atoms))
     _note_corrections(scene, tagged.corrections)
@@ -102,18 +102,6 @@ def _build(scene: Scene) -> ScenarioSpec:
             f'the parser built a specification that its schema refuses: {err}',
             hint='word the request differently, and report this prompt',
         ) from err
-
-
-def _landmarks(names: tuple[str, ...]) -> dict[tuple[str, ...], str]:
-    """Full names, and their last word where only one landmark has it (`the tower`)."""
-    full = {landmark_words(name): name for name in names if landmark_words(name)}
-    by_last: dict[str, list[str]] = {}
-    for words, name in full.items():
-        by_last.setdefault(words[-1], []).append(name)
-    short = {
-        (last,): found[0] for last, found in by_last.items() if len(found) == 1 and len(last) > 2
-    }
-    return short | full
 
 
 def _note_corrections(scene: Scene, corrections: tuple[tuple[int, int, str], ...]) -> None:

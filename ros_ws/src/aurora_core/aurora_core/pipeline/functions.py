@@ -108,11 +108,15 @@ def knowledge() -> Knowledge:
     return Knowledge()
 
 
-def parse_stage(prompt: str, map_name: str, seed: int) -> ParseOutcome:
-    """Read a prompt against a map."""
+def parse_context(map_name: str, seed: int) -> ParseContext:
+    """Return the map as prompts are read against it."""
     marks = tuple(mark.name for mark in knowledge().map(map_name).landmarks)
-    context = ParseContext(map_name=map_name, landmark_names=marks, seed=seed)
-    return parse_offline(prompt, context)
+    return ParseContext(map_name=map_name, landmark_names=marks, seed=seed)
+
+
+def parse_stage(prompt: str, map_name: str, seed: int) -> ParseOutcome:
+    """Read a prompt against a map, with the offline parser."""
+    return parse_offline(prompt, parse_context(map_name, seed))
 
 
 def check_stage(agsg: Agsg) -> FeasibilityVerdict:

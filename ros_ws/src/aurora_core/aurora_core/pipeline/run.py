@@ -25,7 +25,7 @@ from aurora_core.ports.clock import SteadyClock
 from aurora_core.report.build import build_report
 from aurora_core.report.facts import ExecutionFacts, RunFacts
 from aurora_core.report.outputs import write_outputs
-from aurora_core.report.run_folder import MANIFEST, PROMPT, RunFolder, StageFile
+from aurora_core.report.run_folder import MANIFEST, PROMPT, TRANSCRIPT, RunFolder, StageFile
 from aurora_core.report.run_report import RunReport
 
 _LOG = logging.getLogger(__name__)
@@ -107,6 +107,8 @@ class _Run:
         with self.stage('parse'):
             outcome = self.stages.parse(self.request)
             self.note(parse=outcome)
+        if outcome.model_calls:
+            self.folder.write_lines(TRANSCRIPT, outcome.model_calls)
         if outcome.spec is None:
             return None
         self.folder.write_stage(StageFile.SPEC, 0, outcome.spec)

@@ -29,7 +29,7 @@ class RunRequest(Document):
 
     Attributes:
         prompt: Byte-identical to what was typed.
-        model: `offline` or a litellm model name.
+        model: `offline`, or language models as `config/models.yaml` says.
         faults: Injected run-time faults; invisible to feasibility and monitor.
     """
 

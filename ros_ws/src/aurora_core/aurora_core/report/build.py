@@ -18,6 +18,7 @@ from aurora_core.report.judged import condition_reports, is_undecided
 from aurora_core.report.run_report import (
     ClauseReport,
     ConditionReport,
+    Cost,
     Digests,
     ErrorReport,
     Metrics,
@@ -65,6 +66,7 @@ def build_report(facts: RunFacts) -> RunReport:
         repairs=facts.repairs,
         metrics=_metrics(facts, clauses, rows),
         timing=dict(facts.timing),
+        cost=_cost(facts),
         trace=_trace(facts),
         question=facts.parse.question if facts.parse is not None else None,
         error=_error(facts),
@@ -154,6 +156,19 @@ def _metrics(
         clauses_encoded=sum(clause.status is ClauseStatus.ENCODED for clause in clauses),
         iterations=facts.iterations,
         simulated_s=max(execution.ticks - 1, 0) * execution.dt_s if execution else None,
+    )
+
+
+def _cost(facts: RunFacts) -> Cost:
+    """Add up what language models cost; money is unknown as soon as one price is."""
+    calls = facts.parse.model_calls if facts.parse is not None else ()
+    prices = [call.cost_usd for call in calls if call.failure is None]
+    known = [price for price in prices if price is not None]
+    return Cost(
+        calls=len(calls),
+        tokens_in=sum(call.tokens_in for call in calls),
+        tokens_out=sum(call.tokens_out for call in calls),
+        money_usd=sum(known) if prices and len(known) == len(prices) else None,
     )
 
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 import json
 import os
 import re
+from collections.abc import Sequence
 from datetime import UTC, datetime
 from enum import StrEnum
 from pathlib import Path
@@ -164,6 +165,14 @@ class RunFolder:
             ReportError: As `write_bytes`; or a number is not finite.
         """
         return self.write_text(name, json_text(document))
+
+    def write_lines(self, name: str, documents: Sequence[BaseModel]) -> Path:
+        """Write documents as JSON Lines, one a line.
+
+        Raises:
+            ReportError: As `write_text`.
+        """
+        return self.write_text(name, ''.join(d.model_dump_json() + '\n' for d in documents))
 
     def write_stage(self, kind: StageFile, iteration: int, document: BaseModel | str) -> Path:
         """Write the document of a stage at an iteration.

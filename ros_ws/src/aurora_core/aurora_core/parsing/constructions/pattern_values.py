@@ -52,7 +52,7 @@ def _size(frame: Frame, found: FlightValues, pattern: Pattern) -> None:
         if width is not None and width.measure is not None:
             second = stated_value('pattern_width', width.measure)
         if first is not None and (second is not None or pattern is Pattern.LINE):
-            found.size = (first, second or _no_width())
+            found.size = (first, second or no_width())
             use(found, length)
             if width is not None and second is not None:
                 use(found, width)
@@ -68,7 +68,7 @@ def _size(frame: Frame, found: FlightValues, pattern: Pattern) -> None:
         square = _near(frame, adjunct, 'square')
         if measure.upper is None and (pattern is Pattern.LINE or square):
             side = values.explicit('pattern_length', measure)
-            found.size = (side, _no_width() if pattern is Pattern.LINE else side)
+            found.size = (side, no_width() if pattern is Pattern.LINE else side)
             use(found, adjunct)
             return
     found.square = any(
@@ -97,7 +97,8 @@ def _two_sides(measure: Measure) -> tuple[Parameter, Parameter]:
     return first, second
 
 
-def _no_width() -> Parameter:
+def no_width() -> Parameter:
+    """Return the width of a line."""
     return Parameter(
         value=0.0,
         unit=values.default('pattern_width').unit,

@@ -131,7 +131,7 @@ def placements_of(
                 Placement(
                     relation=relation,
                     of=place,
-                    distance_m=_default_distance(relation),
+                    distance_m=default_distance(relation),
                     span=Span(start=adjunct.start, end=adjunct.end),
                 )
             )
@@ -151,7 +151,8 @@ def placements_of(
     return tuple(made)
 
 
-def _default_distance(relation: Relation) -> Parameter | None:
+def default_distance(relation: Relation) -> Parameter | None:
+    """Return the distance of a relation that means one, None for those that touch."""
     return values.default('placement_distance') if relation in _DISTANT else None
 
 
@@ -162,7 +163,7 @@ def _relation(
         return _compass(frame, adjunct)
     relation = Relation(adjunct.key)
     of = _anchor(frame, adjunct, subjects)
-    distance = _default_distance(relation)
+    distance = default_distance(relation)
     loose = None if adjunct.measure is not None else gap(frame)
     if adjunct.measure is not None:
         if not values.accepts('placement_distance', adjunct.measure):

@@ -1,0 +1,69 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Read the prompt of a request with the model that it names: what every engine calls."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+
+from aurora_core.parsing.llm.dialogue import parse_with_models
+from aurora_core.parsing.outcome import ParseOutcome
+from aurora_core.pipeline.functions import parse_context, parse_stage
+from aurora_core.pipeline.stages import RunRequest
+from aurora_core.ports.language_model import LanguageModel
+from aurora_llm.litellm_client import LitellmClient
+from aurora_llm.recorded_client import RecordedClient
+from aurora_llm.settings import OFFLINE, RECORDED, ModelSettings, load_model_settings
+
+
+def read_prompt(request: RunRequest, settings: ModelSettings | None = None) -> ParseOutcome:
+    """Read a prompt: with the offline parser, or with language models in order.
+
+    The offline parser takes over from models only where the order names it.
+
+    Raises:
+        PromptError: The text cannot be a prompt.
+        ConfigError: The models cannot be used as they are named.
+    """
+    if request.model == OFFLINE:
+        return parse_stage(request.prompt, request.map_name, request.seed)
+    known = settings if settings is not None else load_model_settings()
+    order = known.order(request.model)
+    outcome = parse_with_models(
+        request.prompt,
+        parse_context(request.map_name, request.seed),
+        [_client(name, known) for name in order if name != OFFLINE],
+        attempts=known.attempts,
+        wait=lambda seconds: time.sleep(min(seconds, known.most_wait_s)),
+    )
+    if order[-1] != OFFLINE or not _is_spent(outcome):
+        return outcome
+    offline = parse_stage(request.prompt, request.map_name, request.seed)
+    fields = {name: getattr(offline, name) for name in ParseOutcome.model_fields}
+    return ParseOutcome(**{**fields, 'model_calls': outcome.model_calls})
+
+
+def check_model_name(model: str) -> None:
+    """Check what can be checked without a call.
+
+    Raises:
+        ConfigError: The models cannot be used as they are named.
+    """
+    if model != OFFLINE:
+        settings = load_model_settings()
+        for name in settings.order(model):
+            if name != OFFLINE:
+                _client(name, settings)
+
+
+def _is_spent(outcome: ParseOutcome) -> bool:
+    """Return whether no answer was taken: a question of a model's own is an answer."""
+    last = outcome.model_calls[-1] if outcome.model_calls else None
+    return last is None or last.failure is not None or bool(last.complaints)
+
+
+def _client(name: str, settings: ModelSettings) -> LanguageModel:
+    if name.startswith(RECORDED):
+        return RecordedClient(name, Path(name.removeprefix(RECORDED)))
+    return LitellmClient(name, settings.entry(name), settings)

@@ -1,0 +1,109 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The adapter over real HTTP: one request a call, every kind of failure told apart."""
+
+from __future__ import annotations
+
+import time
+
+import pytest
+
+from aurora_core.ports.language_model import (
+    FailureKind,
+    Message,
+    ModelFailure,
+    ModelReply,
+    ModelRequest,
+)
+from aurora_llm.litellm_client import LitellmClient
+from aurora_llm.settings import ModelEntry, ModelSettings
+from aurora_llm.testing.model_server import ModelServer, Turn
+
+REQUEST = ModelRequest(
+    messages=(Message(role='user', content='a prompt'),),
+    schema_text='{"type": "object", "properties": {}}',
+)
+CANARY = 'sk-canary-0123456789'
+
+
+def client(url: str, *, timeout_s: float = 20.0, schema: bool = True) -> LitellmClient:
+    settings = ModelSettings(
+        fallback=(),
+        attempts=3,
+        timeout_s=timeout_s,
+        most_wait_s=0.0,
+        max_tokens=100,
+        temperature=0.0,
+        models={},
+    )
+    entry = ModelEntry.model_validate({'model': 'openai/local', 'api_base': url, 'schema': schema})
+    return LitellmClient('local', entry, settings)
+
+
+def test_answer_with_its_tokens_and_no_price_for_a_model_without_one() -> None:
+    with ModelServer([Turn(text='{"a": 1}')]) as server:
+        reply = client(server.url).complete(REQUEST)
+        assert reply == ModelReply(text='{"a": 1}', tokens_in=100, tokens_out=10, cost_usd=None)
+        sent = server.requests[0]
+    assert sent['messages'] == [{'role': 'user', 'content': 'a prompt'}]
+    assert sent['response_format']['json_schema']['schema'] == REQUEST.schema_object
+
+
+def test_server_that_takes_no_schema_is_sent_none() -> None:
+    with ModelServer([Turn(text='x')]) as server:
+        client(server.url, schema=False).complete(REQUEST)
+        assert 'response_format' not in server.requests[0]
+
+
+@pytest.mark.parametrize(
+    ('turn', 'kind'),
+    [
+        (Turn(status=429, text='slow down', headers={'Retry-After': '7'}), 'rate_limited'),
+        (Turn(status=500, text='oops'), 'unavailable'),
+        (Turn(status=503, text='loading'), 'unavailable'),
+        (Turn(status=401, text='no'), 'refused'),
+        (Turn(status=404, text='no such model'), 'refused'),
+        (Turn(status=400, text='no json_schema here'), 'refused'),
+        (Turn(text='x' * 500, cut=True), 'unavailable'),
+        (Turn(raw='not even json'), 'unavailable'),
+        (Turn(raw='{"choices": []}'), 'unavailable'),
+        (Turn(text='{"a"', finish='length'), 'truncated'),
+    ],
+    ids=lambda value: value if isinstance(value, str) else '',
+)
+def test_one_request_and_the_kind_of_failure(turn: Turn, kind: str) -> None:
+    with ModelServer([turn]) as server:
+        failure = client(server.url).complete(REQUEST)
+        assert isinstance(failure, ModelFailure)
+        assert failure.kind is FailureKind(kind), failure.message
+        assert failure.retry_after_s == (7.0 if turn.headers else None)
+        assert len(server.requests) == 1
+
+
+@pytest.mark.parametrize('turn', [Turn(hang=True), Turn(text='x' * 10_000, drip=True)])
+def test_server_that_does_not_end_is_cut_off_in_time(turn: Turn) -> None:
+    with ModelServer([Turn(text='warm'), turn]) as server:
+        client(server.url).complete(REQUEST)  # the import of litellm takes seconds
+        begin = time.monotonic()
+        failure = client(server.url, timeout_s=0.5).complete(REQUEST)
+        assert time.monotonic() - begin < 3.0
+    assert isinstance(failure, ModelFailure)
+    assert failure.kind is FailureKind.TIMEOUT
+
+
+def test_nobody_there() -> None:
+    failure = client('http://127.0.0.1:9/v1').complete(REQUEST)
+    assert isinstance(failure, ModelFailure)
+    assert failure.kind is FailureKind.UNAVAILABLE
+
+
+def test_keys_go_to_the_server_and_never_into_the_record(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv('OPENAI_API_KEY', CANARY)
+    turns = [Turn(status=401, text=f'Incorrect API key: {CANARY}'), Turn(text=f'{CANARY}!')]
+    with ModelServer(turns) as server:
+        failure = client(server.url).complete(REQUEST)
+        reply = client(server.url).complete(REQUEST)
+        assert server.authorizations == [f'Bearer {CANARY}'] * 2
+    assert isinstance(failure, ModelFailure)
+    assert CANARY not in failure.message
+    assert reply == ModelReply(text='[key]!', tokens_in=100, tokens_out=10)

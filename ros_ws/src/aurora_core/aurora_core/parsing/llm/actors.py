@@ -1,0 +1,172 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Actors of a reading against the actors of the prompt: none invented, none lost."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind, NounPhrase
+from aurora_core.parsing.llm.facts import PromptFacts, inside, overlap
+from aurora_core.parsing.llm.reading import AgentReading, MissingReading, Reading, UavReading
+from aurora_core.parsing.resolver import MOST_AGENTS
+from aurora_core.spec.parameter import Span
+from aurora_core.spec.vocabulary import AgentType
+
+_NO_VEHICLES = (AgentType.PEDESTRIAN, AgentType.RSU)
+_UNAVAILABLE = (NounKind.UNSUPPORTED, NounKind.UNKNOWN, NounKind.MISSING_LANDMARK)
+
+
+class Anchors:
+    """The words that each actor of one reading stands for.
+
+    Args:
+        facts: The prompt.
+        complaints: Where objections go, worded for the model.
+    """
+
+    def __init__(self, facts: PromptFacts, complaints: list[str]) -> None:
+        self._facts = facts
+        self._complaints = complaints
+        self._atoms: dict[str, Atom] = {}
+
+    def of(self, actor_id: str) -> Atom | None:
+        """Return the words that an actor of the reading was anchored in."""
+        return self._atoms.get(actor_id)
+
+    def read(self, reading: Reading, unread: Sequence[Span]) -> None:
+        """Anchor every actor; object to those without words and to words without an actor."""
+        actors: tuple[AgentReading | UavReading, ...] = (*reading.agents, *reading.uavs)
+        for actor in actors:
+            self._anchor(actor)
+        for atom in self._facts.actors:
+            if not any(inside(atom, clause) for clause in unread):
+                self._lost(atom, actors, reading.missing)
+
+    def _anchor(self, actor: AgentReading | UavReading) -> None:
+        spans = self._facts.spans(actor.quote)
+        what = 'a UAV' if isinstance(actor, UavReading) else f'a {actor.type.value}'
+        if not spans:
+            self._complaints.append(
+                f'{actor.id}: the quote {actor.quote!r} is not in the prompt; an actor needs '
+                'words of the prompt that name it'
+            )
+            return
+        named = [a for a in self._facts.actors if any(overlap(a, s) for s in spans)]
+        fitting = [a for a in named if a.noun is not None and _names(a.noun, actor)]
+        if not fitting and isinstance(actor, UavReading):
+            seen = [a for a in self._facts.atoms if a.kind is AtomKind.AERIAL]
+            fitting = [a for a in seen if any(overlap(a, s) for s in spans)]
+        if not fitting:
+            self._complaints.append(
+                f'{actor.id}: {actor.quote!r} does not name {what}; add no actor that the prompt '
+                'does not name, and put types that do not exist here into missing'
+            )
+            return
+        free = [a for a in fitting if self._taken(a) < _room(a)]
+        if not free:
+            self._complaints.append(
+                f'{actor.id}: {actor.quote!r} names {_room(fitting[0])}, and there are more'
+            )
+            return
+        if self._is_again(free[0], actor):
+            self._complaints.append(
+                f'{actor.id}: {self._facts.text(free[0])!r} means the {what[2:]} already named: '
+                'use its id'
+            )
+            return
+        self._atoms[actor.id] = free[0]
+
+    def _taken(self, atom: Atom) -> int:
+        return sum(known is atom for known in self._atoms.values())
+
+    def _is_again(self, atom: Atom, actor: AgentReading | UavReading) -> bool:
+        """`the van` behind `a van`: a mention, not another one."""
+        noun = atom.noun
+        if noun is None or noun.determiner not in (Determiner.DEFINITE, Determiner.BARE):
+            return False
+        if noun.plural or noun.index or noun.labels or noun.count or noun.background:
+            return False
+        return any(
+            known is not atom
+            and known.start < atom.start
+            and known.noun is not None
+            and known.noun.kind is noun.kind
+            and known.noun.key == noun.key
+            for known in self._atoms.values()
+        )
+
+    def _lost(
+        self,
+        atom: Atom,
+        actors: Iterable[AgentReading | UavReading],
+        missing: Iterable[MissingReading],
+    ) -> None:
+        noun = atom.noun
+        if noun is None:
+            return
+        words = self._facts.text(atom)
+        if noun.kind in (NounKind.UNSUPPORTED, NounKind.AMBIGUOUS):
+            named = any(
+                overlap(atom, span) for m in missing for span in self._facts.spans(m.quote)
+            )
+            if not named:
+                wanted = 'missing' if noun.kind is NounKind.UNSUPPORTED else 'a question'
+                self._complaints.append(f'{words!r} is no agent type: expected {wanted}')
+            return
+        if self._is_denied(atom):
+            return
+        fitting = [actor for actor in actors if _names(noun, actor)]
+        stated = noun.count > 1 and noun.determiner is Determiner.BARE
+        if not fitting:
+            self._complaints.append(f'{words!r} names an actor, and the answer has none for it')
+        elif stated and noun.count <= MOST_AGENTS and self._taken(atom) != noun.count:
+            self._complaints.append(
+                f'{words!r}: expected {noun.count} actors that quote it, found {self._taken(atom)}'
+            )
+
+    def _is_denied(self, atom: Atom) -> bool:
+        """`no drone`: naming it is not asking for it."""
+        before = [a for a in self._facts.atoms if a.end <= atom.start]
+        return bool(before) and before[-1].kind is AtomKind.NEGATION
+
+
+def check_missing(reading: Reading, facts: PromptFacts, complaints: list[str]) -> tuple[Atom, ...]:
+    """Return the words for what does not exist here; object to those that do exist."""
+    found: list[Atom] = []
+    for one in reading.missing:
+        spans = facts.spans(one.quote)
+        beside = [a for a in facts.atoms if any(overlap(a, s) for s in spans)]
+        known = [a for a in beside if a.noun is not None and a.noun.kind not in _UNAVAILABLE]
+        lacking = [
+            a
+            for a in beside
+            if a.kind is AtomKind.UNKNOWN or (a.noun is not None and a.noun.kind in _UNAVAILABLE)
+        ]
+        if known or not lacking:
+            complaints.append(f'missing: {one.quote!r} does not name something that is missing')
+        else:
+            found.append(lacking[0])
+    return tuple(found)
+
+
+def is_ego(noun: NounPhrase) -> bool:
+    """Return whether a noun phrase means the ego vehicle."""
+    if noun.kind is NounKind.EGO:
+        return True
+    vehicle = noun.kind in (NounKind.AGENT, NounKind.VEHICLE)
+    return vehicle and (noun.determiner is Determiner.MY or 'ego' in noun.labels)
+
+
+def _names(noun: NounPhrase, actor: AgentReading | UavReading) -> bool:
+    if isinstance(actor, UavReading):
+        return noun.kind is NounKind.UAV
+    if noun.kind is NounKind.AGENT:
+        return noun.key == actor.type.value
+    return noun.kind in (NounKind.EGO, NounKind.VEHICLE) and actor.type not in _NO_VEHICLES
+
+
+def _room(atom: Atom) -> int:
+    if atom.noun is None:
+        return 1
+    return atom.noun.count or (MOST_AGENTS if atom.noun.plural else 1)

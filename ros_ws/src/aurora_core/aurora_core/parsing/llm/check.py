@@ -1,0 +1,136 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Judge the text of a reply: an outcome that the prompt supports, or objections to it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from pydantic import ValidationError
+
+from aurora_core.parsing.assemble import build
+from aurora_core.parsing.atoms import Atom, NounKind
+from aurora_core.parsing.llm.actors import Anchors, check_missing
+from aurora_core.parsing.llm.clauses import check_clauses, clause_spans, unread_spans
+from aurora_core.parsing.llm.extract import ReplyError, json_object
+from aurora_core.parsing.llm.facts import PromptFacts
+from aurora_core.parsing.llm.numbers import StatedNumbers
+from aurora_core.parsing.llm.places import check_places, check_world
+from aurora_core.parsing.llm.reading import Reading
+from aurora_core.parsing.llm.scene_builder import SceneBuilder
+from aurora_core.parsing.outcome import ParseOutcome, Refusal, RefusalKind
+from aurora_core.parsing.rules import settle
+from aurora_core.parsing.scene import ClauseDraft, Scene
+from aurora_core.spec.parameter import Span
+from aurora_core.spec.vocabulary import AgentType, ClauseStatus
+
+_MOST_COMPLAINTS = 12
+# Every answer has one of these keys.
+_MARKS = frozenset({'clauses', 'missing', 'question'})
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Judgement:
+    """What a reply is worth.
+
+    Attributes:
+        outcome: None when there are complaints.
+        complaints: What is wrong, worded for the model.
+    """
+
+    outcome: ParseOutcome | None = None
+    complaints: tuple[str, ...] = ()
+
+
+def judge(text: str, facts: PromptFacts) -> Judgement:
+    """Judge a reply by its text alone, whatever the provider promises about it."""
+    try:
+        reading = Reading.model_validate_json(json_object(text, _MARKS), strict=True)
+    except ReplyError as err:
+        return Judgement(complaints=(str(err),))
+    except ValidationError as err:
+        return Judgement(complaints=_schema_complaints(err))
+    complaints: list[str] = []
+    outcome = _outcome(reading, facts, complaints)
+    if complaints or outcome is None:
+        return Judgement(complaints=tuple(dict.fromkeys(complaints))[:_MOST_COMPLAINTS])
+    return Judgement(outcome=outcome)
+
+
+def _outcome(reading: Reading, facts: PromptFacts, complaints: list[str]) -> ParseOutcome | None:
+    if reading.question is not None and reading.question.strip():
+        return ParseOutcome(question=reading.question.strip())
+    spans = clause_spans(reading.clauses, facts, complaints)
+    unread = unread_spans(reading.clauses, spans)
+    missing = check_missing(reading, facts, complaints)
+    if missing:
+        return None if complaints else _refused(reading, missing, facts)
+    anchors = Anchors(facts, complaints)
+    anchors.read(reading, unread)
+    check_places(reading, facts, unread, complaints)
+    check_world(reading, facts, unread, complaints)
+    check_clauses(reading, spans, facts, complaints)
+    numbers = StatedNumbers(facts, complaints)
+    builder = SceneBuilder(facts, anchors, numbers, complaints)
+    try:
+        builder.build(reading)
+        numbers.lost(unread)
+        _put_clauses(builder.scene, reading, spans, builder.ids)
+        settle(builder.scene)
+        if builder.scene.questions:
+            question = ' '.join(dict.fromkeys(builder.scene.questions))
+            return ParseOutcome(question=question, clauses=builder.scene.finished_clauses())
+        spec = build(builder.scene)
+    except ValidationError as err:
+        complaints += _schema_complaints(err)
+        return None
+    except ValueError as err:
+        complaints.append(str(err))
+        return None
+    return ParseOutcome(spec=spec, clauses=spec.clauses)
+
+
+def _put_clauses(
+    scene: Scene, reading: Reading, spans: Sequence[Span | None], ids: dict[str, str]
+) -> None:
+    for clause, span in zip(reading.clauses, spans, strict=True):
+        if span is None:
+            continue
+        encoded = clause.status is ClauseStatus.ENCODED
+        scene.clauses.append(
+            ClauseDraft(
+                span=span,
+                status=clause.status,
+                ids={ids.get(one, one): None for one in clause.ids} if encoded else {},
+                notes=[clause.note] if clause.note else [],
+            )
+        )
+
+
+def _refused(reading: Reading, missing: Sequence[Atom], facts: PromptFacts) -> ParseOutcome:
+    refusals = []
+    for said, atom in zip(reading.missing, missing, strict=True):
+        place = said.kind == 'landmark' or (
+            atom.noun is not None and atom.noun.kind is NounKind.MISSING_LANDMARK
+        )
+        context = facts.context
+        types = tuple(t.value for t in AgentType)
+        refusals.append(
+            Refusal(
+                kind=RefusalKind.MISSING_ELEMENT if place else RefusalKind.UNSUPPORTED,
+                word=(atom.noun.head_text if atom.noun else '') or facts.text(atom),
+                span=Span(start=atom.start, end=atom.end),
+                list_name=f'landmarks of {context.map_name}' if place else 'agent types',
+                closed_list=context.landmark_names if place else types,
+            )
+        )
+    return ParseOutcome(refusals=tuple(refusals))
+
+
+def _schema_complaints(err: ValidationError) -> tuple[str, ...]:
+    found = []
+    for one in err.errors(include_url=False)[:_MOST_COMPLAINTS]:
+        where = '.'.join(str(part) for part in one['loc'])
+        found.append(f'{where}: {one["msg"]}' if where else str(one['msg']))
+    return tuple(found)

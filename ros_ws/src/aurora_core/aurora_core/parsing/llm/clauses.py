@@ -1,0 +1,118 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Clauses of a reading: together they are the whole prompt, and each says what it became."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from aurora_core.parsing.atoms import AtomKind
+from aurora_core.parsing.constructions.messages import TELLING
+from aurora_core.parsing.llm.facts import PromptFacts, inside, overlap
+from aurora_core.parsing.llm.reading import ClauseReading, Reading
+from aurora_core.spec.parameter import Span
+from aurora_core.spec.vocabulary import ClauseStatus
+
+WORLD = 'world'
+# What may stand between two clauses.
+_JOINTS = (
+    AtomKind.COMMA,
+    AtomKind.STOP,
+    AtomKind.FILL,
+    AtomKind.CONJUNCTION,
+    AtomKind.THEN,
+    AtomKind.FRAME,
+    AtomKind.SUBORDINATOR,
+)
+
+
+def clause_spans(
+    clauses: Sequence[ClauseReading], facts: PromptFacts, complaints: list[str]
+) -> tuple[Span | None, ...]:
+    """Return where each clause stands; None with an objection for one that does not.
+
+    The same words may stand twice: a clause is looked for behind the one before.
+    """
+    found: list[Span | None] = []
+    reached = 0
+    for clause in clauses:
+        spans = facts.spans(clause.quote)
+        if not spans:
+            complaints.append(f'clauses: {clause.quote!r} is not in the prompt; quote it exactly')
+            found.append(None)
+            continue
+        span = next((s for s in spans if s.start >= reached), spans[0])
+        reached = max(reached, span.end)
+        found.append(span)
+    return tuple(found)
+
+
+def unread_spans(
+    clauses: Sequence[ClauseReading], spans: Sequence[Span | None]
+) -> tuple[Span, ...]:
+    """Return the spans of the clauses that are admitted not to be encoded."""
+    return tuple(
+        span
+        for clause, span in zip(clauses, spans, strict=True)
+        if span is not None and clause.status is ClauseStatus.NOT_ENCODED
+    )
+
+
+def check_clauses(
+    reading: Reading, spans: Sequence[Span | None], facts: PromptFacts, complaints: list[str]
+) -> None:
+    """Object to words in no clause, ids that are not there and elements from nowhere."""
+    known = [s for s in spans if s is not None]
+    for atom in facts.atoms:
+        if atom.kind in _JOINTS or any(overlap(atom, s) for s in known):
+            continue
+        complaints.append(f'{facts.text(atom)!r} is in no clause: clauses must cover the prompt')
+    elements = _elements(reading)
+    for clause, span in zip(reading.clauses, spans, strict=True):
+        if span is not None:
+            _check_clause(clause, span, elements, facts, complaints)
+    cited = {one for c in reading.clauses if c.status is ClauseStatus.ENCODED for one in c.ids} | {
+        uav.id for uav in reading.uavs
+    }
+    complaints += [
+        f'{one}: no encoded clause cites it; nothing may be added that the prompt does not ask for'
+        for one in elements
+        if one not in cited and one != WORLD
+    ]
+
+
+def _elements(reading: Reading) -> dict[str, str]:
+    """Return the kind of every element by its id."""
+    found = {WORLD: WORLD}
+    for kind in ('agents', 'uavs', 'missions', 'links', 'events', 'conditions'):
+        found |= {element.id: kind for element in getattr(reading, kind)}
+    return found
+
+
+def _check_clause(
+    clause: ClauseReading,
+    span: Span,
+    elements: dict[str, str],
+    facts: PromptFacts,
+    complaints: list[str],
+) -> None:
+    words = clause.quote
+    unknown = [one for one in clause.ids if one not in elements]
+    if unknown:
+        complaints.append(f'clause {words!r} cites {", ".join(unknown)}, which is not there')
+    within = [atom for atom in facts.atoms if inside(atom, span)]
+    if clause.status is ClauseStatus.ENCODED:
+        if not clause.ids:
+            complaints.append(f'clause {words!r} is encoded and cites no id')
+        tells = any(a.kind is AtomKind.VERB and a.key in TELLING for a in within)
+        kinds = {elements.get(one) for one in clause.ids}
+        if tells and not kinds & {'events', 'links', 'conditions'}:
+            complaints.append(
+                f'clause {words!r} tells somebody something, and cites no event for it'
+            )
+    elif clause.status is ClauseStatus.NO_REQUIREMENT:
+        demands = [a for a in within if a.measure is not None or a in facts.actors]
+        if demands:
+            complaints.append(
+                f'clause {words!r} names {facts.text(demands[0])!r}: it cannot be no_requirement'
+            )

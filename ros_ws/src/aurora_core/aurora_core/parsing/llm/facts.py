@@ -1,0 +1,91 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a prompt says for certain: its numbers, actors, places and world words, with their spans.
+
+Read with the words of the offline parser (lexicon and measures, no grammar). A model may
+understand more than these words; it may not contradict them.
+"""
+
+from __future__ import annotations
+
+import re
+
+from aurora_core.parsing.atoms import ACTORS, Atom, AtomKind, NounKind
+from aurora_core.parsing.measures import Measure
+from aurora_core.parsing.nouns import landmark_phrases
+from aurora_core.parsing.outcome import ParseContext
+from aurora_core.parsing.tagging import tag
+from aurora_core.parsing.tokens import tokenize
+from aurora_core.spec.parameter import Span
+
+_QUOTES = str.maketrans({'’': "'", '‘': "'", '“': '"', '”': '"'})
+
+
+class PromptFacts:
+    """The certain facts of one prompt.
+
+    Attributes:
+        prompt: As typed.
+        context: The map.
+        atoms: Units of meaning in order.
+    """
+
+    def __init__(self, prompt: str, context: ParseContext) -> None:
+        self.prompt = prompt
+        self.context = context
+        tagged = tag(tokenize(prompt), landmark_phrases(context.landmark_names))
+        self.atoms: tuple[Atom, ...] = tagged.atoms
+        self._even = prompt.translate(_QUOTES)
+
+    @property
+    def measures(self) -> tuple[Measure, ...]:
+        """Every stated number, counts of actors aside."""
+        return tuple(atom.measure for atom in self.atoms if atom.measure is not None)
+
+    @property
+    def actors(self) -> tuple[Atom, ...]:
+        """Every noun phrase that names an actor, pronouns aside."""
+        return tuple(
+            atom
+            for atom in self.atoms
+            if atom.noun is not None
+            and atom.noun.kind in ACTORS
+            and atom.noun.kind is not NounKind.PRONOUN
+        )
+
+    @property
+    def places(self) -> tuple[Atom, ...]:
+        """Every noun phrase that names a place of the vocabulary or the map."""
+        wanted = (NounKind.PLACE, NounKind.LANDMARK)
+        return tuple(a for a in self.atoms if a.noun is not None and a.noun.kind in wanted)
+
+    def world_words(self, kind: str) -> tuple[Atom, ...]:
+        """Return the words for `weather`, `time_of_day` or `traffic_density`."""
+        return tuple(
+            a for a in self.atoms if a.kind is AtomKind.WORLD and a.key.startswith(f'{kind}:')
+        )
+
+    def text(self, span: Span | Atom | Measure) -> str:
+        """Return the words of a span."""
+        return self.prompt[span.start : span.end]
+
+    def spans(self, quote: str) -> tuple[Span, ...]:
+        """Return every place where the prompt has these words; blanks and case do not count."""
+        words = quote.translate(_QUOTES).split()
+        if not words:
+            return ()
+        pattern = r'\s+'.join(map(re.escape, words))
+        before = r'(?<!\w)' if words[0][0].isalnum() else ''
+        after = r'(?!\w)' if words[-1][-1].isalnum() else ''
+        found = re.finditer(f'{before}{pattern}{after}', self._even, re.IGNORECASE)
+        return tuple(Span(start=m.start(), end=m.end()) for m in found)
+
+
+def overlap(a: Span | Atom | Measure, b: Span | Atom | Measure) -> bool:
+    """Return whether two pieces of the prompt share a character."""
+    return a.start < b.end and b.start < a.end
+
+
+def inside(inner: Span | Atom | Measure, outer: Span | Atom | Measure) -> bool:
+    """Return whether one piece of the prompt lies within another."""
+    return outer.start <= inner.start and inner.end <= outer.end

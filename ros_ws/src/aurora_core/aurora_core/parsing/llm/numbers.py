@@ -1,0 +1,172 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Numbers of a reading against the numbers of the prompt: none invented, none lost.
+
+An explicit value is never taken from the model: it only points at the words, and the value, the
+bound and the span are read from them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from aurora_core.parsing import values
+from aurora_core.parsing.atoms import AtomKind
+from aurora_core.parsing.constructions.flight_types import bounded
+from aurora_core.parsing.llm.facts import PromptFacts, inside, overlap
+from aurora_core.parsing.llm.reading import Number
+from aurora_core.parsing.measures import UNREADABLE, Measure
+from aurora_core.spec.parameter import Bound, Parameter, Span
+
+# A model may round `60 feet` to 18.29 m; what counts is what the prompt says.
+_ROUNDING = 0.01
+_ONE_SIDED = ('altitude', 'standoff', 'link_loss', 'link_latency', 'link_range')
+_ACROSS = ('diameter', 'across', 'wide')
+_BESIDE_CHARACTERS = 16
+
+
+class StatedNumbers:
+    """Turns the numbers of one reading into parameters and keeps account.
+
+    Args:
+        facts: The prompt.
+        complaints: Where objections go, worded for the model.
+    """
+
+    def __init__(self, facts: PromptFacts, complaints: list[str]) -> None:
+        self._facts = facts
+        self._complaints = complaints
+        self._claimed: set[tuple[int, int]] = set()
+
+    def parameter(self, name: str, number: Number, where: str) -> Parameter:
+        """Return the parameter of a number.
+
+        Args:
+            name: Its line in `defaults.yaml`.
+            number: What the model says.
+            where: Field, for objections. With an objection the default stands in: the reading is
+                turned down anyway, and the remaining checks go on.
+        """
+        line = values.default(name)
+        if number.unit is not line.unit:
+            self._complaints.append(
+                f'{where}: expected the unit {line.unit.value!r}, found {number.unit.value!r}'
+            )
+            return line
+        if number.provenance == 'explicit':
+            return self._explicit(name, number, where)
+        if number.value == line.value:
+            return line
+        if not line.low <= number.value <= line.high:
+            self._complaints.append(
+                f'{where}: an inferred value must be in {line.low:g} to {line.high:g}, found '
+                f'{number.value:g}; use null for the default'
+            )
+            return line
+        return values.inferred(name, number.value)
+
+    def lost(self, unread: Sequence[Span]) -> None:
+        """Object to every stated number that is in no parameter and in no unread clause."""
+        for measure in self._facts.measures:
+            if any(inside(measure, clause) for clause in unread):
+                continue
+            words = self._facts.text(measure)
+            if measure.dimension == UNREADABLE:
+                self._complaints.append(
+                    f'{words!r} cannot be read as a number: its clause must be not_encoded'
+                )
+            elif any((measure.start, part) not in self._claimed for part in _parts(measure)):
+                both = ', both of its numbers' if len(_parts(measure)) > 1 else ''
+                self._complaints.append(
+                    f'the prompt states {words!r}{both}, and no explicit number quotes it: encode '
+                    'it, or make its clause not_encoded'
+                )
+
+    def _explicit(self, name: str, number: Number, where: str) -> Parameter:
+        spans = self._facts.spans(number.quote)
+        if not spans:
+            self._complaints.append(
+                f'{where}: the quote {number.quote!r} is not in the prompt; quote the words that '
+                'state the number, or use null'
+            )
+            return values.default(name)
+        beside = [m for m in self._facts.measures if any(overlap(m, s) for s in spans)]
+        fits = [
+            (measure, part, value)
+            for measure in beside
+            for part, value in self._meanings(name, measure)
+            if _close(value, number.value)
+        ]
+        if fits:
+            free = [f for f in fits if (f[0].start, f[1]) not in self._claimed]
+            measure, part, value = (free or fits)[0]
+            self._claimed.add((measure.start, part))
+            return self._as_stated(name, measure, part, value)
+        worded = None if beside else self._in_words(name, number, spans)
+        if worded is not None:
+            return worded
+        stated = ', '.join(repr(self._facts.text(m)) for m in beside) or 'no number'
+        self._complaints.append(
+            f'{where}: {number.value:g} {number.unit.value} is not what {number.quote!r} says '
+            f'(it states {stated}); an explicit number is the stated one in SI units, anything '
+            'else is null or inferred'
+        )
+        return values.default(name)
+
+    def _meanings(self, name: str, measure: Measure) -> list[tuple[int, float]]:
+        """Return what a measure may mean for a parameter: which of its numbers, and the value."""
+        if not values.accepts(name, replace(measure, upper=None, second=None)):
+            return []
+        found = [(0, measure.value)]
+        if measure.upper is not None:
+            found.append((1, measure.upper))
+        if measure.second is not None:
+            if name not in ('pattern_length', 'pattern_width'):
+                return []
+            found.append((1, measure.second))
+        if name == 'orbit_radius' and self._is_across(measure):
+            found = [(part, value / 2) for part, value in found]
+        return found
+
+    def _is_across(self, measure: Measure) -> bool:
+        start = max(0, measure.start - _BESIDE_CHARACTERS)
+        beside = self._facts.prompt[start : measure.end + _BESIDE_CHARACTERS].lower()
+        return any(word in beside for word in _ACROSS)
+
+    def _as_stated(self, name: str, measure: Measure, part: int, value: float) -> Parameter:
+        start = measure.start
+        if part and measure.second_start is not None:
+            start = measure.second_start
+        found = values.explicit(name, replace(measure, value=value, start=start))
+        if found.bound is Bound.EXACTLY and name in _ONE_SIDED:
+            return bounded(found, self._preposition(measure))
+        return found
+
+    def _preposition(self, measure: Measure) -> str:
+        """Return the meaning of the word before a number (`below 50 m`: below)."""
+        before = [a for a in self._facts.atoms if a.end <= measure.start]
+        holds = [a for a in self._facts.atoms if a.measure is measure]
+        last = [a for a in before if not holds or a.end <= holds[0].start][-1:]
+        return last[0].key if last and last[0].kind is AtomKind.PREPOSITION else ''
+
+    def _in_words(self, name: str, number: Number, spans: Sequence[Span]) -> Parameter | None:
+        """`from the north`, `without retransmissions`: stated without a number."""
+        for atom in self._facts.atoms:
+            if not any(overlap(atom, span) for span in spans):
+                continue
+            north = name == 'bearing' and atom.kind is AtomKind.COMPASS
+            if north and _close(float(atom.key) % 360, number.value % 360):
+                return values.stated(name, float(atom.key), atom.start, atom.end)
+            no = name == 'link_retransmissions' and atom.kind is AtomKind.NEGATION
+            if no and number.value == 0:
+                return values.stated(name, 0, spans[0].start, spans[0].end)
+        return None
+
+
+def _parts(measure: Measure) -> tuple[int, ...]:
+    return (0,) if measure.upper is None and measure.second is None else (0, 1)
+
+
+def _close(stated: float, said: float) -> bool:
+    return abs(stated - said) <= _ROUNDING * abs(stated)

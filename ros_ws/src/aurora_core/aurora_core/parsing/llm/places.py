@@ -1,0 +1,75 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Places, weather and time of a reading against those of the prompt."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from aurora_core.parsing.atoms import Atom, NounKind
+from aurora_core.parsing.llm.facts import PromptFacts, inside, overlap
+from aurora_core.parsing.llm.reading import Reading
+from aurora_core.spec.parameter import Span
+from aurora_core.spec.vocabulary import Place
+
+
+def check_places(
+    reading: Reading, facts: PromptFacts, unread: Sequence[Span], complaints: list[str]
+) -> None:
+    """Object to places that the prompt does not name, and to named ones that nothing uses."""
+    named = {_reference(atom) for atom in facts.places}
+    used = {r for r in _references(reading) if is_place(r)}
+    complaints += [
+        f'the prompt names no {place}: use null where no place is named'
+        for place in sorted(used - named)
+    ]
+    for atom in facts.places:
+        if _reference(atom) not in used and not _is_unread(atom, unread):
+            complaints.append(
+                f'{facts.text(atom)!r} is {_reference(atom)}, and nothing in the answer refers to '
+                'it: encode it, or make its clause not_encoded'
+            )
+    for atom in facts.atoms:
+        missing = atom.noun is not None and atom.noun.kind is NounKind.MISSING_LANDMARK
+        told = any(overlap(atom, s) for m in reading.missing for s in facts.spans(m.quote))
+        if missing and not told and not _is_unread(atom, unread):
+            complaints.append(f'{facts.text(atom)!r} is not on this map: expected it in missing')
+
+
+def check_world(
+    reading: Reading, facts: PromptFacts, unread: Sequence[Span], complaints: list[str]
+) -> None:
+    """Object to weather, time and traffic other than those that the prompt states."""
+    for kind in ('weather', 'time_of_day', 'traffic_density'):
+        atoms = [a for a in facts.world_words(kind) if not _is_unread(a, unread)]
+        stated = sorted({a.key.split(':', 1)[1] for a in atoms})
+        said = getattr(reading.world, kind)
+        found = said.value if said is not None else 'null'
+        if found not in (stated or ['null']):
+            told = ' or '.join(stated) or 'null (the prompt states none)'
+            complaints.append(f'world.{kind}: expected {told}, found {found}')
+
+
+def is_place(reference: str) -> bool:
+    """Return whether a reference means a place and not an actor."""
+    return reference.startswith('landmark:') or reference in {p.value for p in Place}
+
+
+def _reference(atom: Atom) -> str:
+    assert atom.noun is not None
+    key = atom.noun.key
+    return f'landmark:{key}' if atom.noun.kind is NounKind.LANDMARK else key
+
+
+def _is_unread(atom: Atom, unread: Sequence[Span]) -> bool:
+    return any(inside(atom, clause) for clause in unread)
+
+
+def _references(reading: Reading) -> Iterator[str]:
+    for agent in reading.agents:
+        yield from (p.of for p in agent.placements if p.of is not None)
+        yield from (b.target for b in agent.behaviors if b.target is not None)
+    yield from (m.target for m in reading.missions if m.target is not None)
+    yield from (e.trigger.other for e in reading.events if e.trigger.other is not None)
+    for condition in reading.conditions:
+        yield from condition.of

@@ -1,0 +1,227 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""`Reading`: what a language model may answer.
+
+Leaner than the specification. A model names what the prompt says and quotes the words; spans,
+domains, defaults, roles, groups and ids are ours.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field, FiniteFloat, StringConstraints
+
+from aurora_core.spec.parameter import Document, Unit
+from aurora_core.spec.vocabulary import (
+    AgentType,
+    BehaviorKind,
+    ClauseStatus,
+    MissionMode,
+    Pattern,
+    Relation,
+    TimeOfDay,
+    TrafficDensity,
+    Weather,
+)
+
+Name = Annotated[str, StringConstraints(pattern=r'^[a-z][a-z0-9_]{0,31}$')]
+Reference = Annotated[str, StringConstraints(min_length=1, max_length=80)]
+Quote = Annotated[str, StringConstraints(max_length=8192)]
+
+
+class Number(Document):
+    """A number in SI units (degrees for angles, ratios 0 to 1).
+
+    Attributes:
+        provenance: `explicit` when the prompt states it; then `quote` is where.
+        quote: Words of the prompt, number and unit.
+    """
+
+    value: FiniteFloat
+    unit: Unit
+    provenance: Literal['explicit', 'inferred'] = 'explicit'
+    quote: Quote = ''
+
+
+class WorldReading(Document):
+    """What the prompt says about the world; null: nothing."""
+
+    weather: Weather | None = None
+    time_of_day: TimeOfDay | None = None
+    traffic_density: TrafficDensity | None = None
+    duration_s: Number | None = None
+
+
+class PlacementReading(Document):
+    relation: Relation
+    of: Reference | None = None
+    distance_m: Number | None = None
+    bearing_deg: Number | None = None
+    kept_in_motion: bool = False
+    quote: Quote
+
+
+class BehaviorReading(Document):
+    kind: BehaviorKind
+    target: Reference | None = None
+    speed_mps: Number | None = None
+    closing_from_m: Number | None = None
+    quote: Quote
+
+
+class AgentReading(Document):
+    id: Name
+    type: AgentType
+    quote: Quote
+    placements: tuple[PlacementReading, ...] = ()
+    behaviors: tuple[BehaviorReading, ...] = ()
+
+
+class UavReading(Document):
+    id: Name
+    quote: Quote
+
+
+class MissionReading(Document):
+    """One phase; the phases of a UAV are flown in the order listed."""
+
+    id: Name
+    uav: Name
+    mode: MissionMode
+    target: Reference | None = None
+    altitude_m: Number | None = None
+    standoff_m: Number | None = None
+    bearing_deg: Number | None = None
+    duration_s: Number | None = None
+    pattern: Pattern | None = None
+    length_m: Number | None = None
+    width_m: Number | None = None
+    radius_m: Number | None = None
+    waypoint_count: Number | None = None
+    speed_mps: Number | None = None
+    over_streets: bool = False
+    ends_in_flight: bool = False
+    quote: Quote
+
+
+class LinkReading(Document):
+    id: Name
+    sender: Name
+    receiver: Name
+    loss: Number | None = None
+    latency_s: Number | None = None
+    range_m: Number | None = None
+    retransmissions: Number | None = None
+    quote: Quote
+
+
+class TriggerReading(Document):
+    """A cause; which fields it needs depends on `on` (see `triggers`)."""
+
+    on: Literal[
+        'distance_below',
+        'distance_above',
+        'time',
+        'altitude_reached',
+        'visible',
+        'occluded',
+        'arrives',
+        'message_received',
+        'speed_below',
+        'speed_above',
+        'event_done',
+        'mission_done',
+    ]
+    subject: Name | None = None
+    other: Reference | None = None
+    value: Number | None = None
+
+
+class ActionReading(Document):
+    """An effect; `subject` acts."""
+
+    do: Literal[
+        'send_message',
+        'brake',
+        'stop',
+        'slow',
+        'accelerate',
+        'change_lane',
+        'yield',
+        'start',
+        'cross',
+        'land',
+        'ascend',
+        'change_mission',
+    ]
+    subject: Name
+    receiver: Name | None = None
+    value: Number | None = None
+    mission: Name | None = None
+
+
+class EventReading(Document):
+    id: Name
+    trigger: TriggerReading
+    action: ActionReading
+    delay_s: Number | None = None
+    quote: Quote
+
+
+class ConditionReading(Document):
+    """Something that the prompt demands: `stays within 20 m of the bus`."""
+
+    id: Name
+    quantity: Literal[
+        'distance',
+        'horizontal_distance',
+        'separation',
+        'altitude',
+        'speed',
+        'tracked_fraction',
+        'visible_fraction',
+        'visible_time',
+        'hover_drift',
+        'event_time',
+        'delivery_latency',
+        'delivery_ratio',
+    ]
+    of: tuple[Reference, ...]
+    op: Literal['<=', '<', '>=', '>', '==']
+    value: Number
+    hold_s: Number | None = None
+    by_s: Number | None = None
+    fraction: Number | None = None
+    quote: Quote
+
+
+class ClauseReading(Document):
+    """A piece of the prompt and the ids that it became (`world` for weather and time)."""
+
+    quote: Quote
+    status: ClauseStatus
+    ids: tuple[Name, ...] = ()
+    note: Annotated[str, StringConstraints(max_length=300)] = ''
+
+
+class MissingReading(Document):
+    """Something that the prompt names and that does not exist here."""
+
+    quote: Quote
+    kind: Literal['agent_type', 'landmark']
+
+
+class Reading(Document):
+    """The whole answer: a scene with its clauses, or a question, or what is missing."""
+
+    world: WorldReading = WorldReading()
+    agents: tuple[AgentReading, ...] = Field(default=(), max_length=201)
+    uavs: tuple[UavReading, ...] = Field(default=(), max_length=50)
+    missions: tuple[MissionReading, ...] = ()
+    links: tuple[LinkReading, ...] = ()
+    events: tuple[EventReading, ...] = ()
+    conditions: tuple[ConditionReading, ...] = ()
+    clauses: tuple[ClauseReading, ...] = ()
+    missing: tuple[MissingReading, ...] = ()
+    question: Annotated[str, StringConstraints(max_length=1000)] | None = None
