@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -141,3 +142,31 @@ class Atom:
     @property
     def is_place(self) -> bool:
         return self.noun is not None and self.noun.kind in PLACES
+
+
+_NOTHING = frozenset(
+    {
+        AtomKind.FILL,
+        AtomKind.FRAME,
+        AtomKind.CAUSATIVE,
+        AtomKind.SCENARIO,
+        AtomKind.COMMA,
+        AtomKind.CONJUNCTION,
+        AtomKind.AUXILIARY,
+        AtomKind.THEN,
+        AtomKind.RELATIVE,
+        AtomKind.PREPOSITION,
+        AtomKind.CONTEXT,
+        AtomKind.SUBORDINATOR,
+    }
+)
+
+
+def needs_nothing(atoms: Sequence[Atom]) -> bool:
+    """Return whether a piece of a prompt asks for nothing: politeness, or what it is all for."""
+    if all(a.kind in _NOTHING for a in atoms):
+        return True
+    told = any(a.kind is AtomKind.CONTEXT for a in atoms)
+    return told and not any(
+        a.kind in (AtomKind.MEASURE, AtomKind.WORLD) or a.is_actor or a.is_place for a in atoms
+    )

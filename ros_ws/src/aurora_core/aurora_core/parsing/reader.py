@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from aurora_core.parsing import values
-from aurora_core.parsing.atoms import AtomKind
+from aurora_core.parsing.atoms import needs_nothing
 from aurora_core.parsing.constructions import actions, messages
 from aurora_core.parsing.constructions.states import adjectives
 from aurora_core.parsing.constructions.triggers import (
@@ -27,22 +27,6 @@ from aurora_core.spec.parameter import Parameter, Span
 from aurora_core.spec.scenario import AgentAction, SendMessage, TimeTrigger, UavAction
 from aurora_core.spec.vocabulary import ClauseStatus
 
-_NOTHING = frozenset(
-    {
-        AtomKind.FILL,
-        AtomKind.FRAME,
-        AtomKind.CAUSATIVE,
-        AtomKind.SCENARIO,
-        AtomKind.COMMA,
-        AtomKind.CONJUNCTION,
-        AtomKind.AUXILIARY,
-        AtomKind.THEN,
-        AtomKind.RELATIVE,
-        AtomKind.PREPOSITION,
-        AtomKind.CONTEXT,
-        AtomKind.SUBORDINATOR,
-    }
-)
 # Links of clauses that go on with the story; the others only describe or condition.
 _TELLING = (Link.MAIN, Link.INFINITIVE, Link.PARTICIPLE, Link.WHILE)
 _CAUSES = (Link.WHEN, Link.AFTER, Link.UNTIL)
@@ -134,7 +118,7 @@ class Reader:
     # --- kinds of clauses ---------------------------------------------------------------------
 
     def _plain(self, piece: Piece) -> None:
-        if all(a.kind in _NOTHING for a in piece.atoms) or self._only_context(piece):
+        if needs_nothing(piece.atoms):
             self._scene.clauses.append(
                 ClauseDraft(
                     span=Span(start=piece.start, end=piece.end),
@@ -159,14 +143,6 @@ class Reader:
             main_clause(frame)
             self._note_fronted_time(frame, before)
         self._close(frame)
-
-    @staticmethod
-    def _only_context(piece: Piece) -> bool:
-        told = any(a.kind is AtomKind.CONTEXT for a in piece.atoms)
-        return told and not any(
-            a.kind in (AtomKind.MEASURE, AtomKind.WORLD) or a.is_actor or a.is_place
-            for a in piece.atoms
-        )
 
     def _leading(self, piece: Piece, following: Piece) -> None:
         """`When the van comes within 20 m, …`: the effect comes next."""

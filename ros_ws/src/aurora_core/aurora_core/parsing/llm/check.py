@@ -12,14 +12,21 @@ from pydantic import ValidationError
 from aurora_core.parsing.assemble import build
 from aurora_core.parsing.atoms import Atom, NounKind
 from aurora_core.parsing.llm.actors import Anchors, check_missing
-from aurora_core.parsing.llm.clauses import check_clauses, clause_spans, unread_spans
+from aurora_core.parsing.llm.clauses import (
+    check_clauses,
+    clause_spans,
+    read_by_the_model_alone,
+    unread_spans,
+)
 from aurora_core.parsing.llm.extract import ReplyError, json_object
-from aurora_core.parsing.llm.facts import PromptFacts
+from aurora_core.parsing.llm.facts import PromptFacts, overlap
 from aurora_core.parsing.llm.numbers import StatedNumbers
+from aurora_core.parsing.llm.parts import Parts
 from aurora_core.parsing.llm.places import check_places, check_world
 from aurora_core.parsing.llm.reading import Reading
-from aurora_core.parsing.llm.scene_builder import SceneBuilder
+from aurora_core.parsing.llm.scene_builder import build_scene
 from aurora_core.parsing.outcome import ParseOutcome, Refusal, RefusalKind
+from aurora_core.parsing.parser import parse_offline
 from aurora_core.parsing.rules import settle
 from aurora_core.parsing.scene import ClauseDraft, Scene
 from aurora_core.spec.parameter import Span
@@ -72,16 +79,16 @@ def _outcome(reading: Reading, facts: PromptFacts, complaints: list[str]) -> Par
     check_world(reading, facts, unread, complaints)
     check_clauses(reading, spans, facts, complaints)
     numbers = StatedNumbers(facts, complaints)
-    builder = SceneBuilder(facts, anchors, numbers, complaints)
+    parts = Parts(facts, numbers, complaints)
     try:
-        builder.build(reading)
+        build_scene(reading, parts, anchors)
         numbers.lost(unread)
-        _put_clauses(builder.scene, reading, spans, builder.ids)
-        settle(builder.scene)
-        if builder.scene.questions:
-            question = ' '.join(dict.fromkeys(builder.scene.questions))
-            return ParseOutcome(question=question, clauses=builder.scene.finished_clauses())
-        spec = build(builder.scene)
+        _put_clauses(parts.scene, reading, spans, parts.ids, facts)
+        settle(parts.scene)
+        if parts.scene.questions:
+            question = ' '.join(dict.fromkeys(parts.scene.questions))
+            return ParseOutcome(question=question, clauses=parts.scene.finished_clauses())
+        spec = build(parts.scene)
     except ValidationError as err:
         complaints += _schema_complaints(err)
         return None
@@ -92,39 +99,54 @@ def _outcome(reading: Reading, facts: PromptFacts, complaints: list[str]) -> Par
 
 
 def _put_clauses(
-    scene: Scene, reading: Reading, spans: Sequence[Span | None], ids: dict[str, str]
+    scene: Scene,
+    reading: Reading,
+    spans: Sequence[Span | None],
+    ids: dict[str, str],
+    facts: PromptFacts,
 ) -> None:
     for clause, span in zip(reading.clauses, spans, strict=True):
         if span is None:
             continue
         encoded = clause.status is ClauseStatus.ENCODED
+        alone = read_by_the_model_alone(span, facts) if encoded else ''
         scene.clauses.append(
             ClauseDraft(
                 span=span,
                 status=clause.status,
                 ids={ids.get(one, one): None for one in clause.ids} if encoded else {},
-                notes=[clause.note] if clause.note else [],
+                notes=[note for note in (clause.note, alone) if note],
             )
         )
 
 
 def _refused(reading: Reading, missing: Sequence[Atom], facts: PromptFacts) -> ParseOutcome:
+    """Return what is missing: as a refusal where that is certain, else as a question.
+
+    A refusal is a proof. That a word names an actor or a place, and none of ours, is certain when
+    the lexicon knows it as such, or the offline parser reads it so; not because a model says so.
+    """
+    known = parse_offline(facts.prompt, facts.context).refusals
     refusals = []
+    doubtful = []
     for said, atom in zip(reading.missing, missing, strict=True):
-        place = said.kind == 'landmark' or (
-            atom.noun is not None and atom.noun.kind is NounKind.MISSING_LANDMARK
-        )
-        context = facts.context
+        kind = atom.noun.kind if atom.noun is not None else None
+        place = said.kind == 'landmark' or kind is NounKind.MISSING_LANDMARK
         types = tuple(t.value for t in AgentType)
-        refusals.append(
-            Refusal(
-                kind=RefusalKind.MISSING_ELEMENT if place else RefusalKind.UNSUPPORTED,
-                word=(atom.noun.head_text if atom.noun else '') or facts.text(atom),
-                span=Span(start=atom.start, end=atom.end),
-                list_name=f'landmarks of {context.map_name}' if place else 'agent types',
-                closed_list=context.landmark_names if place else types,
-            )
+        refusal = Refusal(
+            kind=RefusalKind.MISSING_ELEMENT if place else RefusalKind.UNSUPPORTED,
+            word=(atom.noun.head_text if atom.noun else '') or facts.text(atom),
+            span=Span(start=atom.start, end=atom.end),
+            list_name=f'landmarks of {facts.context.map_name}' if place else 'agent types',
+            closed_list=facts.context.landmark_names if place else types,
         )
+        certain = kind in (NounKind.UNSUPPORTED, NounKind.MISSING_LANDMARK) or any(
+            overlap(r.span, atom) for r in known
+        )
+        (refusals if certain else doubtful).append(refusal)
+    if doubtful:
+        told = ' '.join(refusal.sentence() for refusal in doubtful)
+        return ParseOutcome(question=f'{told} What is meant?')
     return ParseOutcome(refusals=tuple(refusals))
 
 

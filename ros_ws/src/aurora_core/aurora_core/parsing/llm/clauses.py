@@ -6,9 +6,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from aurora_core.parsing.atoms import AtomKind
+from aurora_core.parsing.atoms import AtomKind, needs_nothing
 from aurora_core.parsing.constructions.messages import TELLING
-from aurora_core.parsing.llm.facts import PromptFacts, inside, overlap
+from aurora_core.parsing.llm.facts import PromptFacts, overlap
 from aurora_core.parsing.llm.reading import ClauseReading, Reading
 from aurora_core.spec.parameter import Span
 from aurora_core.spec.vocabulary import ClauseStatus
@@ -100,7 +100,7 @@ def _check_clause(
     unknown = [one for one in clause.ids if one not in elements]
     if unknown:
         complaints.append(f'clause {words!r} cites {", ".join(unknown)}, which is not there')
-    within = [atom for atom in facts.atoms if inside(atom, span)]
+    within = [atom for atom in facts.atoms if overlap(atom, span)]
     if clause.status is ClauseStatus.ENCODED:
         if not clause.ids:
             complaints.append(f'clause {words!r} is encoded and cites no id')
@@ -110,9 +110,23 @@ def _check_clause(
             complaints.append(
                 f'clause {words!r} tells somebody something, and cites no event for it'
             )
-    elif clause.status is ClauseStatus.NO_REQUIREMENT:
-        demands = [a for a in within if a.measure is not None or a in facts.actors]
-        if demands:
+        refuses = any(a.kind is AtomKind.NEGATION for a in within)
+        stays_up = any(a.kind is AtomKind.IN_FLIGHT or a.key == 'land' for a in within)
+        if refuses and not stays_up and not kinds & {'conditions', 'links'}:
             complaints.append(
-                f'clause {words!r} names {facts.text(demands[0])!r}: it cannot be no_requirement'
+                f'clause {words!r} denies something: it needs a condition, or is not_encoded'
             )
+    asks = not needs_nothing([a for a in within if a.kind is not AtomKind.STOP])
+    if clause.status is ClauseStatus.NO_REQUIREMENT and asks:
+        complaints.append(
+            f'clause {words!r} may ask for something: it cannot be no_requirement; make it '
+            'not_encoded when the schema cannot say it'
+        )
+
+
+def read_by_the_model_alone(span: Span, facts: PromptFacts) -> str:
+    """Return a note on the words of an encoded clause that only the model can have understood."""
+    unknown = [a for a in facts.atoms if a.kind is AtomKind.UNKNOWN and overlap(a, span)]
+    if not unknown:
+        return ''
+    return 'understood by the model alone: ' + ', '.join(repr(facts.text(a)) for a in unknown)

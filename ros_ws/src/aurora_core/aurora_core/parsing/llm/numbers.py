@@ -24,6 +24,11 @@ _ROUNDING = 0.01
 _ONE_SIDED = ('altitude', 'standoff', 'link_loss', 'link_latency', 'link_range')
 _ACROSS = ('diameter', 'across', 'wide')
 _BESIDE_CHARACTERS = 16
+# What one stated number may be at once: `closing from 45 m`, `a square of 50 m`, `reaches 40 m`.
+_TOGETHER = (
+    {'closing_from', 'placement_distance'},
+    {'pattern_length', 'pattern_width'},
+)
 
 
 class StatedNumbers:
@@ -37,7 +42,7 @@ class StatedNumbers:
     def __init__(self, facts: PromptFacts, complaints: list[str]) -> None:
         self._facts = facts
         self._complaints = complaints
-        self._claimed: set[tuple[int, int]] = set()
+        self._claimed: dict[tuple[int, int], str] = {}
 
     def parameter(self, name: str, number: Number, where: str) -> Parameter:
         """Return the parameter of a number.
@@ -101,7 +106,12 @@ class StatedNumbers:
         if fits:
             free = [f for f in fits if (f[0].start, f[1]) not in self._claimed]
             measure, part, value = (free or fits)[0]
-            self._claimed.add((measure.start, part))
+            before = self._claimed.setdefault((measure.start, part), name)
+            if before != name and {before, name} not in _TOGETHER:
+                self._complaints.append(
+                    f'{where}: {self._facts.text(measure)!r} is the {before} already; one stated '
+                    'number has one meaning'
+                )
             return self._as_stated(name, measure, part, value)
         worded = None if beside else self._in_words(name, number, spans)
         if worded is not None:

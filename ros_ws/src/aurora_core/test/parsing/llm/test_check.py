@@ -222,6 +222,34 @@ def demand_called_politeness(r: dict[str, Any]) -> None:
     r['clauses'][3] |= {'status': 'no_requirement', 'ids': []}
 
 
+def unknown_wish_called_politeness(r: dict[str, Any]) -> None:
+    r['clauses'].append({'quote': 'near', 'status': 'no_requirement'})
+
+
+def one_number_with_two_meanings(r: dict[str, Any]) -> None:
+    r['missions'][0]['length_m'] = number(25, '25 m')
+
+
+def reference_to_itself(r: dict[str, Any]) -> None:
+    r['agents'][0]['behaviors'] = [{'kind': 'follow', 'target': 'bus1', 'quote': 'a bus'}]
+
+
+def uav_that_brakes(r: dict[str, Any]) -> None:
+    r['events'][0]['action'] = {'do': 'brake', 'subject': 'uav1'}
+
+
+def message_to_a_place(r: dict[str, Any]) -> None:
+    r['events'][0]['action']['receiver'] = 'crosswalk'
+
+
+def change_to_an_unknown_mission(r: dict[str, Any]) -> None:
+    r['events'][0]['action'] = {'do': 'change_mission', 'subject': 'uav1', 'mission': 'm9'}
+
+
+def tracked_place(r: dict[str, Any]) -> None:
+    r['missions'][0]['target'] = 'landmark:clock_tower'
+
+
 def event_from_nowhere(r: dict[str, Any]) -> None:
     r['clauses'][2]['ids'] = ['ego', 'car1']
 
@@ -291,6 +319,13 @@ def known_type_called_missing(r: dict[str, Any]) -> None:
         (clause_of_an_unknown_id, 'cites w1'),
         (encoded_into_nothing, 'cites no id'),
         (demand_called_politeness, 'cannot be no_requirement'),
+        (unknown_wish_called_politeness, 'cannot be no_requirement'),
+        (one_number_with_two_meanings, 'one stated number has one meaning'),
+        (reference_to_itself, 'not its own target'),
+        (uav_that_brakes, 'is not a ground agent'),
+        (message_to_a_place, 'is not an actor'),
+        (change_to_an_unknown_mission, 'no mission of the answer'),
+        (tracked_place, 'is not an actor'),
         (event_from_nowhere, 'e1: no encoded clause cites it'),
         (unheard_warning, 'cites no event'),
         (dangling_reference, "'bus7'"),
@@ -454,6 +489,39 @@ def test_unicorn_does_not_become_a_car() -> None:
         'clauses': [{'quote': prompt[:-1], 'status': 'encoded', 'ids': ['m', 'c']}],
     }
     assert 'does not name a car' in judged(reading, prompt).complaints[0]
+
+
+def test_missing_that_only_the_model_claims_is_a_question_and_no_proof() -> None:
+    prompt = 'A drone gently zorbles a bus.'
+    outcome = judged({'missing': [{'quote': 'zorbles', 'kind': 'agent_type'}]}, prompt).outcome
+    assert outcome is not None
+    assert (outcome.spec, outcome.refusals) == (None, ())
+    assert outcome.question is not None
+    assert "'zorbles' is not one of the agent types" in outcome.question
+
+
+def test_words_that_only_the_model_understood_are_named_in_the_clause() -> None:
+    prompt = 'A drone shadows a bus zealously.'
+    reading = {
+        'agents': [{'id': 'b', 'type': 'bus', 'quote': 'a bus'}],
+        'uavs': [{'id': 'u', 'quote': 'A drone'}],
+        'missions': [{'id': 'm', 'uav': 'u', 'mode': 'track', 'target': 'b', 'quote': 'shadows'}],
+        'clauses': [{'quote': prompt[:-1], 'status': 'encoded', 'ids': ['m', 'b']}],
+    }
+    outcome = judged(reading, prompt).outcome
+    assert outcome is not None
+    assert outcome.clauses[0].note == "understood by the model alone: 'zealously'"
+
+
+def test_denial_is_no_request_for_the_thing_denied() -> None:
+    prompt = 'A drone must not follow the bus.'
+    reading = {
+        'agents': [{'id': 'b', 'type': 'bus', 'quote': 'the bus'}],
+        'uavs': [{'id': 'u', 'quote': 'A drone'}],
+        'missions': [{'id': 'm', 'uav': 'u', 'mode': 'track', 'target': 'b', 'quote': 'follow'}],
+        'clauses': [{'quote': prompt[:-1], 'status': 'encoded', 'ids': ['m', 'b']}],
+    }
+    assert 'denies something' in judged(reading, prompt).complaints[0]
 
 
 def test_question_of_the_model_is_asked() -> None:

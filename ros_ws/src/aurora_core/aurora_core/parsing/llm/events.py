@@ -1,0 +1,138 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Events and stated conditions of a reading as those of the specification."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from pydantic import TypeAdapter
+
+from aurora_core.parsing.llm.parts import Parts
+from aurora_core.parsing.llm.reading import ConditionReading, EventReading
+from aurora_core.parsing.scene import EventDraft, LinkDraft
+from aurora_core.spec.parameter import Span, Unit
+from aurora_core.spec.scenario import EventAction, SendMessage, StatedCondition, Trigger
+
+# What `subject`, `other` and `value` are called, and the line in `defaults.yaml` of the value.
+_TRIGGERS: dict[str, tuple[str, str, str, str]] = {
+    'distance_below': ('a', 'b', 'value_m', 'trigger_distance'),
+    'distance_above': ('a', 'b', 'value_m', 'trigger_distance'),
+    'time': ('', '', 'at_s', 'trigger_time'),
+    'altitude_reached': ('uav', '', 'value_m', 'altitude'),
+    'visible': ('observer', 'target', '', 'delay'),
+    'occluded': ('observer', 'target', '', 'delay'),
+    'arrives': ('who', 'place', '', 'delay'),
+    'message_received': ('by', 'sender', '', 'delay'),
+    'speed_below': ('who', '', 'value_mps', 'trigger_speed'),
+    'speed_above': ('who', '', 'value_mps', 'trigger_speed'),
+    'event_done': ('', 'event', 'after_s', 'trigger_time'),
+    'mission_done': ('uav', '', '', 'delay'),
+}
+_UAV_ACTIONS = ('land', 'ascend', 'change_mission')
+_CONDITION_VALUES = {
+    Unit.METRE: 'condition_distance',
+    Unit.SECOND: 'condition_time',
+    Unit.METRE_PER_SECOND: 'condition_speed',
+    Unit.ONE: 'condition_ratio',
+}
+
+_TRIGGER: TypeAdapter[Trigger] = TypeAdapter(Trigger)
+_ACTION: TypeAdapter[EventAction] = TypeAdapter(EventAction)
+
+
+def add_event(said: EventReading, parts: Parts) -> None:
+    """Add an event, and the link that its message needs.
+
+    Raises:
+        ValueError: A field is missing, or one is there that this cause or effect does not have.
+    """
+    span = parts.span(said.quote, said.id)
+    action = _action(said, parts)
+    parts.scene.events.append(
+        EventDraft(
+            id=parts.ref(said.id),
+            trigger=_trigger(said, parts),
+            action=action,
+            delay=parts.number('delay', said.delay_s, f'{said.id}.delay_s'),
+            span=span,
+        )
+    )
+    if isinstance(action, SendMessage):
+        _link_for(action, span, parts)
+
+
+def _trigger(said: EventReading, parts: Parts) -> Trigger:
+    given = said.trigger
+    subject, other, value, parameter = _TRIGGERS[given.on]
+    fields: dict[str, Any] = {'on': given.on}
+    where = f'{said.id}.trigger'
+    if given.subject is not None and subject:
+        parts.actor(given.subject, f'{where}.subject')
+    _put(fields, subject, parts.ref_or_none(given.subject), f'{where}.subject')
+    _put(fields, other, parts.ref_or_none(given.other), f'{where}.other')
+    known = parts.number(parameter, given.value, f'{where}.value')
+    _put(fields, value, known, f'{where}.value')
+    return _TRIGGER.validate_python(fields)
+
+
+def _action(said: EventReading, parts: Parts) -> EventAction:
+    given = said.action
+    where = f'{said.id}.action'
+    message, flies = given.do == 'send_message', given.do in _UAV_ACTIONS
+    parts.actor(given.subject, f'{where}.subject', flies=None if message else flies)
+    if given.receiver is not None:
+        parts.actor(given.receiver, f'{where}.receiver')
+    mission = parts.ref_or_none(given.mission)
+    if mission is not None and all(m.id != mission for m in parts.scene.missions):
+        parts.complaints.append(f'{where}.mission: {given.mission!r} is no mission of the answer')
+    fields: dict[str, Any] = {'do': given.do}
+    fields['sender' if message else 'uav' if flies else 'agent'] = parts.ref(given.subject)
+    receiver = parts.ref_or_none(given.receiver)
+    _put(fields, 'receiver' if message else '', receiver, f'{where}.receiver')
+    _put(fields, 'mission' if flies else '', mission, f'{where}.mission')
+    name = 'altitude' if flies else 'ground_speed'
+    value = parts.number(name, given.value, f'{where}.value')
+    _put(fields, '' if message else 'altitude_m' if flies else 'value_mps', value, where)
+    return _ACTION.validate_python(fields)
+
+
+def _put(fields: dict[str, Any], name: str, value: object, where: str) -> None:
+    if value is None:
+        return
+    if not name:
+        raise ValueError(f'{where}: expected null for {fields.get("on") or fields.get("do")}')
+    fields[name] = value
+
+
+def _link_for(message: SendMessage, span: Span, parts: Parts) -> None:
+    """A message needs a link; one that the prompt does not describe has the defaults."""
+    scene = parts.scene
+    ends = (message.sender, message.receiver)
+    if all((link.sender, link.receiver) != ends for link in scene.links):
+        scene.links.append(
+            LinkDraft(id=scene.new_id('link'), sender=ends[0], receiver=ends[1], span=span)
+        )
+
+
+def add_condition(said: ConditionReading, parts: Parts) -> None:
+    """Add a condition that the prompt states."""
+    where = said.id
+    name = _CONDITION_VALUES.get(said.value.unit)
+    if name is None:
+        unit = said.value.unit.value
+        parts.complaints.append(f'{where}.value: a condition has no unit {unit!r}')
+        return
+    parts.scene.conditions.append(
+        StatedCondition(
+            id=parts.ref(said.id),
+            quantity=said.quantity,
+            of=tuple(parts.ref(one) for one in said.of),
+            op=said.op,
+            value=parts.numbers.parameter(name, said.value, f'{where}.value'),
+            hold_s=parts.number('condition_time', said.hold_s, f'{where}.hold_s'),
+            by_s=parts.number('condition_time', said.by_s, f'{where}.by_s'),
+            fraction=parts.number('condition_ratio', said.fraction, f'{where}.fraction'),
+            span=parts.span(said.quote, where),
+        )
+    )
