@@ -23,7 +23,7 @@ from aurora_core.spec.scenario import Behavior, Placement
 from aurora_core.spec.vocabulary import BehaviorKind, Relation
 
 # Predicates that name a behaviour in other words.
-_BEHAVIORS = {kind.value: kind for kind in BehaviorKind} | {
+BEHAVIORS = {kind.value: kind for kind in BehaviorKind} | {
     'trail': BehaviorKind.FOLLOW,
     'lead': BehaviorKind.DRIVE,
     'start': BehaviorKind.DRIVE,
@@ -66,12 +66,12 @@ _MOVING = frozenset(
 
 def is_behavior(key: str) -> bool:
     """Return whether a predicate is something that ground agents do."""
-    return key in _BEHAVIORS
+    return key in BEHAVIORS
 
 
 def behavior(frame: Frame) -> bool:
     """Read what ground agents do, with the place that is stated in the same breath."""
-    if frame.negated or frame.key not in _BEHAVIORS:
+    if frame.negated or frame.key not in BEHAVIORS:
         return False
     if frame.key == 'start' and frame.free(AdjunctKind.PLACE):
         return False  # `starts 45 m behind the ego` is a place
@@ -81,7 +81,7 @@ def behavior(frame: Frame) -> bool:
         return False
     if _closing(frame, subjects):
         return True
-    kind = _BEHAVIORS[frame.key]
+    kind = BEHAVIORS[frame.key]
     target = _target(frame, subjects)
     speed = _speed(frame)
     closing = _closing_distance(frame) if frame.key in ('tailgate', 'approach', 'come') else None

@@ -13,7 +13,6 @@ from aurora_core.parsing.resolver import MOST_AGENTS
 from aurora_core.spec.parameter import Span
 from aurora_core.spec.vocabulary import AgentType
 
-_NO_VEHICLES = (AgentType.PEDESTRIAN, AgentType.RSU)
 _UNAVAILABLE = (NounKind.UNSUPPORTED, NounKind.UNKNOWN, NounKind.MISSING_LANDMARK)
 
 
@@ -163,7 +162,8 @@ def _names(noun: NounPhrase, actor: AgentReading | UavReading) -> bool:
         return noun.kind is NounKind.UAV
     if noun.kind is NounKind.AGENT:
         return noun.key == actor.type.value
-    return noun.kind in (NounKind.EGO, NounKind.VEHICLE) and actor.type not in _NO_VEHICLES
+    # Nobody says what kind of vehicle it is: then it is a car.
+    return noun.kind in (NounKind.EGO, NounKind.VEHICLE) and actor.type is AgentType.CAR
 
 
 def _room(atom: Atom) -> int:

@@ -25,6 +25,7 @@ from aurora_core.parsing.llm.parts import Parts
 from aurora_core.parsing.llm.places import check_places, check_world
 from aurora_core.parsing.llm.reading import Reading
 from aurora_core.parsing.llm.scene_builder import build_scene
+from aurora_core.parsing.llm.wording import Wording
 from aurora_core.parsing.outcome import ParseOutcome, Refusal, RefusalKind
 from aurora_core.parsing.parser import parse_offline
 from aurora_core.parsing.rules import settle
@@ -78,6 +79,7 @@ def _outcome(reading: Reading, facts: PromptFacts, complaints: list[str]) -> Par
     check_places(reading, facts, unread, complaints)
     check_world(reading, facts, unread, complaints)
     check_clauses(reading, spans, facts, complaints)
+    Wording(reading, facts, unread, complaints).check()
     numbers = StatedNumbers(facts, complaints)
     parts = Parts(facts, numbers, complaints)
     try:
@@ -127,8 +129,8 @@ def _refused(reading: Reading, missing: Sequence[Atom], facts: PromptFacts) -> P
     the lexicon knows it as such, or the offline parser reads it so; not because a model says so.
     """
     known = parse_offline(facts.prompt, facts.context).refusals
-    refusals = []
-    doubtful = []
+    refusals: list[Refusal] = []
+    doubtful: list[Refusal] = []
     for said, atom in zip(reading.missing, missing, strict=True):
         kind = atom.noun.kind if atom.noun is not None else None
         place = said.kind == 'landmark' or kind is NounKind.MISSING_LANDMARK

@@ -9,9 +9,10 @@ from typing import Any
 from pydantic import TypeAdapter
 
 from aurora_core.parsing.llm.parts import Parts
+from aurora_core.parsing.llm.places import is_place
 from aurora_core.parsing.llm.reading import ConditionReading, EventReading
 from aurora_core.parsing.scene import EventDraft, LinkDraft
-from aurora_core.spec.parameter import Span, Unit
+from aurora_core.spec.parameter import Bound, Span, Unit
 from aurora_core.spec.scenario import EventAction, SendMessage, StatedCondition, Trigger
 
 # What `subject`, `other` and `value` are called, and the line in `defaults.yaml` of the value.
@@ -59,6 +60,8 @@ def add_event(said: EventReading, parts: Parts) -> None:
         )
     )
     if isinstance(action, SendMessage):
+        if action.sender == action.receiver:
+            parts.complaints.append(f'{said.id}.action: sender and receiver are the same')
         _link_for(action, span, parts)
 
 
@@ -118,18 +121,27 @@ def _link_for(message: SendMessage, span: Span, parts: Parts) -> None:
 def add_condition(said: ConditionReading, parts: Parts) -> None:
     """Add a condition that the prompt states."""
     where = said.id
+    for one in said.of:
+        if one not in parts.ids and not is_place(one):
+            parts.complaints.append(f'{where}.of: {one!r} is not in the answer')
+    if len(set(said.of)) < len(said.of):
+        parts.complaints.append(f'{where}.of: the same one twice')
     name = _CONDITION_VALUES.get(said.value.unit)
     if name is None:
         unit = said.value.unit.value
         parts.complaints.append(f'{where}.value: a condition has no unit {unit!r}')
         return
+    value = parts.numbers.parameter(name, said.value, f'{where}.value')
+    opposite = {Bound.AT_LEAST: ('<', '<='), Bound.AT_MOST: ('>', '>=')}.get(value.bound, ())
+    if said.op in opposite:
+        parts.complaints.append(f'{where}.op: the prompt says {value.bound.value}, not {said.op}')
     parts.scene.conditions.append(
         StatedCondition(
             id=parts.ref(said.id),
             quantity=said.quantity,
             of=tuple(parts.ref(one) for one in said.of),
             op=said.op,
-            value=parts.numbers.parameter(name, said.value, f'{where}.value'),
+            value=value,
             hold_s=parts.number('condition_time', said.hold_s, f'{where}.hold_s'),
             by_s=parts.number('condition_time', said.by_s, f'{where}.by_s'),
             fraction=parts.number('condition_ratio', said.fraction, f'{where}.fraction'),

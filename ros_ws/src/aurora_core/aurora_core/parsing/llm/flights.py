@@ -66,6 +66,8 @@ def add_link(said: LinkReading, parts: Parts) -> None:
     receiver = parts.actor(said.receiver, f'{where}.receiver')
     if sender is None or receiver is None:
         return
+    if sender is receiver:
+        parts.complaints.append(f'{where}: sender and receiver are the same')
     parts.scene.links.append(
         LinkDraft(
             id=parts.ref(said.id),

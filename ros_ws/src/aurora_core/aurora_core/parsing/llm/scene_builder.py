@@ -12,6 +12,7 @@ from aurora_core.parsing.llm.actors import Anchors, is_ego
 from aurora_core.parsing.llm.events import add_condition, add_event
 from aurora_core.parsing.llm.flights import add_link, add_mission
 from aurora_core.parsing.llm.parts import Parts
+from aurora_core.parsing.llm.places import is_place
 from aurora_core.parsing.llm.reading import (
     AgentReading,
     BehaviorReading,
@@ -119,6 +120,10 @@ def _add_agent(agent: AgentReading, parts: Parts) -> None:
         of = parts.ref_or_none(said.of)
         if of == entity.id:
             parts.complaints.append(f'{where}: an agent has no place relative to itself')
+        if of is None and said.relation is not Relation.ONCOMING:
+            parts.complaints.append(f'{where}.of: expected an id or a place, found null')
+        if said.of is not None and not is_place(said.of):
+            parts.actor(said.of, f'{where}.of', flies=False)
         add_placement(
             entity,
             Placement(
@@ -145,7 +150,8 @@ def _add_behavior(entity: Entity, said: BehaviorReading, where: str, parts: Part
     )
     if made.target == entity.id:
         parts.complaints.append(f'{where}: an agent is not its own target')
-    entity.behaviors.append(made)
+    if made not in entity.behaviors:
+        entity.behaviors.append(made)
     target = parts.scene.by_id(made.target or '')
     if made.kind not in _BEHIND_ITS_TARGET or target is None or target.is_uav:
         return

@@ -246,6 +246,38 @@ def change_to_an_unknown_mission(r: dict[str, Any]) -> None:
     r['events'][0]['action'] = {'do': 'change_mission', 'subject': 'uav1', 'mission': 'm9'}
 
 
+def verb_of_another_behaviour(r: dict[str, Any]) -> None:
+    r['agents'][3]['behaviors'][0]['kind'] = 'overtake'
+
+
+def behaviour_left_out(r: dict[str, Any]) -> None:
+    del r['agents'][3]['behaviors'], r['agents'][4]['behaviors']
+
+
+def mission_of_another_mode(r: dict[str, Any]) -> None:
+    r['missions'][0]['mode'] = 'hover'
+
+
+def streets_that_nobody_named(r: dict[str, Any]) -> None:
+    r['missions'][0]['over_streets'] = True
+
+
+def no_landing_that_nobody_asked_for(r: dict[str, Any]) -> None:
+    r['missions'][0]['ends_in_flight'] = True
+
+
+def another_relation(r: dict[str, Any]) -> None:
+    r['agents'][0]['placements'][0]['relation'] = 'behind'
+
+
+def generic_vehicle_of_some_type(r: dict[str, Any]) -> None:
+    r['agents'][2] |= {'type': 'van', 'quote': 'my car'}
+
+
+def message_to_oneself(r: dict[str, Any]) -> None:
+    r['events'][0]['action']['receiver'] = 'uav1'
+
+
 def tracked_place(r: dict[str, Any]) -> None:
     r['missions'][0]['target'] = 'landmark:clock_tower'
 
@@ -326,6 +358,14 @@ def known_type_called_missing(r: dict[str, Any]) -> None:
         (message_to_a_place, 'is not an actor'),
         (change_to_an_unknown_mission, 'no mission of the answer'),
         (tracked_place, 'is not an actor'),
+        (verb_of_another_behaviour, "'circulate' says circulate, found overtake"),
+        (behaviour_left_out, "'circulate' is said and nothing in the answer does it"),
+        (mission_of_another_mode, 'says track, found hover'),
+        (streets_that_nobody_named, 'over_streets: the prompt does not say so'),
+        (no_landing_that_nobody_asked_for, 'ends_in_flight: the prompt does not say so'),
+        (another_relation, "'near the clock tower' says near, found behind"),
+        (generic_vehicle_of_some_type, 'does not name a van'),
+        (message_to_oneself, 'sender and receiver are the same'),
         (event_from_nowhere, 'e1: no encoded clause cites it'),
         (unheard_warning, 'cites no event'),
         (dangling_reference, "'bus7'"),

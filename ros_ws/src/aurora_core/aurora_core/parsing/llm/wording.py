@@ -1,0 +1,178 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Verbs, patterns and relations whose meaning the lexicon knows: a reading may not contradict or
+drop them. What the lexicon does not know is the model's to understand.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
+from aurora_core.parsing.constructions.ground import BEHAVIORS
+from aurora_core.parsing.llm.facts import PromptFacts, inside, overlap
+from aurora_core.parsing.llm.reading import Reading
+from aurora_core.spec.parameter import Span
+from aurora_core.spec.vocabulary import BehaviorKind, MissionMode, Pattern, Relation
+
+_MODES = {
+    'hover': MissionMode.HOVER,
+    'track': MissionMode.TRACK,
+    'follow': MissionMode.TRACK,
+    'trail': MissionMode.TRACK,
+    'orbit': MissionMode.NAVIGATE,
+    'navigate': MissionMode.NAVIGATE,
+}
+# Verbs with another, weaker meaning: `passes the crossing`, `comes down the road`.
+_WEAK = frozenset({'overtake', 'approach', 'come', 'start', 'lead', 'visit'})
+# Verbs with one meaning that has to show up somewhere.
+_TELLING = frozenset(
+    {
+        'tailgate',
+        'brake',
+        'yield',
+        'cross',
+        'park',
+        'change_lane',
+        'turn_left',
+        'turn_right',
+        'emergency_run',
+        'circulate',
+    }
+)
+# Relations that prepositions state too.
+_BY_PREPOSITION = (Relation.AT, Relation.ON, Relation.BEFORE, Relation.PARKED_AT)
+_BEHIND_ITS_TARGET = ('follow', 'tailgate', 'overtake', 'approach')
+
+
+class Wording:
+    """Compares one reading with the words of the prompt.
+
+    Args:
+        reading: What the model says.
+        facts: The prompt.
+        unread: Clauses that are admitted not to be encoded.
+        complaints: Where objections go, worded for the model.
+    """
+
+    def __init__(
+        self, reading: Reading, facts: PromptFacts, unread: Sequence[Span], complaints: list[str]
+    ) -> None:
+        self._reading = reading
+        self._facts = facts
+        self._complaints = complaints
+        self._read = [a for a in facts.atoms if not any(inside(a, clause) for clause in unread)]
+
+    def check(self) -> None:
+        """Object to contradictions and to what is lost."""
+        self._behaviors()
+        self._placements()
+        self._missions()
+        self._lost_verbs()
+        self._lost_patterns()
+        self._lost_relations()
+        self._flag('over_streets', AtomKind.STREETS_FLAG, (AtomKind.STREETS_FLAG,))
+        self._flag('ends_in_flight', AtomKind.IN_FLIGHT, (AtomKind.IN_FLIGHT, AtomKind.NEGATION))
+
+    def _within(self, quote: str, kind: AtomKind) -> list[Atom]:
+        spans = self._facts.spans(quote)[:1]
+        return [
+            a for a in self._facts.atoms if a.kind is kind and any(overlap(a, s) for s in spans)
+        ]
+
+    def _say(self, where: str, quote: str, wanted: Iterable[str], found: str) -> None:
+        told = ' or '.join(sorted(set(wanted)))
+        self._complaints.append(f'{where}: {quote!r} says {told}, found {found}')
+
+    def _behaviors(self) -> None:
+        for agent in self._reading.agents:
+            for i, said in enumerate(agent.behaviors):
+                keys = {a.key for a in self._within(said.quote, AtomKind.VERB)}
+                known = {BEHAVIORS[key] for key in keys if key in BEHAVIORS}
+                weak = said.kind is BehaviorKind.DRIVE and keys & _WEAK
+                if known and said.kind not in known and not weak:
+                    where = f'{agent.id}.behaviors[{i}].kind'
+                    self._say(where, said.quote, (k.value for k in known), said.kind.value)
+
+    def _placements(self) -> None:
+        for agent in self._reading.agents:
+            for i, said in enumerate(agent.placements):
+                known = {a.key for a in self._within(said.quote, AtomKind.RELATION)}
+                if known and said.relation not in (*_BY_PREPOSITION, *known):
+                    where = f'{agent.id}.placements[{i}].relation'
+                    self._say(where, said.quote, known, said.relation.value)
+
+    def _missions(self) -> None:
+        for said in self._reading.missions:
+            keys = {a.key for a in self._within(said.quote, AtomKind.VERB)}
+            for atom in self._within(said.quote, AtomKind.NOUN):
+                keys |= set(atom.noun.states) if atom.noun is not None else set()
+            modes = {_MODES[key] for key in keys if key in _MODES}
+            if modes and said.mode not in modes:
+                self._say(f'{said.id}.mode', said.quote, (m.value for m in modes), said.mode.value)
+            patterns = {a.key for a in self._within(said.quote, AtomKind.PATTERN)}
+            patterns |= {Pattern.ORBIT.value} if 'orbit' in keys else set()
+            if said.mode is not MissionMode.NAVIGATE or not patterns:
+                continue
+            if said.pattern is None or said.pattern.value not in patterns:
+                found = said.pattern.value if said.pattern is not None else 'null'
+                self._say(f'{said.id}.pattern', said.quote, patterns, found)
+
+    def _lost_verbs(self) -> None:
+        done = {b.kind.value for agent in self._reading.agents for b in agent.behaviors}
+        done |= {event.action.do for event in self._reading.events}
+        modes = {mission.mode for mission in self._reading.missions}
+        for atom in self._read:
+            if atom.kind is not AtomKind.VERB or self._is_denied(atom):
+                continue
+            mode = _MODES.get(atom.key)
+            kind = BEHAVIORS.get(atom.key)
+            shown = mode in modes or (kind is not None and kind.value in done)
+            if (atom.key in _TELLING or mode is not None) and not shown:
+                self._complaints.append(
+                    f'{self._facts.text(atom)!r} is said and nothing in the answer does it: '
+                    'encode it, or make its clause not_encoded'
+                )
+
+    def _is_denied(self, atom: Atom) -> bool:
+        before = [a for a in self._facts.atoms if a.end <= atom.start][-2:]
+        return any(a.kind is AtomKind.NEGATION for a in before)
+
+    def _lost_patterns(self) -> None:
+        flown = {m.pattern.value for m in self._reading.missions if m.pattern is not None}
+        for atom in self._read:
+            # Vehicles stand in a line too.
+            line = atom.key == Pattern.LINE.value
+            if atom.kind is AtomKind.PATTERN and atom.key not in flown and not line:
+                self._complaints.append(
+                    f'{self._facts.text(atom)!r} is said, and no mission has the pattern '
+                    f'{atom.key}'
+                )
+
+    def _lost_relations(self) -> None:
+        placed = {p.relation.value for agent in self._reading.agents for p in agent.placements}
+        kinds = {b.kind.value for agent in self._reading.agents for b in agent.behaviors}
+        if kinds & set(_BEHIND_ITS_TARGET):
+            placed.add(Relation.BEHIND.value)
+        for atom in self._read:
+            if atom.kind is AtomKind.RELATION and atom.key not in placed:
+                if atom.key in (Relation.NEAR.value, Relation.BEFORE.value):
+                    continue  # distances and times are said with these words too
+                self._complaints.append(
+                    f'{self._facts.text(atom)!r} is said, and no placement has the relation '
+                    f'{atom.key}: encode it, or make these words a clause that is not_encoded'
+                )
+
+    def _flag(self, name: str, stated: AtomKind, allowed: tuple[AtomKind, ...]) -> None:
+        missions = [m.id for m in self._reading.missions if getattr(m, name)]
+        words = [a for a in self._read if a.kind is stated]
+        streets = any(a.noun is not None and a.noun.kind is NounKind.STREET for a in self._read)
+        grounds = any(a.kind in allowed for a in self._read) or (
+            stated is AtomKind.STREETS_FLAG and streets
+        )
+        if missions and not grounds:
+            self._complaints.append(f'{missions[0]}.{name}: the prompt does not say so')
+        if words and not missions:
+            self._complaints.append(
+                f'{self._facts.text(words[0])!r} is said: a mission needs {name} true'
+            )
