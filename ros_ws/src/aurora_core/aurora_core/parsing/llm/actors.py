@@ -13,6 +13,7 @@ from aurora_core.parsing.resolver import MOST_AGENTS
 from aurora_core.spec.parameter import Span
 from aurora_core.spec.vocabulary import AgentType
 
+_FLYING_VERBS = frozenset({'hover', 'track', 'orbit', 'navigate', 'fly', 'observe'})
 _UNAVAILABLE = (NounKind.UNSUPPORTED, NounKind.UNKNOWN, NounKind.MISSING_LANDMARK)
 
 
@@ -54,7 +55,7 @@ class Anchors:
         named = [a for a in self._facts.actors if any(overlap(a, s) for s in spans)]
         fitting = [a for a in named if a.noun is not None and _names(a.noun, actor)]
         if not fitting and isinstance(actor, UavReading):
-            seen = [a for a in self._facts.atoms if a.kind is AtomKind.AERIAL]
+            seen = self._flying_without_a_name()
             fitting = [a for a in seen if any(overlap(a, s) for s in spans)]
         if not fitting:
             self._complaints.append(
@@ -75,6 +76,14 @@ class Anchors:
             )
             return
         self._atoms[actor.id] = free[0]
+
+    def _flying_without_a_name(self) -> list[Atom]:
+        """Return words that need a UAV: `from above`; where none is named, `hover over …`."""
+        seen = [a for a in self._facts.atoms if a.kind is AtomKind.AERIAL]
+        if any(a.noun is not None and a.noun.kind is NounKind.UAV for a in self._facts.actors):
+            return seen
+        verbs = [a for a in self._facts.atoms if a.kind is AtomKind.VERB]
+        return seen + [a for a in verbs if a.key in _FLYING_VERBS]
 
     def _taken(self, atom: Atom) -> int:
         return sum(known is atom for known in self._atoms.values())

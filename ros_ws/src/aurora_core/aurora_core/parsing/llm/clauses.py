@@ -23,7 +23,11 @@ _JOINTS = (
     AtomKind.THEN,
     AtomKind.FRAME,
     AtomKind.SUBORDINATOR,
+    AtomKind.RELATIVE,
+    AtomKind.PREPOSITION,
 )
+# What words of the prompt are demanded for elsewhere.
+_ANCHORED = (WORLD, 'agents', 'uavs')
 
 
 def clause_spans(
@@ -71,13 +75,11 @@ def check_clauses(
     for clause, span in zip(reading.clauses, spans, strict=True):
         if span is not None:
             _check_clause(clause, span, elements, facts, complaints)
-    cited = {one for c in reading.clauses if c.status is ClauseStatus.ENCODED for one in c.ids} | {
-        uav.id for uav in reading.uavs
-    }
+    cited = {one for c in reading.clauses if c.status is ClauseStatus.ENCODED for one in c.ids}
     complaints += [
         f'{one}: no encoded clause cites it; nothing may be added that the prompt does not ask for'
-        for one in elements
-        if one not in cited and one != WORLD
+        for one, kind in elements.items()
+        if one not in cited and kind not in _ANCHORED
     ]
 
 

@@ -75,7 +75,9 @@ class PromptFacts:
         if not words:
             return ()
         pattern = r'\s+'.join(map(re.escape, words))
-        before = r'(?<!\w)' if words[0][0].isalnum() else ''
+        # `40m` stands in `60x40m`, but `0 m` does not stand in `40 m`.
+        digit, letter = words[0][0].isdigit(), words[0][0].isalnum()
+        before = r'(?<![\d.,])' if digit else r'(?<!\w)' if letter else ''
         after = r'(?!\w)' if words[-1][-1].isalnum() else ''
         found = re.finditer(f'{before}{pattern}{after}', self._even, re.IGNORECASE)
         return tuple(Span(start=m.start(), end=m.end()) for m in found)

@@ -113,7 +113,7 @@ class StatedNumbers:
                     'number has one meaning'
                 )
             return self._as_stated(name, measure, part, value)
-        worded = None if beside else self._in_words(name, number, spans)
+        worded = self._in_words(name, number, spans)
         if worded is not None:
             return worded
         stated = ', '.join(repr(self._facts.text(m)) for m in beside) or 'no number'
@@ -162,8 +162,9 @@ class StatedNumbers:
 
     def _in_words(self, name: str, number: Number, spans: Sequence[Span]) -> Parameter | None:
         """`from the north`, `without retransmissions`: stated without a number."""
+        before = [a for a in self._facts.atoms if a.end <= spans[0].start][-1:]
         for atom in self._facts.atoms:
-            if not any(overlap(atom, span) for span in spans):
+            if not any(overlap(atom, span) for span in spans) and atom not in before:
                 continue
             north = name == 'bearing' and atom.kind is AtomKind.COMPASS
             if north and _close(float(atom.key) % 360, number.value % 360):

@@ -89,6 +89,8 @@ class Wording:
             for i, said in enumerate(agent.behaviors):
                 keys = {a.key for a in self._within(said.quote, AtomKind.VERB)}
                 known = {BEHAVIORS[key] for key in keys if key in BEHAVIORS}
+                if self._within(said.quote, AtomKind.SIREN):
+                    known.add(BehaviorKind.EMERGENCY_RUN)
                 weak = said.kind is BehaviorKind.DRIVE and keys & _WEAK
                 if known and said.kind not in known and not weak:
                     where = f'{agent.id}.behaviors[{i}].kind'
