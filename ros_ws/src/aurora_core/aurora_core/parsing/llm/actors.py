@@ -53,6 +53,7 @@ class Anchors:
             )
             return
         named = [a for a in self._facts.actors if any(overlap(a, s) for s in spans)]
+        named = [a for a in named if not self._facts.is_denied(a)]
         fitting = [a for a in named if a.noun is not None and _names(a.noun, actor)]
         if not fitting and isinstance(actor, UavReading):
             seen = self._flying_without_a_name()
@@ -63,6 +64,8 @@ class Anchors:
                 'does not name, and put types that do not exist here into missing'
             )
             return
+        # `car` may stand for `car` before it stands for `my car`.
+        fitting.sort(key=lambda a: all((a.start, a.end) != (s.start, s.end) for s in spans))
         free = [a for a in fitting if self._taken(a) < _room(a)]
         if not free:
             self._complaints.append(
@@ -122,7 +125,7 @@ class Anchors:
                 wanted = 'missing' if noun.kind is NounKind.UNSUPPORTED else 'a question'
                 self._complaints.append(f'{words!r} is no agent type: expected {wanted}')
             return
-        if self._is_denied(atom):
+        if self._facts.is_denied(atom):
             return
         fitting = [actor for actor in actors if _names(noun, actor)]
         stated = noun.count > 1 and noun.determiner is Determiner.BARE
@@ -132,11 +135,6 @@ class Anchors:
             self._complaints.append(
                 f'{words!r}: expected {noun.count} actors that quote it, found {self._taken(atom)}'
             )
-
-    def _is_denied(self, atom: Atom) -> bool:
-        """`no drone`: naming it is not asking for it."""
-        before = [a for a in self._facts.atoms if a.end <= atom.start]
-        return bool(before) and before[-1].kind is AtomKind.NEGATION
 
 
 def check_missing(reading: Reading, facts: PromptFacts, complaints: list[str]) -> tuple[Atom, ...]:

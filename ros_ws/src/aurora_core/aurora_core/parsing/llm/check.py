@@ -80,11 +80,11 @@ def _outcome(reading: Reading, facts: PromptFacts, complaints: list[str]) -> Par
     check_world(reading, facts, unread, complaints)
     check_clauses(reading, spans, facts, complaints)
     Wording(reading, facts, unread, complaints).check()
-    numbers = StatedNumbers(facts, complaints)
+    numbers = StatedNumbers(facts, unread, complaints)
     parts = Parts(facts, numbers, complaints)
     try:
         build_scene(reading, parts, anchors)
-        numbers.lost(unread)
+        numbers.lost()
         _put_clauses(parts.scene, reading, spans, parts.ids, facts)
         settle(parts.scene)
         if parts.scene.questions:

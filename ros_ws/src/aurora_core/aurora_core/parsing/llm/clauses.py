@@ -118,7 +118,10 @@ def _check_clause(
             complaints.append(
                 f'clause {words!r} denies something: it needs a condition, or is not_encoded'
             )
-    asks = not needs_nothing([a for a in within if a.kind is not AtomKind.STOP])
+    silent = (AtomKind.STOP, AtomKind.NEGATION)
+    asks = not needs_nothing(
+        [a for a in within if a.kind not in silent and not (a.is_actor and facts.is_denied(a))]
+    )
     if clause.status is ClauseStatus.NO_REQUIREMENT and asks:
         complaints.append(
             f'clause {words!r} may ask for something: it cannot be no_requirement; make it '

@@ -65,6 +65,11 @@ class PromptFacts:
             a for a in self.atoms if a.kind is AtomKind.WORLD and a.key.startswith(f'{kind}:')
         )
 
+    def is_denied(self, atom: Atom) -> bool:
+        """Return whether a negation stands right before: `no drone` asks for none."""
+        before = [a for a in self.atoms if a.end <= atom.start]
+        return bool(before) and before[-1].kind is AtomKind.NEGATION
+
     def text(self, span: Span | Atom | Measure) -> str:
         """Return the words of a span."""
         return self.prompt[span.start : span.end]

@@ -36,11 +36,13 @@ class StatedNumbers:
 
     Args:
         facts: The prompt.
+        unread: Clauses that are admitted not to be encoded.
         complaints: Where objections go, worded for the model.
     """
 
-    def __init__(self, facts: PromptFacts, complaints: list[str]) -> None:
+    def __init__(self, facts: PromptFacts, unread: Sequence[Span], complaints: list[str]) -> None:
         self._facts = facts
+        self._unread = unread
         self._complaints = complaints
         self._claimed: dict[tuple[int, int], str] = {}
 
@@ -71,10 +73,10 @@ class StatedNumbers:
             return line
         return values.inferred(name, number.value)
 
-    def lost(self, unread: Sequence[Span]) -> None:
+    def lost(self) -> None:
         """Object to every stated number that is in no parameter and in no unread clause."""
         for measure in self._facts.measures:
-            if any(inside(measure, clause) for clause in unread):
+            if self._is_unread(measure):
                 continue
             words = self._facts.text(measure)
             if measure.dimension == UNREADABLE:
@@ -87,6 +89,9 @@ class StatedNumbers:
                     f'the prompt states {words!r}{both}, and no explicit number quotes it: encode '
                     'it, or make its clause not_encoded'
                 )
+
+    def _is_unread(self, measure: Measure) -> bool:
+        return any(inside(measure, clause) for clause in self._unread)
 
     def _explicit(self, name: str, number: Number, where: str) -> Parameter:
         spans = self._facts.spans(number.quote)
@@ -105,6 +110,8 @@ class StatedNumbers:
         ]
         if fits:
             free = [f for f in fits if (f[0].start, f[1]) not in self._claimed]
+            # `80 m` twice, and one of them in an unread clause: the other is meant.
+            free.sort(key=lambda fit: self._is_unread(fit[0]))
             measure, part, value = (free or fits)[0]
             before = self._claimed.setdefault((measure.start, part), name)
             if before != name and {before, name} not in _TOGETHER:

@@ -564,6 +564,51 @@ def test_denial_is_no_request_for_the_thing_denied() -> None:
     assert 'denies something' in judged(reading, prompt).complaints[0]
 
 
+def test_naming_what_is_not_wanted_asks_for_nothing() -> None:
+    prompt = 'A bus and no drone.'
+    reading: dict[str, Any] = {
+        'agents': [{'id': 'b', 'type': 'bus', 'quote': 'A bus'}],
+        'clauses': [
+            {'quote': 'A bus', 'status': 'encoded', 'ids': ['b']},
+            {'quote': 'no drone', 'status': 'no_requirement'},
+        ],
+    }
+    outcome = judged(reading, prompt).outcome
+    assert outcome is not None
+    assert outcome.spec is not None
+    assert outcome.spec.uavs == ()
+    reading['uavs'] = [{'id': 'u', 'quote': 'drone'}]
+    assert judged(reading, prompt).complaints
+
+
+def test_number_of_an_unread_clause_is_not_borrowed() -> None:
+    prompt = 'Paint it 80 m high. A drone hovers over my car at 80 m.'
+    reading: dict[str, Any] = {
+        'agents': [{'id': 'ego', 'type': 'car', 'quote': 'my car'}],
+        'uavs': [{'id': 'u', 'quote': 'A drone'}],
+        'missions': [
+            {
+                'id': 'm',
+                'uav': 'u',
+                'mode': 'hover',
+                'target': 'ego',
+                'altitude_m': number(80, '80 m'),
+                'quote': 'A drone hovers over my car',
+            }
+        ],
+        'clauses': [
+            {'quote': 'Paint it 80 m high', 'status': 'not_encoded'},
+            {'quote': 'A drone hovers over my car at 80 m', 'status': 'encoded', 'ids': ['m']},
+        ],
+    }
+    outcome = judged(reading, prompt).outcome
+    assert outcome is not None
+    assert outcome.spec is not None
+    span = outcome.spec.missions[0].altitude_m.span
+    assert span is not None
+    assert span.start == prompt.rindex('80 m')
+
+
 def test_question_of_the_model_is_asked() -> None:
     outcome = judged({'question': 'Which bus?'}).outcome
     assert outcome is not None
