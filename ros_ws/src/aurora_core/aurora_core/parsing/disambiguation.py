@@ -24,7 +24,7 @@ def settle_verbs(atoms: list[Atom]) -> list[Atom]:
         if atom.kind is AtomKind.VERB and atom.key in _PHASES and _gerund_follows(settled, i):
             settled[i] = replace(atom, kind=AtomKind.AUXILIARY)
         if AtomKind.CAUSATIVE in kinds:
-            if _actor_then_verb(settled, i):
+            if _actor_then_verb(settled, i) and not _tells(settled, i):
                 settled[i] = _as(atom, AtomKind.CAUSATIVE)
             elif AtomKind.VERB in kinds and settled[i].kind is AtomKind.CAUSATIVE:
                 settled[i] = _as(atom, AtomKind.VERB)
@@ -57,6 +57,12 @@ def _verb_follows(atoms: list[Atom], i: int) -> bool:
         if atom.kind not in _SKIPPED:
             return False
     return False
+
+
+def _tells(atoms: list[Atom], i: int) -> bool:
+    """`the RSU tells the truck to stop` is a message; `tell the truck to stop` is a request."""
+    before = next((a for a in reversed(atoms[:i]) if a.kind not in _SKIPPED), None)
+    return before is not None and before.is_actor and atoms[i].verb_key == 'alert'
 
 
 def _actor_then_verb(atoms: list[Atom], i: int) -> bool:

@@ -67,6 +67,7 @@ class Frame:
         self.adjuncts = AdjunctReader(rest).read() + AdjunctReader(after).read()
         self.flagged: list[tuple[int, int]] = []
         self.avoid: tuple[Entity, ...] = ()
+        self.heir: Entity | None = None  # who acts when the clause names nobody
         self._impersonal()
         self.passive = self._is_passive(before)
         self._reorder()
@@ -174,6 +175,8 @@ class Frame:
 
     def inherited(self, accept: Fits = anything) -> tuple[Entity, ...]:
         """Return the subjects of the clause before that fit."""
+        if self.heir is not None:
+            return (self.heir,) if accept(self.heir) else ()
         earlier = [
             c
             for c in reversed(self.scene.clauses[:-1])
@@ -305,6 +308,8 @@ def _split_subject(before: Sequence[Atom]) -> tuple[tuple[NounPhrase, ...], list
             subjects, rest = _before_relative(rest)
             waiting = governed = conjunction = False
             continue
+        if atom.kind is AtomKind.CAUSATIVE:  # `the mayor wants a drone to …`: who wants is nobody
+            subjects = [s for s in subjects if s.kind is not NounKind.UNKNOWN]
         if atom.kind in _GOVERNORS:
             waiting, governed = True, False
         elif atom.noun is not None:

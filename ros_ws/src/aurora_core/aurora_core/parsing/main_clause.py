@@ -46,6 +46,30 @@ _TIMED = frozenset(
         'navigate',
     }
 )
+# Predicates that only an actor of the scene can have.
+_ACTING = frozenset(
+    {
+        'drive',
+        'circulate',
+        'follow',
+        'tailgate',
+        'overtake',
+        'approach',
+        'brake',
+        'cross',
+        'walk',
+        'park',
+        'turn_left',
+        'turn_right',
+        'emergency_run',
+        'trail',
+        'hover',
+        'track',
+        'orbit',
+        'fly',
+        'land',
+    }
+)
 _GROUND_ONLY = frozenset(
     {
         'drive',
@@ -74,8 +98,13 @@ def shared_words(frame: Frame) -> None:
     for noun in frame.nouns():
         if noun.kind in (NounKind.UNSUPPORTED, NounKind.AMBIGUOUS):
             frame.resolver.actors((noun,))
-        elif noun.kind is NounKind.UNKNOWN and noun in frame.subject_nouns and frame.key:
+        elif noun.kind is NounKind.UNKNOWN and noun in frame.subject_nouns and _moves(frame):
             frame.resolver.unknown_actor(noun)
+
+
+def _moves(frame: Frame) -> bool:
+    """Only what takes part in traffic needs a type: `the council wants` names no actor."""
+    return frame.key in _ACTING and not frame.negated and not frame.passive
 
 
 def main_clause(frame: Frame) -> None:

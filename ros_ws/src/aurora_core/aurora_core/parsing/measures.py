@@ -253,7 +253,17 @@ class MeasureReader:
         if found is None:
             return None, i
         length, sense = found
+        if self._names_a_thing(i, length):
+            return None, i
         return sense.key, i + length
+
+    def _names_a_thing(self, i: int, length: int) -> bool:
+        """`r 60 h 50`: a letter in front of a number of its own is no unit."""
+        thing = self._lexicon.longest_of(self._words, i, (Tag.THING,))
+        if thing is None or length > 1 or self._tokens[i].glued:
+            return False
+        follows = i + 2 if self._word(i + 1) == '=' else i + 1
+        return self._number(follows) is not None
 
     def _dimension(self, unit: str | None) -> str:
         return COUNT if unit is None else self._lexicon.units[unit].dimension

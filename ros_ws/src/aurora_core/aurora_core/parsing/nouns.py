@@ -101,6 +101,12 @@ class NounReader:
                     return None
                 if self._refuses(kind, states, determiner, i == j):
                     return None
+                named = [k for k in loose if self._tokens[k].proper]
+                if kind is NounKind.LANDMARK and named and stop - j < len(landmark_words(key)):
+                    # `the Eiffel Tower` is not the one tower that the map has
+                    kind = NounKind.MISSING_LANDMARK
+                    key = head_text = ' '.join(self._words[named[0] : stop])
+                    loose = []
                 number, stop = (0, stop) if count else self._index(kind, stop)
                 return (
                     NounPhrase(

@@ -23,6 +23,8 @@ under `verbs:` in the lexicon.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from pydantic import ValidationError
 
 from aurora_core.errors import SpecError
@@ -39,6 +41,7 @@ from aurora_core.parsing.tagging import tag
 from aurora_core.parsing.text import check_prompt_text
 from aurora_core.parsing.tokens import tokenize
 from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.spec.vocabulary import ClauseStatus
 
 __all__ = [
     'ParseContext',
@@ -67,6 +70,7 @@ def parse_offline(prompt: str, context: ParseContext) -> ParseOutcome:
     check_prompt_text(prompt)
     scene = Scene(prompt, context)
     tagged = tag(tokenize(prompt), landmark_phrases(context.landmark_names))
+    _look_ahead(scene, tagged.atoms)
     reader = Reader(scene)
     reader.read(segment(tagged.atoms))
     _note_corrections(scene, tagged.corrections)
@@ -78,11 +82,12 @@ def parse_offline(prompt: str, context: ParseContext) -> ParseOutcome:
             'part, and what should they do? (English, please.)'
         ]
         scene.refusals = []
+    if scene.refusals:
+        return ParseOutcome(refusals=tuple(scene.refusals), clauses=scene.finished_clauses())
+    _settle_doubts(scene)
     if scene.questions:
         question = ' '.join(dict.fromkeys(scene.questions))
         return ParseOutcome(question=question, clauses=scene.finished_clauses())
-    if scene.refusals:
-        return ParseOutcome(refusals=tuple(scene.refusals), clauses=scene.finished_clauses())
     spec = _build(scene)
     lost = unaccounted(spec, tagged.atoms, reader.resolver, no_uavs=scene.no_uavs)
     if lost:
@@ -102,6 +107,24 @@ def _build(scene: Scene) -> ScenarioSpec:
             f'the parser built a specification that its schema refuses: {err}',
             hint='word the request differently, and report this prompt',
         ) from err
+
+
+def _look_ahead(scene: Scene, atoms: Sequence[Atom]) -> None:
+    """Note what the whole prompt says of flying: clauses may leave the flyer out."""
+    heights = ('altitude', 'altitude_suffix')
+    scene.altitude_stated = any(a.kind is AtomKind.THING and a.key in heights for a in atoms)
+    scene.uav_nouns = tuple(
+        a.noun for a in atoms if a.noun is not None and a.noun.kind is NounKind.UAV
+    )
+
+
+def _settle_doubts(scene: Scene) -> None:
+    """Words that stay open are admitted as unread; they are asked about only when all is open."""
+    if not any(c.status is ClauseStatus.ENCODED for c in scene.clauses):
+        scene.questions += [doubt.question for doubt in scene.doubts]
+        return
+    for doubt in scene.doubts:
+        scene.clauses.append(ClauseDraft(span=doubt.span, notes=[doubt.question]))
 
 
 def _note_corrections(scene: Scene, corrections: tuple[tuple[int, int, str], ...]) -> None:

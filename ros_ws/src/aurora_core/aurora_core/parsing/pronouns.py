@@ -7,7 +7,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from aurora_core.parsing.atoms import NounPhrase
-from aurora_core.parsing.scene import Entity, Scene
+from aurora_core.parsing.scene import Doubt, Entity, Scene
+from aurora_core.spec.parameter import Span
 from aurora_core.spec.vocabulary import AgentType
 
 Fits = Callable[[Entity], bool]
@@ -37,7 +38,7 @@ class PronounResolver:
     def resolve(
         self, noun: NounPhrase, accept: Fits, exclude: Sequence[Entity], as_object: bool
     ) -> tuple[Entity, ...]:
-        """Return the actors meant; none, with a question, when nobody fits."""
+        """Return the actors meant; none, with a doubt, when nobody fits."""
         if noun.key == 'one':
             return self._member(accept, first=True)
         if noun.key == 'other':
@@ -130,5 +131,10 @@ class PronounResolver:
 
     def _ask(self, noun: NounPhrase) -> tuple[Entity, ...]:
         words = self._scene.prompt[noun.start : noun.end]
-        self._scene.questions.append(f'Whom or what do you mean by "{words}"?')
+        self._scene.doubts.append(
+            Doubt(
+                span=Span(start=noun.start, end=noun.end),
+                question=f'Whom or what do you mean by "{words}"?',
+            )
+        )
         return ()

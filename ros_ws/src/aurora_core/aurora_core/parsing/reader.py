@@ -24,7 +24,13 @@ from aurora_core.parsing.pieces import Link, Piece, first_solid
 from aurora_core.parsing.resolver import Resolver
 from aurora_core.parsing.scene import ClauseDraft, EventDraft, Scene, UntilDraft
 from aurora_core.spec.parameter import Parameter, Span
-from aurora_core.spec.scenario import AgentAction, SendMessage, TimeTrigger, UavAction
+from aurora_core.spec.scenario import (
+    AgentAction,
+    MessageTrigger,
+    SendMessage,
+    TimeTrigger,
+    UavAction,
+)
 from aurora_core.spec.vocabulary import ClauseStatus
 
 # Links of clauses that go on with the story; the others only describe or condition.
@@ -138,7 +144,7 @@ class Reader:
         elif main and self._unknown_cause == piece.sentence:
             self._unknown_cause = -1
             self._without_cause(frame)
-        elif not self._follows_event(frame):
+        elif not self._told_to(frame) and not self._follows_event(frame):
             before = len(self._scene.events)
             main_clause(frame)
             self._note_fronted_time(frame, before)
@@ -208,6 +214,28 @@ class Reader:
         stated = made[-1].trigger.at_s.span
         if stated is not None and stated.end <= frame.verb.start:
             self._last = (made[-1], frame.piece.sentence)
+
+    def _told_to(self, frame: Frame) -> bool:
+        """`the RSU tells the truck to stop`: the receiver acts when the message arrives."""
+        if frame.piece.link is not Link.INFINITIVE or frame.subject_nouns:
+            return False
+        ids = self._scene.clauses[-2].ids if len(self._scene.clauses) > 1 else {}
+        told = [e for e in self._scene.events if e.id in ids]
+        if not told or not isinstance(told[-1].action, SendMessage):
+            return False
+        message = told[-1].action
+        receiver = self._scene.by_id(message.receiver)
+        if receiver is None:
+            return False
+        frame.heir = receiver
+        action = actions.action(frame)
+        if action is None:
+            return False
+        heard = MessageTrigger(
+            on='message_received', by=message.receiver, sender=message.sender
+        )
+        complete_event(self._scene, heard, action, frame.span, ())
+        return True
 
     def _follows_event(self, frame: Frame) -> bool:
         """`When …, the drone alerts the ego and the ego brakes`: a second effect of one cause."""

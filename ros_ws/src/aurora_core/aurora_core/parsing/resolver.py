@@ -8,6 +8,7 @@ from collections.abc import Sequence
 
 from aurora_core.parsing.atoms import Determiner, NounKind, NounPhrase
 from aurora_core.parsing.lexicon import Lexicon, shipped_lexicon
+from aurora_core.parsing.nouns import landmark_words
 from aurora_core.parsing.outcome import Refusal, RefusalKind
 from aurora_core.parsing.pronouns import Fits, PronounResolver, anything
 from aurora_core.parsing.scene import Entity, Scene
@@ -16,6 +17,11 @@ from aurora_core.spec.vocabulary import AgentType, Role
 
 _VEHICLES = frozenset(set(AgentType) - {AgentType.PEDESTRIAN, AgentType.RSU})
 MOST_AGENTS = 200
+
+
+def _last_words(name: str) -> tuple[str, ...]:
+    words = landmark_words(name)
+    return tuple(' '.join(words[i:]) for i in range(len(words)))
 
 
 class Resolver:
@@ -38,14 +44,31 @@ class Resolver:
         if noun.kind is NounKind.PLACE:
             return noun.key
         if noun.kind is NounKind.LANDMARK:
+            self._scene.landmarks.append(noun.key)
             return f'landmark:{noun.key}'
         if noun.kind is NounKind.MISSING_LANDMARK:
-            self._refuse_place(noun)
+            return self._short_name(noun)
         if noun.kind is NounKind.PRONOUN and noun.key == 'there':
             for clause in reversed(self._scene.clauses[:-1]):
                 if clause.places:
                     return clause.places[0]
         return None
+
+    def _short_name(self, noun: NounPhrase) -> str | None:
+        """`the station`, after Union Station was named; several that fit are asked about."""
+        fitting = [
+            name for name in self._scene.context.landmark_names if noun.key in _last_words(name)
+        ]
+        named = [name for name in self._scene.landmarks if name in fitting]
+        if not named and len(fitting) > 1:
+            self._scene.questions.append(
+                f'Which one do you mean by {self._quote(noun)}: {" or ".join(fitting)}?'
+            )
+            return None
+        if not fitting or noun.loose:
+            self._refuse_place(noun)
+            return None
+        return f'landmark:{(named or fitting)[-1]}'
 
     def unknown_place(self, noun: NounPhrase) -> None:
         """Refuse an unknown name that stands where a place belongs."""
@@ -220,6 +243,8 @@ class Resolver:
         if len(plain) > 1 and noun.kind is NounKind.VEHICLE:
             latest = max(e.seen for e in plain)
             plain = [e for e in plain if e.seen == latest]
+        told = [e for e in plain if self._scene.speaks_of(e)]
+        plain = told if len(told) == 1 else plain  # a scene is about whom something is said of
         if len(plain) > 1:
             self._scene.questions.append(
                 f'Which one do you mean by {self._quote(noun)}: '

@@ -15,6 +15,7 @@ from aurora_core.spec.scenario import (
     VisibilityTrigger,
 )
 from aurora_core.spec.vocabulary import (
+    AgentType,
     BehaviorKind,
     ClauseStatus,
     MissionMode,
@@ -53,7 +54,7 @@ def settle(scene: Scene) -> None:
             until.event.action = UavAction(
                 do='change_mission', uav=after[0].uav.id, mission=after[0].id
             )
-    for draft in scene.missions:
+    for draft in tuple(scene.missions):
         if draft.needs_target and draft.target is None:
             _infer_target(scene, draft)
     _general_links(scene)
@@ -136,7 +137,8 @@ def _onlookers(scene: Scene) -> None:
         reports = any(
             isinstance(e.action, SendMessage) and e.action.sender == uav.id for e in scene.events
         )
-        track = seen is not None or reports
+        # With nobody to track, a UAV that only passes messages on waits in the air.
+        track = seen is not None or (reports and any(e.type is not AgentType.RSU for e in scene.agents))
         scene.missions.append(
             MissionDraft(
                 id=scene.new_id('m'),
@@ -167,11 +169,24 @@ def _infer_target(scene: Scene, draft: MissionDraft) -> None:
     agents = [e for e in scene.agents if e.role is not Role.BACKGROUND]
     if target is None and len(agents) == 1:
         target = agents[0]
+    if target is None and len(scene.missions_of(draft.uav)) > 1:
+        _withdraw(scene, draft)
+        return
     if target is None:
         words = scene.prompt[draft.span.start : draft.span.end]
         scene.questions.append(f'What should be tracked: "{words}"?')
         return
     draft.target, draft.target_inferred = target.id, True
+
+
+def _withdraw(scene: Scene, draft: MissionDraft) -> None:
+    """One phase of several without a target is admitted; the others are kept."""
+    scene.missions.remove(draft)
+    for clause in scene.clauses:
+        if draft.id in clause.ids:
+            del clause.ids[draft.id]
+            clause.status = ClauseStatus.NOT_ENCODED
+            clause.notes.append('what should be tracked was not understood')
 
 
 def _reported_actor(scene: Scene, uav: Entity) -> Entity | None:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from aurora_core.parsing.atoms import NounPhrase
 from aurora_core.parsing.outcome import ParseContext, Refusal
 from aurora_core.spec.parameter import Parameter, Span
 from aurora_core.spec.scenario import (
@@ -140,6 +141,14 @@ class ClauseDraft:
     describes: bool = False
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Doubt:
+    """Words whose meaning stays open; a question only if nothing else could be read."""
+
+    span: Span
+    question: str
+
+
 @dataclass(slots=True, kw_only=True, eq=False)
 class Unanchored:
     """`a bus 30 m ahead`, before anyone is named that it could be ahead of."""
@@ -163,11 +172,16 @@ class Scene:
         self.conditions: list[StatedCondition] = []
         self.clauses: list[ClauseDraft] = []
         self.questions: list[str] = []
+        self.doubts: list[Doubt] = []
         self.refusals: list[Refusal] = []
         self.pending_altitude: dict[str, Parameter] = {}
         self.pending_speed: dict[str, Parameter] = {}
         self.aerial: tuple[ClauseDraft, str | None] | None = None
         self.no_uavs = False
+        # What the whole prompt says of flying, for clauses that leave the flyer out.
+        self.altitude_stated = False
+        self.uav_nouns: tuple[NounPhrase, ...] = ()
+        self.landmarks: list[str] = []
         self.unanchored: list[Unanchored] = []
         self.reported: dict[str, str] = {}
         self.untils: list[UntilDraft] = []
@@ -197,6 +211,18 @@ class Scene:
     def by_id(self, wanted: str) -> Entity | None:
         """Return the actor of this id."""
         return next((e for e in self.entities if e.id == wanted), None)
+
+    def speaks_of(self, entity: Entity) -> bool:
+        """Return whether anything was read about an actor, or about another one beside it."""
+        if entity.placements or entity.behaviors or entity.role is Role.EGO:
+            return True
+        others = [p.of for e in self.entities for p in e.placements]
+        others += [b.target for e in self.entities for b in e.behaviors]
+        others += [m.target for m in self.missions]
+        return entity.id in others or any(entity in c.subjects for c in self._encoded())
+
+    def _encoded(self) -> list[ClauseDraft]:
+        return [c for c in self.clauses if c.status is ClauseStatus.ENCODED]
 
     def missions_of(self, uav: Entity) -> list[MissionDraft]:
         """Return the phases of one UAV in order."""

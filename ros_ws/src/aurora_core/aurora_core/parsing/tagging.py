@@ -201,10 +201,8 @@ class _Tagger:
             )
             return stop
         matches = self._lexicon.matches(self._words, i)
-        after_article = bool(i) and self._words[i - 1] in _BEFORE_NOUN
         for length, senses in matches:
-            only_verb = all(s.tag is Tag.VERB for s in senses)
-            if after_article and only_verb and length > 1:
+            if length > 1 and self._noun_here(i, senses):
                 continue  # `an orbit around …`
             if self._take(i, length, senses):
                 return i + length
@@ -217,8 +215,7 @@ class _Tagger:
         if not matches or matches[0][0] == 1:
             return None
         length, senses = matches[0]
-        after_article = bool(i) and self._words[i - 1] in _BEFORE_NOUN
-        if after_article and all(s.tag is Tag.VERB for s in senses):
+        if self._noun_here(i, senses):
             return None  # `an orbit around …`
         if any(
             s.tag
@@ -241,6 +238,13 @@ class _Tagger:
             if noun[1] > i + length or (names and noun[1] == i + length):
                 return None
         return i + length if self._take(i, length, senses) else None
+
+    def _noun_here(self, i: int, senses: tuple[Sense, ...]) -> bool:
+        """Words that are a verb elsewhere stand behind an article; `that turns left` is one."""
+        if not i or self._words[i - 1] not in _BEFORE_NOUN:
+            return False
+        relative = self._words[i - 1] == 'that' and any(s.form is VerbForm.THIRD for s in senses)
+        return not relative and all(s.tag is Tag.VERB for s in senses)
 
     def _take(self, i: int, length: int, senses: tuple[Sense, ...]) -> bool:
         by_tag: dict[Tag, Sense] = {}

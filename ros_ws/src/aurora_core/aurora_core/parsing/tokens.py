@@ -27,6 +27,7 @@ class Token:
         value: Exact value of a number; None when its notation is not one that is read.
         glued: No blank between this token and the one before.
         capital: A single capital letter (`drone B`).
+        proper: Begins with a capital letter, as names do.
     """
 
     kind: TokenKind
@@ -36,6 +37,7 @@ class Token:
     value: Fraction | None = None
     glued: bool = False
     capital: bool = False
+    proper: bool = False
 
 
 # `100x60` must not become the word `x60m`, while `v2x` is a word.
@@ -98,6 +100,8 @@ def tokenize(text: str) -> tuple[Token, ...]:
             words = _words(piece.lower().replace('’', "'"), start, end, glued)
             if len(piece) == 1 and piece.isupper():
                 words = [replace(words[0], capital=True)]
+            elif piece[0].isupper():
+                words[0] = replace(words[0], proper=True)
             raw += words
         else:
             if piece in '>→' and raw and (piece == '→' or (raw[-1].norm in '-=' and glued)):

@@ -56,8 +56,22 @@ def flyers(frame: Frame) -> tuple[Entity, ...]:
         scene.clause.subjects = (created,)
         return (created,)
     if frame.key in ('track', 'observe', 'follow') and not scene.uavs:
-        scene.questions.append('Who should do that: a UAV, or which vehicle? ' + _quote(frame))
+        return _left_out(frame)
     return ()
+
+
+def _left_out(frame: Frame) -> tuple[Entity, ...]:
+    """Return the UAV that a clause leaves out: named later, or implied by a stated altitude."""
+    scene = frame.scene
+    if len(scene.uav_nouns) == 1:
+        found = frame.resolver.actors(scene.uav_nouns)
+    elif not scene.uav_nouns and scene.altitude_stated:
+        found = (new_uav(frame),)
+    else:
+        scene.questions.append('Who should do that: a UAV, or which vehicle? ' + _quote(frame))
+        return ()
+    scene.clause.subjects = found
+    return found
 
 
 def _quote(frame: Frame) -> str:
