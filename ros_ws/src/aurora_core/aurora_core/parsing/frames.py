@@ -5,8 +5,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 
-from aurora_core.parsing.adjunct_reader import AdjunctReader
+from aurora_core.parsing.adjunct_reader import AdjunctReader, fits
 from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind, NounPhrase
 from aurora_core.parsing.measures import LENGTH, TIME
@@ -68,10 +69,12 @@ class Frame:
         self.flagged: list[tuple[int, int]] = []
         self.avoid: tuple[Entity, ...] = ()
         self.heir: Entity | None = None  # who acts when the clause names nobody
+        self._named_values()
         self._impersonal()
         self.passive = self._is_passive(before)
         self._reorder()
         self._later_verbs(after)
+        self._theme()
 
     @property
     def key(self) -> str:
@@ -82,6 +85,20 @@ class Frame:
     def span(self) -> Span:
         """Characters of the clause."""
         return Span(start=self.piece.start, end=self.piece.end)
+
+    def _named_values(self) -> None:
+        """`the radius is 80 m`: name and number stand on two sides of the verb."""
+        if self.key != 'be' or self.verb is None:
+            return
+        for name, value in pairwise(list(self.adjuncts)):
+            around = name.end <= self.verb.start and value.start >= self.verb.end
+            thing = name.kind is AdjunctKind.MARK and name.key == 'thing' and not name.nouns
+            measure = value.measure
+            plain = value.kind in (AdjunctKind.MEASURE, AdjunctKind.ATTRIBUTE)
+            if around and thing and plain and measure is not None and fits(name.value, measure):
+                name.kind, name.key, name.measure = AdjunctKind.ATTRIBUTE, name.value, measure
+                name.prep = value.prep
+                self.adjuncts.remove(value)
 
     def _impersonal(self) -> None:
         """`it is foggy`: the pronoun means nobody."""
@@ -148,6 +165,24 @@ class Frame:
             if inverted is not None:
                 self.subject_nouns = inverted.nouns
                 inverted.used = True
+
+    def _theme(self) -> None:
+        """`the van that the drone tracks`: the noun in front of `that` is the object."""
+        theme = self.piece.theme
+        if theme is None or theme.noun is None or self.key not in _TRANSITIVE:
+            return
+        if not self.free(AdjunctKind.OBJECT):
+            noun = theme.noun
+            self.adjuncts.insert(
+                0,
+                Adjunct(
+                    kind=AdjunctKind.OBJECT,
+                    key='',
+                    start=noun.start,
+                    end=noun.end,
+                    nouns=(noun,),
+                ),
+            )
 
     def _later_verbs(self, after: Sequence[Atom]) -> None:
         """`stops moving`: a second predicate that was not cut off says nothing new or is loose."""

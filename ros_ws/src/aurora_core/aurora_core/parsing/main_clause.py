@@ -8,6 +8,9 @@ from aurora_core.parsing.adjuncts import AdjunctKind
 from aurora_core.parsing.atoms import AtomKind, NounKind
 from aurora_core.parsing.constructions import actions, conditions, ground, messages, missions
 from aurora_core.parsing.constructions.ascent import ascent, landing
+from aurora_core.parsing.constructions.demands import demands, seen_for
+from aurora_core.parsing.constructions.flight_details import flight_details
+from aurora_core.parsing.constructions.flyers import asks_for_flight
 from aurora_core.parsing.constructions.states import predicate_adjectives
 from aurora_core.parsing.constructions.triggers import (
     time_adjunct,
@@ -117,6 +120,8 @@ def main_clause(frame: Frame) -> None:
             break
     messages.link_values(frame)
     conditions.distance_conditions(frame)
+    demands(frame)
+    flight_details(frame)
     _from_above(frame)
     _siren(frame)
     if not frame.negated:
@@ -188,6 +193,8 @@ def _told(frame: Frame) -> bool:
 
 
 def _about_air(frame: Frame) -> bool:
+    if seen_for(frame):
+        return True
     if conditions.condition(frame):
         if frame.key in ('track', 'follow', 'hover', 'trail', 'fly'):
             missions.mission(frame)
@@ -204,7 +211,7 @@ def _flies(frame: Frame) -> bool:
     kinds = [n.kind for n in frame.subject_nouns if n.kind is not NounKind.PRONOUN]
     if kinds:
         return kinds[0] is NounKind.UAV
-    if frame.key in _AIR_ONLY:
+    if frame.key in _AIR_ONLY or asks_for_flight(frame):
         return True
     if frame.key in _GROUND_ONLY:
         return False

@@ -44,6 +44,7 @@ _EGO_ACTS = frozenset(
         'follow',
     }
 )
+_I_AM = (('i', 'am'), ('we', 'are'))
 _MOST_UNKNOWN = 2
 
 
@@ -307,6 +308,10 @@ class NounReader:
 
     def _pronoun(self, i: int) -> tuple[NounPhrase, int] | None:
         word = self._words[i]
+        moving = i + 1 if word in ("i'm", 'im', "we're") else i + 2
+        told = word in ("i'm", 'im', "we're") or tuple(self._words[i : i + 2]) in _I_AM
+        if told and self._acts(moving):  # `I am driving at 10 m/s`
+            return self._pronoun_phrase(i, moving, 'i', NounKind.EGO)
         if word in ('one', 'other') and self._lexicon.longest_of(self._words, i + 1, (Tag.VERB,)):
             return self._pronoun_phrase(i, i + 1, word)
         found = self._lexicon.longest_of(self._words, i, (Tag.EGO_PRONOUN, Tag.PRONOUN))

@@ -37,6 +37,7 @@ class Piece:
         sentence: Number of its sentence.
         opens: First clause of its sentence, or opened by `and when …`.
         lead: Where the subordinating word begins.
+        theme: The noun that a relative clause has as its object (`the van that the drone tracks`).
     """
 
     atoms: tuple[Atom, ...]
@@ -46,6 +47,7 @@ class Piece:
     sentence: int = 0
     opens: bool = False
     lead: int | None = None
+    theme: Atom | None = None
 
     @property
     def start(self) -> int:

@@ -65,10 +65,18 @@ def _cut_before(atoms: tuple[Atom, ...], begin: int, previous: int, i: int) -> t
             return j, Piece(atoms=(), link=Link.PARTICIPLE)
         if verb.form is VerbForm.ING or (verb.form is VerbForm.PAST and not _has_aux(atoms, j, i)):
             return j, Piece(atoms=(), link=Link.RELATIVE, head=before)
-        return j - 1, Piece(atoms=())
+        return j - 1, Piece(atoms=(), theme=_theme(atoms, begin, j - 1))
     if verb.form is VerbForm.ING:
         return j, Piece(atoms=(), link=Link.PARTICIPLE)
     return j, Piece(atoms=())
+
+
+def _theme(atoms: tuple[Atom, ...], begin: int, subject: int) -> Atom | None:
+    """`it is the van that the drone tracks`: what stands in front of `that`."""
+    if subject - 1 <= begin or atoms[subject - 1].kind is not AtomKind.RELATIVE:
+        return None
+    before = atoms[subject - 2]
+    return before if before.is_actor or before.is_place else None
 
 
 # Participles that speak about the subject even right behind another noun.

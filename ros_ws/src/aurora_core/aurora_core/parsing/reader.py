@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from aurora_core.parsing import values
-from aurora_core.parsing.atoms import needs_nothing
+from aurora_core.parsing.atoms import ACTORS, NounKind, needs_nothing
 from aurora_core.parsing.constructions import actions, messages
 from aurora_core.parsing.constructions.states import adjectives
 from aurora_core.parsing.constructions.triggers import (
@@ -79,6 +79,8 @@ class Reader:
             ):
                 self._effect_then_cause(piece, nxt)
                 i += 1
+            elif piece.link is Link.WHILE and piece.opens and same:
+                self._plain(piece, following=nxt)
             else:
                 self._plain(piece)
             i += 1
@@ -123,7 +125,7 @@ class Reader:
 
     # --- kinds of clauses ---------------------------------------------------------------------
 
-    def _plain(self, piece: Piece) -> None:
+    def _plain(self, piece: Piece, *, following: Piece | None = None) -> None:
         if needs_nothing(piece.atoms):
             self._scene.clauses.append(
                 ClauseDraft(
@@ -134,6 +136,8 @@ class Reader:
             )
             return
         frame = self._open(piece)
+        if following is not None:
+            self._named_later(frame, following)
         if piece.link in (Link.UNLESS, Link.BEFORE, Link.UNTIL, Link.WHEN):
             # alone such a clause has no effect that it could govern
             self._close(frame)
@@ -164,6 +168,7 @@ class Reader:
                 main_clause(frame)
             self._close(frame)
             return
+        self._named_later(frame, following)
         delay = self._delay(frame)
         found = cause(frame)
         if found is not None:
@@ -175,6 +180,16 @@ class Reader:
         else:
             self._unknown_cause = piece.sentence
         self._close(frame)
+
+    def _named_later(self, frame: Frame, following: Piece) -> None:
+        """`When it sees a bus, the drone …`: a pronoun in front of its noun."""
+        if any(n.kind is not NounKind.PRONOUN for n in frame.subject_nouns):
+            return
+        if not frame.subject_nouns or any(c.subjects or c.objects for c in self._scene.clauses):
+            return
+        upcoming = Frame(following, self._scene, self.resolver).subject_nouns
+        if upcoming and all(n.kind in ACTORS and n.kind is not NounKind.PRONOUN for n in upcoming):
+            frame.subject_nouns = upcoming
 
     def _effect_of_held(self, frame: Frame) -> None:
         assert self._held is not None

@@ -62,12 +62,13 @@ def _plain_prepositions(atoms: list[Atom]) -> list[Atom]:
 def _absolute(atoms: Sequence[Atom], i: int) -> bool:
     """`with two cars driving around`: a clause of its own."""
     solid = [a for a in atoms[i + 1 : i + 6] if a.kind not in TRANSPARENT]
-    return (
-        len(solid) > 1
-        and solid[0].is_actor
-        and solid[1].kind is AtomKind.VERB
-        and solid[1].form is VerbForm.ING
-    )
+    if len(solid) < 2 or not solid[0].is_actor:
+        return False
+    if solid[1].kind is AtomKind.VERB:
+        return solid[1].form is VerbForm.ING
+    beside = next((a for a in solid[1:3] if a.kind is AtomKind.RELATION), None)
+    refers = solid[-1].noun is not None and solid[-1].noun.kind is NounKind.PRONOUN
+    return beside is not None and (refers or solid[-1] is beside)  # `with a truck beside it`
 
 
 def _until_marker(atoms: Sequence[Atom], start: int) -> list[Atom]:
@@ -160,7 +161,8 @@ def _decide(
     actor_list = not has_verb(current) and _only_actors(current)
     comma = any(m.kind is AtomKind.COMMA for m in markers)
     refers = any(a.noun is not None and a.noun.kind is NounKind.PRONOUN for a in ahead)
-    if solid.is_actor and _is_placed(ahead) and (not actor_list or (comma and refers)):
+    anchored = refers or _hangs(ahead)
+    if solid.is_actor and _is_placed(ahead) and (not actor_list or (comma and anchored)):
         return Piece(atoms=())
     aerial = solid.noun is not None and solid.noun.kind is NounKind.UAV
     if aerial and comma and has_verb(current) and not _only_actors(ahead):
@@ -208,6 +210,12 @@ def _is_placed(atoms: Sequence[Atom]) -> bool:
     return solid[1].kind in place_words or (
         solid[1].kind is AtomKind.MEASURE and len(solid) > 2 and solid[2].kind in place_words
     )
+
+
+def _hangs(atoms: Sequence[Atom]) -> bool:
+    """`van 30 m behind`: of whom it is said is named before."""
+    solid = [a for a in atoms if a.kind not in TRANSPARENT]
+    return solid[-1].kind is AtomKind.RELATION
 
 
 def _delays(pieces: list[Piece]) -> list[Piece]:

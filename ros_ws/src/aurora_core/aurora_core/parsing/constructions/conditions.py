@@ -31,7 +31,7 @@ def distance_conditions(frame: Frame) -> bool:
     return frame.key in _STAYING and not frame.negated and _near(frame)
 
 
-def _add(
+def add_condition(
     frame: Frame,
     quantity: str,
     of: tuple[str, ...],
@@ -39,7 +39,9 @@ def _add(
     value: Parameter,
     *,
     hold: Parameter | None = None,
+    by: Parameter | None = None,
 ) -> None:
+    """Add a stated condition to the scene."""
     made = StatedCondition(
         id=frame.scene.new_id('c'),
         quantity=quantity,
@@ -47,6 +49,7 @@ def _add(
         op=op,
         value=value,
         hold_s=hold,
+        by_s=by,
         span=frame.span,
     )
     frame.scene.conditions.append(made)
@@ -71,7 +74,7 @@ def _near(frame: Frame) -> bool:
             continue
         adjunct.used = True
         _track_it(frame, subjects[0], other)
-        _add(
+        add_condition(
             frame,
             'distance',
             (subjects[0].id, other),
@@ -118,7 +121,7 @@ def _gap_limit(frame: Frame) -> bool:
         return False
     for taken in (words[0], length, *phrases):
         taken.used = True
-    _add(
+    add_condition(
         frame,
         'distance',
         (ends[0].id, ends[1].id),
@@ -158,7 +161,7 @@ def _each(frame: Frame, quantity: str, op: Op, adjunct: Adjunct, name: str) -> b
         return False
     adjunct.used = True
     for entity in subjects:
-        _add(frame, quantity, (entity.id,), op, values.explicit(name, adjunct.measure))
+        add_condition(frame, quantity, (entity.id,), op, values.explicit(name, adjunct.measure))
     return True
 
 
@@ -183,7 +186,7 @@ def _apart(frame: Frame) -> bool:
         return False
     near = adjunct.prep == 'within' or adjunct.measure.bound is Bound.AT_MOST
     adjunct.used = True
-    _add(
+    add_condition(
         frame,
         'separation',
         tuple(e.id for e in subjects),
@@ -211,7 +214,7 @@ def _in_view(frame: Frame) -> bool:
         if not values.accepts('condition_time', span_time.measure):
             return False
         span_time.used = True
-        _add(
+        add_condition(
             frame,
             'visible_time',
             (observer.id, target),
@@ -219,7 +222,7 @@ def _in_view(frame: Frame) -> bool:
             values.explicit('condition_time', span_time.measure),
         )
         return True
-    _add(
+    add_condition(
         frame,
         'visible_fraction',
         (observer.id, target),
@@ -250,8 +253,8 @@ def _delivery(frame: Frame) -> bool:
     if frame.key not in ('reach', 'receive', 'come', 'last') or frame.negated:
         return False
     owned = [link for link in frame.scene.links if link.sender and link.receiver]
-    limit = frame.time('within', '')
-    told = frame.has_mark(AtomKind.MESSAGE.value)
+    limit = frame.time('within', 'below', 'in', '')
+    told = frame.has_mark(AtomKind.MESSAGE.value) or _goes_on_about_a_message(frame)
     if not owned or limit is None or limit.measure is None or not told:
         return False
     if not values.accepts('condition_time', limit.measure):
@@ -264,11 +267,27 @@ def _delivery(frame: Frame) -> bool:
     link = owned[-1]
     assert link.sender is not None
     assert link.receiver is not None
-    _add(
+    add_condition(
         frame,
         'delivery_latency',
         (link.sender, link.receiver),
-        '<=',
+        '<' if _is_strict(frame, limit) else '<=',
         values.explicit('condition_time', limit.measure),
     )
     return True
+
+
+def _is_strict(frame: Frame, limit: Adjunct) -> bool:
+    """`less than 2 s` leaves the value itself out."""
+    assert limit.measure is not None
+    before = frame.scene.prompt[frame.piece.start : limit.measure.start].lower().rstrip()
+    return before.endswith(('less than', 'under', 'below'))
+
+
+def _goes_on_about_a_message(frame: Frame) -> bool:
+    """`the alert is sent at 20 s and must reach us …`: the message is the subject of both."""
+    if frame.subject_nouns or len(frame.scene.clauses) < 2:
+        return False
+    before = frame.scene.clauses[-2]
+    same = before.sentence == frame.piece.sentence
+    return same and any(i.startswith('link') for i in before.ids)

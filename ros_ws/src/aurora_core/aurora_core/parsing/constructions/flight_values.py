@@ -7,6 +7,7 @@ from __future__ import annotations
 from aurora_core.parsing import values
 from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
 from aurora_core.parsing.atoms import AtomKind, NounKind
+from aurora_core.parsing.constructions.demands import keeps_off
 from aurora_core.parsing.constructions.flight_types import (
     FlightValues,
     bounded,
@@ -72,7 +73,7 @@ def _standoff(
 ) -> None:
     adjunct = frame.attribute('standoff', 'gap', 'away')
     if adjunct is not None and adjunct.measure is not None:
-        if adjunct.prep == 'within':
+        if adjunct.prep == 'within' or keeps_off(frame, adjunct):
             return  # `within 20 m of it` is a condition
         name = 'orbit_radius' if pattern is Pattern.ORBIT else 'standoff'
         parameter = stated_value(name, adjunct.measure)
@@ -133,7 +134,7 @@ def _bare_length(frame: Frame, found: FlightValues, mode: MissionMode | None) ->
     """A length without a name: a standoff when tracking, else the altitude."""
     for adjunct in frame.free(AdjunctKind.MEASURE, LENGTH):
         measure = adjunct.measure
-        if measure is None or measure.second is not None:
+        if measure is None or measure.second is not None or keeps_off(frame, adjunct):
             continue
         keeps = frame.key == 'keep' and mode is None
         tracking = mode is MissionMode.TRACK or keeps

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from aurora_core.parsing.adjuncts import AdjunctKind
-from aurora_core.parsing.atoms import NounKind
+from aurora_core.parsing.atoms import AtomKind, NounKind
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.pronouns import airborne
 from aurora_core.parsing.scene import Entity
@@ -44,20 +44,32 @@ def flyers(frame: Frame) -> tuple[Entity, ...]:
             found = frame.resolver.actors(adjunct.nouns, accept=airborne)
             scene.clause.subjects = found
             return found
-    if frame.verb is None or frame.key in ('be', 'keep', 'drive', 'start', 'reach', 'wait'):
+    if frame.key in ('be', 'keep', 'drive', 'start', 'reach', 'wait', 'put'):
+        return ()
+    if frame.verb is None and not asks_for_flight(frame):
         return ()
     if frame.inherited():
         return ()
     if len(scene.uavs) == 1:
         scene.clause.subjects = (scene.uavs[0],)
         return (scene.uavs[0],)
-    if not scene.uavs and (frame.key in _AERIAL_ONLY or frame.attribute('altitude') is not None):
+    aerial = frame.key in _AERIAL_ONLY or asks_for_flight(frame)
+    if not scene.uavs and (aerial or frame.attribute('altitude') is not None):
         created = new_uav(frame)
         scene.clause.subjects = (created,)
         return (created,)
     if frame.key in ('track', 'observe', 'follow') and not scene.uavs:
         return _left_out(frame)
     return ()
+
+
+def asks_for_flight(frame: Frame) -> bool:
+    """`rectangle patrol around the market`, `do a lawnmower survey`: only UAVs fly patterns."""
+    if frame.key not in ('', 'trace') or frame.subject_nouns:
+        return False
+    return frame.has_mark(AtomKind.PATTERN.value) or frame.has_mark(
+        AtomKind.ROUTE.value, 'patrol', 'survey', 'survey route', 'patrol route', 'survey flight'
+    )
 
 
 def _left_out(frame: Frame) -> tuple[Entity, ...]:

@@ -20,7 +20,7 @@ from aurora_core.parsing.pronouns import ground
 from aurora_core.parsing.scene import Entity
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.scenario import Behavior, Placement
-from aurora_core.spec.vocabulary import BehaviorKind, Relation
+from aurora_core.spec.vocabulary import AgentType, BehaviorKind, Relation
 
 # Predicates that name a behaviour in other words.
 BEHAVIORS = {kind.value: kind for kind in BehaviorKind} | {
@@ -30,6 +30,8 @@ BEHAVIORS = {kind.value: kind for kind in BehaviorKind} | {
     'track': BehaviorKind.FOLLOW,
     'come': BehaviorKind.APPROACH,
     'visit': BehaviorKind.DRIVE,
+    'orbit': BehaviorKind.CIRCULATE,
+    'trace': BehaviorKind.DRIVE,
 }
 
 
@@ -76,12 +78,16 @@ def behavior(frame: Frame) -> bool:
     if frame.key == 'start' and frame.free(AdjunctKind.PLACE):
         return False  # `starts 45 m behind the ego` is a place
     _commanded(frame)
+    if frame.key == 'trace' and not _goes_at(frame):
+        return False
     subjects = frame.subjects(ground)
     if not subjects or any(e.is_uav for e in subjects):
         return False
     if _closing(frame, subjects):
         return True
     kind = BEHAVIORS[frame.key]
+    if frame.key == 'trace' and all(e.type is AgentType.PEDESTRIAN for e in subjects):
+        kind = BehaviorKind.WALK
     target = _target(frame, subjects)
     speed = _speed(frame)
     closing = _closing_distance(frame) if frame.key in ('tailgate', 'approach', 'come') else None
@@ -94,6 +100,14 @@ def behavior(frame: Frame) -> bool:
         _add(entity, made, own)
     frame.scene.became(*(e.id for e in subjects))
     return True
+
+
+def _goes_at(frame: Frame) -> bool:
+    """`the car does 50 mph`, `a jogger runs along the pavement`: moving, not carrying out."""
+    if frame.has_mark(AtomKind.PATTERN.value) or frame.has_mark(AtomKind.ROUTE.value):
+        return False
+    along = frame.free(AdjunctKind.PHRASE, 'along', 'on', 'through', 'over')
+    return frame.attribute('speed') is not None or bool(along)
 
 
 # Predicates whose object acts when they stand without a subject: `drive the ego car …`.

@@ -37,6 +37,7 @@ FLYING = frozenset(
         'reach',
         'start',
         'see',
+        'put',
         '',
     }
 )
@@ -239,13 +240,28 @@ def _one(
         draft.speed = scene.pending_speed.pop(uav.id, None)
         scene.missions.append(draft)
     draft.target = draft.target or target
-    draft.needs_target = mode is MissionMode.TRACK and draft.target is None
+    draft.needs_target = draft.mode is MissionMode.TRACK and draft.target is None
     draft.pattern = draft.pattern or pattern
     if pattern is Pattern.WAYPOINTS and target is not None and found.waypoint_count is None:
         draft.waypoint_count = draft.waypoint_count or values.inferred('waypoint_count', 1)
     found.apply(draft)
     _state_ranges(frame, draft, found)
     return draft.id
+
+
+def _goes_on_watching(
+    frame: Frame, last: MissionDraft, target: str | None, found: FlightValues
+) -> bool:
+    """`hovers over a truck; it watches the truck for 25 s`: watching is what the phase is for."""
+    if frame.key not in ('observe', 'see') or frame.piece.then or found.standoff is not None:
+        return False
+    if found.bearing is not None or found.clashes(last):
+        return False
+    same = target is not None and target == last.target
+    agent = target is not None and _is_actor(frame, target)
+    # From above a place one watches whoever comes; a phase of its own would lose the place.
+    place = last.target is not None and not _is_actor(frame, last.target)
+    return same or (frame.key == 'see' and last.mode is MissionMode.HOVER and agent and place)
 
 
 def _continues(
@@ -257,6 +273,8 @@ def _continues(
     found: FlightValues,
 ) -> bool:
     """Return whether a clause says more about the last phase instead of opening another."""
+    if _goes_on_watching(frame, last, target, found):
+        return True
     if frame.piece.then or last.mode is not mode:
         return False
     if target is not None and last.target is not None and last.target != target:

@@ -51,6 +51,11 @@ def time_adjunct(frame: Frame) -> tuple[TimeTrigger, Adjunct] | None:
     adjunct = frame.time('after', 'at') or (frame.time('', 'in') if start else None)
     if adjunct is None or adjunct.measure is None or frame.piece.then:
         return None
+    if frame.verb is not None and adjunct.prep == 'after':
+        between = frame.scene.prompt[adjunct.end : frame.verb.start].strip()
+        if between == 'of':  # `after 20 s of hovering`: how long, not when
+            adjunct.prep = 'for'
+            return None
     if not values.accepts('trigger_time', adjunct.measure):
         return None
     adjunct.used = True

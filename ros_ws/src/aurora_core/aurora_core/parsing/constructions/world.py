@@ -13,6 +13,7 @@ from aurora_core.spec.parameter import Span
 from aurora_core.spec.vocabulary import TimeOfDay, TrafficDensity, Weather
 
 WORLD_ID = 'world'
+_BETWEEN = ('of', 'for', 'exactly', 'lasting', 'this', 'in', 'with', 'a', 'just', 'only', 'over', 'length')
 _LASTING = ('last', 'trace', 'be', 'keep', 'finish', '')
 
 
@@ -61,6 +62,8 @@ def _clash(frame: Frame, what: str, first: str, second: str) -> bool:
 
 def _duration(frame: Frame) -> bool:
     """A time beside the word for the whole scenario is the horizon."""
+    if _next_to_its_name(frame) or _alone(frame):
+        return True
     if not frame.has_mark(AtomKind.SCENARIO.value) or frame.key not in _LASTING:
         return False
     if frame.subject_nouns or frame.negated:
@@ -75,3 +78,31 @@ def _duration(frame: Frame) -> bool:
             frame.scene.world.duration = values.explicit('scenario_duration', measure)
             return True
     return False
+
+
+def _next_to_its_name(frame: Frame) -> bool:
+    """`simulate thirty minutes during which …`, `a scenario of 90 s with …`."""
+    for mark in frame.free(AdjunctKind.MARK, AtomKind.SCENARIO.value):
+        for adjunct in frame.free(AdjunctKind.MEASURE, TIME):
+            between = frame.scene.prompt[mark.end : adjunct.start].lower().split()
+            if all(word in _BETWEEN for word in between) and adjunct.start >= mark.end:
+                return _take(frame, adjunct)
+    return False
+
+
+def _alone(frame: Frame) -> bool:
+    """`duration 180 s` among words about the world, or before anything flies."""
+    told = any(a.used and a.key == AtomKind.WORLD.value for a in frame.adjuncts)
+    adjunct = frame.attribute('duration')
+    if adjunct is None or frame.verb is not None or frame.subject_nouns:
+        return False
+    return (told or not frame.scene.missions) and _take(frame, adjunct)
+
+
+def _take(frame: Frame, adjunct: Adjunct) -> bool:
+    measure = adjunct.measure
+    if measure is None or not values.accepts('scenario_duration', measure):
+        return False
+    adjunct.used = True
+    frame.scene.world.duration = values.explicit('scenario_duration', measure)
+    return True

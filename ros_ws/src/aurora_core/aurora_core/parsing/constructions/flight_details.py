@@ -1,0 +1,70 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Numbers of a flight that stand in a clause of their own, or behind somebody else's clause.
+
+`…: standoff 30 m, altitude 40 m`; `tracks a bus moving at 8 m/s from a standoff of 150 m`.
+"""
+
+from __future__ import annotations
+
+from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
+from aurora_core.parsing.constructions.flight_values import take_flight_values
+from aurora_core.parsing.frames import Frame
+from aurora_core.parsing.measures import TIME
+from aurora_core.parsing.pieces import Link
+from aurora_core.parsing.scene import MissionDraft
+from aurora_core.spec.scenario import UavAction
+
+_OF_FLIGHTS = ('altitude', 'standoff', 'radius', 'diameter', 'length', 'width', 'waypoint')
+_HANGING = (Link.RELATIVE, Link.PARTICIPLE)
+
+
+def flight_details(frame: Frame) -> None:
+    """Give what is left to the last mission, if it has no such value yet."""
+    left = [a for a in frame.adjuncts if not a.used and _is_detail(frame, a)]
+    draft = _last(frame) if left and not frame.negated else None
+    if draft is None:
+        return
+    found = take_flight_values(frame, draft.mode, draft.pattern)
+    taken = [a for a in found.taken if a not in left]
+    if not found.anything or found.clashes(draft) or found.ranges or taken:
+        found.release()
+        return
+    found.apply(draft)
+    frame.scene.became(draft.id)
+
+
+def _is_detail(frame: Frame, adjunct: Adjunct) -> bool:
+    measure = adjunct.measure
+    if measure is None or adjunct.nouns or adjunct.prep == 'within':
+        return False
+    if adjunct.kind is AdjunctKind.ATTRIBUTE:
+        alone = adjunct.key == 'speed' and frame.verb is None
+        return adjunct.key in _OF_FLIGHTS or alone
+    if adjunct.kind is not AdjunctKind.MEASURE:
+        return False
+    if measure.second is not None:
+        return frame.verb is None
+    if measure.dimension == TIME:
+        return adjunct.prep == 'for' and (frame.verb is None or frame.piece.link in _HANGING)
+    return False
+
+
+def _last(frame: Frame) -> MissionDraft | None:
+    """Return the mission that was spoken of last, in this sentence or the one before."""
+    scene = frame.scene
+    if not scene.missions or any(not e.is_uav for e in _own_subjects(frame)):
+        return None
+    draft = scene.missions[-1]
+    near = scene.clauses[draft.clause].sentence >= frame.piece.sentence - 1
+    ended = any(
+        isinstance(e.action, UavAction) and e.action.uav == draft.uav.id for e in scene.events
+    )
+    return draft if near and not ended else None
+
+
+def _own_subjects(frame: Frame) -> tuple[object, ...]:
+    """A clause about somebody else keeps its numbers, unless it only describes a target."""
+    if frame.piece.link in _HANGING or not frame.subject_nouns:
+        return ()
+    return frame.scene.clause.subjects
