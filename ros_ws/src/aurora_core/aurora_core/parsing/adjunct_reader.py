@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 
 from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind, NounPhrase
@@ -56,6 +57,13 @@ class AdjunctReader:
 
     def __init__(self, atoms: Sequence[Atom]) -> None:
         self._atoms = [a for a in atoms if a.kind not in _DROPPED]
+        commas = [a.start for a in atoms if a.kind is AtomKind.COMMA]
+        # Atoms that a comma parts from the one in front.
+        self._parted = {
+            atom.start
+            for before, atom in pairwise(self._atoms)
+            if any(before.end <= comma < atom.start for comma in commas)
+        }
 
     def read(self) -> list[Adjunct]:
         """Return the adjuncts in the order of the text."""
@@ -177,7 +185,12 @@ class AdjunctReader:
         if self._is(j, AtomKind.PREPOSITION, 'of', 'in') and self._is(j + 1, AtomKind.THING):
             j += 1
         thing = self._at(j)
-        if thing is not None and thing.kind is AtomKind.THING and fits(thing.key, measure):
+        if (
+            thing is not None
+            and thing.kind is AtomKind.THING
+            and fits(thing.key, measure)
+            and not self._has_its_own(j)
+        ):
             stop = j + 1
             if self._is(stop, AtomKind.THING, 'altitude_suffix'):  # `30 m altitude above ground`
                 stop += 1
@@ -195,6 +208,12 @@ class AdjunctReader:
             return adjunct, stop
         if self._is(j, AtomKind.COMPASS) and measure.dimension == LENGTH:
             return self._compass(begin, j, measure)
+        if self._is(j, AtomKind.PREPOSITION, 'beyond', 'below') and self._at(j + 1) is not None:
+            beyond = self._at(j + 1)
+            if beyond is not None and beyond.measure is None:  # `10 m higher than that`
+                return self._make(
+                    AdjunctKind.MARK, 'unknown', begin, j + 2, value='comparison'
+                ), j + 2
         one = measure.second is None and measure.upper is None
         over_it = self._is(j, AtomKind.PREPOSITION, 'over', 'below')
         if measure.dimension == LENGTH and one and over_it:
@@ -239,6 +258,16 @@ class AdjunctReader:
                 AdjunctKind.MEASURE, measure.dimension, begin, i + 1, prep=prep, measure=measure
             ),
             i + 1,
+        )
+
+    def _has_its_own(self, i: int) -> bool:
+        """`200 by 100 m, height 50`: behind a comma, a name in front of a number goes with it."""
+        thing, value = self._atoms[i], self._at(i + 1)
+        return (
+            thing.start in self._parted
+            and value is not None
+            and value.measure is not None
+            and fits(thing.key, value.measure)
         )
 
     def _attribute(

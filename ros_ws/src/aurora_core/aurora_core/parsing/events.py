@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 from aurora_core.parsing.constructions.distances import DistanceCause
 from aurora_core.parsing.constructions.triggers import Cause
-from aurora_core.parsing.scene import ClauseDraft, EventDraft, Scene
+from aurora_core.parsing.scene import ClauseDraft, Doubt, EventDraft, Scene
 from aurora_core.spec.parameter import Span
 from aurora_core.spec.scenario import (
     AgentAction,
@@ -33,10 +33,15 @@ def complete_event(
             clause.ids[str(action.mission)] = None
             clause.status = ClauseStatus.ENCODED
         return None
-    event = EventDraft(
-        id=scene.new_id('e'), trigger=_settled(scene, found, action), action=action, span=span
-    )
-    scene.events.append(event)
+    trigger = settled(scene, found, action)
+    # `after the car brakes … The car brakes at 25 s`: one event, told in two places.
+    known = [e for e in scene.events if e.trigger is None and e.action == action]
+    if known and trigger is not None and isinstance(action, AgentAction):
+        event = known[0]
+        event.trigger = trigger
+    else:
+        event = EventDraft(id=scene.new_id('e'), trigger=trigger, action=action, span=span)
+        scene.events.append(event)
     for clause in (*clauses, scene.clause):
         clause.ids[event.id] = None
         clause.status = ClauseStatus.ENCODED
@@ -68,13 +73,17 @@ def _is_climb_before_mission(scene: Scene, found: Cause, action: EventAction) ->
     return True
 
 
-def _settled(scene: Scene, found: Cause, action: EventAction) -> Trigger:
+def settled(scene: Scene, found: Cause, action: EventAction) -> Trigger | None:
+    """Return the trigger of a cause; None, with a doubt, when its other end stays open."""
     if not isinstance(found, DistanceCause):
         return found
     other = found.b or _other_end(scene, found, action)
     if other is None:
-        scene.questions.append(f'How far from whom should {found.a.id} be?')
-        other = found.a.id
+        span = found.value_m.span
+        assert span is not None
+        question = f'How far from whom should {found.a.id} be?'
+        scene.doubts.append(Doubt(span=span, question=question))
+        return None
     return DistanceTrigger(
         on='distance_below' if found.below else 'distance_above',
         a=found.a.id,
@@ -92,6 +101,8 @@ def _other_end(scene: Scene, found: DistanceCause, action: EventAction) -> str |
             return told.id
     if isinstance(action, AgentAction) and action.agent != a.id:
         return action.agent
+    if isinstance(action, UavAction) and action.uav != a.id:
+        return action.uav
     for behavior in a.behaviors:
         if behavior.target is not None and scene.by_id(behavior.target) is not None:
             return behavior.target

@@ -228,6 +228,9 @@ class NounReader:
             letter = ord(self._words[stop]) - ord('a') + 1
             if 1 <= letter <= 8:
                 return letter, stop + 1  # `drone B`
+        spelled = self._lexicon.longest_of(self._words, stop, (Tag.NUMBER,))
+        if spelled is not None and spelled[1].key.isdigit() and self._is_predicate(stop + 1):
+            return int(spelled[1].key), stop + 1  # `drone two orbits`
         if stop >= len(self._tokens) or self._tokens[stop].kind is not TokenKind.NUMBER:
             return 0, stop
         token = self._tokens[stop]
@@ -239,6 +242,13 @@ class NounReader:
         if measure.dimension == COUNT and whole and after == stop + 1 and measure.second is None:
             return int(token.value), after
         return 0, stop
+
+    def _is_predicate(self, j: int) -> bool:
+        return any(
+            s.tag is Tag.VERB and s.form is VerbForm.THIRD
+            for _, senses in self._lexicon.matches(self._words, j)
+            for s in senses
+        )
 
     # --- what may stand before the head -------------------------------------------------------
 

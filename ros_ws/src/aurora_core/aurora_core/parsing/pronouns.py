@@ -50,7 +50,8 @@ class PronounResolver:
             target = self._scene.by_id(tracked[-1]) if tracked else None
             return (target,) if target is not None else self._ask(noun)
         if noun.key == 'both':
-            return self._last_group(accept) or self._ask(noun)
+            group = self._last_group(accept) or self._plural(accept, exclude, as_object)
+            return group or self._ask(noun)
         if noun.key == 'they':
             return self._plural(accept, exclude, as_object) or self._ask(noun)
         if noun.key == 'there':

@@ -16,7 +16,7 @@ from aurora_core.parsing.constructions.triggers import (
     cause,
 )
 from aurora_core.parsing.constructions.world import world_words
-from aurora_core.parsing.events import complete_event, same_cause
+from aurora_core.parsing.events import complete_event, same_cause, settled
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.main_clause import main_clause, shared_words
 from aurora_core.parsing.morphology import VerbForm
@@ -26,6 +26,7 @@ from aurora_core.parsing.scene import ClauseDraft, EventDraft, Scene, UntilDraft
 from aurora_core.spec.parameter import Parameter, Span
 from aurora_core.spec.scenario import (
     AgentAction,
+    EventDoneTrigger,
     MessageTrigger,
     SendMessage,
     TimeTrigger,
@@ -150,8 +151,10 @@ class Reader:
             self._without_cause(frame)
         elif not self._told_to(frame) and not self._follows_event(frame):
             before = len(self._scene.events)
-            main_clause(frame)
+            if not self._later(frame):
+                main_clause(frame)
             self._note_fronted_time(frame, before)
+            self._in_sequence(frame, before)
         self._close(frame)
 
     def _leading(self, piece: Piece, following: Piece) -> None:
@@ -221,6 +224,35 @@ class Reader:
         self._scene.events.append(event)
         self._scene.became(event.id)
 
+    def _later(self, frame: Frame) -> bool:
+        """`…; ten seconds later, the bus starts`: so long after the last event."""
+        adjunct = frame.time('')
+        if adjunct is None or adjunct.measure is None or not self._scene.events:
+            return False
+        behind = self._scene.prompt[adjunct.end :].lstrip().lower()
+        told = behind.startswith(('later', 'afterwards', 'after that'))
+        if not told or not values.accepts('delay', adjunct.measure):
+            return False
+        action = actions.action(frame)
+        if action is None:
+            return False
+        adjunct.used = True
+        after = EventDoneTrigger(
+            on='event_done',
+            event=self._scene.events[-1].id,
+            after_s=values.explicit('delay', adjunct.measure),
+        )
+        complete_event(self._scene, after, action, frame.span, ())
+        return True
+
+    def _in_sequence(self, frame: Frame, before: int) -> None:
+        """`After that the drone warns the ego`: what happens next, happens after the event."""
+        events = self._scene.events
+        if not frame.piece.then or not before or len(events) != before + 1:
+            return
+        if events[-1].trigger is None:
+            events[-1].trigger = EventDoneTrigger(on='event_done', event=events[before - 1].id)
+
     def _note_fronted_time(self, frame: Frame, before: int) -> None:
         """`After 15 s the bus stops and …`: the time holds for what follows, too."""
         made = self._scene.events[before:]
@@ -246,11 +278,23 @@ class Reader:
         action = actions.action(frame)
         if action is None:
             return False
-        heard = MessageTrigger(
-            on='message_received', by=message.receiver, sender=message.sender
-        )
+        heard = MessageTrigger(on='message_received', by=message.receiver, sender=message.sender)
         complete_event(self._scene, heard, action, frame.span, ())
         return True
+
+    def _cause_of_message(self, frame: Frame, because: Piece) -> None:
+        """`tells the truck to stop when it sees a bus`: the cause is that of the message."""
+        self._close(frame)
+        told = self._scene.events[-2]
+        second = self._open(because)
+        if isinstance(told.action, SendMessage) and not second.subject_nouns:
+            second.heir = self._scene.by_id(told.action.sender)
+        found = cause(second)
+        if found is not None and told.trigger is None and told.action is not None:
+            told.trigger = settled(self._scene, found, told.action)
+            self._scene.clause.ids[told.id] = None
+            self._scene.clause.status = ClauseStatus.ENCODED
+        self._close(second)
 
     def _follows_event(self, frame: Frame) -> bool:
         """`When …, the drone alerts the ego and the ego brakes`: a second effect of one cause."""
@@ -274,6 +318,9 @@ class Reader:
         shared_words(frame)
         if because.link is Link.UNTIL:
             self._until(frame, because)
+            return
+        if self._told_to(frame):
+            self._cause_of_message(frame, because)
             return
         action = actions.action(frame)
         if action is None:

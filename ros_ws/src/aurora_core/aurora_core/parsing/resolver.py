@@ -123,6 +123,10 @@ class Resolver:
     def _one(
         self, noun: NounPhrase, accept: Fits, exclude: Sequence[Entity], as_object: bool
     ) -> tuple[Entity, ...]:
+        if noun.kind is NounKind.PRONOUN and noun.key == 'another':
+            if not self.known(noun):
+                self._read[noun.start, noun.end] = self._one_more(noun)
+            return self.known(noun)
         if noun.kind is NounKind.PRONOUN:
             return self._pronouns.resolve(noun, accept, exclude, as_object)
         if noun.kind is NounKind.EGO or self._names_ego(noun):
@@ -142,6 +146,21 @@ class Resolver:
                 self._read[noun.start, noun.end] = self._named(noun, exclude)
             return self.known(noun)
         return ()
+
+    def _one_more(self, noun: NounPhrase) -> tuple[Entity, ...]:
+        """`one drone …, another one …`: of the kind that acted last."""
+        acting = [c.subjects[0] for c in self._scene.clauses if c.subjects]
+        if not acting:
+            return ()
+        like = acting[-1]
+        made = Entity(
+            id=self._scene.new_id('uav' if like.is_uav else like.type.value),
+            is_uav=like.is_uav,
+            type=like.type,
+            span=Span(start=noun.start, end=noun.end),
+        )
+        self._scene.entities.append(made)
+        return (made,)
 
     def _quote(self, noun: NounPhrase) -> str:
         return f'"{self._scene.prompt[noun.start : noun.end]}"'

@@ -9,6 +9,7 @@ from aurora_core.parsing.scene import Entity, LinkDraft, MissionDraft, Scene
 from aurora_core.spec.scenario import (
     Behavior,
     DistanceTrigger,
+    MessageTrigger,
     Placement,
     SendMessage,
     UavAction,
@@ -58,6 +59,22 @@ def settle(scene: Scene) -> None:
         if draft.needs_target and draft.target is None:
             _infer_target(scene, draft)
     _general_links(scene)
+    _senders(scene)
+
+
+def _senders(scene: Scene) -> None:
+    """`when the ego gets the message`: of the one who sends it messages."""
+    for event in scene.events:
+        heard = event.trigger
+        if not isinstance(heard, MessageTrigger) or heard.sender is not None:
+            continue
+        found = {
+            e.action.sender
+            for e in scene.events
+            if isinstance(e.action, SendMessage) and e.action.receiver == heard.by
+        }
+        if len(found) == 1:
+            event.trigger = MessageTrigger(on=heard.on, by=heard.by, sender=found.pop())
 
 
 def _seen_from_above(scene: Scene) -> None:
@@ -120,7 +137,7 @@ def _climb_only(scene: Scene) -> None:
             clause=0,
             span=uav.span,
             altitude=altitude,
-            target=known[-1].target if known else None,
+            target=scene.pending_place.get(uav_id) or (known[-1].target if known else None),
         )
         scene.missions.append(draft)
         for clause in scene.clauses:
@@ -138,7 +155,9 @@ def _onlookers(scene: Scene) -> None:
             isinstance(e.action, SendMessage) and e.action.sender == uav.id for e in scene.events
         )
         # With nobody to track, a UAV that only passes messages on waits in the air.
-        track = seen is not None or (reports and any(e.type is not AgentType.RSU for e in scene.agents))
+        track = seen is not None or (
+            reports and any(e.type is not AgentType.RSU for e in scene.agents)
+        )
         scene.missions.append(
             MissionDraft(
                 id=scene.new_id('m'),

@@ -72,6 +72,7 @@ class MissionDraft:
     bearing: Parameter | None = None
     duration: Parameter | None = None
     pattern: Pattern | None = None
+    pattern_assumed: bool = False
     square: bool = False
     size: tuple[Parameter, Parameter] | None = None
     radius: Parameter | None = None
@@ -176,6 +177,7 @@ class Scene:
         self.refusals: list[Refusal] = []
         self.pending_altitude: dict[str, Parameter] = {}
         self.pending_speed: dict[str, Parameter] = {}
+        self.pending_place: dict[str, str] = {}
         self.aerial: tuple[ClauseDraft, str | None] | None = None
         self.no_uavs = False
         # What the whole prompt says of flying, for clauses that leave the flyer out.

@@ -34,7 +34,8 @@ def segment(atoms: Sequence[Atom]) -> tuple[Piece, ...]:
 
 def _sentence(atoms: list[Atom], number: int) -> list[Piece]:
     raw = _cut_at_markers(_plain_prepositions(atoms))
-    pieces = [piece for part in raw for piece in cut_at_verbs(part)]
+    parts = [part for whole in raw for part in _cut_behind_comparison(whole)]
+    pieces = [piece for part in parts for piece in cut_at_verbs(part)]
     pieces = _attach_adjuncts(_delays(pieces))
     return [replace(p, sentence=number) for p in pieces if p.atoms]
 
@@ -43,6 +44,8 @@ def _plain_prepositions(atoms: list[Atom]) -> list[Atom]:
     """`after 10 s`, `before the junction`, `as a test`: no clause follows."""
     changed = list(atoms)
     for i, atom in enumerate(atoms):
+        if atom.kind is AtomKind.AUXILIARY and atom.key == 'should' and _inverted(atoms, i):
+            changed[i] = atom = replace(atom, kind=AtomKind.SUBORDINATOR, key='when')
         if atom.kind is AtomKind.PREPOSITION and atom.key == 'with' and i and _absolute(atoms, i):
             changed[i] = replace(atom, kind=AtomKind.CONJUNCTION)
         if atom.kind is not AtomKind.SUBORDINATOR:
@@ -59,6 +62,12 @@ def _plain_prepositions(atoms: list[Atom]) -> list[Atom]:
     return changed
 
 
+def _inverted(atoms: Sequence[Atom], i: int) -> bool:
+    """`should it slow below 3 m/s, …`: the auxiliary opens the clause."""
+    opens = i == 0 or atoms[i - 1].kind in (AtomKind.COMMA, AtomKind.CONJUNCTION)
+    return opens and i + 1 < len(atoms) and atoms[i + 1].is_actor
+
+
 def _absolute(atoms: Sequence[Atom], i: int) -> bool:
     """`with two cars driving around`: a clause of its own."""
     solid = [a for a in atoms[i + 1 : i + 6] if a.kind not in TRANSPARENT]
@@ -69,6 +78,19 @@ def _absolute(atoms: Sequence[Atom], i: int) -> bool:
     beside = next((a for a in solid[1:3] if a.kind is AtomKind.RELATION), None)
     refers = solid[-1].noun is not None and solid[-1].noun.kind is NounKind.PRONOUN
     return beside is not None and (refers or solid[-1] is beside)  # `with a truck beside it`
+
+
+def _cut_behind_comparison(piece: Piece) -> list[Piece]:
+    """`if ego > 15 m/s drone warns it`: a cause without a verb ends with its number."""
+    atoms = piece.atoms
+    if piece.link is not Link.WHEN:
+        return [piece]
+    for i in range(1, len(atoms) - 2):
+        solid = [a for a in atoms[i + 1 :] if a.kind not in TRANSPARENT]
+        acts = len(solid) > 1 and solid[0].is_actor and solid[1].kind is AtomKind.VERB
+        if atoms[i].kind is AtomKind.MEASURE and acts and not has_verb(atoms[:i]):
+            return [replace(piece, atoms=atoms[: i + 1]), Piece(atoms=atoms[i + 1 :])]
+    return [piece]
 
 
 def _until_marker(atoms: Sequence[Atom], start: int) -> list[Atom]:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""Conditions that hang on a clause: shares of the time, seconds in view, distances kept, deadlines.
+"""Conditions that hang on a clause: shares of the time, seconds in view, distances, deadlines.
 
 They stand alone (`visible at least 80 % of the time`) or behind something else (`…, keeping at
 least 8 m between them`), so they are read last, from what the other constructions left.
@@ -28,7 +28,9 @@ _APART = re.compile(
 )
 _CLOSER = re.compile(r'\b(nearer|closer)\s+than\s*$')
 _STRICT = re.compile(r'(less than|under|below|quicker than|faster than|<)\s*$')
-_UNBROKEN = re.compile(r'\b(without (?:interruption|a break)|uninterrupted|in one go|at a stretch)')
+_UNBROKEN = re.compile(
+    r'\b(without (?:interruption|a break)|uninterrupted|in one go|at a stretch)'
+)
 _ENDS = re.compile(r'\b(on the ground|landed|lands?|down)\b')
 
 
@@ -164,8 +166,9 @@ def _keeps_off(frame: Frame) -> None:
             continue
         others = [e.id for n in adjunct.nouns for e in frame.resolver.known(n)]
         target = others[0] if others else _watched(frame, observer)
-        if target is None:
-            continue
+        behind = frame.scene.prompt[measure.end : frame.piece.end].split()
+        if target is None or (not others and behind[:1] == ['to']):
+            continue  # `to either`: of whom is not read
         adjunct.used = True
         value = values.explicit('condition_distance', measure)
         add_condition(frame, 'distance', (observer.id, target), '>=', value)

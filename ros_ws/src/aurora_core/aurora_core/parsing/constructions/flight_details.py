@@ -8,6 +8,7 @@
 from __future__ import annotations
 
 from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
+from aurora_core.parsing.constructions.flight_types import stated_value
 from aurora_core.parsing.constructions.flight_values import take_flight_values
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.measures import TIME
@@ -24,6 +25,7 @@ def flight_details(frame: Frame) -> None:
     left = [a for a in frame.adjuncts if not a.used and _is_detail(frame, a)]
     draft = _last(frame) if left and not frame.negated else None
     if draft is None:
+        _for_later(frame, left)
         return
     found = take_flight_values(frame, draft.mode, draft.pattern)
     taken = [a for a in found.taken if a not in left]
@@ -32,6 +34,20 @@ def flight_details(frame: Frame) -> None:
         return
     found.apply(draft)
     frame.scene.became(draft.id)
+
+
+def _for_later(frame: Frame, left: list[Adjunct]) -> None:
+    """`a drone at 90 m altitude keeps the stadium in view`: its phase comes later, or is implied."""
+    flying = [e for e in frame.scene.clause.subjects if e.is_uav]
+    heights = [a for a in left if a.key == 'altitude' and a.measure is not None]
+    if len(flying) != 1 or not heights or frame.scene.missions or frame.negated:
+        return
+    measure = heights[0].measure
+    parameter = stated_value('altitude', measure) if measure is not None else None
+    if parameter is not None:
+        heights[0].used = True
+        frame.scene.pending_altitude.setdefault(flying[0].id, parameter)
+        frame.scene.became(flying[0].id)
 
 
 def _is_detail(frame: Frame, adjunct: Adjunct) -> bool:

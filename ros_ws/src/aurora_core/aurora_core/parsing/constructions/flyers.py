@@ -67,9 +67,9 @@ def asks_for_flight(frame: Frame) -> bool:
     """`rectangle patrol around the market`, `do a lawnmower survey`: only UAVs fly patterns."""
     if frame.key not in ('', 'trace') or frame.subject_nouns:
         return False
-    return frame.has_mark(AtomKind.PATTERN.value) or frame.has_mark(
-        AtomKind.ROUTE.value, 'patrol', 'survey', 'survey route', 'patrol route', 'survey flight'
-    )
+    routes = [a.value for a in frame.adjuncts if a.key == AtomKind.ROUTE.value]
+    flown = any('patrol' in name or 'survey' in name for name in routes)
+    return flown or frame.has_mark(AtomKind.PATTERN.value)
 
 
 def _left_out(frame: Frame) -> tuple[Entity, ...]:

@@ -188,4 +188,13 @@ def _named_ends(frame: Frame) -> tuple[Entity, Entity] | None:
             between[0].used = True
             first, second = ends
             return (second, first) if airborne(second) and not airborne(first) else (first, second)
+    from_whom = frame.free(AdjunctKind.PHRASE, 'from')
+    to_whom = frame.free(AdjunctKind.PHRASE, 'to')
+    if to_whom and (from_whom or frame.subject_nouns):
+        senders = frame.objects(from_whom[0].nouns) if from_whom else frame.subjects()
+        receivers = frame.objects([n for n in to_whom[0].nouns if n.kind in ACTORS])
+        if len(senders) == len(receivers) == 1 and senders != receivers:
+            for taken in (*from_whom[:1], to_whom[0]):
+                taken.used = True
+            return senders[0], receivers[0]
     return None

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from aurora_core.parsing import values
 from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
-from aurora_core.parsing.atoms import ACTORS, AtomKind, NounKind
+from aurora_core.parsing.atoms import ACTORS, AtomKind, NounKind, NounPhrase
 from aurora_core.parsing.constructions.flight_types import FlightValues
 from aurora_core.parsing.constructions.flight_values import take_flight_values
 from aurora_core.parsing.constructions.flyers import flyers
@@ -56,6 +56,8 @@ def mission(frame: Frame) -> bool:
     """Read one mission phase, or more about the last one."""
     if frame.negated or frame.key not in FLYING:
         return False
+    if frame.key in ('', 'be') and frame.has_mark(AtomKind.LINK.value):
+        return False  # `link UAV to RSU`
     flying = flyers(frame)
     if not flying:
         return False
@@ -154,6 +156,8 @@ def _reference(frame: Frame, adjunct: Adjunct, flying: tuple[Entity, ...]) -> st
                 frame.resolver.unknown_actor(noun)
             elif adjunct.key in ('over', 'around', 'at', 'to', 'near'):
                 frame.resolver.unknown_place(noun)
+        elif _is_place_again(frame, noun, adjunct):
+            chosen.append(next(c.places[0] for c in reversed(frame.scene.clauses) if c.places))
         elif noun.kind in ACTORS:
             found = [e for e in frame.objects((noun,)) if e not in flying]
             chosen += [e.id for e in found]
@@ -161,6 +165,13 @@ def _reference(frame: Frame, adjunct: Adjunct, flying: tuple[Entity, ...]) -> st
         frame.flag(adjunct.start, adjunct.end)
         frame.scene.clause.notes.append('a mission has one target; the first one was taken')
     return chosen[0] if chosen else None
+
+
+def _is_place_again(frame: Frame, noun: NounPhrase, adjunct: Adjunct) -> bool:
+    """`keeps the stadium in view, hovering over it`: with nobody else about, `it` is the place."""
+    if noun.kind is not NounKind.PRONOUN or noun.key != 'it' or frame.scene.agents:
+        return False
+    return adjunct.key in ('over', 'around', 'at') and any(c.places for c in frame.scene.clauses)
 
 
 def _mode(frame: Frame, target: str | None, prep: str) -> MissionMode | None:
@@ -238,15 +249,23 @@ def _one(
         )
         draft.altitude = scene.pending_altitude.pop(uav.id, None)
         draft.speed = scene.pending_speed.pop(uav.id, None)
+        place = scene.pending_place.pop(uav.id, None)
+        draft.target = place if mode is MissionMode.HOVER and target is None else None
         scene.missions.append(draft)
     draft.target = draft.target or target
     draft.needs_target = draft.mode is MissionMode.TRACK and draft.target is None
-    draft.pattern = draft.pattern or pattern
+    if draft.pattern is None or (draft.pattern_assumed and pattern is not None):
+        draft.pattern = pattern
+        draft.pattern_assumed = _is_assumed(frame, pattern)
     if pattern is Pattern.WAYPOINTS and target is not None and found.waypoint_count is None:
         draft.waypoint_count = draft.waypoint_count or values.inferred('waypoint_count', 1)
     found.apply(draft)
     _state_ranges(frame, draft, found)
     return draft.id
+
+
+def _is_assumed(frame: Frame, pattern: Pattern | None) -> bool:
+    return pattern is Pattern.RECTANGLE and not frame.has_mark(AtomKind.PATTERN.value)
 
 
 def _goes_on_watching(
@@ -279,7 +298,8 @@ def _continues(
         return False
     if target is not None and last.target is not None and last.target != target:
         return False
-    if pattern is not None and last.pattern is not None and last.pattern is not pattern:
+    stated = last.pattern is not None and not last.pattern_assumed
+    if pattern is not None and stated and last.pattern is not pattern:
         return False
     return not found.clashes(last)
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from aurora_core.parsing import values
 from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
-from aurora_core.parsing.atoms import AtomKind
+from aurora_core.parsing.atoms import AtomKind, NounKind
 from aurora_core.parsing.constructions.actions import agent_action
 from aurora_core.parsing.constructions.distances import DistanceCause, distance_cause, reference
 from aurora_core.parsing.frames import Frame
@@ -89,10 +89,15 @@ def _speed(frame: Frame) -> SpeedTrigger | None:
     adjunct = frame.attribute('speed')
     above = frame.key in ('exceed', 'reach', 'accelerate', 'drive', 'come')
     below = frame.key in ('fall_below', 'slow')
-    if adjunct is None or adjunct.measure is None or not (above or below):
+    if adjunct is None or adjunct.measure is None:
+        return None
+    compared = frame.key in ('', 'be') and adjunct.prep in ('below', 'within', 'beyond')
+    if not (above or below or compared):
         return None
     if adjunct.prep in ('below', 'within'):
         above, below = False, True
+    elif adjunct.prep == 'beyond':
+        above, below = True, False
     if not values.accepts('trigger_speed', adjunct.measure):
         return None
     who = frame.subjects()
@@ -137,6 +142,11 @@ def _message(frame: Frame) -> MessageTrigger | None:
     if frame.key != 'receive':
         return None
     who = frame.subjects(anything)
+    told = [e.action.receiver for e in frame.scene.events if isinstance(e.action, SendMessage)]
+    refers = all(n.kind is NounKind.PRONOUN for n in frame.subject_nouns)
+    if refers and told and all(e.id not in told for e in who):
+        receiver = frame.scene.by_id(told[-1])  # `when it gets the message`: who was told
+        who = (receiver,) if receiver is not None else who
     frame.mark(AtomKind.MESSAGE.value)
     phrase = frame.take(AdjunctKind.PHRASE, 'from', 'of')
     senders = frame.objects(phrase.nouns) if phrase is not None else ()

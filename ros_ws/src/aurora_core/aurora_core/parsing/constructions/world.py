@@ -9,11 +9,24 @@ from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
 from aurora_core.parsing.atoms import AtomKind
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.measures import TIME
-from aurora_core.spec.parameter import Span
+from aurora_core.spec.parameter import Bound, Span
 from aurora_core.spec.vocabulary import TimeOfDay, TrafficDensity, Weather
 
 WORLD_ID = 'world'
-_BETWEEN = ('of', 'for', 'exactly', 'lasting', 'this', 'in', 'with', 'a', 'just', 'only', 'over', 'length')
+_BETWEEN = (
+    'of',
+    'for',
+    'exactly',
+    'lasting',
+    'this',
+    'in',
+    'with',
+    'a',
+    'just',
+    'only',
+    'over',
+    'length',
+)
 _LASTING = ('last', 'trace', 'be', 'keep', 'finish', '')
 
 
@@ -72,10 +85,13 @@ def _duration(frame: Frame) -> bool:
         AdjunctKind.ATTRIBUTE, 'duration'
     ):
         measure = adjunct.measure
-        allowed = adjunct.prep in ('', 'for', 'of', 'with')
+        allowed = adjunct.prep in ('', 'for', 'of', 'with', 'below', 'within')
         if measure is not None and allowed and values.accepts('scenario_duration', measure):
             adjunct.used = True
-            frame.scene.world.duration = values.explicit('scenario_duration', measure)
+            duration = values.explicit('scenario_duration', measure)
+            if adjunct.prep in ('below', 'within'):
+                duration = values.rebound(duration, Bound.AT_MOST)
+            frame.scene.world.duration = duration
             return True
     return False
 
