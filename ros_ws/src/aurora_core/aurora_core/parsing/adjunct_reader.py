@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import pairwise
 
 from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
@@ -57,6 +58,7 @@ class AdjunctReader:
 
     def __init__(self, atoms: Sequence[Atom]) -> None:
         self._atoms = [a for a in atoms if a.kind not in _DROPPED]
+        self._respectively = any(a.key == 'respectively' for a in atoms)
         commas = [a.start for a in atoms if a.kind is AtomKind.COMMA]
         # Atoms that a comma parts from the one in front.
         self._parted = {
@@ -172,6 +174,11 @@ class AdjunctReader:
     def _measure(self, begin: int, i: int, prep: str) -> tuple[Adjunct, int]:
         measure = self._atoms[i].measure
         assert measure is not None
+        several, stop = self._respective(i)
+        if several:
+            made = self._make(AdjunctKind.MARK, 'list', begin, stop, prep=prep)
+            made.measures = several
+            return made, stop
         shared = self._at(i + 2)
         if (
             self._is(i + 1, AtomKind.CONJUNCTION)
@@ -259,6 +266,23 @@ class AdjunctReader:
             ),
             i + 1,
         )
+
+    def _respective(self, i: int) -> tuple[tuple[Measure, ...], int]:
+        """Read `30, 45 and 60 m respectively`; the last one has the unit."""
+        found: list[Measure] = []
+        j = i
+        while True:
+            atom = self._at(j)
+            if atom is None or atom.measure is None:
+                break
+            found.append(atom.measure)
+            j += 2 if self._is(j + 1, AtomKind.CONJUNCTION) else 1
+        plain = all(m.second is None and m.upper is None for m in found)
+        if len(found) < 2 or not self._respectively or not plain:
+            return (), i
+        if found[-1].dimension != LENGTH or any(m.dimension not in (LENGTH, COUNT) for m in found):
+            return (), i
+        return tuple(replace(m, dimension=LENGTH) for m in found), j
 
     def _has_its_own(self, i: int) -> bool:
         """`200 by 100 m, height 50`: behind a comma, a name in front of a number goes with it."""

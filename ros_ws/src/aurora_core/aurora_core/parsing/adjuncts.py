@@ -28,6 +28,7 @@ class Adjunct:
         key: Attribute name, relation, preposition or the kind of a mark.
         prep: Preposition in front of an attribute or measure.
         value: Key of a mark (`weather:clear`, `rectangle`, …).
+        measures: The numbers of `at 30, 45 and 60 m respectively`, in order.
     """
 
     kind: AdjunctKind
@@ -38,4 +39,5 @@ class Adjunct:
     value: str = ''
     measure: Measure | None = None
     nouns: tuple[NounPhrase, ...] = ()
+    measures: tuple[Measure, ...] = ()
     used: bool = field(default=False)

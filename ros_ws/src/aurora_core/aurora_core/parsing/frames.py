@@ -92,7 +92,7 @@ class Frame:
             return
         for name, value in pairwise(list(self.adjuncts)):
             around = name.end <= self.verb.start and value.start >= self.verb.end
-            thing = name.kind is AdjunctKind.MARK and name.key == 'thing' and not name.nouns
+            thing = name.kind is AdjunctKind.MARK and name.key == 'thing'
             measure = value.measure
             plain = value.kind in (AdjunctKind.MEASURE, AdjunctKind.ATTRIBUTE)
             if around and thing and plain and measure is not None and fits(name.value, measure):
@@ -105,7 +105,9 @@ class Frame:
         world = any(
             a.kind is AdjunctKind.MARK and a.key == AtomKind.WORLD.value for a in self.adjuncts
         )
-        if world and self.key in ('be', 'come', 'keep', ''):
+        # `it is the van that the drone tracks`
+        cleft = self.key == 'be' and self.piece.atoms[-1].kind is AtomKind.RELATIVE
+        if cleft or (world and self.key in ('be', 'come', 'keep', '')):
             self.subject_nouns = tuple(
                 n for n in self.subject_nouns if n.kind is not NounKind.PRONOUN
             )

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from aurora_core.parsing import values
 from aurora_core.parsing.adjuncts import AdjunctKind
 from aurora_core.parsing.atoms import AtomKind, NounKind
 from aurora_core.parsing.constructions import actions, conditions, ground, messages, missions
@@ -19,6 +20,7 @@ from aurora_core.parsing.constructions.world import world_words
 from aurora_core.parsing.events import complete_event
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.morphology import VerbForm
+from aurora_core.parsing.pronouns import ground as ground_agent
 from aurora_core.parsing.scene import EventDraft
 from aurora_core.spec.scenario import Behavior
 from aurora_core.spec.vocabulary import BehaviorKind, ClauseStatus
@@ -114,6 +116,7 @@ def main_clause(frame: Frame) -> None:
     shared_words(frame)
     if _absent(frame):
         return
+    _in_brackets(frame)
     flies = _flies(frame)
     for construction in (_timed, _told, _about_air if flies else _about_ground):
         if construction(frame):
@@ -128,6 +131,25 @@ def main_clause(frame: Frame) -> None:
         predicate_adjectives(frame)
     if frame.scene.clause.status is not ClauseStatus.ENCODED:
         frame.subjects()  # named although nothing is said of them
+
+
+def _in_brackets(frame: Frame) -> None:
+    """`follows a motorcycle (20 m/s)`: the speed of the noun in front of the bracket."""
+    adjunct = frame.attribute('speed')
+    if adjunct is None or adjunct.measure is None or adjunct.prep:
+        return
+    before = frame.scene.prompt[: adjunct.start]
+    noun = next((n for n in frame.nouns() if before[n.end :].strip() == '('), None)
+    if noun is None or noun in frame.subject_nouns:
+        return
+    if not values.accepts('ground_speed', adjunct.measure):
+        return
+    speed = values.explicit('ground_speed', adjunct.measure)
+    for entity in frame.resolver.actors((noun,), accept=ground_agent):
+        if not entity.is_uav:
+            adjunct.used = True
+            drive = Behavior(kind=BehaviorKind.DRIVE, speed_mps=speed, span=frame.span)
+            entity.behaviors.append(drive)
 
 
 def _siren(frame: Frame) -> None:
@@ -203,7 +225,11 @@ def _about_air(frame: Frame) -> bool:
 
 
 def _about_ground(frame: Frame) -> bool:
-    return conditions.condition(frame) or ground.behavior(frame) or ground.placing(frame)
+    if conditions.condition(frame):
+        if frame.key == 'be':
+            ground.placing(frame)  # `is on the sidewalk within 9 m of it`
+        return True
+    return ground.behavior(frame) or ground.placing(frame)
 
 
 def _flies(frame: Frame) -> bool:

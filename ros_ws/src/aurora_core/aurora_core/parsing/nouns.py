@@ -362,8 +362,8 @@ class NounReader:
         first = j
         while j < len(self._words) and j - first < 3 and self._is_unknown(j):
             j += 1
-        if j == first:
-            return None
+        if j == first or (j < len(self._words) and self._words[j] in ('one', 'ones')):
+            return None  # `the higher one` names no type
         text = ' '.join(self._words[first:j])
         definite = article[1].tag is Tag.DEFINITE
         return (

@@ -123,7 +123,7 @@ def _settle_doubts(scene: Scene) -> None:
     if not any(c.status is ClauseStatus.ENCODED for c in scene.clauses):
         scene.questions += [doubt.question for doubt in scene.doubts]
         return
-    for doubt in scene.doubts:
+    for doubt in dict.fromkeys(scene.doubts):
         scene.clauses.append(ClauseDraft(span=doubt.span, notes=[doubt.question]))
 
 

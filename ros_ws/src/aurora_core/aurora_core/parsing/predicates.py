@@ -52,6 +52,8 @@ def _cut_before(atoms: tuple[Atom, ...], begin: int, previous: int, i: int) -> t
                 'until': Link.UNTIL,
             }.get(before.key, Link.PARTICIPLE)
             return j - 1, Piece(atoms=(), link=link, then=before.key == 'before')
+    if verb.key == 'be' and before.kind is AtomKind.THING and j - 1 > previous:
+        return j - 1, Piece(atoms=())  # `a circle whose radius is 80 m`
     if before.is_actor and j - 1 > previous:
         opening = atoms[previous]
         hanging = any(a.kind is AtomKind.RELATIVE for a in atoms[begin:previous]) or (

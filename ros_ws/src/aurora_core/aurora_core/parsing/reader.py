@@ -8,8 +8,9 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from aurora_core.parsing import values
-from aurora_core.parsing.atoms import ACTORS, NounKind, needs_nothing
+from aurora_core.parsing.atoms import ACTORS, Atom, NounKind, needs_nothing
 from aurora_core.parsing.constructions import actions, messages
+from aurora_core.parsing.constructions.demands import demands
 from aurora_core.parsing.constructions.states import adjectives
 from aurora_core.parsing.constructions.triggers import (
     Cause,
@@ -42,7 +43,13 @@ _CAUSES = (Link.WHEN, Link.AFTER, Link.UNTIL)
 def _is_earlier(piece: Piece) -> bool:
     """`… follows it after ascending to 40 m`: told second, done first."""
     first = first_solid(piece.atoms)
-    return piece.link is Link.AFTER and first is not None and first.form is VerbForm.ING
+    gerund = first is not None and first.form is VerbForm.ING
+    return piece.link is Link.AFTER and gerund and not _happens(first)
+
+
+def _happens(first: Atom | None) -> bool:
+    """`after seeing a bus`: what one waits for, not what one does first."""
+    return first is not None and first.key in ('see', 'lose', 'receive')
 
 
 class Reader:
@@ -163,6 +170,9 @@ class Reader:
         gerund = (
             frame.verb is not None and frame.verb.form is VerbForm.ING and not frame.subject_nouns
         )
+        if gerund and piece.link is Link.AFTER and _happens(frame.verb):
+            frame.subject_nouns = Frame(following, self._scene, self.resolver).subject_nouns
+            gerund = False
         if gerund or piece.link is Link.UNTIL:
             upcoming = Frame(following, self._scene, self.resolver)
             if not frame.subject_nouns and upcoming.subject_nouns:
@@ -210,6 +220,7 @@ class Reader:
             event.delay = delay
             self._last = (event, sentence)
         messages.link_values(frame)
+        demands(frame)
 
     def _without_cause(self, frame: Frame) -> None:
         """The effect of a cause that was not understood must not hold without it."""
@@ -309,6 +320,7 @@ class Reader:
         event = same_cause(self._scene, self._last[0], action, frame.span, then=frame.piece.then)
         self._last = (event, frame.piece.sentence)
         messages.link_values(frame)
+        demands(frame)
         return True
 
     def _effect_then_cause(self, piece: Piece, because: Piece) -> None:
@@ -326,6 +338,7 @@ class Reader:
         if action is None:
             main_clause(frame)
         messages.link_values(frame)
+        demands(frame)
         self._close(frame)
         second = self._open(because)
         if isinstance(action, SendMessage):

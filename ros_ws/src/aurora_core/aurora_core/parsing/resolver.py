@@ -230,8 +230,15 @@ class Resolver:
                 return tuple(chosen_rest)
             return self._new(noun)
         if not known:
-            return self._new(noun)
+            return self._shorter(noun, exclude) or self._new(noun)
         return self._again(noun, known, exclude)
+
+    def _shorter(self, noun: NounPhrase, exclude: Sequence[Entity]) -> tuple[Entity, ...]:
+        """`that car`, after a police car and no other: the word without its first half."""
+        full = {'car': AgentType.POLICE, 'truck': AgentType.FIRETRUCK}.get(noun.key)
+        fitting = [e for e in self._scene.agents if e.type is full and e not in exclude]
+        definite = noun.determiner is Determiner.DEFINITE and not noun.plural and not noun.labels
+        return tuple(fitting) if definite and len(fitting) == 1 else ()
 
     def _again(
         self, noun: NounPhrase, known: list[Entity], exclude: Sequence[Entity]

@@ -179,7 +179,8 @@ def _seen_by(scene: Scene, uav: Entity) -> str | None:
         for e in scene.events
         if isinstance(e.trigger, VisibilityTrigger) and e.trigger.observer == uav.id
     ]
-    actors = [one for one in watched if scene.by_id(one) is not None]
+    agents = {e.id for e in scene.agents}
+    actors = [one for one in watched if one in agents]
     return actors[0] if actors else None
 
 

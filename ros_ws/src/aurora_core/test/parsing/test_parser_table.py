@@ -21,7 +21,7 @@ CONTEXT = ParseContext(
     landmark_names=('central_park', 'clock_tower', 'city_hospital', 'north_plaza'),
     seed=1,
 )
-_TABLE = Path(__file__).with_name('prompts.yaml')
+_TABLES = [Path(__file__).with_name(name) for name in ('prompts.yaml', 'wordings.yaml')]
 _MARK = {Provenance.EXPLICIT: '', Provenance.INFERRED: 'i', Provenance.DEFAULT: 'd'}
 _BOUND = {Bound.EXACTLY: '', Bound.AT_LEAST: '>=', Bound.AT_MOST: '<='}
 
@@ -107,7 +107,10 @@ def scene_lines(spec: ScenarioSpec) -> list[str]:
         lines.append(f'{event.id}: {trigger} -> {action}{delay}')
     for condition in spec.conditions:
         of = ' '.join(condition.of)
-        lines.append(f'require {condition.quantity} {of} {condition.op} {_p(condition.value)}')
+        line = f'require {condition.quantity} {of} {condition.op} {_p(condition.value)}'
+        for word, value in (('hold', condition.hold_s), ('by', condition.by_s)):
+            line += f' {word} {_p(value)}' if value is not None else ''
+        lines.append(line)
     return lines
 
 
@@ -125,8 +128,9 @@ def outcome_lines(outcome: ParseOutcome) -> list[str]:
 
 
 def _rows() -> list[dict[str, Any]]:
-    rows = yaml.safe_load(_TABLE.read_text(encoding='utf-8'))
-    assert isinstance(rows, list)
+    rows: list[dict[str, Any]] = []
+    for table in _TABLES:
+        rows += yaml.safe_load(table.read_text(encoding='utf-8'))
     return rows
 
 

@@ -23,7 +23,7 @@ def ascent(frame: Frame) -> bool:
     if found.duration is not None or found.standoff is not None or found.ranges:
         found.release()
         return False
-    place = _above(frame)
+    place = found.target or _above(frame)
     for uav in flying:
         if place is not None:
             frame.scene.pending_place[uav.id] = place

@@ -4,26 +4,31 @@
 
 from __future__ import annotations
 
+import re
 from typing import Literal
 
 from aurora_core.parsing import values
 from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
 from aurora_core.parsing.atoms import ACTORS, AtomKind
 from aurora_core.parsing.frames import Frame
-from aurora_core.parsing.measures import LENGTH
+from aurora_core.parsing.measures import LENGTH, RATIO
 from aurora_core.parsing.scene import Entity
 from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.scenario import StatedCondition
 from aurora_core.spec.vocabulary import MissionMode
 
+_ALWAYS = re.compile(r'\b(the whole time|all the time|at all times|always|the entire time)\b')
 Op = Literal['<=', '<', '>=', '>', '==']
-_STAYING = frozenset({'keep', 'be', 'fly', 'drive', 'track', 'follow', 'hover', 'come', 'trail'})
+_STAYING = frozenset(
+    {'', 'keep', 'be', 'fly', 'drive', 'track', 'follow', 'hover', 'come', 'trail'}
+)
 
 
 def condition(frame: Frame) -> bool:
     """Read a clause that is nothing but a condition."""
-    readers = (_gap_limit, _limit, _apart, _in_view, _delivery, _near)
-    return any(reader(frame) for reader in readers)
+    readers = (_gap_limit, _limit, _apart, _in_view, _delivery)
+    # Without a predicate the place comes first: `a child on the sidewalk within 20 m of it`.
+    return any(reader(frame) for reader in readers) or (bool(frame.key) and _near(frame))
 
 
 def distance_conditions(frame: Frame) -> bool:
@@ -202,6 +207,7 @@ def _in_view(frame: Frame) -> bool:
         frame.key not in ('keep', 'see', 'be')
         or frame.negated
         or not frame.has_mark(AtomKind.IN_VIEW.value)
+        or frame.measure(RATIO) is not None  # a stated share is read with the other shares
     ):
         return False
     pair = _watcher_and_watched(frame)
@@ -227,9 +233,18 @@ def _in_view(frame: Frame) -> bool:
         'visible_fraction',
         (observer.id, target),
         '>=',
-        values.default('condition_ratio'),
+        _all_the_time(frame) or values.default('condition_ratio'),
     )
     return True
+
+
+def _all_the_time(frame: Frame) -> Parameter | None:
+    """`keeps the bus in sight the whole time`: a share of one."""
+    start = frame.piece.start
+    found = _ALWAYS.search(frame.scene.prompt[start : frame.piece.end].lower())
+    if found is None:
+        return None
+    return values.stated('condition_ratio', 1.0, start + found.start(), start + found.end())
 
 
 def _watcher_and_watched(frame: Frame) -> tuple[Entity, str] | None:

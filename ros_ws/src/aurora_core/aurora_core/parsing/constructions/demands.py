@@ -36,7 +36,8 @@ _ENDS = re.compile(r'\b(on the ground|landed|lands?|down)\b')
 
 def demands(frame: Frame) -> None:
     """Take every such condition of a clause."""
-    for reader in (_share, _separation, _keeps_off, _seen_for, _deadline, _told_within):
+    readers = (_share, _separation, _keeps_off, _seen_for, _deadline, _told_within, _drift)
+    for reader in readers:
         reader(frame)
 
 
@@ -225,7 +226,7 @@ def _deadline(frame: Frame) -> None:
             'landed',
             (observer.id,),
             '==',
-            values.stated('condition_ratio', 1.0, measure.start, measure.end),
+            values.inferred('condition_ratio', 1.0),
             by=values.explicit('condition_time', measure),
         )
         return
@@ -244,8 +245,21 @@ def _told_within(frame: Frame) -> None:
     assert link.receiver is not None
     adjunct.used = True
     value = values.explicit('condition_time', adjunct.measure)
-    op = '<' if _STRICT.search(_in_front(frame, adjunct)) else '<='
+    op: Op = '<' if _STRICT.search(_in_front(frame, adjunct)) else '<='
     add_condition(frame, 'delivery_latency', (link.sender, link.receiver), op, value)
+
+
+def _drift(frame: Frame) -> None:
+    """`it must not drift more than 3 m`."""
+    observer = _observer(frame)
+    adjunct = frame.length() or frame.attribute('altitude')
+    if frame.key != 'drift' or not frame.negated or observer is None or adjunct is None:
+        return
+    if adjunct.measure is None or not values.accepts('condition_distance', adjunct.measure):
+        return
+    adjunct.used = True
+    value = values.explicit('condition_distance', adjunct.measure)
+    add_condition(frame, 'hover_drift', (observer.id,), '<=', value)
 
 
 def _link(frame: Frame) -> LinkDraft | None:

@@ -13,7 +13,7 @@ from aurora_core.parsing.constructions.flight_values import take_flight_values
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.measures import TIME
 from aurora_core.parsing.pieces import Link
-from aurora_core.parsing.scene import MissionDraft
+from aurora_core.parsing.scene import Entity, MissionDraft
 from aurora_core.spec.scenario import UavAction
 
 _OF_FLIGHTS = ('altitude', 'standoff', 'radius', 'diameter', 'length', 'width', 'waypoint')
@@ -37,7 +37,7 @@ def flight_details(frame: Frame) -> None:
 
 
 def _for_later(frame: Frame, left: list[Adjunct]) -> None:
-    """`a drone at 90 m altitude keeps the stadium in view`: its phase comes later, or is implied."""
+    """`a drone at 90 m altitude keeps the stadium in view`: its phase comes later."""
     flying = [e for e in frame.scene.clause.subjects if e.is_uav]
     heights = [a for a in left if a.key == 'altitude' and a.measure is not None]
     if len(flying) != 1 or not heights or frame.scene.missions or frame.negated:
@@ -79,7 +79,7 @@ def _last(frame: Frame) -> MissionDraft | None:
     return draft if near and not ended else None
 
 
-def _own_subjects(frame: Frame) -> tuple[object, ...]:
+def _own_subjects(frame: Frame) -> tuple[Entity, ...]:
     """A clause about somebody else keeps its numbers, unless it only describes a target."""
     if frame.piece.link in _HANGING or not frame.subject_nouns:
         return ()

@@ -150,7 +150,8 @@ def _target(frame: Frame, subjects: tuple[Entity, ...]) -> str | None:
     for adjunct in frame.free(AdjunctKind.OBJECT) + frame.free(
         AdjunctKind.PHRASE, 'to', 'of', 'with'
     ):
-        if frame.key not in _TARGETED and any(n.kind in ACTORS for n in adjunct.nouns):
+        acting = [n for n in adjunct.nouns if n.kind in ACTORS and n.key != 'there']
+        if frame.key not in _TARGETED and acting:
             continue
         named = named_reference(frame, adjunct)
         if named is not None:
@@ -292,6 +293,7 @@ def placing(frame: Frame) -> bool:
     nouns = frame.subject_nouns
     if not nouns or all(n.kind is NounKind.PRONOUN and n.key == 'there' for n in nouns):
         lead = next((a for a in frame.free(AdjunctKind.OBJECT) if _names_actor(a)), None)
+        lead = lead or _populated(frame)
         if lead is not None:
             lead.used = True
             nouns = lead.nouns
@@ -323,6 +325,13 @@ def placing(frame: Frame) -> bool:
         return False
     frame.scene.became(*(e.id for e in subjects))
     return True
+
+
+def _populated(frame: Frame) -> Adjunct | None:
+    """`a scenario with one parked van`, `fill the scene with twelve cars`."""
+    scene = frame.key in ('put', 'contain') or frame.has_mark(AtomKind.SCENARIO.value)
+    found = [a for a in frame.free(AdjunctKind.PHRASE, 'with') if _names_actor(a)]
+    return found[0] if scene and found else None
 
 
 def _names_actor(adjunct: Adjunct) -> bool:

@@ -188,7 +188,9 @@ def _named_ends(frame: Frame) -> tuple[Entity, Entity] | None:
             between[0].used = True
             first, second = ends
             return (second, first) if airborne(second) and not airborne(first) else (first, second)
-    from_whom = frame.free(AdjunctKind.PHRASE, 'from')
+    from_whom = frame.free(AdjunctKind.PHRASE, 'from') or [
+        a for a in frame.adjuncts if a.kind is AdjunctKind.ATTRIBUTE and a.nouns and a.used
+    ]
     to_whom = frame.free(AdjunctKind.PHRASE, 'to')
     if to_whom and (from_whom or frame.subject_nouns):
         senders = frame.objects(from_whom[0].nouns) if from_whom else frame.subjects()

@@ -13,6 +13,7 @@ from aurora_core.parsing.constructions.flyers import flyers
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.pieces import Link
 from aurora_core.parsing.scene import Entity, MissionDraft
+from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.scenario import StatedCondition
 from aurora_core.spec.vocabulary import MissionMode, Pattern, Place
 
@@ -82,9 +83,22 @@ def mission(frame: Frame) -> bool:
         mode = MissionMode.TRACK if _is_actor(frame, target) else MissionMode.HOVER
     if mode is None:
         return _plain_flight(frame, flying, found)
-    made = [_one(frame, uav, mode, target, pattern, found) for uav in flying]
+    made = []
+    heights = _respective_heights(frame, flying)
+    for k, uav in enumerate(flying):
+        found.altitude = heights[k] if heights else found.altitude
+        made.append(_one(frame, uav, mode, target, pattern, found))
     frame.scene.became(*made)
     return True
+
+
+def _respective_heights(frame: Frame, flying: tuple[Entity, ...]) -> list[Parameter]:
+    """`three drones hover at 30, 45 and 60 m respectively`."""
+    for adjunct in frame.free(AdjunctKind.MARK, 'list'):
+        if len(adjunct.measures) == len(flying) and adjunct.prep == 'at':
+            adjunct.used = True
+            return [values.explicit('altitude', m) for m in adjunct.measures]
+    return []
 
 
 def _is_actor(frame: Frame, reference: str) -> bool:
@@ -171,7 +185,10 @@ def _is_place_again(frame: Frame, noun: NounPhrase, adjunct: Adjunct) -> bool:
     """`keeps the stadium in view, hovering over it`: with nobody else about, `it` is the place."""
     if noun.kind is not NounKind.PRONOUN or noun.key != 'it' or frame.scene.agents:
         return False
-    return adjunct.key in ('over', 'around', 'at') and any(c.places for c in frame.scene.clauses)
+    about = adjunct.key in ('over', 'around', 'at') or (
+        not adjunct.key and frame.key in ('orbit', 'observe', 'navigate')
+    )
+    return about and any(c.places for c in frame.scene.clauses)
 
 
 def _mode(frame: Frame, target: str | None, prep: str) -> MissionMode | None:

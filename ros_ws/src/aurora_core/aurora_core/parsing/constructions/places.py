@@ -199,6 +199,11 @@ def _anchor(frame: Frame, adjunct: Adjunct, subjects: tuple[Entity, ...]) -> str
     ego = frame.scene.ego
     if ego is not None and ego not in subjects:
         return ego.id
+    if frame.verb is None:  # `a taxi, a bus 20 m ahead, a cyclist 15 m behind`: of the first one
+        for clause in frame.scene.clauses[:-1]:
+            first = [e for e in clause.subjects if not e.is_uav and e not in subjects]
+            if clause.sentence == frame.piece.sentence and first:
+                return first[0].id
     others = [e for e in frame.scene.agents if e not in subjects]
     return max(others, key=lambda e: e.seen).id if others else None
 
