@@ -132,9 +132,9 @@ def test_a_signal_ends_as_cancelled_with_a_readable_folder(
         if b'execute' in line:
             break
     process.send_signal(number)
-    answer, _ = process.communicate(timeout=60)
-    assert process.returncode == 130
+    answer, told = process.communicate(timeout=60)
     report = json.loads(answer)
+    assert process.returncode == 130, (report['status'], report['error'], told)
     assert report['status'] == 'cancelled'
     folder = tmp_path / 'runs' / report['run_id']
     assert json.loads((folder / 'report.json').read_text()) == report
