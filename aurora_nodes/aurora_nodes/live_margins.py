@@ -48,6 +48,7 @@ class LiveMargins:
         definitions: Layouts of the messages.
         period_s: Wall-clock time between two looks, at least.
         lag_ticks: Claims of a tick may come this many ticks later than its states.
+        wanted: Tells whether anybody listens; else nothing is worked out.
         publish: Called with each preview.
         complain: Called with the problem that ends the previews of a run.
         clock: Seconds of wall-clock time.
@@ -58,6 +59,7 @@ class LiveMargins:
         definitions: MessageDefinitions,
         period_s: float,
         lag_ticks: int,
+        wanted: Callable[[], bool],
         publish: Callable[[Preview], None],
         complain: Callable[[str], None],
         clock: Callable[[], float] = time.monotonic,
@@ -65,6 +67,7 @@ class LiveMargins:
         self._definitions = definitions
         self._period_s = period_s
         self._lag = lag_ticks
+        self._wanted = wanted
         self._publish = publish
         self._complain = complain
         self._clock = clock
@@ -88,7 +91,7 @@ class LiveMargins:
     def look(self) -> None:
         """Take in what is complete and publish what it says, if that is due."""
         begun_s = self._clock()
-        if self._run is None or begun_s < self._due_s:
+        if self._run is None or begun_s < self._due_s or not self._wanted():
             return
         try:
             self._look(self._run)

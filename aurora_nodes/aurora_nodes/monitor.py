@@ -60,6 +60,7 @@ class MonitorNode(AuroraNode):
                 self._definitions,
                 self._settings.margins_period_s,
                 self._settings.margins_lag_ticks,
+                lambda: self._margins.get_subscription_count() > 0,
                 self._preview,
                 self.get_logger().warning,
             )

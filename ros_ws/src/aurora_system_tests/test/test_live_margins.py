@@ -50,7 +50,7 @@ def recorded(tmp_path_factory: pytest.TempPathFactory) -> tuple[RunReport, list[
 class _Listener:
     """Hears a recorded run, looking every LOOK_TICKS ticks."""
 
-    def __init__(self, stored: list[StoredMessage]) -> None:
+    def __init__(self, stored: list[StoredMessage], *, wanted: bool = True) -> None:
         self.previews: list[Preview] = []
         self.complaints: list[str] = []
         state = next(m for m in stored if m.topic == messages.GROUND_STATE)
@@ -59,6 +59,7 @@ class _Listener:
             message_definitions(),
             0.0,
             LAG_TICKS,
+            lambda: wanted,
             self.previews.append,
             self.complaints.append,
             lambda: 0.0,
@@ -124,6 +125,15 @@ def test_a_message_that_does_not_fit_ends_the_preview_with_a_word(
     assert len(listener.complaints) == 1
     assert 'at tick 400' in listener.complaints[0]
     assert 0 < listener.previews[-1].tick < 400
+
+
+def test_nothing_is_worked_out_while_nobody_listens(
+    recorded: tuple[RunReport, list[StoredMessage]],
+) -> None:
+    _, stored = recorded
+    listener = _Listener(stored, wanted=False)
+    listener.hear(stored)
+    assert (listener.previews, listener.complaints) == ([], [])
 
 
 def test_nothing_is_said_of_another_run(
