@@ -96,6 +96,9 @@ class ReplayNode(AuroraNode):
         """
         deadline = time.monotonic() + self._settings.discovery_s
         self._await(lambda: time.monotonic() > deadline or self._is_occupied())
+        self._refuse_occupied()
+
+    def _refuse_occupied(self) -> None:
         if self._is_occupied():
             raise ExecutionError(
                 f'a run is going on in this ROS_DOMAIN_ID: {self._occupant()}',
@@ -130,9 +133,11 @@ class ReplayNode(AuroraNode):
                 hears us by chance pays no attention: it may miss messages.
 
         Raises:
-            ExecutionError: A run began, the monitor stopped acknowledging or died, or a message
-                could not be published.
+            ExecutionError: A run is going on or began, the monitor stopped acknowledging or died,
+                or a message could not be published.
         """
+        # Where discovery is slow it is heard of while a monitor is waited for.
+        self._refuse_occupied()
         self._began = monitored
         self.heartbeat.busy(self._plan.run_number)
         if monitored:
