@@ -21,7 +21,7 @@ import numpy as np
 from rosbags.highlevel import AnyReader
 
 from aurora_bench.bags.judge import judge
-from aurora_core.errors import ExecutionError
+from aurora_core.errors import BagError, ExecutionError
 from aurora_core.trace.bag_reader import read_bag
 from aurora_core.trace.bag_recover import recover_bag
 from aurora_core.trace.definitions import MessageDefinitions
@@ -119,14 +119,27 @@ def _run(graph: RunningGraph) -> Any:
 def _look(result: Any, killed_s: float, reference: Trace, definitions: MessageDefinitions) -> Kill:
     bag = Path(result.run_dir) / 'bag.0'
     before = {path.name: path.read_bytes() for path in bag.iterdir()}
-    recovery = recover_bag(bag, None, definitions)
     problems = []
     if killed_s < 0.0:
         problems.append('the run ended before the kill')
-    if {path.name: path.read_bytes() for path in bag.iterdir()} != before:
-        problems.append('the original was changed')
     if result.status != 'error':
         problems.append(f'the run ended as {result.status}')
+    try:
+        recovery = recover_bag(bag, None, definitions)
+    except BagError as err:
+        # Killed before roster and world were stored: there is nothing to recover yet, and the
+        # limit of what may be lost judges whether that was early enough.
+        if not judge(bag).refused:
+            problems.append(f'a bag without content is judged: {err}')
+        return Kill(
+            killed_s=killed_s,
+            recovered_s=0.0,
+            status=result.status,
+            component=_component(result.report_json),
+            problem='; '.join(problems),
+        )
+    if {path.name: path.read_bytes() for path in bag.iterdir()} != before:
+        problems.append('the original was changed')
     with AnyReader([Path(recovery.bag)]) as reader:
         if sum(recovery.kept.values()) != sum(1 for _ in reader.messages()):
             problems.append('rosbags reads another number of messages')

@@ -22,7 +22,7 @@ from aurora_core.knowledge.config_files import config_path
 from aurora_core.report.run_folder import PROMPT
 
 Call = Callable[..., SimpleNamespace]
-# What must never take longer, whatever comes in; 0.1 s on an idle machine.
+# Processor time that nothing may exceed, whatever comes in; about 0.1 s is usual.
 LIMIT_S = 10.0
 
 SCHEMA = json.loads(config_path('schema', 'report.schema.json').read_text('utf-8'))
@@ -56,9 +56,9 @@ def test_a_run_of_it_is_not_understood_and_the_prompt_is_kept(
 ) -> None:
     raw = raw_of(case)
     give(raw)
-    begin = time.monotonic()
+    begin = time.process_time()
     done = call('run', '-', '--json')
-    assert time.monotonic() - begin < LIMIT_S
+    assert time.process_time() - begin < LIMIT_S
     assert done.code == 3
     report = json.loads(done.out)
     jsonschema.validate(report, SCHEMA)
@@ -96,9 +96,9 @@ def test_every_door_gives_the_same_answer(
             arguments = ['--prompt-file', 'prompt']
         else:
             give(raw)
-        begin = time.monotonic()
+        begin = time.process_time()
         done = call('check', *arguments, '--json')
-        assert time.monotonic() - begin < LIMIT_S, case.name
+        assert time.process_time() - begin < LIMIT_S, case.name
         report = json.loads(done.out)
         if isinstance(case, Unreadable):
             assert (done.code, report['result']) == (3, 'not_understood'), case.name
