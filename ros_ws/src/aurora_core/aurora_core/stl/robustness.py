@@ -16,6 +16,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import singledispatch
+from math import isfinite
 
 import numpy as np
 
@@ -68,13 +69,19 @@ class SampledSignals:
         if not self.dt_s > 0.0:
             raise VerificationError(f'STL needs a time step above 0 s, found {self.dt_s}')
         for name, samples in self.values.items():
-            if not np.isfinite(samples).all():
+            if not _finite(samples):
                 raise VerificationError(f'STL signal {name!r} has samples that are not finite')
 
     @property
     def samples(self) -> int:
         """Number of samples n."""
         return len(next(iter(self.values.values())))
+
+
+def _finite(samples: FloatArray) -> bool:
+    if len(samples) == 1:
+        return isfinite(samples[0])  # a fraction of the time
+    return bool(np.isfinite(samples).all())
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -245,12 +252,7 @@ def _until(
 ) -> ValidSeries:
     low, high = interval.ticks(signals.dt_s)
     start, a, b = _common(left, right)
-    n = len(a)
-    width = n if high is None else high - low + 1
-    witness = windows.until_within(a, b, width)[low:]
-    if low > 0:
-        before = windows.sliding(a, low, Extremum.LEAST)[: len(witness)]
-        witness = np.minimum(witness, before)
+    values = windows.until(a, b, low, high)
     if high is not None and not signals.clip:
-        witness = witness[: max(0, n - high)]
-    return ValidSeries(start=start, values=witness)
+        values = values[: max(0, len(a) - high)]
+    return ValidSeries(start=start, values=values)

@@ -45,6 +45,11 @@ class Extremum(Enum):
         """numpy's binary function."""
         return np.minimum if self is Extremum.LEAST else np.maximum
 
+    @property
+    def pick(self) -> Callable[[float, float], float]:
+        """Python's function of two numbers."""
+        return min if self is Extremum.LEAST else max
+
 
 def sliding(values: FloatArray, width: int, extremum: Extremum) -> FloatArray:
     """Return the extremum of every full window.
@@ -57,14 +62,22 @@ def sliding(values: FloatArray, width: int, extremum: Extremum) -> FloatArray:
     Returns:
         (n - width + 1,) extrema of values[i : i + width]; empty when no window fits.
     """
-    return sliding_clipped(values, width, extremum)[: max(0, len(values) - width + 1)]
+    count = max(0, len(values) - width + 1)
+    if 0 < count <= width:
+        # Sample width - 1 is in every window: each is what it has up to there and from there on.
+        before = running_to_end(values[:width], extremum)[:count]
+        result: FloatArray = extremum.ufunc(before, extremum.ufunc.accumulate(values[width - 1 :]))
+        return result
+    return sliding_clipped(values, width, extremum)[:count]
 
 
 def sliding_clipped(values: FloatArray, width: int, extremum: Extremum) -> FloatArray:
     """Return (n,) extrema of values[i : i + width], the last windows cut at the end.
 
-    O(n log width).
+    O(n log width), O(n) where every window reaches the end.
     """
+    if width >= len(values):
+        return running_to_end(values, extremum)
     combine = extremum.ufunc
 
     def grow(rows: _Rows, size: int, width: int, room: Sequence[FloatArray]) -> _Rows:
@@ -82,16 +95,36 @@ def sliding_clipped(values: FloatArray, width: int, extremum: Extremum) -> Float
 
 
 def running_to_end(values: FloatArray, extremum: Extremum) -> FloatArray:
-    """Return (n,) extrema of values[i:]."""
-    result: FloatArray = extremum.ufunc.accumulate(values[::-1])[::-1]
+    """Return (..., n) extrema of values[..., i:]."""
+    result: FloatArray = extremum.ufunc.accumulate(values[..., ::-1], axis=-1)[..., ::-1]
     return result
+
+
+def until(left: FloatArray, right: FloatArray, near: int, far: int | None) -> FloatArray:
+    """Return the robustness of `left until right` over an interval.
+
+    Args:
+        left: (n,).
+        right: (n,).
+        near: Samples from a value to its nearest witness.
+        far: Samples to the farthest, None without end.
+
+    Returns:
+        (n - near,) values, intervals cut at the end; empty when none has a witness.
+    """
+    width = len(left) if far is None else far - near + 1
+    witness = until_within(left[near:], right[near:], width)
+    if near > 0:
+        before = sliding(left, near, Extremum.LEAST)[: len(witness)]
+        np.minimum(witness, before, out=witness)
+    return witness
 
 
 def until_within(left: FloatArray, right: FloatArray, width: int) -> FloatArray:
     """Return the robustness of `left until right` with the witness among the next samples.
 
     Value i is the greatest over j in [i, i + width) (cut at the end) of the lesser of right[j]
-    and the least of left[i : j]. O(n log width).
+    and the least of left[i : j]. O(n log width), O(n) where every window reaches the end.
 
     Args:
         left: (n,).
@@ -101,7 +134,29 @@ def until_within(left: FloatArray, right: FloatArray, width: int) -> FloatArray:
     Returns:
         (n,).
     """
+    if width >= len(left):
+        return _until_to_end(left, right)
     return _grown((right, left), width, _grow_until)[0]
+
+
+def _until_to_end(left: FloatArray, right: FloatArray) -> FloatArray:
+    """Return the robustness of `left until right` without end, piece by piece from the last.
+
+    Of all that comes after a piece its first value is enough: it is a witness right behind the
+    piece. So windows grow no longer than a piece, and every pass stays in the cache.
+    """
+    n = len(left)
+    found = np.empty(n)
+    room = _room((right, left), min(n, _PIECE))
+    later = Extremum.GREATEST.neutral
+    for start in reversed(range(0, n, _PIECE)):
+        piece = (right[start : start + _PIECE], left[start : start + _PIECE])
+        size = len(piece[0])
+        until, held = _grow_until(piece, 1, size, [each[:size] for each in room])
+        np.minimum(held, later, out=held)
+        np.maximum(until, held, out=found[start : start + size])
+        later = float(found[start])
+    return found
 
 
 def _grow_until(rows: _Rows, size: int, width: int, room: Sequence[FloatArray]) -> _Rows:

@@ -8,6 +8,8 @@ from collections import deque
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from aurora_core.stl.windows import (
     Extremum,
@@ -15,6 +17,7 @@ from aurora_core.stl.windows import (
     running_to_end,
     sliding,
     sliding_clipped,
+    until,
     until_within,
 )
 
@@ -81,6 +84,45 @@ def test_until_without_end_is_the_recursion() -> None:
         value = max(right[i], min(left[i], value))
         expected[i] = value
     assert np.array_equal(until_within(left, right, LONG), expected)
+
+
+def test_until_without_end_knows_what_comes_many_pieces_later() -> None:
+    # left holds to the end: the only good witness is the last sample.
+    left, right = np.full(LONG, 5.0), np.full(LONG, -5.0)
+    left[7] = 1.0
+    right[-1] = 9.0
+    expected = np.full(LONG, 5.0)
+    expected[:8], expected[-1] = 1.0, 9.0
+    assert np.array_equal(until(left, right, 0, None), expected)
+
+
+@settings(max_examples=200, deadline=None, derandomize=True)
+@given(st.integers(0, 40), st.integers(1, 45), st.integers(0, 2**32 - 1))
+def test_short_traces_have_the_extrema_of_every_window(n: int, width: int, seed: int) -> None:
+    values = trace(n, seed)
+    least = least_ahead(values, width)
+    assert np.array_equal(sliding_clipped(values, width, Extremum.LEAST), least)
+    full = sliding(-values, width, Extremum.GREATEST)
+    assert np.array_equal(full, -least[: max(0, n - width + 1)])
+
+
+@settings(max_examples=200, deadline=None, derandomize=True)
+@given(
+    st.integers(0, 20),
+    st.integers(0, 22),
+    st.one_of(st.none(), st.integers(0, 22)),
+    st.integers(0, 2**32 - 1),
+)
+def test_until_over_an_interval_is_the_definition(
+    n: int, near: int, more: int | None, seed: int
+) -> None:
+    left, right = trace(n, seed), trace(n, seed + 1)
+    found = until(left, right, near, None if more is None else near + more)
+    expected = []
+    for i in range(n - near):
+        last = n if more is None else min(n, i + near + more + 1)
+        expected.append(max(min([right[j], *left[i:j]]) for j in range(i + near, last)))
+    assert found.tolist() == expected
 
 
 def test_inputs_stay_as_they_are() -> None:
