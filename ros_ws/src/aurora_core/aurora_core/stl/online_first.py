@@ -11,7 +11,8 @@ from abc import ABC, abstractmethod
 
 import numpy as np
 
-from aurora_core.stl.online_streams import INF, Bounds, Operand, Stream, aligned
+from aurora_core.stl.online_bounds import INF, Bounds, extended
+from aurora_core.stl.online_streams import Operand, Stream, aligned
 from aurora_core.stl.robustness import SampledSignals
 from aurora_core.stl.windows import Extremum, FloatArray
 
@@ -57,7 +58,7 @@ class FirstOf(First):
         if self._value is not None:
             return self._value, self._value
         rows = self._stream.bounds()
-        return float(rows.low[0]), float(rows.high[0])
+        return float(rows[0, 0]), float(rows[1, 0])
 
     def ended(self) -> float | None:
         if self._value is not None:
@@ -92,7 +93,7 @@ class FirstPair(First):
         super().__init__(exists=left.exists and right.exists)
         self._left = left
         self._right = right
-        self._pick = min if extremum is Extremum.LEAST else max
+        self._pick = extremum.pick
 
     def push(self, signals: SampledSignals) -> None:
         self._left.push(signals)
@@ -121,6 +122,7 @@ class FirstWindow(First):
         near, self._far = ticks
         super().__init__(exists=operand.start <= near)
         self._extremum = extremum
+        self._pick = extremum.pick
         self._shortens = clip or self._far is None
         self._near = near
         self._operand = Operand(operand, base=near)
@@ -129,26 +131,24 @@ class FirstWindow(First):
     def push(self, signals: SampledSignals) -> None:
         if self._finished:
             return
-        self._operand.push(signals)
-        values = self._operand.values
-        self._past = self._fold(values)
-        self._operand.drop(len(values))
+        stop = self._stop
+        self._past = self._fold(self._operand.taken(signals)[:stop])
 
     def bounds(self) -> tuple[float, float]:
         if self._finished:
             return self._past, self._past
-        rows = self._operand.bounds()
-        low, high = self._fold(rows.low), self._fold(rows.high)
+        rows = self._operand.bounds()[:, : self._stop]
+        low, high = rows
         if self._shortens:
             # If the trace ends early, only the samples that are certain and the nearest count.
             sure = self._operand.certain
             if self._operand.base == self._near:
                 sure = max(sure, 1)
             if self._extremum is Extremum.LEAST:
-                high = self._fold(rows.high[:sure])
+                high = high[:sure]
             else:
-                low = self._fold(rows.low[:sure])
-        return low, high
+                low = low[:sure]
+        return self._fold(low), self._fold(high)
 
     def ended(self) -> float | None:
         if self._finished:
@@ -157,17 +157,22 @@ class FirstWindow(First):
         needed = self._near if self._far is None or self._shortens else self._far
         if self._operand.base + len(values) <= needed:
             return None
-        return self._fold(values)
+        return self._fold(values[: self._stop])
 
     @property
     def _finished(self) -> bool:
         return self._far is not None and self._operand.base > self._far
 
+    @property
+    def _stop(self) -> int | None:
+        """How many values from the base on are in the window, None for all."""
+        return None if self._far is None else self._far + 1 - self._operand.base
+
     def _fold(self, values: FloatArray) -> float:
-        """Return the extremum with these values from the base on."""
-        stop = None if self._far is None else self._far + 1 - self._operand.base
-        seeded = np.concatenate(([self._past], values[:stop]))
-        return float(self._extremum.ufunc.reduce(seeded))
+        """Return the extremum of what has gone by and these values."""
+        if len(values) > 1:
+            return self._pick(self._past, float(self._extremum.ufunc.reduce(values)))
+        return self._pick(self._past, float(values[0])) if len(values) else self._past
 
 
 class FirstUntil(First):
@@ -201,14 +206,12 @@ class FirstUntil(First):
         if self._finished:
             return self._best, self._best
         left, right = self._rows()
-        witness = right.low
+        sure = right.shape[1]
         if self._shortens:
             # If the trace ends early, only the certain witnesses and the nearest count.
-            sure = min(self._left.certain, self._right.certain)
-            sure = max(sure, self._near + 1 - self._left.base)
-            witness = witness[:sure]
-        low = self._fold(left.low[: len(witness)], witness)
-        return low, self._fold(left.high, right.high)
+            certain = min(self._left.certain, self._right.certain)
+            sure = max(certain, self._near + 1 - self._left.base)
+        return self._fold(left[0, :sure], right[0, :sure]), self._fold(left[1], right[1])
 
     def ended(self) -> float | None:
         if self._finished:
@@ -228,11 +231,19 @@ class FirstUntil(First):
         """Return the bounds from the base on, at least as far as the nearest witness."""
         left, right = aligned(self._left, self._right)
         length = self._near + 1 - self._left.base
-        return left.extended(length), right.extended(length)
+        return extended(left, length), extended(right, length)
 
     def _fold(self, left: FloatArray, right: FloatArray) -> float:
         """Return the best witness with these values from the base on."""
+        if len(left) == 1:
+            return self._fold_one(float(right[0]))
         held = np.minimum.accumulate(np.concatenate(([self._held], left)))[:-1]
         first = max(0, self._near - self._left.base)
         stop = None if self._far is None else self._far + 1 - self._left.base
         return float(np.minimum(right, held)[first:stop].max(initial=self._best))
+
+    def _fold_one(self, right: float) -> float:
+        base = self._left.base
+        if base < self._near or (self._far is not None and base > self._far):
+            return self._best
+        return max(self._best, min(self._held, right))

@@ -12,44 +12,16 @@ satisfaction intervals).
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
 
 import numpy as np
 
 from aurora_core.stl.formula import Predicate
+from aurora_core.stl.online_bounds import OPEN, Bounds, extended, preceded, since
+from aurora_core.stl.online_kept import Kept
 from aurora_core.stl.robustness import SampledSignals, predicate_robustness
 from aurora_core.stl.windows import Extremum, FloatArray
 
 NOTHING: FloatArray = np.empty(0, dtype=np.float64)
-INF = float('inf')
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Bounds:
-    """Limits of the values from one sample on, (m,) with m >= 1; the last hold for ever after.
-
-    They hold for every finite continuation that is long enough for the value to exist.
-    """
-
-    low: FloatArray
-    high: FloatArray
-
-    def __len__(self) -> int:
-        """Return m."""
-        return len(self.low)
-
-    def since(self, skipped: int) -> Bounds:
-        """Return the bounds from `skipped` samples later on."""
-        skipped = min(skipped, len(self) - 1)
-        return Bounds(low=self.low[skipped:], high=self.high[skipped:])
-
-    def extended(self, length: int) -> Bounds:
-        """Return the same bounds with at least `length` of them written out."""
-        more = max(0, length - len(self))
-        return Bounds(
-            low=np.concatenate((self.low, np.full(more, self.low[-1]))),
-            high=np.concatenate((self.high, np.full(more, self.high[-1]))),
-        )
 
 
 class Stream(ABC):
@@ -105,29 +77,35 @@ class Operand:
     def __init__(self, stream: Stream, *, base: int, padding: FloatArray = NOTHING) -> None:
         self.stream = stream
         self.base = base
-        self.values = padding
+        self._kept = Kept(padding)
+
+    @property
+    def values(self) -> FloatArray:
+        """The final values from `base` on; a view that holds until the next push or drop."""
+        return self._kept.values
 
     def push(self, signals: SampledSignals) -> None:
         """Take new samples."""
-        fresh = self.stream.push(signals)
-        fresh = fresh[max(0, self._next - (self.stream.known - len(fresh))) :]
+        fresh = self._from_next(signals)
         if len(fresh):
-            self.values = np.concatenate((self.values, fresh))
+            self._kept.append(fresh)
+
+    def taken(self, signals: SampledSignals) -> FloatArray:
+        """Take new samples, return the values that are final with them and keep none."""
+        fresh = self._from_next(signals)
+        self.base += len(fresh)
+        return fresh
 
     def drop(self, count: int) -> None:
         """Forget the first values."""
         if count:
-            # A view would keep all of a long push alive.
-            self.values = self.values[count:].copy()
+            self._kept.drop(count)
             self.base += count
 
     def bounds(self) -> Bounds:
         """Return the bounds of the values from `base` on."""
-        rows = self.stream.bounds().since(max(0, self._next - self.stream.known))
-        return Bounds(
-            low=np.concatenate((self.values, rows.low)),
-            high=np.concatenate((self.values, rows.high)),
-        )
+        rest = since(self.stream.bounds(), max(0, self._next - self.stream.known))
+        return preceded(self.values, rest)
 
     def ended(self) -> FloatArray:
         """Return the values from `base` on, if the trace ended here."""
@@ -141,7 +119,12 @@ class Operand:
 
     @property
     def _next(self) -> int:
-        return self.base + len(self.values)
+        return self.base + len(self._kept)
+
+    def _from_next(self, signals: SampledSignals) -> FloatArray:
+        fresh = self.stream.push(signals)
+        early = self._next - (self.stream.known - len(fresh))
+        return fresh[early:] if early > 0 else fresh
 
 
 class Samples(Stream):
@@ -155,7 +138,7 @@ class Samples(Stream):
         return predicate_robustness(self._predicate, signals.values[self._predicate.signal])
 
     def bounds(self) -> Bounds:
-        return Bounds(low=np.array([-INF]), high=np.array([INF]))
+        return OPEN
 
     def ended(self) -> FloatArray:
         return NOTHING
@@ -172,8 +155,7 @@ class Negation(Stream):
         return -self._operand.push(signals)
 
     def bounds(self) -> Bounds:
-        rows = self._operand.bounds()
-        return Bounds(low=-rows.high, high=-rows.low)
+        return -self._operand.bounds()[::-1]
 
     def ended(self) -> FloatArray:
         return -self._operand.ended()
@@ -197,10 +179,8 @@ class Pair(Stream):
         return final
 
     def bounds(self) -> Bounds:
-        left, right = aligned(self._left, self._right)
-        return Bounds(
-            low=self._combine(left.low, right.low), high=self._combine(left.high, right.high)
-        )
+        bounds: Bounds = self._extremum.ufunc(*aligned(self._left, self._right))
+        return bounds
 
     def ended(self) -> FloatArray:
         return self._combine(self._left.ended(), self._right.ended())
@@ -214,5 +194,5 @@ class Pair(Stream):
 def aligned(left: Operand, right: Operand, *, more: int = 0) -> tuple[Bounds, Bounds]:
     """Return the bounds of two operands with one base, as long as the longer and `more`."""
     a, b = left.bounds(), right.bounds()
-    length = max(len(a), len(b)) + more
-    return a.extended(length), b.extended(length)
+    length = max(a.shape[1], b.shape[1]) + more
+    return extended(a, length), extended(b, length)

@@ -7,18 +7,10 @@ from __future__ import annotations
 import numpy as np
 
 from aurora_core.stl import windows
-from aurora_core.stl.online_streams import INF, NOTHING, Bounds, Operand, Stream, aligned
+from aurora_core.stl.online_bounds import INF, Bounds, by_limit
+from aurora_core.stl.online_streams import NOTHING, Operand, Stream, aligned
 from aurora_core.stl.robustness import SampledSignals
 from aurora_core.stl.windows import Extremum, FloatArray
-
-
-def _until(left: FloatArray, right: FloatArray, near: int, far: int | None) -> FloatArray:
-    """Return (n - near,) values of `left until right`, windows cut at the end."""
-    width = len(left) if far is None else far - near + 1
-    if not width:
-        return NOTHING
-    witness = windows.until_within(left, right, width)[near:]
-    return np.minimum(witness, _before(left, near)[: len(witness)])
 
 
 def _before(left: FloatArray, near: int) -> FloatArray:
@@ -55,31 +47,33 @@ class Ahead(Stream):
     def bounds(self) -> Bounds:
         # With constant bounds the nearest witness is the best: `near` more samples are enough.
         left, right = aligned(self._left, self._right, more=self._near)
-        high = _until(left.high, right.high, self._near, self._far)
-        witness = right.low
+        witness = right
         if self._shortens:
             # If the trace ends early, only the certain witnesses and the nearest count.
             witness = witness.copy()
-            witness[min(self._left.certain, self._right.certain) :] = -INF
-        low = _until(left.low, witness, self._near, self._far)
+            witness[0, min(self._left.certain, self._right.certain) :] = -INF
+        found = by_limit(self._all, left, witness)
         if self._shortens:
-            nearest = right.low[self._near :]
-            nearest = np.minimum(nearest, _before(left.low, self._near)[: len(nearest)])
-            low = np.maximum(low, nearest)
-        return Bounds(low=low, high=high)
+            nearest = right[0, self._near :]
+            nearest = np.minimum(nearest, _before(left[0], self._near)[: len(nearest)])
+            np.maximum(found[0], nearest, out=found[0])
+        return found
 
     def ended(self) -> FloatArray:
         left, right = self._left.ended(), self._right.ended()
         if self._far is not None and not self._shortens:
             return self._full(left, right, self._far)
         both = min(len(left), len(right))
-        return _until(left[:both], right[:both], self._near, self._far)
+        return self._all(left[:both], right[:both])
+
+    def _all(self, left: FloatArray, right: FloatArray) -> FloatArray:
+        return windows.until(left, right, self._near, self._far)
 
     def _full(self, left: FloatArray, right: FloatArray, far: int) -> FloatArray:
         both = min(len(left), len(right))
         if both <= far:
             return NOTHING
-        return _until(left[:both], right[:both], self._near, far)[: both - far]
+        return windows.until(left[:both], right[:both], self._near, far)[: both - far]
 
 
 class Behind(Stream):
@@ -104,10 +98,7 @@ class Behind(Stream):
         return final
 
     def bounds(self) -> Bounds:
-        left, right = aligned(self._left, self._right, more=self._far)
-        return Bounds(
-            low=self._since(left.low, right.low), high=self._since(left.high, right.high)
-        )
+        return by_limit(self._since, *aligned(self._left, self._right, more=self._far))
 
     def ended(self) -> FloatArray:
         return self._since(self._left.ended(), self._right.ended())
@@ -117,7 +108,7 @@ class Behind(Stream):
         both = min(len(left), len(right))
         if both <= self._far:
             return NOTHING
-        mirrored = _until(left[:both][::-1], right[:both][::-1], self._near, self._far)
+        mirrored = windows.until(left[:both][::-1], right[:both][::-1], self._near, self._far)
         return mirrored[: both - self._far][::-1]
 
 
@@ -145,10 +136,7 @@ class RunningBehind(Stream):
         return final
 
     def bounds(self) -> Bounds:
-        left, right = aligned(self._left, self._right, more=self._near)
-        return Bounds(
-            low=self._since(left.low, right.low), high=self._since(left.high, right.high)
-        )
+        return by_limit(self._since, *aligned(self._left, self._right, more=self._near))
 
     def ended(self) -> FloatArray:
         return self._since(self._left.ended(), self._right.ended())

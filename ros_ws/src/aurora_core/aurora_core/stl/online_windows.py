@@ -7,7 +7,8 @@ from __future__ import annotations
 import numpy as np
 
 from aurora_core.stl import windows
-from aurora_core.stl.online_streams import NOTHING, Bounds, Operand, Stream
+from aurora_core.stl.online_bounds import Bounds, by_limit
+from aurora_core.stl.online_streams import NOTHING, Operand, Stream
 from aurora_core.stl.robustness import SampledSignals
 from aurora_core.stl.windows import Extremum, FloatArray
 
@@ -60,14 +61,13 @@ class Window(Stream):
 
     def bounds(self) -> Bounds:
         rows = self._operand.bounds()
-        low, high = self._cut(rows.low), self._cut(rows.high)
+        found = self._all_cut(rows)
         if self._shortens:
             # If the trace ends early, only the samples that are certain and the nearest count.
-            if self._extremum is Extremum.LEAST:
-                high = self._extremum.ufunc(self._cut(self._certain(rows.high)), rows.high)
-            else:
-                low = self._extremum.ufunc(self._cut(self._certain(rows.low)), rows.low)
-        return Bounds(low=low, high=high)
+            limit = 1 if self._extremum is Extremum.LEAST else 0
+            certain = self._cut(self._certain(rows[limit]))
+            self._extremum.ufunc(certain, rows[limit], out=found[limit])
+        return found
 
     def ended(self) -> FloatArray:
         values = self._operand.ended()
@@ -79,6 +79,11 @@ class Window(Stream):
         # A window that lies behind may be complete before the trace has come to its sample.
         reached = max(0, self.samples - self.known)
         return windows.sliding(values, width, self._extremum)[:reached]
+
+    def _all_cut(self, rows: Bounds) -> Bounds:
+        if self._width is None or self._width >= rows.shape[1]:
+            return windows.running_to_end(rows, self._extremum)
+        return by_limit(self._cut, rows)
 
     def _cut(self, values: FloatArray) -> FloatArray:
         if self._width is None:
@@ -109,8 +114,7 @@ class Running(Stream):
         return final
 
     def bounds(self) -> Bounds:
-        rows = self._operand.bounds()
-        return Bounds(low=self._run(rows.low), high=self._run(rows.high))
+        return by_limit(self._run, self._operand.bounds())
 
     def ended(self) -> FloatArray:
         return self._reached(self._operand.ended())

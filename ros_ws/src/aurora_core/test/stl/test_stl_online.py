@@ -182,6 +182,19 @@ def test_bounds_hold_for_every_continuation_and_never_widen(
 
 
 @settings(max_examples=300, deadline=None, derandomize=True)
+@given(formulas, traces(20), cuts, st.booleans())
+def test_it_does_not_matter_in_which_pieces_the_samples_come(
+    formula: Formula, trace: Trace, sizes: list[int], clip: bool
+) -> None:
+    trace = named(formula, trace)
+    single = OnlineRobustness(formula, dt_s=DT_S, clip=clip)
+    known = [(single.bounds(), single.now()) for _ in pushed(single, trace, [1] * 20)]
+    pieces = OnlineRobustness(formula, dt_s=DT_S, clip=clip)
+    for at in pushed(pieces, trace, sizes):
+        assert (pieces.bounds(), pieces.now()) == known[at], at
+
+
+@settings(max_examples=300, deadline=None, derandomize=True)
 @given(monotone, traces(10))
 def test_bounds_are_reached_by_the_worst_and_the_best_continuation(
     formula: Formula, trace: Trace
