@@ -78,7 +78,7 @@ def body_gap(view: RunView) -> LeastSeries:
     """
     values, which = view.series(('body_gap',), _body_gap)
     names = [f'{a.body_id} and {b.body_id}' for a, b in combinations(view.agents, 2)]
-    names += [f'{uav.body_id} and {body.body_id}' for uav in view.uavs for body in view.agents]
+    names += [f'{uav.body_id} and {body.body_id}' for uav, body in product(view.uavs, view.agents)]
     return LeastSeries(values=values, which=which, names=tuple(names))
 
 
@@ -89,11 +89,12 @@ def _body_gap(view: RunView) -> Series:
         for number, gap in _ground_gaps(view, ticks):
             least.add(number, ticks, gap)
     count = len(view.agents)
-    flying = product(view.uavs, view.agents)
-    for number, (uav, body) in enumerate(flying, start=count * (count - 1) // 2):
+    for row, uav in enumerate(view.uavs):
+        first = count * (count - 1) // 2 + row * count  # the order of `product`
         half = max(uav.entry.length_m, uav.entry.width_m, uav.entry.height_m) / 2.0
-        k, away = _to_box(view, uav, body, least.values + half)
-        least.add(number, k, away - half)
+        for number, body in _beneath(view, uav, CLEARANCE_CUTOFF_M + half):
+            k, away = _to_box(view, uav, body, least.values + half)
+            least.add(first + number, k, away - half)
     return least.values, least.which
 
 
@@ -154,6 +155,22 @@ def _box(rows: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, FloatArr
     )
 
 
+def _beneath(view: RunView, uav: Body, below_m: float) -> Iterator[tuple[int, Body]]:
+    """Yield row and ground body of those that a UAV may at some tick be nearer to than `below_m`.
+
+    All bodies at once: for each by itself the calls would cost more than the work.
+    """
+    ground, point = view.trace.ground, view.reference(uav.body_id)
+    apart = distance_2d(
+        point[:, :1] - ground[:, :, GroundColumn.X],
+        point[:, 1:2] - ground[:, :, GroundColumn.Y],
+    )
+    reach = np.array([_reach(body) for body in view.agents])
+    near = (ground[:, :, GroundColumn.PRESENT] > 0.5) & (apart - reach < below_m)
+    for row in np.flatnonzero(near.any(axis=0)):
+        yield int(row), view.agents[row]
+
+
 def _to_box(
     view: RunView, uav: Body, body: Body, below: FloatArray
 ) -> tuple[npt.NDArray[np.intp], FloatArray]:
@@ -189,8 +206,8 @@ def obstacle_clearance(view: RunView, uav: Body) -> LeastSeries:
         point = part.reference(uav.body_id)
         to_building = part.geometry.obstacles.clearance_series(point, CLEARANCE_CUTOFF_M)
         least.add(0, every, to_building)
-        for number, body in enumerate(part.agents, start=1):
-            least.add(number, *_to_box(part, uav, body, least.values))
+        for row, body in _beneath(part, uav, CLEARANCE_CUTOFF_M):
+            least.add(1 + row, *_to_box(part, uav, body, least.values))
         return least.values, least.which
 
     values, which = view.series(('obstacle_clearance', uav.body_id), compute)
