@@ -19,10 +19,19 @@ from aurora_core.conditions.condition import Condition, Window
 from aurora_core.spec.parameter import Bound, Provenance
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import Behavior, GroundAgent
-from aurora_core.spec.vocabulary import BehaviorKind
+from aurora_core.spec.vocabulary import AgentType, BehaviorKind
 
-# Behaviours with a speed of their own: the others depend on a leader, or on a pavement.
-_OWN_SPEED = frozenset({BehaviorKind.DRIVE, BehaviorKind.CIRCULATE})
+# Nobody chooses a speed in these: it is given by the manoeuvre, or there is none.
+_NO_SPEED = frozenset(
+    {
+        BehaviorKind.STOP,
+        BehaviorKind.BRAKE,
+        BehaviorKind.SLOW,
+        BehaviorKind.YIELD,
+        BehaviorKind.WAIT,
+        BehaviorKind.PARK,
+    }
+)
 
 
 def speed_conditions(
@@ -32,7 +41,7 @@ def speed_conditions(
     speed = behavior.speed_mps
     if speed is None or speed.provenance is not Provenance.EXPLICIT:
         return
-    if behavior.kind not in _OWN_SPEED:
+    if behavior.kind in _NO_SPEED:
         yield Underivable(
             element=agent.id,
             what=f'speed of {number(speed.value)} m/s while it {behavior.kind.value}s',
@@ -40,29 +49,35 @@ def speed_conditions(
         )
         return
     t = inputs.tolerances
+    walks = agent.type is AgentType.PEDESTRIAN
+    known = inputs.agent(behavior.target or '')
+    # Whom it follows is no leader that keeps it from its speed: both are asked together.
+    of = (agent.id,) if known is None or walks else (agent.id, known.id)
     slack = t.route_speed_mps.of(speed.value, approximate=speed.approximate)
+    where = f'with no {"other " if len(of) > 1 else ""}leader or junction within'
+    rest = 'while it walks' if walks else f'{where} {number(t.free_road_m)} m'
     yield condition(
         id=f'{name}.speed',
         sentence=(
-            f'{agent.id} drives {bound_words(speed)} {number(speed.value)} m/s for '
-            f'{number(100 * t.route_speed_share)} % of the time with no leader or junction within '
-            f'{number(t.free_road_m)} m'
+            f'{agent.id} {"walks" if walks else "drives"} {bound_words(speed)} '
+            f'{number(speed.value)} m/s for {number(100 * t.route_speed_share)} % of the time '
+            f'{rest}'
         ),
         quantity=QuantityName.SPEED,
         signal=f'free_speed_share({agent.id})',
-        of=(agent.id,),
+        of=of,
         target=Target(op='>=', threshold=t.route_speed_share, unit='1'),
         fraction=t.route_speed_share,
         arguments=inputs.arguments(
             Window.MISSIONS,
-            aspect='free',
+            aspect='walking' if walks else 'free',
             bound=speed.bound,
             wanted=speed.value,
             sample_tolerance=0.0 if speed.bound is not Bound.EXACTLY else slack,
             low=speed.value * speed.value / (2.0 * t.route_acceleration_mps2),
             high=t.free_road_m,
             offset_m=t.lane_offset_m,
-            slow_mps=t.moving_speed_mps,
+            slow_mps=t.stop_speed_mps if walks else t.moving_speed_mps,
         ),
         source=Source(ids=(agent.id,), spans=(speed.span,), provenance=speed.provenance),
         every_sample=False,

@@ -27,13 +27,9 @@ from aurora_core.spec.scenario import (
     SendMessage,
     SpeedTrigger,
     TimeTrigger,
-    UavAction,
     VisibilityTrigger,
 )
 from aurora_core.spec.vocabulary import MissionMode
-
-# Actions whose moment can be recomputed from the states.
-_SEEN_ACTIONS = frozenset({'brake', 'stop', 'slow', 'accelerate', 'start', 'land', 'ascend'})
 
 
 def actor_of(event: Event) -> str | None:
@@ -58,9 +54,9 @@ def event_conditions(inputs: Inputs) -> Iterator[Condition | Underivable]:
     """Yield the conditions of all events and of the messages that they send."""
     used: set[str] = set()
     for event in inputs.spec.events:
-        missing = _missing(event)
-        if missing:
-            yield Underivable(element=event.id, what=missing, span=event.span)
+        if event.trigger is None and event.action is None:
+            what = 'an event without trigger and action'
+            yield Underivable(element=event.id, what=what, span=event.span)
             continue
         source = Source(ids=(event.id,), spans=(event.span,))
         yield from _moment(inputs, event, source)
@@ -81,16 +77,6 @@ def event_conditions(inputs: Inputs) -> Iterator[Condition | Underivable]:
     for link in inputs.spec.links:
         if link.id not in used:
             yield Underivable(element=link.id, what='a link without a message', span=link.span)
-
-
-def _missing(event: Event) -> str:
-    """Return what of an event cannot be recomputed yet, empty when everything can."""
-    action = event.action
-    if isinstance(action, AgentAction | UavAction) and action.do not in _SEEN_ACTIONS:
-        return f'action {action.do}'
-    if event.trigger is None and action is None:
-        return 'an event without trigger and action'
-    return ''
 
 
 def _moment(inputs: Inputs, event: Event, source: Source) -> Iterator[Condition]:

@@ -19,9 +19,9 @@ from aurora_core.conditions.condition import Condition, Window
 from aurora_core.spec.parameter import Provenance
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import GroundAgent, Placement
-from aurora_core.spec.vocabulary import Relation
+from aurora_core.spec.vocabulary import Place, Relation
 
-_ALONG = (Relation.AHEAD, Relation.BEHIND)
+_ALONG = (Relation.AHEAD, Relation.BEHIND, Relation.BEFORE)
 # Relations of two agents with a slack in metres (`oncoming`: cosine) at every sample.
 RELATION_WORDS = {
     Relation.AHEAD: 'ahead of',
@@ -33,9 +33,17 @@ RELATION_WORDS = {
     Relation.ONCOMING: 'oncoming to',
     Relation.NEAR: 'near',
     Relation.AT: 'at',
+    Relation.ADJACENT_LANE: 'in a lane next to that of',
+    Relation.BEFORE: 'before',
+    Relation.ON: 'on',
+    Relation.PARKED_AT: 'parked at',
 }
-# Relations to a place: what is left of the distance at which an agent is near or there.
-_AT_PLACE = frozenset({Relation.NEAR, Relation.AT})
+_OF_PLACES = frozenset(
+    {Relation.NEAR, Relation.AT, Relation.BEFORE, Relation.ON, Relation.PARKED_AT}
+)
+_OF_AGENTS = frozenset(RELATION_WORDS) - {Relation.ON, Relation.PARKED_AT}
+# The measured world has no ground of this kind.
+_NO_SURFACE = frozenset({Place.SIDEWALK})
 
 
 def placement_conditions(inputs: Inputs) -> Iterator[Condition | Underivable]:
@@ -43,9 +51,9 @@ def placement_conditions(inputs: Inputs) -> Iterator[Condition | Underivable]:
     agents = {agent.id for agent in inputs.spec.agents}
     for agent in inputs.spec.agents:
         for index, placement in enumerate(agent.placements):
-            to_place = placement.of not in agents
-            known = _AT_PLACE if to_place else frozenset(RELATION_WORDS)
-            if placement.of is None or placement.relation not in known:
+            known = _OF_AGENTS if placement.of in agents else _OF_PLACES
+            on_ground = placement.relation is Relation.ON and placement.of in _NO_SURFACE
+            if placement.of is None or placement.relation not in known or on_ground:
                 place = '' if placement.of is None else f' {placement.of}'
                 yield Underivable(
                     element=agent.id,
@@ -53,8 +61,13 @@ def placement_conditions(inputs: Inputs) -> Iterator[Condition | Underivable]:
                     span=placement.span,
                 )
                 continue
-            name = f'{agent.id}.placed' if index == 0 else f'{agent.id}.placed{index + 1}'
+            name = placement_id(agent, index)
             yield from _placement(inputs, agent, placement, placement.of, name)
+
+
+def placement_id(agent: GroundAgent, index: int) -> str:
+    """Return the id of the condition that a placement of an agent implies."""
+    return f'{agent.id}.placed' + ('' if index == 0 else str(index + 1))
 
 
 def _placement(
@@ -65,7 +78,7 @@ def _placement(
     )
     relation, words = placement.relation, RELATION_WORDS[placement.relation]
     offset_m = _offset_m(inputs, relation)
-    near_m = inputs.tolerances.arrival_m if relation is Relation.AT else inputs.tolerances.near_m
+    near_m = _near_m(inputs, relation, of)
     yield condition(
         id=name,
         sentence=f'{agent.id} is {words} {of} at t = 0',
@@ -129,6 +142,14 @@ def _placement(
 
 
 def _offset_m(inputs: Inputs, relation: Relation) -> float:
-    if relation is Relation.SAME_LANE:
+    if relation in (Relation.SAME_LANE, Relation.ADJACENT_LANE):
         return inputs.tolerances.lane_offset_m
     return inputs.tolerances.route_offset_m
+
+
+def _near_m(inputs: Inputs, relation: Relation, of: str) -> float:
+    if relation is Relation.NEAR:
+        return inputs.tolerances.near_m
+    on = relation in (Relation.ON, Relation.PARKED_AT)
+    strip = on and of == Place.ROADSIDE
+    return inputs.tolerances.roadside_m if strip else inputs.tolerances.arrival_m

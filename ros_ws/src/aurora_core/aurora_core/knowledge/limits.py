@@ -128,6 +128,9 @@ class Tolerances(_Table):
     turn_within_s: NotNegative  # time that a turn may take: what takes longer is a bend
     crossing_m: NotNegative  # a carriageway that is crossed is at least so wide
     circulate_distance_m: NotNegative
+    lane_hold_s: NotNegative  # how long a lane that was changed to is kept
+    over_limit_mps: NotNegative  # by how much an emergency run exceeds the speed limit
+    roadside_m: NotNegative  # how far from the edge of the carriageway the roadside reaches
     phase_change_s: NotNegative
     limit_margin: NotNegative
     jump_speed_mps: NotNegative

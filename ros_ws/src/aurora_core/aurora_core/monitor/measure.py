@@ -10,12 +10,14 @@ from aurora_core.conditions.condition import Condition
 from aurora_core.errors import VerificationError
 from aurora_core.monitor import (
     measure_events,
+    measure_lanes,
     measure_manoeuvres,
     measure_missions,
     measure_motion,
     measure_relations,
     measure_route,
     measure_safety,
+    measure_yielding,
 )
 from aurora_core.monitor.evaluation import Context, Evaluation
 from aurora_core.spec.quantity import QuantityName as Q
@@ -47,6 +49,9 @@ _MEASURES: dict[Q, Callable[[Context, Condition], Evaluation]] = {
     Q.FOLLOW_FRACTION: measure_relations.measure_follow_fraction,
     Q.TURN: measure_manoeuvres.measure_turn,
     Q.CROSSING: measure_manoeuvres.measure_crossing,
+    Q.LANE_CHANGE: measure_lanes.measure_lane_change,
+    Q.OVER_LIMIT: measure_lanes.measure_over_limit,
+    Q.YIELDING: measure_yielding.measure_yielding,
     Q.TIME_GAP: measure_relations.measure_time_gap,
     Q.DISTANCE_TRAVELLED: measure_relations.measure_distance_travelled,
     Q.EVENT_DELAY: measure_events.measure_event_delay,

@@ -12,6 +12,7 @@ import numpy as np
 from aurora_core.conditions.condition import Condition
 from aurora_core.errors import VerificationError
 from aurora_core.monitor.evaluation import (
+    BoolArray,
     Context,
     Evaluation,
     FloatArray,
@@ -145,7 +146,7 @@ def measure_climb_rate(context: Context, condition: Condition) -> Evaluation:
 
 
 def _free_speed(context: Context, condition: Condition) -> Evaluation:
-    """Share of the samples on a free road at the requested speed."""
+    """Share of the samples on a free road (of a walker: while it walks) at the stated speed."""
     ticks = context.window(condition)
     if isinstance(ticks, Missing):
         return ticks
@@ -154,17 +155,28 @@ def _free_speed(context: Context, condition: Condition) -> Evaluation:
         return gone
     view, arguments = context.view, condition.arguments
     body = view.body(condition.of[0])
-    free = free_road.under_way(view, body, arguments.slow_mps, arguments.low)
-    free &= free_road.free_of_junctions(view, body, arguments.high)
-    free &= free_road.free_of_leaders(view, body, arguments.high, arguments.offset_m)
+    values = motion.speed(view, body)
+    if arguments.aspect == 'walking':
+        free, never = values >= arguments.slow_mps, 'walked'
+    else:
+        free, never = _free_road(context, condition), 'drove free of leaders and junctions'
     ticks = ticks[free[ticks]]
     if len(ticks) == 0:
-        story = f'{body.body_id} never drove free of leaders and junctions'
+        story = f'{body.body_id} never {never}'
         return Missing(reason=Reason.EMPTY_PHASE, story=story)
-    values = motion.speed(view, body)
     good = bound_error(values, arguments.wanted, arguments.bound) <= arguments.sample_tolerance
     what = f'{body.body_id} kept its speed'
     return share_of(context, ticks, good, values, what, _topics(condition))
+
+
+def _free_road(context: Context, condition: Condition) -> BoolArray:
+    view, arguments = context.view, condition.arguments
+    body, *followed = (view.body(name) for name in condition.of)
+    besides = tuple(other.body_id for other in followed)
+    free = free_road.under_way(view, body, arguments.slow_mps, arguments.low)
+    free &= free_road.free_of_junctions(view, body, arguments.high)
+    free &= free_road.free_of_leaders(view, body, arguments.high, arguments.offset_m, besides)
+    return free
 
 
 def measure_speed(context: Context, condition: Condition) -> Evaluation:
@@ -172,10 +184,10 @@ def measure_speed(context: Context, condition: Condition) -> Evaluation:
 
     Aspects: `horizontal`, `commanded`, `greatest` (of several bodies), `after_moving` (from when
     it first moved), `greatest_deceleration` and `greatest_drop` (one number), `free` (share on a
-    free road).
+    free road, the second body being no leader), `walking` (share while it walks).
     """
     aspect = condition.arguments.aspect
-    if aspect == 'free':
+    if aspect in ('free', 'walking'):
         return _free_speed(context, condition)
     if aspect == 'greatest_drop':
         return measure_greatest_drop(context, condition)

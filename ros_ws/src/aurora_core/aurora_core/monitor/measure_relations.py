@@ -19,6 +19,7 @@ from aurora_core.monitor.evaluation import (
     Missing,
     at_tick,
 )
+from aurora_core.monitor.place_slack import before_place, place_slack
 from aurora_core.monitor.shares import share_of
 from aurora_core.monitor.verdict import Reason
 from aurora_core.quantities import motion
@@ -40,12 +41,16 @@ def relation_slack(context: Context, condition: Condition) -> FloatArray:
 
     Ahead, behind: along the route of the one that follows, on that route. Same lane: what is left
     of the lane to the offset. Left, right, beside: in the frame of the other one's heading.
-    Oncoming: minus the cosine of the headings. Near, at: what is left of the distance.
+    Oncoming: minus the cosine of the headings. Near, at: what is left of the distance. Adjacent
+    lane: what is left of the lane next to the route of the other one, in its direction. For
+    places see `place_slack`.
     """
     view, arguments = context.view, condition.arguments
     a, b = condition.of
     relation = arguments.relation
-    if relation in (Relation.AHEAD, Relation.BEHIND):
+    if not view.has(b):
+        return place_slack(context, condition)
+    if relation in (Relation.AHEAD, Relation.BEHIND, Relation.BEFORE):
         follower, leader = (b, a) if relation is Relation.AHEAD else (a, b)
         along = context.along(follower, leader)
         left = arguments.offset_m - along.offset_m
@@ -59,6 +64,11 @@ def relation_slack(context: Context, condition: Condition) -> FloatArray:
     if relation is Relation.ONCOMING:
         gx, gy = own[:, GroundColumn.HEADING_X], own[:, GroundColumn.HEADING_Y]
         return -(gx * hx + gy * hy)
+    if relation is Relation.ADJACENT_LANE:
+        offset = context.along(b, a).offset_m
+        beside = arguments.offset_m - np.abs(offset - 2.0 * arguments.offset_m)
+        same_way = own[:, GroundColumn.HEADING_X] * hx + own[:, GroundColumn.HEADING_Y] * hy > 0.0
+        return np.where(same_way, beside, np.minimum(beside, -offset))
     dx = own[:, GroundColumn.X] - other[:, GroundColumn.X]
     dy = own[:, GroundColumn.Y] - other[:, GroundColumn.Y]
     along_m, left_m = dx * hx + dy * hy, dy * hx - dx * hy
@@ -104,9 +114,11 @@ def _at_start(context: Context, condition: Condition) -> FloatArray:
     if arguments.aspect in ('distance_start', 'distance_closing'):
         return motion.distance(view, a, b)
     if arguments.aspect == 'distance':
+        if arguments.relation is Relation.BEFORE and not view.has(b):
+            return np.full(view.ticks, before_place(context, condition)[0])
         if arguments.relation is Relation.AHEAD:
             return context.along(b, a).lead_m
-        if arguments.relation is Relation.BEHIND:
+        if arguments.relation in (Relation.BEHIND, Relation.BEFORE):
             return context.along(a, b).lead_m
         if arguments.relation is Relation.SAME_LANE:
             return np.abs(context.along(b, a).lead_m)

@@ -20,7 +20,7 @@ from aurora_core.conditions.condition import Condition, Window
 from aurora_core.knowledge.world import WorldModel
 from aurora_core.monitor.evaluation import Context, Later, Measured, Missing
 from aurora_core.monitor.measure import measure
-from aurora_core.monitor.verify import sampled
+from aurora_core.monitor.verify import judged_formula, sampled
 from aurora_core.quantities.growing import GrowingView
 from aurora_core.quantities.ticks import whole_ticks
 from aurora_core.quantities.view import RunView
@@ -131,7 +131,8 @@ class _Followed:
         return self._outlook(self._bounds(goes_on.view, measured), now)
 
     def _margin(self, context: Context, measured: Measured) -> float | None:
-        return robustness(self._formula, sampled(context, self._condition, measured)).at(0)
+        formula = judged_formula(context, self._condition, measured)
+        return robustness(formula, sampled(context, self._condition, measured)).at(0)
 
     def _outlook(self, bounds: Bounds, now: float | None) -> Outlook:
         # What was excluded once stays so, also when nothing is left to measure.

@@ -13,12 +13,11 @@ from aurora_core.conditions.condition import Condition
 from aurora_core.knowledge.world import WorldModel
 from aurora_core.monitor.evaluation import BoolArray, Context, FloatArray, Measured
 from aurora_core.monitor.measure import measure
-from aurora_core.monitor.verify import sampled
+from aurora_core.monitor.verify import judged_formula, sampled
 from aurora_core.quantities.view import RunView
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.stl.formula import predicates
 from aurora_core.stl.robustness import predicate_robustness, robustness
-from aurora_core.stl.syntax import parse_formula
 from aurora_core.trace.trace import Trace
 
 
@@ -72,7 +71,7 @@ def signals_for_plot(
 
 
 def _plot(context: Context, condition: Condition, measured: Measured) -> PlotSignal:
-    formula = parse_formula(condition.formula)
+    formula = judged_formula(context, condition, measured)
     margin = robustness(formula, sampled(context, condition, measured)).at(0)
     predicate = next(predicates(formula))
     ticks, values, judged = measured.ticks, measured.values, measured.values

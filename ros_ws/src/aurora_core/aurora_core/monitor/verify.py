@@ -16,10 +16,11 @@ from aurora_core.monitor.measure import measure
 from aurora_core.monitor.plan_check import NotComparable, Plan, plan_findings
 from aurora_core.monitor.sentences import explain, explain_missing
 from aurora_core.monitor.verdict import ConditionResult, Finding, Reason, Verdict, VerdictStatus
+from aurora_core.quantities.ticks import whole_ticks
 from aurora_core.quantities.view import RunView
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.stl.critical import critical_sample
-from aurora_core.stl.formula import Formula
+from aurora_core.stl.formula import Eventually, Formula
 from aurora_core.stl.robustness import SampledSignals, robustness
 from aurora_core.stl.syntax import parse_formula
 from aurora_core.trace.trace import Integrity, Trace
@@ -95,7 +96,7 @@ def judge(context: Context, condition: Condition, *, cut: int | None = None) -> 
     """
     measured = measure(context, condition)
     if isinstance(measured, Measured):
-        formula = parse_formula(condition.formula)
+        formula = judged_formula(context, condition, measured)
         signals = sampled(context, condition, measured)
         margin = robustness(formula, signals).at(0)
         if margin is not None:
@@ -121,6 +122,22 @@ def sampled(context: Context, condition: Condition, measured: Measured) -> Sampl
         dt_s=context.view.dt_s,
         clip=deadline_only and context.complete(condition),
     )
+
+
+def judged_formula(context: Context, condition: Condition, measured: Measured) -> Formula:
+    """Return the formula of a condition as it is judged on its samples.
+
+    A stretch may have to begin by a time so late that the run was finished before: every stretch
+    of the run begins early enough then.
+    """
+    formula = parse_formula(condition.formula)
+    if condition.by_s is None or condition.hold_s is None or not context.complete(condition):
+        return formula
+    dt_s = context.view.dt_s
+    asked = whole_ticks(condition.by_s, dt_s) + whole_ticks(condition.hold_s, dt_s)
+    if len(measured.values) > asked or not isinstance(formula, Eventually):
+        return formula
+    return Eventually(operand=formula.operand)
 
 
 def _too_few(context: Context, condition: Condition) -> Missing:

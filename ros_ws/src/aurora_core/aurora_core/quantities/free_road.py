@@ -34,7 +34,9 @@ def free_of_junctions(view: RunView, body: Body, within_m: float) -> BoolArray:
     return free
 
 
-def free_of_leaders(view: RunView, body: Body, within_m: float, offset_m: float) -> BoolArray:
+def free_of_leaders(
+    view: RunView, body: Body, within_m: float, offset_m: float, besides: tuple[str, ...] = ()
+) -> BoolArray:
     """Return where no vehicle is ahead on the route with a gap of at most `within_m`, (T,).
 
     Args:
@@ -42,10 +44,11 @@ def free_of_leaders(view: RunView, body: Body, within_m: float, offset_m: float)
         body: The driver.
         within_m: Bumper to bumper.
         offset_m: How far from the route a vehicle may be to be in the way.
+        besides: Vehicles that are in nobody's way.
     """
     free = np.ones(view.ticks, dtype=np.bool_)
     for other in view.agents:
-        if other.body_id == body.body_id or other.entry.is_person:
+        if other.body_id in (body.body_id, *besides) or other.entry.is_person:
             continue
         along = along_route(view, body, other)
         leads = (along.lead_m > 0.0) & (along.gap_m <= within_m) & (along.offset_m <= offset_m)

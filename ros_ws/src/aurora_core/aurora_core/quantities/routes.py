@@ -68,7 +68,7 @@ class _Progress:
         other = part.reference(self._leader.body_id)[:, :2]
         changes = _changes(part, self._follower)
         if self._route is None:
-            changes.insert(0, (0, _planned(part, self._follower)))
+            changes.insert(0, (0, planned_route(part, self._follower)))
         elif not changes or changes[0][0] > 0:
             changes.insert(0, (0, None))  # goes on
         marks = [tick for tick, _ in changes] + [part.ticks]
@@ -119,7 +119,8 @@ def _changes(view: RunView, body: Body) -> list[tuple[int, Polyline | None]]:
     return found
 
 
-def _planned(view: RunView, body: Body) -> Polyline:
+def planned_route(view: RunView, body: Body) -> Polyline:
+    """Return the path of a body as it was planned before the run."""
     try:
         return Polyline(np.array(body.entry.route_xy_m, dtype=np.float64).reshape(-1, 2))
     except MapError:

@@ -14,7 +14,9 @@ from dataclasses import dataclass, field
 import numpy as np
 import numpy.typing as npt
 
+from aurora_core.knowledge.world import SurfaceKind
 from aurora_core.quantities import motion
+from aurora_core.quantities.lanes import lane_change_ticks, lane_of
 from aurora_core.quantities.ledger import LinkModel, messages
 from aurora_core.quantities.phases import FlightPhases
 from aurora_core.quantities.sight import sight_series
@@ -33,10 +35,15 @@ from aurora_core.spec.scenario import (
     SendMessage,
     SpeedTrigger,
     TimeTrigger,
+    UavAction,
     VisibilityTrigger,
 )
+from aurora_core.trace.layout import UavCommandColumn, UavPhase
 
 BoolArray = npt.NDArray[np.bool_]
+
+# A UAV that climbs this fast ascends (m/s).
+CLIMBS_MPS = 0.5
 
 # Triggers that ask for a change: the predicate must have been false at an earlier tick.
 NEEDS_CHANGE = frozenset({'distance_above', 'speed_below', 'occluded'})
@@ -105,22 +112,42 @@ class EventTimes:
             return min(sent, default=None)
         if isinstance(event.action, AgentAction):
             return self._agent_action(event.action, start)
-        flight = self.rules.flights.get(event.action.uav)
-        if flight is None or event.action.do == 'change_mission':
-            return None
-        tick = flight.landing_tick if event.action.do == 'land' else flight.takeoff_tick
+        return self._uav_action(event.action, start)
+
+    def _uav_action(self, action: UavAction, start: int) -> int | None:
+        if action.do == 'change_mission':
+            own = [m.id for m in self.spec.missions if m.uav == action.uav]
+            if action.mission not in own:
+                return None
+            phase = self.view.commands(self.view.body(action.uav))[:, UavCommandColumn.PHASE]
+            wanted = phase == UavPhase.MISSION + own.index(action.mission)
+            # A mission begins once: one that is flown already is not changed to.
+            begins = first_tick(wanted)
+            return begins if begins is not None and begins >= start else None
+        if action.do == 'ascend':
+            uav = self.view.body(action.uav)
+            return first_tick(motion.climb_rate(self.view, uav) >= CLIMBS_MPS, start)
+        flight = self.rules.flights.get(action.uav)
+        tick = None if flight is None else flight.landing_tick
         return tick if tick is not None and tick >= start else None
 
     def _agent_action(self, action: AgentAction, start: int) -> int | None:
         body = self.view.body(action.agent)
-        if action.do in ('brake', 'stop', 'slow'):
+        if action.do in ('brake', 'stop', 'slow', 'yield'):
             loss = motion.deceleration(self.view, body)
             least = self.rules.brake_mps2 if action.do == 'brake' else self.rules.onset_mps2
             return first_tick(loss >= least, start)
         if action.do in ('start', 'accelerate'):
             gain = -motion.deceleration(self.view, body)
             return first_tick(gain >= self.rules.onset_mps2, start)
-        return None
+        if action.do == 'change_lane':
+            changes = lane_change_ticks(self.view, lane_of(self.view, body))
+            return next((tick for tick in changes if tick >= start), None)
+        on = self.view.geometry.surfaces(SurfaceKind.DRIVING).contains(
+            self.view.reference(action.agent)[:, :2]
+        )
+        steps = np.concatenate(([False], on[1:] & ~on[:-1]))
+        return first_tick(steps, start)
 
     def _first(self, event: Event) -> int | None:
         trigger = event.trigger

@@ -9,18 +9,18 @@ from collections import defaultdict
 from functools import cache
 from itertools import pairwise
 from pathlib import Path
+from typing import get_args
 
 import numpy as np
 import pytest
 from kind_rows import Outcome, Row, kind_of, trace_part
-from trace_cases import ground_case
 
 from aurora_core.conditions.condition import Condition
 from aurora_core.monitor.online import OnlineMonitor
 from aurora_core.monitor.verdict import Reason
 from aurora_core.spec.quantity import QuantityName
-from aurora_core.spec.scenario import Behavior
-from aurora_core.spec.vocabulary import BehaviorKind
+from aurora_core.spec.scenario import AgentAction, ScenarioSpec, SendMessage, UavAction
+from aurora_core.spec.vocabulary import BehaviorKind, Relation
 from aurora_core.stl.online import OnlineVerdict
 
 FOLDER = Path(__file__).parent
@@ -53,14 +53,21 @@ def _seen() -> tuple[dict[str, set[Outcome]], set[str]]:
         conditions = row.conditions()
         asked.update(kind_of(condition) for condition in conditions)
         mine = next(condition for condition in conditions if condition.id == row.id)
-        for kind in _kinds(mine):
+        for kind in _kinds(mine, row.make().spec):
             shown[kind].add(row.outcome(mine))
     return shown, asked
 
 
-def _kinds(condition: Condition) -> set[str]:
-    behaviour = condition.id.partition('.')[2]
-    return {condition.quantity.value, kind_of(condition), f'behaviour {behaviour}'}
+def _kinds(condition: Condition, spec: ScenarioSpec) -> set[str]:
+    what = condition.id.partition('.')[2]
+    kinds = {condition.quantity.value, kind_of(condition), f'behaviour {what}'}
+    if what == 'placed':
+        kinds.add(f'relation {condition.arguments.relation}')
+    if what == 'within':
+        (event,) = (e for e in spec.events if e.id == condition.arguments.event)
+        assert event.action is not None
+        kinds.add(f'action {event.action.do}')
+    return kinds
 
 
 @pytest.mark.parametrize('quantity', list(QuantityName))
@@ -75,14 +82,28 @@ def test_every_reading_of_a_quantity_has_its_three_runs() -> None:
 
 
 @pytest.mark.parametrize('kind', list(BehaviorKind))
-def test_every_behaviour_with_a_condition_has_its_three_runs(kind: BehaviorKind) -> None:
-    still = np.zeros(2)
-    case = ground_case(Behavior(kind=kind, target='car2'), still, car2=(9.0, still))
-    row = Row(id=f'car1.{kind.value}', make=lambda: case)
-    if not any(c.id.startswith(row.id) for c in row.conditions()):
-        return  # reported as `incomplete`, see test/conditions
+def test_every_behaviour_has_its_three_runs(kind: BehaviorKind) -> None:
     shown, _ = _seen()
     assert shown[f'behaviour {kind.value}'] == OUTCOMES
+
+
+@pytest.mark.parametrize('relation', list(Relation))
+def test_every_placement_has_its_three_runs(relation: Relation) -> None:
+    shown, _ = _seen()
+    assert shown[f'relation {relation}'] == OUTCOMES
+
+
+ACTIONS = [
+    do
+    for action in (SendMessage, AgentAction, UavAction)
+    for do in get_args(action.model_fields['do'].annotation)
+]
+
+
+@pytest.mark.parametrize('do', ACTIONS)
+def test_every_action_has_its_three_runs(do: str) -> None:
+    shown, _ = _seen()
+    assert shown[f'action {do}'] == OUTCOMES
 
 
 def test_the_tables_of_the_stated_quantities_know_their_shares() -> None:

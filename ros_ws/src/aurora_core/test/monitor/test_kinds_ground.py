@@ -100,6 +100,25 @@ def _cruise(speed: FloatArray, *, leader: float | None = None, lane: float | Non
     return case
 
 
+def _follower(own: float, *, third: float | None = None) -> Case:
+    """car1 is asked to follow car2 with 8 m/s; a third car may drive in front of both."""
+    asked = number(8.0, Unit.METRE_PER_SECOND, explicit=True)
+    others = {'car2': (14.5, _steady(own))}
+    if third is not None:
+        others['car3'] = (third, _steady(own))
+    behavior = Behavior(kind=B.FOLLOW, target='car2', speed_mps=asked)
+    return ground_case(behavior, _steady(own), **others)
+
+
+def _walker(speed: FloatArray) -> Case:
+    """A person is asked to walk with 1.5 m/s."""
+    asked = number(1.5, Unit.METRE_PER_SECOND, explicit=True)
+    case = ground_case(Behavior(kind=B.WALK, speed_mps=asked), speed)
+    case.run.agents[0].type = 'pedestrian'
+    case.spec = spec(agents=(dict(case.spec.agents[0]) | {'type': 'pedestrian'},))
+    return case
+
+
 EMPTY, GONE, SHORT = Reason.EMPTY_PHASE, Reason.TARGET_GONE, Reason.TRACE_SHORT
 NEVER = Reason.PREMISE_NEVER
 BEHAVIOURS = (
@@ -145,6 +164,14 @@ BEHAVIOURS = (
     ),
     Row(id='car1.drive.speed', make=lambda: _cruise(STILL), reason=EMPTY, what='stands'),
     Row(id='car1.drive.speed', make=lambda: gone(_cruise(_steady(8.0)), 0, 300), reason=GONE),
+    # Whom it follows does not keep it from its speed, a third car 49.9 m ahead does.
+    Row(id='car1.follow.speed', make=lambda: _follower(7.5), margin=1.0 - 0.8),
+    Row(id='car1.follow.speed', make=lambda: _follower(6.5), margin=0.0 - 0.8),
+    Row(id='car1.follow.speed', make=lambda: _follower(8.0, third=54.4), reason=EMPTY),
+    # 1 m/s is allowed; waiting at the kerb does not count.
+    Row(id='car1.walk.speed', make=lambda: _walker(_then(0.0, 1.2)), margin=1.0 - 0.8),
+    Row(id='car1.walk.speed', make=lambda: _walker(_steady(2.8)), margin=0.0 - 0.8),
+    Row(id='car1.walk.speed', make=lambda: _walker(STILL), reason=EMPTY),
     # 14.5 m between centres are 10 m between bumpers; 5 m are asked at more than 2 m/s.
     Row(id='car1.follow', make=lambda: _pair(B.FOLLOW, 5.0, 14.5, 5.0), margin=1.0 - 0.8),
     Row(id='car1.follow', make=lambda: _pair(B.FOLLOW, 5.0, 8.5, 5.0), margin=0.0 - 0.8),

@@ -115,6 +115,31 @@ GROUND = (
         margin=30.0 - 35.0,
         what='deadline',
     ),
+    # 4 s that begin by 2 s; by 18 or 30 s: the run is over before, the last 4 s begin at 16 s.
+    Row(
+        id='c1.holds',
+        make=lambda: _cars('distance', CARS, '>=', 25.0, hold_s=4.0, by_s=2.0),
+        margin=30.0 - 25.0,
+        what='stretch-deadline',
+    ),
+    Row(
+        id='c1.holds',
+        make=lambda: _cars('distance', CARS, '>=', 90.0, hold_s=4.0, by_s=18.0),
+        margin=100.0 - 90.0,
+        what='stretch-late-deadline',
+    ),
+    Row(
+        id='c1.holds',
+        make=lambda: _cars('distance', CARS, '>=', 105.0, hold_s=4.0, by_s=30.0),
+        margin=100.0 - 105.0,
+        what='stretch-late-deadline',
+    ),
+    Row(
+        id='c1.holds',
+        make=lambda: _cars('distance', CARS, '>=', 25.0, hold_s=30.0, by_s=30.0),
+        reason=EMPTY,
+        what='stretch-longer-than-the-run',
+    ),
     # The best 4 s are the last ones, from 100 m on; the best 4 s under a limit the first ones.
     Row(
         id='c1.holds',

@@ -1,0 +1,114 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Kinds about lanes and about yielding: satisfied, violated, not judged.
+
+The street has two lanes along +x, at y = 0 and y = 3.3, each 3.3 m wide, with a limit of 10 m/s.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from kind_rows import Row, gone
+from trace_builder import FloatArray
+from trace_cases import Case, ground_case
+
+from aurora_core.knowledge.world import CentreLine
+from aurora_core.monitor.verdict import Reason
+from aurora_core.spec.scenario import Behavior
+from aurora_core.spec.vocabulary import BehaviorKind as B
+
+T = 401  # 20 s
+TICK = np.arange(T)
+
+
+def _steady(mps: float) -> FloatArray:
+    return np.full(T, mps)
+
+
+def _street(case: Case, lanes: int = 2) -> Case:
+    case.world = replace(
+        case.world,
+        lanes=tuple(
+            CentreLine(
+                lane_id=f'a_{k}',
+                street_name='',
+                points=np.array([(-500.0, 3.3 * k), (1000.0, 3.3 * k)]),
+                width_m=3.3,
+                speed_limit_mps=10.0,
+            )
+            for k in range(lanes)
+        ),
+    )
+    return case
+
+
+def _changes(*ticks: int, lanes: int = 2) -> Case:
+    """A car goes to the other lane at each of the ticks."""
+    case = _street(ground_case(Behavior(kind=B.CHANGE_LANE), _steady(5.0)), lanes)
+    for tick in ticks:
+        y = case.run.agents[0].y
+        y[tick:] = 3.3 - y[tick:]
+    return case
+
+
+def _run(mps: float, lanes: int = 2) -> Case:
+    return _street(ground_case(Behavior(kind=B.EMERGENCY_RUN), _steady(mps)), lanes)
+
+
+def _yields(own: FloatArray, other: float, x: float = -30.0, y: float = 3.3) -> Case:
+    """car1 begins at 0; car2 comes from x beside it, with a steady speed."""
+    behavior = Behavior(kind=B.YIELD, target='car2')
+    case = ground_case(behavior, own, car2=(x, _steady(other)))
+    case.run.agents[1].y[:] = y
+    return case
+
+
+SLOWS = np.where(TICK < 100, 8.0, 2.0)
+WAITS = np.where(TICK < 200, 0.0, 8.0)
+NEVER, GONE = Reason.PREMISE_NEVER, Reason.TARGET_GONE
+ROWS = (
+    # 2 s are asked: from tick 200 to tick 400.
+    Row(id='car1.change_lane', make=lambda: _changes(200), margin=10.0 - 2.0),
+    Row(id='car1.change_lane', make=_changes, margin=0.0 - 2.0),
+    # Back after 1 s: neither this nor the way back is a change that was kept.
+    Row(id='car1.change_lane', make=lambda: _changes(200, 220), margin=1.0 - 2.0, what='back'),
+    # Overtaken on the other lane, and back.
+    Row(id='car1.change_lane', make=lambda: _changes(100, 200), margin=10.0 - 2.0, what='twice'),
+    Row(id='car1.change_lane', make=lambda: _changes(200, lanes=1), reason=NEVER),
+    Row(id='car1.change_lane', make=lambda: gone(_changes(200), 0, 0), reason=GONE),
+    # 1 m/s above the limit is asked.
+    Row(id='car1.emergency_run', make=lambda: _run(12.0), margin=2.0 - 1.0),
+    Row(id='car1.emergency_run', make=lambda: _run(9.5), margin=-0.5 - 1.0),
+    Row(id='car1.emergency_run', make=lambda: _run(0.0), reason=NEVER),
+    Row(id='car1.emergency_run', make=lambda: _run(12.0, lanes=0), reason=NEVER, what='no-street'),
+    # 2 m/s less are asked before the other one has passed.
+    Row(id='car1.yield', make=lambda: _yields(SLOWS, 10.0), margin=6.0 - 2.0),
+    Row(id='car1.yield', make=lambda: _yields(WAITS, 10.0), margin=8.0 - 2.0, what='waits'),
+    Row(id='car1.yield', make=lambda: _yields(_steady(8.0), 14.0), margin=0.0 - 2.0),
+    # It has passed at 0.6 s already, long before the brakes.
+    Row(id='car1.yield', make=lambda: _yields(SLOWS, 14.0, -3.0), margin=0.0 - 2.0, what='late'),
+    Row(id='car1.yield', make=lambda: _yields(_steady(0.0), 10.0), reason=NEVER),
+    # 399 and 301 steps of 0.05 s, of which 99 at 8 m/s; the other one gets to 170 m.
+    Row(
+        id='car1.yield.passed',
+        make=lambda: _yields(SLOWS, 10.0),
+        margin=170.0 - (99 * 0.4 + 301 * 0.1),
+    ),
+    Row(id='car1.yield.passed', make=lambda: _yields(_steady(8.0), 8.0), margin=-30.0),
+    # Somewhere else, or ahead all the time.
+    Row(id='car1.yield.passed', make=lambda: _yields(SLOWS, 10.0, y=60.0), reason=NEVER),
+    Row(
+        id='car1.yield.passed',
+        make=lambda: _yields(SLOWS, 10.0, 30.0),
+        reason=NEVER,
+        what='ahead',
+    ),
+)
+
+
+@pytest.mark.parametrize('row', ROWS, ids=lambda row: row.name)
+def test_lane_kinds(row: Row) -> None:
+    row.check()
