@@ -135,8 +135,8 @@ class EventRunner:
             return True
         if machine.ascended_tick is None:
             return False
-        tracks = any(m.mode is MissionMode.TRACK for m in machine.plan.missions)
-        if tracks and machine.first_capture_tick is None:
+        tracks = [m.id for m in machine.plan.missions if m.mode is MissionMode.TRACK]
+        if tracks and tracks[0] not in machine.captured_missions:
             return False
         actor = actor_of(event)
         return actor is None or actor == sender or seen.visible(sender, actor)

@@ -27,7 +27,6 @@ from aurora_core.mission.setpoint import FlightSettings
 from aurora_core.ports.simulators import AirLoad, GroundAgentLoad, GroundLoad, UavHome
 from aurora_core.quantities.world_geometry import WorldGeometry
 from aurora_core.spec.scenario import Link, ScenarioSpec, SendMessage
-from aurora_core.spec.vocabulary import BehaviorKind
 from aurora_core.temporal.schedule import Schedule
 from aurora_core.trace.roster import Roster, RosterEntry
 
@@ -284,24 +283,3 @@ def _link(
         link_stream(seed, link.id),
         loss_with_faults(link.id, link.loss.value, faults, dt_s),
     )
-
-
-# Behaviours that the monitor can judge, and that no agent is made to show.
-NOT_CARRIED_OUT = frozenset(
-    {BehaviorKind.SLOW, BehaviorKind.TURN_LEFT, BehaviorKind.TURN_RIGHT, BehaviorKind.CROSS}
-)
-
-
-def unsupported(spec: ScenarioSpec, grounded: GroundedScenario) -> tuple[str, ...]:
-    """Return what the specification says and the executor cannot do yet, in words."""
-    found = list(grounded.unsupported)
-    for agent in spec.agents:
-        kinds = [b.kind for b in agent.behaviors if b.kind in NOT_CARRIED_OUT]
-        found += [f'{agent.id}: behaviour {kind.value}' for kind in kinds]
-    for event in spec.events:
-        action = event.action
-        if action is None or event.trigger is None:
-            continue
-        if action.do in ('change_lane', 'cross', 'ascend', 'change_mission'):
-            found.append(f'{event.id}: {action.do}')
-    return tuple(found)

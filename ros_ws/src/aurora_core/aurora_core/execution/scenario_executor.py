@@ -168,7 +168,10 @@ class ScenarioExecutor:
             machine = machines.get(agent.release_uav)
             ready = machine is not None and (
                 (agent.release is ReleaseOn.ASCENDED and machine.ascended_tick is not None)
-                or (agent.release is ReleaseOn.CAPTURED and machine.first_capture_tick is not None)
+                or (
+                    agent.release is ReleaseOn.CAPTURED
+                    and agent.release_mission in machine.captured_missions
+                )
                 or (agent.release is ReleaseOn.OBSERVED and machine.missions_done)
             )
             if ready:
@@ -200,7 +203,8 @@ class ScenarioExecutor:
         return rows
 
     def _landing_spot(self, index: int, state: FloatArray) -> tuple[tuple[float, float], float]:
-        plan = self._setup.machines[index].plan
+        machine = self._setup.machines[index]
+        plan = machine.plan
         x, y, z = state[UavColumn.X : UavColumn.Z + 1].tolist()
         taken = [
             m.landing_spot
@@ -215,8 +219,11 @@ class ScenarioExecutor:
             ),
             key=lambda s: (norm2(s[0] - x, s[1] - y), s),
         ) or [(plan.home_x_m, plan.home_y_m)]
+        # Straight to the spot, or on until it has braked and back: it flies in between.
+        beyond = (*machine.stop_point(state), z)
         for spot in spots:
-            way = ((x, y, z), (spot[0], spot[1], z))
+            end = (spot[0], spot[1], z)
+            way = (end, (x, y, z), beyond, end)
             if self._setup.airspace.way_clearance_m(way) >= self._setup.landing_clearance_m:
                 return spot, z
         return spots[0], max(z, plan.safe_altitude_m)

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from math import inf, sqrt
 
 import numpy as np
@@ -14,9 +15,16 @@ from aurora_core.errors import MapError
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.convoy import STILL, SceneSplit
 from aurora_core.grounding.grounded import GroundedAgent, ReleaseOn
-from aurora_core.grounding.pace import Encounter, convoy_pace_mps, encounters, moves
+from aurora_core.grounding.pace import (
+    Encounter,
+    convoy_pace_mps,
+    encounters,
+    moves,
+    own_speed_mps,
+    stated_speed_mps,
+)
 from aurora_core.grounding.routes import RouteFinder
-from aurora_core.grounding.sites import SeatedAgent, Site, tied_way_m
+from aurora_core.grounding.sites import SeatedAgent, Site, on_main_roads, tied_way_m
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Limits
 from aurora_core.knowledge.map_model import MapModel
@@ -24,11 +32,20 @@ from aurora_core.knowledge.net_types import Lane
 from aurora_core.knowledge.route_path import RoutePath
 from aurora_core.knowledge.settings import Settings
 from aurora_core.spec.scenario import GroundAgent, ScenarioSpec, TimeTrigger
-from aurora_core.spec.vocabulary import BehaviorKind, MissionMode
+from aurora_core.spec.vocabulary import BehaviorKind, MissionMode, Place
 
 # Tries at random places before all places are looked through, and how far apart those are (m).
 _TRIES = 400
 _SCAN_M = 5.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Release:
+    """When the convoy may start, and whose doing that is."""
+
+    on: ReleaseOn = ReleaseOn.START
+    uav: str = ''
+    mission: str = ''
 
 
 class AgentPlacer:
@@ -57,7 +74,7 @@ class AgentPlacer:
         """Return the convoy's members in the order of the specification."""
         factor = self._convoy_factor(spec, site)
         meetings = encounters(spec)
-        release, uav = _release(spec, split)
+        release = _release(spec, split)
         seats = {s.member.agent.id: s for s in site.seated}
         front_m = max((s.arc_m for s in site.seated), default=0.0)
         placed = []
@@ -72,9 +89,9 @@ class AgentPlacer:
                     agent,
                     seat.path,
                     seat.arc_m,
-                    release=ReleaseOn.START if release is None else release,
-                    release_uav=uav,
+                    release=release,
                     still=still,
+                    speed_mps=stated_speed_mps(spec, agent),
                     style=style,
                     tied=len(site.seated) > 1,
                 )
@@ -123,6 +140,8 @@ class AgentPlacer:
             for lane in network.driving_lanes(record.vclass)
             if finder.endless(lane.edge_id) and lane.length_m > 2.0 * record.length_m + 4.0
         ]
+        if any(p.of == Place.MAIN_ROAD for p in agent.placements):
+            lanes = on_main_roads(lanes)
         if not lanes:
             return None
         margin = record.length_m / 2.0 + 1.0
@@ -149,9 +168,9 @@ class AgentPlacer:
                 agent,
                 path,
                 path.arc_of(lane.id, position),
-                release=ReleaseOn.START,
-                release_uav='',
+                release=_Release(),
                 still=any(b.kind in STILL for b in agent.behaviors),
+                speed_mps=own_speed_mps(agent),
                 style={},
                 tied=False,
             )
@@ -181,9 +200,9 @@ class AgentPlacer:
         path: RoutePath,
         arc_m: float,
         *,
-        release: ReleaseOn,
-        release_uav: str,
+        release: _Release,
         still: bool,
+        speed_mps: float | None,
         style: dict[str, float],
         tied: bool,
     ) -> GroundedAgent:
@@ -193,7 +212,6 @@ class AgentPlacer:
         edges = path.edge_ids[path.edge_ids.index(first) :]
         x, y, hx, hy = path.position_at(arc_m)
         route_xy_m = _line_from(path, arc_m)
-        speeds = [b.speed_mps.value for b in agent.behaviors if b.speed_mps is not None]
         return GroundedAgent(
             id=agent.id,
             type_name=agent.type.value,
@@ -214,9 +232,10 @@ class AgentPlacer:
             time_gap_s=style.get('time_gap_s'),
             min_gap_m=style.get('min_gap_m'),
             lane_change_mode=self._settings.run.convoy_lane_change_mode if tied else None,
-            release=ReleaseOn.NEVER if still else release,
-            release_uav=release_uav,
-            drive_speed_mps=speeds[0] if speeds else None,
+            release=ReleaseOn.NEVER if still else release.on,
+            release_uav=release.uav,
+            release_mission=release.mission,
+            drive_speed_mps=speed_mps,
         )
 
     def _convoy_factor(self, spec: ScenarioSpec, site: Site) -> float:
@@ -283,7 +302,7 @@ def _line_from(path: RoutePath, arc_m: float) -> tuple[tuple[float, float], ...]
     return tuple(points)
 
 
-def _release(spec: ScenarioSpec, split: SceneSplit) -> tuple[ReleaseOn | None, str]:
+def _release(spec: ScenarioSpec, split: SceneSplit) -> _Release:
     """Hold the convoy until the UAV that watches it is ready, or has finished with it."""
     members = {m.agent.id: m.agent for m in split.convoy}
     on_time = any(
@@ -291,16 +310,16 @@ def _release(spec: ScenarioSpec, split: SceneSplit) -> tuple[ReleaseOn | None, s
         for e in spec.events
     )
     if on_time:  # What happens at a stated time does not wait for a UAV.
-        return None, ''
+        return _Release()
     for mission in spec.missions:
         target = members.get(mission.target or '')
         if target is None or mission.mode is MissionMode.NAVIGATE:
             continue
         if mission.mode is MissionMode.HOVER and not moves(spec, target):
-            return ReleaseOn.OBSERVED, mission.uav
-        return ReleaseOn.CAPTURED, mission.uav
+            return _Release(on=ReleaseOn.OBSERVED, uav=mission.uav)
+        return _Release(on=ReleaseOn.CAPTURED, uav=mission.uav, mission=mission.id)
     met = {name for m in encounters(spec) for name in (m.actor, m.other)}
     for mission in spec.missions:
         if met & set(members):
-            return ReleaseOn.ASCENDED, mission.uav
-    return None, ''
+            return _Release(on=ReleaseOn.ASCENDED, uav=mission.uav)
+    return _Release()

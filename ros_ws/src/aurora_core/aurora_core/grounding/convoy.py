@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from aurora_core.grounding.pace import Encounter, encounters
 from aurora_core.spec.parameter import Parameter, Provenance
 from aurora_core.spec.scenario import GroundAgent, Placement, ScenarioSpec
-from aurora_core.spec.vocabulary import AgentType, BehaviorKind, Relation, Role
+from aurora_core.spec.vocabulary import AgentType, BehaviorKind, Place, Relation, Role
 
 # Relations that a convoy can hold, as (sign of the offset, lane shift).
 ALONG: dict[Relation, tuple[int, int]] = {
@@ -37,6 +37,9 @@ ENCOUNTER_ROOM_M = 15.0
 DETACHED_M = 40.0
 
 _SAME_PLACE_M = 1e-6
+
+# Where a vehicle is anyway, and where it can be put.
+_ROADS = (None, Place.MAIN_ROAD)
 
 STILL = frozenset({BehaviorKind.STOP, BehaviorKind.WAIT, BehaviorKind.PARK})
 
@@ -115,6 +118,15 @@ def split_scene(spec: ScenarioSpec) -> SceneSplit:
     return SceneSplit(convoy=convoy, free=free, persons=persons, unsupported=tuple(unsupported))
 
 
+def can_be_placed(placement: Placement, spec: ScenarioSpec) -> bool:
+    """Tell whether a placement of a vehicle is realised, once it has found a place at all."""
+    if placement.relation is Relation.ON:
+        return placement.of in _ROADS
+    persons = (AgentType.PEDESTRIAN, AgentType.RSU)
+    vehicles = {a.id for a in spec.agents if a.type not in persons}
+    return placement.of in vehicles and placement.relation in ALONG
+
+
 def _ties(
     agent: GroundAgent,
     by_id: dict[str, GroundAgent],
@@ -125,7 +137,7 @@ def _ties(
     for placement in agent.placements:
         if placement.of in by_id and placement.relation in ALONG:
             others.setdefault(str(placement.of), []).append(placement)
-        elif placement.relation is not Relation.ON:
+        elif placement.relation is not Relation.ON or placement.of not in _ROADS:
             where = f' {placement.of}' if placement.of is not None else ''
             unsupported.append(f'{agent.id}: placement {placement.relation.value}{where}')
     if others:

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import cos, pi, sin
 
@@ -36,6 +36,9 @@ Point3 = tuple[float, float, float]
 SPARE_SHARE = 0.05
 
 _SIGHT_HEIGHT_PLACE_M = 1.0
+
+# Neighbours on a ring are as far apart as they have to be, to rounding.
+_ROUNDING_M = 1e-6
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -92,14 +95,28 @@ class FlightPlanner:
         self._settings = settings
         self._range = sensing_range_m
         self._hover_drift_m = hover_drift_m
+        self._apart_m = 2.0 * limits.separation_min_m
         self._leg_share = min(1.0, tolerances.over_carriageway_share + SPARE_SHARE)
         self._carriageway = map_model.network.carriageway
         shapely.prepare(self._carriageway)
 
     def plan_mission(
-        self, spec: ScenarioSpec, mission: UavMission, site: Site, speed_mps: float
+        self,
+        spec: ScenarioSpec,
+        mission: UavMission,
+        site: Site,
+        speed_mps: float,
+        others: Sequence[Point3] = (),
     ) -> PlannedFlight | Rejected:
-        """Plan one mission at a site; `speed_mps` is the speed its target will drive."""
+        """Plan one mission at a site.
+
+        Args:
+            spec: The request.
+            mission: What to plan.
+            site: Where.
+            speed_mps: Speed that the target will drive.
+            others: Where other UAVs hover.
+        """
         if mission.mode is MissionMode.TRACK:
             return self._track(mission, site, speed_mps)
         centre = self._centre(mission, site)
@@ -107,7 +124,7 @@ class FlightPlanner:
             return Rejected(reason='target_place')
         if mission.mode is MissionMode.HOVER:
             targets = self._watched(spec, mission, site, centre, speed_mps)
-            return self._hover(mission, centre, targets)
+            return self._hover(mission, centre, targets, others)
         return self._navigate(mission, centre)
 
     def plan_uav(
@@ -224,6 +241,27 @@ class FlightPlanner:
             c, s = cos(angle), sin(angle)
             yield (-standoff * (hx * c - hy * s), -standoff * (hx * s + hy * c))
 
+    def _places(
+        self,
+        mission: UavMission,
+        centre: tuple[float, float, float, float],
+        others: Sequence[Point3],
+    ) -> Iterator[tuple[float, float]]:
+        """Yield the offsets of a hover point: beside the centre where somebody hovers over it."""
+        yield from self._offsets(mission, np.array(centre))
+        stands_off = mission.standoff_m is not None and mission.standoff_m.value > 0.0
+        middle = (centre[0], centre[1], mission.altitude_m.value)
+        if stands_off or self._apart(middle, others):
+            return
+        for ring in (1, 2):
+            radius_m, count = ring * self._apart_m, 6 * ring
+            for k in range(count):
+                angle = 2.0 * pi * k / count
+                yield radius_m * cos(angle), radius_m * sin(angle)
+
+    def _apart(self, point: Point3, others: Sequence[Point3]) -> bool:
+        return all(_distance(point, other) >= self._apart_m - _ROUNDING_M for other in others)
+
     def _altitude_slack(self, mission: UavMission) -> float:
         altitude = mission.altitude_m
         return self._tolerances.altitude_m.of(altitude.value, approximate=altitude.approximate)
@@ -267,10 +305,14 @@ class FlightPlanner:
         mission: UavMission,
         centre: tuple[float, float, float, float],
         targets: FloatArray,
+        others: Sequence[Point3],
     ) -> PlannedFlight | Rejected:
         reason = 'clearance'
-        for offset in self._offsets(mission, np.array(centre)):
+        for offset in self._places(mission, centre, others):
             point = (centre[0] + offset[0], centre[1] + offset[1], mission.altitude_m.value)
+            if not self._apart(point, others):
+                reason = 'separation'
+                continue
             clearance = self._air.points_clearance_m(np.array([point]))
             if clearance < self._settings.clearance_m:
                 continue
@@ -383,6 +425,10 @@ class FlightPlanner:
             return [(float(p[0]), float(p[1])) for p in way]
         x, y, _ = _last_point(plan)
         return [(x, y)]
+
+
+def _distance(a: Point3, b: Point3) -> float:
+    return norm2(norm2(a[0] - b[0], a[1] - b[1]), a[2] - b[2])
 
 
 def _last_point(plan: MissionPlan) -> Point3:

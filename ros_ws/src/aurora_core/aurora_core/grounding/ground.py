@@ -19,7 +19,7 @@ from aurora_core.grounding.flights import FlightPlanner, PlannedFlight, Rejected
 from aurora_core.grounding.grounded import AnchorScore, GroundedScenario
 from aurora_core.grounding.layers import layered
 from aurora_core.grounding.outcome import GroundingFailure
-from aurora_core.grounding.pace import convoy_pace_mps
+from aurora_core.grounding.pace import watched_speed_mps
 from aurora_core.grounding.realised import realised_values
 from aurora_core.grounding.sites import Site, sites, tied_way_m
 from aurora_core.grounding.spots import SpotFinder
@@ -152,15 +152,16 @@ class Grounder:
         road: float,
         planner: FlightPlanner,
     ) -> _Option | Rejected:
-        speed = convoy_pace_mps(spec, self._limits, self._settings.grounding)
         flights: list[PlannedFlight] = []
         uavs: list[UavPlan] = []
         for number, uav in enumerate(spec.uavs):
             own: list[PlannedFlight] = []
+            hovering = [f.plan.hover_point for f in flights if f.plan.hover_point is not None]
             for mission in spec.missions:
                 if mission.uav != uav.id:
                     continue
-                flight = planner.plan_mission(spec, mission, site, speed)
+                speed = watched_speed_mps(spec, mission, self._limits, self._settings.grounding)
+                flight = planner.plan_mission(spec, mission, site, speed, hovering)
                 if isinstance(flight, Rejected):
                     return flight
                 own.append(flight)

@@ -48,6 +48,7 @@ class GroundedAgent(Document):
         lane_position_m: Arc length of the reference point (vehicles: box centre) on that lane.
         release: When it may start to move.
         release_uav: The UAV whose state releases it.
+        release_mission: The mission whose capture releases it.
         drive_speed_mps: Stated speed, held from the release on (None: drives with the traffic).
     """
 
@@ -74,6 +75,7 @@ class GroundedAgent(Document):
     arrival_position_m: FiniteFloat | None = None
     release: ReleaseOn = ReleaseOn.START
     release_uav: str = ''
+    release_mission: str = ''
     drive_speed_mps: FiniteFloat | None = None
 
 

@@ -12,11 +12,14 @@ from dataclasses import dataclass
 
 from aurora_core.knowledge.limits import Limits
 from aurora_core.knowledge.settings import GroundingSettings
-from aurora_core.spec.scenario import DistanceTrigger, GroundAgent, ScenarioSpec
-from aurora_core.spec.vocabulary import AgentType, MissionMode
+from aurora_core.spec.scenario import DistanceTrigger, GroundAgent, ScenarioSpec, UavMission
+from aurora_core.spec.vocabulary import AgentType, BehaviorKind, MissionMode
 
 # An observed convoy covers at most this share of the sensing range during a hover.
 _OBSERVED_SHARE = 0.5
+
+# Who does this drives as fast as the one that it does it to.
+_PACED = frozenset({BehaviorKind.FOLLOW, BehaviorKind.TAILGATE})
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -65,3 +68,29 @@ def convoy_pace_mps(spec: ScenarioSpec, limits: Limits, settings: GroundingSetti
             assert mission.duration_s is not None
             pace = min(pace, _OBSERVED_SHARE * range_m / mission.duration_s.value)
     return pace
+
+
+def own_speed_mps(agent: GroundAgent) -> float | None:
+    """Return the speed that the request states for an agent."""
+    speeds = [b.speed_mps.value for b in agent.behaviors if b.speed_mps is not None]
+    return speeds[0] if speeds else None
+
+
+def stated_speed_mps(spec: ScenarioSpec, agent: GroundAgent) -> float | None:
+    """Return the stated speed of an agent, else of one that follows it: both drive the same."""
+    followers = [
+        own_speed_mps(a)
+        for a in spec.agents
+        if any(b.kind in _PACED and b.target == agent.id for b in a.behaviors)
+    ]
+    speeds = (own_speed_mps(agent), *followers)
+    return next((speed for speed in speeds if speed is not None), None)
+
+
+def watched_speed_mps(
+    spec: ScenarioSpec, mission: UavMission, limits: Limits, settings: GroundingSettings
+) -> float:
+    """Return the speed of a mission's target: what is stated, else the pace of the convoy."""
+    target = next((a for a in spec.agents if a.id == mission.target), None)
+    stated = None if target is None else stated_speed_mps(spec, target)
+    return convoy_pace_mps(spec, limits, settings) if stated is None else stated

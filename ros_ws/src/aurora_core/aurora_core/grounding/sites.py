@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import contextlib
 import itertools
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
@@ -17,11 +18,12 @@ from aurora_core.grounding.convoy import ConvoyMember
 from aurora_core.grounding.routes import RouteFinder
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.map_model import MapModel
+from aurora_core.knowledge.net_types import Lane
 from aurora_core.knowledge.road_network import RoadNetwork
 from aurora_core.knowledge.route_path import RoutePath
 from aurora_core.knowledge.settings import GroundingSettings
 from aurora_core.spec.scenario import ScenarioSpec
-from aurora_core.spec.vocabulary import MissionMode
+from aurora_core.spec.vocabulary import MissionMode, Place
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -100,6 +102,12 @@ def tied_way_m(spec: ScenarioSpec, settings: GroundingSettings) -> float:
     return (max([30.0, *tracked]) + 10.0) * settings.target_speed_mps
 
 
+def on_main_roads(lanes: Sequence[Lane]) -> list[Lane]:
+    """Return the lanes of streets that have several lanes per direction."""
+    count = Counter(lane.edge_id for lane in lanes)
+    return [lane for lane in lanes if count[lane.edge_id] > 1]
+
+
 def sites(
     map_model: MapModel,
     convoy: tuple[ConvoyMember, ...],
@@ -115,6 +123,8 @@ def sites(
         for lane in network.driving_lanes(classes[0])
         if all(c in lane.allows for c in classes)
     ]
+    if any(p.of == Place.MAIN_ROAD for m in convoy for p in m.agent.placements):
+        lanes = on_main_roads(lanes)
     finder = RouteFinder(network, min(classes, key=lambda c: (len(network.driving_lanes(c)), c)))
     back_m = max(
         (types[m.agent.type.value].length_m / 2.0 - m.offset_m for m in convoy), default=0.0

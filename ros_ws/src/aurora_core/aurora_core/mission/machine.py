@@ -62,6 +62,7 @@ class MissionMachine:
         self.ascended_tick: int | None = None
         self.capture_tick: int | None = None
         self.first_capture_tick: int | None = None
+        self.captured_missions: set[str] = set()
         self.landed = False
         self._pursuit = PursuitReference(plan.home_x_m, plan.home_y_m, 0.0)
         self._route: RouteReference | None = None
@@ -114,6 +115,13 @@ class MissionMachine:
         """End the missions; the landing begins with the next step."""
         if _IDLE < self.phase < _LANDING:
             self._begin(_LANDING)
+
+    def stop_point(self, state: FloatArray) -> tuple[float, float]:
+        """Return where it would come to rest, braking from its present velocity (x, y in m)."""
+        row: list[float] = state.tolist()
+        speed = norm2(row[_VX], row[_VY])
+        braking_s = speed / (2.0 * self._settings.acceleration_mps2)
+        return row[_X] + braking_s * row[_VX], row[_Y] + braking_s * row[_VY]
 
     def needs_landing_spot(self) -> bool:
         """Whether the executor has to choose a landing spot now."""
@@ -201,14 +209,15 @@ class MissionMachine:
             goal = (self._pursuit.x, self._pursuit.y, mission.altitude_m)
             velocity = (0.0, 0.0)
         if self.capture_tick is None and self._meets(mission, state, goal, target):
-            self._capture(tick)
+            self._capture(mission, tick)
         if self._phase_over(mission, tick):
             return True
         self._pursuit.step(goal, velocity, self._settings, self._dt)
         return False
 
-    def _capture(self, tick: int) -> None:
+    def _capture(self, mission: MissionPlan, tick: int) -> None:
         self.capture_tick = tick
+        self.captured_missions.add(mission.id)
         if self.first_capture_tick is None:
             self.first_capture_tick = tick
 
@@ -241,7 +250,7 @@ class MissionMachine:
         if self._route is None:
             near = norm2(x - first[0], y - first[1]) <= ARRIVED_M
             if near and abs(z - first[2]) <= ARRIVED_M:
-                self._capture(tick)
+                self._capture(mission, tick)
                 self._route = RouteReference(mission.waypoints, mission.speed_mps)
             else:
                 self._pursuit.step(first, (0.0, 0.0), self._settings, self._dt)

@@ -12,23 +12,20 @@ from typing import Any
 from aurora_core.agsg.build import build_agsg, derived
 from aurora_core.agsg.graph import Agsg, Stage
 from aurora_core.agsg.message import read_agsg
-from aurora_core.conditions.behaviors import behavior_id
 from aurora_core.conditions.condition import (
-    Condition,
     conditions_from_json,
     conditions_to_json,
 )
 from aurora_core.conditions.derive import derive_conditions
 from aurora_core.errors import AuroraError, VerificationError
+from aurora_core.execution.capabilities import judgeable, unsupported
 from aurora_core.execution.faults import Fault
 from aurora_core.execution.map_parts import MapParts, map_parts
 from aurora_core.execution.plan import (
-    NOT_CARRIED_OUT,
     Execution,
     build_execution,
     build_roster,
     build_world,
-    unsupported,
 )
 from aurora_core.feasibility.check import check_limits
 from aurora_core.feasibility.verdict import FeasibilityVerdict
@@ -48,7 +45,7 @@ from aurora_core.monitor.verify import verify
 from aurora_core.parsing.outcome import ParseContext, ParseOutcome
 from aurora_core.parsing.parser import parse_offline
 from aurora_core.report.versions import AURORA_VERSION
-from aurora_core.spec.scenario import ScenarioSpec, bodies_of
+from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.temporal.schedule import plan_time
 from aurora_core.trace.bag_reader import BagContent, read_bag
 from aurora_core.trace.definitions import message_definitions
@@ -134,7 +131,7 @@ def ground_stage(agsg: Agsg, seed: int) -> GroundingOutcome:
         return GroundingOutcome(failure=grounded)
     schedule = plan_time(spec, grounded, known.limits)
     derivation = derive_conditions(spec, schedule.facts, known.limits, known.tolerances)
-    conditions = _judgeable(derivation.conditions, spec, grounded)
+    conditions = judgeable(derivation.conditions, spec, grounded)
     graph = build_agsg(
         spec,
         map_digest=known.map(spec.world.map_name).digest,
@@ -151,26 +148,6 @@ def ground_stage(agsg: Agsg, seed: int) -> GroundingOutcome:
         *(f'{u.element}: {u.what}' for u in derivation.underivable),
     )
     return GroundingOutcome(agsg=graph, unsupported=missing)
-
-
-def _judgeable(
-    conditions: tuple[Condition, ...], spec: ScenarioSpec, grounded: GroundedScenario
-) -> tuple[Condition, ...]:
-    """Leave out what cannot be placed or carried out yet; its clauses are `incomplete`."""
-    placed = {a.id for a in grounded.agents}
-    absent = {a.id for a in spec.agents} - placed
-    events = {e.id for e in spec.events if bodies_of(e) & absent}
-    undone = {
-        behavior_id(agent, index)
-        for agent in spec.agents
-        for index, behavior in enumerate(agent.behaviors)
-        if behavior.kind in NOT_CARRIED_OUT
-    }
-    return tuple(
-        c
-        for c in conditions
-        if not absent & set(c.of) and c.arguments.event not in events and c.id not in undone
-    )
 
 
 def execution_stage(agsg: Agsg, seed: int, faults: tuple[Fault, ...]) -> Execution:
@@ -254,7 +231,7 @@ def recorded_plan(world: WorldModel, agsg: Agsg) -> Plan | NotComparable:
             )
         facts = plan_time(spec, grounded, world.limits).facts
         derivation = derive_conditions(spec, facts, world.limits, known.tolerances)
-        conditions = _judgeable(derivation.conditions, spec, grounded)
+        conditions = judgeable(derivation.conditions, spec, grounded)
         rebuilt = _rebuilt_world(spec, grounded)
         roster = build_roster(grounded, known.settings.run.dt_s)
     except (ValueError, LookupError, AuroraError) as err:

@@ -189,6 +189,7 @@ class Stage:
             heading_y=0.0,
             release=release,
             release_uav=uav,
+            release_mission=f'm{list(self.tracks).index(uav)}' if uav else '',
             drive_speed_mps=self.speeds.get(agent),
         )
 

@@ -16,7 +16,7 @@ from aurora_core.agsg.build import build_agsg
 from aurora_core.agsg.graph import Agsg, Stage
 from aurora_core.errors import ExecutionError
 from aurora_core.execution.faults import Fault
-from aurora_core.execution.plan import UAV_SIZE_M, Execution, build_execution, unsupported
+from aurora_core.execution.plan import UAV_SIZE_M, Execution, build_execution
 from aurora_core.execution.step_output import StepOutput
 from aurora_core.geometry.polyline import Polyline
 from aurora_core.grounding.grounded import GroundedScenario
@@ -358,26 +358,6 @@ def test_who_is_kept_away_is_never_faster_than_the_fault_says(build: Build) -> N
     row = trace.roster.agent_index('van1')
     assert row is not None
     assert trace.ground[:, row, GroundColumn.SPEED].max() == 3.0
-
-
-def test_what_the_executor_cannot_do_is_named(
-    read_prompt: Callable[..., ScenarioSpec], ground: Callable[..., GroundedScenario]
-) -> None:
-    spec = read_prompt('tailgate', MAP)
-    found = ground(spec, MAP)
-    assert unsupported(spec, found) == ()
-    event = {
-        **spec.events[0].model_dump(),
-        'action': {'do': 'change_lane', 'agent': 'van1'},
-    }
-    changed = ScenarioSpec.model_validate({**spec.model_dump(), 'events': [event]})
-    assert unsupported(changed, found) == (f'{spec.events[0].id}: change_lane',)
-    first, *others = (a.model_dump() for a in spec.agents)
-    turning = {**first, 'behaviors': [{'kind': 'turn_left'}]}
-    changed = ScenarioSpec.model_validate({**spec.model_dump(), 'agents': [turning, *others]})
-    assert unsupported(changed, found) == (f'{first["id"]}: behaviour turn_left',)
-    named = found.model_copy(update={'unsupported': ('p1: pedestrians',)})
-    assert unsupported(spec, named) == ('p1: pedestrians',)
 
 
 def test_two_executions_share_nothing(build: Build) -> None:

@@ -1,0 +1,117 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""What nobody carries out is named, and not judged: the run is incomplete, not violated."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from aurora_core.conditions.derive import derive_conditions
+from aurora_core.execution.capabilities import judgeable, unsupported
+from aurora_core.grounding.grounded import GroundedScenario
+from aurora_core.knowledge.limits import Limits, Tolerances
+from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.temporal.schedule import plan_time
+
+MAP = 'junction'
+
+
+class Scene:
+    """The tailgating prompt, grounded; `with_` changes what is asked afterwards."""
+
+    def __init__(
+        self, spec: ScenarioSpec, found: GroundedScenario, limits: Limits, tolerances: Tolerances
+    ) -> None:
+        self.spec = spec
+        self.found = found
+        self._limits = limits
+        self._tolerances = tolerances
+
+    def missing(self) -> tuple[str, ...]:
+        return unsupported(self.spec, self.found)
+
+    def judged(self) -> set[str]:
+        facts = plan_time(self.spec, self.found, self._limits).facts
+        derived = derive_conditions(self.spec, facts, self._limits, self._tolerances)
+        return {c.id for c in judgeable(derived.conditions, self.spec, self.found)}
+
+    def with_(self, **values: Any) -> Scene:
+        spec = ScenarioSpec.model_validate({**self.spec.model_dump(), **values})
+        return Scene(spec, self.found, self._limits, self._tolerances)
+
+    def with_van(self, **values: Any) -> Scene:
+        agents = [a.model_dump() | (values if a.id == 'van1' else {}) for a in self.spec.agents]
+        return self.with_(agents=agents)
+
+
+@pytest.fixture
+def scene(
+    read_prompt: Callable[..., ScenarioSpec],
+    ground: Callable[..., GroundedScenario],
+    limits: Limits,
+    tolerances: Tolerances,
+) -> Scene:
+    spec = read_prompt('tailgate', MAP)
+    return Scene(spec, ground(spec, MAP), limits, tolerances)
+
+
+def test_of_what_is_carried_out_nothing_is_missing(scene: Scene) -> None:
+    assert scene.missing() == ()
+    assert {'van1.tailgate', 'e1.within', 'm1.tracked'} <= scene.judged()
+
+
+@pytest.mark.parametrize(
+    'kind', ['slow', 'yield', 'turn_left', 'turn_right', 'cross', 'change_lane', 'emergency_run']
+)
+def test_a_behaviour_that_nobody_shows(scene: Scene, kind: str) -> None:
+    asked = scene.with_van(behaviors=[{'kind': kind, 'target': 'ego'}])
+    assert asked.missing() == (f'van1: behaviour {kind}',)
+    assert not {i for i in asked.judged() if i.startswith(f'van1.{kind}')}
+
+
+@pytest.mark.parametrize('do', ['change_lane', 'cross'])
+def test_an_action_that_nobody_takes(scene: Scene, do: str) -> None:
+    (event,) = (e.model_dump() for e in scene.spec.events)
+    action = {'do': do, 'agent': 'van1'}
+    waits = {
+        'id': 'e2',
+        'trigger': {'on': 'event_done', 'event': event['id']},
+        'action': {'do': 'brake', 'agent': 'ego'},
+    }
+    asked = scene.with_(events=[event | {'action': action}, waits])
+    assert asked.missing() == (
+        f'{event["id"]}: action {do}',
+        f'e2: waits for {event["id"]}, which nobody carries out',
+    )
+    assert not {i for i in asked.judged() if i.split('.')[0] in (event['id'], 'e2')}
+    # Nor is it passed over where nobody says when.
+    open_ = scene.with_(events=[event | {'action': action, 'trigger': None}])
+    assert open_.missing() == (f'{event["id"]}: action {do}',)
+
+
+@pytest.mark.parametrize(
+    ('relation', 'of', 'judged'),
+    [
+        ('behind', 'ego', True),
+        ('adjacent_lane', 'ego', True),
+        ('before', 'ego', True),
+        ('on', 'main_road', True),
+        ('on', 'crosswalk', False),
+        ('parked_at', 'roadside', False),
+        ('before', 'intersection', False),
+        ('oncoming', 'ego', False),
+    ],
+)
+def test_a_placement_is_judged_where_it_is_realised(
+    scene: Scene, relation: str, of: str, judged: bool
+) -> None:
+    asked = scene.with_van(placements=[{'relation': relation, 'of': of}])
+    assert ('van1.placed' in asked.judged()) is judged
+
+
+def test_what_grounding_lacks_comes_first(scene: Scene) -> None:
+    found = scene.found.model_copy(update={'unsupported': ('p1: pedestrians',)})
+    assert unsupported(scene.spec, found) == ('p1: pedestrians',)
