@@ -17,9 +17,9 @@ import numpy.typing as npt
 
 from aurora_core.comm.link import MessageLink, Path
 from aurora_core.execution.events import EventRunner
+from aurora_core.execution.landing import PATIENCE_S, landing_spot
 from aurora_core.execution.observe import Observation
 from aurora_core.execution.step_output import StepOutput
-from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.grounding.grounded import GroundedAgent, ReleaseOn
 from aurora_core.mission.machine import MissionMachine
@@ -28,7 +28,7 @@ from aurora_core.quantities.world_geometry import WorldGeometry
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.spec.vocabulary import MissionMode
 from aurora_core.trace.commands import GroundCommand
-from aurora_core.trace.layout import UAV_COMMAND_WIDTH, GroundCommandKind, UavColumn, UavPhase
+from aurora_core.trace.layout import UAV_COMMAND_WIDTH, GroundCommandKind, UavPhase
 from aurora_core.trace.records import (
     EventRecord,
     LinkEventKind,
@@ -41,9 +41,6 @@ from aurora_core.trace.roster import Roster
 FloatArray = npt.NDArray[np.float64]
 
 _ASCENT = int(UavPhase.ASCENT)
-
-# Distance between the landing spots of two UAVs (m): twice the separation in flight.
-LANDING_APART_M = 10.0
 
 # Distance recorded for a transmission to or from a body that is gone (m).
 GONE_M = 1e6
@@ -94,6 +91,7 @@ class ScenarioExecutor:
         self._seen: dict[tuple[str, str], bool] = {}
         self._runner = EventRunner(setup.spec, setup.roster, setup.links, setup.arrival_m)
         self._done_tick: int | None = None
+        self._landing_since: dict[int, int] = {}
         self._sight = InstantSight(setup.geometry, setup.roster)
 
     def step(self, tick: int, ground: FloatArray, uav: FloatArray) -> StepOutput:
@@ -194,39 +192,26 @@ class ScenarioExecutor:
                 target = seen.motion(mission.target)
             row = machine.step(tick, uav[index], target)
             if machine.needs_landing_spot():
-                spot, altitude_m = self._landing_spot(index, uav[index])
-                machine.set_landing_spot(spot, altitude_m)
+                self._choose_landing_spot(tick, index, uav)
             rows[index] = row
             if machine.phase != self._phases[index]:
                 self._phases[index] = machine.phase
                 self.note(tick, ScenarioEventKind.PHASE, machine.plan.id, machine.phase_name)
         return rows
 
-    def _landing_spot(self, index: int, state: FloatArray) -> tuple[tuple[float, float], float]:
-        machine = self._setup.machines[index]
-        plan = machine.plan
-        x, y, z = state[UavColumn.X : UavColumn.Z + 1].tolist()
-        taken = [
-            m.landing_spot
-            for k, m in enumerate(self._setup.machines)
-            if k != index and m.landing_spot is not None
-        ]
-        spots = sorted(
-            (
-                s
-                for s in plan.landing_spots
-                if all(norm2(s[0] - t[0], s[1] - t[1]) >= LANDING_APART_M for t in taken)
-            ),
-            key=lambda s: (norm2(s[0] - x, s[1] - y), s),
-        ) or [(plan.home_x_m, plan.home_y_m)]
-        # Straight to the spot, or on until it has braked and back: it flies in between.
-        beyond = (*machine.stop_point(state), z)
-        for spot in spots:
-            end = (spot[0], spot[1], z)
-            way = (end, (x, y, z), beyond, end)
-            if self._setup.airspace.way_clearance_m(way) >= self._setup.landing_clearance_m:
-                return spot, z
-        return spots[0], max(z, plan.safe_altitude_m)
+    def _choose_landing_spot(self, tick: int, index: int, uav: FloatArray) -> None:
+        s = self._setup
+        since = self._landing_since.setdefault(index, tick)
+        chosen = landing_spot(
+            index,
+            s.machines,
+            uav,
+            s.airspace,
+            s.landing_clearance_m,
+            patient=(tick - since) * s.roster.dt_s < PATIENCE_S,
+        )
+        if chosen is not None:
+            s.machines[index].set_landing_spot(*chosen)
 
     def _step_links(self, tick: int, seen: Observation) -> list[LinkRecord]:
         records: list[LinkRecord] = []

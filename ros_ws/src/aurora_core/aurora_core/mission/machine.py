@@ -69,6 +69,7 @@ class MissionMachine:
         self._landing_spot: tuple[float, float] | None = None
         self._return_altitude_m = 0.0
         self._descending = False
+        self._waits = False
         self._airborne = False
 
     @property
@@ -270,6 +271,10 @@ class MissionMachine:
         if not self._airborne:  # told to land while still climbing
             self._start_reference(state)
         if self._landing_spot is None:
+            if self._waits:  # the spot is not free yet: hold where the reference is
+                here = (self._pursuit.x, self._pursuit.y, self._pursuit.z)
+                self._pursuit.step(here, (0.0, 0.0), self._settings, self._dt)
+            self._waits = True
             return
         x, y = state[_X], state[_Y]
         spot = self._landing_spot

@@ -1,0 +1,73 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""UAVs that land at the same time do not get into each other's way."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from aurora_core.execution.landing import ways_apart_m
+from aurora_core.trace.layout import UavColumn
+
+Point = tuple[float, float]
+
+
+@pytest.mark.parametrize(
+    ('a', 'b', 'c', 'd', 'apart_m'),
+    [
+        ((0.0, 0.0), (10.0, 0.0), (5.0, -5.0), (5.0, 5.0), 0.0),  # they cross
+        ((0.0, 0.0), (10.0, 0.0), (0.0, 3.0), (10.0, 3.0), 3.0),
+        ((0.0, 0.0), (10.0, 0.0), (14.0, 3.0), (30.0, 3.0), 5.0),  # one after the other
+        ((0.0, 0.0), (10.0, 0.0), (5.0, 4.0), (5.0, 4.0), 4.0),  # one stays where it is
+    ],
+)
+def test_the_distance_of_two_ways(a: Point, b: Point, c: Point, d: Point, apart_m: float) -> None:
+    assert ways_apart_m(a, b, c, d) == pytest.approx(apart_m)
+    assert ways_apart_m(d, c, b, a) == pytest.approx(apart_m)
+
+
+def test_a_uav_waits_until_the_other_one_is_out_of_its_way(stage: Callable[..., Any]) -> None:
+    # The first one's ways to both spots lead past the second one, which hovers at (10, 0).
+    scene = stage(
+        tracks={'uav1': 'van1', 'uav2': 'ego'},
+        landing_spots=((30.0, 0.0), (60.0, 20.0)),
+        hold_s=5.0,
+    )
+    scene.put('van1', 0.0).put('ego', 10.0)
+    apart = []
+    for _ in range(1500):
+        scene.follow()
+        flying = scene.uav[:, UavColumn.Z] > 29.0
+        delta = scene.uav[0] - scene.uav[1]
+        if flying.all():
+            apart.append(float(np.hypot(delta[UavColumn.X], delta[UavColumn.Y])))
+    assert [m.landing_spot for m in scene.machines] == [(60.0, 20.0), (30.0, 0.0)]
+    assert all(m.landed for m in scene.machines)
+    assert min(apart) >= 5.0
+
+
+def test_the_start_of_a_uav_that_still_flies_is_kept_for_it(stage: Callable[..., Any]) -> None:
+    # (0, 22) is nearest to the first one, and next to where the second one has started.
+    scene = stage(
+        tracks={'uav1': 'van1', 'uav2': 'ego'},
+        landing_spots=((0.0, 22.0), (0.0, -40.0)),
+        hold_s=5.0,
+    )
+    scene.put('van1', -20.0, 10.0).put('ego', 40.0, 10.0).follow(1500)
+    assert [m.landing_spot for m in scene.machines] == [(0.0, -40.0), (0.0, 22.0)]
+    assert all(m.landed for m in scene.machines)
+
+
+def test_nobody_waits_for_ever(stage: Callable[..., Any]) -> None:
+    # Both above one car: each is in the way of the other.
+    scene = stage(
+        tracks={'uav1': 'van1', 'uav2': 'van1'},
+        landing_spots=((30.0, 0.0), (0.0, 60.0)),
+        hold_s=1.0,
+    )
+    scene.put('van1', 10.0).follow(1500)
+    assert all(m.landed for m in scene.machines)

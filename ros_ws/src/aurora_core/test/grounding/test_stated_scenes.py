@@ -1,0 +1,60 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Scenes that leave open what would make them impossible: who waits, who makes room."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import combinations
+
+import numpy as np
+import pytest
+
+from aurora_core.grounding.grounded import GroundedScenario, ReleaseOn
+from aurora_core.knowledge.limits import Limits
+from aurora_core.knowledge.map_model import MapModel
+from aurora_core.spec.scenario import ScenarioSpec
+
+Read = Callable[..., ScenarioSpec]
+Ground = Callable[..., GroundedScenario]
+
+
+@pytest.fixture
+def grounded(read_prompt: Read, ground: Ground) -> Callable[[str], GroundedScenario]:
+    return lambda prompt: ground(read_prompt(prompt, 'downtown'), 'downtown')
+
+
+def test_drones_over_one_point_at_one_height_hover_beside_each_other(
+    grounded: Callable[[str], GroundedScenario], limits: Limits
+) -> None:
+    found = grounded('Three drones hover over City Hall at 50 m.')
+    points = [np.array(uav.missions[0].hover_point) for uav in found.uavs]
+    assert [point[2] for point in points] == [50.0, 50.0, 50.0]
+    apart = [float(np.linalg.norm(a - b)) for a, b in combinations(points, 2)]
+    assert min(apart) >= 2.0 * limits.separation_min_m - 1e-6
+    assert max(apart) <= 4.0 * limits.separation_min_m
+
+
+def test_who_is_tracked_second_waits_for_that_mission(
+    grounded: Callable[[str], GroundedScenario],
+) -> None:
+    found = grounded('A drone hovers and then tracks a bus from 60 m.')
+    (bus,) = found.agents
+    assert (bus.release, bus.release_mission) == (ReleaseOn.CAPTURED, 'm2')
+
+
+def test_a_leader_drives_as_fast_as_its_follower_is_asked_to(
+    grounded: Callable[[str], GroundedScenario],
+) -> None:
+    found = grounded('A van follows the ego car at 8 m/s. A drone tracks the van.')
+    assert {a.id: a.drive_speed_mps for a in found.agents} == {'ego': 8.0, 'van1': 8.0}
+
+
+def test_a_car_on_the_main_road_has_another_lane_beside_it(
+    grounded: Callable[[str], GroundedScenario], map_of: Callable[[str], MapModel]
+) -> None:
+    network = map_of('downtown').network
+    found = grounded('A car drives on the main road. A drone tracks it.')
+    (car,) = found.agents
+    edge = network.lane(car.lane_id).edge_id
+    assert sum(lane.edge_id == edge for lane in network.driving_lanes('passenger')) > 1
