@@ -8,12 +8,21 @@ does it is no violation.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from aurora_core.conditions.behaviors import behavior_id
 from aurora_core.conditions.condition import Condition
 from aurora_core.conditions.placements import placement_id
 from aurora_core.grounding.convoy import can_be_placed
 from aurora_core.grounding.grounded import GroundedScenario
-from aurora_core.spec.scenario import Event, EventDoneTrigger, ScenarioSpec, bodies_of
+from aurora_core.spec.scenario import (
+    Event,
+    EventDoneTrigger,
+    MessageTrigger,
+    ScenarioSpec,
+    SendMessage,
+    bodies_of,
+)
 from aurora_core.spec.vocabulary import BehaviorKind
 
 # The monitor can judge all of these.
@@ -77,10 +86,32 @@ def _undone_events(spec: ScenarioSpec, grounded: GroundedScenario) -> dict[str, 
             undone[event.id] = f'action {event.action.do}'
         elif bodies_of(event) & absent:
             undone[event.id] = ''
-    while blocked := [e for e in spec.events if e.id not in undone and _waits_for(e) in undone]:
-        undone |= {e.id: f'waits for {_waits_for(e)}, which nobody carries out' for e in blocked}
+    while blocked := [
+        e for e in spec.events if e.id not in undone and _is_blocked(e, spec, undone)
+    ]:
+        for event in blocked:
+            names = ' and '.join(_waits_for(event, spec))
+            undone[event.id] = f'waits for {names}, which nobody carries out'
     return undone
 
 
-def _waits_for(event: Event) -> str:
-    return event.trigger.event if isinstance(event.trigger, EventDoneTrigger) else ''
+def _is_blocked(event: Event, spec: ScenarioSpec, undone: Mapping[str, str]) -> bool:
+    causes = _waits_for(event, spec)
+    return bool(causes) and all(cause in undone for cause in causes)
+
+
+def _waits_for(event: Event, spec: ScenarioSpec) -> tuple[str, ...]:
+    """Return the events of which one has to happen before: by name, or by their message."""
+    match event.trigger:
+        case EventDoneTrigger(event=cause):
+            return (cause,)
+        case MessageTrigger(by=receiver, sender=sender):
+            return tuple(
+                e.id
+                for e in spec.events
+                if isinstance(e.action, SendMessage)
+                and e.action.receiver == receiver
+                and sender in (None, e.action.sender)
+            )
+        case _:
+            return ()

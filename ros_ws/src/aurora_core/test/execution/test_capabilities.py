@@ -92,6 +92,28 @@ def test_an_action_that_nobody_takes(scene: Scene, do: str) -> None:
     assert open_.missing() == (f'{event["id"]}: action {do}',)
 
 
+def test_who_waits_for_a_message_that_is_never_sent(scene: Scene) -> None:
+    (warning,) = (e.model_dump() for e in scene.spec.events)
+    changes = {
+        'id': 'e2',
+        'trigger': {'on': 'time', 'at_s': warning['trigger']['value_m'] | {'unit': 's'}},
+        'action': {'do': 'change_lane', 'agent': 'van1'},
+    }
+    warning |= {'trigger': {'on': 'event_done', 'event': 'e2'}}
+    brakes = {
+        'id': 'e3',
+        'trigger': {'on': 'message_received', 'by': 'ego', 'sender': 'uav1'},
+        'action': {'do': 'brake', 'agent': 'ego'},
+    }
+    asked = scene.with_(events=[warning, changes, brakes])
+    assert asked.missing() == (
+        'e2: action change_lane',
+        f'{warning["id"]}: waits for e2, which nobody carries out',
+        f'e3: waits for {warning["id"]}, which nobody carries out',
+    )
+    assert not {i for i in asked.judged() if i.split('.')[0] in ('e2', 'e3', warning['id'])}
+
+
 @pytest.mark.parametrize(
     ('relation', 'of', 'judged'),
     [
