@@ -238,8 +238,8 @@ def test_events_after_events_and_actions_of_agents(tb: ModuleType) -> None:
     assert _times(tb, landing).action_tick('e1') == 350
     start = _event(None, action={'do': 'start', 'agent': 'van1'})
     assert _times(tb, start).action_tick('e1') == 100
-    unknown = _event(None, action={'do': 'cross', 'agent': 'van1'})
-    assert _times(tb, unknown).action_tick('e1') is None
+    never = _event(None, action={'do': 'cross', 'agent': 'van1'})  # it begins on the street
+    assert _times(tb, never).action_tick('e1') is None
     assert _times(tb, first).action_tick('nothing') is None
 
 
