@@ -37,6 +37,10 @@ SPARE_SHARE = 0.05
 
 _SIGHT_HEIGHT_PLACE_M = 1.0
 
+# Half the distance of neighbours above one target, as a share of that of hovering ones: well
+# inside the tracking tolerance.
+_SHARED = 0.45
+
 # Neighbours on a ring are as far apart as they have to be, to rounding.
 _ROUNDING_M = 1e-6
 
@@ -118,7 +122,7 @@ class FlightPlanner:
             others: Where other UAVs hover.
         """
         if mission.mode is MissionMode.TRACK:
-            return self._track(mission, site, speed_mps)
+            return self._track(spec, mission, site, speed_mps)
         centre = self._centre(mission, site)
         if centre is None:
             return Rejected(reason='target_place')
@@ -187,7 +191,7 @@ class FlightPlanner:
         return UavPlan.model_validate({**plan.model_dump(), 'landing_spots': tuple(spots)})
 
     def _track(
-        self, mission: UavMission, site: Site, speed_mps: float
+        self, spec: ScenarioSpec, mission: UavMission, site: Site, speed_mps: float
     ) -> PlannedFlight | Rejected:
         seat = site.seat(mission.target or '')
         if seat is None:
@@ -201,7 +205,7 @@ class FlightPlanner:
             (samples[:, 0], samples[:, 1], np.full(len(samples), record.height_m / 2.0))
         )
         best: PlannedFlight | None = None
-        for offset in self._offsets(mission, samples[0]):
+        for offset in self._offsets(mission, samples[0], self._share(spec, mission)):
             points = np.column_stack(
                 (
                     samples[:, 0] + offset[0],
@@ -225,19 +229,41 @@ class FlightPlanner:
             return Rejected(reason='sight')
         return best
 
-    def _offsets(self, mission: UavMission, start: FloatArray) -> Iterator[tuple[float, float]]:
+    def _share(self, spec: ScenarioSpec, mission: UavMission) -> tuple[int, int]:
+        """Return which one of how many UAVs this is that track one target at one height."""
+        height_m = mission.altitude_m.value
+        sharing = [
+            m.uav
+            for m in spec.missions
+            if m.mode is MissionMode.TRACK
+            and m.target == mission.target
+            and abs(m.altitude_m.value - height_m) < self._apart_m
+        ]
+        uavs = list(dict.fromkeys(sharing))
+        return uavs.index(mission.uav), len(uavs)
+
+    def _offsets(
+        self, mission: UavMission, start: FloatArray, share: tuple[int, int] = (0, 1)
+    ) -> Iterator[tuple[float, float]]:
+        own, count = share
         standoff = 0.0 if mission.standoff_m is None else mission.standoff_m.value
         if standoff == 0.0:
-            yield (0.0, 0.0)
+            # Above the target there is room for one; several stand round it.
+            angle = 2.0 * pi * own / count
+            radius_m = 0.0 if count == 1 else _SHARED * self._apart_m / sin(pi / count)
+            yield radius_m * cos(angle), radius_m * sin(angle)
             return
         if mission.bearing_deg is not None:
             compass = mission.bearing_deg.value * pi / 180.0
             yield (standoff * sin(compass), standoff * cos(compass))
             return
         hx, hy = float(start[2]), float(start[3])
-        # Behind the target first, then round it; the first of equal ones is taken.
-        for k in range(self._settings.bearings):
-            angle = 2.0 * pi * k / self._settings.bearings
+        # Behind the target first, then round it; the first of equal ones is taken. Of several
+        # UAVs each has a sector, with a gap to the next one.
+        bearings = self._settings.bearings
+        first = own * bearings // count + (1 if count > 1 else 0)
+        for k in range(first, (own + 1) * bearings // count):
+            angle = 2.0 * pi * k / bearings
             c, s = cos(angle), sin(angle)
             yield (-standoff * (hx * c - hy * s), -standoff * (hx * s + hy * c))
 

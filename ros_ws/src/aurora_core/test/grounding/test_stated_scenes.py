@@ -35,6 +35,18 @@ def test_drones_over_one_point_at_one_height_hover_beside_each_other(
     assert max(apart) <= 4.0 * limits.separation_min_m
 
 
+@pytest.mark.parametrize('where', ['', ' from 35 m'])
+def test_drones_that_track_one_target_at_one_height_keep_apart(
+    grounded: Callable[[str], GroundedScenario], limits: Limits, where: str
+) -> None:
+    found = grounded(f'Two drones track a bus{where} at 40 m altitude.')
+    a, b = (np.array(uav.missions[0].offset_m) for uav in found.uavs)
+    assert float(np.linalg.norm(a - b)) >= 1.5 * limits.separation_min_m
+    asked = 35.0 if where else 0.0
+    off = [abs(float(np.linalg.norm(offset)) - asked) for offset in (a, b)]
+    assert max(off) <= limits.tracking_horizontal_m / 2.0
+
+
 def test_who_is_tracked_second_waits_for_that_mission(
     grounded: Callable[[str], GroundedScenario],
 ) -> None:
