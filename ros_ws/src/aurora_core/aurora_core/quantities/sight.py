@@ -73,26 +73,25 @@ def vehicle_clearance(
     start, step = observer[:, :2], target[:, :2] - observer[:, :2]
     square = step[:, 0] * step[:, 0] + step[:, 1] * step[:, 1]
     safe = np.where(square > 0.0, square, 1.0)
-    for row, entry in enumerate(entries):
+    # All vehicles at once: few are ever near, and for each by itself the calls would cost most.
+    centre = ground[:, :, GroundColumn.X : GroundColumn.Y + 1]
+    to = centre - start[:, None]
+    along = (to[:, :, 0] * step[:, :1] + to[:, :, 1] * step[:, 1:]) / safe[:, None]
+    along = np.minimum(np.maximum(along, 0.0), 1.0)
+    rest = to - along[:, :, None] * step[:, None]
+    reach = np.array([occluder_reach_m(entry) for entry in entries])
+    near = rest[:, :, 0] * rest[:, :, 0] + rest[:, :, 1] * rest[:, :, 1] <= reach * reach
+    near &= ground[:, :, GroundColumn.PRESENT] > 0.5
+    for row in np.flatnonzero(near.any(axis=0)).tolist():
+        entry = entries[row]
         if entry.is_person or row in exclude:
             continue
-        states = ground[:, row, :]
-        centre = states[:, GroundColumn.X : GroundColumn.Y + 1]
-        to = centre - start
-        along = (to[:, 0] * step[:, 0] + to[:, 1] * step[:, 1]) / safe
-        along = np.minimum(np.maximum(along, 0.0), 1.0)
-        rest = to - along[:, None] * step
-        reach = occluder_reach_m(entry)
-        near = rest[:, 0] * rest[:, 0] + rest[:, 1] * rest[:, 1] <= reach * reach
-        near &= states[:, GroundColumn.PRESENT] > 0.5
-        k = np.flatnonzero(near)
-        if len(k) == 0:
-            continue
+        k = np.flatnonzero(near[:, row])
         margin = box_sight_series(
             observer[k],
             target[k],
-            centre[k],
-            states[k][:, GroundColumn.HEADING_X : GroundColumn.HEADING_Y + 1],
+            centre[k, row],
+            ground[k, row, GroundColumn.HEADING_X : GroundColumn.HEADING_Y + 1],
             entry.length_m,
             entry.width_m,
             entry.height_m,
