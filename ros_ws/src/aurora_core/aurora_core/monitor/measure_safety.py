@@ -75,9 +75,9 @@ def measure_jump(context: Context, condition: Condition) -> Evaluation:
     if isinstance(ticks, Missing):
         return ticks
     view = context.view
-    each = np.stack([motion.jump_speed(view, view.body(name)) for name in condition.of])
-    values: FloatArray = np.max(each, axis=0)
-    which: npt.NDArray[np.intp] = np.asarray(np.argmax(each, axis=0))
+    each = motion.jump_speeds(view, [view.body(name) for name in condition.of])
+    values: FloatArray = np.max(each, axis=1)
+    which: npt.NDArray[np.intp] = np.asarray(np.argmax(each, axis=1))
     fastest = condition.of[int(which[int(np.argmax(values))])]
     return Measured(
         ticks=ticks,

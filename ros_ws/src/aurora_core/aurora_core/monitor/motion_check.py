@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from aurora_core.monitor.evaluation import Context
 from aurora_core.monitor.verdict import Finding
-from aurora_core.quantities.motion import jump_speed
+from aurora_core.quantities.motion import jump_speeds
 from aurora_core.quantities.ticks import whole_ticks
 from aurora_core.quantities.view import Body
 from aurora_core.spec.quantity import QuantityName
@@ -49,7 +49,7 @@ def motion_findings(context: Context) -> Iterator[Finding]:
             continue  # the simulator moves walkers aside without telling it as a speed
         pace = _uav(context, body) if body.is_uav else _vehicle(context, body)
         counted = view.present(body.body_id)[1:] & view.present(body.body_id)[:-1]
-        counted &= jump_speed(view, body)[1:] <= jump_mps
+        counted &= jump_speeds(view, [body])[1:, 0] <= jump_mps
         off = np.where(counted[:, None], pace.off_m, 0.0)
         apart = np.linalg.norm(_sums(off, window), axis=1)
         wrong = np.flatnonzero(apart > pace.slack_m + _sums(pace.slack_each_m, window))

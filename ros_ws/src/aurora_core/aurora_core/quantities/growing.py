@@ -56,16 +56,20 @@ class GrowingView(RunView):
             events=so_far.events + more.events,
         )
 
-    def series(self, key: tuple[str, ...], compute: Callable[[RunView], Series]) -> Series:
+    def series(
+        self, key: tuple[str, ...], compute: Callable[[RunView], Series], *, before: int = 0
+    ) -> Series:
         """Return series of the run so far; only what is new is computed."""
         grown = self._grown.get(key)
         if grown is None:
             grown = _Grown(compute, compute(self._part(0)), self.ticks)
             self._grown[key] = grown
         elif grown.ticks < self.ticks:
-            new = grown.compute(self._part(grown.ticks))
+            overlap = min(before, grown.ticks)
+            new = grown.compute(self._part(grown.ticks - overlap))
             grown.values = tuple(
-                np.concatenate(pair) for pair in zip(grown.values, new, strict=True)
+                np.concatenate((old, more[overlap:]))
+                for old, more in zip(grown.values, new, strict=True)
             )
             grown.ticks = self.ticks
         return grown.values

@@ -66,13 +66,16 @@ class RunView:
         }
         self._series: dict[tuple[str, ...], Series] = {}
 
-    def series(self, key: tuple[str, ...], compute: Callable[[RunView], Series]) -> Series:
+    def series(
+        self, key: tuple[str, ...], compute: Callable[[RunView], Series], *, before: int = 0
+    ) -> Series:
         """Return series that are costly, worked out once however many signals ask for them.
 
         Args:
             key: Names the series.
             compute: Works them out, (T,) each, sample by sample: what it returns for a run that
                 goes on begins with what it returns for the run so far.
+            before: Samples before one on which its values depend.
         """
         if key not in self._series:
             self._series[key] = compute(self)

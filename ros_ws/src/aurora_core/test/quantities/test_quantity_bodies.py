@@ -148,7 +148,7 @@ def test_jumps_deceleration_and_way(tb: ModuleType) -> None:
     one.x[3] += 5.0
     view = RunView(tb.Run(ticks=4, agents=[one]).trace(), tb.world())
     body = view.body('ego')
-    assert motion.jump_speed(view, body) == pytest.approx([0.0, 10.0, 9.5, 109.0])
+    assert motion.jump_speeds(view, [body])[:, 0] == pytest.approx([0.0, 10.0, 9.5, 109.0])
     assert motion.deceleration(view, body) == pytest.approx([0.0, 0.0, 10.0, 10.0])
     assert motion.travelled(view, body)[-1] == pytest.approx(0.5 + 0.475 + 5.45)
 

@@ -15,6 +15,7 @@ from aurora_core.errors import VerificationError
 from aurora_core.knowledge.world import CentreLine
 from aurora_core.quantities.contact import body_gap, no_fly_distance, obstacle_clearance
 from aurora_core.quantities.growing import GrowingView
+from aurora_core.quantities.motion import steps
 from aurora_core.quantities.routes import along_route
 from aurora_core.quantities.sight import radio_sight_series, sight_series
 from aurora_core.quantities.view import RunView
@@ -111,5 +112,6 @@ def _signals(view: RunView) -> list[bytes]:
             obstacle_clearance(view, uav).values,
             obstacle_clearance(view, uav).which,
             no_fly_distance(view, uav),
+            steps(view),
         )
     ]
