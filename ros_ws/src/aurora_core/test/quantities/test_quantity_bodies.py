@@ -43,6 +43,25 @@ def test_an_absent_body_has_no_gap(tb: ModuleType) -> None:
     assert gap.name_at(1) == ''
 
 
+def test_gap_of_a_uav_names_which_uav_and_which_body(tb: ModuleType) -> None:
+    ticks = 200
+    places = (('a', 0.0), ('b', 200.0), ('c', 400.0))
+    run = tb.Run(
+        ticks=ticks,
+        agents=[tb.driver(name, 'car', x, np.zeros(ticks)) for name, x in places],
+        flights=[
+            tb.flight(ticks, home, 30.0, id=name)
+            for name, home in (('uav1', (600.0, 0.0)), ('uav2', (400.0, 6.0)))
+        ],
+    )
+    view = RunView(run.trace(), tb.world())
+    gap = contact.body_gap(view)
+    assert gap.name_at(0) == 'uav2 and c'
+    assert gap.values[0] < 6.0
+    assert contact.obstacle_clearance(view, view.body('uav2')).name_at(0) == 'c'
+    assert contact.obstacle_clearance(view, view.body('uav1')).name_at(0) == ''
+
+
 def test_clearance_is_from_buildings_and_bodies_but_never_from_the_ground(tb: ModuleType) -> None:
     ticks = 200
     run = tb.Run(
