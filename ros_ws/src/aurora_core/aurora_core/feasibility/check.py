@@ -7,9 +7,14 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
+from aurora_core.feasibility.geometry import check_geometry
+from aurora_core.feasibility.places import check_placements, check_zones
+from aurora_core.feasibility.signs import check_signs
+from aurora_core.feasibility.times import check_times
 from aurora_core.feasibility.verdict import Certificate, Feasibility, FeasibilityVerdict
 from aurora_core.knowledge.agent_types import AgentTypeRecord
-from aurora_core.knowledge.limits import Limits
+from aurora_core.knowledge.limits import Limits, Tolerances
+from aurora_core.knowledge.map_model import MapModel
 from aurora_core.spec.parameter import Bound, Parameter, Provenance, Unit
 from aurora_core.spec.scenario import (
     AgentAction,
@@ -31,6 +36,36 @@ class _Rule:
     low: float | None = None
     high: float | None = None
     high_is_excluded: bool = False
+
+
+def check_request(
+    spec: ScenarioSpec,
+    map_model: MapModel,
+    limits: Limits,
+    tolerances: Tolerances,
+    types: Mapping[str, AgentTypeRecord],
+) -> FeasibilityVerdict:
+    """Check limits, and what several stated things together or the map rule out.
+
+    Args:
+        spec: The request.
+        map_model: Its map, with landmarks and no-fly zones.
+        limits: Limits in force.
+        tolerances: How far stated numbers may be missed: what they allow is not refused.
+        types: What the agent types can reach.
+    """
+    beyond_limits = check_limits(spec, limits, types).certificates
+    named = {c.span for c in beyond_limits}
+    certificates = (
+        *beyond_limits,
+        *(c for c in check_signs(spec) if c.span not in named),
+        *check_geometry(spec, limits, tolerances),
+        *check_times(spec, limits, tolerances),
+        *check_placements(spec, tolerances),
+        *check_zones(spec, map_model.zones, map_model.landmarks, limits, tolerances),
+    )
+    result = Feasibility.INFEASIBLE if certificates else Feasibility.FEASIBLE
+    return FeasibilityVerdict(result=result, certificates=certificates)
 
 
 def check_limits(

@@ -23,7 +23,8 @@ class Certificate(Document):
     """Proof of infeasibility that separate code can check again.
 
     Attributes:
-        kind: limit_exceeded, missing_element or unsupported (further kinds: later issues).
+        kind: limit_exceeded, missing_element, unsupported, contradiction or
+            geometric_contradiction (a stated flight against the map).
         reason: `because` of the contract (altitude_limit, comm_range, ...).
         path: Element or parameter of the specification.
         requested: Stated value (SI), when the proof is about a number.

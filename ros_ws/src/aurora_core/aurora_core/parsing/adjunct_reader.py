@@ -53,6 +53,10 @@ def fits(thing: str, measure: Measure) -> bool:
     return measure.dimension in _FITS.get(thing, ())
 
 
+# Prepositions that say something even where what they govern is missing (`and until then`).
+_NEEDS_MORE = frozenset({'until', 'after', 'before', 'without', 'every', 'within', 'beyond'})
+
+
 class AdjunctReader:
     """Groups the atoms of one clause (predicate and subject taken out)."""
 
@@ -152,7 +156,9 @@ class AdjunctReader:
             j += 1
         follows = self._at(j)
         if follows is None:
-            return None, j
+            if prep not in _NEEDS_MORE:
+                return None, j
+            return self._make(AdjunctKind.MARK, 'unknown', i, j, value=prep), j
         if follows.kind is AtomKind.MEASURE:
             return self._measure(i, j, prep)
         if follows.kind is AtomKind.THING:

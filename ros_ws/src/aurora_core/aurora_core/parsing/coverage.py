@@ -1,19 +1,21 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""The last check: every number and every named actor of the prompt went somewhere."""
+"""The last check: every number, named actor and telling word of the prompt went somewhere."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import takewhile
 
 from pydantic import BaseModel
 
-from aurora_core.parsing.atoms import ACTORS, Atom, NounKind
+from aurora_core.parsing.atoms import ACTORS, Atom, AtomKind, NounKind
 from aurora_core.parsing.resolver import Resolver
 from aurora_core.spec.parameter import Parameter, Span
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.spec.vocabulary import ClauseStatus
 
+_RANKS = ('first', 'last', 'earlier', 'sooner', 'next')
 _NO_ACTORS = (NounKind.PRONOUN, NounKind.UNSUPPORTED, NounKind.AMBIGUOUS)
 
 
@@ -49,7 +51,28 @@ def unaccounted(
             digits = any(c.isdigit() for c in spec.prompt[atom.start : atom.end])
             if forgotten or (counted and (digits or noun.count != 1)):
                 lost.append(span)
+    ordered = [o.span for o in spec.orders if o.span is not None]
+    for span in _telling(spec.prompt, atoms):
+        if not any(_inside(span, known) for known in unread + ordered):
+            lost.append(span)
     return lost
+
+
+def _telling(prompt: str, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """Return small words that change the meaning where they stand, though mostly they are filler.
+
+    `lands first`, unless it goes on with `then`; `at the same height`: as high as somebody else.
+    """
+    for k, atom in enumerate(atoms):
+        word = prompt[atom.start : atom.end].lower()
+        before = atoms[k - 1] if k else None
+        after = atoms[k + 1 :]
+        if word in _RANKS and before is not None and before.kind is AtomKind.VERB:
+            sentence = takewhile(lambda a: a.kind is not AtomKind.STOP, after)
+            if not any(a.kind is AtomKind.THEN for a in sentence):
+                yield Span(start=before.start, end=atom.end)
+        elif word == 'same' and after and after[0].kind is AtomKind.THING:
+            yield Span(start=atom.start, end=after[0].end)
 
 
 def _inside(inner: Span, outer: Span) -> bool:

@@ -102,13 +102,14 @@ class NounReader:
                     return None
                 if self._refuses(kind, states, determiner, i == j):
                     return None
-                named = [k for k in loose if self._tokens[k].proper]
-                if kind is NounKind.LANDMARK and named and stop - j < len(landmark_words(key)):
+                proper = [k for k in loose if self._tokens[k].proper]
+                if kind is NounKind.LANDMARK and proper and stop - j < len(landmark_words(key)):
                     # `the Eiffel Tower` is not the one tower that the map has
                     kind = NounKind.MISSING_LANDMARK
-                    key = head_text = ' '.join(self._words[named[0] : stop])
+                    key = head_text = ' '.join(self._words[proper[0] : stop])
                     loose = []
-                number, stop = (0, stop) if count else self._index(kind, stop)
+                named = not count and (not is_plural or self._listed(stop))
+                number, stop = self._index(kind, stop) if named else (0, stop)
                 return (
                     NounPhrase(
                         kind=kind,
@@ -242,6 +243,10 @@ class NounReader:
         if measure.dimension == COUNT and whole and after == stop + 1 and measure.second is None:
             return int(token.value), after
         return 0, stop
+
+    def _listed(self, stop: int) -> bool:
+        """`drones 1 and 2`; in `pedestrians 10` the number is no name of one."""
+        return stop + 1 < len(self._words) and self._words[stop + 1] in ('and', ',', '&')
 
     def _is_predicate(self, j: int) -> bool:
         return any(

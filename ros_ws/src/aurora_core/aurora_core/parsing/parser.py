@@ -10,7 +10,8 @@ with `main_clause` and `constructions/` (what clauses mean, written into `scene`
 `resolver`), `rules` (what is implied, what stays open), `assemble` (the specification).
 
 Nothing is dropped in silence. A construction marks every adjunct that it understood as used; what
-stays unused in an encoded clause becomes a clause of its own with the status `not_encoded`.
+stays unused in an encoded clause becomes a clause of its own with the status `not_encoded`;
+`coverage` then looks for numbers, actors and telling words that went nowhere.
 
 To add a word, write it in the list of its meaning in `lexicon.yaml`; forms and one-letter slips
 follow by themselves. To add a default, `defaults.yaml`. To add a construction, write a function

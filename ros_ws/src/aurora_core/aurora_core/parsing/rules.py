@@ -202,9 +202,17 @@ def _infer_target(scene: Scene, draft: MissionDraft) -> None:
 def _withdraw(scene: Scene, draft: MissionDraft) -> None:
     """One phase of several without a target is admitted; the others are kept."""
     scene.missions.remove(draft)
+    gone = {draft.id}
+    for event in tuple(scene.events):
+        if isinstance(event.action, UavAction) and event.action.mission == draft.id:
+            gone.add(event.id)
+            event.action = None  # others may wait for its cause
+            if event.trigger is None:
+                scene.events.remove(event)
     for clause in scene.clauses:
-        if draft.id in clause.ids:
-            del clause.ids[draft.id]
+        if gone & set(clause.ids):
+            for one in gone:
+                clause.ids.pop(one, None)
             clause.status = ClauseStatus.NOT_ENCODED
             clause.notes.append('what should be tracked was not understood')
 

@@ -27,7 +27,7 @@ from aurora_core.execution.plan import (
     build_roster,
     build_world,
 )
-from aurora_core.feasibility.check import check_limits
+from aurora_core.feasibility.check import check_request
 from aurora_core.feasibility.verdict import FeasibilityVerdict
 from aurora_core.grounding.ground import Grounder
 from aurora_core.grounding.grounded import GroundedScenario
@@ -117,9 +117,11 @@ def parse_stage(prompt: str, map_name: str, seed: int) -> ParseOutcome:
 
 
 def check_stage(agsg: Agsg) -> FeasibilityVerdict:
-    """Judge feasibility of a specification against the limits."""
+    """Judge feasibility of a specification against limits, tolerances and its map."""
     known = knowledge()
-    return check_limits(agsg.spec, known.limits, known.types)
+    return check_request(
+        agsg.spec, known.map(agsg.spec.world.map_name), known.limits, known.tolerances, known.types
+    )
 
 
 def ground_stage(agsg: Agsg, seed: int) -> GroundingOutcome:

@@ -53,7 +53,8 @@ _PHRASE_RELATIONS = {
 def add_placement(entity: Entity, placement: Placement) -> None:
     """Add a placement; one that is there already gets the stated distance."""
     for i, known in enumerate(entity.placements):
-        if known.relation is placement.relation and known.of == placement.of:
+        same = known.relation is placement.relation and known.of == placement.of
+        if same and not _differ(known, placement):
             stated = [
                 p
                 for p in (placement.distance_m, known.distance_m)
@@ -69,6 +70,18 @@ def add_placement(entity: Entity, placement: Placement) -> None:
             )
             return
     entity.placements.append(placement)
+
+
+def _differ(one: Placement, other: Placement) -> bool:
+    """Two stated distances: both stay, for the check of contradictions to see."""
+    a, b = one.distance_m, other.distance_m
+    return (
+        a is not None
+        and b is not None
+        and a.span is not None
+        and b.span is not None
+        and a.value != b.value
+    )
 
 
 def named_reference(frame: Frame, adjunct: Adjunct) -> str | None:

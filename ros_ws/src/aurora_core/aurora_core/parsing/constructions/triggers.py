@@ -131,8 +131,8 @@ def _sight(frame: Frame) -> VisibilityTrigger | None:
         observer = named[0] if named else None
         if observer is None and len(frame.scene.uavs) == 1:
             observer = frame.scene.uavs[0]
-    if observer is None or target is None:
-        return None
+    if observer is None or not observer.is_uav or target is None:
+        return None  # only UAVs have a camera
     return VisibilityTrigger(
         on='visible' if seen else 'occluded', observer=observer.id, target=target
     )

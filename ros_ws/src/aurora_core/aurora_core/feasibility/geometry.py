@@ -1,0 +1,206 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Refuse geometry that no flight inside the tolerances can meet.
+
+Only what the prompt states counts: an altitude or standoff by default may still be chosen.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+from aurora_core.feasibility.certificates import beyond, contradiction, is_stated, least, most
+from aurora_core.feasibility.verdict import Certificate
+from aurora_core.knowledge.limits import Limits, Tolerances
+from aurora_core.spec.parameter import Bound, Parameter
+from aurora_core.spec.quantity import QuantityName
+from aurora_core.spec.scenario import ScenarioSpec, SendMessage, StatedCondition, UavMission
+from aurora_core.spec.vocabulary import MissionMode
+
+# No point of a target that is looked at stands higher: half the height of the tallest vehicle.
+_TARGET_HEIGHT_M = 2.0
+
+
+class Geometry:
+    """The distances between a UAV and its target that a request leaves open."""
+
+    def __init__(self, limits: Limits, tolerances: Tolerances) -> None:
+        self._limits = limits
+        self._tolerances = tolerances
+
+    def altitude(self, mission: UavMission) -> tuple[float, float]:
+        """Return the lowest and highest altitude of a phase, in metres."""
+        stated = mission.altitude_m
+        slack = self._tolerances.altitude_m.of(stated.value, approximate=stated.approximate)
+        limits = self._limits
+        return (
+            least(stated, slack, limits.uav_altitude_min_m),
+            most(stated, slack, limits.uav_altitude_max_m),
+        )
+
+    def horizontal(self, mission: UavMission) -> tuple[float, float]:
+        """Return the least and greatest horizontal distance to the target, in metres."""
+        stated = mission.standoff_m
+        slack = 0.0
+        if stated is not None:
+            slack = self._tolerances.standoff_m.of(stated.value, approximate=stated.approximate)
+        return least(stated, slack, 0.0), most(stated, slack, math.inf)
+
+    def slant(self, mission: UavMission) -> tuple[float, float]:
+        """Return the least and greatest straight distance to the target, in metres."""
+        low, high = self.altitude(mission)
+        near, far = self.horizontal(mission)
+        return math.hypot(max(0.0, low - _TARGET_HEIGHT_M), near), math.hypot(high, far)
+
+
+def check_geometry(
+    spec: ScenarioSpec, limits: Limits, tolerances: Tolerances
+) -> Iterator[Certificate]:
+    """Return what sight, radio, separation and stated distances rule out."""
+    geometry = Geometry(limits, tolerances)
+    yield from _sight(spec, limits, geometry)
+    yield from _radio(spec, geometry)
+    yield from _separation(spec, limits)
+    yield from _stated_distances(spec, geometry)
+    yield from _pursuit(spec, limits, tolerances)
+
+
+def _sight(spec: ScenarioSpec, limits: Limits, geometry: Geometry) -> Iterator[Certificate]:
+    weather, hour = spec.world.weather.value, spec.world.time_of_day.value
+    reach = limits.sensing_range(weather, hour)
+    for mission in spec.missions:
+        if mission.target is None or mission.mode is MissionMode.NAVIGATE:
+            continue
+        near, _ = geometry.slant(mission)
+        if near > reach:
+            yield beyond(
+                'sensing_range',
+                _leading(mission),
+                f'missions/{mission.id}',
+                ('sensing_range_m', reach),
+                f'{mission.uav} would be at least {near:.0f} m from {mission.target}; its camera '
+                f'reaches {reach:g} m ({weather}, {hour}).',
+            )
+
+
+def _leading(mission: UavMission) -> Parameter:
+    """Return the stated number that puts the UAV far from its target."""
+    standoff = mission.standoff_m
+    if standoff is not None and is_stated(standoff) and standoff.value > mission.altitude_m.value:
+        return standoff
+    return mission.altitude_m
+
+
+def _radio(spec: ScenarioSpec, geometry: Geometry) -> Iterator[Certificate]:
+    """A UAV sends only after its ascent: then it is at its place in one of its phases."""
+    sent = {
+        (e.action.sender, e.action.receiver)
+        for e in spec.events
+        if isinstance(e.action, SendMessage)
+    }
+    for link in spec.links:
+        pair = (link.sender, link.receiver)
+        if link.range_m is None or not is_stated(link.range_m) or pair not in sent:
+            continue
+        flown = [m for m in spec.missions if m.uav in pair]
+        if not flown or any(m.target not in pair for m in flown):
+            continue
+        near = min(geometry.slant(m)[0] for m in flown)
+        if near > link.range_m.value and link.range_m.bound is not Bound.AT_LEAST:
+            yield beyond(
+                'comm_range',
+                link.range_m,
+                f'links/{link.id}/range_m',
+                ('range_m', link.range_m.value),
+                f'{link.sender} and {link.receiver} would be at least {near:.0f} m apart; '
+                f'the link reaches {link.range_m.value:g} m.',
+            )
+
+
+def _separation(spec: ScenarioSpec, limits: Limits) -> Iterator[Certificate]:
+    limit = limits.separation_min_m
+    for condition in spec.conditions:
+        close = condition.op in ('<', '<=', '==') and condition.value.value < limit
+        if condition.quantity == QuantityName.SEPARATION and close:
+            yield beyond(
+                'separation',
+                condition.value,
+                f'conditions/{condition.id}/value',
+                ('separation_min_m', limit),
+                f'two UAVs keep at least {limit:g} m apart; '
+                f'{condition.value.value:g} m are asked for.',
+            )
+    for above in spec.missions:
+        for below in (m for m in spec.missions if m.uav == above.target):
+            standoff = above.standoff_m
+            gap = abs(above.altitude_m.value - below.altitude_m.value)
+            fixed = is_stated(above.altitude_m) and is_stated(below.altitude_m)
+            if fixed and standoff is not None and math.hypot(gap, standoff.value) < limit:
+                yield beyond(
+                    'separation',
+                    above.altitude_m,
+                    f'missions/{above.id}/altitude_m',
+                    ('separation_min_m', limit),
+                    f'{above.uav} would be {gap:g} m above or below {below.uav}; '
+                    f'two UAVs keep at least {limit:g} m apart.',
+                )
+
+
+def _stated_distances(spec: ScenarioSpec, geometry: Geometry) -> Iterator[Certificate]:
+    """A stated condition that the stated flight cannot meet."""
+    for condition in spec.conditions:
+        for mission in spec.missions:
+            band = _band(condition, mission, geometry)
+            if band is None or condition.fraction is not None or condition.hold_s is not None:
+                continue
+            low, high = band
+            value = condition.value.value
+            too_far = condition.op in ('<', '<=') and low > value
+            too_near = condition.op in ('>', '>=') and high < value
+            if too_far or too_near:
+                yield contradiction(
+                    'spatial_contradiction',
+                    f'conditions/{condition.id}',
+                    f'{condition.quantity} of {", ".join(condition.of)} has to be '
+                    f'{condition.op} {value:g} m; the flight of {mission.uav} as it is stated '
+                    f'gives {"at least" if too_far else "at most"} '
+                    f'{low if too_far else high:.1f} m.',
+                    condition.span,
+                )
+
+
+def _band(
+    condition: StatedCondition, mission: UavMission, geometry: Geometry
+) -> tuple[float, float] | None:
+    """Return what a flight gives for a condition's quantity; None when it is not about that."""
+    bodies = set(condition.of)
+    if condition.quantity == QuantityName.ALTITUDE:
+        return geometry.altitude(mission) if bodies == {mission.uav} else None
+    if mission.mode is MissionMode.NAVIGATE or bodies != {mission.uav, mission.target}:
+        return None
+    if condition.quantity == QuantityName.DISTANCE:
+        return geometry.slant(mission)
+    if condition.quantity == QuantityName.HORIZONTAL_DISTANCE:
+        return geometry.horizontal(mission)
+    return None
+
+
+def _pursuit(spec: ScenarioSpec, limits: Limits, tolerances: Tolerances) -> Iterator[Certificate]:
+    """A target that is asked to drive faster than UAVs fly cannot be tracked."""
+    top = limits.uav_speed_max_mps
+    tracked = {m.target: m for m in spec.missions if m.mode is MissionMode.TRACK}
+    for agent in spec.agents:
+        mission = tracked.get(agent.id)
+        stated = [b.speed_mps for b in agent.behaviors if b.speed_mps is not None]
+        for speed in stated:
+            slack = tolerances.route_speed_mps.of(speed.value, approximate=speed.approximate)
+            if mission is not None and least(speed, slack, 0.0) > top:
+                yield beyond(
+                    'speed_limit',
+                    speed,
+                    f'missions/{mission.id}/target',
+                    ('uav_speed_max_mps', top),
+                    f'{agent.id} drives at {speed.value:g} m/s; {mission.uav} flies at most '
+                    f'{top:g} m/s and cannot track it.',
+                )

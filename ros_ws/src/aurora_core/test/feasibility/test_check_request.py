@@ -1,0 +1,88 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""What excludes itself, or what the map rules out, is refused with the reason."""
+
+from __future__ import annotations
+
+import pytest
+
+from aurora_core.feasibility.check import check_request
+from aurora_core.feasibility.verdict import Feasibility, FeasibilityVerdict
+from aurora_core.knowledge.agent_types import load_agent_types
+from aurora_core.knowledge.config_files import config_path
+from aurora_core.knowledge.limits import load_limits, load_tolerances
+from aurora_core.knowledge.map_model import load_map
+from aurora_core.parsing.outcome import ParseContext
+from aurora_core.parsing.parser import parse_offline
+
+REFUSED = (
+    ('In fog a drone hovers over the crosswalk at 95 m.', 'sensing_range'),
+    ('At night in fog a UAV tracks a bus from a standoff of 80 m.', 'sensing_range'),
+    ('A drone tracks a car that drives at 30 m/s.', 'speed_limit'),
+    (
+        'The UAV hovers 110 m above the ego car and sends it a message at 20 s over a radio '
+        'with a range of 80 m.',
+        'comm_range',
+    ),
+    (
+        'uav 1 hovers at 30 m over the intersection, uav 2 at 31 m, exactly above the first one',
+        'separation',
+    ),
+    (
+        'A drone hovers over City Hall at 50 m. It must stay above 80 m.',
+        'spatial_contradiction',
+    ),
+    ('The van is 30 m ahead of the ego and 30 m behind the ego.', 'spatial_contradiction'),
+    ('A bus is 20 m ahead of the ego. The bus is 60 m ahead of the ego.', 'spatial_contradiction'),
+    ('The truck is ahead of the bus. The bus is ahead of the truck.', 'spatial_contradiction'),
+    ('A scenario of 20 seconds. The bus brakes at 30 s.', 'temporal_contradiction'),
+    (
+        'A drone hovers over City Hall for 60 seconds at 30 m. It must be on the ground by 40 s.',
+        'temporal_contradiction',
+    ),
+    (
+        'A drone hovers over City Hall for 900 s, then it hovers over Mercy Hospital for 700 s.',
+        'endurance',
+    ),
+    ('A drone flies a rectangle of 100 m by -5 m at 40 m altitude.', 'spatial_contradiction'),
+    ('A drone hovers over Signal Tower at 50 m.', 'geofence'),
+    ('A drone orbits Mercy Hospital at a radius of 100 m, 110 m above the ground.', 'geofence'),
+)
+ACCEPTED = (
+    'In fog a drone hovers over the crosswalk at 75 m.',
+    'At night, in heavy rain, the drone tracks a car from 40 m away at an altitude of 40 m.',
+    'two drones 5m apart, both 50m up hovering over harbor market',
+    'A drone orbits Mercy Hospital at a radius of 75 m, 110 m above the ground.',
+    'A van is 30 m ahead of the ego and a bus is 30 m behind the ego.',
+    'A bus is 20 m ahead of the ego. The bus is 21 m ahead of the ego.',
+    'A scenario of 40 seconds. The bus brakes at 30 s.',
+    'A drone hovers over City Hall for 60 seconds at 30 m. It must be on the ground by 120 s.',
+    'A drone hovers over City Hall for 900 s, then it hovers over Mercy Hospital for 600 s.',
+)
+
+
+def _judged(prompt: str) -> FeasibilityVerdict:
+    map_model = load_map('downtown')
+    context = ParseContext(landmark_names=tuple(m.name for m in map_model.landmarks))
+    spec = parse_offline(prompt, context).spec
+    assert spec is not None, prompt
+    return check_request(
+        spec,
+        map_model,
+        load_limits(config_path('limits.json')),
+        load_tolerances(config_path('tolerances.json')),
+        load_agent_types(),
+    )
+
+
+@pytest.mark.parametrize(('prompt', 'reason'), REFUSED)
+def test_what_cannot_be_is_refused_with_its_reason(prompt: str, reason: str) -> None:
+    verdict = _judged(prompt)
+    assert verdict.result is Feasibility.INFEASIBLE
+    assert {c.reason for c in verdict.certificates} == {reason}
+    assert all(c.sentence for c in verdict.certificates)
+
+
+@pytest.mark.parametrize('prompt', ACCEPTED)
+def test_what_can_be_within_the_tolerances_is_not_refused(prompt: str) -> None:
+    assert _judged(prompt).certificates == ()
