@@ -12,6 +12,7 @@ from aurora_bench.fidelity.evidence import evidence
 from aurora_bench.fidelity.score import PromptScore
 from aurora_bench.prompts.format import AnnotatedPrompt
 from aurora_core.spec.parameter import Document
+from aurora_core.spec.scenario import Clause
 from aurora_core.spec.vocabulary import ClauseStatus
 
 
@@ -20,7 +21,7 @@ class Told(StrEnum):
 
     SILENT = 'silent'  # its clause is called encoded, or no clause speaks of it
     DISMISSED = 'dismissed'  # its clause is called `no_requirement`: wrongly, and just as silent
-    ADMITTED = 'admitted'  # its clause is called `not_encoded`, or a question is asked
+    ADMITTED = 'admitted'  # its clause, or a part of it, is `not_encoded`, or a question is asked
     REFUSED = 'refused'  # a feasible request was refused
     BROKEN = 'broken'  # the product raised an error
 
@@ -51,7 +52,8 @@ def misses(prompt: AnnotatedPrompt, answer: Answer, score: PromptScore) -> Itera
         if result.is_met:
             continue
         clauses = evidence(prompt, requirement, answer.clauses).clauses
-        statuses = {clause.status for clause in clauses}
+        told_of = [c for c in answer.clauses if any(_holds(own, c) for own in clauses)]
+        statuses = {clause.status for clause in told_of}
         if answer.error:
             told = Told.BROKEN
         elif answer.question or (answer.spec is None and not answer.reasons):
@@ -72,3 +74,8 @@ def misses(prompt: AnnotatedPrompt, answer: Answer, score: PromptScore) -> Itera
             told=told,
             clause=clauses[0].text if clauses else '',
         )
+
+
+def _holds(outer: Clause, inner: Clause) -> bool:
+    """A part of a clause that was not understood is listed as a clause of its own."""
+    return outer.span.start <= inner.span.start and inner.span.end <= outer.span.end

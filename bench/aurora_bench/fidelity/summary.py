@@ -16,6 +16,7 @@ from aurora_bench.prompts.format import AnnotatedPrompt
 from aurora_bench.prompts.statistics import style
 from aurora_bench.results import Cell, Table
 from aurora_core.spec.parameter import Document
+from aurora_core.spec.vocabulary import ClauseStatus
 
 
 class Judged(Document):
@@ -32,6 +33,13 @@ class Judged(Document):
         answer = self.answer
         is_accepted = answer.spec is not None and not answer.reasons
         return self.prompt.feasibility == 'infeasible' and is_accepted
+
+    @property
+    def is_called_complete(self) -> bool:
+        """It was accepted, and no clause of it is called `not_encoded`."""
+        answer = self.answer
+        unread = any(c.status is ClauseStatus.NOT_ENCODED for c in answer.clauses)
+        return answer.spec is not None and not answer.reasons and not unread
 
     @property
     def is_wrong_reason(self) -> bool:
@@ -118,6 +126,16 @@ def counts(judged: Sequence[Judged]) -> tuple[tuple[str, int, int], ...]:
     lost = [m for j in judged for m in j.misses]
     return (
         ('prompts with every requirement met', sum(not j.misses for j in judged), len(judged)),
+        (
+            'prompts called complete that miss a requirement',
+            sum(j.is_called_complete and bool(j.misses) for j in judged),
+            sum(j.is_called_complete for j in judged),
+        ),
+        (
+            'prompts with every requirement met that are called complete or refused',
+            sum(not j.misses and (j.is_called_complete or bool(j.answer.reasons)) for j in judged),
+            sum(not j.misses for j in judged),
+        ),
         (
             'infeasible prompts accepted',
             sum(j.is_missed_infeasibility for j in judged),
