@@ -19,7 +19,9 @@ from aurora_core.spec.parameter import Parameter, Provenance, Span
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.spec.vocabulary import ClauseStatus
 
-_DIGITS = re.compile(r'\d+(?:\.\d+)?', re.ASCII)
+_DIGITS = re.compile(
+    r'\d{1,3}(?:,\d{3})+(?!\d)|\d+(?:\.\d+)?(?:e[-+]?\d+)?', re.ASCII | re.IGNORECASE
+)
 # A number as it is written: signed, with groups of thousands and an exponent.
 _WRITTEN = re.compile(
     r'(?P<number>[-−+]?(?:\d{1,3}(?:,\d{3})+|\d+|(?=\.\d))(?:\.\d+)?(?:e[-+]?\d+)?)', re.IGNORECASE
@@ -29,7 +31,7 @@ _FACTORS = (1.0, 0.5, 0.01)
 # What may be numbered, right in front of its number.
 _ACTOR = re.compile(
     r'(?:uav|drone|quad|quadrotor|quadcopter|copter|multirotor|aircraft|robot|unit|car|van|truck|'
-    r'lorry|bus|bike|motorcycle|bicycle|pedestrian|ped|ambulance|police|vehicle)s?\W{0,2}$',
+    r'lorry|bus|bike|motorcycle|bicycle|pedestrian|ped|ambulance|police|vehicle|rsu)s?\W{0,2}$',
     re.IGNORECASE,
 )
 _CLOSE = 1e-6
@@ -69,7 +71,7 @@ def _invented(prompt: str, spec: ScenarioSpec, meant: Mapping[str, str]) -> Iter
         if span.end > len(prompt):
             yield f'{path}: span {span.start}..{span.end} is outside the prompt'
             continue
-        said = prompt[span.start : span.end]
+        said = ' '.join(prompt[span.start : span.end].split())
         for written, word in meant.items():
             said = said.replace(written, word)
         if not any(c.isdigit() for c in said):
@@ -113,7 +115,7 @@ def _dropped(prompt: str, spec: ScenarioSpec, outcome: ParseOutcome) -> Iterator
         where = Span(start=match.start(), end=match.end())
         if any(_inside(where, s) for s in stated) or any(_inside(where, c) for c in open_clauses):
             continue
-        value = float(match.group())
+        value = float(match.group().replace(',', ''))
         cited = [c.ids for c in outcome.clauses if _inside(where, c.span)]
         groups = {len({flown.get(one, one) for one in ids} & members) for ids in cited}
         cut = max(len(spec.agents), len(spec.uavs)) > _MOST_AGENTS

@@ -15,6 +15,8 @@ from aurora_core.spec.parameter import Parameter, Span
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.spec.vocabulary import ClauseStatus
 
+# A group beyond this many is cut: it is refused as too many in any case.
+_MOST = 200
 _RANKS = ('first', 'last', 'earlier', 'sooner', 'next')
 _NO_ACTORS = (NounKind.PRONOUN, NounKind.UNSUPPORTED, NounKind.AMBIGUOUS)
 
@@ -49,7 +51,10 @@ def unaccounted(
                 forgotten = False
             counted = not names and noun.count > 0 and noun.kind is not NounKind.UNKNOWN
             digits = any(c.isdigit() for c in spec.prompt[atom.start : atom.end])
-            if forgotten or (counted and (digits or noun.count != 1)):
+            became = len(resolver.known(noun)) if names else 0
+            miscounted = digits and became > 0 and became != noun.count > 0
+            miscounted = miscounted and became <= _MOST
+            if forgotten or miscounted or (counted and (digits or noun.count != 1)):
                 lost.append(span)
     ordered = [o.span for o in spec.orders if o.span is not None]
     for span in _telling(spec.prompt, atoms):
