@@ -5,22 +5,36 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 from aurora_core.parsing.llm.dialogue import parse_with_models
 from aurora_core.parsing.outcome import ParseOutcome
-from aurora_core.pipeline.functions import parse_context, parse_stage
+from aurora_core.pipeline.background import background
+from aurora_core.pipeline.functions import knowledge, parse_context, parse_stage
 from aurora_core.pipeline.stages import RunRequest
 from aurora_core.ports.language_model import LanguageModel
+from aurora_core.retrieval.background import Background
+from aurora_llm.embedding import rankers
 from aurora_llm.litellm_client import LitellmClient
 from aurora_llm.recorded_client import RecordedClient
+from aurora_llm.reply_store import ReplyStore, StoredClient
 from aurora_llm.settings import OFFLINE, RECORDED, ModelSettings, load_model_settings
 
 
-def read_prompt(request: RunRequest, settings: ModelSettings | None = None) -> ParseOutcome:
+def read_prompt(
+    request: RunRequest,
+    settings: ModelSettings | None = None,
+    wrap: Callable[[LanguageModel], LanguageModel] = lambda model: model,
+) -> ParseOutcome:
     """Read a prompt: with the offline parser, or with language models in order.
 
     The offline parser takes over from models only where the order names it.
+
+    Args:
+        request: Prompt, map, models, history, transcripts.
+        settings: None: those of `config/models.yaml`.
+        wrap: Put around every model before it is asked.
 
     Raises:
         PromptError: The text cannot be a prompt.
@@ -33,15 +47,18 @@ def read_prompt(request: RunRequest, settings: ModelSettings | None = None) -> P
     outcome = parse_with_models(
         request.prompt,
         parse_context(request.map_name, request.seed),
-        [_client(name, known) for name in order if name != OFFLINE],
+        [wrap(_client(name, known, request)) for name in order if name != OFFLINE],
         attempts=known.attempts,
         wait=lambda seconds: time.sleep(min(seconds, known.most_wait_s)),
+        background=_background(request, known),
     )
     if order[-1] != OFFLINE or not _is_spent(outcome):
         return outcome
     offline = parse_stage(request.prompt, request.map_name, request.seed)
     fields = {name: getattr(offline, name) for name in ParseOutcome.model_fields}
-    return ParseOutcome(**{**fields, 'model_calls': outcome.model_calls})
+    return ParseOutcome(
+        **{**fields, 'retrieval': outcome.retrieval, 'model_calls': outcome.model_calls}
+    )
 
 
 def check_model_name(model: str) -> None:
@@ -54,7 +71,7 @@ def check_model_name(model: str) -> None:
         settings = load_model_settings()
         for name in settings.order(model):
             if name != OFFLINE:
-                _client(name, settings)
+                _client(name, settings, None)
 
 
 def _is_spent(outcome: ParseOutcome) -> bool:
@@ -63,7 +80,14 @@ def _is_spent(outcome: ParseOutcome) -> bool:
     return last is None or last.failure is not None or bool(last.complaints)
 
 
-def _client(name: str, settings: ModelSettings) -> LanguageModel:
+def _background(request: RunRequest, settings: ModelSettings) -> Background:
+    wanted = settings.retrieval
+    return background(knowledge(), request, rankers(embedding=wanted.embedding), wanted)
+
+
+def _client(name: str, settings: ModelSettings, request: RunRequest | None) -> LanguageModel:
     if name.startswith(RECORDED):
         return RecordedClient(name, Path(name.removeprefix(RECORDED)))
+    if request is not None and request.transcripts is not None:
+        return StoredClient(name, ReplyStore(request.transcripts))
     return LitellmClient(name, settings.entry(name), settings)

@@ -60,12 +60,16 @@ class RecordedClient:
                 message=f'{self._path.name} holds no answer to this request: another prompt, map '
                 'or version of AURORA',
             )
-        call = calls.popleft()
-        if call.failure is not None:
-            return ModelFailure(kind=call.failure.kind, message=call.failure.message)
-        return ModelReply(
-            text=call.reply or '',
-            tokens_in=call.tokens_in,
-            tokens_out=call.tokens_out,
-            cost_usd=call.cost_usd,
-        )
+        return replayed(calls.popleft())
+
+
+def replayed(call: ModelCall) -> ModelReply | ModelFailure:
+    """Return what a recorded call gave; nobody has to be left alone when it is replayed."""
+    if call.failure is not None:
+        return ModelFailure(kind=call.failure.kind, message=call.failure.message)
+    return ModelReply(
+        text=call.reply or '',
+        tokens_in=call.tokens_in,
+        tokens_out=call.tokens_out,
+        cost_usd=call.cost_usd,
+    )

@@ -11,6 +11,7 @@ from pydantic import Field, NonNegativeFloat, PositiveFloat, PositiveInt, Valida
 
 from aurora_core.errors import ConfigError
 from aurora_core.knowledge.config_files import config_path
+from aurora_core.retrieval.background import Amounts
 from aurora_core.spec.parameter import Document
 
 OFFLINE = 'offline'
@@ -32,9 +33,20 @@ class ModelEntry(Document):
     schema_output: bool = Field(default=True, alias='schema')
 
 
+class RetrievalSettings(Amounts):
+    """What is selected for a prompt.
+
+    Attributes:
+        embedding: Rank by word vectors beside words, where they are installed.
+    """
+
+    embedding: bool
+
+
 class ModelSettings(Document):
     """See `config/models.yaml`."""
 
+    retrieval: RetrievalSettings
     fallback: tuple[str, ...]
     attempts: PositiveInt = Field(le=_MOST_ATTEMPTS)
     timeout_s: PositiveFloat

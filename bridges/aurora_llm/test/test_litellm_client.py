@@ -16,7 +16,7 @@ from aurora_core.ports.language_model import (
     ModelRequest,
 )
 from aurora_llm.litellm_client import LitellmClient
-from aurora_llm.settings import ModelEntry, ModelSettings
+from aurora_llm.settings import ModelEntry, ModelSettings, RetrievalSettings
 from aurora_llm.testing.model_server import ModelServer, Turn
 
 REQUEST = ModelRequest(
@@ -34,6 +34,9 @@ def client(url: str, *, timeout_s: float = 20.0, schema: bool = True) -> Litellm
         most_wait_s=0.0,
         max_tokens=100,
         temperature=0.0,
+        retrieval=RetrievalSettings(
+            embedding=False, fusion_k=60.0, assets=1, spawns=1, episodes=1
+        ),
         models={},
     )
     entry = ModelEntry.model_validate({'model': 'openai/local', 'api_base': url, 'schema': schema})

@@ -13,6 +13,7 @@ import pytest
 
 from aurora_core.errors import ConfigError
 from aurora_core.parsing.outcome import ParseOutcome
+from aurora_core.pipeline.functions import knowledge
 from aurora_core.pipeline.stages import RunRequest
 from aurora_llm.parse import check_model_name, read_prompt
 from aurora_llm.settings import ModelSettings, load_model_settings
@@ -213,3 +214,31 @@ def test_names_of_the_file_addresses_and_orders() -> None:
     assert known.order('openai/a') == ('openai/a', 'local', 'offline')
     assert known.order('openai/a,openai/b') == ('openai/a', 'openai/b')
     assert known.order('offline') == ('offline',)
+
+
+def test_model_is_shown_the_registries_and_what_fits_and_the_scores_are_kept() -> None:
+    with ModelServer([GOOD]) as server:
+        outcome = read(server)
+        system = server.requests[0]['messages'][0]['content']
+    told = {
+        name: json.loads(line.removeprefix(f'{name}: '))
+        for line in system.split('\n')
+        for name in ('Registries', 'Retrieved')
+        if line.startswith(f'{name}: ')
+    }
+    assert told['Registries']['limits'] == knowledge().limits.model_dump(mode='json')
+    assert 'motorcycle' in [asset['id'] for asset in told['Retrieved']['asset']]
+    assert outcome.retrieval is not None
+    shown = [hit.id for hit in outcome.retrieval.hits if hit.selected]
+    kinds = ('asset', 'spawn', 'episode')
+    assert sorted(shown) == sorted(r['id'] for k in kinds for r in told['Retrieved'][k])
+
+
+def test_offline_parser_needs_no_retrieval(monkeypatch: pytest.MonkeyPatch) -> None:
+    def broken(*_: object, **__: object) -> None:
+        raise AssertionError('the offline parser asked for a background')
+
+    monkeypatch.setattr('aurora_llm.parse.background', broken)
+    outcome = read_prompt(RunRequest(prompt=PROMPT))
+    assert outcome.spec is not None
+    assert outcome.retrieval is None

@@ -35,6 +35,8 @@ bag = typer.Typer(help='Recordings.', rich_markup_mode=None)
 app.add_typer(maps, name='map')
 app.add_typer(certificate, name='certificate')
 app.add_typer(bag, name='bag')
+bench = typer.Typer(help='Benchmarks of reading prompts.', rich_markup_mode=None)
+app.add_typer(bench, name='bench')
 
 Json = Annotated[bool, typer.Option('--json', help='One JSON document on standard output.')]
 Prompt = Annotated[
@@ -48,6 +50,22 @@ Model = Annotated[
     typer.Option(
         help='offline (no key, no network), or language models: NAME, provider/NAME[@URL], '
         'recorded:FILE, several with commas in order; see config/models.yaml.'
+    ),
+]
+History = Annotated[
+    Path | None,
+    typer.Option(
+        metavar='DIR',
+        help='Past verified runs that a language model may be shown; a verified run is added.',
+    ),
+]
+Frozen = Annotated[
+    bool, typer.Option('--freeze-history', help='Add nothing to the history (campaigns).')
+]
+Transcripts = Annotated[
+    Path | None,
+    typer.Option(
+        metavar='DIR', help='Replies recorded by aurora bench record, in place of the models.'
     ),
 ]
 Seed = Annotated[int, typer.Option(help='Seed of everything that is drawn.')]
@@ -79,6 +97,9 @@ def run_prompt(
     prompt_file: PromptFile = None,
     engine: Annotated[str, typer.Option(help='local (one process) or ros (the graph).')] = 'local',
     model: Model = 'offline',
+    history: History = None,
+    freeze_history: Frozen = False,
+    transcripts: Transcripts = None,
     seed: Seed = 1,
     map_name: Map = 'downtown',
     out: Annotated[Path, typer.Option(help='Folder of the run folders.')] = Path('runs'),
@@ -103,6 +124,9 @@ def run_prompt(
         options = RunOptions(
             engine=engine,
             model=model,
+            history=history,
+            freeze_history=freeze_history,
+            transcripts=transcripts,
             seed=seed,
             map_name=map_name,
             out=out,
@@ -120,6 +144,8 @@ def check_prompt(
     prompt: Prompt = None,
     prompt_file: PromptFile = None,
     model: Model = 'offline',
+    history: History = None,
+    transcripts: Transcripts = None,
     seed: Seed = 1,
     map_name: Map = 'downtown',
     as_json: Json = False,
@@ -130,7 +156,9 @@ def check_prompt(
         from aurora_cli.commands.check import check_command
         from aurora_cli.requests import RunOptions
 
-        options = RunOptions(model=model, seed=seed, map_name=map_name)
+        options = RunOptions(
+            model=model, history=history, transcripts=transcripts, seed=seed, map_name=map_name
+        )
         return check_command(prompt, prompt_file, options, as_json=as_json)
 
     _finish(command, as_json=as_json)
@@ -305,6 +333,24 @@ def examine(
     _finish(command, as_json=as_json)
 
 
+def _measurement(package: str) -> Callable[[typer.Context], None]:
+    def command(context: typer.Context) -> None:
+        from aurora_cli.commands.bench import bench_command
+
+        raise typer.Exit(bench_command(package, context.args))
+
+    return command
+
+
+for _package, _help in (
+    ('fidelity', 'How much of what prompts ask for their specifications hold.'),
+    ('record', 'Record the replies of language models, to repeat a campaign without them.'),
+):
+    bench.command(_package, help=_help, context_settings=Anything, add_help_option=False)(
+        _measurement(_package)
+    )
+
+
 def _later(name: str) -> Callable[[], None]:
     def command() -> None:
         raise UsageProblem(f'{name} is not available in this version')
@@ -314,7 +360,6 @@ def _later(name: str) -> Callable[[], None]:
 
 
 for _group, _path in (
-    (app, 'bench'),
     (maps, 'map import'),
     (maps, 'map measure'),
 ):

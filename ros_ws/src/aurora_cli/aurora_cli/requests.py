@@ -29,6 +29,9 @@ class RunOptions:
 
     engine: str = 'local'
     model: str = 'offline'
+    history: Path | None = None
+    freeze_history: bool = False
+    transcripts: Path | None = None
     seed: int = 1
     map_name: str = 'downtown'
     out: Path = Path('runs')
@@ -49,6 +52,8 @@ def checked(options: RunOptions) -> RunRequest:
         check_model_name(options.model)
     except ConfigError as err:
         raise UsageProblem(f'--model {options.model}: {err}') from err
+    if options.transcripts is not None and not options.transcripts.is_dir():
+        raise UsageProblem(f'--transcripts: there is no folder {options.transcripts}')
     if options.engine not in ('local', 'ros'):
         raise UsageProblem(f'--engine is local or ros, found {options.engine}')
     if options.seed < 0:
@@ -63,6 +68,9 @@ def checked(options: RunOptions) -> RunRequest:
             'seed': options.seed,
             'engine': options.engine,
             'model': _absolute(options.model),
+            'history': _absolute_folder(options.history),
+            'history_frozen': options.freeze_history,
+            'transcripts': _absolute_folder(options.transcripts),
             'allow_relax': options.allow_relax,
             'faults': tuple(fault(text) for text in options.faults),
         }
@@ -74,6 +82,10 @@ def _absolute(model: str) -> str:
     if not model.startswith(RECORDED):
         return model
     return f'{RECORDED}{Path(model.removeprefix(RECORDED)).absolute()}'
+
+
+def _absolute_folder(folder: Path | None) -> Path | None:
+    return folder.absolute() if folder is not None else None
 
 
 def fault(text: str) -> Fault:

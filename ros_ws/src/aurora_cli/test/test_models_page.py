@@ -44,15 +44,18 @@ ANSWER = json.dumps(
 
 
 def test_commands(here: Path, call: Callable[..., SimpleNamespace]) -> None:
-    check, replay = map(shlex.split, COMMANDS)
+    check, remember, replay = map(shlex.split, COMMANDS)
     with ModelServer([Turn(text=ANSWER)]) as server:
         asked = [word.replace(ADDRESS, server.url) for word in check]
         assert call(*asked).code == INFEASIBLE
         done = call('run', '--json', *asked[1:])
+        shown = call(*(word.replace(ADDRESS, server.url) for word in remember))
     run_id = json.loads(done.out)['run_id']
     again = call(*(word.replace('<run_id>', run_id) for word in replay), '--json')
     assert json.loads(again.out)['cost']['calls'] == 1
-    assert (done.code, again.code) == (INFEASIBLE, INFEASIBLE)
+    assert (done.code, shown.code, again.code) == (INFEASIBLE,) * 3
+    assert not (here / 'history').exists(), 'only verified runs enter'
+    assert (here / 'runs' / run_id / 'retrieval.json').is_file()
 
 
 def test_settings_are_those_that_the_page_names() -> None:

@@ -12,7 +12,7 @@ from aurora_core.feasibility.places import check_placements, check_zones
 from aurora_core.feasibility.signs import check_signs
 from aurora_core.feasibility.times import check_times
 from aurora_core.feasibility.verdict import Certificate, Feasibility, FeasibilityVerdict
-from aurora_core.knowledge.agent_types import AgentTypeRecord
+from aurora_core.knowledge.agent_types import AgentTypeRecord, top_speed_mps
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.spec.parameter import Bound, Parameter, Provenance, Unit
@@ -201,8 +201,8 @@ def _top_speed(
     name = 'pedestrian_speed_max_mps' if walks else 'vehicle_speed_max_mps'
     top = limits.pedestrian_speed_max_mps if walks else limits.vehicle_speed_max_mps
     record = types.get(kind.value)
-    if record is not None and record.max_speed_mps < top:
-        return f'agent_types/{kind.value}/max_speed_mps', record.max_speed_mps
+    if record is not None and top_speed_mps(record, limits) < top:
+        return f'agent_types/{kind.value}/max_speed_mps', top_speed_mps(record, limits)
     return name, top
 
 

@@ -11,7 +11,7 @@ from pydantic import BaseModel, ConfigDict
 
 from aurora_core.errors import ConfigError
 from aurora_core.knowledge.config_files import config_path
-from aurora_core.knowledge.limits import Positive
+from aurora_core.knowledge.limits import Limits, Positive
 from aurora_core.spec.vocabulary import AgentType
 
 
@@ -29,6 +29,13 @@ class AgentTypeRecord(BaseModel):
     decel_mps2: Positive
     vclass: str
     is_person: bool
+
+
+def top_speed_mps(record: AgentTypeRecord, limits: Limits) -> float:
+    """Return the limit on the speed of an agent: the general one, or what its type can reach."""
+    walks = record.is_person
+    top = limits.pedestrian_speed_max_mps if walks else limits.vehicle_speed_max_mps
+    return min(record.max_speed_mps, top)
 
 
 def load_agent_types() -> Mapping[str, AgentTypeRecord]:

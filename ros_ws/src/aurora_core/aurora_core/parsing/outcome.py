@@ -7,6 +7,7 @@ from __future__ import annotations
 from enum import StrEnum
 
 from aurora_core.ports.language_model import ModelCall
+from aurora_core.retrieval.hits import Retrieval
 from aurora_core.spec.parameter import Document, Span
 from aurora_core.spec.scenario import Clause, ScenarioSpec
 
@@ -59,6 +60,7 @@ class ParseOutcome(Document):
         question: What was missing (status `not_understood`).
         refusals: What does not exist (status `infeasible`).
         clauses: Every clause of the prompt and what became of it.
+        retrieval: What a language model was shown beside the prompt, and why; None without one.
         model_calls: Every call to a language model, () when the offline parser read the prompt.
     """
 
@@ -66,4 +68,5 @@ class ParseOutcome(Document):
     question: str | None = None
     refusals: tuple[Refusal, ...] = ()
     clauses: tuple[Clause, ...] = ()
+    retrieval: Retrieval | None = None
     model_calls: tuple[ModelCall, ...] = ()

@@ -36,6 +36,11 @@ def _table() -> dict[str, DefaultValue]:
     }
 
 
+def unsaid_values() -> dict[str, float]:
+    """Return the value of everything that a prompt may leave unsaid; SI, angles in degrees."""
+    return {name: line.value for name, line in _table().items()}
+
+
 def accepts(name: str, measure: Measure) -> bool:
     """Return whether a measure has the dimension of the parameter and is one number."""
     return (

@@ -20,12 +20,20 @@ from aurora_core.agsg.graph import Agsg
 from aurora_core.errors import AuroraError
 from aurora_core.feasibility.verdict import Feasibility
 from aurora_core.pipeline.functions import knowledge
+from aurora_core.pipeline.history import remember
 from aurora_core.pipeline.stages import ExecutionResult, RunControl, RunRequest, Stages
 from aurora_core.ports.clock import SteadyClock
 from aurora_core.report.build import build_report
 from aurora_core.report.facts import ExecutionFacts, RunFacts
 from aurora_core.report.outputs import write_outputs
-from aurora_core.report.run_folder import MANIFEST, PROMPT, TRANSCRIPT, RunFolder, StageFile
+from aurora_core.report.run_folder import (
+    MANIFEST,
+    PROMPT,
+    RETRIEVAL,
+    TRANSCRIPT,
+    RunFolder,
+    StageFile,
+)
 from aurora_core.report.run_report import RunReport
 
 _LOG = logging.getLogger(__name__)
@@ -109,6 +117,8 @@ class _Run:
             self.note(parse=outcome)
         if outcome.model_calls:
             self.folder.write_lines(TRANSCRIPT, outcome.model_calls)
+        if outcome.retrieval is not None:
+            self.folder.write_json(RETRIEVAL, outcome.retrieval.model_dump(mode='json'))
         if outcome.spec is None:
             return None
         self.folder.write_stage(StageFile.SPEC, 0, outcome.spec)
@@ -212,5 +222,14 @@ def run(
     control.progress('report', _BEGINS['report'], 0.0)
     report = build_report(state.facts)
     write_outputs(report, folder)
+    _keep(request, report, state.facts)
     control.progress('done', _BEGINS['done'], 0.0)
     return report
+
+
+def _keep(request: RunRequest, report: RunReport, facts: RunFacts) -> None:
+    """Put a verified run into the history; the run stands, whether that succeeds or not."""
+    try:
+        remember(request, report, facts.parse.spec if facts.parse is not None else None)
+    except AuroraError as err:
+        _LOG.warning('run %s is not in the history: %s', report.run_id, err)

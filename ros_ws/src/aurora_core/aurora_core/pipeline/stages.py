@@ -31,6 +31,10 @@ class RunRequest(Document):
         prompt: Byte-identical to what was typed.
         model: `offline`, or language models as `config/models.yaml` says.
         faults: Injected run-time faults; invisible to feasibility and monitor.
+        history: Folder of past episodes that a language model may be shown, and that takes the run
+            in when it is verified; None without one.
+        history_frozen: The history takes nothing in.
+        transcripts: Folder of recorded replies that stand for every named model; None asks them.
     """
 
     prompt: str
@@ -40,6 +44,9 @@ class RunRequest(Document):
     model: str = 'offline'
     allow_relax: bool = False
     faults: tuple[Fault, ...] = ()
+    history: Path | None = None
+    history_frozen: bool = False
+    transcripts: Path | None = None
 
 
 class ExecutionResult(Document):

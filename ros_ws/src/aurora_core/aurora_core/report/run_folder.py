@@ -22,6 +22,7 @@ PROMPT = 'prompt.txt'
 REPORT = 'report.json'
 REPORT_HTML = 'report.html'
 TRANSCRIPT = 'transcript.jsonl'
+RETRIEVAL = 'retrieval.json'
 PICTURE = 'picture.png'
 
 _RUN_ID = re.compile(r'\d{8}T\d{6}Z-[0-9a-f]{6}')

@@ -19,6 +19,7 @@ from aurora_core.ports.language_model import (
     ModelReply,
     ModelRequest,
 )
+from aurora_core.retrieval.background import Background
 
 # Asking the same model again changes nothing.
 _FINAL = (FailureKind.REFUSED, FailureKind.NOT_RECORDED)
@@ -31,6 +32,7 @@ def parse_with_models(
     *,
     attempts: int,
     wait: Callable[[float], None],
+    background: Background | None = None,
 ) -> ParseOutcome:
     """Read a prompt with language models.
 
@@ -43,6 +45,7 @@ def parse_with_models(
         models: In the order in which they are asked.
         attempts: Most calls to one model.
         wait: Called with the seconds that a server asks to be left alone.
+        background: What the models are shown beside the prompt; its scores go into the outcome.
 
     Returns:
         The first outcome that passes every check, else a question that says why there is none;
@@ -55,7 +58,7 @@ def parse_with_models(
     facts = PromptFacts(prompt, context)
     calls: list[ModelCall] = []
     for model in models:
-        request = first_request(facts)
+        request = first_request(facts, background)
         for attempt in range(1, attempts + 1):
             answer = model.complete(request)
             if isinstance(answer, ModelFailure):
@@ -68,14 +71,17 @@ def parse_with_models(
             judgement = judge(answer.text, facts)
             calls.append(_answered(model.name, attempt, request, answer, judgement.complaints))
             if judgement.outcome is not None:
-                return _with_calls(judgement.outcome, calls)
+                return _with_calls(judgement.outcome, calls, background)
             request = with_feedback(request, answer.text, judgement.complaints)
-    return _with_calls(ParseOutcome(question=_why_not(calls)), calls)
+    return _with_calls(ParseOutcome(question=_why_not(calls)), calls, background)
 
 
-def _with_calls(outcome: ParseOutcome, calls: Sequence[ModelCall]) -> ParseOutcome:
+def _with_calls(
+    outcome: ParseOutcome, calls: Sequence[ModelCall], background: Background | None
+) -> ParseOutcome:
     fields = {name: getattr(outcome, name) for name in ParseOutcome.model_fields}
-    return ParseOutcome(**{**fields, 'model_calls': tuple(calls)})
+    retrieval = background.retrieval if background is not None else None
+    return ParseOutcome(**{**fields, 'model_calls': tuple(calls), 'retrieval': retrieval})
 
 
 def _failed(model: str, attempt: int, request: ModelRequest, failure: ModelFailure) -> ModelCall:

@@ -14,6 +14,7 @@ from aurora_core.parsing.llm.facts import PromptFacts
 from aurora_core.parsing.llm.reading import Reading
 from aurora_core.parsing.tokens import TokenKind, tokenize
 from aurora_core.ports.language_model import Message, ModelRequest
+from aurora_core.retrieval.background import Background
 from aurora_core.spec.parameter import Document
 from aurora_core.spec.vocabulary import AgentType, Place
 
@@ -52,9 +53,14 @@ def _untitled(schema: Any) -> Any:
     return [_untitled(one) for one in schema] if isinstance(schema, list) else schema
 
 
-def first_request(facts: PromptFacts) -> ModelRequest:
-    """Return the first turn for a prompt."""
-    told = (Message(role='system', content=_system(facts)), *_shown(facts.prompt))
+def first_request(facts: PromptFacts, background: Background | None = None) -> ModelRequest:
+    """Return the first turn for a prompt.
+
+    Args:
+        facts: The prompt and its map.
+        background: What is shown beside them.
+    """
+    told = (Message(role='system', content=_system(facts, background)), *_shown(facts.prompt))
     return ModelRequest(
         messages=(*told, Message(role='user', content=_as_data(facts.prompt))),
         schema_text=schema_text(),
@@ -75,7 +81,7 @@ def with_feedback(request: ModelRequest, reply: str, complaints: Sequence[str]) 
     )
 
 
-def _system(facts: PromptFacts) -> str:
+def _system(facts: PromptFacts, background: Background | None) -> str:
     data = read_data('llm/instructions.yaml')
     landmarks = _nearest(facts.context.landmark_names, facts.prompt, _MOST_LANDMARKS)
     known = {
@@ -89,8 +95,17 @@ def _system(facts: PromptFacts) -> str:
             'Triggers and effects.',
             data['triggers'],
             'Known here: ' + json.dumps(known),
+            *(() if background is None else _told(background, data['background'])),
             'Schema: ' + schema_text(),
         )
+    )
+
+
+def _told(background: Background, rules: str) -> tuple[str, ...]:
+    return (
+        rules.rstrip(),
+        'Registries: ' + background.registries_text(),
+        'Retrieved: ' + background.selected_text(),
     )
 
 
