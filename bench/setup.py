@@ -8,7 +8,11 @@ setup(
     name='aurora_bench',
     version='0.1.0',
     packages=find_packages(exclude=['test', 'test.*']),
-    package_data={'': ['*.typed'], 'aurora_bench.prompts': ['*.jsonl']},
+    package_data={
+        '': ['*.typed'],
+        'aurora_bench.prompts': ['*.jsonl'],
+        'aurora_bench.retrieval': ['*.yaml'],
+    },
     data_files=[
         ('share/ament_index/resource_index/packages', ['resource/aurora_bench']),
         ('share/aurora_bench', ['package.xml']),
