@@ -10,17 +10,20 @@ from collections.abc import Sequence
 from importlib.resources import files
 from pathlib import Path
 
-from aurora_bench.fidelity.answer import offline_answer
+from aurora_bench.fidelity.answer import answer
 from aurora_bench.fidelity.summary import Judged, as_json, judge, last_line, tables
 from aurora_bench.interrupt import stop_on_sigterm
 from aurora_bench.machine import machine_facts
 from aurora_bench.progress import Progress
 from aurora_bench.prompts.reading import read_prompts
 from aurora_bench.results import ResultsError, markdown_table, write_results
+from aurora_core.errors import ConfigError
+from aurora_core.pipeline.stages import RunRequest
+from aurora_llm.parse import check_model_name
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Score a file; return 0, or 64 when it cannot be read."""
+    """Score a file; return 0, 64 when it cannot be read, 4 when a recorded reply is missing."""
     stop_on_sigterm()
     parser = argparse.ArgumentParser(prog='aurora_bench.fidelity', description=__doc__)
     parser.add_argument(
@@ -31,7 +34,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
         metavar='FILE',
         help='prompts, one JSON object a line (default: the shipped ones for tuning)',
     )
-    parser.add_argument('--model', choices=('offline',), default='offline', help='who parses')
+    parser.add_argument('--model', default='offline', help='who parses, as in aurora run')
+    parser.add_argument(
+        '--transcripts', type=Path, default=None, help='recorded replies in place of the models'
+    )
+    parser.add_argument('--history', type=Path, default=None, help='past runs; nothing is added')
     parser.add_argument('--map', default='downtown', help='map that the prompts are read against')
     parser.add_argument('--seed', type=int, default=1)
     parser.add_argument('--only', default='', help='prompts whose id begins so')
@@ -40,14 +47,28 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     machine = machine_facts()
     try:
+        check_model_name(options.model)
         prompts = [p for p in read_prompts(options.file) if p.id.startswith(options.only)]
-    except ResultsError as err:
+    except (ResultsError, ConfigError) as err:
         sys.stderr.write(f'{err}\n')
         return 64
     progress = Progress('fidelity', len(prompts))
     judged: list[Judged] = []
     for prompt in prompts:
-        done = judge(prompt, offline_answer(prompt.prompt, options.map, options.seed))
+        request = RunRequest(
+            prompt=prompt.prompt,
+            map_name=options.map,
+            seed=options.seed,
+            model=options.model,
+            transcripts=options.transcripts,
+            history=options.history,
+            history_frozen=True,
+        )
+        try:
+            done = judge(prompt, answer(request))
+        except ConfigError as err:
+            sys.stderr.write(f'{prompt.id}: {err}\n')
+            return 4
         judged.append(done)
         kinds = ', '.join(f'{m.kind} ({m.told})' for m in done.misses)
         progress.step(f'{prompt.id}: {f"missed: {kinds}" if kinds else "all met"}')

@@ -5,12 +5,14 @@
 from __future__ import annotations
 
 from aurora_core.agsg.build import build_agsg
-from aurora_core.errors import AuroraError
+from aurora_core.errors import AuroraError, ConfigError
 from aurora_core.feasibility.verdict import Feasibility
-from aurora_core.pipeline.functions import check_stage, knowledge, parse_stage
+from aurora_core.pipeline.functions import check_stage, knowledge
+from aurora_core.pipeline.stages import RunRequest
 from aurora_core.report.build import refusal_certificate
 from aurora_core.spec.parameter import Document
 from aurora_core.spec.scenario import Clause, ScenarioSpec
+from aurora_llm.parse import read_prompt
 
 
 class Answer(Document):
@@ -33,8 +35,18 @@ class Answer(Document):
 
 def offline_answer(prompt: str, map_name: str = 'downtown', seed: int = 1) -> Answer:
     """Ask the offline parser and the check of limits; nothing is grounded or run."""
+    return answer(RunRequest(prompt=prompt, map_name=map_name, seed=seed))
+
+
+def answer(request: RunRequest) -> Answer:
+    """Ask whoever the request names to read its prompt, and the check of limits.
+
+    Raises:
+        ConfigError: A recorded reply is missing; what the product would say is not known.
+    """
+    map_name = request.map_name
     try:
-        outcome = parse_stage(prompt, map_name, seed)
+        outcome = read_prompt(request)
         if outcome.spec is None:
             return Answer(
                 clauses=outcome.clauses,
@@ -43,6 +55,8 @@ def offline_answer(prompt: str, map_name: str = 'downtown', seed: int = 1) -> An
             )
         digest = knowledge().map(map_name).digest
         verdict = check_stage(build_agsg(outcome.spec, map_digest=digest))
+    except ConfigError:
+        raise
     # One prompt that breaks the product must not end the measurement; it counts as all missed.
     except (AuroraError, ValueError, LookupError, TypeError, AttributeError) as err:
         return Answer(error=f'{type(err).__name__}: {err}')
