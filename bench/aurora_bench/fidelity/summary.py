@@ -9,6 +9,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from aurora_bench.fidelity.answer import Answer
+from aurora_bench.fidelity.consistency import Group, groups
 from aurora_bench.fidelity.misses import Miss, Told, misses
 from aurora_bench.fidelity.score import PromptScore, RequirementScore, score
 from aurora_bench.fidelity.wilson import Share
@@ -116,6 +117,24 @@ def tables(judged: Sequence[Judged]) -> tuple[Table, ...]:
             rows=tuple((*key, n) for key, n in kinds.most_common(25)),
             caption='Commonest misses',
         ),
+        _consistency_table(judged),
+    )
+
+
+def paraphrases(judged: Sequence[Judged]) -> list[Group]:
+    """Return the paraphrase groups and who stands apart in them."""
+    return groups([(j.prompt, j.answer) for j in judged])
+
+
+def _consistency_table(judged: Sequence[Judged]) -> Table:
+    found = paraphrases(judged)
+    share = f'{sum(g.is_consistent for g in found)} of {len(found)}'
+    return Table(
+        headings=('paraphrase group', 'prompts', 'with another scenario'),
+        rows=tuple(
+            (g.name, len(g.members), ', '.join(g.differing)) for g in found if not g.is_consistent
+        ),
+        caption=f'Paraphrase groups whose members all give the same scenario: {share}',
     )
 
 
@@ -164,6 +183,11 @@ def counts(judged: Sequence[Judged]) -> tuple[tuple[str, int, int], ...]:
             sum(c.status.value == 'no_requirement' for j in judged for c in j.answer.clauses),
         ),
         (
+            'paraphrase groups with one scenario',
+            sum(g.is_consistent for g in paraphrases(judged)),
+            len(paraphrases(judged)),
+        ),
+        (
             'agents and UAVs that nothing asked for',
             sum(len(j.score.extra) for j in judged if j.prompt.feasibility != 'infeasible'),
             sum(
@@ -185,6 +209,10 @@ def as_json(judged: Sequence[Judged]) -> dict[str, Any]:
         'by_category': _split_json(_split(judged, lambda j, _r: j.prompt.category)),
         'by_style': _split_json(_split(judged, lambda j, _r: style(j.prompt.prompt))),
         'counts': {word: {'number': met, 'of': total} for word, met, total in counts(judged)},
+        'paraphrase_groups': [
+            {'name': g.name, 'members': list(g.members), 'differing': list(g.differing)}
+            for g in paraphrases(judged)
+        ],
         'prompts': [
             {
                 'id': j.prompt.id,
