@@ -159,8 +159,8 @@ class AdjunctReader:
             if prep not in _NEEDS_MORE:
                 return None, j
             return self._make(AdjunctKind.MARK, 'unknown', i, j, value=prep), j
-        if follows.kind is AtomKind.MEASURE:
-            return self._measure(i, j, prep)
+        if follows.kind is AtomKind.MEASURE:  # `high above, 80 m` is not `above 80 m`
+            return self._measure(i, j, '' if follows.start in self._parted else prep)
         if follows.kind is AtomKind.THING:
             return self._thing(i, j, prep)
         if follows.kind is AtomKind.COMPASS:

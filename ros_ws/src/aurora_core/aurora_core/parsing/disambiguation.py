@@ -54,13 +54,18 @@ def _verb_follows(atoms: list[Atom], i: int) -> bool:
     for atom in atoms[i + 1 :]:
         if atom.kind is AtomKind.VERB:
             return True
-        if atom.kind not in _SKIPPED:
+        spent = atom.kind is AtomKind.MEASURE  # `has spent 20 s hovering`
+        if atom.kind not in _SKIPPED and not spent:
+            return False
+        if spent and not any(a.key == 'spend' for a in atoms[i : i + 3]):
             return False
     return False
 
 
 def _tells(atoms: list[Atom], i: int) -> bool:
     """`the RSU tells the truck to stop` is a message; `tell the truck to stop` is a request."""
+    if atoms[i].verb_key == 'alert' and atoms[i].verb_form is VerbForm.THIRD:
+        return True  # `the drone orbits the park and tells the van to brake`
     before = next((a for a in reversed(atoms[:i]) if a.kind not in _SKIPPED), None)
     return before is not None and before.is_actor and atoms[i].verb_key == 'alert'
 

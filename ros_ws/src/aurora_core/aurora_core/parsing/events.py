@@ -36,7 +36,10 @@ def complete_event(
     trigger = settled(scene, found, action)
     # `after the car brakes … The car brakes at 25 s`: one event, told in two places.
     known = [e for e in scene.events if e.trigger is None and e.action == action]
-    if known and trigger is not None and isinstance(action, AgentAction):
+    told = [e for e in scene.events if e.trigger == trigger and e.action == action]
+    if told and trigger is not None:  # `until the bus arrives …; once it has, it lands`
+        event = told[0]
+    elif known and trigger is not None and isinstance(action, AgentAction):
         event = known[0]
         event.trigger = trigger
     else:
@@ -55,6 +58,9 @@ def same_cause(
     trigger: Trigger | None = first.trigger
     if then:
         trigger = EventDoneTrigger(on='event_done', event=first.id)
+    if trigger == first.trigger and action == first.action:
+        scene.became(first.id)
+        return first
     event = EventDraft(id=scene.new_id('e'), trigger=trigger, action=action, span=span)
     scene.events.append(event)
     scene.became(event.id)

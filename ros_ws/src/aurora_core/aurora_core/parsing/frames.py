@@ -16,10 +16,9 @@ from aurora_core.parsing.pieces import Piece
 from aurora_core.parsing.pronouns import Fits, anything
 from aurora_core.parsing.resolver import Resolver
 from aurora_core.parsing.scene import Entity, Scene
+from aurora_core.parsing.subjects import split_subject
 from aurora_core.spec.parameter import Span
 
-_SILENT = (AtomKind.FILL, AtomKind.AUXILIARY, AtomKind.CONJUNCTION, AtomKind.FRAME)
-_GOVERNORS = (AtomKind.PREPOSITION, AtomKind.RELATION, AtomKind.COMPASS)
 _TRANSITIVE = frozenset(
     {
         'follow',
@@ -63,12 +62,15 @@ class Frame:
         self.verb: Atom | None = None if at is None else atoms[at]
         before = atoms if at is None else atoms[:at]
         after = () if at is None else atoms[at + 1 :]
-        self.negated = any(a.kind is AtomKind.NEGATION for a in atoms)
-        self.subject_nouns, rest = _split_subject(before)
+        self.negated = any(
+            a.kind is AtomKind.NEGATION and not _of_weather(atoms, i) for i, a in enumerate(atoms)
+        )
+        self.subject_nouns, rest = split_subject(before, scene.prompt)
         self.adjuncts = AdjunctReader(rest).read() + AdjunctReader(after).read()
         self.flagged: list[tuple[int, int]] = []
         self.avoid: tuple[Entity, ...] = ()
         self.heir: Entity | None = None  # who acts when the clause names nobody
+        self._deny_weather(atoms)
         self._named_values()
         self._impersonal()
         self.passive = self._is_passive(before)
@@ -86,11 +88,16 @@ class Frame:
         """Characters of the clause."""
         return Span(start=self.piece.start, end=self.piece.end)
 
+    def _deny_weather(self, atoms: Sequence[Atom]) -> None:
+        """`no rain` beside other words: what is denied is not asked for."""
+        denied = {atoms[i + 1].start for i in range(len(atoms)) if _of_weather(atoms, i)}
+        self.adjuncts = [a for a in self.adjuncts if a.start not in denied]
+
     def _named_values(self) -> None:
         """`the radius is 80 m`: name and number stand on two sides of the verb."""
         if self.key != 'be' or self.verb is None:
             return
-        for name, value in pairwise(list(self.adjuncts)):
+        for name, value in self._around_the_verb():
             around = name.end <= self.verb.start and value.start >= self.verb.end
             thing = name.kind is AdjunctKind.MARK and name.key == 'thing'
             measure = value.measure
@@ -99,6 +106,15 @@ class Frame:
                 name.kind, name.key, name.measure = AdjunctKind.ATTRIBUTE, name.value, measure
                 name.prep = value.prep
                 self.adjuncts.remove(value)
+
+    def _around_the_verb(self) -> list[tuple[Adjunct, Adjunct]]:
+        """Neighbours, and `the range from the drone to the ego is 300 m`: its first measure."""
+        pairs = list(pairwise(self.adjuncts))
+        names = [a for a in self.adjuncts if a.kind is AdjunctKind.MARK and a.key == 'thing']
+        measures = [a for a in self.adjuncts if a.measure is not None]
+        if len(names) == len(measures) == 1:
+            pairs.append((names[0], measures[0]))
+        return pairs
 
     def _impersonal(self) -> None:
         """`it is foggy`: the pronoun means nobody."""
@@ -119,7 +135,8 @@ class Frame:
             a.kind is AtomKind.AUXILIARY and a.key in ('be', 'get', 'have') for a in before
         )
         by = any(self._agentive(a) for a in self.adjuncts)
-        is_be = any(a.kind is AtomKind.AUXILIARY and a.key == 'be' for a in before)
+        helpers = ('be',) if self.key == 'lose' else ('be', 'get')  # `the packets get lost`
+        is_be = any(a.kind is AtomKind.AUXILIARY and a.key in helpers for a in before)
         return (helped and is_be) or by
 
     @staticmethod
@@ -191,6 +208,9 @@ class Frame:
         for adjunct in self.adjuncts:
             if adjunct.kind is AdjunctKind.MARK and adjunct.key == AtomKind.VERB.value:
                 adjunct.used = adjunct.value == 'drive' and self.key in ('stop', 'start')
+                if adjunct.value in ('be', 'last') and self.verb is not None:
+                    # `tracking must be within tolerance`: the participle is the subject
+                    adjunct.used = self.verb.form is VerbForm.ING and not self.subject_nouns
 
     # --- who ----------------------------------------------------------------------------------
 
@@ -222,6 +242,14 @@ class Frame:
         for clause in sorted(earlier, key=lambda c: c.describes):  # main clauses first
             fitting = tuple(e for e in clause.subjects if accept(e))
             if fitting:
+                return fitting
+        return ()
+
+    def patient(self, accept: Fits) -> tuple[Entity, ...]:
+        """Return whom the sentence is about: `… and is followed and filmed by a drone`."""
+        for clause in self.scene.clauses[:-1]:
+            fitting = tuple(e for e in clause.subjects if accept(e))
+            if clause.sentence == self.piece.sentence and fitting and not clause.describes:
                 return fitting
         return ()
 
@@ -333,42 +361,9 @@ class Frame:
 Construction = Callable[[Frame], bool]
 
 
-def _split_subject(before: Sequence[Atom]) -> tuple[tuple[NounPhrase, ...], list[Atom]]:
-    """Take the nouns in front of the predicate that no preposition governs."""
-    subjects: list[NounPhrase] = []
-    rest: list[Atom] = []
-    waiting = False  # a preposition waits for its noun
-    governed = False  # the last noun belongs to a preposition
-    conjunction = False
-    for atom in before:
-        if atom.kind is AtomKind.RELATIVE and not subjects:
-            subjects, rest = _before_relative(rest)
-            waiting = governed = conjunction = False
-            continue
-        if atom.kind is AtomKind.CAUSATIVE:  # `the mayor wants a drone to …`: who wants is nobody
-            subjects = [s for s in subjects if s.kind is not NounKind.UNKNOWN]
-        if atom.kind in _GOVERNORS:
-            waiting, governed = True, False
-        elif atom.noun is not None:
-            shared = conjunction and governed  # `between the van and the ego`
-            actor = atom.is_actor or atom.noun.kind is NounKind.UNKNOWN
-            if actor and not waiting and not shared:
-                subjects.append(atom.noun)
-                governed = conjunction = False
-                continue
-            waiting, governed = False, True
-        elif atom.kind not in _SILENT:
-            waiting = False
-        conjunction = atom.kind is AtomKind.CONJUNCTION
-        rest.append(atom)
-    return tuple(subjects), rest
-
-
-def _before_relative(rest: list[Atom]) -> tuple[list[NounPhrase], list[Atom]]:
-    """`footage of an ambulance that …`: the noun in front of `that` acts, whatever governs it."""
-    for i in range(len(rest) - 1, -1, -1):
-        atom = rest[i]
-        if atom.is_actor and atom.noun is not None:
-            keep = rest[: i - 1] if i and rest[i - 1].kind in _GOVERNORS else rest[:i]
-            return [atom.noun], keep + rest[i + 1 :]
-    return [], rest
+def _of_weather(atoms: Sequence[Atom], i: int) -> bool:
+    """`no rain`, `without fog`: the negation is about one word only."""
+    here = atoms[i].kind is AtomKind.NEGATION and atoms[i].key in ('no', 'without')
+    if not here or i + 1 >= len(atoms):
+        return False
+    return atoms[i + 1].kind is AtomKind.WORLD and atoms[i + 1].key.startswith('weather')

@@ -94,6 +94,7 @@ _GROUND_ONLY = frozenset(
         'emergency_run',
         'lead',
         'accelerate',
+        'contain',
     }
 )
 
@@ -131,6 +132,10 @@ def main_clause(frame: Frame) -> None:
         predicate_adjectives(frame)
     if frame.scene.clause.status is not ClauseStatus.ENCODED:
         frame.subjects()  # named although nothing is said of them
+        command = frame.verb is not None and frame.verb.form is VerbForm.BASE
+        if command and not frame.subject_nouns:  # `take my car as the reference`
+            egos = [n for n in frame.nouns() if frame.resolver.names_ego(n)]
+            frame.scene.clause.objects += frame.resolver.actors(egos)
 
 
 def _in_brackets(frame: Frame) -> None:
@@ -235,7 +240,10 @@ def _about_ground(frame: Frame) -> bool:
 def _flies(frame: Frame) -> bool:
     """Return whether the clause is about a UAV."""
     kinds = [n.kind for n in frame.subject_nouns if n.kind is not NounKind.PRONOUN]
-    if kinds:
+    head = frame.piece.head
+    if not frame.subject_nouns and head is not None and head.noun is not None and head.is_actor:
+        kinds = [head.noun.kind] if head.noun.kind is not NounKind.PRONOUN else []
+    if kinds and not (frame.passive and not frame.subject_nouns):
         return kinds[0] is NounKind.UAV
     if frame.key in _AIR_ONLY or asks_for_flight(frame):
         return True

@@ -112,7 +112,24 @@ class MeasureReader:
         is_low = sense.tag is Tag.AFTER_AT_LEAST
         return k + length, Bound.AT_LEAST if is_low else Bound.AT_MOST, False
 
+    def _one_in(self, j: int) -> tuple[Measure, int] | None:
+        """`one in five packets`, `one out of ten messages`: a share."""
+        if self._word(j) not in ('one', '1'):
+            return None
+        k = j + 2 if self._word(j + 1) == 'in' else j + 3
+        if self._word(j + 1) != 'in' and (self._word(j + 1), self._word(j + 2)) != ('out', 'of'):
+            return None
+        whole = self._number(k)
+        if whole is None or not whole.value or self._unit(whole.stop)[0] is not None:
+            return None
+        start, end = self._tokens[j].start, self._tokens[whole.stop - 1].end
+        share = Measure(dimension=RATIO, value=float(1 / whole.value), start=start, end=end)
+        return share, whole.stop
+
     def _core(self, j: int, *, between: bool) -> tuple[Measure, int] | None:
+        share = self._one_in(j)
+        if share is not None:
+            return share
         first = self._number(j) or self._article(j)
         if first is None:
             return None

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from aurora_core.parsing.atoms import Determiner, NounKind, NounPhrase
 from aurora_core.parsing.lexicon import Lexicon, Sense, Tag
@@ -81,10 +82,14 @@ class NounReader:
         self._lexicon = lexicon
         self._measures = measures
         self._landmarks = landmarks
+        self._letters: dict[str, tuple[NounKind, str]] | None = None
         self._longest_landmark = max((len(words) for words in landmarks), default=0)
 
     def read(self, i: int) -> tuple[NounPhrase, int] | None:
         """Return the noun phrase that starts at token i and the next index, None if none does."""
+        alone = self._letter(i) or self._ordinal_alone(i)
+        if alone is not None:
+            return alone
         j = i
         determiner = Determiner.BARE
         count, index, background = 0, 0, False
@@ -163,10 +168,10 @@ class NounReader:
 
     def _head(self, j: int) -> tuple[NounKind, str, str, bool, int] | None:
         named = self._landmark(j)
-        if named is not None:
+        matches = self._lexicon.matches(self._words, j)
+        if named is not None and not self._is_agent_beyond(matches, named[1] - j):
             name, stop = named
             return NounKind.LANDMARK, name, name, False, stop
-        matches = self._lexicon.matches(self._words, j)
         if not matches:
             return None
         length, senses = matches[0]
@@ -178,6 +183,11 @@ class NounReader:
                     text = ' '.join(self._words[j : j + length])
                     return kind, sense.key, text, sense.plural, j + length
         return None
+
+    @staticmethod
+    def _is_agent_beyond(matches: Sequence[tuple[int, tuple[Sense, ...]]], length: int) -> bool:
+        """`a school bus` is no school, although the map has one."""
+        return bool(matches) and matches[0][0] > length and matches[0][1][0].tag is Tag.AGENT
 
     def _acts_here(self, j: int, length: int) -> bool:
         """`a pedestrian crossing at the …`: somebody who crosses, not the place."""
@@ -329,14 +339,74 @@ class NounReader:
             return self._pronoun_phrase(i, moving, 'i', NounKind.EGO)
         if word in ('one', 'other') and self._lexicon.longest_of(self._words, i + 1, (Tag.VERB,)):
             return self._pronoun_phrase(i, i + 1, word)
+        if word == 'one' and self._at_its_height(i):
+            return self._pronoun_phrase(i, i + 1, word)
         found = self._lexicon.longest_of(self._words, i, (Tag.EGO_PRONOUN, Tag.PRONOUN))
         if found is None:
             return None
         length, sense = found
         if self._words[i] == 'i' and not self._acts(i + 1):
             return None  # `I think that …`
+        if self._words[i] == 'its' and self._lexicon.longest_of(
+            self._words, i + 1, (Tag.MESSAGE, Tag.LINK)
+        ):
+            return None  # `of its messages`
         kind = NounKind.EGO if sense.tag is Tag.EGO_PRONOUN else NounKind.PRONOUN
         return self._pronoun_phrase(i, i + length, sense.key, kind)
+
+    def _at_its_height(self, i: int) -> bool:
+        """`two drones, one at 40 m and one at 60 m`: `one` counts nothing."""
+        before = self._words[i - 1] if i else ''
+        if before not in (',', 'and', ':') or i + 2 >= len(self._words):
+            return False
+        return self._words[i + 1] == 'at' and self._tokens[i + 2].kind is TokenKind.NUMBER
+
+    def _letter(self, i: int) -> tuple[NounPhrase, int] | None:
+        """`drone A …, and B passes it on`: the letter alone, once it was given to somebody."""
+        if not self._tokens[i].capital or self._words[i] not in self._named_letters():
+            return None
+        kind, key = self._named_letters()[self._words[i]]
+        if self._words[i] == 'a' and not self._is_predicate(i + 1) and not self._helps(i + 1):
+            return None  # the article
+        phrase, stop = self._pronoun_phrase(i, i + 1, key, kind)
+        number = ord(self._words[i]) - ord('a') + 1
+        return replace(phrase, index=number, determiner=Determiner.DEFINITE), stop
+
+    def _named_letters(self) -> dict[str, tuple[NounKind, str]]:
+        if self._letters is None:
+            self._letters = {}
+            for j in range(1, len(self._words)):
+                if not self._tokens[j].capital:
+                    continue
+                for _, senses in self._lexicon.matches(self._words, j - 1):
+                    for sense in senses:
+                        if sense.tag in (Tag.UAV, Tag.AGENT, Tag.VEHICLE):
+                            self._letters[self._words[j]] = (_HEADS[sense.tag], sense.key)
+        return self._letters
+
+    def _helps(self, j: int) -> bool:
+        return self._lexicon.longest_of(self._words, j, (Tag.AUXILIARY,)) is not None
+
+    def _ordinal_alone(self, i: int) -> tuple[NounPhrase, int] | None:
+        """`two drones: first hovers …, second tracks …`: told apart by number only."""
+        order = ('first', 'second', 'third', 'fourth')
+        if self._words[i] not in order:
+            return None
+        if i and self._words[i - 1] in ('the', 'a', 'at'):
+            return None
+        if self._lexicon.longest_of(self._words, i + 1, (Tag.VERB,)) is None:
+            return None
+        if self._words[i] == 'first' and not self._second_acts():
+            return None
+        return self._pronoun_phrase(i, i + 1, f'nth{order.index(self._words[i]) + 1}')
+
+    def _second_acts(self) -> bool:
+        return any(
+            word == 'second'
+            and (j == 0 or self._tokens[j - 1].kind is not TokenKind.NUMBER)
+            and self._is_predicate(j + 1)
+            for j, word in enumerate(self._words)
+        )
 
     def _pronoun_phrase(
         self, i: int, stop: int, key: str, kind: NounKind = NounKind.PRONOUN

@@ -35,6 +35,7 @@ from aurora_core.parsing.coverage import unaccounted
 from aurora_core.parsing.nouns import landmark_phrases
 from aurora_core.parsing.outcome import ParseContext, ParseOutcome, Refusal, RefusalKind
 from aurora_core.parsing.reader import Reader
+from aurora_core.parsing.rewriting import Rewritten, rewrite
 from aurora_core.parsing.rules import settle
 from aurora_core.parsing.scene import ClauseDraft, Scene
 from aurora_core.parsing.segments import segment
@@ -71,9 +72,11 @@ def parse_offline(prompt: str, context: ParseContext) -> ParseOutcome:
     check_prompt_text(prompt)
     scene = Scene(prompt, context)
     tagged = tag(tokenize(prompt), landmark_phrases(context.landmark_names))
-    _look_ahead(scene, tagged.atoms)
+    told = rewrite(tagged.atoms, prompt)
+    _look_ahead(scene, told.atoms)
     reader = Reader(scene)
-    reader.read(segment(tagged.atoms))
+    reader.read(segment(told.atoms))
+    _note_taken_back(scene, told)
     _note_corrections(scene, tagged.corrections)
     if not scene.refusals:
         settle(scene)
@@ -90,7 +93,7 @@ def parse_offline(prompt: str, context: ParseContext) -> ParseOutcome:
         question = ' '.join(dict.fromkeys(scene.questions))
         return ParseOutcome(question=question, clauses=scene.finished_clauses())
     spec = _build(scene)
-    lost = unaccounted(spec, tagged.atoms, reader.resolver, no_uavs=scene.no_uavs)
+    lost = unaccounted(spec, told.atoms, reader.resolver, no_uavs=scene.no_uavs)
     if lost:
         scene.clauses += [
             ClauseDraft(span=span, notes=['nothing in the scenario accounts for this'])
@@ -126,6 +129,15 @@ def _settle_doubts(scene: Scene) -> None:
         return
     for doubt in dict.fromkeys(scene.doubts):
         scene.clauses.append(ClauseDraft(span=doubt.span, notes=[doubt.question]))
+
+
+def _note_taken_back(scene: Scene, told: Rewritten) -> None:
+    for span in told.taken_back:
+        scene.clauses.append(
+            ClauseDraft(
+                span=span, status=ClauseStatus.NO_REQUIREMENT, notes=['the speaker took it back']
+            )
+        )
 
 
 def _note_corrections(scene: Scene, corrections: tuple[tuple[int, int, str], ...]) -> None:

@@ -22,12 +22,14 @@ def cut_at_verbs(piece: Piece) -> list[Piece]:
     begin = 0
     state = piece
     for previous, i in pairwise(verbs):
+        if _is_noun(atoms, begin, previous, i):
+            continue  # `tracking must be within tolerance`
         cut, upcoming = _cut_before(atoms, begin, previous, i)
         if cut <= begin:
             continue
         if upcoming.link is Link.MAIN and upcoming.head is not None:
             # `a drone that tracks the van | alerts`: the first part only describes
-            upcoming = replace(upcoming, opens=state.opens, lead=None)
+            upcoming = replace(upcoming, link=state.link, opens=state.opens, then=state.then)
             state = replace(state, link=Link.RELATIVE)
         pieces.append(replace(state, atoms=atoms[begin:cut]))
         state = upcoming
@@ -60,22 +62,46 @@ def _cut_before(atoms: tuple[Atom, ...], begin: int, previous: int, i: int) -> t
             opening.form is VerbForm.ING and _no_auxiliary(atoms, begin, previous)
         )
         finite = verb.form in (VerbForm.THIRD, VerbForm.BASE)
-        if hanging and finite:
-            head = next((a for a in atoms[begin:previous] if a.is_actor), None)
+        head = next((a for a in atoms[begin:previous] if a.is_actor), None)
+        if hanging and finite and head is not None:
             return j, Piece(atoms=(), head=head)
-        if verb.form is VerbForm.ING and verb.key in _OF_THE_SUBJECT:
+        of_noun = j >= 2 and atoms[j - 2].kind is AtomKind.PREPOSITION and atoms[j - 2].key == 'of'
+        if verb.form is VerbForm.ING and verb.key in _OF_THE_SUBJECT and not of_noun:
             return j, Piece(atoms=(), link=Link.PARTICIPLE)
         if verb.form is VerbForm.ING or (verb.form is VerbForm.PAST and not _has_aux(atoms, j, i)):
             return j, Piece(atoms=(), link=Link.RELATIVE, head=before)
         return j - 1, Piece(atoms=(), theme=_theme(atoms, begin, j - 1))
     if verb.form is VerbForm.ING:
         return j, Piece(atoms=(), link=Link.PARTICIPLE)
+    told = any(a.kind is AtomKind.RELATIVE and a.key == 'which' for a in atoms[begin:previous])
+    if told and verb.form is VerbForm.THIRD:  # `the drone which tracked it | goes`
+        head = next((a for a in atoms[begin:previous] if a.is_actor), None)
+        return j, Piece(atoms=(), head=head)
+    helped = atoms[j].kind is AtomKind.AUXILIARY
+    if helped and atoms[previous].form is VerbForm.ING and _no_auxiliary(atoms, begin, previous):
+        # `the drone watching the market from 70 m | has been there`
+        head = next((a for a in atoms[begin:previous] if a.is_actor), None)
+        return j, Piece(atoms=(), head=head)
     return j, Piece(atoms=())
+
+
+def _is_noun(atoms: Sequence[Atom], begin: int, previous: int, i: int) -> bool:
+    """Return whether a participle is the subject of the verb behind it."""
+    opens = all(a.kind in TRANSPARENT for a in atoms[begin:previous])
+    told = atoms[previous].form is VerbForm.ING and atoms[i].key in ('be', 'last')
+    finite = atoms[i].form in (VerbForm.BASE, VerbForm.THIRD)
+    between = atoms[previous + 1 : i]
+    return opens and told and finite and all(a.kind in TRANSPARENT for a in between)
 
 
 def _theme(atoms: tuple[Atom, ...], begin: int, subject: int) -> Atom | None:
     """`it is the van that the drone tracks`: what stands in front of `that`."""
-    if subject - 1 <= begin or atoms[subject - 1].kind is not AtomKind.RELATIVE:
+    if subject - 1 <= begin:
+        return None
+    if atoms[subject - 1].key == 'thing':  # `the bus is the thing the drone tracks`
+        told = (a for a in reversed(atoms[begin : subject - 1]) if a.is_actor or a.is_place)
+        return next(told, None)
+    if atoms[subject - 1].kind is not AtomKind.RELATIVE:
         return None
     before = atoms[subject - 2]
     return before if before.is_actor or before.is_place else None

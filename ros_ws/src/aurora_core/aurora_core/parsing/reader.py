@@ -8,9 +8,11 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from aurora_core.parsing import values
-from aurora_core.parsing.atoms import ACTORS, Atom, NounKind, needs_nothing
+from aurora_core.parsing.atoms import ACTORS, AtomKind, NounKind, needs_nothing
 from aurora_core.parsing.constructions import actions, messages
 from aurora_core.parsing.constructions.demands import demands
+from aurora_core.parsing.constructions.flight_details import flight_details
+from aurora_core.parsing.constructions.noun_places import noun_places
 from aurora_core.parsing.constructions.states import adjectives
 from aurora_core.parsing.constructions.triggers import (
     Cause,
@@ -21,17 +23,30 @@ from aurora_core.parsing.events import complete_event, same_cause, settled
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.main_clause import main_clause, shared_words
 from aurora_core.parsing.morphology import VerbForm
-from aurora_core.parsing.pieces import Link, Piece, first_solid
+from aurora_core.parsing.pieces import Link, Piece
 from aurora_core.parsing.resolver import Resolver
 from aurora_core.parsing.scene import ClauseDraft, EventDraft, Scene, UntilDraft
+from aurora_core.parsing.sequence import (
+    HAPPENS,
+    after_sight,
+    in_sequence,
+    is_arrival,
+    is_earlier,
+    is_ellipsis,
+    is_phase,
+    later,
+    sight,
+    who_was_told,
+    without_link,
+)
 from aurora_core.spec.parameter import Parameter, Span
 from aurora_core.spec.scenario import (
     AgentAction,
-    EventDoneTrigger,
     MessageTrigger,
     SendMessage,
     TimeTrigger,
     UavAction,
+    VisibilityTrigger,
 )
 from aurora_core.spec.vocabulary import ClauseStatus
 
@@ -40,16 +55,8 @@ _TELLING = (Link.MAIN, Link.INFINITIVE, Link.PARTICIPLE, Link.WHILE)
 _CAUSES = (Link.WHEN, Link.AFTER, Link.UNTIL)
 
 
-def _is_earlier(piece: Piece) -> bool:
-    """`… follows it after ascending to 40 m`: told second, done first."""
-    first = first_solid(piece.atoms)
-    gerund = first is not None and first.form is VerbForm.ING
-    return piece.link is Link.AFTER and gerund and not _happens(first)
-
-
-def _happens(first: Atom | None) -> bool:
-    """`after seeing a bus`: what one waits for, not what one does first."""
-    return first is not None and first.key in ('see', 'lose', 'receive')
+def _waits_for(frame: Frame) -> bool:
+    return frame.key in HAPPENS
 
 
 class Reader:
@@ -62,6 +69,8 @@ class Reader:
             None  # a cause that waits for its effect
         )
         self._unknown_cause = -1  # sentence whose leading cause was not understood
+        self._seen: VisibilityTrigger | None = None  # by the clause in front, when it tells so
+        self._before: Piece | None = None  # the clause in front
         self._last: tuple[EventDraft, int] | None = None  # last event that a leading cause started
 
     def read(self, pieces: Sequence[Piece]) -> None:
@@ -72,9 +81,25 @@ class Reader:
             self._drop_held(piece.sentence)
             nxt = pieces[i + 1] if i + 1 < len(pieces) else None
             same = nxt is not None and nxt.sentence == piece.sentence
-            if piece.link in _CAUSES and piece.opens and same and nxt is not None:
+            if piece.link is Link.UNTIL and piece.opens and same and nxt is not None:
+                self._effect_then_cause(nxt, piece)  # `until it stops, the drone tracks it`
+                piece = replace(piece, link=Link.WHEN)
+                i += 1
+            elif (
+                piece.link in _CAUSES
+                and is_phase(piece)
+                and same
+                and nxt is not None
+                and piece.opens
+            ):  # `when it has hovered there for 60 s, it lands`
+                self._plain(replace(piece, link=Link.MAIN), following=nxt)
+                self._plain(replace(nxt, then=True))
+                i += 1
+            elif piece.link in _CAUSES and piece.opens and same and nxt is not None:
                 self._leading(piece, nxt)
-            elif same and nxt is not None and _is_earlier(nxt) and piece.link is Link.MAIN:
+            elif nxt is not None and same and nxt.then and is_arrival(piece):
+                self._leading(piece, nxt)  # `the bus arrives at the station, then …`
+            elif same and nxt is not None and is_earlier(nxt) and piece.link is Link.MAIN:
                 self._leading(replace(nxt, opens=True), piece)
                 self._plain(replace(piece, then=True))
                 i += 1
@@ -91,6 +116,7 @@ class Reader:
                 self._plain(piece, following=nxt)
             else:
                 self._plain(piece)
+            self._before = piece
             i += 1
         self._drop_held(-1)
 
@@ -116,6 +142,7 @@ class Reader:
 
     def _close(self, frame: Frame) -> None:
         adjectives(frame)
+        noun_places(frame)
         clause = self._scene.clause
         if clause.status is not ClauseStatus.ENCODED:
             return
@@ -158,10 +185,12 @@ class Reader:
             self._without_cause(frame)
         elif not self._told_to(frame) and not self._follows_event(frame):
             before = len(self._scene.events)
-            if not self._later(frame):
+            if not later(frame) and not who_was_told(frame):
                 main_clause(frame)
             self._note_fronted_time(frame, before)
-            self._in_sequence(frame, before)
+            in_sequence(frame, before)
+            after_sight(self._scene, before, self._seen)
+            self._seen = sight(frame)
         self._close(frame)
 
     def _leading(self, piece: Piece, following: Piece) -> None:
@@ -170,7 +199,10 @@ class Reader:
         gerund = (
             frame.verb is not None and frame.verb.form is VerbForm.ING and not frame.subject_nouns
         )
-        if gerund and piece.link is Link.AFTER and _happens(frame.verb):
+        if frame.key == 'finish' and not frame.subject_nouns:
+            frame.subject_nouns = Frame(following, self._scene, self.resolver).subject_nouns
+            gerund = False
+        if gerund and piece.link is not Link.UNTIL and _waits_for(frame):
             frame.subject_nouns = Frame(following, self._scene, self.resolver).subject_nouns
             gerund = False
         if gerund or piece.link is Link.UNTIL:
@@ -181,18 +213,30 @@ class Reader:
                 main_clause(frame)
             self._close(frame)
             return
+        if frame.has_mark(AtomKind.MESSAGE.value) and not frame.subject_nouns:
+            # `once the message has arrived, the ego slows`: with whom, is said behind
+            frame.subject_nouns = Frame(following, self._scene, self.resolver).subject_nouns
         self._named_later(frame, following)
         delay = self._delay(frame)
-        found = cause(frame)
+        found = cause(frame) or self._again(frame)
         if found is not None:
             world_words(frame)
             self._scene.clause.status = ClauseStatus.ENCODED
             self._held = (found, self._scene.clause, piece.sentence, delay)
-        elif piece.link is Link.AFTER:
-            main_clause(frame)
+        elif piece.link is Link.AFTER or frame.has_mark(AtomKind.LINK.value):
+            main_clause(frame)  # `if the link loses 20 % of the messages`: no event, a value
         else:
             self._unknown_cause = piece.sentence
         self._close(frame)
+
+    def _again(self, frame: Frame) -> Cause | None:
+        """`…, and when it does, …`: the cause is what the clause in front tells."""
+        if self._before is None or not is_ellipsis(frame.piece):
+            return None
+        told = Frame(without_link(self._before, frame.piece.link), self._scene, self.resolver)
+        if not told.subject_nouns:
+            told.subject_nouns = frame.subject_nouns
+        return cause(told)
 
     def _named_later(self, frame: Frame, following: Piece) -> None:
         """`When it sees a bus, the drone …`: a pronoun in front of its noun."""
@@ -234,35 +278,6 @@ class Reader:
         event = EventDraft(id=self._scene.new_id('e'), action=action, span=frame.span)
         self._scene.events.append(event)
         self._scene.became(event.id)
-
-    def _later(self, frame: Frame) -> bool:
-        """`…; ten seconds later, the bus starts`: so long after the last event."""
-        adjunct = frame.time('')
-        if adjunct is None or adjunct.measure is None or not self._scene.events:
-            return False
-        behind = self._scene.prompt[adjunct.end :].lstrip().lower()
-        told = behind.startswith(('later', 'afterwards', 'after that'))
-        if not told or not values.accepts('delay', adjunct.measure):
-            return False
-        action = actions.action(frame)
-        if action is None:
-            return False
-        adjunct.used = True
-        after = EventDoneTrigger(
-            on='event_done',
-            event=self._scene.events[-1].id,
-            after_s=values.explicit('delay', adjunct.measure),
-        )
-        complete_event(self._scene, after, action, frame.span, ())
-        return True
-
-    def _in_sequence(self, frame: Frame, before: int) -> None:
-        """`After that the drone warns the ego`: what happens next, happens after the event."""
-        events = self._scene.events
-        if not frame.piece.then or not before or len(events) != before + 1:
-            return
-        if events[-1].trigger is None:
-            events[-1].trigger = EventDoneTrigger(on='event_done', event=events[before - 1].id)
 
     def _note_fronted_time(self, frame: Frame, before: int) -> None:
         """`After 15 s the bus stops and …`: the time holds for what follows, too."""
@@ -364,6 +379,7 @@ class Reader:
         if event is not None:
             event.delay = delay
             self._shared_cause(event, effect_clause)
+            flight_details(second)  # `follows it when it starts, for 1 min`
         messages.link_values(second)
         self._close(second)
 

@@ -127,9 +127,16 @@ class Resolver:
             if not self.known(noun):
                 self._read[noun.start, noun.end] = self._one_more(noun)
             return self.known(noun)
+        if noun.kind is NounKind.PRONOUN and (
+            noun.key in ('one', 'other') or noun.key.startswith('nth')
+        ):  # each mention picks a member once
+            if not self.known(noun):
+                picked = self._pronouns.resolve(noun, accept, exclude, as_object)
+                self._read[noun.start, noun.end] = picked
+            return self.known(noun)
         if noun.kind is NounKind.PRONOUN:
             return self._pronouns.resolve(noun, accept, exclude, as_object)
-        if noun.kind is NounKind.EGO or self._names_ego(noun):
+        if self.names_ego(noun):
             self._read[noun.start, noun.end] = (self._ego(noun),)
             return self.known(noun)
         if noun.kind is NounKind.UNSUPPORTED or noun.kind is NounKind.UNKNOWN:
@@ -153,6 +160,9 @@ class Resolver:
         if not acting:
             return ()
         like = acting[-1]
+        members = [e for e in self._scene.entities if like.group and e.group == like.group]
+        if noun.head_text.startswith('its') and members:
+            return (members[-1],)  # `two drones …, one …, its partner …`
         made = Entity(
             id=self._scene.new_id('uav' if like.is_uav else like.type.value),
             is_uav=like.is_uav,
@@ -166,7 +176,10 @@ class Resolver:
         return f'"{self._scene.prompt[noun.start : noun.end]}"'
 
     @staticmethod
-    def _names_ego(noun: NounPhrase) -> bool:
+    def names_ego(noun: NounPhrase) -> bool:
+        """Return whether a phrase means the ego vehicle: `the ego`, `my car`."""
+        if noun.kind is NounKind.EGO:
+            return True
         if noun.kind not in (NounKind.AGENT, NounKind.VEHICLE):
             return False
         return noun.determiner is Determiner.MY or 'ego' in noun.labels

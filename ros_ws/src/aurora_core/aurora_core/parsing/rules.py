@@ -189,6 +189,7 @@ def _infer_target(scene: Scene, draft: MissionDraft) -> None:
     agents = [e for e in scene.agents if e.role is not Role.BACKGROUND]
     if target is None and len(agents) == 1:
         target = agents[0]
+    target = target or _actor_of_an_event(scene)
     if target is None and len(scene.missions_of(draft.uav)) > 1:
         _withdraw(scene, draft)
         return
@@ -197,6 +198,17 @@ def _infer_target(scene: Scene, draft: MissionDraft) -> None:
         scene.questions.append(f'What should be tracked: "{words}"?')
         return
     draft.target, draft.target_inferred = target.id, True
+
+
+def _actor_of_an_event(scene: Scene) -> Entity | None:
+    """`the whole is filmed by a drone`: whoever the first event is about."""
+    for event in scene.events:
+        for part in (event.trigger, event.action):
+            for name in ('a', 'who', 'agent'):
+                entity = scene.by_id(getattr(part, name, None) or '')
+                if entity is not None and not entity.is_uav:
+                    return entity
+    return None
 
 
 def _withdraw(scene: Scene, draft: MissionDraft) -> None:

@@ -7,13 +7,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
-from aurora_core.parsing.measures import TIME
+from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind
+from aurora_core.parsing.brackets import take_out
+from aurora_core.parsing.gaps import fill_gaps, opens_gap
+from aurora_core.parsing.measures import RATIO, TIME
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.pieces import MARKERS, TRANSPARENT, Link, Piece, first_solid, has_verb
 from aurora_core.parsing.predicates import cut_at_verbs
 
 _MAYBE_PREPOSITION = ('after', 'before', 'until')
+# What only flights have.
+_FLOWN = ('altitude', 'altitude_suffix', 'standoff', 'radius')
 
 
 def segment(atoms: Sequence[Atom]) -> tuple[Piece, ...]:
@@ -33,10 +37,14 @@ def segment(atoms: Sequence[Atom]) -> tuple[Piece, ...]:
 
 
 def _sentence(atoms: list[Atom], number: int) -> list[Piece]:
-    raw = _cut_at_markers(_plain_prepositions(atoms))
+    plain, asides = take_out(atoms)
+    raw = _cut_at_markers(_plain_prepositions(plain))
     parts = [part for whole in raw for part in _cut_behind_comparison(whole)]
     pieces = [piece for part in parts for piece in cut_at_verbs(part)]
-    pieces = _attach_adjuncts(_delays(pieces))
+    pieces = _attach_adjuncts(_delays(fill_gaps(pieces)))
+    told = [Piece(atoms=a.atoms, link=Link.RELATIVE, head=a.head) for a in asides]
+    pieces = [p for p in told if _names_others(p)] + pieces
+    pieces += [p for p in told if not _names_others(p)]
     return [replace(p, sentence=number) for p in pieces if p.atoms]
 
 
@@ -76,8 +84,10 @@ def _absolute(atoms: Sequence[Atom], i: int) -> bool:
     if solid[1].kind is AtomKind.VERB:
         return solid[1].form is VerbForm.ING
     beside = next((a for a in solid[1:3] if a.kind is AtomKind.RELATION), None)
-    refers = solid[-1].noun is not None and solid[-1].noun.kind is NounKind.PRONOUN
-    return beside is not None and (refers or solid[-1] is beside)  # `with a truck beside it`
+    if beside is None:
+        return False
+    behind = solid[solid.index(beside) + 1 :]  # `with a truck beside it`
+    return not behind or (behind[0].noun is not None and behind[0].noun.kind is NounKind.PRONOUN)
 
 
 def _cut_behind_comparison(piece: Piece) -> list[Piece]:
@@ -180,6 +190,8 @@ def _decide(
         return None
     if verb:
         return _decide_predicate(current, markers, ahead, solid)
+    if opens_gap(current, ahead) or _is_share(ahead) or _is_inverted(ahead):
+        return Piece(atoms=())
     actor_list = not has_verb(current) and _only_actors(current)
     comma = any(m.kind is AtomKind.COMMA for m in markers)
     refers = any(a.noun is not None and a.noun.kind is NounKind.PRONOUN for a in ahead)
@@ -208,7 +220,8 @@ def _decide_predicate(
             head = next((a for a in reversed(current) if a.is_actor), None)
             return Piece(atoms=(), link=Link.RELATIVE, head=head)
         return Piece(atoms=())
-    if not has_verb(current) and conjunction and solid.is_actor:
+    beside = any(m.key == 'with' for m in markers)  # `a bus with a van following it`
+    if not has_verb(current) and conjunction and solid.is_actor and not beside:
         last = next((a for a in reversed(current) if a.kind not in TRANSPARENT), None)
         placed = _is_placed(current) and not any(a.kind is AtomKind.THING for a in current)
         if last is not None and last.is_actor and not placed:
@@ -273,6 +286,7 @@ def _attach_adjuncts(pieces: list[Piece]) -> list[Piece]:
                 and pieces[k + 1].link is Link.MAIN
                 and piece.opens
                 and not joined
+                and not _of_another(piece.atoms, pieces[k + 1].atoms)
             ):
                 waiting = atoms
                 continue
@@ -283,6 +297,45 @@ def _attach_adjuncts(pieces: list[Piece]) -> list[Piece]:
     return joined
 
 
+def _names_others(piece: Piece) -> bool:
+    """`a truck (25 m behind my car) tailgates it`: named in brackets, meant outside."""
+    nouns = [a.noun for a in piece.atoms if a.noun is not None and a.is_actor]
+    return bool(nouns) and all(n.kind is not NounKind.PRONOUN for n in nouns)
+
+
+def _is_inverted(ahead: Sequence[Atom]) -> bool:
+    """`…, and 15 m behind the van a car`: whoever is new is placed by whoever is known."""
+    solid = [a for a in ahead if a.kind not in TRANSPARENT]
+    solid = solid[1:] if solid and solid[0].measure is not None else solid
+    if len(solid) != 3 or solid[0].kind is not AtomKind.RELATION:
+        return False
+    known, new = solid[1].noun, solid[2].noun
+    if known is None or new is None or not solid[1].is_actor or not solid[2].is_actor:
+        return False
+    told = known.determiner is Determiner.DEFINITE or known.kind is NounKind.PRONOUN
+    return told and (new.determiner is Determiner.INDEFINITE or new.count > 0)
+
+
+def _is_share(ahead: Sequence[Atom]) -> bool:
+    """`two drones, one at 40 m, the other at 60 m`: what each of them has."""
+    first = first_solid(ahead)
+    member = first is not None and first.noun is not None and first.noun.kind is NounKind.PRONOUN
+    told = any(a.measure is not None for a in ahead)
+    return member and told and first is not None and first.key in ('one', 'other', 'another')
+
+
+def _of_another(values: Sequence[Atom], ahead: Sequence[Atom]) -> bool:
+    """`altitude 100 ft, truck doing 25 mph`: a height is not that of a truck."""
+    high = any(a.kind is AtomKind.THING and a.key in _FLOWN for a in values)
+    solid = first_solid(ahead)
+    grounded = solid is not None and solid.is_actor and not _flies(solid)
+    return high and grounded
+
+
+def _flies(atom: Atom) -> bool:
+    return atom.noun is not None and atom.noun.kind in (NounKind.UAV, NounKind.PRONOUN)
+
+
 def _is_adjunct(atoms: Sequence[Atom]) -> bool:
     """A phrase that needs a clause: a measure or place that no actor or world word leads."""
     solid = first_solid(atoms)
@@ -290,6 +343,8 @@ def _is_adjunct(atoms: Sequence[Atom]) -> bool:
         return False
     if any(a.kind in (AtomKind.WORLD, AtomKind.NO_TRAFFIC, AtomKind.SCENARIO) for a in atoms):
         return False
+    if any(a.kind is AtomKind.IN_VIEW for a in atoms) and any(a.key == RATIO for a in atoms):
+        return False  # `visible at least 60 %`
     return any(
         a.kind in (AtomKind.MEASURE, AtomKind.RELATION, AtomKind.THING) or a.noun is not None
         for a in atoms

@@ -287,6 +287,8 @@ class _Tagger:
         if not self._atoms:
             return False
         last = self._atoms[-1]
+        if last.kind is AtomKind.VERB and last.key in ('send', 'receive', 'trace'):
+            return True  # `sends alert to it`, `makes circles`
         if last.kind in (
             AtomKind.MEASURE,
             AtomKind.PATTERN,

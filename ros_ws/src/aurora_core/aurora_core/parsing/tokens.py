@@ -51,6 +51,8 @@ _TOKEN = re.compile(
     re.VERBOSE | re.DOTALL,
 )
 _PLAIN = re.compile(r'(?:\d+(?:\.\d+)?|\.\d+)(?:[eE][+-]?\d{1,2})?')
+# `1,5 minutes`: a group of thousands has three digits.
+_DECIMAL_COMMA = re.compile(r'\d{1,3},\d|\d,\d{2}')
 _GROUPED = re.compile(r'\d{1,3}(?:,\d{3})+(?:\.\d+)?')
 
 
@@ -60,12 +62,18 @@ _CONTRACTED = frozenset(
 )
 
 
+# Pronouns behind which `'s` is `is`.
+_SUBJECTS = frozenset(('it', 'he', 'she', 'there'))
+
+
 def _number(text: str) -> Fraction | None:
-    """Read `30`, `0.3`, `.5`, `1,200`, `1e3`; others (`3,5`, `1/2`, `10:30`) stay unread."""
+    """Read `30`, `0.3`, `.5`, `1,200`, `1,5`, `1e3`; others (`1/2`, `10:30`) stay unread."""
     if len(text) > 24:
         return None
     if _PLAIN.fullmatch(text):
         return Fraction(text)
+    if _DECIMAL_COMMA.fullmatch(text):
+        return Fraction(text.replace(',', '.'))
     if _GROUPED.fullmatch(text):
         return Fraction(text.replace(',', ''))
     return None
@@ -117,6 +125,12 @@ def tokenize(text: str) -> tuple[Token, ...]:
 def _words(norm: str, start: int, end: int, glued: bool) -> list[Token]:
     """Cut the possessive `'s` off a noun; contractions stay whole."""
     stem = norm.removesuffix("'s")
+    if stem != norm and stem in _SUBJECTS:  # `once it's there`
+        cut = end - 2
+        return [
+            Token(kind=TokenKind.WORD, norm=stem, start=start, end=cut, glued=glued),
+            Token(kind=TokenKind.WORD, norm='is', start=cut, end=end, glued=True),
+        ]
     if stem == norm or stem in _CONTRACTED:
         return [Token(kind=TokenKind.WORD, norm=norm, start=start, end=end, glued=glued)]
     cut = end - 2

@@ -17,7 +17,7 @@ from aurora_core.spec.vocabulary import ClauseStatus
         ('A drone tracks a bus in 3 streets.', '3 streets'),
         ('A drone tracks a bus with 7.', '7'),
         ('A bus stops, 40 % of it.', '40 %'),
-        ('A drone hovers over the ego car at 3,5 m.', '3,5 m'),
+        ('A drone hovers over the ego car at 1/2 km.', '1/2 km'),
         ('A drone tracks the bus on a 5G network.', '5G'),
         ('A drone gently tracks a bus.', 'gently'),
         ('A drone tracks a bus and a van.', 'a bus and a van'),

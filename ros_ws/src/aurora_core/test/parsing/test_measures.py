@@ -102,7 +102,7 @@ def test_sizes(text: str, sides: tuple[float, float]) -> None:
     assert (measure.value, measure.second) == sides
 
 
-@pytest.mark.parametrize('text', ['5G network', '3,5 m', '30-20 m', '1/2 mile'])
+@pytest.mark.parametrize('text', ['5G network', '3,5,2 m', '30-20 m', '1/2 mile'])
 def test_unclear_notation_is_unreadable_and_never_a_guess(text: str) -> None:
     measure = _read(text)
     assert measure is not None

@@ -21,7 +21,9 @@ CONTEXT = ParseContext(
     landmark_names=('central_park', 'clock_tower', 'city_hospital', 'north_plaza'),
     seed=1,
 )
-_TABLES = [Path(__file__).with_name(name) for name in ('prompts.yaml', 'wordings.yaml')]
+_TABLES = [
+    Path(__file__).with_name(name) for name in ('prompts.yaml', 'wordings.yaml', 'shorthand.yaml')
+]
 _MARK = {Provenance.EXPLICIT: '', Provenance.INFERRED: 'i', Provenance.DEFAULT: 'd'}
 _BOUND = {Bound.EXACTLY: '', Bound.AT_LEAST: '>=', Bound.AT_MOST: '<='}
 

@@ -8,16 +8,17 @@ from typing import Literal
 
 from aurora_core.parsing import values
 from aurora_core.parsing.adjuncts import AdjunctKind
+from aurora_core.parsing.atoms import ACTORS
 from aurora_core.parsing.constructions import missions
 from aurora_core.parsing.constructions.flight_values import take_flight_values
 from aurora_core.parsing.constructions.flyers import flyers
 from aurora_core.parsing.constructions.messages import message
-from aurora_core.parsing.constructions.places import add_placement, placements_of
+from aurora_core.parsing.constructions.places import add_placement, place_of, placements_of
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.pronouns import ground
-from aurora_core.parsing.scene import Scene
-from aurora_core.spec.scenario import AgentAction, EventAction, UavAction
-from aurora_core.spec.vocabulary import MissionMode
+from aurora_core.parsing.scene import Entity, Scene
+from aurora_core.spec.scenario import AgentAction, Behavior, EventAction, UavAction
+from aurora_core.spec.vocabulary import BehaviorKind, MissionMode
 
 AgentDo = Literal['brake', 'stop', 'slow', 'accelerate', 'change_lane', 'yield', 'start', 'cross']
 _AGENT_DO: dict[str, AgentDo] = {
@@ -61,6 +62,9 @@ def agent_action(frame: Frame, *, triggered: bool = False) -> AgentAction | None
     if frame.key == 'yield':
         for other in frame.free(AdjunctKind.PHRASE, 'to') + frame.free(AdjunctKind.OBJECT):
             other.used = False  # whom it yields to has no place in an action
+            frame.objects([n for n in other.nouns if n.kind in ACTORS])
+    if frame.key in ('stop', 'wait'):
+        _stopped_at(frame, who[0])
     if frame.key == 'cross':
         for crossed in frame.free(AdjunctKind.OBJECT):
             crossed.used = all(n.kind.value in ('street', 'place') for n in crossed.nouns)
@@ -70,6 +74,17 @@ def agent_action(frame: Frame, *, triggered: bool = False) -> AgentAction | None
             add_placement(who[0], placement)
     frame.scene.became(who[0].id)
     return AgentAction(do=_AGENT_DO[frame.key], agent=who[0].id, value_mps=speed)
+
+
+def _stopped_at(frame: Frame, entity: Entity) -> None:
+    """`after the bus has stopped at the crosswalk`: where an event makes it stop."""
+    for adjunct in frame.free(AdjunctKind.PHRASE, 'at', 'on', 'in', 'before'):
+        place = place_of(frame, adjunct)
+        if place is not None:
+            adjunct.used = True
+            stop = Behavior(kind=BehaviorKind.STOP, target=place, span=frame.span)
+            entity.behaviors.append(stop)
+            return
 
 
 def _fronted_place(frame: Frame) -> bool:
@@ -108,4 +123,4 @@ def _uav_action(frame: Frame) -> UavAction | None:
 
 def is_action(frame: Frame) -> bool:
     """Return whether a clause can be the effect of an event without a trigger of its own."""
-    return frame.key in ('alert', 'send', 'report', 'accelerate')
+    return frame.key in ('alert', 'send', 'report', 'receive', 'accelerate')

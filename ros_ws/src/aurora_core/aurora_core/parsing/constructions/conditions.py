@@ -12,12 +12,13 @@ from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
 from aurora_core.parsing.atoms import ACTORS, AtomKind
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.measures import LENGTH, RATIO
-from aurora_core.parsing.scene import Entity
+from aurora_core.parsing.scene import Entity, LinkDraft
 from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.scenario import StatedCondition
 from aurora_core.spec.vocabulary import MissionMode
 
 _ALWAYS = re.compile(r'\b(the whole time|all the time|at all times|always|the entire time)\b')
+_MUST = ('must', 'should', 'shall', 'have to', 'need to', 'be to', 'be required to')
 Op = Literal['<=', '<', '>=', '>', '==']
 _STAYING = frozenset(
     {'', 'keep', 'be', 'fly', 'drive', 'track', 'follow', 'hover', 'come', 'trail'}
@@ -101,6 +102,7 @@ def _reference(frame: Frame, adjunct: Adjunct) -> str | None:
     for noun in adjunct.nouns:
         place = frame.resolver.place(noun)
         if place is not None:
+            frame.scene.clause.places += (place,)
             return place
     found = frame.objects([n for n in adjunct.nouns if n.kind in ACTORS])
     return found[0].id if found else None
@@ -270,7 +272,11 @@ def _delivery(frame: Frame) -> bool:
     owned = [link for link in frame.scene.links if link.sender and link.receiver]
     limit = frame.time('within', 'below', 'in', '')
     told = frame.has_mark(AtomKind.MESSAGE.value) or _goes_on_about_a_message(frame)
-    if not owned or limit is None or limit.measure is None or not told:
+    if not owned or not told:
+        return False
+    if limit is None:
+        return _must_arrive(frame, owned[-1])
+    if limit.measure is None:
         return False
     if not values.accepts('condition_time', limit.measure):
         return False
@@ -292,6 +298,20 @@ def _delivery(frame: Frame) -> bool:
     return True
 
 
+def _must_arrive(frame: Frame, link: LinkDraft) -> bool:
+    """`this message must get through`: asked of every message of the link."""
+    must = any(a.kind is AtomKind.AUXILIARY and a.key in _MUST for a in frame.piece.atoms)
+    if not must or link.sender is None or link.receiver is None:
+        return False
+    for mark in frame.free(AdjunctKind.MARK, AtomKind.MESSAGE.value):
+        mark.used = True
+    for adjunct in frame.free(AdjunctKind.OBJECT) + frame.free(AdjunctKind.PHRASE, 'at', 'to'):
+        adjunct.used = bool(frame.objects([n for n in adjunct.nouns if n.kind in ACTORS]))
+    value = values.inferred('condition_ratio', 1.0)
+    add_condition(frame, 'delivered', (link.sender, link.receiver), '==', value)
+    return True
+
+
 def _is_strict(frame: Frame, limit: Adjunct) -> bool:
     """`less than 2 s` leaves the value itself out."""
     assert limit.measure is not None
@@ -303,6 +323,5 @@ def _goes_on_about_a_message(frame: Frame) -> bool:
     """`the alert is sent at 20 s and must reach us …`: the message is the subject of both."""
     if frame.subject_nouns or len(frame.scene.clauses) < 2:
         return False
-    before = frame.scene.clauses[-2]
-    same = before.sentence == frame.piece.sentence
-    return same and any(i.startswith('link') for i in before.ids)
+    before = [c for c in frame.scene.clauses[:-1] if c.sentence == frame.piece.sentence]
+    return any(i.startswith('link') for c in before for i in c.ids)

@@ -26,7 +26,9 @@ _APART = re.compile(
     r'\b(apart|each other|one another|separation|of another|each pair|any two|'
     r'between (?:them|the two|(?:the )?(?:two )?(?:drones|uavs|copters|aircraft)))\b'
 )
-_CLOSER = re.compile(r'\b(nearer|closer)\s+than\s*$')
+_CLOSER = re.compile(
+    r'\b(nearer|closer)(?:\s+(?:together|to (?:each other|one another)))?\s+than\s*$'
+)
 _STRICT = re.compile(r'(less than|under|below|quicker than|faster than|<)\s*$')
 _UNBROKEN = re.compile(
     r'\b(without (?:interruption|a break)|uninterrupted|in one go|at a stretch)'
@@ -129,6 +131,7 @@ def _separation(frame: Frame) -> None:
         mark.used = mark.value in ('separation', 'gap', 'standoff')
     for phrase in frame.free(AdjunctKind.PHRASE, 'between', 'of', 'to', 'from'):
         phrase.used = True
+        frame.objects([n for n in phrase.nouns if n.kind is NounKind.UAV])
     add_condition(
         frame,
         'separation',
@@ -165,14 +168,22 @@ def _keeps_off(frame: Frame) -> None:
         observer = _observer(frame)
         if observer is None or not values.accepts('condition_distance', measure):
             continue
-        others = [e.id for n in adjunct.nouns for e in frame.resolver.known(n)]
-        target = others[0] if others else _watched(frame, observer)
+        named = [n for n in adjunct.nouns if n.kind in ACTORS]
+        others = [e.id for e in frame.resolver.actors(named, exclude=(observer,), as_object=True)]
         behind = frame.scene.prompt[measure.end : frame.piece.end].split()
-        if target is None or (not others and behind[:1] == ['to']):
+        for phrase in frame.free(AdjunctKind.PHRASE, 'to') if not others else ():
+            place = next((p for n in phrase.nouns for p in [frame.resolver.place(n)] if p), None)
+            if place is not None:
+                phrase.used = True
+                others = [place]
+        if not others and behind[:1] != ['to']:
+            others = [one for one in (_watched(frame, observer),) if one is not None]
+        if not others:
             continue  # `to either`: of whom is not read
         adjunct.used = True
         value = values.explicit('condition_distance', measure)
-        add_condition(frame, 'distance', (observer.id, target), '>=', value)
+        for other in others:
+            add_condition(frame, 'distance', (observer.id, other), '>=', value)
         return
 
 

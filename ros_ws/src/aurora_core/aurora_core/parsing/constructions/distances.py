@@ -154,6 +154,7 @@ def reference(frame: Frame, nouns: tuple[NounPhrase, ...]) -> str | None:
     for noun in nouns:
         place = frame.resolver.place(noun)
         if place is not None:
+            frame.scene.clause.places += (place,)
             return place
     found = frame.objects([n for n in nouns if n.kind in ACTORS])
     return found[0].id if found else None

@@ -18,6 +18,7 @@ from aurora_core.spec.scenario import UavAction
 
 _OF_FLIGHTS = ('altitude', 'standoff', 'radius', 'diameter', 'length', 'width', 'waypoint')
 _HANGING = (Link.RELATIVE, Link.PARTICIPLE)
+_CAUSES = (Link.WHEN, Link.AFTER)
 
 
 def flight_details(frame: Frame) -> None:
@@ -62,7 +63,9 @@ def _is_detail(frame: Frame, adjunct: Adjunct) -> bool:
     if measure.second is not None:
         return frame.verb is None
     if measure.dimension == TIME:
-        return adjunct.prep == 'for' and (frame.verb is None or frame.piece.link in _HANGING)
+        return adjunct.prep == 'for' and (
+            frame.verb is None or frame.piece.link in (*_HANGING, *_CAUSES)
+        )
     return False
 
 
@@ -74,13 +77,16 @@ def _last(frame: Frame) -> MissionDraft | None:
     draft = scene.missions[-1]
     near = scene.clauses[draft.clause].sentence >= frame.piece.sentence - 1
     ended = any(
-        isinstance(e.action, UavAction) and e.action.uav == draft.uav.id for e in scene.events
+        isinstance(e.action, UavAction)
+        and e.action.uav == draft.uav.id
+        and e.action.mission != draft.id
+        for e in scene.events
     )
     return draft if near and not ended else None
 
 
 def _own_subjects(frame: Frame) -> tuple[Entity, ...]:
     """A clause about somebody else keeps its numbers, unless it only describes a target."""
-    if frame.piece.link in _HANGING or not frame.subject_nouns:
+    if frame.piece.link in (*_HANGING, *_CAUSES) or not frame.subject_nouns:
         return ()
     return frame.scene.clause.subjects

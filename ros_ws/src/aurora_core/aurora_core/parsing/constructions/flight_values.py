@@ -136,8 +136,15 @@ def _bare_length(frame: Frame, found: FlightValues, mode: MissionMode | None) ->
         measure = adjunct.measure
         if measure is None or measure.second is not None or keeps_off(frame, adjunct):
             continue
+        behind = frame.scene.prompt[adjunct.end :].lstrip().lower()
+        if behind.startswith(('between', 'apart')):
+            continue  # a separation
         keeps = frame.key == 'keep' and mode is None
-        tracking = mode is MissionMode.TRACK or keeps
+        hangs = adjunct.prep == 'at' and any(  # `above the ego at 40 m`
+            a.kind is AdjunctKind.PHRASE and a.key == 'over' and a.end <= adjunct.start
+            for a in frame.adjuncts
+        )
+        tracking = (mode is MissionMode.TRACK and not hangs) or keeps
         if tracking and adjunct.prep in ('from', 'at', '', 'by', 'with'):
             if found.standoff is None:
                 found.standoff = ranged_value(found, 'standoff', measure) or values.explicit(

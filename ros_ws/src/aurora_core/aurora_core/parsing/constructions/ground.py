@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from aurora_core.parsing import values
 from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
-from aurora_core.parsing.atoms import ACTORS, AtomKind, NounKind
+from aurora_core.parsing.atoms import ACTORS, AtomKind, NounKind, NounPhrase
 from aurora_core.parsing.constructions.places import (
     add_placement,
     gap,
@@ -20,7 +20,7 @@ from aurora_core.parsing.pronouns import ground
 from aurora_core.parsing.scene import Entity
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.scenario import Behavior, Placement
-from aurora_core.spec.vocabulary import AgentType, BehaviorKind, Relation
+from aurora_core.spec.vocabulary import AgentType, BehaviorKind, MissionMode, Relation
 
 # Predicates that name a behaviour in other words.
 BEHAVIORS = {kind.value: kind for kind in BehaviorKind} | {
@@ -86,9 +86,16 @@ def behavior(frame: Frame) -> bool:
     if _closing(frame, subjects):
         return True
     kind = BEHAVIORS[frame.key]
+    if (
+        frame.key == 'come'
+        and frame.attribute('speed') is not None
+        and not frame.free(AdjunctKind.OBJECT)
+    ):
+        kind = BehaviorKind.DRIVE  # `the bus, which comes at 8 m/s`
     if frame.key == 'trace' and all(e.type is AgentType.PEDESTRIAN for e in subjects):
         kind = BehaviorKind.WALK
     target = _target(frame, subjects)
+    _tracked_for(frame, subjects)
     speed = _speed(frame)
     closing = _closing_distance(frame) if frame.key in ('tailgate', 'approach', 'come') else None
     placements = _placements(frame, subjects, target, closing)
@@ -100,6 +107,20 @@ def behavior(frame: Frame) -> bool:
         _add(entity, made, own)
     frame.scene.became(*(e.id for e in subjects))
     return True
+
+
+def _tracked_for(frame: Frame, subjects: tuple[Entity, ...]) -> None:
+    """`a drone tracks a jogger. The jogger runs for 60 s`: so long it is tracked."""
+    adjunct = frame.time('for')
+    drafts = [m for m in frame.scene.missions if m.target in {e.id for e in subjects}]
+    if adjunct is None or adjunct.measure is None or len(drafts) != 1:
+        return
+    draft = drafts[0]
+    if draft.mode is not MissionMode.TRACK or draft.duration is not None:
+        return
+    if values.accepts('mission_duration', adjunct.measure):
+        adjunct.used = True
+        draft.duration = values.explicit('mission_duration', adjunct.measure)
 
 
 def _goes_at(frame: Frame) -> bool:
@@ -157,6 +178,9 @@ def _target(frame: Frame, subjects: tuple[Entity, ...]) -> str | None:
         if named is not None:
             adjunct.used = True
             return named
+    patients = frame.patient(ground) if frame.passive else ()
+    if frame.key in _TARGETED and len(patients) == 1 and patients[0] not in subjects:
+        return patients[0].id  # `the bus drives on and is followed by a van`
     if frame.key in _TARGETED:
         for adjunct in frame.free(AdjunctKind.PLACE, 'behind', 'ahead', 'near'):
             if adjunct.nouns:
@@ -293,10 +317,12 @@ def placing(frame: Frame) -> bool:
     nouns = frame.subject_nouns
     if not nouns or all(n.kind is NounKind.PRONOUN and n.key == 'there' for n in nouns):
         lead = next((a for a in frame.free(AdjunctKind.OBJECT) if _names_actor(a)), None)
-        lead = lead or _populated(frame)
+        lead = _populated(frame) or lead
         if lead is not None:
             lead.used = True
             nouns = lead.nouns
+            if frame.key in ('put', 'contain', 'exist', '') and not frame.free(AdjunctKind.PLACE):
+                nouns += _listed(frame, lead)
     elif frame.key == 'contain':
         return _having(frame)
     if not nouns and frame.piece.head is not None and frame.piece.head.noun is not None:
@@ -327,6 +353,18 @@ def placing(frame: Frame) -> bool:
     return True
 
 
+def _listed(frame: Frame, lead: Adjunct) -> tuple[NounPhrase, ...]:
+    """`fill the scene with twelve cars, two trucks and a bus`: all of them."""
+    nouns: list[NounPhrase] = []
+    for adjunct in frame.free(AdjunctKind.OBJECT) + frame.free(AdjunctKind.PHRASE, 'with'):
+        if adjunct is not lead and all(
+            n.kind in (NounKind.AGENT, NounKind.VEHICLE) for n in adjunct.nouns
+        ):
+            adjunct.used = True
+            nouns += adjunct.nouns
+    return tuple(nouns)
+
+
 def _populated(frame: Frame) -> Adjunct | None:
     """`a scenario with one parked van`, `fill the scene with twelve cars`."""
     scene = frame.key in ('put', 'contain') or frame.has_mark(AtomKind.SCENARIO.value)
@@ -340,7 +378,7 @@ def _names_actor(adjunct: Adjunct) -> bool:
 
 def _having(frame: Frame) -> bool:
     """`the ego car has a bus ahead of it`: the owner is named, the object is placed."""
-    owners = frame.resolver.actors(frame.subject_nouns)
+    owners = frame.resolver.actors(frame.subject_nouns, accept=ground)
     lead = next((a for a in frame.free(AdjunctKind.OBJECT) if _names_actor(a)), None)
     if not owners or lead is None:
         return False

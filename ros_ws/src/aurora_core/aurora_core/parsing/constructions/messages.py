@@ -25,6 +25,8 @@ _LINK_FIELDS = {
 
 def message(frame: Frame) -> SendMessage | None:
     """Read `alerts the ego`, `sends a warning to the ego car`."""
+    if frame.key == 'receive':
+        return _received(frame)
     if frame.negated or frame.key not in TELLING:
         return None
     senders = frame.subjects()
@@ -45,6 +47,24 @@ def message(frame: Frame) -> SendMessage | None:
         frame.flag(frame.piece.start, frame.piece.end)
     link = link_between(frame, senders[0], receivers[0])
     frame.scene.clause.objects = receivers
+    frame.scene.became(link.id)
+    return SendMessage(do='send_message', sender=senders[0].id, receiver=receivers[0].id)
+
+
+def _received(frame: Frame) -> SendMessage | None:
+    """`the ego gets an alert from the drone`: the same message, told by its receiver."""
+    source = frame.free(AdjunctKind.PHRASE, 'from', 'of', 'by')
+    if frame.negated or not source:
+        return None
+    receivers = frame.subjects()
+    senders = frame.objects([n for n in source[0].nouns if n.kind in ACTORS])
+    if len(receivers) != 1 or len(senders) != 1 or senders == receivers:
+        return None
+    source[0].used = True
+    for mark in frame.free(AdjunctKind.MARK, AtomKind.MESSAGE.value, AtomKind.LINK.value):
+        mark.used = True
+    link = link_between(frame, senders[0], receivers[0])
+    frame.scene.clause.subjects, frame.scene.clause.objects = senders, receivers
     frame.scene.became(link.id)
     return SendMessage(do='send_message', sender=senders[0].id, receiver=receivers[0].id)
 

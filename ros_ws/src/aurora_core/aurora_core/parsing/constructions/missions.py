@@ -12,6 +12,7 @@ from aurora_core.parsing.constructions.flight_values import take_flight_values
 from aurora_core.parsing.constructions.flyers import flyers
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.pieces import Link
+from aurora_core.parsing.pronouns import ground
 from aurora_core.parsing.scene import Entity, MissionDraft
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.scenario import StatedCondition
@@ -39,6 +40,7 @@ FLYING = frozenset(
         'start',
         'see',
         'put',
+        'finish',
         '',
     }
 )
@@ -63,7 +65,7 @@ def mission(frame: Frame) -> bool:
     if not flying:
         return False
     watching = frame.mark(AtomKind.AERIAL.value) is not None
-    if frame.key in ('trace', 'reach') and not _is_route(frame) and not watching:
+    if frame.key in ('trace', 'reach', 'finish') and not _is_route(frame) and not watching:
         return False
     target, bare_over = _target(frame, flying)
     mode = _mode(frame, target, bare_over)
@@ -155,6 +157,10 @@ def _target(frame: Frame, flying: tuple[Entity, ...]) -> tuple[str | None, str]:
             if adjunct.measure is None and adjunct.key in ('near', 'beside'):
                 adjunct.used = True
             return found, 'over'
+    told = frame.passive and frame.piece.link is Link.MAIN
+    patients = frame.patient(ground) if told else ()
+    if len(patients) == 1:  # `the bus drives on and is tracked by a drone`
+        return patients[0].id, ''
     return None, ''
 
 

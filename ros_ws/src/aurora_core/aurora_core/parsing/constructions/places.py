@@ -164,6 +164,24 @@ def placements_of(
     return tuple(made)
 
 
+def placement_at(frame: Frame, adjunct: Adjunct, entity: Entity) -> Placement | None:
+    """Return the placement that one place word gives an agent, None when it gives none."""
+    if adjunct.kind is AdjunctKind.PLACE:
+        if not adjunct.nouns or adjunct.key == 'compass':
+            return None
+        return _relation(frame, adjunct, (entity,), kept=False)
+    relation = _PHRASE_RELATIONS.get(adjunct.key)
+    place = place_of(frame, adjunct) if relation is not None else None
+    if relation is None or place is None:
+        return None
+    return Placement(
+        relation=relation,
+        of=place,
+        distance_m=default_distance(relation),
+        span=Span(start=adjunct.start, end=adjunct.end),
+    )
+
+
 def default_distance(relation: Relation) -> Parameter | None:
     """Return the distance of a relation that means one, None for those that touch."""
     return values.default('placement_distance') if relation in _DISTANT else None

@@ -9,6 +9,7 @@ from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
 from aurora_core.parsing.atoms import AtomKind, NounKind
 from aurora_core.parsing.constructions.actions import agent_action
 from aurora_core.parsing.constructions.distances import DistanceCause, distance_cause, reference
+from aurora_core.parsing.constructions.missions import mission
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.pronouns import anything
 from aurora_core.parsing.scene import Entity, EventDraft
@@ -139,7 +140,8 @@ def _sight(frame: Frame) -> VisibilityTrigger | None:
 
 
 def _message(frame: Frame) -> MessageTrigger | None:
-    if frame.key != 'receive':
+    arrived = frame.key in ('reach', 'come') and frame.has_mark(AtomKind.MESSAGE.value)
+    if frame.key != 'receive' and not arrived:
         return None
     who = frame.subjects(anything)
     told = [e.action.receiver for e in frame.scene.events if isinstance(e.action, SendMessage)]
@@ -158,7 +160,7 @@ def _message(frame: Frame) -> MessageTrigger | None:
 
 
 def _arrival(frame: Frame) -> ArrivalTrigger | None:
-    if frame.key not in ('reach', 'drive', 'come', 'be', 'walk', 'stop'):
+    if frame.key not in ('reach', 'drive', 'come', 'be', 'walk'):
         return None
     for adjunct in frame.free(AdjunctKind.OBJECT) + frame.free(
         AdjunctKind.PHRASE, 'at', 'to', 'in', 'on'
@@ -178,6 +180,8 @@ def _done(frame: Frame) -> MissionDoneTrigger | None:
     uavs = frame.subjects(lambda e: e.is_uav)
     if len(uavs) != 1:
         return None
+    if frame.key == 'finish':
+        mission(frame)  # `when finished with its orbit of the market`
     for mark in frame.free(AdjunctKind.MARK, AtomKind.ROUTE.value, AtomKind.PATTERN.value):
         mark.used = True
     return MissionDoneTrigger(on='mission_done', uav=uavs[0].id)

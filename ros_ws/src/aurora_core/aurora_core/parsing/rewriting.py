@@ -1,0 +1,163 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Shorthand and second thoughts, written out before clauses are cut.
+
+`drone A: hover …`, `up to 30 m, wait there`, `over which a drone hovers`, `at 40 m, no, 50 m`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
+from aurora_core.parsing.measures import LENGTH
+from aurora_core.parsing.morphology import VerbForm
+from aurora_core.parsing.pieces import TRANSPARENT
+from aurora_core.spec.parameter import Bound, Span
+
+# Words that take back the number in front of them (listed among the frames of the lexicon).
+_TAKES_BACK = frozenset(
+    {'let me say', 'sorry', 'i mean', 'or rather', 'rather', 'make that', 'make it', 'correction'}
+)
+_BREAKS = (AtomKind.COMMA, AtomKind.STOP, AtomKind.THEN, AtomKind.CONJUNCTION)
+_PAUSES = (AtomKind.COMMA, AtomKind.STOP, AtomKind.FILL, AtomKind.UNKNOWN, AtomKind.THING)
+_MOST_BETWEEN = 9
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Rewritten:
+    """The atoms to cut into clauses, and the characters that the speaker took back."""
+
+    atoms: tuple[Atom, ...]
+    taken_back: tuple[Span, ...] = ()
+
+
+def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
+    """Return the atoms with shorthand written out and retracted numbers left out."""
+    kept, spans = _take_back(list(atoms))
+    return Rewritten(
+        atoms=tuple(_relatives(_climbs(_fronted(_labels(kept)), prompt))),
+        taken_back=tuple(spans),
+    )
+
+
+def _take_back(atoms: list[Atom]) -> tuple[list[Atom], list[Span]]:
+    """`at 40 m, sorry, 50 m`: the first number does not count."""
+    spans: list[Span] = []
+    i = 0
+    while i < len(atoms):
+        begin = _retracted(atoms, i)
+        if begin is not None:
+            spans.append(Span(start=atoms[begin].start, end=atoms[i].end))
+            del atoms[begin : i + 1]
+            i = begin
+        i += 1
+    return atoms, spans
+
+
+def _retracted(atoms: Sequence[Atom], i: int) -> int | None:
+    """Return where the measure begins that the words at i take back."""
+    atom = atoms[i]
+    denied = atom.kind is AtomKind.NEGATION and atom.key == 'no' and _comma_at(atoms, i + 1)
+    if not denied and not (atom.kind is AtomKind.FRAME and atom.key in _TAKES_BACK):
+        return None
+    behind = next((a for a in atoms[i + 1 : i + 4] if a.kind is not AtomKind.COMMA), None)
+    if behind is None or behind.measure is None:
+        return None
+    paused = False
+    for j in range(i - 1, max(-1, i - 1 - _MOST_BETWEEN), -1):
+        before = atoms[j]
+        if before.measure is not None:
+            return j if paused and before.key == behind.key else None
+        paused = paused or before.kind in (AtomKind.COMMA, AtomKind.STOP)
+        if before.kind not in _PAUSES and before.key != 'no':
+            return None
+    return None
+
+
+def _comma_at(atoms: Sequence[Atom], i: int) -> bool:
+    return i < len(atoms) and atoms[i].kind is AtomKind.COMMA
+
+
+def _labels(atoms: list[Atom]) -> list[Atom]:
+    """`uav B: orbit the park`: one actor in front of a colon is who acts."""
+    changed = list(atoms)
+    solid: list[Atom] = []
+    for i, atom in enumerate(atoms):
+        if atom.kind is not AtomKind.STOP:
+            if atom.kind not in TRANSPARENT:
+                solid.append(atom)
+            continue
+        noun = solid[0].noun if len(solid) == 1 else None
+        one = noun is not None and noun.count <= 1 and not noun.plural
+        if atom.key == ':' and one and solid[0].is_actor:
+            changed[i] = replace(atom, kind=AtomKind.FILL)
+        solid = []
+    return changed
+
+
+def _fronted(atoms: list[Atom]) -> list[Atom]:
+    """`and the ego then stops`: in sequence, wherever the word stands."""
+    moved = list(atoms)
+    for i in range(1, len(moved) - 1):
+        verbal = moved[i + 1].kind in (AtomKind.VERB, AtomKind.AUXILIARY)
+        if moved[i].kind is AtomKind.THEN and moved[i - 1].is_actor and verbal:
+            moved[i - 1], moved[i] = moved[i], moved[i - 1]
+    return moved
+
+
+def _climbs(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """`drone up to 30 m`: behind a UAV or a pause, it is a climb and no upper bound."""
+    written: list[Atom] = []
+    flying = False
+    for i, atom in enumerate(atoms):
+        measure = atom.measure
+        before = written[-1] if written else None
+        flying = flying or (atom.noun is not None and atom.noun.kind is NounKind.UAV)
+        if (
+            measure is not None
+            and atom.key == LENGTH
+            and flying
+            and before is not None
+            and prompt[atom.start : measure.start].lower().strip() == 'up to'
+            and (before.is_actor or before.kind in _BREAKS)
+            and (i + 1 == len(atoms) or atoms[i + 1].kind in _BREAKS)
+        ):
+            up = atom.start + len('up')
+            written += [
+                Atom(
+                    kind=AtomKind.VERB,
+                    key='ascend',
+                    start=atom.start,
+                    end=up,
+                    form=VerbForm.THIRD,
+                ),
+                Atom(kind=AtomKind.PREPOSITION, key='to', start=up, end=measure.start),
+                replace(
+                    atom,
+                    start=measure.start,
+                    measure=replace(measure, bound=Bound.EXACTLY),
+                ),
+            ]
+        else:
+            written.append(atom)
+    return written
+
+
+def _relatives(atoms: list[Atom]) -> list[Atom]:
+    """`…, over which a drone hovers`: a sentence about the noun in front of it."""
+    written: list[Atom] = []
+    for atom in atoms:
+        governed = written and written[-1].kind in (AtomKind.PREPOSITION, AtomKind.RELATION)
+        if atom.kind is AtomKind.RELATIVE and atom.key != 'that' and governed:
+            about = next((a for a in reversed(written) if a.is_actor or a.is_place), None)
+            if about is not None:
+                word = written.pop()
+                stop = Atom(kind=AtomKind.STOP, key=';', start=word.start, end=word.end)
+                if written and written[-1].kind is AtomKind.COMMA:
+                    written.pop()
+                written += [stop, word, replace(about, start=atom.start, end=atom.end)]
+                continue
+        written.append(atom)
+    return written

@@ -1,0 +1,177 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""What happens after what, when no `when` says so: `later`, `then`, who was told acts."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from aurora_core.parsing import values
+from aurora_core.parsing.atoms import AtomKind, NounKind
+from aurora_core.parsing.constructions import actions
+from aurora_core.parsing.events import complete_event
+from aurora_core.parsing.frames import Frame
+from aurora_core.parsing.pieces import Link, Piece, first_solid
+from aurora_core.parsing.scene import EventDraft, Scene
+from aurora_core.spec.scenario import (
+    EventDoneTrigger,
+    MessageTrigger,
+    SendMessage,
+    VisibilityTrigger,
+)
+
+# What a UAV does for a while; `after it has hovered for 20 s` is a phase, not an event.
+_PHASES = frozenset({'hover', 'track', 'follow', 'orbit', 'navigate', 'observe', 'fly', 'wait'})
+_REACTIONS = frozenset(
+    {'brake', 'stop', 'slow', 'accelerate', 'change_lane', 'yield', 'start', 'cross'}
+)
+_GROUND = (NounKind.AGENT, NounKind.VEHICLE, NounKind.EGO)
+
+
+def later(frame: Frame) -> bool:
+    """`…; ten seconds later, the bus starts`: so long after the last event."""
+    scene = frame.scene
+    adjunct = frame.time('')
+    if adjunct is None or adjunct.measure is None or not scene.events:
+        return False
+    behind = scene.prompt[adjunct.end :].lstrip().lower()
+    told = behind.startswith(('later', 'afterwards', 'after that'))
+    if not told or not values.accepts('delay', adjunct.measure):
+        return False
+    action = actions.action(frame)
+    if action is None:
+        return False
+    adjunct.used = True
+    after = EventDoneTrigger(
+        on='event_done',
+        event=scene.events[-1].id,
+        after_s=values.explicit('delay', adjunct.measure),
+    )
+    complete_event(scene, after, action, frame.span, ())
+    return True
+
+
+def who_was_told(frame: Frame) -> bool:
+    """`it sends the car a message, and the car then yields`: when the message arrives."""
+    events = frame.scene.events
+    message = events[-1].action if events else None
+    if not frame.piece.then or frame.negated:
+        return False
+    if not isinstance(message, SendMessage):
+        return _reacts(frame)
+    acting = frame.subjects() if frame.subject_nouns else ()
+    if [e.id for e in acting] != [message.receiver]:
+        return False
+    action = actions.action(frame)
+    if action is None:
+        return False
+    heard = MessageTrigger(on='message_received', by=message.receiver, sender=message.sender)
+    complete_event(frame.scene, heard, action, frame.span, ())
+    return True
+
+
+def _reacts(frame: Frame) -> bool:
+    """`the bus brakes at 15 s, whereupon my car stops`: caused by the event in front."""
+    scene = frame.scene
+    same = [c for c in scene.clauses[:-1] if c.sentence == frame.piece.sentence]
+    told = [e for e in scene.events if any(e.id in c.ids for c in same)]
+    if not told or not frame.subject_nouns or frame.key not in _REACTIONS:
+        return False
+    action = actions.agent_action(frame)
+    if action is None:
+        return False
+    done = EventDoneTrigger(on='event_done', event=told[-1].id)
+    complete_event(scene, done, action, frame.span, ())
+    return True
+
+
+def in_sequence(frame: Frame, before: int) -> None:
+    """Give an event of this clause without a cause what happened before it as its cause."""
+    events = frame.scene.events
+    if len(events) != before + 1 or events[-1].trigger is not None:
+        return
+    relayed = _relayed(events[-1], events[:before])
+    if relayed is not None:
+        events[-1].trigger = relayed
+    elif before and frame.piece.then:  # `after that the drone warns the ego`
+        events[-1].trigger = EventDoneTrigger(on='event_done', event=events[before - 1].id)
+
+
+def _relayed(event: EventDraft, earlier: list[EventDraft]) -> MessageTrigger | None:
+    """`drone A sends a message to drone B, and B passes it on`: once B has it."""
+    action = event.action
+    if not isinstance(action, SendMessage):
+        return None
+    for told in reversed(earlier):
+        first = told.action
+        if isinstance(first, SendMessage) and first.receiver == action.sender:
+            return MessageTrigger(on='message_received', by=action.sender, sender=first.sender)
+    return None
+
+
+def sight(frame: Frame) -> VisibilityTrigger | None:
+    """`drone A sees the ambulance, sends …`: what a UAV sees in front of what it tells."""
+    if frame.key != 'see' or frame.negated or frame.piece.link is not Link.MAIN:
+        return None
+    flying = [e for e in frame.scene.clause.subjects if e.is_uav]
+    seen = frame.scene.clause.objects
+    if len(flying) != 1 or len(seen) != 1 or frame.time('for', '') is not None:
+        return None
+    return VisibilityTrigger(on='visible', observer=flying[0].id, target=seen[0].id)
+
+
+def after_sight(scene: Scene, before: int, seen: VisibilityTrigger | None) -> None:
+    """Let a message without a cause be caused by what its sender saw in the clause before."""
+    if seen is None:
+        return
+    for event in scene.events[before:]:
+        action = event.action
+        tells = isinstance(action, SendMessage) and action.sender == seen.observer
+        if event.trigger is None and tells:
+            event.trigger = seen
+
+
+def is_arrival(piece: Piece) -> bool:
+    """Return whether a clause only tells that a ground agent gets somewhere."""
+    verb = next((a for a in piece.atoms if a.kind is AtomKind.VERB), None)
+    first = first_solid(piece.atoms)
+    told = piece.link is Link.MAIN and verb is not None and verb.key == 'reach'
+    grounded = first is not None and first.noun is not None and first.noun.kind in _GROUND
+    return told and grounded and any(a.is_place for a in piece.atoms)
+
+
+def is_phase(piece: Piece) -> bool:
+    """Return whether a clause tells a phase with its duration as done: `has hovered for 20 s`."""
+    verb = next((a for a in piece.atoms if a.kind is AtomKind.VERB), None)
+    done = any(a.kind is AtomKind.AUXILIARY and a.key in ('have', 'spend') for a in piece.atoms)
+    lasted = any(a.measure is not None and a.key == 'time' for a in piece.atoms)
+    if verb is None or not done or not lasted:
+        return False
+    there = any(a.noun is not None and a.noun.key == 'there' for a in piece.atoms)
+    return verb.key in _PHASES or (verb.key == 'be' and there)
+
+
+def is_earlier(piece: Piece) -> bool:
+    """`… follows it after ascending to 40 m`: told second, done first."""
+    if piece.link is not Link.AFTER:
+        return False
+    first = first_solid(piece.atoms)
+    gerund = first is not None and first.form.value == 'ing' and first.key not in HAPPENS
+    return gerund or is_phase(piece)
+
+
+# `after seeing a bus`: what one waits for, not what one does first.
+HAPPENS = ('see', 'lose', 'receive')
+
+
+def is_ellipsis(piece: Piece) -> bool:
+    """`when it does`, `once it has`: the clause before, again."""
+    solid = [a for a in piece.atoms if a.kind is not AtomKind.FILL]
+    verbs = [a for a in solid if a.kind in (AtomKind.VERB, AtomKind.AUXILIARY)]
+    words = verbs and verbs[-1].key in ('trace', 'contain', 'be', 'have', 'do')
+    return bool(words) and solid[-1] is verbs[-1] and len(solid) == 2 and solid[0].is_actor
+
+
+def without_link(piece: Piece, link: Link) -> Piece:
+    """Return a clause that was told before, as the cause that a later one refers to."""
+    return replace(piece, link=link, then=False, head=None)
