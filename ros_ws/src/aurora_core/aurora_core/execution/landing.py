@@ -72,7 +72,7 @@ def landing_spot(
         if airspace.way_clearance_m((end, (x, y, z), beyond, end)) >= clearance_m:
             free.append(spot)
     for spot in free:
-        if not _crowded(index, (x, y), spot, z, machines, uav):
+        if not _crowded(index, spot, machines, uav):
             return spot, z
     if patient and free:
         return None
@@ -80,26 +80,34 @@ def landing_spot(
 
 
 def _crowded(
-    index: int,
-    start: Point2,
-    spot: Point2,
-    height_m: float,
-    machines: Sequence[MissionMachine],
-    uav: FloatArray,
+    index: int, spot: Point2, machines: Sequence[MissionMachine], uav: FloatArray
 ) -> bool:
     """Tell whether another flying UAV, or its way to its spot, is near the way to a spot."""
+    height_m = float(uav[index, UavColumn.Z])
+    own = _legs(machines[index], uav[index], spot)
     for k, other in enumerate(machines):
         x, y, z = uav[k, UavColumn.X : UavColumn.Z + 1].tolist()
         if k == index or other.landed or z < 1.0:
             continue
-        end = (x, y) if other.landing_spot is None else other.landing_spot
+        legs = _legs(other, uav[k], other.landing_spot)
         level = abs(z - height_m) < APART_M
-        if level and ways_apart_m(start, spot, (x, y), end) < WAY_APART_M:
+        if level and any(ways_apart_m(*a, *b) < WAY_APART_M for a in own for b in legs):
             return True
         # The descent passes the heights of all that fly lower.
         if z < height_m and norm2(spot[0] - x, spot[1] - y) < WAY_APART_M:
             return True
     return False
+
+
+def _legs(
+    machine: MissionMachine, state: FloatArray, spot: Point2 | None
+) -> tuple[tuple[Point2, Point2], ...]:
+    """Return the ways between which a UAV flies: straight to its spot, or braking before."""
+    here = (float(state[UavColumn.X]), float(state[UavColumn.Y]))
+    stop = machine.stop_point(state)
+    if spot is None:
+        return ((here, stop),)
+    return ((here, stop), (stop, spot), (here, spot))
 
 
 def ways_apart_m(a: Point2, b: Point2, c: Point2, d: Point2) -> float:
