@@ -80,6 +80,11 @@ def evidence(
     return Evidence(clauses=tuple(c for c, w in zip(clauses, weights, strict=True) if w == most))
 
 
+def speaks_of(requirement: Requirement, text: str) -> bool:
+    """Tell whether a text holds a number or a word of a requirement."""
+    return _weight(requirement, text) > 0
+
+
 def _weight(requirement: Requirement, text: str) -> int:
     numbers = {
         round(n.value, 3) for n in stated_numbers(text) if n.dimension is not Dimension.ANGLE

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from enum import StrEnum
 
 from aurora_bench.fidelity.answer import Answer
-from aurora_bench.fidelity.evidence import evidence
+from aurora_bench.fidelity.evidence import evidence, speaks_of
 from aurora_bench.fidelity.score import PromptScore
 from aurora_bench.prompts.format import AnnotatedPrompt
 from aurora_core.spec.parameter import Document
@@ -21,7 +21,9 @@ class Told(StrEnum):
 
     SILENT = 'silent'  # its clause is called encoded, or no clause speaks of it
     DISMISSED = 'dismissed'  # its clause is called `no_requirement`: wrongly, and just as silent
-    ADMITTED = 'admitted'  # its clause, or a part of it, is `not_encoded`, or a question is asked
+    ADMITTED = (
+        'admitted'  # its clause, or the part that speaks of it, is `not_encoded`; a question
+    )
     REFUSED = 'refused'  # a feasible request was refused
     BROKEN = 'broken'  # the product raised an error
 
@@ -52,7 +54,12 @@ def misses(prompt: AnnotatedPrompt, answer: Answer, score: PromptScore) -> Itera
         if result.is_met:
             continue
         clauses = evidence(prompt, requirement, answer.clauses).clauses
-        told_of = [c for c in answer.clauses if any(_holds(own, c) for own in clauses)]
+        told_of = [
+            c
+            for c in answer.clauses
+            if c in clauses
+            or (any(_holds(own, c) for own in clauses) and speaks_of(requirement, c.text))
+        ]
         statuses = {clause.status for clause in told_of}
         if answer.error:
             told = Told.BROKEN

@@ -116,7 +116,8 @@ def _dropped(prompt: str, spec: ScenarioSpec, outcome: ParseOutcome) -> Iterator
         if any(_inside(where, s) for s in stated) or any(_inside(where, c) for c in open_clauses):
             continue
         value = float(match.group().replace(',', ''))
-        made = [b.span for b in (*spec.agents, *spec.uavs) if b.span is not None]
+        made = [a.span for a in spec.agents if a.span is not None]
+    made += [u.span for u in spec.uavs if u.span is not None]
         cited = [c.ids for c in outcome.clauses if _inside(where, c.span)]
         groups = {sum(_inside(where, s) for s in made)}
         groups |= {len({flown.get(one, one) for one in ids} & members) for ids in cited}

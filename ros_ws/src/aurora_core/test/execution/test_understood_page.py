@@ -6,11 +6,12 @@ from __future__ import annotations
 
 from enum import StrEnum
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any, cast, get_args
 
 import pytest
 
-from aurora_core.execution.plan import NOT_CARRIED_OUT, unsupported
+from aurora_core.execution.capabilities import NOT_CARRIED_OUT, unsupported
 from aurora_core.grounding.grounded import GroundedScenario
 from aurora_core.spec.requirements import STATED_QUANTITIES
 from aurora_core.spec.scenario import AgentAction, ScenarioSpec, SendMessage, UavAction
@@ -58,6 +59,7 @@ class _Grounded:
     """A grounding that everything could be placed in."""
 
     unsupported = ()
+    agents = (SimpleNamespace(id='car1'),)
 
 
 def _is_carried_out(do: str) -> bool:
@@ -81,7 +83,7 @@ def _is_carried_out(do: str) -> bool:
             'events': [{'id': 'e1', 'trigger': {'on': 'time', 'at_s': at}, 'action': action}],
         }
     )
-    return unsupported(spec, cast(GroundedScenario, _Grounded())) == ()
+    return not unsupported(spec, cast(GroundedScenario, _Grounded()))
 
 
 def test_every_action_stands_where_it_belongs() -> None:
