@@ -30,7 +30,7 @@ _WRITTEN = re.compile(
 _FACTORS = (1.0, 0.5, 0.01)
 # What may be numbered, right in front of its number.
 _ACTOR = re.compile(
-    r'(?:uav|drone|quad|quadrotor|quadcopter|copter|multirotor|aircraft|robot|unit|car|van|truck|'
+    r'(?:uav|dron+e|quad|quadrotor|quadcopter|copter|multirotor|aircraft|robot|unit|car|van|truck|'
     r'lorry|bus|bike|motorcycle|bicycle|pedestrian|ped|ambulance|police|vehicle|rsu)s?\W{0,2}$',
     re.IGNORECASE,
 )
@@ -101,7 +101,7 @@ def _ungrouped(said: str) -> str:
 
 def _plainly(said: str) -> str:
     """Write numbers without groups, signs and exponents: the independent reader knows none."""
-    return _WRITTEN.sub(lambda m: f'{abs(float(m.group())):f}', _ungrouped(said))
+    return _WRITTEN.sub(lambda m: f'{abs(float(m.group())):.15f}', _ungrouped(said))
 
 
 def _dropped(prompt: str, spec: ScenarioSpec, outcome: ParseOutcome) -> Iterator[str]:
@@ -116,8 +116,8 @@ def _dropped(prompt: str, spec: ScenarioSpec, outcome: ParseOutcome) -> Iterator
         if any(_inside(where, s) for s in stated) or any(_inside(where, c) for c in open_clauses):
             continue
         value = float(match.group().replace(',', ''))
-        made = [a.span for a in spec.agents if a.span is not None]
-    made += [u.span for u in spec.uavs if u.span is not None]
+        bodies = [*(a.span for a in spec.agents), *(u.span for u in spec.uavs)]
+        made = [span for span in bodies if span is not None]
         cited = [c.ids for c in outcome.clauses if _inside(where, c.span)]
         groups = {sum(_inside(where, s) for s in made)}
         groups |= {len({flown.get(one, one) for one in ids} & members) for ids in cited}

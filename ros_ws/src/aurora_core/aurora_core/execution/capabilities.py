@@ -26,7 +26,7 @@ from aurora_core.spec.scenario import (
 from aurora_core.spec.vocabulary import BehaviorKind
 
 # The monitor can judge all of these.
-NOT_CARRIED_OUT = frozenset(
+_NO_BEHAVIORS = frozenset(
     {
         BehaviorKind.SLOW,
         BehaviorKind.YIELD,
@@ -44,7 +44,7 @@ def unsupported(spec: ScenarioSpec, grounded: GroundedScenario) -> tuple[str, ..
     """Return what the specification says and nobody carries out, as `id: what`."""
     found = list(grounded.unsupported)
     for agent in spec.agents:
-        kinds = [b.kind for b in agent.behaviors if b.kind in NOT_CARRIED_OUT]
+        kinds = [b.kind for b in agent.behaviors if b.kind in _NO_BEHAVIORS]
         found += [f'{agent.id}: behaviour {kind.value}' for kind in kinds]
     undone = _undone_events(spec, grounded)
     return (*found, *(f'{name}: {what}' for name, what in undone.items() if what))
@@ -60,7 +60,7 @@ def judgeable(
         behavior_id(agent, index)
         for agent in spec.agents
         for index, behavior in enumerate(agent.behaviors)
-        if behavior.kind in NOT_CARRIED_OUT
+        if behavior.kind in _NO_BEHAVIORS
     ]
     undone += [
         placement_id(agent, index)

@@ -4,17 +4,23 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from enum import StrEnum
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any, cast, get_args
 
 import pytest
 
-from aurora_core.execution.capabilities import NOT_CARRIED_OUT, unsupported
+from aurora_core.execution.capabilities import unsupported
 from aurora_core.grounding.grounded import GroundedScenario
 from aurora_core.spec.requirements import STATED_QUANTITIES
-from aurora_core.spec.scenario import AgentAction, ScenarioSpec, SendMessage, UavAction
+from aurora_core.spec.scenario import (
+    AgentAction,
+    GroundAgent,
+    ScenarioSpec,
+    SendMessage,
+    UavAction,
+)
 from aurora_core.spec.vocabulary import (
     AgentType,
     BehaviorKind,
@@ -48,49 +54,68 @@ def _rows(heading: str) -> dict[str, str]:
     return found
 
 
-def test_every_behaviour_stands_where_it_belongs() -> None:
-    rows = _rows('behaviour of an agent')
-    assert set(rows) == {kind.value for kind in BehaviorKind}
-    undone = {word for word, said in rows.items() if said.startswith('no')}
-    assert undone == {kind.value for kind in NOT_CARRIED_OUT}
-
-
-class _Grounded:
+@dataclass(frozen=True, kw_only=True)
+class _Everywhere:
     """A grounding that everything could be placed in."""
 
-    unsupported = ()
-    agents = (SimpleNamespace(id='car1'),)
+    agents: tuple[GroundAgent, ...]
+    unsupported: tuple[str, ...] = ()
 
 
-def _is_carried_out(do: str) -> bool:
-    action: dict[str, Any] = {'do': do, 'agent': 'car1'}
-    if do == 'send_message':
-        action = {'do': do, 'sender': 'uav1', 'receiver': 'car1'}
-    elif do in get_args(UavAction.model_fields['do'].annotation):
-        action = {'do': do, 'uav': 'uav1'}
-        altitude = {'value': 50, 'unit': 'm', 'low': 3, 'high': 120, 'provenance': 'inferred'}
-        action |= {'altitude_m': altitude} if do == 'ascend' else {}
-        action |= {'mission': 'm1'} if do == 'change_mission' else {}
-    at = {'value': 5, 'unit': 's', 'low': 0, 'high': 60, 'provenance': 'inferred'}
-    height = {'value': 30, 'unit': 'm', 'low': 3, 'high': 120, 'provenance': 'default'}
-    mission = {'id': 'm1', 'uav': 'uav1', 'mode': 'hover', 'altitude_m': height, 'duration_s': at}
+def _is_carried_out(
+    behaviors: tuple[dict[str, Any], ...] = (), events: tuple[dict[str, Any], ...] = ()
+) -> bool:
     spec = ScenarioSpec.model_validate(
         {
             'prompt': 'x',
-            'agents': [{'id': 'car1', 'type': 'car'}],
+            'agents': [
+                {'id': 'ego', 'type': 'car', 'role': 'ego'},
+                {'id': 'car1', 'type': 'car', 'behaviors': behaviors},
+            ],
             'uavs': [{'id': 'uav1'}],
-            'missions': [mission],
-            'events': [{'id': 'e1', 'trigger': {'on': 'time', 'at_s': at}, 'action': action}],
+            'missions': [
+                {
+                    'id': 'm1',
+                    'uav': 'uav1',
+                    'mode': 'hover',
+                    'altitude_m': _number(30, 'm'),
+                    'duration_s': _number(5, 's'),
+                }
+            ],
+            'events': events,
         }
     )
-    return not unsupported(spec, cast(GroundedScenario, _Grounded()))
+    return unsupported(spec, cast(GroundedScenario, _Everywhere(agents=spec.agents))) == ()
+
+
+def _number(value: float, unit: str) -> dict[str, Any]:
+    return {'value': value, 'unit': unit, 'low': 0, 'high': 120, 'provenance': 'default'}
+
+
+def _action(do: str) -> dict[str, Any]:
+    if do == 'send_message':
+        return {'do': do, 'sender': 'uav1', 'receiver': 'car1'}
+    if do not in get_args(UavAction.model_fields['do'].annotation):
+        return {'do': do, 'agent': 'car1'}
+    more: dict[str, Any] = {'altitude_m': _number(50, 'm')} if do == 'ascend' else {}
+    return {'do': do, 'uav': 'uav1', **more, **({'mission': 'm1'} if 'mission' in do else {})}
+
+
+def test_every_behaviour_stands_where_it_belongs() -> None:
+    rows = _rows('behaviour of an agent')
+    assert set(rows) == {kind.value for kind in BehaviorKind}
+    for kind, said in rows.items():
+        done = _is_carried_out(behaviors=({'kind': kind, 'target': 'ego'},))
+        assert said.startswith('yes') == done, kind
 
 
 def test_every_action_stands_where_it_belongs() -> None:
     rows = _rows('action of an event')
     assert set(rows) == set(ACTIONS)
     for do, said in rows.items():
-        assert said.startswith('yes') == _is_carried_out(do), do
+        at = {'on': 'time', 'at_s': _number(5, 's')}
+        done = _is_carried_out(events=({'id': 'e1', 'trigger': at, 'action': _action(do)},))
+        assert said.startswith('yes') == done, do
 
 
 @pytest.mark.parametrize(
