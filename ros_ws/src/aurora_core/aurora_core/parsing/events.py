@@ -39,6 +39,8 @@ def complete_event(
     told = [e for e in scene.events if e.trigger == trigger and e.action == action]
     if told and trigger is not None:  # `until the bus arrives …; once it has, it lands`
         event = told[0]
+    elif _waits_for(trigger, known):  # nothing causes itself
+        event = known[0]
     elif known and trigger is not None and isinstance(action, AgentAction):
         event = known[0]
         event.trigger = trigger
@@ -49,6 +51,10 @@ def complete_event(
         clause.ids[event.id] = None
         clause.status = ClauseStatus.ENCODED
     return event
+
+
+def _waits_for(trigger: Trigger | None, events: Sequence[EventDraft]) -> bool:
+    return isinstance(trigger, EventDoneTrigger) and any(e.id == trigger.event for e in events)
 
 
 def same_cause(

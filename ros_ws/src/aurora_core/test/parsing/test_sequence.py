@@ -42,3 +42,17 @@ def test_one_event_told_twice_is_one() -> None:
     assert outcome.spec is not None
     landings = [e for e in outcome.spec.events if getattr(e.action, 'do', '') == 'land']
     assert len(landings) == 1
+
+
+@pytest.mark.parametrize(
+    'prompt',
+    [
+        'The pedestrian crosses after he has crossed, and until the bus stops he waits.',
+        'A UAV patrols a 150 by 100 m rectangle until it spots it; from then on it follows.',
+    ],
+)
+def test_nothing_causes_itself_or_starts_what_was_not_understood(prompt: str) -> None:
+    outcome = parse_offline(prompt, ParseContext())
+    assert outcome.spec is not None or outcome.question
+    for event in outcome.spec.events if outcome.spec is not None else ():
+        assert getattr(event.trigger, 'event', None) != event.id
