@@ -96,7 +96,9 @@ def _says(said: str, value: float) -> bool:
 
 
 def _ungrouped(said: str) -> str:
-    return said.replace(',', '').replace('−', '-')
+    """Drop the commas between groups of three digits; any other between digits is decimal."""
+    grouped = re.sub(r'(?<=\d),(?=\d{3}(?!\d))', '', said)
+    return re.sub(r'(?<=\d),(?=\d)', '.', grouped).replace('−', '-')
 
 
 def _plainly(said: str) -> str:

@@ -133,10 +133,11 @@ def _separation(spec: ScenarioSpec, limits: Limits) -> Iterator[Certificate]:
             )
     for above in spec.missions:
         for below in (m for m in spec.missions if m.uav == above.target):
-            standoff = above.standoff_m
+            aside_m = 0.0 if above.standoff_m is None else above.standoff_m.value
+            over = above.standoff_m is not None or above.mode is MissionMode.HOVER
             gap = abs(above.altitude_m.value - below.altitude_m.value)
             fixed = is_stated(above.altitude_m) and is_stated(below.altitude_m)
-            if fixed and standoff is not None and math.hypot(gap, standoff.value) < limit:
+            if fixed and over and math.hypot(gap, aside_m) < limit:
                 yield beyond(
                     'separation',
                     above.altitude_m,
