@@ -4,11 +4,13 @@
 
 from __future__ import annotations
 
+import os
 import signal
+from contextlib import suppress
 from types import FrameType
 from typing import Any, Self
 
-from aurora_cli.output import say
+_STANDARD_ERROR = 2  # file descriptor
 
 
 class Interrupts:
@@ -35,4 +37,7 @@ class Interrupts:
         if self.requested:
             raise KeyboardInterrupt
         self.requested = True
-        say('aurora: stopping; once more to stop at once')
+        # Not through sys.stderr: the signal may have come amid a write of the run to it, and a
+        # buffer that is written to again from inside raises RuntimeError.
+        with suppress(OSError):
+            os.write(_STANDARD_ERROR, b'aurora: stopping; once more to stop at once\n')
