@@ -170,7 +170,7 @@ class RunDriver:
         """
         settings = self._settings
         wait_until(
-            lambda: not any(map(self._watch.is_dead, self._participants)),
+            lambda: cancelled() or not any(map(self._watch.is_dead, self._participants)),
             settings.call_limit_s,
             _LOOK_S,
         )
