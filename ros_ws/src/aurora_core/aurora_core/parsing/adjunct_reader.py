@@ -229,7 +229,9 @@ class AdjunctReader:
                 ), j + 2
         one = measure.second is None and measure.upper is None
         over_it = self._is(j, AtomKind.PREPOSITION, 'over', 'below')
-        if measure.dimension == LENGTH and one and over_it:
+        # `a line of 400 m over the road`: how long it is, not how high
+        sized = prep == 'of' and self._is(begin - 1, AtomKind.PATTERN)
+        if measure.dimension == LENGTH and one and over_it and not sized:
             over = self._at(j + 1)
             if over is not None and over.noun is not None and self._atoms[j].key == 'over':
                 nouns, stop = self._nouns(j + 1)

@@ -9,7 +9,7 @@ from itertools import pairwise
 
 from aurora_core.parsing.adjunct_reader import AdjunctReader, fits
 from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
-from aurora_core.parsing.atoms import Atom, AtomKind, NounKind, NounPhrase
+from aurora_core.parsing.atoms import ACTORS, Atom, AtomKind, NounKind, NounPhrase
 from aurora_core.parsing.measures import LENGTH, TIME
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.pieces import Piece
@@ -72,6 +72,7 @@ class Frame:
         self.heir: Entity | None = None  # who acts when the clause names nobody
         self._deny_weather(atoms)
         self._named_values()
+        self._owner()
         self._impersonal()
         self.passive = self._is_passive(before)
         self._reorder()
@@ -106,6 +107,20 @@ class Frame:
                 name.kind, name.key, name.measure = AdjunctKind.ATTRIBUTE, name.value, measure
                 name.prep = value.prep
                 self.adjuncts.remove(value)
+
+    def _owner(self) -> None:
+        """`the flying height of the drone is 40 m`: who has the value is whom it is about."""
+        if self.subject_nouns:
+            return
+        for adjunct in self.adjuncts:
+            told = adjunct.value if adjunct.kind is AdjunctKind.MARK else adjunct.key
+            if told not in ('altitude', 'speed') or not adjunct.nouns:
+                continue
+            between = self.scene.prompt[adjunct.start : adjunct.nouns[0].start].lower().split()
+            in_front = self.verb is not None and adjunct.nouns[-1].end <= self.verb.start
+            if in_front and 'of' in between and all(n.kind in ACTORS for n in adjunct.nouns):
+                self.subject_nouns, adjunct.nouns = adjunct.nouns, ()
+                return
 
     def _around_the_verb(self) -> list[tuple[Adjunct, Adjunct]]:
         """Neighbours, and `the range from the drone to the ego is 300 m`: its first measure."""

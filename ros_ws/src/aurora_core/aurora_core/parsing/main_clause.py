@@ -23,7 +23,7 @@ from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.pronouns import ground as ground_agent
 from aurora_core.parsing.scene import EventDraft
 from aurora_core.spec.scenario import Behavior
-from aurora_core.spec.vocabulary import BehaviorKind, ClauseStatus
+from aurora_core.spec.vocabulary import BehaviorKind, ClauseStatus, MissionMode
 
 _AIR_ONLY = frozenset(
     {'hover', 'track', 'observe', 'navigate', 'orbit', 'fly', 'ascend', 'descend', 'land'}
@@ -237,6 +237,16 @@ def _about_ground(frame: Frame) -> bool:
     return ground.behavior(frame) or ground.placing(frame)
 
 
+def _goes_on_flying(frame: Frame) -> bool:
+    """`flies a rectangle there, moving at 6 m/s`: the speed of a pattern is that of its UAV."""
+    if frame.key != 'drive' or frame.subject_nouns or frame.piece.head is not None:
+        return False
+    acting = frame.inherited()
+    if not acting or not acting[0].is_uav or frame.attribute('speed') is None:
+        return False
+    return all(m.mode is MissionMode.NAVIGATE for m in frame.scene.missions_of(acting[0])[-1:])
+
+
 def _flies(frame: Frame) -> bool:
     """Return whether the clause is about a UAV."""
     kinds = [n.kind for n in frame.subject_nouns if n.kind is not NounKind.PRONOUN]
@@ -246,6 +256,8 @@ def _flies(frame: Frame) -> bool:
     if kinds and not (frame.passive and not frame.subject_nouns):
         return kinds[0] is NounKind.UAV
     if frame.key in _AIR_ONLY or asks_for_flight(frame):
+        return True
+    if _goes_on_flying(frame):
         return True
     if frame.key in _GROUND_ONLY:
         return False

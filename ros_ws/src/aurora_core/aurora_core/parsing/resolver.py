@@ -225,7 +225,7 @@ class Resolver:
                 chosen = members[noun.index - 1]
                 chosen.index, chosen.assigned = noun.index, True
                 return (chosen,)
-            return self._new(noun)
+            return self._counted(noun, known) or self._new(noun)
         if noun.determiner in (Determiner.INDEFINITE, Determiner.ANOTHER):
             return self._new(noun)
         if noun.determiner is Determiner.ONE:
@@ -245,6 +245,19 @@ class Resolver:
         if not known:
             return self._shorter(noun, exclude) or self._new(noun)
         return self._again(noun, known, exclude)
+
+    @staticmethod
+    def _counted(noun: NounPhrase, known: list[Entity]) -> tuple[Entity, ...]:
+        """`one drone …, a second one …; the first drone`: in the order in which they came."""
+        if noun.determiner is not Determiner.DEFINITE or noun.plural or len(known) < noun.index:
+            return ()
+        if len(known) < 2 or any(e.group is not None for e in known):
+            return ()
+        chosen = known[noun.index - 1]
+        if chosen.index:
+            return ()
+        chosen.index = noun.index
+        return (chosen,)
 
     def _shorter(self, noun: NounPhrase, exclude: Sequence[Entity]) -> tuple[Entity, ...]:
         """`that car`, after a police car and no other: the word without its first half."""

@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+import re
+
 from aurora_core.parsing import values
 from aurora_core.parsing.adjuncts import AdjunctKind
 from aurora_core.parsing.atoms import ACTORS, AtomKind, NounKind, NounPhrase
@@ -21,6 +23,10 @@ _LINK_FIELDS = {
     'radio_range': 'link_range',
     'retransmissions': 'link_retransmissions',
 }
+_OFF = re.compile(
+    r'\b(?:disabled?|disables|switched off|turned off|deactivated|disallowed|forbidden|excluded|'
+    r'disregarded|ruled out|suppressed|prohibited)\b'
+)
 
 
 def message(frame: Frame) -> SendMessage | None:
@@ -172,10 +178,14 @@ def _losing(frame: Frame, found: dict[str, Parameter]) -> None:
 
 
 def _no_retries(frame: Frame, found: dict[str, Parameter]) -> None:
-    if not frame.negated or 'retransmissions' in found:
+    text = frame.scene.prompt[frame.piece.start : frame.piece.end].lower()
+    if 'retransmissions' in found or not (frame.negated or _OFF.search(text)):
         return
     mark = frame.mark('thing', 'retransmissions')
     if mark is not None:
+        for word in frame.free(AdjunctKind.MARK, AtomKind.UNKNOWN.value):
+            told = frame.scene.prompt[word.start : frame.piece.end].lower()
+            word.used = _OFF.match(told) is not None
         found['retransmissions'] = values.stated('link_retransmissions', 0, mark.start, mark.end)
 
 

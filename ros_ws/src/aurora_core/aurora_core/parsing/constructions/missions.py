@@ -65,7 +65,8 @@ def mission(frame: Frame) -> bool:
     if not flying:
         return False
     watching = frame.mark(AtomKind.AERIAL.value) is not None
-    if frame.key in ('trace', 'reach', 'finish') and not _is_route(frame) and not watching:
+    does = frame.key == 'trace' and frame.attribute('speed') is not None  # `does 6 m/s`
+    if frame.key in ('trace', 'reach', 'finish') and not (_is_route(frame) or watching or does):
         return False
     target, bare_over = _target(frame, flying)
     mode = _mode(frame, target, bare_over)
@@ -174,7 +175,9 @@ def _reference(frame: Frame, adjunct: Adjunct, flying: tuple[Entity, ...]) -> st
         elif noun.kind is NounKind.UNKNOWN:
             if frame.key in _TRACKING or (frame.key == 'observe' and not adjunct.key):
                 frame.resolver.unknown_actor(noun)
-            elif adjunct.key in ('over', 'around', 'at', 'to', 'near'):
+            elif adjunct.key in ('over', 'around', 'at', 'to', 'near') or (
+                not adjunct.key and frame.key in ('orbit', 'navigate', 'visit')
+            ):
                 frame.resolver.unknown_place(noun)
         elif _is_place_again(frame, noun, adjunct):
             chosen.append(next(c.places[0] for c in reversed(frame.scene.clauses) if c.places))
@@ -202,6 +205,8 @@ def _mode(frame: Frame, target: str | None, prep: str) -> MissionMode | None:
     moving = target is not None and _is_actor(frame, target)
     if key == 'hover' or key == 'wait':
         return MissionMode.HOVER
+    if key == 'follow' and _is_route(frame) and not moving:
+        return MissionMode.NAVIGATE  # `follows the outline of a rectangle`
     if key in _TRACKING:
         return MissionMode.TRACK if moving or target is None else MissionMode.HOVER
     if key in ('observe', 'see'):
