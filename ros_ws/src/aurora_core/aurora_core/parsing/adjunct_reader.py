@@ -45,6 +45,7 @@ _FITS = {
     'waypoint': (COUNT,),
     'bearing': (ANGLE, COUNT),
     'axle_time': (TIME,),
+    'drift': (LENGTH,),
 }
 
 

@@ -225,6 +225,8 @@ def _about_air(frame: Frame) -> bool:
     if conditions.condition(frame):
         if frame.key in ('track', 'follow', 'hover', 'trail', 'fly'):
             missions.mission(frame)
+        elif frame.key in ('keep', 'see'):
+            missions.watching(frame)
         return True
     return ascent(frame) or landing(frame) or missions.mission(frame)
 
@@ -269,7 +271,9 @@ def _flies(frame: Frame) -> bool:
     if placing and lead is not None and lead.nouns[0].kind is NounKind.UAV:
         return True
     if placing and not frame.subject_nouns and lead is not None:
-        return False
+        kept = frame.key == 'keep' and lead.nouns[0].key == 'it'  # `and keep it there`
+        acting = frame.inherited() if kept else ()
+        return bool(acting) and acting[0].is_uav
     if frame.has_mark(AtomKind.WORLD.value) or any(
         a.used for a in frame.adjuncts if a.key == AtomKind.WORLD.value
     ):

@@ -90,6 +90,8 @@ class NounReader:
         alone = self._letter(i) or self._ordinal_alone(i)
         if alone is not None:
             return alone
+        if self._words[i] == 'that' and self._is_mine(i + 1):
+            return None  # `the van that my car follows`
         j = i
         determiner = Determiner.BARE
         count, index, background = 0, 0, False
@@ -100,6 +102,10 @@ class NounReader:
             head = self._head(j)
             if head is not None and not (head[0] is NounKind.EGO and self._agent_follows(j)):
                 kind, key, head_text, is_plural, stop = head
+                if head_text == 'crossing' and self._agent_at(stop):
+                    states.append('cross')  # `a crossing pedestrian`
+                    j = stop
+                    continue
                 if kind is NounKind.SURROUNDINGS and self._head(stop) is not None:
                     j = stop  # `the downtown streets`
                     continue
@@ -163,6 +169,12 @@ class NounReader:
             elif sense_key:
                 labels.append(sense_key)
         return self._pronoun(i) or self._unknown(i)
+
+    def _agent_at(self, j: int) -> bool:
+        return self._lexicon.longest_of(self._words, j, (Tag.AGENT,)) is not None
+
+    def _is_mine(self, j: int) -> bool:
+        return self._lexicon.longest_of(self._words, j, (Tag.EGO_POSSESSIVE,)) is not None
 
     # --- heads --------------------------------------------------------------------------------
 

@@ -51,12 +51,12 @@ class Piece:
 
     @property
     def start(self) -> int:
-        first = self.atoms[0].start
+        first = min(a.start for a in self.atoms)
         return first if self.lead is None else min(self.lead, first)
 
     @property
     def end(self) -> int:
-        return self.atoms[-1].end
+        return max(a.end for a in self.atoms)
 
 
 MARKERS = (

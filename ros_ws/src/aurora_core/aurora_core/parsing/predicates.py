@@ -68,12 +68,17 @@ def _cut_before(atoms: tuple[Atom, ...], begin: int, previous: int, i: int) -> t
         of_noun = j >= 2 and atoms[j - 2].kind is AtomKind.PREPOSITION and atoms[j - 2].key == 'of'
         if verb.form is VerbForm.ING and verb.key in _OF_THE_SUBJECT and not of_noun:
             return j, Piece(atoms=(), link=Link.PARTICIPLE)
+        asked = j >= 2 and atoms[j - 2].kind is AtomKind.RELATIVE and _has_aux(atoms, j, i)
+        if asked:  # `the van that my car is following`
+            return j - 1, Piece(atoms=(), theme=_theme(atoms, begin, j - 1))
         if verb.form is VerbForm.ING or (verb.form is VerbForm.PAST and not _has_aux(atoms, j, i)):
             return j, Piece(atoms=(), link=Link.RELATIVE, head=before)
         return j - 1, Piece(atoms=(), theme=_theme(atoms, begin, j - 1))
     if verb.form is VerbForm.ING:
         return j, Piece(atoms=(), link=Link.PARTICIPLE)
-    told = any(a.kind is AtomKind.RELATIVE and a.key == 'which' for a in atoms[begin:previous])
+    told = any(
+        a.kind is AtomKind.RELATIVE and a.key in ('which', 'who') for a in atoms[begin:previous]
+    )
     if told and verb.form is VerbForm.THIRD:  # `the drone which tracked it | goes`
         head = next((a for a in atoms[begin:previous] if a.is_actor), None)
         return j, Piece(atoms=(), head=head)

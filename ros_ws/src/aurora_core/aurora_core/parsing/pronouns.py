@@ -49,6 +49,10 @@ class PronounResolver:
             tracked = [m.target for m in self._scene.missions if m.target is not None]
             target = self._scene.by_id(tracked[-1]) if tracked else None
             return (target,) if target is not None else self._ask(noun)
+        if noun.key == 'both' and noun.head_text.startswith('all'):
+            everyone = self._everyone(accept)
+            if everyone:
+                return everyone
         if noun.key == 'both':
             group = self._last_group(accept) or self._plural(accept, exclude, as_object)
             return group or self._ask(noun)
@@ -106,6 +110,16 @@ class PronounResolver:
             if len(set(together)) == 2:
                 return tuple(dict.fromkeys(together))
         return self._last_group(accept)
+
+    def _everyone(self, accept: Fits) -> tuple[Entity, ...]:
+        """`four cars and two buses, and all of them …`: of whatever group."""
+        for clause in reversed(self._scene.clauses[:-1]):
+            fitting = tuple(e for e in clause.subjects if accept(e))
+            if len({e.group for e in fitting}) > 1:
+                return fitting
+            if fitting:
+                return ()
+        return ()
 
     def _last_group(self, accept: Fits) -> tuple[Entity, ...]:
         members = [e for e in self._scene.entities if e.group is not None and accept(e)]

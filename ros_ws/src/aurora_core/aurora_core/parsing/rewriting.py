@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
+from aurora_core.parsing.inversions import straighten
 from aurora_core.parsing.measures import LENGTH
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.pieces import TRANSPARENT
@@ -35,7 +36,7 @@ class Rewritten:
 
 def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
     """Return the atoms with shorthand written out and retracted numbers left out."""
-    kept, spans = _take_back(list(atoms))
+    kept, spans = _take_back(straighten(atoms, prompt))
     return Rewritten(
         atoms=tuple(_relatives(_climbs(_fronted(_labels(kept)), prompt))),
         taken_back=tuple(spans),

@@ -41,7 +41,7 @@ def _sentence(atoms: list[Atom], number: int) -> list[Piece]:
     raw = _cut_at_markers(_plain_prepositions(plain))
     parts = [part for whole in raw for part in _cut_behind_comparison(whole)]
     pieces = [piece for part in parts for piece in cut_at_verbs(part)]
-    pieces = _attach_adjuncts(_delays(fill_gaps(pieces)))
+    pieces = _causes_first(_attach_adjuncts(_delays(fill_gaps(pieces))))
     told = [Piece(atoms=a.atoms, link=Link.RELATIVE, head=a.head) for a in asides]
     pieces = [p for p in told if _names_others(p)] + pieces
     pieces += [p for p in told if not _names_others(p)]
@@ -73,7 +73,9 @@ def _plain_prepositions(atoms: list[Atom]) -> list[Atom]:
 def _inverted(atoms: Sequence[Atom], i: int) -> bool:
     """`should it slow below 3 m/s, …`: the auxiliary opens the clause."""
     opens = i == 0 or atoms[i - 1].kind in (AtomKind.COMMA, AtomKind.CONJUNCTION)
-    return opens and i + 1 < len(atoms) and atoms[i + 1].is_actor
+    ahead = next((a for a in atoms[i + 1 :] if a.kind is not AtomKind.FILL), None)
+    named = ahead is not None and (ahead.is_actor or ahead.kind is AtomKind.THING)
+    return opens and named
 
 
 def _absolute(atoms: Sequence[Atom], i: int) -> bool:
@@ -171,7 +173,7 @@ def _decide(
         if marker.kind is AtomKind.SUBORDINATOR:
             first = first_solid(ahead)
             gerund = first is not None and first.form is VerbForm.ING
-            if marker.key == 'before' and gerund and current:
+            if marker.key == 'before' and current and (gerund or _goes_on(ahead)):
                 return Piece(atoms=(), then=True, lead=marker.start)
             return Piece(atoms=(), link=Link(marker.key), then=then, lead=marker.start)
     solid = first_solid(ahead)
@@ -196,6 +198,8 @@ def _decide(
     comma = any(m.kind is AtomKind.COMMA for m in markers)
     refers = any(a.noun is not None and a.noun.kind is NounKind.PRONOUN for a in ahead)
     anchored = refers or _hangs(ahead)
+    if _shares_place(current, ahead) and not comma and not anchored:
+        return None
     if solid.is_actor and _is_placed(ahead) and (not actor_list or (comma and anchored)):
         return Piece(atoms=())
     aerial = solid.noun is not None and solid.noun.kind is NounKind.UAV
@@ -206,6 +210,16 @@ def _decide(
         if _is_placed(current) or (last is not None and not last.is_actor):
             return Piece(atoms=())  # `…, two background cars`
     return None
+
+
+# What a UAV does next: `orbits it before it hovers over the park`.
+_PHASES = frozenset({'hover', 'track', 'orbit', 'navigate', 'land'})
+
+
+def _goes_on(ahead: Sequence[Atom]) -> bool:
+    solid = [a for a in ahead if a.kind not in TRANSPARENT]
+    flies = len(solid) > 1 and solid[0].is_actor and _flies(solid[0])
+    return flies and solid[1].kind is AtomKind.VERB and solid[1].key in _PHASES
 
 
 def _decide_predicate(
@@ -224,6 +238,10 @@ def _decide_predicate(
     if not has_verb(current) and conjunction and solid.is_actor and not beside:
         last = next((a for a in reversed(current) if a.kind not in TRANSPARENT), None)
         placed = _is_placed(current) and not any(a.kind is AtomKind.THING for a in current)
+        noun = solid.noun
+        everyone = noun is not None and noun.kind is NounKind.PRONOUN and noun.key == 'both'
+        if everyone and any(m.kind is AtomKind.COMMA for m in markers):
+            return Piece(atoms=())  # `three cars and a bus, and all of them drive around`
         if last is not None and last.is_actor and not placed:
             return None  # coordinated subjects
     return Piece(atoms=())
@@ -245,6 +263,17 @@ def _is_placed(atoms: Sequence[Atom]) -> bool:
     return solid[1].kind in place_words or (
         solid[1].kind is AtomKind.MEASURE and len(solid) > 2 and solid[2].kind in place_words
     )
+
+
+def _shares_place(current: Sequence[Atom], ahead: Sequence[Atom]) -> bool:
+    """`put five bicycles and a bus on the main road`: the place is that of both."""
+    told = [a for a in current if a.kind not in TRANSPARENT]
+    solid = [a for a in ahead if a.kind not in TRANSPARENT]
+    if len(told) < 2 or len(solid) < 3 or not told[-1].is_actor or not solid[0].is_actor:
+        return False
+    places = told[-2].kind is AtomKind.VERB and told[-2].key in ('put', 'exist', 'contain', 'be')
+    flying = any(_flies(a) for a in (told[-1], solid[0]))
+    return places and not flying and solid[1].kind is AtomKind.PREPOSITION and solid[2].is_place
 
 
 def _hangs(atoms: Sequence[Atom]) -> bool:
@@ -270,6 +299,22 @@ def _delays(pieces: list[Piece]) -> list[Piece]:
         )
         moved[k] = replace(moved[k], atoms=tuple(atoms[:-1]))
     return [p for p in moved if p.atoms]
+
+
+def _causes_first(pieces: list[Piece]) -> list[Piece]:
+    """`brakes when a boy who crosses the street comes near`: the cause, then who he is."""
+    ordered = list(pieces)
+    for k in range(1, len(ordered) - 1):
+        told, cause = ordered[k], ordered[k + 1]
+        same = told.link is Link.RELATIVE and cause.link is Link.WHEN and not cause.opens
+        own = told.head is None and cause.head is not None and cause.head in told.atoms
+        if same and own:
+            head = cause.head
+            assert head is not None
+            rest = tuple(a for a in told.atoms if a is not head)
+            ordered[k] = replace(cause, atoms=(head, *cause.atoms), head=None)
+            ordered[k + 1] = replace(told, atoms=rest, head=head, lead=None)
+    return ordered
 
 
 def _attach_adjuncts(pieces: list[Piece]) -> list[Piece]:

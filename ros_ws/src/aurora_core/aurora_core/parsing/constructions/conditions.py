@@ -27,7 +27,7 @@ _STAYING = frozenset(
 
 def condition(frame: Frame) -> bool:
     """Read a clause that is nothing but a condition."""
-    readers = (_gap_limit, _limit, _apart, _in_view, _delivery)
+    readers = (_latency, _gap_limit, _limit, _apart, _in_view, _delivery)
     # Without a predicate the place comes first: `a child on the sidewalk within 20 m of it`.
     return any(reader(frame) for reader in readers) or (bool(frame.key) and _near(frame))
 
@@ -135,6 +135,31 @@ def _gap_limit(frame: Frame) -> bool:
         '<=' if upper else '>=',
         values.explicit('condition_distance', length.measure),
     )
+    return True
+
+
+def _latency(frame: Frame) -> bool:
+    """`the latency must not exceed 300 ms`: asked of the messages, no property of the link."""
+    must = any(a.kind is AtomKind.AUXILIARY and a.key in _MUST for a in frame.piece.atoms)
+    marks = frame.free(AdjunctKind.MARK, 'thing')
+    named = [m for m in marks if m.value == 'latency']
+    value = frame.attribute('latency') or (frame.time('', 'below', 'within') if named else None)
+    exceeds = frame.key == 'exceed' and frame.negated
+    if not (must or exceeds) or value is None or value.measure is None:
+        return False
+    below = value.prep in ('below', 'within') or value.measure.bound is Bound.AT_MOST
+    owned = [link for link in frame.scene.links if link.sender and link.receiver]
+    if not (exceeds or (below and not frame.negated)) or not owned:
+        return False
+    if not values.accepts('condition_time', value.measure):
+        return False
+    for taken in (value, *named):
+        taken.used = True
+    link = owned[-1]
+    assert link.sender is not None
+    assert link.receiver is not None
+    limit = values.explicit('condition_time', value.measure)
+    add_condition(frame, 'delivery_latency', (link.sender, link.receiver), '<=', limit)
     return True
 
 
@@ -288,6 +313,11 @@ def _delivery(frame: Frame) -> bool:
     link = owned[-1]
     assert link.sender is not None
     assert link.receiver is not None
+    if frame.mark(AtomKind.FROM_START.value) is not None:  # a moment, not how long it takes
+        one = values.inferred('condition_ratio', 1.0)
+        ends, by = (link.sender, link.receiver), values.explicit('condition_time', limit.measure)
+        add_condition(frame, 'delivered', ends, '==', one, by=by)
+        return True
     add_condition(
         frame,
         'delivery_latency',

@@ -263,6 +263,19 @@ def _told_within(frame: Frame) -> None:
 def _drift(frame: Frame) -> None:
     """`it must not drift more than 3 m`."""
     observer = _observer(frame)
+    named = frame.attribute('drift')
+    if named is None and frame.has_mark('thing', 'drift'):
+        near = frame.length('within', 'below', 'at', '')
+        if near is not None and near.measure is not None:
+            bound = near.prep in ('within', 'below') or near.measure.bound is Bound.AT_MOST
+            named = near if bound or frame.negated else None
+    if named is not None and named.measure is not None and observer is not None:
+        if values.accepts('condition_distance', named.measure):
+            named.used = True
+            frame.mark('thing', 'drift')
+            value = values.explicit('condition_distance', named.measure)
+            add_condition(frame, 'hover_drift', (observer.id,), '<=', value)
+        return
     adjunct = frame.length() or frame.attribute('altitude')
     if frame.key != 'drift' or not frame.negated or observer is None or adjunct is None:
         return

@@ -57,7 +57,12 @@ def _is_detail(frame: Frame, adjunct: Adjunct) -> bool:
         return False
     if adjunct.kind is AdjunctKind.ATTRIBUTE:
         alone = adjunct.key == 'speed' and frame.verb is None
-        return adjunct.key in _OF_FLIGHTS or alone
+        lasting = (
+            adjunct.key == 'duration'
+            and adjunct.prep in ('over', 'for', 'of')
+            and (frame.piece.link in _HANGING)
+        )
+        return adjunct.key in _OF_FLIGHTS or alone or lasting
     if adjunct.kind is not AdjunctKind.MEASURE:
         return False
     if measure.second is not None:

@@ -7,6 +7,7 @@ from __future__ import annotations
 from aurora_core.parsing.adjuncts import AdjunctKind
 from aurora_core.parsing.atoms import AtomKind, NounKind
 from aurora_core.parsing.frames import Frame
+from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.pronouns import airborne
 from aurora_core.parsing.scene import Entity
 
@@ -33,6 +34,7 @@ def flyers(frame: Frame) -> tuple[Entity, ...]:
         if launched is not None:
             launched.used = True
             frame.subject_nouns = launched.nouns
+    _told_to_stay(frame)
     found = frame.subjects(airborne)
     if found:
         return found
@@ -61,6 +63,20 @@ def flyers(frame: Frame) -> tuple[Entity, ...]:
     if frame.key in ('track', 'observe', 'follow') and not scene.uavs:
         return _left_out(frame)
     return ()
+
+
+def _told_to_stay(frame: Frame) -> None:
+    """`put a drone over the square and keep it there for 45 s`: whom one keeps."""
+    base = frame.verb is not None and frame.verb.form is VerbForm.BASE
+    if frame.key not in ('keep', 'hover', 'put') or frame.subject_nouns or not base:
+        return
+    acting = frame.inherited(airborne)
+    for adjunct in frame.free(AdjunctKind.OBJECT):
+        noun = adjunct.nouns[0]
+        if len(acting) == 1 and noun.kind is NounKind.PRONOUN and noun.key == 'it':
+            adjunct.used = True
+            frame.subject_nouns = adjunct.nouns
+            return
 
 
 def asks_for_flight(frame: Frame) -> bool:

@@ -30,6 +30,7 @@ BEHAVIORS = {kind.value: kind for kind in BehaviorKind} | {
     'track': BehaviorKind.FOLLOW,
     'come': BehaviorKind.APPROACH,
     'visit': BehaviorKind.DRIVE,
+    'reach': BehaviorKind.DRIVE,
     'orbit': BehaviorKind.CIRCULATE,
     'trace': BehaviorKind.DRIVE,
 }
@@ -66,6 +67,9 @@ _MOVING = frozenset(
 )
 
 
+_GOALS = (NounKind.PLACE, NounKind.LANDMARK, NounKind.MISSING_LANDMARK)
+
+
 def is_behavior(key: str) -> bool:
     """Return whether a predicate is something that ground agents do."""
     return key in BEHAVIORS
@@ -77,6 +81,8 @@ def behavior(frame: Frame) -> bool:
         return False
     if frame.key == 'start' and frame.free(AdjunctKind.PLACE):
         return False  # `starts 45 m behind the ego` is a place
+    if frame.key == 'reach' and not any(n.kind in _GOALS for n in frame.nouns()):
+        return False
     _commanded(frame)
     if frame.key == 'trace' and not _goes_at(frame):
         return False
@@ -174,6 +180,10 @@ def _target(frame: Frame, subjects: tuple[Entity, ...]) -> str | None:
         acting = [n for n in adjunct.nouns if n.kind in ACTORS and n.key != 'there']
         if frame.key not in _TARGETED and acting:
             continue
+        there = _place_again(frame, acting)
+        if there is not None:
+            adjunct.used = True
+            return there
         named = named_reference(frame, adjunct)
         if named is not None:
             adjunct.used = True
@@ -208,6 +218,19 @@ def _target(frame: Frame, subjects: tuple[Entity, ...]) -> str | None:
                 adjunct.used = frame.key != 'drive' or adjunct.key in ('through', 'along')
                 return place if adjunct.used else None
     return None
+
+
+def _place_again(frame: Frame, nouns: list[NounPhrase]) -> str | None:
+    """`people wait at the crosswalk while a bus approaches it`: people are no `it`."""
+    if len(nouns) != 1 or nouns[0].kind is not NounKind.PRONOUN or nouns[0].key != 'it':
+        return None
+    if frame.key != 'approach' or len(frame.scene.clauses) < 2:
+        return None
+    before = frame.scene.clauses[-2]
+    people = all(e.type is AgentType.PEDESTRIAN for e in before.subjects if not e.is_uav)
+    places = [*before.places, *(p.of for e in before.subjects for p in e.placements if p.of)]
+    places = [p for p in places if frame.scene.by_id(p) is None]
+    return places[-1] if before.subjects and people and places else None
 
 
 def _speed(frame: Frame) -> Parameter | None:

@@ -95,6 +95,22 @@ def mission(frame: Frame) -> bool:
     return True
 
 
+def watching(frame: Frame) -> None:
+    """`keeps the bus in view from a standoff of 60 m`: the flight that keeps it so."""
+    if not frame.scene.conditions or frame.attribute('standoff', 'away') is None:
+        return
+    of = frame.scene.conditions[-1].of
+    uav = frame.scene.by_id(of[0])
+    if uav is None or not uav.is_uav or len(of) != 2 or frame.scene.missions_of(uav):
+        return
+    mode = MissionMode.TRACK if _is_actor(frame, of[1]) else MissionMode.HOVER
+    found = take_flight_values(frame, mode, None)
+    if found.anything and not found.ranges:
+        frame.scene.became(_one(frame, uav, mode, of[1], None, found))
+    else:
+        found.release()
+
+
 def _respective_heights(frame: Frame, flying: tuple[Entity, ...]) -> list[Parameter]:
     """`three drones hover at 30, 45 and 60 m respectively`."""
     for adjunct in frame.free(AdjunctKind.MARK, 'list'):

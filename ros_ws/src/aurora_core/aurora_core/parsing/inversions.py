@@ -1,0 +1,153 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Word order of statements: `there comes a bus`, `only then does the car start`, `altitude: 30 m`.
+
+Also what only says that a condition follows: `the run is successful if …`.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+
+from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
+from aurora_core.parsing.measures import COUNT, LENGTH, TIME
+from aurora_core.parsing.morphology import VerbForm
+from aurora_core.parsing.pieces import TRANSPARENT
+
+_STANDS = frozenset({'wait', 'be', 'hover', 'exist'})
+_MOVES = frozenset({'come', 'drive', 'approach', 'walk', 'follow', 'cross'})
+_DO = frozenset({'do', 'does', 'did'})
+_SUCCESS = re.compile(r'\b(?:success|succeed|pass|valid|accept|fulfil|satisf|good if|won\b)')
+_BEHIND_DO = 6
+_FLOWN = frozenset({'hover', 'track', 'follow', 'orbit', 'navigate', 'observe', 'fly'})
+
+
+def straighten(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
+    """Return the atoms of statements in the order subject, predicate."""
+    told = _sides(_phases(_named(list(atoms))))
+    return _presented(_asked(_criteria(told, prompt), prompt), prompt)
+
+
+def _named(atoms: list[Atom]) -> list[Atom]:
+    """`altitude: 35 m`: a colon between a name and its number ends nothing."""
+    changed = list(atoms)
+    for i in range(1, len(changed) - 1):
+        named = changed[i - 1].kind is AtomKind.THING and changed[i + 1].measure is not None
+        if changed[i].kind is AtomKind.STOP and changed[i].key == ':' and named:
+            changed[i] = replace(changed[i], kind=AtomKind.FILL)
+    return changed
+
+
+def _criteria(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """`the run counts as successful if …`: a requirement, and no cause."""
+    changed = list(atoms)
+    begin = 0
+    for i, atom in enumerate(atoms):
+        if atom.kind is AtomKind.STOP:
+            begin = i + 1
+        if atom.kind is not AtomKind.SUBORDINATOR or atom.key != 'when' or i == begin:
+            continue
+        told = atoms[begin:i]
+        about = any(a.kind is AtomKind.SCENARIO for a in told)
+        text = prompt[told[0].start : atom.start].lower()
+        if about and _SUCCESS.search(text) and not any(a.is_actor for a in told):
+            for k in range(begin, i + 1):
+                changed[k] = replace(atoms[k], kind=AtomKind.FILL, noun=None)
+    return changed
+
+
+def _asked(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """`only then does the car start`: `does` says nothing before who acts."""
+    kept: list[Atom] = []
+    for i, atom in enumerate(atoms):
+        does = prompt[atom.start : atom.end].lower() in _DO
+        if does and i + 1 < len(atoms) and atoms[i + 1].is_actor:
+            behind = atoms[i + 2 : i + 2 + _BEHIND_DO]
+            acts = any(a.kind is AtomKind.VERB and a.form is VerbForm.BASE for a in behind)
+            if acts or any(a.kind is AtomKind.AUXILIARY for a in behind):
+                continue
+        kept.append(atom)
+    return kept
+
+
+def _presented(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """`behind us there comes a bus`, `at the junction there stands a roadside unit`."""
+    changed = list(atoms)
+    for i in range(len(changed) - 2):
+        there, verb, new = changed[i : i + 3]
+        is_there = prompt[there.start : there.end].lower() == 'there'
+        if not is_there or verb.kind is not AtomKind.VERB or new.noun is None:
+            continue
+        if not new.is_actor or verb.key == 'exist' or verb.form is VerbForm.ING:
+            continue
+        equipment = new.noun.kind is NounKind.AGENT and new.noun.key == 'rsu'
+        if verb.key in _MOVES:
+            key = 'drive' if verb.key in ('come', 'approach') else verb.key
+        elif verb.key in _STANDS:
+            key = 'be' if equipment or verb.key == 'exist' else verb.key
+        else:
+            continue
+        changed[i] = replace(there, kind=AtomKind.FILL, noun=None)
+        if verb.key == 'be':
+            continue
+        changed[i + 1], changed[i + 2] = new, replace(verb, key=key)
+    return changed
+
+
+def _phases(atoms: list[Atom]) -> list[Atom]:
+    """`the hover phase should last 2 min`: `for 2 min`, of the phase that was told."""
+    written: list[Atom] = []
+    for atom in atoms:
+        written.append(atom)
+        if atom.key != TIME or atom.measure is None:
+            continue
+        k = len(written) - 2
+        if k < 0 or written[k].kind is not AtomKind.VERB or written[k].key != 'last':
+            continue
+        last = written[k]
+        while k and written[k - 1].kind in (*TRANSPARENT, AtomKind.ROUTE):
+            k -= 1
+        flown = k and written[k - 1].kind is AtomKind.VERB and written[k - 1].key in _FLOWN
+        opens = k < 2 or written[k - 2].kind in (AtomKind.FILL, AtomKind.STOP, AtomKind.COMMA)
+        if flown and opens:
+            word = Atom(
+                kind=AtomKind.PREPOSITION, key='for', start=written[k - 1].start, end=last.end
+            )
+            written[k - 1 :] = [word, atom]
+    return written
+
+
+def _sides(atoms: list[Atom]) -> list[Atom]:
+    """`a rectangle whose sides are 120 m and 80 m long`: its size."""
+    changed = list(atoms)
+    i = 0
+    while i < len(changed):
+        if changed[i].kind is AtomKind.THING and changed[i].key == 'sides':
+            k = i + 1
+            while k < len(changed) and (
+                changed[k].kind in (*TRANSPARENT, AtomKind.PREPOSITION) or changed[k].key == 'be'
+            ):
+                k += 1
+            both = changed[k : k + 3]
+            if len(both) == 3 and both[1].kind is AtomKind.CONJUNCTION:
+                one, other = both[0].measure, both[2].measure
+                lengths = one is not None and other is not None
+                if lengths and both[2].key == LENGTH and both[0].key in (LENGTH, COUNT):
+                    assert one is not None
+                    assert other is not None
+                    size = replace(
+                        one,
+                        dimension=LENGTH,
+                        end=other.end,
+                        second=other.value,
+                        second_start=other.start,
+                    )
+                    whole = replace(both[0], key=LENGTH, end=both[2].end, measure=size)
+                    stop = k + 3
+                    if stop < len(changed) and changed[stop].key == 'length':
+                        stop += 1
+                    changed[i:stop] = [whole]
+        i += 1
+    return changed
