@@ -11,7 +11,7 @@ from aurora_core.feasibility.geometry import check_geometry
 from aurora_core.feasibility.places import check_placements, check_zones
 from aurora_core.feasibility.signs import check_signs
 from aurora_core.feasibility.times import check_times
-from aurora_core.feasibility.verdict import Certificate, Feasibility, FeasibilityVerdict
+from aurora_core.feasibility.verdict import Certificate, Feasibility, FeasibilityVerdict, Rule
 from aurora_core.knowledge.agent_types import AgentTypeRecord, top_speed_mps
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_model import MapModel
@@ -234,6 +234,7 @@ def _broken(rule: _Rule) -> Iterator[Certificate]:
         limit=limit,
         nearest=None if excluded else limit,
         span=parameter.span,
+        rule=Rule.LIMIT,
         sentence=(
             f'{rule.path} asks for {value:g}{unit}; '
             f'it has to be {word} {limit:g}{unit} ({rule.limit_name}).'
@@ -258,6 +259,7 @@ def _counts(spec: ScenarioSpec, limits: Limits) -> list[Certificate]:
                     limit_name=f'{path}_max',
                     limit=float(top),
                     nearest=float(top),
+                    rule=Rule.COUNT,
                     sentence=f'{count} {path} are asked for; at most {top} are possible.',
                 )
             )

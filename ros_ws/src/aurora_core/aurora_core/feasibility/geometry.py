@@ -10,8 +10,17 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from aurora_core.feasibility.certificates import beyond, contradiction, is_stated, least, most
-from aurora_core.feasibility.verdict import Certificate
+from aurora_core.feasibility.certificates import (
+    beyond,
+    contradiction,
+    is_stated,
+    least,
+    limit_facts,
+    most,
+    says,
+    tolerance_facts,
+)
+from aurora_core.feasibility.verdict import Certificate, Fact, Rule
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.quantity import QuantityName
@@ -53,6 +62,17 @@ class Geometry:
         near, far = self.horizontal(mission)
         return math.hypot(max(0.0, low - _TARGET_HEIGHT_M), near), math.hypot(high, far)
 
+    def facts(self, mission: UavMission) -> tuple[Fact, ...]:
+        """Return what these distances follow from."""
+        base = f'missions/{mission.id}'
+        named = {'altitude_m': mission.altitude_m, 'standoff_m': mission.standoff_m}
+        used = {name: number for name, number in named.items() if is_stated(number)}
+        return (
+            *(fact for name, number in used.items() for fact in says(f'{base}/{name}', number)),
+            *limit_facts(self._limits, 'uav_altitude_min_m', 'uav_altitude_max_m'),
+            *tolerance_facts(self._tolerances, *used),
+        )
+
 
 def check_geometry(
     spec: ScenarioSpec, limits: Limits, tolerances: Tolerances
@@ -75,12 +95,19 @@ def _sight(spec: ScenarioSpec, limits: Limits, geometry: Geometry) -> Iterator[C
         near, _ = geometry.slant(mission)
         if near > reach:
             yield beyond(
+                Rule.SENSING,
                 'sensing_range',
                 _leading(mission),
                 f'missions/{mission.id}',
                 ('sensing_range_m', reach),
                 f'{mission.uav} would be at least {near:.0f} m from {mission.target}; its camera '
                 f'reaches {reach:g} m ({weather}, {hour}).',
+                (
+                    *geometry.facts(mission),
+                    *says('world/weather', weather),
+                    *says('world/time_of_day', hour),
+                    *limit_facts(limits, f'sensing_range_m/{weather}', f'sensing_factor/{hour}'),
+                ),
             )
 
 
@@ -109,12 +136,17 @@ def _radio(spec: ScenarioSpec, geometry: Geometry) -> Iterator[Certificate]:
         near = min(geometry.slant(m)[0] for m in flown)
         if near > link.range_m.value and link.range_m.bound is not Bound.AT_LEAST:
             yield beyond(
+                Rule.RADIO,
                 'comm_range',
                 link.range_m,
                 f'links/{link.id}/range_m',
                 ('range_m', link.range_m.value),
                 f'{link.sender} and {link.receiver} would be at least {near:.0f} m apart; '
                 f'the link reaches {link.range_m.value:g} m.',
+                (
+                    *says(f'links/{link.id}/range_m', link.range_m),
+                    *(fact for m in flown for fact in geometry.facts(m)),
+                ),
             )
 
 
@@ -124,12 +156,17 @@ def _separation(spec: ScenarioSpec, limits: Limits) -> Iterator[Certificate]:
         close = condition.op in ('<', '<=', '==') and condition.value.value < limit
         if condition.quantity == QuantityName.SEPARATION and close:
             yield beyond(
+                Rule.CLOSENESS,
                 'separation',
                 condition.value,
                 f'conditions/{condition.id}/value',
                 ('separation_min_m', limit),
                 f'two UAVs keep at least {limit:g} m apart; '
                 f'{condition.value.value:g} m are asked for.',
+                (
+                    *says(f'conditions/{condition.id}/value', condition.value),
+                    *limit_facts(limits, 'separation_min_m'),
+                ),
             )
     for above in spec.missions:
         for below in (m for m in spec.missions if m.uav == above.target):
@@ -139,12 +176,19 @@ def _separation(spec: ScenarioSpec, limits: Limits) -> Iterator[Certificate]:
             fixed = is_stated(above.altitude_m) and is_stated(below.altitude_m)
             if fixed and over and math.hypot(gap, aside_m) < limit:
                 yield beyond(
+                    Rule.STACKING,
                     'separation',
                     above.altitude_m,
                     f'missions/{above.id}/altitude_m',
                     ('separation_min_m', limit),
                     f'{above.uav} would be {gap:g} m above or below {below.uav}; '
                     f'two UAVs keep at least {limit:g} m apart.',
+                    (
+                        *says(f'missions/{above.id}/altitude_m', above.altitude_m),
+                        *says(f'missions/{above.id}/standoff_m', above.standoff_m),
+                        *says(f'missions/{below.id}/altitude_m', below.altitude_m),
+                        *limit_facts(limits, 'separation_min_m'),
+                    ),
                 )
 
 
@@ -161,6 +205,7 @@ def _stated_distances(spec: ScenarioSpec, geometry: Geometry) -> Iterator[Certif
             too_near = condition.op in ('>', '>=') and high < value
             if too_far or too_near:
                 yield contradiction(
+                    Rule.FLIGHT_BAND,
                     'spatial_contradiction',
                     f'conditions/{condition.id}',
                     f'{condition.quantity} of {", ".join(condition.of)} has to be '
@@ -168,6 +213,10 @@ def _stated_distances(spec: ScenarioSpec, geometry: Geometry) -> Iterator[Certif
                     f'gives {"at least" if too_far else "at most"} '
                     f'{low if too_far else high:.1f} m.',
                     condition.span,
+                    (
+                        *says(f'conditions/{condition.id}/value', condition.value),
+                        *geometry.facts(mission),
+                    ),
                 )
 
 
@@ -193,15 +242,23 @@ def _pursuit(spec: ScenarioSpec, limits: Limits, tolerances: Tolerances) -> Iter
     tracked = {m.target: m for m in spec.missions if m.mode is MissionMode.TRACK}
     for agent in spec.agents:
         mission = tracked.get(agent.id)
-        stated = [b.speed_mps for b in agent.behaviors if b.speed_mps is not None]
-        for speed in stated:
+        for k, behavior in enumerate(agent.behaviors):
+            speed = behavior.speed_mps
+            if speed is None:
+                continue
             slack = tolerances.route_speed_mps.of(speed.value, approximate=speed.approximate)
             if mission is not None and least(speed, slack, 0.0) > top:
                 yield beyond(
+                    Rule.PURSUIT,
                     'speed_limit',
                     speed,
                     f'missions/{mission.id}/target',
                     ('uav_speed_max_mps', top),
                     f'{agent.id} drives at {speed.value:g} m/s; {mission.uav} flies at most '
                     f'{top:g} m/s and cannot track it.',
+                    (
+                        *says(f'agents/{agent.id}/behaviors/{k}/speed_mps', speed),
+                        *limit_facts(limits, 'uav_speed_max_mps'),
+                        *tolerance_facts(tolerances, 'route_speed_mps'),
+                    ),
                 )

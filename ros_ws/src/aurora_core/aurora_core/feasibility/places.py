@@ -9,8 +9,16 @@ from dataclasses import dataclass
 
 import shapely
 
-from aurora_core.feasibility.certificates import contradiction, is_stated, least, most
-from aurora_core.feasibility.verdict import Certificate
+from aurora_core.feasibility.certificates import (
+    contradiction,
+    is_stated,
+    least,
+    limit_facts,
+    most,
+    says,
+    tolerance_facts,
+)
+from aurora_core.feasibility.verdict import Certificate, Fact, FactSource, Rule
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_types import Landmark, NoFlyZone
 from aurora_core.spec.parameter import Bound, Parameter
@@ -48,11 +56,17 @@ def check_placements(spec: ScenarioSpec, tolerances: Tolerances) -> Iterator[Cer
                 continue
             if one.first != other.first or _apart(one, other, tolerances):
                 yield contradiction(
+                    Rule.PLACEMENT,
                     'spatial_contradiction',
                     one.path,
                     f'{one.first} and {one.second} are placed twice {one.axis}, '
                     'and both cannot hold at once.',
                     one.placement.span,
+                    (
+                        *_says(one),
+                        *_says(other),
+                        *tolerance_facts(tolerances, 'placement_other_m'),
+                    ),
                 )
 
 
@@ -71,6 +85,14 @@ def _sides(agent: GroundAgent) -> Iterator[_Side]:
             path=f'agents/{agent.id}/placements/{k}',
             placement=placement,
         )
+
+
+def _says(side: _Side) -> tuple[Fact, ...]:
+    return (
+        *says(f'{side.path}/relation', side.placement.relation.value),
+        *says(f'{side.path}/of', side.placement.of),
+        *says(f'{side.path}/distance_m', side.distance),
+    )
 
 
 def _apart(one: _Side, other: _Side, tolerances: Tolerances) -> bool:
@@ -98,11 +120,14 @@ def check_zones(
         mark = known.get(mission.target or '')
         if mark is None:
             continue
-        slack = tolerances.altitude_m.of(mission.altitude_m.value)
-        low = least(mission.altitude_m, slack, limits.uav_altitude_min_m)
-        high = most(mission.altitude_m, slack, limits.uav_altitude_max_m)
+        stated = mission.altitude_m
+        slack = tolerances.altitude_m.of(stated.value, approximate=stated.approximate)
+        low = least(stated, slack, limits.uav_altitude_min_m)
+        high = most(stated, slack, limits.uav_altitude_max_m)
         for zone in zones:
             is_level = zone.floor_m <= low and high <= zone.ceiling_m
+            hovers = mission.mode is MissionMode.HOVER
+            beside = 'hover_drift_calm_m' if hovers else 'standoff_m'
             if is_level and _enters(mission, mark, zone, tolerances):
                 yield Certificate(
                     kind='geometric_contradiction',
@@ -112,7 +137,22 @@ def check_zones(
                     span=mission.span,
                     sentence=f'{mission.uav} would enter the no-fly zone {zone.name!r} '
                     f'({zone.floor_m:g} m to {zone.ceiling_m:g} m) at {mark.name}.',
+                    rule=Rule.ZONE,
+                    facts=(
+                        *says(f'missions/{mission.id}/target', mission.target),
+                        *says(f'missions/{mission.id}/altitude_m', mission.altitude_m),
+                        *says(f'missions/{mission.id}/radius_m', mission.radius_m),
+                        _of_map(f'{zone.id}/name', zone.name),
+                        _of_map(f'{zone.id}/floor_m', zone.floor_m),
+                        _of_map(f'{zone.id}/ceiling_m', zone.ceiling_m),
+                        *limit_facts(limits, 'uav_altitude_min_m', 'uav_altitude_max_m'),
+                        *tolerance_facts(tolerances, 'altitude_m', beside),
+                    ),
                 )
+
+
+def _of_map(path: str, value: float | str) -> Fact:
+    return Fact(source=FactSource.MAP, path=path, value=value)
 
 
 def _enters(mission: UavMission, mark: Landmark, zone: NoFlyZone, tolerances: Tolerances) -> bool:
@@ -124,5 +164,6 @@ def _enters(mission: UavMission, mark: Landmark, zone: NoFlyZone, tolerances: To
         return bool(core.covers(centre))
     if not orbit or radius is None:
         return False
-    core = shapely.Polygon(zone.ring).buffer(-tolerances.standoff_m.of(radius.value))
+    slack = tolerances.standoff_m.of(radius.value, approximate=radius.approximate)
+    core = shapely.Polygon(zone.ring).buffer(-slack)
     return bool(core.intersects(centre.buffer(radius.value, quad_segs=45).exterior))

@@ -8,8 +8,8 @@ from collections.abc import Iterator
 
 from pydantic import BaseModel
 
-from aurora_core.feasibility.certificates import contradiction, is_stated
-from aurora_core.feasibility.verdict import Certificate
+from aurora_core.feasibility.certificates import contradiction, is_stated, says
+from aurora_core.feasibility.verdict import Certificate, Rule
 from aurora_core.spec.parameter import Parameter, Unit
 from aurora_core.spec.scenario import ScenarioSpec
 
@@ -27,11 +27,13 @@ def check_signs(spec: ScenarioSpec) -> Iterator[Certificate]:
         reason = _REASONS.get(parameter.unit)
         if reason is not None and is_stated(parameter) and parameter.value < 0.0:
             yield contradiction(
+                Rule.SIGN,
                 reason,
                 path,
                 f'{path} asks for {parameter.value:g} {parameter.unit.value}; '
                 'it cannot be below zero.',
                 parameter.span,
+                says(path, parameter),
             )
 
 

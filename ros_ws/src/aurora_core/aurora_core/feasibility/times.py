@@ -4,11 +4,22 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
-from aurora_core.feasibility.certificates import beyond, contradiction, is_stated, least
-from aurora_core.feasibility.verdict import Certificate
+from aurora_core.feasibility.certificates import (
+    beyond,
+    contradiction,
+    is_stated,
+    least,
+    limit_facts,
+    most,
+    says,
+    tolerance_facts,
+)
+from aurora_core.feasibility.verdict import Certificate, Fact, Rule
 from aurora_core.knowledge.limits import Limits, Tolerances
+from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import (
     AltitudeTrigger,
@@ -36,19 +47,28 @@ class Earliest:
         event = self._events.get(event_id)
         if event is None or event_id in seen:
             return 0.0
-        delay = 0.0 if event.delay_s is None else least(event.delay_s, self._slack(0.0), 0.0)
+        delay = self._soonest(event.delay_s)
         return self._trigger(event, seen | {event_id}) + delay
 
-    def _slack(self, seconds: float) -> float:
-        return self._tolerances.duration_s.of(seconds)
+    def _soonest(self, stated: Parameter | None) -> float:
+        if stated is None:
+            return 0.0
+        slack = self._tolerances.duration_s.of(stated.value, approximate=stated.approximate)
+        return least(stated, slack, 0.0)
+
+    def latest(self, stated: Parameter | None) -> float:
+        """Return the greatest number of seconds that still meets a request; None: none."""
+        if stated is None:
+            return 0.0
+        slack = self._tolerances.duration_s.of(stated.value, approximate=stated.approximate)
+        return most(stated, slack, math.inf)
 
     def _trigger(self, event: Event, seen: frozenset[str]) -> float:
         trigger = event.trigger
         if isinstance(trigger, TimeTrigger):
-            return least(trigger.at_s, self._slack(trigger.at_s.value), 0.0)
+            return self._soonest(trigger.at_s)
         if isinstance(trigger, EventDoneTrigger):
-            after = 0.0 if trigger.after_s is None else least(trigger.after_s, 0.5, 0.0)
-            return self.event(trigger.event, seen) + after
+            return self.event(trigger.event, seen) + self._soonest(trigger.after_s)
         if isinstance(trigger, MessageTrigger):
             sent = [
                 self.event(e.id, seen)
@@ -75,12 +95,30 @@ class Earliest:
 
     def phase(self, mission: UavMission) -> float:
         """Return the shortest stated duration of a phase; unstated: none."""
-        stated = mission.duration_s
-        return 0.0 if stated is None else least(stated, self._slack(stated.value), 0.0)
+        return self._soonest(mission.duration_s)
+
+    def facts(self) -> tuple[Fact, ...]:
+        """Return the stated times and the rates that these times follow from."""
+        found: list[Fact] = []
+        for e in self._spec.events:
+            base = f'events/{e.id}'
+            found += says(f'{base}/delay_s', e.delay_s)
+            if isinstance(e.trigger, TimeTrigger):
+                found += says(f'{base}/trigger/at_s', e.trigger.at_s)
+            if isinstance(e.trigger, EventDoneTrigger):
+                found += says(f'{base}/trigger/after_s', e.trigger.after_s)
+            if isinstance(e.trigger, AltitudeTrigger):
+                found += says(f'{base}/trigger/value_m', e.trigger.value_m)
+        for m in self._spec.missions:
+            found += says(f'missions/{m.id}/altitude_m', m.altitude_m)
+            found += says(f'missions/{m.id}/duration_s', m.duration_s)
+        rates = limit_facts(self._limits, 'uav_climb_max_mps', 'uav_descent_max_mps')
+        return (*found, *rates, *tolerance_facts(self._tolerances, 'duration_s', 'altitude_m'))
 
     def _lowest(self, mission: UavMission) -> float:
         stated = mission.altitude_m
-        return least(stated, self._tolerances.altitude_m.of(stated.value), 0.0)
+        slack = self._tolerances.altitude_m.of(stated.value, approximate=stated.approximate)
+        return least(stated, slack, 0.0)
 
 
 def check_times(
@@ -97,17 +135,22 @@ def check_times(
 def _battery(spec: ScenarioSpec, limits: Limits) -> Iterator[Certificate]:
     """The phases of one UAV together; a single one is checked against the limit alone."""
     for uav in spec.uavs:
-        flown = [m.duration_s for m in spec.missions if m.uav == uav.id]
-        stated = [d for d in flown if d is not None and is_stated(d)]
+        flown = [m for m in spec.missions if m.uav == uav.id]
+        stated = [m.duration_s for m in flown if m.duration_s and is_stated(m.duration_s)]
         total = sum(least(d, 0.0, 0.0) for d in stated)
         if len(stated) > 1 and total > limits.uav_endurance_s:
             yield beyond(
+                Rule.BATTERY,
                 'endurance',
                 stated[-1],
                 f'uavs/{uav.id}',
                 ('uav_endurance_s', limits.uav_endurance_s),
                 f'the phases of {uav.id} last {total:g} s together; '
                 f'at most {limits.uav_endurance_s:g} s are possible (uav_endurance_s).',
+                (
+                    *(f for m in flown for f in says(f'missions/{m.id}/duration_s', m.duration_s)),
+                    *limit_facts(limits, 'uav_endurance_s'),
+                ),
             )
 
 
@@ -126,11 +169,17 @@ def _deadlines(spec: ScenarioSpec, earliest: Earliest) -> Iterator[Certificate]:
             needed = _first_sent(spec, earliest, condition.of)
         if deadline is not None and is_stated(deadline) and needed > deadline.value:
             yield contradiction(
+                Rule.DEADLINE,
                 'temporal_contradiction',
                 f'conditions/{condition.id}',
                 f'{name} of {", ".join(condition.of)} is due at {deadline.value:g} s; '
                 f'it is possible after {needed:.1f} s at the earliest.',
                 condition.span,
+                (
+                    *says(f'conditions/{condition.id}/value', condition.value),
+                    *says(f'conditions/{condition.id}/by_s', condition.by_s),
+                    *earliest.facts(),
+                ),
             )
 
 
@@ -157,10 +206,12 @@ def _horizon(spec: ScenarioSpec, earliest: Earliest) -> Iterator[Certificate]:
     for path, needed, span in due:
         if needed > horizon.value:
             yield contradiction(
+                Rule.HORIZON,
                 'temporal_contradiction',
                 path,
                 f'{path} needs {needed:.1f} s; the scenario is to last {horizon.value:g} s.',
                 span,
+                (*says('world/duration_s', horizon), *earliest.facts()),
             )
 
 
@@ -169,16 +220,26 @@ def _orders(spec: ScenarioSpec, earliest: Earliest) -> Iterator[Certificate]:
     follows: dict[str, set[str]] = {}
     for order in spec.orders:
         follows.setdefault(order.first, set()).add(order.then)
-    fixed = {e.id: e.trigger.at_s.value for e in spec.events if isinstance(e.trigger, TimeTrigger)}
+    fixed = {
+        e.id: earliest.latest(e.trigger.at_s) + earliest.latest(e.delay_s)
+        for e in spec.events
+        if isinstance(e.trigger, TimeTrigger)
+    }
     for order in spec.orders:
         late = order.then in fixed and earliest.event(order.first) > fixed[order.then]
         if late or _reaches(follows, order.then, order.first):
             yield contradiction(
+                Rule.ORDER,
                 'temporal_contradiction',
                 f'orders/{order.id}',
                 f'{order.first} has to come before {order.then}, and the rest of the request '
                 'puts it behind.',
                 order.span,
+                (
+                    *says(f'orders/{order.id}/first', order.first),
+                    *says(f'orders/{order.id}/then', order.then),
+                    *earliest.facts(),
+                ),
             )
 
 
