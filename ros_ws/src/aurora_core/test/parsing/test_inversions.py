@@ -20,7 +20,7 @@ def _words(prompt: str) -> list[str]:
     ('prompt', 'told'),
     [
         ('there comes a bus', ['fill there', 'noun bus', 'verb drive']),
-        ('only then does the bus stop', ['then only then', 'noun bus', 'verb stop']),
+        ('only then does the bus brake', ['then only then', 'noun bus', 'verb brake']),
         ('the hover phase lasts 20 s', ['fill the', 'preposition for', 'measure time']),
     ],
 )
