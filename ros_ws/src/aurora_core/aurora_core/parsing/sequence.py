@@ -16,6 +16,7 @@ from aurora_core.parsing.scene import EventDraft, Scene
 from aurora_core.spec.scenario import (
     EventDoneTrigger,
     MessageTrigger,
+    MissionDoneTrigger,
     SendMessage,
     VisibilityTrigger,
 )
@@ -95,6 +96,19 @@ def in_sequence(frame: Frame, before: int) -> None:
         events[-1].trigger = relayed
     elif before and frame.piece.then:  # `after that the drone warns the ego`
         events[-1].trigger = EventDoneTrigger(on='event_done', event=events[before - 1].id)
+    elif frame.piece.then:
+        _after_its_phase(frame, events[-1])
+
+
+def _after_its_phase(frame: Frame, event: EventDraft) -> None:
+    """`hovers there for 30 s and only then warns the ego`: when its phase is over."""
+    action = event.action
+    if not isinstance(action, SendMessage) or len(frame.scene.clauses) < 2:
+        return
+    sender = frame.scene.by_id(action.sender)
+    last = frame.scene.missions_of(sender) if sender is not None and sender.is_uav else []
+    if last and last[-1].duration is not None and last[-1].id in frame.scene.clauses[-2].ids:
+        event.trigger = MissionDoneTrigger(on='mission_done', uav=action.sender)
 
 
 def _relayed(event: EventDraft, earlier: list[EventDraft]) -> MessageTrigger | None:
