@@ -2,14 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import ast
 import json
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+import aurora_cli.recheck
 from aurora_cli.main import run_command_line
-from aurora_cli.recheck import recheck
+from aurora_cli.recheck import Outcome, recheck
 from aurora_core.feasibility.verdict import Certificate
 from aurora_core.knowledge.map_model import load_map
 from aurora_core.spec.parameter import Span
@@ -53,7 +55,6 @@ def test_a_true_proof_holds_with_and_without_the_specification() -> None:
         {'requested': 120.0},
         {'limit_name': 'invented'},
         {'requested': None},
-        {'kind': 'magic'},
         {'limit_name': 'link_loss', 'requested': 0.5, 'limit': 1.0},
     ],
 )
@@ -72,6 +73,25 @@ def test_a_proof_must_fit_what_was_asked(changes: dict[str, Any]) -> None:
 def test_a_proof_about_nothing_in_the_specification_is_refuted() -> None:
     assert not recheck(_too_high(path='missions/m9/altitude_m'), _spec()).valid
     assert not recheck(_too_high(), {'prompt': '', 'missions': _spec()['missions']}).valid
+
+
+def test_an_unknown_kind_is_neither_valid_nor_refuted() -> None:
+    assert recheck(_too_high(kind='magic'), None).outcome is Outcome.NOT_CHECKED
+
+
+def test_the_recheck_knows_nothing_of_the_checker_but_its_document() -> None:
+    folder = Path(aurora_cli.recheck.__file__).parent
+    used = {
+        node.module
+        for file in folder.glob('*.py')
+        for node in ast.walk(ast.parse(file.read_text(encoding='utf-8')))
+        if isinstance(node, ast.ImportFrom) and (node.module or '').startswith('aurora_core')
+    }
+    assert used == {
+        'aurora_core.feasibility.verdict',
+        'aurora_core.knowledge.config_files',
+        'aurora_core.spec.vocabulary',
+    }
 
 
 def test_certain_loss_is_a_proof() -> None:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""`aurora certificate check`: 0 valid, 1 refuted, 4 unreadable."""
+"""`aurora certificate check`: 0 valid, 1 refuted, 4 unreadable or not checked."""
 
 from __future__ import annotations
 
@@ -11,12 +11,18 @@ from typing import Any
 from pydantic import ValidationError
 
 from aurora_cli.output import answer_console, print_json
-from aurora_cli.recheck import recheck
+from aurora_cli.recheck import Outcome, recheck
 from aurora_core.errors import ReportError
 from aurora_core.feasibility.verdict import Certificate
 from aurora_core.report.terminal import headline, line
 
 _REFUTED = 1
+_NOT_CHECKED = 4
+_SHOWN = {
+    Outcome.VALID: ('valid', 'green'),
+    Outcome.REFUTED: ('refuted', 'red'),
+    Outcome.NOT_CHECKED: ('not checked', 'yellow'),
+}
 
 
 def certificate_command(file: Path, *, as_json: bool) -> int:
@@ -28,7 +34,7 @@ def certificate_command(file: Path, *, as_json: bool) -> int:
     path = file / 'report.json' if file.is_dir() else file
     document = _read(path)
     proofs = _certificates(document, path)
-    spec = _spec_beside(path)
+    spec = _spec_beside(path, document)
     findings = [recheck(proof, spec) for proof in proofs]
     valid = all(finding.valid for finding in findings)
     if as_json:
@@ -42,6 +48,7 @@ def certificate_command(file: Path, *, as_json: bool) -> int:
                         'kind': proof.kind,
                         'sentence': proof.sentence,
                         'valid': finding.valid,
+                        'outcome': finding.outcome.value,
                         'steps': list(finding.steps),
                     }
                     for proof, finding in zip(proofs, findings, strict=True)
@@ -51,13 +58,15 @@ def certificate_command(file: Path, *, as_json: bool) -> int:
     else:
         console = answer_console()
         for proof, finding in zip(proofs, findings, strict=True):
-            word, colour = ('valid', 'green') if finding.valid else ('refuted', 'red')
+            word, colour = _SHOWN[finding.outcome]
             headline(console, word, colour, proof.sentence)
             for step in finding.steps:
                 line(console, f'  {step}')
         if spec is None:
             line(console, 'no specification beside it: what the prompt says was not checked')
-    return 0 if valid else _REFUTED
+    if any(finding.outcome is Outcome.REFUTED for finding in findings):
+        return _REFUTED
+    return 0 if valid else _NOT_CHECKED
 
 
 def _read(path: Path) -> Any:
@@ -89,8 +98,10 @@ def _certificates(document: Any, path: Path) -> tuple[Certificate, ...]:
     return proofs
 
 
-def _spec_beside(path: Path) -> dict[str, Any] | None:
-    """Return the specification of the same run, the prompt alone, or None."""
+def _spec_beside(path: Path, document: Any) -> dict[str, Any] | None:
+    """Return the specification in the document or of the same run, the prompt alone, or None."""
+    if isinstance(document, dict) and isinstance(document.get('spec'), dict):
+        return dict(document['spec'])
     parts = path.name.split('.')
     number = parts[1] if len(parts) == 3 and parts[1].isdigit() else '0'
     spec = path.with_name(f'spec.{number}.json')

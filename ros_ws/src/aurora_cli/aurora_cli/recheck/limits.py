@@ -1,24 +1,17 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""Check a certificate of infeasibility again; shares no code with the checker that issued it.
-
-What is believed: the limits and maps of the configuration, the closed vocabulary, and, where the
-specification lies beside the certificate, the words of the prompt.
-"""
+"""Proofs by one number: a limit, a count, or a sign."""
 
 from __future__ import annotations
 
-import json
-import re
-from dataclasses import dataclass
 from typing import Any
 
+from aurora_cli.recheck.finding import Step
+from aurora_cli.recheck.request import node_at, read_config
 from aurora_core.feasibility.verdict import Certificate
-from aurora_core.knowledge.config_files import config_path
-from aurora_core.spec.vocabulary import AgentType
 
 # Limit name of a certificate -> (key in limits.json of its lower end, of its upper end).
-_LIMITS: dict[str, tuple[str | None, str | None]] = {
+_LIMITS: dict[str, tuple[str | None, str]] = {
     'uav_altitude_m': ('uav_altitude_min_m', 'uav_altitude_max_m'),
     'uav_standoff_max_m': (None, 'uav_standoff_max_m'),
     'uav_speed_max_mps': (None, 'uav_speed_max_mps'),
@@ -31,44 +24,27 @@ _LIMITS: dict[str, tuple[str | None, str | None]] = {
 }
 # A message that is lost with certainty: the limit follows from what a probability is.
 _LOSS = 'link_loss'
+_SIGNED = {'m', 's', 'm/s', '1'}
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Finding:
-    """Outcome for one certificate.
-
-    Attributes:
-        valid: The proof holds.
-        steps: What was checked, each with its outcome.
-    """
-
-    valid: bool
-    steps: tuple[str, ...]
+def by_limit(proof: Certificate, spec: dict[str, Any] | None) -> list[Step]:
+    """A stated number, or a count, lies beyond a limit."""
+    return [*_limit(proof), *_stated(proof, spec)]
 
 
-def recheck(proof: Certificate, spec: dict[str, Any] | None) -> Finding:
-    """Check a certificate.
-
-    Args:
-        proof: The certificate.
-        spec: The specification as JSON, None when it is not at hand.
-
-    Raises:
-        ConfigError: The configuration lacks limits or maps.
-    """
-    if proof.kind == 'limit_exceeded':
-        checks = [*_limit(proof), *_stated(proof, spec)]
-    elif proof.kind in ('missing_element', 'unsupported'):
-        checks = [*_missing(proof), *_quoted(proof, spec)]
-    else:
-        checks = [(False, f'certificates of kind {proof.kind} are not known to this version')]
-    return Finding(
-        valid=all(holds for holds, _ in checks),
-        steps=tuple(f'{"holds" if holds else "FAILS"}: {text}' for holds, text in checks),
-    )
+def by_sign(proof: Certificate, spec: dict[str, Any]) -> list[Step]:
+    """A stated distance, time, speed or share lies below zero."""
+    number = _at(spec, proof.path)
+    if number is None:
+        return [(False, f'the specification has no parameter {proof.path}')]
+    return [
+        (number.get('provenance') == 'explicit', f'{proof.path} is {number.get("provenance")}'),
+        (number.get('unit') in _SIGNED, f'nothing in {number.get("unit")} is below zero'),
+        (float(number['value']) < 0.0, f'{proof.path} = {number["value"]:g} is below zero'),
+    ]
 
 
-def _limit(proof: Certificate) -> list[tuple[bool, str]]:
+def _limit(proof: Certificate) -> list[Step]:
     if proof.requested is None or proof.limit is None:
         return [(False, 'a proof by a limit needs the requested value and the limit')]
     asked, limit = proof.requested, proof.limit
@@ -80,24 +56,40 @@ def _limit(proof: Certificate) -> list[tuple[bool, str]]:
                 f'with loss {asked:g} no message is ever delivered, or it is no probability',
             ),
         ]
-    ends = _LIMITS.get(proof.limit_name)
+    ends = _ends(proof.limit_name)
     if ends is None:
         return [(False, f'there is no limit {proof.limit_name!r}')]
-    table = json.loads(config_path('limits.json').read_text(encoding='utf-8'))
-    low, high = (None if key is None else float(table[key]) for key in ends)
-    # A one-sided limit has zero as its other end: no speed, distance or duration is negative.
-    low = 0.0 if low is None else low
-    shown = f'{low:g} to {high:g}' if high is not None else f'at least {low:g}'
+    low, high = ends
+    shown = f'{low:g} to {high:g}'
     return [
         (limit in (low, high), f'{limit:g} is an end of {proof.limit_name}, {shown}'),
         (
-            asked < low or (high is not None and asked > high),
+            asked < low or asked > high,
             f'{asked:g} {proof.unit} lies outside {shown}',
         ),
     ]
 
 
-def _stated(proof: Certificate, spec: dict[str, Any] | None) -> list[tuple[bool, str]]:
+def _ends(name: str) -> tuple[float, float] | None:
+    """Return what a limit allows; None for a limit that is not known."""
+    table = read_config('limits.json')
+    parts = name.split('/')
+    if len(parts) == 3 and (parts[0], parts[2]) == ('agent_types', 'max_speed_mps'):
+        rows = read_config('knowledge', 'agent_types.json')['types']
+        row = next((r for r in rows if r['name'] == parts[1]), None)
+        if row is None:
+            return None
+        general = 'pedestrian_speed_max_mps' if row['is_person'] else 'vehicle_speed_max_mps'
+        return 0.0, min(float(row['max_speed_mps']), float(table[general]))
+    keys = _LIMITS.get(name)
+    if keys is None:
+        return None
+    low, high = keys
+    # A one-sided limit has zero as its other end: no speed, distance or duration is negative.
+    return (0.0 if low is None else float(table[low])), float(table[high])
+
+
+def _stated(proof: Certificate, spec: dict[str, Any] | None) -> list[Step]:
     """The request really says the number."""
     if spec is None:
         return []
@@ -120,63 +112,21 @@ def _stated(proof: Certificate, spec: dict[str, Any] | None) -> list[tuple[bool,
         above = proof.requested > proof.limit or proof.limit_name == _LOSS
         escape = 'at_most' if above else 'at_least'
         checks.append((bound != escape, f'the number binds {bound}, so it cannot be moved inside'))
-    return [*checks, *_quoted(proof, spec)]
+    return [*checks, *quoted(proof, spec)]
 
 
-def _quoted(proof: Certificate, spec: dict[str, Any] | None) -> list[tuple[bool, str]]:
+def quoted(proof: Certificate, spec: dict[str, Any] | None, word: str = '') -> list[Step]:
+    """The prompt has words, or this word, where the proof points."""
     if spec is None or proof.span is None:
         return []
     words = str(spec.get('prompt', ''))[proof.span.start : proof.span.end]
-    if proof.word:
-        same = proof.word.casefold() in words.casefold() or words.casefold() in proof.word
+    if word:
+        same = word.casefold() in words.casefold() or words.casefold() in word.casefold()
         return [(bool(words) and same, f'the prompt says {words!r} there')]
     return [(bool(words.strip()), f'the prompt says {words!r} there')]
 
 
-def _missing(proof: Certificate) -> list[tuple[bool, str]]:
-    word = proof.word.casefold().strip()
-    if not word:
-        return [(False, 'the proof names nothing that is missing')]
-    known = {entry.casefold() for entry in proof.listing}
-    checks = [(word not in known, f'{proof.word!r} is not in the closed list')]
-    listing, name = _closed_list(proof)
-    if listing is not None:
-        missing = sorted(set(listing) - known)
-        checks.append(
-            (
-                not missing,
-                f'the closed list has everything that {name} has'
-                + (f', but not {", ".join(missing)}' if missing else ''),
-            )
-        )
-        checks.append((word not in listing, f'{proof.word!r} is not in {name}'))
-    return checks
-
-
-def _closed_list(proof: Certificate) -> tuple[frozenset[str] | None, str]:
-    """Return the list as the configuration has it now, read anew."""
-    if proof.path == 'agent types':
-        return frozenset(kind.value for kind in AgentType), 'the vocabulary'
-    of_map = re.search(r'landmarks of (\S+)', proof.path)
-    if of_map is not None:
-        path = config_path('maps', of_map[1], 'landmarks.geojson')
-        features = json.loads(path.read_text(encoding='utf-8'))['features']
-        names = frozenset(str(f['properties']['name']).casefold() for f in features)
-        return names, f'the map {of_map[1]}'
-    return None, ''
-
-
 def _at(spec: dict[str, Any], path: str) -> dict[str, Any] | None:
     """Return the parameter at a path such as `missions/m1/altitude_m`."""
-    node: Any = spec
-    for part in path.split('/'):
-        if isinstance(node, list):
-            by_id = next((e for e in node if isinstance(e, dict) and e.get('id') == part), None)
-            if by_id is None and part.isdigit() and int(part) < len(node):
-                by_id = node[int(part)]
-            node = by_id
-        elif isinstance(node, dict):
-            node = node.get(part)
-        else:
-            return None
+    node = node_at(spec, path)
     return node if isinstance(node, dict) and 'value' in node else None

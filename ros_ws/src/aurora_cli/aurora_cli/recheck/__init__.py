@@ -1,0 +1,72 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Check a certificate of infeasibility again; shares no code with the checker that issued it.
+
+What is believed: the limits, tolerances and maps of the configuration, the closed vocabulary, and,
+where the specification lies beside the certificate, what it says and the words of the prompt.
+What cannot be checked is said to be so: it is neither valid nor refuted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
+from typing import Any
+
+from aurora_cli.recheck import flights, places, schedule
+from aurora_cli.recheck.finding import Finding, Outcome, Step, finding
+from aurora_cli.recheck.limits import by_limit, by_sign, quoted
+from aurora_cli.recheck.listings import by_listing
+from aurora_cli.recheck.request import Request, fact_holds
+from aurora_core.feasibility.verdict import Certificate, Rule
+
+__all__ = ['Finding', 'Outcome', 'recheck']
+
+_Derivation = Callable[[Certificate, Request], list[Step]]
+_DERIVATIONS: Mapping[Rule, _Derivation] = MappingProxyType(
+    {
+        Rule.SIGN: lambda proof, request: by_sign(proof, request.spec),
+        Rule.SENSING: flights.sensing,
+        Rule.RADIO: flights.radio,
+        Rule.CLOSENESS: flights.closeness,
+        Rule.STACKING: flights.stacking,
+        Rule.FLIGHT_BAND: flights.flight_band,
+        Rule.PURSUIT: flights.pursuit,
+        Rule.BATTERY: schedule.battery,
+        Rule.DEADLINE: schedule.deadline,
+        Rule.HORIZON: schedule.horizon,
+        Rule.ORDER: schedule.order,
+        Rule.PLACEMENT: places.placement,
+        Rule.ZONE: places.zone,
+    }
+)
+
+
+def recheck(proof: Certificate, spec: dict[str, Any] | None) -> Finding:
+    """Check a certificate.
+
+    Args:
+        proof: The certificate.
+        spec: The specification as JSON, None when it is not at hand.
+
+    Raises:
+        ConfigError: The configuration lacks limits or maps.
+    """
+    return finding(_steps(proof, spec))
+
+
+def _steps(proof: Certificate, spec: dict[str, Any] | None) -> list[Step]:
+    if proof.kind in ('missing_element', 'unsupported'):
+        return [*by_listing(proof), *quoted(proof, spec, proof.word)]
+    if proof.kind == 'limit_exceeded' and proof.rule in (None, Rule.LIMIT, Rule.COUNT):
+        return by_limit(proof, spec)
+    if proof.rule is None:
+        return [(None, f'a certificate of kind {proof.kind} that names no rule')]
+    derivation = _DERIVATIONS.get(proof.rule)
+    if derivation is None:
+        return [(None, f'a certificate of kind {proof.kind} by the rule {proof.rule}')]
+    if spec is None or 'missions' not in spec:
+        return [(None, 'it rests on the specification, which is not at hand')]
+    request = Request(spec)
+    facts: list[Step] = [fact_holds(request, fact) for fact in proof.facts]
+    return [*facts, *derivation(proof, request), *quoted(proof, spec)]

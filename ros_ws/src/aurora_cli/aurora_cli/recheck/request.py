@@ -1,0 +1,106 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The specification and the configuration as plain JSON, and what a stated number leaves open."""
+
+from __future__ import annotations
+
+import json
+import math
+from typing import Any, TypeGuard
+
+from aurora_core.feasibility.verdict import Fact, FactSource
+from aurora_core.knowledge.config_files import config_path
+
+# "about" widens a relative tolerance to a tenth.
+_ABOUT = 0.10
+
+
+def read_config(*parts: str) -> Any:
+    """Return a JSON document of the configuration."""
+    return json.loads(config_path(*parts).read_text(encoding='utf-8'))
+
+
+def node_at(document: Any, path: str) -> Any:
+    """Return what stands at a path such as `missions/m1/altitude_m`; None where nothing does."""
+    node = document
+    for part in path.split('/'):
+        if isinstance(node, list):
+            by_id = next((e for e in node if isinstance(e, dict) and e.get('id') == part), None)
+            if by_id is None and part.isdigit() and int(part) < len(node):
+                by_id = node[int(part)]
+            node = by_id
+        elif isinstance(node, dict):
+            node = node.get(part)
+        else:
+            return None
+    return node
+
+
+class Request:
+    """One request with the limits, tolerances and map that it is judged by."""
+
+    def __init__(self, spec: dict[str, Any]) -> None:
+        self.spec = spec
+        self.limits: dict[str, Any] = read_config('limits.json')
+        self.tolerances: dict[str, Any] = read_config('tolerances.json')
+
+    def all(self, kind: str) -> list[dict[str, Any]]:
+        """Return the elements of one kind: missions, events, ..."""
+        return list(self.spec.get(kind) or ())
+
+    def one(self, path: str) -> dict[str, Any] | None:
+        """Return the element at a path."""
+        node = node_at(self.spec, path)
+        return node if isinstance(node, dict) else None
+
+    def limit(self, name: str) -> float:
+        """Return a limit."""
+        return float(self.limits[name])
+
+    def slack(self, name: str, number: dict[str, Any]) -> float:
+        """Return by how much a stated number may be missed."""
+        entry = self.tolerances[name]
+        share = float(entry['relative'])
+        if number.get('approximate'):
+            share = max(share, _ABOUT)
+        return max(float(entry['absolute']), share * abs(float(number['value'])))
+
+    def features(self, file: str) -> list[dict[str, Any]]:
+        """Return the features of a file of the map."""
+        name = str((self.spec.get('world') or {}).get('map_name', ''))
+        return list(read_config('maps', name, file)['features'])
+
+
+def stated(number: Any) -> TypeGuard[dict[str, Any]]:
+    """Return whether the prompt itself gives this number."""
+    return isinstance(number, dict) and number.get('provenance') == 'explicit'
+
+
+def left_open(
+    number: Any, slack: float, floor: float = 0.0, ceiling: float = math.inf
+) -> tuple[float, float]:
+    """Return the lowest and highest value that meet a number; what is not stated is free."""
+    if not stated(number):
+        return floor, ceiling
+    value, bound = float(number['value']), number.get('bound', 'exactly')
+    low = floor if bound == 'at_most' else max(floor, value - slack)
+    high = ceiling if bound == 'at_least' else min(ceiling, value + slack)
+    return low, high
+
+
+def fact_holds(request: Request, fact: Fact) -> tuple[bool, str]:
+    """Look a fact up where it says that it stands."""
+    if fact.source is FactSource.REQUEST:
+        found = node_at(request.spec, fact.path)
+        if isinstance(found, dict) and 'value' in found:
+            if not stated(found):
+                return False, f'{fact.path} is {found.get("provenance")}, not stated'
+            found = found['value']
+    elif fact.source is FactSource.LIMITS:
+        found = node_at(request.limits, fact.path)
+    elif fact.source is FactSource.TOLERANCES:
+        found = node_at(request.tolerances, fact.path)
+    else:
+        properties = [f['properties'] for f in request.features('zones.geojson')]
+        found = node_at(properties, fact.path)
+    return found == fact.value, f'{fact.source} has {fact.path} = {found}'

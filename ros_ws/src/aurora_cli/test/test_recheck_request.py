@@ -1,0 +1,160 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Every proof that the checker issues is checked again, and a forged one is refuted."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from aurora_core.feasibility.times import check_times
+from aurora_core.feasibility.verdict import Rule
+from aurora_core.knowledge.config_files import config_path
+from aurora_core.knowledge.limits import load_limits, load_tolerances
+from aurora_core.parsing.outcome import ParseContext
+from aurora_core.parsing.parser import parse_offline
+from aurora_core.spec.scenario import ScenarioSpec
+
+Call = Callable[..., SimpleNamespace]
+
+HALL = 'A drone hovers over City Hall'
+RULES = (
+    (Rule.LIMIT, 'A drone hovers at 500 m.'),
+    (Rule.COUNT, 'Eleven drones hover over City Hall at 50 m.'),
+    (Rule.SIGN, 'A drone flies a rectangle of 100 m by -5 m at 40 m altitude.'),
+    (Rule.SENSING, 'In fog a drone hovers over the crosswalk at 95 m.'),
+    (
+        Rule.RADIO,
+        'The UAV hovers 110 m above the ego car and sends it a message at 20 s over a radio '
+        'with a range of 80 m.',
+    ),
+    (Rule.CLOSENESS, 'Two drones hover over City Hall at 50 m and keep at most 3 m apart.'),
+    (
+        Rule.STACKING,
+        'uav 1 hovers at 30 m over the intersection, uav 2 at 31 m, exactly above the first one',
+    ),
+    (Rule.FLIGHT_BAND, f'{HALL} at 50 m. It must stay above 80 m.'),
+    (Rule.PURSUIT, 'A drone tracks a car that drives at 30 m/s.'),
+    (Rule.BATTERY, f'{HALL} for 900 s, then it hovers over Mercy Hospital for 700 s.'),
+    (Rule.DEADLINE, f'{HALL} for 60 seconds at 30 m. It must be on the ground by 40 s.'),
+    (Rule.HORIZON, 'A scenario of 20 seconds. The bus brakes at 30 s.'),
+    (Rule.PLACEMENT, 'The van is 30 m ahead of the ego and 30 m behind the ego.'),
+    (Rule.ZONE, 'A drone hovers over Signal Tower at 50 m.'),
+)
+PROMPTS = dict(RULES)
+MORE = (
+    'A drone hovers at 500 meters altitude over the ego car.',
+    'A bus drives at 45 m/s.',
+    'At night in fog a UAV tracks a bus from a standoff of 80 m.',
+    'A bus is 20 m ahead of the ego. The bus is 60 m ahead of the ego.',
+    'The truck is ahead of the bus. The bus is ahead of the truck.',
+    'A drone orbits Mercy Hospital at a radius of 100 m, 110 m above the ground.',
+)
+
+
+def _checked(call: Call, prompt: str) -> dict[str, Any]:
+    document: dict[str, Any] = json.loads(call('check', prompt, '--json').out)
+    assert document['feasibility']['certificates'], prompt
+    return document
+
+
+def _again(call: Call, folder: Path, document: dict[str, Any]) -> SimpleNamespace:
+    file = folder / 'checked.json'
+    file.write_text(json.dumps(document))
+    return call('certificate', 'check', str(file))
+
+
+@pytest.mark.parametrize('prompt', MORE)
+def test_a_refusal_checks_again(here: Path, call: Call, prompt: str) -> None:
+    again = _again(call, here, _checked(call, prompt))
+    assert again.code == 0, again.out
+
+
+@pytest.mark.parametrize('rule', PROMPTS)
+def test_a_proof_by_every_rule_checks_again(here: Path, call: Call, rule: Rule) -> None:
+    document = _checked(call, PROMPTS[rule])
+    assert rule in {c.get('rule') for c in document['feasibility']['certificates']}
+    again = _again(call, here, document)
+    assert again.code == 0, again.out
+
+
+def _ordered(*orders: tuple[str, str]) -> dict[str, Any]:
+    """Return a request for e1 at 10 s and e2 at 30 s with orders, and what its times rule out."""
+    context = ParseContext(landmark_names=())
+    plain = parse_offline('The bus brakes at 10 s. The car stops at 30 s.', context).spec
+    assert plain is not None
+    asked = [{'id': f'o{k}', 'first': a, 'then': b} for k, (a, b) in enumerate(orders)]
+    spec = ScenarioSpec.model_validate({**plain.model_dump(mode='json'), 'orders': asked})
+    proofs = check_times(
+        spec,
+        load_limits(config_path('limits.json')),
+        load_tolerances(config_path('tolerances.json')),
+    )
+    found = [proof.model_dump(mode='json') for proof in proofs]
+    return {'spec': spec.model_dump(mode='json'), 'feasibility': {'certificates': found}}
+
+
+@pytest.mark.parametrize('orders', [(('e2', 'e1'),), (('e1', 'e2'), ('e2', 'e1'))])
+def test_orders_that_cannot_be_kept_are_followed_again(
+    here: Path, call: Call, orders: tuple[tuple[str, str], ...]
+) -> None:
+    document = _ordered(*orders)
+    proofs = document['feasibility']['certificates']
+    assert {c['rule'] for c in proofs} == {Rule.ORDER}
+    again = _again(call, here, document)
+    assert again.code == 0, again.out
+    for proof in proofs:
+        for forged in _forged(proof):
+            document['feasibility']['certificates'] = [forged]
+            assert _again(call, here, document).code == 1, forged
+    # The same proof beside a request whose order can be kept.
+    document['spec']['orders'] = [
+        {'id': c['path'].split('/')[1], 'first': 'e1', 'then': 'e2'} for c in proofs
+    ]
+    document['feasibility']['certificates'] = [{**c, 'facts': []} for c in proofs]
+    assert _again(call, here, document).code == 1
+
+
+def test_every_rule_has_its_test() -> None:
+    assert {*PROMPTS, Rule.ORDER} == set(Rule)
+
+
+def _forged(proof: dict[str, Any]) -> list[dict[str, Any]]:
+    """Return the proof with one thing changed: its path, a fact, the limit, the number."""
+    forged = [{**proof, 'path': 'missions/m9/altitude_m'}]
+    for k, fact in enumerate(proof.get('facts', ())):
+        value = f'{fact["value"]}x' if isinstance(fact['value'], str) else fact['value'] + 7.0
+        for change in ({'value': value}, {'path': f'{fact["path"]}/gone'}):
+            facts = [*proof['facts']]
+            facts[k] = {**fact, **change}
+            forged.append({**proof, 'facts': facts})
+    for name in ('limit', 'requested'):
+        if proof[name] is not None:
+            forged.append({**proof, name: proof[name] + 7.0})
+    return forged
+
+
+@pytest.mark.parametrize('rule', PROMPTS)
+def test_a_forged_proof_is_refuted(here: Path, call: Call, rule: Rule) -> None:
+    document = _checked(call, PROMPTS[rule])
+    proofs = document['feasibility']['certificates']
+    proof = next(c for c in proofs if c.get('rule') == rule)
+    for forged in _forged(proof):
+        document['feasibility']['certificates'] = [forged]
+        again = _again(call, here, document)
+        assert again.code == 1, (forged, again.out)
+
+
+def test_what_cannot_be_checked_is_not_refuted(here: Path, call: Call) -> None:
+    document = _checked(call, PROMPTS[Rule.ZONE])
+    (proof,) = document['feasibility']['certificates']
+    alone = _again(call, here, proof)
+    assert alone.code == 4
+    assert 'not checked: it rests on the specification' in alone.out
+    del proof['rule']
+    assert _again(call, here, document).code == 4
