@@ -23,6 +23,8 @@ def settle_verbs(atoms: list[Atom]) -> list[Atom]:
             settled[i] = _as(atom, kind)
         if atom.kind is AtomKind.VERB and atom.key in _PHASES and _gerund_follows(settled, i):
             settled[i] = replace(atom, kind=AtomKind.AUXILIARY)
+        if atom.kind is AtomKind.VERB and atom.key == 'finish' and _ground_act_follows(settled, i):
+            settled[i] = replace(atom, kind=AtomKind.AUXILIARY)
         if AtomKind.CAUSATIVE in kinds:
             if _actor_then_verb(settled, i) and not _tells(settled, i):
                 settled[i] = _as(atom, AtomKind.CAUSATIVE)
@@ -35,6 +37,9 @@ def settle_verbs(atoms: list[Atom]) -> list[Atom]:
 _PHASES = ('start', 'keep')
 
 
+_GROUND_ACTS = ('cross', 'walk', 'overtake', 'brake', 'change_lane', 'turn_left', 'turn_right')
+
+
 def _gerund_follows(atoms: list[Atom], i: int) -> bool:
     for atom in atoms[i + 1 :]:
         if atom.kind is AtomKind.VERB:
@@ -42,6 +47,12 @@ def _gerund_follows(atoms: list[Atom], i: int) -> bool:
         if atom.kind is not AtomKind.FILL:
             return False
     return False
+
+
+def _ground_act_follows(atoms: list[Atom], i: int) -> bool:
+    """`has finished crossing`: an act of its own; a flight that is finished is a mission."""
+    behind = atoms[i + 1] if i + 1 < len(atoms) else None
+    return behind is not None and behind.form is VerbForm.ING and behind.key in _GROUND_ACTS
 
 
 def _as(atom: Atom, kind: AtomKind) -> Atom:

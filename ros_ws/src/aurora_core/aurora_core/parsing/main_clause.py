@@ -11,7 +11,7 @@ from aurora_core.parsing.constructions import actions, conditions, ground, messa
 from aurora_core.parsing.constructions.ascent import ascent, landing
 from aurora_core.parsing.constructions.demands import demands, seen_for
 from aurora_core.parsing.constructions.flight_details import flight_details
-from aurora_core.parsing.constructions.flyers import asks_for_flight
+from aurora_core.parsing.constructions.flyers import asks_for_flight, keeps_it_up
 from aurora_core.parsing.constructions.states import predicate_adjectives
 from aurora_core.parsing.constructions.triggers import (
     time_adjunct,
@@ -268,7 +268,11 @@ def _flies(frame: Frame) -> bool:
         return True
     lead = next((a for a in frame.adjuncts if a.nouns and not a.key), None)
     placing = frame.key in ('be', 'put', 'exist', 'contain', 'keep', '')
-    if placing and lead is not None and lead.nouns[0].kind is NounKind.UAV:
+    if (
+        placing
+        and lead is not None
+        and (lead.nouns[0].kind is NounKind.UAV or keeps_it_up(frame, lead))
+    ):
         return True
     if placing and not frame.subject_nouns and lead is not None:
         kept = frame.key == 'keep' and lead.nouns[0].key == 'it'  # `and keep it there`

@@ -45,6 +45,7 @@ _EGO_ACTS = frozenset(
         'follow',
     }
 )
+_BY_HEIGHT = frozenset({'lowest', 'lower', 'bottom', 'middle', 'highest', 'upper', 'top'})
 _I_AM = (('i', 'am'), ('we', 'are'))
 _MOST_UNKNOWN = 2
 
@@ -349,6 +350,8 @@ class NounReader:
         told = word in ("i'm", 'im', "we're") or tuple(self._words[i : i + 2]) in _I_AM
         if told and self._acts(moving):  # `I am driving at 10 m/s`
             return self._pronoun_phrase(i, moving, 'i', NounKind.EGO)
+        if word == 'one' and i and self._words[i - 1] in _BY_HEIGHT:
+            return None
         if word in ('one', 'other') and self._lexicon.longest_of(self._words, i + 1, (Tag.VERB,)):
             return self._pronoun_phrase(i, i + 1, word)
         if word == 'one' and self._at_its_height(i):
@@ -363,13 +366,16 @@ class NounReader:
             self._words, i + 1, (Tag.MESSAGE, Tag.LINK)
         ):
             return None  # `of its messages`
+        by_height = _BY_HEIGHT.intersection(self._words[i : i + length])
+        if by_height and ' '.join(self._words[i + length : i + length + 1]) != 'at':
+            return None  # `the lower one lands`: who that is, only their heights tell
         kind = NounKind.EGO if sense.tag is Tag.EGO_PRONOUN else NounKind.PRONOUN
         return self._pronoun_phrase(i, i + length, sense.key, kind)
 
     def _at_its_height(self, i: int) -> bool:
         """`two drones, one at 40 m and one at 60 m`: `one` counts nothing."""
         before = self._words[i - 1] if i else ''
-        if before not in (',', 'and', ':') or i + 2 >= len(self._words):
+        if before not in (',', 'and', ':', ';') or i + 2 >= len(self._words):
             return False
         return self._words[i + 1] == 'at' and self._tokens[i + 2].kind is TokenKind.NUMBER
 
@@ -406,11 +412,17 @@ class NounReader:
             return None
         if i and self._words[i - 1] in ('the', 'a', 'at'):
             return None
+        if self._at_its_height(i) and self._second_at_its_height():
+            return self._pronoun_phrase(i, i + 1, f'nth{order.index(self._words[i]) + 1}')
         if self._lexicon.longest_of(self._words, i + 1, (Tag.VERB,)) is None:
             return None
         if self._words[i] == 'first' and not self._second_acts():
             return None
         return self._pronoun_phrase(i, i + 1, f'nth{order.index(self._words[i]) + 1}')
+
+    def _second_at_its_height(self) -> bool:
+        """`first at 40 m, then at 60 m` are two phases of one UAV."""
+        return any(w == 'second' and self._at_its_height(j) for j, w in enumerate(self._words))
 
     def _second_acts(self) -> bool:
         return any(

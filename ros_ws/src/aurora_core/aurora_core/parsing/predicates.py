@@ -61,7 +61,7 @@ def _cut_before(atoms: tuple[Atom, ...], begin: int, previous: int, i: int) -> t
         hanging = any(a.kind is AtomKind.RELATIVE for a in atoms[begin:previous]) or (
             opening.form is VerbForm.ING and _no_auxiliary(atoms, begin, previous)
         )
-        finite = verb.form in (VerbForm.THIRD, VerbForm.BASE)
+        finite = verb.form in (VerbForm.THIRD, VerbForm.BASE) or _has_aux(atoms, j, i)
         head = next((a for a in atoms[begin:previous] if a.is_actor), None)
         if hanging and finite and head is not None:
             return j, Piece(atoms=(), head=head)
@@ -83,11 +83,25 @@ def _cut_before(atoms: tuple[Atom, ...], begin: int, previous: int, i: int) -> t
         head = next((a for a in atoms[begin:previous] if a.is_actor), None)
         return j, Piece(atoms=(), head=head)
     helped = atoms[j].kind is AtomKind.AUXILIARY
+    finite = helped or verb.form is VerbForm.THIRD
+    described = _described(atoms, begin, previous) if finite else None
+    if described is not None:  # `a drone that is hovering there | can see the bus`
+        return j, Piece(atoms=(), head=described)
     if helped and atoms[previous].form is VerbForm.ING and _no_auxiliary(atoms, begin, previous):
         # `the drone watching the market from 70 m | has been there`
         head = next((a for a in atoms[begin:previous] if a.is_actor), None)
         return j, Piece(atoms=(), head=head)
     return j, Piece(atoms=())
+
+
+def _described(atoms: tuple[Atom, ...], begin: int, previous: int) -> Atom | None:
+    """Return the subject whose relative clause has the verb, None when the clause has none."""
+    for k in range(begin, previous):
+        if atoms[k].kind is AtomKind.VERB:
+            return None
+        if atoms[k].kind is AtomKind.RELATIVE:
+            return atoms[k - 1] if k > begin and atoms[k - 1].is_actor else None
+    return None
 
 
 def _is_noun(atoms: Sequence[Atom], begin: int, previous: int, i: int) -> bool:

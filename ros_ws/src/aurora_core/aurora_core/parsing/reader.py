@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -55,8 +56,19 @@ _TELLING = (Link.MAIN, Link.INFINITIVE, Link.PARTICIPLE, Link.WHILE)
 _CAUSES = (Link.WHEN, Link.AFTER, Link.UNTIL)
 
 
+_UNTIL_THEN = re.compile(
+    r'(?:and |but )?(?:(?:up )?until then|till then|before that|before then)\b'
+)
+
+
 def _waits_for(frame: Frame) -> bool:
     return frame.key in HAPPENS
+
+
+def _is_earlier_state(frame: Frame) -> bool:
+    """`…, until then it follows the bus`: what holds before the event is no effect of it."""
+    told = frame.scene.prompt[frame.piece.start : frame.piece.end].lower()
+    return _UNTIL_THEN.match(told) is not None
 
 
 class Reader:
@@ -326,7 +338,7 @@ class Reader:
         """`When …, the drone alerts the ego and the ego brakes`: a second effect of one cause."""
         if self._last is None or self._last[1] != frame.piece.sentence:
             return False
-        if frame.piece.link is not Link.MAIN:
+        if frame.piece.link is not Link.MAIN or _is_earlier_state(frame):
             return False
         shared_words(frame)
         action = actions.action(frame)

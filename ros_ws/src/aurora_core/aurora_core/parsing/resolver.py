@@ -132,6 +132,8 @@ class Resolver:
         ):  # each mention picks a member once
             if not self.known(noun):
                 picked = self._pronouns.resolve(noun, accept, exclude, as_object)
+                if not picked and noun.head_text.startswith('the other'):
+                    picked = self._beside_one(noun)
                 self._read[noun.start, noun.end] = picked
             return self.known(noun)
         if noun.kind is NounKind.PRONOUN:
@@ -154,6 +156,22 @@ class Resolver:
             return self.known(noun)
         return ()
 
+    def _beside_one(self, noun: NounPhrase) -> tuple[Entity, ...]:
+        """`one drone tracks the bus, the other one hovers`: who makes two of it."""
+        acting = [c.subjects for c in self._scene.clauses[:-1] if c.subjects]
+        first = acting[-1][0] if acting and len(acting[-1]) == 1 else None
+        if first is None or first.span is None or first.group is not None:
+            return ()
+        words = self._scene.prompt[first.span.start : first.span.end].lower().split()
+        alone = sum(
+            e.is_uav is first.is_uav and e.type is first.type for e in self._scene.entities
+        )
+        return (
+            self._like(first, Span(start=noun.start, end=noun.end))
+            if words[0] in ('one', '1') and alone == 1
+            else ()
+        )
+
     def _one_more(self, noun: NounPhrase) -> tuple[Entity, ...]:
         """`one drone …, another one …`: of the kind that acted last."""
         acting = [c.subjects[0] for c in self._scene.clauses if c.subjects]
@@ -163,11 +181,14 @@ class Resolver:
         members = [e for e in self._scene.entities if like.group and e.group == like.group]
         if noun.head_text.startswith('its') and members:
             return (members[-1],)  # `two drones …, one …, its partner …`
+        return self._like(like, Span(start=noun.start, end=noun.end))
+
+    def _like(self, like: Entity, span: Span) -> tuple[Entity, ...]:
         made = Entity(
             id=self._scene.new_id('uav' if like.is_uav else like.type.value),
             is_uav=like.is_uav,
             type=like.type,
-            span=Span(start=noun.start, end=noun.end),
+            span=span,
         )
         self._scene.entities.append(made)
         return (made,)

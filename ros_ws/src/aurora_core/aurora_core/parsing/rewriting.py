@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
+from aurora_core.parsing.atoms import Atom, AtomKind, NounKind, NounPhrase
 from aurora_core.parsing.inversions import straighten
 from aurora_core.parsing.measures import LENGTH
 from aurora_core.parsing.morphology import VerbForm
@@ -38,7 +38,7 @@ def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
     """Return the atoms with shorthand written out and retracted numbers left out."""
     kept, spans = _take_back(straighten(atoms, prompt))
     return Rewritten(
-        atoms=tuple(_relatives(_climbs(_fronted(_labels(kept)), prompt))),
+        atoms=tuple(_relatives(_climbs(_small_words(_fronted(_labels(kept)), prompt), prompt))),
         taken_back=tuple(spans),
     )
 
@@ -92,10 +92,17 @@ def _labels(atoms: list[Atom]) -> list[Atom]:
             continue
         noun = solid[0].noun if len(solid) == 1 else None
         one = noun is not None and noun.count <= 1 and not noun.plural
-        if atom.key == ':' and one and solid[0].is_actor:
+        told = one or (noun is not None and _commands(atoms, i))
+        if atom.key == ':' and told and solid[0].is_actor:
             changed[i] = replace(atom, kind=AtomKind.FILL)
         solid = []
     return changed
+
+
+def _commands(atoms: Sequence[Atom], i: int) -> bool:
+    """`two drones: climb to 50 m`: what all of them are told to do."""
+    behind = next((a for a in atoms[i + 1 :] if a.kind is not AtomKind.FILL), None)
+    return behind is not None and behind.kind is AtomKind.VERB and behind.form is VerbForm.BASE
 
 
 def _fronted(atoms: list[Atom]) -> list[Atom]:
@@ -106,6 +113,58 @@ def _fronted(atoms: list[Atom]) -> list[Atom]:
         if moved[i].kind is AtomKind.THEN and moved[i - 1].is_actor and verbal:
             moved[i - 1], moved[i] = moved[i], moved[i - 1]
     return moved
+
+
+def _small_words(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """`hears from it`, `20 m off the van`, `on receipt the drone climbs`."""
+    written: list[Atom] = []
+    told = ''  # the last predicate of the sentence
+    for i, atom in enumerate(atoms):
+        behind = atoms[i + 1] if i + 1 < len(atoms) else None
+        if atom.kind is AtomKind.VERB:
+            told = atom.key
+        elif atom.kind is AtomKind.STOP:
+            told = ''
+        if atom.kind is AtomKind.FILL and atom.key == 'from it' and told == 'receive':
+            cut = atom.start + len('from')
+            it = NounPhrase(
+                kind=NounKind.PRONOUN, key='it', start=cut + 1, end=atom.end, head_text='it'
+            )
+            written += [
+                Atom(kind=AtomKind.PREPOSITION, key='from', start=atom.start, end=cut),
+                Atom(kind=AtomKind.NOUN, key='it', start=cut + 1, end=atom.end, noun=it),
+            ]
+            continue
+        length = written[-1] if written else None
+        away = atom.key == 'off' and length is not None and length.key == LENGTH
+        if away and behind is not None and _stands(atoms, i + 1):
+            atom = replace(atom, kind=AtomKind.PREPOSITION, key='from')
+        if _is_receipt(written, atom, prompt):
+            opening = written.pop()
+            if written and written[-1].kind is AtomKind.COMMA:  # the effect comes behind
+                written[-1] = replace(written[-1], kind=AtomKind.CONJUNCTION, key='and')
+            written += [
+                replace(opening, kind=AtomKind.SUBORDINATOR, key='when'),
+                replace(atom, kind=AtomKind.VERB, key='receive', form=VerbForm.ING),
+            ]
+            if behind is not None and behind.is_actor:
+                written.append(replace(atom, kind=AtomKind.COMMA, key=','))
+            continue
+        written.append(atom)
+    return written
+
+
+def _stands(atoms: Sequence[Atom], i: int) -> bool:
+    solid = next((a for a in atoms[i:] if a.kind is not AtomKind.FILL), None)
+    return solid is not None and (solid.is_actor or solid.is_place)
+
+
+def _is_receipt(written: Sequence[Atom], atom: Atom, prompt: str) -> bool:
+    words = prompt[atom.start : atom.end].lower()
+    if atom.kind is not AtomKind.MESSAGE or words not in ('receipt', 'delivery'):
+        return False
+    before = written[-1] if written else None
+    return before is not None and prompt[before.start : before.end].lower() in ('on', 'upon')
 
 
 def _climbs(atoms: list[Atom], prompt: str) -> list[Atom]:

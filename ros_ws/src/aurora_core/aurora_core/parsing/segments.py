@@ -43,9 +43,20 @@ def _sentence(atoms: list[Atom], number: int) -> list[Piece]:
     pieces = [piece for part in parts for piece in cut_at_verbs(part)]
     pieces = _causes_first(_attach_adjuncts(_delays(fill_gaps(pieces))))
     told = [Piece(atoms=a.atoms, link=Link.RELATIVE, head=a.head) for a in asides]
-    pieces = [p for p in told if _names_others(p)] + pieces
-    pieces += [p for p in told if not _names_others(p)]
-    return [replace(p, sentence=number) for p in pieces if p.atoms]
+    first = [p for p in told if _names_others(p) or _of_a_cause(p, pieces)]
+    pieces = first + pieces + [p for p in told if p not in first]
+    return [replace(p, sentence=number) for p in _descriptions_first(pieces) if p.atoms]
+
+
+def _descriptions_first(pieces: list[Piece]) -> list[Piece]:
+    """`alerts it when a van | that drives at 10 m/s | comes near`: effect and cause meet."""
+    moved = list(pieces)
+    for k in range(1, len(moved) - 1):
+        told, cause = moved[k], moved[k + 1]
+        described = told.link is Link.RELATIVE and cause.head is not None
+        if described and cause.link in (Link.WHEN, Link.AFTER, Link.UNTIL) and not cause.opens:
+            moved[k - 1], moved[k] = moved[k], moved[k - 1]
+    return moved
 
 
 def _plain_prepositions(atoms: list[Atom]) -> list[Atom]:
@@ -193,6 +204,8 @@ def _decide(
     if verb:
         return _decide_predicate(current, markers, ahead, solid)
     if opens_gap(current, ahead) or _is_share(ahead) or _is_inverted(ahead):
+        return Piece(atoms=())
+    if _is_ratio_of_sight(ahead) and any(a.key == RATIO for a in current):
         return Piece(atoms=())
     actor_list = not has_verb(current) and _only_actors(current)
     comma = any(m.kind is AtomKind.COMMA for m in markers)
@@ -348,6 +361,13 @@ def _names_others(piece: Piece) -> bool:
     return bool(nouns) and all(n.kind is not NounKind.PRONOUN for n in nouns)
 
 
+def _of_a_cause(aside: Piece, pieces: Sequence[Piece]) -> bool:
+    """`when the child, who crosses after 10 s, …`: what it does is told before what follows."""
+    causes = [p for p in pieces if p.link in (Link.WHEN, Link.AFTER, Link.UNTIL)]
+    placed = any(a.kind is AtomKind.RELATION for a in aside.atoms)  # beside whom is told before
+    return not placed and any(aside.head in p.atoms for p in causes)
+
+
 def _is_inverted(ahead: Sequence[Atom]) -> bool:
     """`…, and 15 m behind the van a car`: whoever is new is placed by whoever is known."""
     solid = [a for a in ahead if a.kind not in TRANSPARENT]
@@ -366,7 +386,14 @@ def _is_share(ahead: Sequence[Atom]) -> bool:
     first = first_solid(ahead)
     member = first is not None and first.noun is not None and first.noun.kind is NounKind.PRONOUN
     told = any(a.measure is not None for a in ahead)
-    return member and told and first is not None and first.key in ('one', 'other', 'another')
+    named = first is not None and first.key in ('one', 'other', 'another')
+    return member and told and (named or (first is not None and first.key.startswith('nth')))
+
+
+def _is_ratio_of_sight(ahead: Sequence[Atom]) -> bool:
+    """`tracked for 90 % of the time, visible for 75 %`: each share is a demand of its own."""
+    seen = any(a.kind is AtomKind.IN_VIEW for a in ahead)
+    return seen and any(a.key == RATIO for a in ahead)
 
 
 def _of_another(values: Sequence[Atom], ahead: Sequence[Atom]) -> bool:

@@ -161,7 +161,17 @@ class _Tagger:
 
     def _step(self, i: int) -> int:
         token = self._tokens[i]
-        if token.kind is TokenKind.MARK and token.norm not in ('%', '°', '@', '~', '&', '<', '>'):
+        if token.kind is TokenKind.MARK and token.norm not in (
+            '%',
+            '°',
+            '@',
+            '~',
+            '&',
+            '<',
+            '>',
+            '≥',
+            '≤',
+        ):
             if token.norm in _STOPS:
                 self._add(AtomKind.STOP, token.norm, i, i + 1)
             elif token.norm == ',':

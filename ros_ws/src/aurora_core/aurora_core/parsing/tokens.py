@@ -63,7 +63,7 @@ _CONTRACTED = frozenset(
 
 
 # Pronouns behind which `'s` is `is`.
-_SUBJECTS = frozenset(('it', 'he', 'she', 'there'))
+_SUBJECTS = frozenset(('it', 'he', 'she', 'there', 'that', 'who', 'which'))
 
 
 def _number(text: str) -> Fraction | None:

@@ -22,7 +22,8 @@ CONTEXT = ParseContext(
     seed=1,
 )
 _TABLES = [
-    Path(__file__).with_name(name) for name in ('prompts.yaml', 'wordings.yaml', 'shorthand.yaml')
+    Path(__file__).with_name(name)
+    for name in ('prompts.yaml', 'wordings.yaml', 'shorthand.yaml', 'commands.yaml')
 ]
 _MARK = {Provenance.EXPLICIT: '', Provenance.INFERRED: 'i', Provenance.DEFAULT: 'd'}
 _BOUND = {Bound.EXACTLY: '', Bound.AT_LEAST: '>=', Bound.AT_MOST: '<='}

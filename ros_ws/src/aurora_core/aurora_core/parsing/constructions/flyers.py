@@ -4,15 +4,15 @@
 
 from __future__ import annotations
 
-from aurora_core.parsing.adjuncts import AdjunctKind
-from aurora_core.parsing.atoms import AtomKind, NounKind
+from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
+from aurora_core.parsing.atoms import AtomKind, Determiner, NounKind
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.pronouns import airborne
 from aurora_core.parsing.scene import Entity
 
 # Predicates that only a UAV has: without a subject they ask for one.
-_AERIAL_ONLY = frozenset({'hover', 'orbit', 'fly', 'navigate'})
+_AERIAL_ONLY = frozenset({'hover', 'orbit', 'fly', 'navigate', 'ascend', 'descend'})
 
 
 # Predicates whose object may be the UAV: `fly a drone`, `hover a quadcopter`.
@@ -29,7 +29,12 @@ def flyers(frame: Frame) -> tuple[Entity, ...]:
         not nouns or (nouns[0].kind is NounKind.PRONOUN and nouns[0].key == 'there')
     ):
         launched = next(
-            (a for a in frame.free(AdjunctKind.OBJECT) if a.nouns[0].kind is NounKind.UAV), None
+            (
+                a
+                for a in frame.free(AdjunctKind.OBJECT)
+                if a.nouns[0].kind is NounKind.UAV or keeps_it_up(frame, a)
+            ),
+            None,
         )
         if launched is not None:
             launched.used = True
@@ -57,9 +62,9 @@ def flyers(frame: Frame) -> tuple[Entity, ...]:
         return (scene.uavs[0],)
     aerial = frame.key in _AERIAL_ONLY or asks_for_flight(frame)
     if not scene.uavs and (aerial or frame.attribute('altitude') is not None):
-        created = new_uav(frame)
-        scene.clause.subjects = (created,)
-        return (created,)
+        found = _named_later(frame) or (new_uav(frame),)
+        scene.clause.subjects = found
+        return found
     if frame.key in ('track', 'observe', 'follow') and not scene.uavs:
         return _left_out(frame)
     return ()
@@ -79,6 +84,16 @@ def _told_to_stay(frame: Frame) -> None:
             return
 
 
+def keeps_it_up(frame: Frame, adjunct: Adjunct) -> bool:
+    """`keep it 20 m off the van and 50 m up`: with heights and standoffs, `it` is the UAV."""
+    commanded = frame.verb is not None and frame.verb.form is VerbForm.BASE
+    if not commanded or frame.subject_nouns or frame.key not in ('keep', 'put', 'fly', 'be'):
+        return False
+    it = adjunct.nouns[0].kind is NounKind.PRONOUN and adjunct.nouns[0].key == 'it'
+    told = frame.attribute('altitude', 'away', 'standoff', 'gap') is not None
+    return it and told and len(frame.scene.uavs) == 1
+
+
 def asks_for_flight(frame: Frame) -> bool:
     """`rectangle patrol around the market`, `do a lawnmower survey`: only UAVs fly patterns."""
     if frame.key not in ('', 'trace') or frame.subject_nouns:
@@ -86,6 +101,15 @@ def asks_for_flight(frame: Frame) -> bool:
     routes = [a.value for a in frame.adjuncts if a.key == AtomKind.ROUTE.value]
     flown = any('patrol' in name or 'survey' in name for name in routes)
     return flown or frame.has_mark(AtomKind.PATTERN.value)
+
+
+def _named_later(frame: Frame) -> tuple[Entity, ...]:
+    """`climb to 80 m and hover over the park, one drone`: the command is for whom it names."""
+    nouns = frame.scene.uav_nouns
+    if not nouns or nouns[0].determiner in (Determiner.ANOTHER, Determiner.OTHER):
+        return ()
+    again = all(n.determiner is Determiner.DEFINITE and not n.index for n in nouns[1:])
+    return frame.resolver.actors(nouns[:1]) if again and nouns[0].index <= 1 else ()
 
 
 def _left_out(frame: Frame) -> tuple[Entity, ...]:

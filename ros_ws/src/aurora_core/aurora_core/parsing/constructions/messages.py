@@ -63,7 +63,10 @@ def _received(frame: Frame) -> SendMessage | None:
     if frame.negated or not source:
         return None
     receivers = frame.subjects()
-    senders = frame.objects([n for n in source[0].nouns if n.kind in ACTORS])
+    nouns = [n for n in source[0].nouns if n.kind in ACTORS]
+    flying = tuple(e for e in frame.scene.uavs if e not in receivers)
+    # `when the drone sees the bicycle, the bus gets a warning from it`
+    senders = flying if _is_it(nouns) and len(flying) == 1 else frame.objects(nouns)
     if len(receivers) != 1 or len(senders) != 1 or senders == receivers:
         return None
     source[0].used = True
