@@ -164,8 +164,21 @@ def _siren(frame: Frame) -> None:
     if mark and agents:
         mark[0].used = True
         for entity in agents:
-            entity.behaviors.append(Behavior(kind=BehaviorKind.EMERGENCY_RUN, span=frame.span))
+            entity.behaviors.append(
+                Behavior(kind=BehaviorKind.EMERGENCY_RUN, target=_goal(frame), span=frame.span)
+            )
         frame.scene.clause.status = ClauseStatus.ENCODED
+
+
+def _goal(frame: Frame) -> str | None:
+    """`on an emergency run to the hospital`."""
+    for adjunct in frame.free(AdjunctKind.PHRASE, 'to'):
+        for noun in adjunct.nouns:
+            place = frame.resolver.place(noun)
+            if place is not None:
+                adjunct.used = True
+                return place
+    return None
 
 
 def _from_above(frame: Frame) -> None:

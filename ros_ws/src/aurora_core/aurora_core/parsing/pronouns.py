@@ -86,6 +86,9 @@ class PronounResolver:
                 fitting = [e for e in candidates if possible(e)]
                 if fitting and len({e.group or e.id for e in fitting}) == 1:
                     return (fitting[0],) if len(fitting) == 1 else tuple(fitting)
+                alone = [e for e in fitting if e.group is None]
+                if noun.key == 'it' and len(alone) == 1:  # `three cars and a bus …, behind it`
+                    return (alone[0],)
         rest = [e for e in self._scene.entities if possible(e)]
         if len(rest) == 1:
             return (rest[0],)

@@ -36,6 +36,7 @@ from aurora_core.parsing.sequence import (
     is_ellipsis,
     is_phase,
     later,
+    leads_to,
     sight,
     who_was_told,
     without_link,
@@ -109,7 +110,7 @@ class Reader:
                 i += 1
             elif piece.link in _CAUSES and piece.opens and same and nxt is not None:
                 self._leading(piece, nxt)
-            elif nxt is not None and same and nxt.then and is_arrival(piece):
+            elif nxt is not None and same and nxt.then and (is_arrival(piece) or leads_to(piece)):
                 self._leading(piece, nxt)  # `the bus arrives at the station, then …`
             elif same and nxt is not None and is_earlier(nxt) and piece.link is Link.MAIN:
                 self._leading(replace(nxt, opens=True), piece)
@@ -265,6 +266,9 @@ class Reader:
         found, clause, sentence, delay = self._held
         self._held = None
         shared_words(frame)
+        flying = self._scene.uavs
+        if messages.is_command(frame) and len(flying) == 1:
+            frame.heir = flying[0]  # `if the van exceeds 15 m/s, notify the police`
         action = actions.action(frame)
         if action is None:
             clause.status = ClauseStatus.NOT_ENCODED

@@ -110,7 +110,8 @@ def _fronted(atoms: list[Atom]) -> list[Atom]:
     moved = list(atoms)
     for i in range(1, len(moved) - 1):
         verbal = moved[i + 1].kind in (AtomKind.VERB, AtomKind.AUXILIARY)
-        if moved[i].kind is AtomKind.THEN and moved[i - 1].is_actor and verbal:
+        worded = moved[i].kind is AtomKind.THEN and moved[i].key != '→'
+        if worded and moved[i - 1].is_actor and verbal:
             moved[i - 1], moved[i] = moved[i], moved[i - 1]
     return moved
 

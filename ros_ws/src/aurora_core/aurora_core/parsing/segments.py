@@ -193,7 +193,10 @@ def _decide(
     relative = any(m.kind is AtomKind.RELATIVE for m in markers)
     if relative:
         head = next((a for a in reversed(current) if a.is_actor), None)
-        if solid.kind is not AtomKind.VERB or head is None or not has_verb(current):
+        alone = sum(a.kind is AtomKind.VERB for a in ahead) == 1 and _is_placed(current)
+        if solid.kind is not AtomKind.VERB or head is None:
+            return None
+        if not has_verb(current) and not (alone and head is current[-1]):
             return None
         return Piece(atoms=(), link=Link.RELATIVE, head=head)
     verb = has_verb(ahead)
@@ -272,7 +275,7 @@ def _is_placed(atoms: Sequence[Atom]) -> bool:
     solid = [a for a in atoms if a.kind not in TRANSPARENT]
     if len(solid) < 2 or not solid[0].is_actor:
         return False
-    place_words = (AtomKind.RELATION, AtomKind.PREPOSITION)
+    place_words = (AtomKind.RELATION, AtomKind.PREPOSITION, AtomKind.SIREN)
     return solid[1].kind in place_words or (
         solid[1].kind is AtomKind.MEASURE and len(solid) > 2 and solid[2].kind in place_words
     )

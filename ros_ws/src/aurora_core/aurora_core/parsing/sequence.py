@@ -154,6 +154,14 @@ def is_arrival(piece: Piece) -> bool:
     return told and grounded and any(a.is_place for a in piece.atoms)
 
 
+def leads_to(piece: Piece) -> bool:
+    """`van gets occluded -> drone warns the ego`: only what happens at once is a cause."""
+    verb = next((a for a in piece.atoms if a.kind is AtomKind.VERB), None)
+    return (
+        piece.link is Link.MAIN and verb is not None and verb.key in ('vanish', 'exceed', 'lose')
+    )
+
+
 def is_phase(piece: Piece) -> bool:
     """Return whether a clause tells a phase with its duration as done: `has hovered for 20 s`."""
     verb = next((a for a in piece.atoms if a.kind is AtomKind.VERB), None)

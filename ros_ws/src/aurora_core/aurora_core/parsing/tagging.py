@@ -174,6 +174,8 @@ class _Tagger:
         ):
             if token.norm in _STOPS:
                 self._add(AtomKind.STOP, token.norm, i, i + 1)
+            elif token.norm == '→':
+                self._add(AtomKind.THEN, token.norm, i, i + 1)
             elif token.norm == ',':
                 self._add(AtomKind.COMMA, ',', i, i + 1)
             elif token.norm in _HARMLESS or token.norm == '=':

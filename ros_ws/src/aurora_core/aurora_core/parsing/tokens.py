@@ -115,11 +115,11 @@ def tokenize(text: str) -> tuple[Token, ...]:
             if piece in '>→' and raw and (piece == '→' or (raw[-1].norm in '-=' and glued)):
                 if piece == '>':
                     start = raw.pop().start
-                piece = ','  # an arrow
+                piece = '→'
             mark = {'–': '-', '—': ';', '×': 'x', '−': '-', '＆': '&'}.get(piece, piece)
             token_kind = TokenKind.WORD if mark == 'x' else TokenKind.MARK
             raw.append(Token(kind=token_kind, norm=mark, start=start, end=end, glued=glued))
-    return _join_signs(_drop_hyphens(raw))
+    return _join_signs(_drop_hyphens(_list_marks(raw)))
 
 
 def _words(norm: str, start: int, end: int, glued: bool) -> list[Token]:
@@ -138,6 +138,27 @@ def _words(norm: str, start: int, end: int, glued: bool) -> list[Token]:
         Token(kind=TokenKind.WORD, norm=stem, start=start, end=cut, glued=glued),
         Token(kind=TokenKind.WORD, norm="'s", start=cut, end=end, glued=True),
     ]
+
+
+def _list_marks(tokens: list[Token]) -> list[Token]:
+    """`a) hover … b) land`, `1) …`: the mark of a step ends the sentence before it."""
+    kept: list[Token] = []
+    depth = 0
+    i = 0
+    while i < len(tokens):
+        token = tokens[i]
+        behind = tokens[i + 1] if i + 1 < len(tokens) else None
+        depth += token.norm == '('
+        closes = behind is not None and behind.norm == ')' and behind.glued
+        short = len(token.norm) == 1 and token.kind in (TokenKind.WORD, TokenKind.NUMBER)
+        if closes and short and not depth and not token.glued and behind is not None:
+            kept.append(Token(kind=TokenKind.MARK, norm=';', start=token.start, end=behind.end))
+            i += 2
+            continue
+        depth -= token.norm == ')' and depth > 0
+        kept.append(token)
+        i += 1
+    return kept
 
 
 def _drop_hyphens(tokens: list[Token]) -> list[Token]:

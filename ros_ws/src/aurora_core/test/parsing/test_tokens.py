@@ -53,7 +53,9 @@ def test_words_keep_their_place() -> None:
         ('20-30 m', ['20', '-', '30', 'm']),
         ('a drone - fast', ['a', 'drone', ';', 'fast']),
         ('v2x link', ['v2x', 'link']),
-        ('van -> stop', ['van', ',', 'stop']),
+        ('van -> stop', ['van', '→', 'stop']),
+        ('a) van b) stop', [';', 'van', ';', 'stop']),
+        ('a van (number 2) stops', ['a', 'van', '(', 'number', '2', ')', 'stops']),
         ('one\ntwo', ['one', '\n', 'two']),
     ],
 )

@@ -33,6 +33,7 @@ _STRICT = re.compile(r'(less than|under|below|quicker than|faster than|<)\s*$')
 _UNBROKEN = re.compile(
     r'\b(without (?:interruption|a break)|uninterrupted|in one go|at a stretch)'
 )
+_MOST = re.compile(r'\b(max(?:imum|imal)?|limit(?:ed)?|at most)\b')
 _ENDS = re.compile(r'\b(on the ground|landed|lands?|down)\b')
 
 
@@ -122,7 +123,9 @@ def _separation(frame: Frame) -> None:
         return
     named = [e for e in _named(frame) if e.is_uav]
     flying = named if len(named) > 1 else frame.scene.uavs
-    on_ground = [e for e in frame.scene.clause.subjects if not e.is_uav]
+    they = all(n.kind is NounKind.PRONOUN for n in frame.subject_nouns)
+    grouped = they and len(flying) > 1 and all(e.group is not None for e in flying)
+    on_ground = [e for e in frame.scene.clause.subjects if not e.is_uav and not grouped]
     if len(flying) < 2 or on_ground or not values.accepts('condition_distance', adjunct.measure):
         return
     near = adjunct.prep in ('within', 'below') or adjunct.measure.bound is Bound.AT_MOST
@@ -245,7 +248,8 @@ def _deadline(frame: Frame) -> None:
 
 def _told_within(frame: Frame) -> None:
     """`reports this to the police car within 3 s`."""
-    if frame.key not in ('alert', 'send', 'report') or frame.negated:
+    named = frame.key == '' and _DELIVERED.search(_text(frame))  # `loss 5 %, delivery within 1 s`
+    if not (named or frame.key in ('alert', 'send', 'report')) or frame.negated:
         return
     adjunct = frame.time('within')
     link = _link(frame)
@@ -277,9 +281,12 @@ def _drift(frame: Frame) -> None:
             add_condition(frame, 'hover_drift', (observer.id,), '<=', value)
         return
     adjunct = frame.length() or frame.attribute('altitude')
-    if frame.key != 'drift' or not frame.negated or observer is None or adjunct is None:
+    if frame.key != 'drift' or observer is None or adjunct is None or adjunct.measure is None:
         return
-    if adjunct.measure is None or not values.accepts('condition_distance', adjunct.measure):
+    bounded = adjunct.measure.bound is Bound.AT_MOST or adjunct.prep in ('within', 'below')
+    if not (frame.negated or bounded or _MOST.search(_text(frame))):
+        return
+    if not values.accepts('condition_distance', adjunct.measure):
         return
     adjunct.used = True
     value = values.explicit('condition_distance', adjunct.measure)

@@ -11,6 +11,7 @@ from aurora_core.parsing.adjuncts import AdjunctKind
 from aurora_core.parsing.atoms import ACTORS, AtomKind, NounKind, NounPhrase
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.measures import RATIO
+from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.pronouns import airborne
 from aurora_core.parsing.scene import Entity, LinkDraft, Scene
 from aurora_core.spec.parameter import Bound, Parameter
@@ -55,6 +56,13 @@ def message(frame: Frame) -> SendMessage | None:
     frame.scene.clause.objects = receivers
     frame.scene.became(link.id)
     return SendMessage(do='send_message', sender=senders[0].id, receiver=receivers[0].id)
+
+
+def is_command(frame: Frame) -> bool:
+    """`notify the police`: whoever reads the scenario out tells a UAV, not who acted before."""
+    if frame.verb is None or frame.subject_nouns:
+        return False
+    return frame.key in TELLING and frame.verb.form is VerbForm.BASE
 
 
 def _received(frame: Frame) -> SendMessage | None:
