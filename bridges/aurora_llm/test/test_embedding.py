@@ -18,8 +18,9 @@ TEXTS = ('lorry', 'motorbike', 'nurse')
 
 def test_a_paraphrase_without_a_common_word_is_found() -> None:
     vectors = installed_vectors()
-    if vectors is None:
-        pytest.skip('the wheel wordllama is not installed')
+    if int(np.__version__.split('.')[0]) < 2:
+        pytest.skip("beside a system's ROS there is numpy 1, and wordllama wants numpy 2")
+    assert vectors is not None
     scores = EmbeddingRanker(vectors, TEXTS).scores('a big truck')
     assert int(np.argmax(scores)) == 0
     assert not LexicalRanker(TEXTS).scores('a big truck').any()

@@ -373,3 +373,8 @@ def _model(link: Link, range_sight_m: float, range_blocked_m: float) -> LinkMode
         range_sight_m=range_sight_m if stated is None else stated,
         range_blocked_m=range_blocked_m if stated is None else stated,
     )
+
+
+def ground_topics(condition: Condition) -> tuple[str, ...]:
+    """Return the evidence of a condition that rests on the states of its ground agents."""
+    return tuple(f'ground/state[{name}]' for name in condition.of)

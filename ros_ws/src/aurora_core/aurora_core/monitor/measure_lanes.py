@@ -9,7 +9,14 @@ from itertools import pairwise
 import numpy as np
 
 from aurora_core.conditions.condition import Condition
-from aurora_core.monitor.evaluation import Context, Evaluation, Later, Missing, at_tick
+from aurora_core.monitor.evaluation import (
+    Context,
+    Evaluation,
+    Later,
+    Missing,
+    at_tick,
+    ground_topics,
+)
 from aurora_core.monitor.verdict import Reason
 from aurora_core.quantities import motion
 from aurora_core.quantities.lanes import (
@@ -22,10 +29,6 @@ from aurora_core.quantities.lanes import (
     lane_of,
 )
 from aurora_core.quantities.ticks import whole_ticks
-
-
-def _topics(condition: Condition) -> tuple[str, ...]:
-    return tuple(f'ground/state[{name}]' for name in condition.of)
 
 
 def measure_lane_change(context: Context, condition: Condition) -> Evaluation:
@@ -46,7 +49,7 @@ def measure_lane_change(context: Context, condition: Condition) -> Evaluation:
     changes = lane_change_ticks(view, lanes)
     if not changes:
         story = f'{body.body_id} kept to its lane'
-        return at_tick(0, 0.0, story, _topics(condition), later=Later.RISES)
+        return at_tick(0, 0.0, story, ground_topics(condition), later=Later.RISES)
     kept = _kept(changes, lanes, end, whole_ticks(condition.threshold, view.dt_s))
     longest = int(np.argmax(kept))
     tick = changes[longest]
@@ -55,7 +58,7 @@ def measure_lane_change(context: Context, condition: Condition) -> Evaluation:
         f'{body.body_id} changed lane at {context.time_s(tick):.2f} s and kept to the new one for '
         f'{kept_s:.2f} s'
     )
-    return at_tick(tick, kept_s, story, _topics(condition), later=Later.RISES)
+    return at_tick(tick, kept_s, story, ground_topics(condition), later=Later.RISES)
 
 
 def _kept(changes: list[int], lanes: LaneArray, end: int, least: int) -> list[int]:
@@ -92,4 +95,4 @@ def measure_over_limit(context: Context, condition: Condition) -> Evaluation:
     over = values[driven] - limits[lanes[driven]]
     most = int(np.argmax(over))
     tick = int(driven[most])
-    return at_tick(tick, float(over[most]), evidence=_topics(condition), later=Later.RISES)
+    return at_tick(tick, float(over[most]), evidence=ground_topics(condition), later=Later.RISES)

@@ -8,7 +8,14 @@ import numpy as np
 
 from aurora_core.conditions.condition import Condition
 from aurora_core.knowledge.world import SurfaceKind
-from aurora_core.monitor.evaluation import Context, Evaluation, Later, Missing, at_tick
+from aurora_core.monitor.evaluation import (
+    Context,
+    Evaluation,
+    Later,
+    Missing,
+    at_tick,
+    ground_topics,
+)
 from aurora_core.monitor.verdict import Reason
 from aurora_core.quantities import motion
 from aurora_core.quantities.angle import compass_bearing_deg
@@ -21,10 +28,6 @@ from aurora_core.trace.layout import GroundColumn
 def _until(context: Context, condition: Condition) -> int | Missing:
     ticks = context.window(condition)
     return ticks if isinstance(ticks, Missing) else context.together_until(condition)
-
-
-def _topics(condition: Condition) -> tuple[str, ...]:
-    return tuple(f'ground/state[{name}]' for name in condition.of)
 
 
 def _moving_until(context: Context, condition: Condition) -> int | Missing:
@@ -46,7 +49,7 @@ def measure_greatest_drop(context: Context, condition: Condition) -> Evaluation:
     values = motion.speed(context.view, context.view.body(condition.of[0]))[:end]
     drop = np.maximum.accumulate(values) - values
     tick = int(np.argmax(drop))
-    return at_tick(tick, float(drop[tick]), evidence=_topics(condition), later=Later.RISES)
+    return at_tick(tick, float(drop[tick]), evidence=ground_topics(condition), later=Later.RISES)
 
 
 def measure_turn(context: Context, condition: Condition) -> Evaluation:
@@ -66,7 +69,7 @@ def measure_turn(context: Context, condition: Condition) -> Evaluation:
     least_before = sliding_clipped(turned[::-1], width, Extremum.LEAST)[::-1]
     tick = int(np.argmax(turned - least_before))
     value = float(turned[tick] - least_before[tick])
-    return at_tick(tick, value, evidence=_topics(condition), later=Later.RISES)
+    return at_tick(tick, value, evidence=ground_topics(condition), later=Later.RISES)
 
 
 def measure_crossing(context: Context, condition: Condition) -> Evaluation:
@@ -91,4 +94,4 @@ def measure_crossing(context: Context, condition: Condition) -> Evaluation:
         width = distance_2d(float(dx), float(dy))
         if width > widest:
             widest, tick = width, after
-    return at_tick(tick, widest, evidence=_topics(condition), later=Later.RISES)
+    return at_tick(tick, widest, evidence=ground_topics(condition), later=Later.RISES)

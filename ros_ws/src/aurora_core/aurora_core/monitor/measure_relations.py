@@ -18,6 +18,7 @@ from aurora_core.monitor.evaluation import (
     Measured,
     Missing,
     at_tick,
+    ground_topics,
 )
 from aurora_core.monitor.place_slack import before_place, place_slack
 from aurora_core.monitor.shares import share_of
@@ -30,10 +31,6 @@ from aurora_core.trace.layout import GroundColumn
 
 # A follower that is not behind its leader, or stands, has no time gap: this stands for it.
 NO_TIME_GAP_S = 100.0
-
-
-def _topics(condition: Condition) -> tuple[str, ...]:
-    return tuple(f'ground/state[{name}]' for name in condition.of)
 
 
 def relation_slack(context: Context, condition: Condition) -> FloatArray:
@@ -105,7 +102,7 @@ def measure_placement(context: Context, condition: Condition) -> Evaluation:
     if gone is not None:
         return gone
     value = float(_at_start(context, condition)[tick])
-    return at_tick(tick, value, evidence=_topics(condition))
+    return at_tick(tick, value, evidence=ground_topics(condition))
 
 
 def _at_start(context: Context, condition: Condition) -> FloatArray:
@@ -151,7 +148,7 @@ def _overtake(context: Context, condition: Condition) -> Evaluation:
         return Missing(reason=Reason.PREMISE_NEVER, story=f'{a} was never behind {b}')
     farthest = start + int(np.argmax(lead[start:]))
     most_m = float(lead[farthest])
-    return at_tick(farthest, most_m, evidence=_topics(condition), later=Later.RISES)
+    return at_tick(farthest, most_m, evidence=ground_topics(condition), later=Later.RISES)
 
 
 def measure_relation_fraction(context: Context, condition: Condition) -> Evaluation:
@@ -174,7 +171,7 @@ def measure_relation_fraction(context: Context, condition: Condition) -> Evaluat
         )
         what = f'{a} was {words} {b}'
     good = good & view.present(a) & view.present(b)
-    return share_of(context, ticks, good, values, what, _topics(condition))
+    return share_of(context, ticks, good, values, what, ground_topics(condition))
 
 
 def measure_follow_fraction(context: Context, condition: Condition) -> Evaluation:
@@ -190,7 +187,9 @@ def measure_follow_fraction(context: Context, condition: Condition) -> Evaluatio
     high = np.where(moving, arguments.high, arguments.slow_high)
     good = (along.gap_m >= low) & (along.gap_m <= high)
     good &= (along.offset_m <= arguments.offset_m) & view.present(a) & view.present(b)
-    return share_of(context, ticks, good, along.gap_m, f'{a} followed {b}', _topics(condition))
+    return share_of(
+        context, ticks, good, along.gap_m, f'{a} followed {b}', ground_topics(condition)
+    )
 
 
 def measure_time_gap(context: Context, condition: Condition) -> Evaluation:
@@ -206,7 +205,7 @@ def measure_time_gap(context: Context, condition: Condition) -> Evaluation:
     valid &= (along.offset_m <= arguments.offset_m) & view.present(a) & view.present(b)
     gap = np.maximum(along.gap_m, 0.0) / np.where(valid, speed, 1.0)
     values = np.where(valid, np.minimum(gap, NO_TIME_GAP_S), NO_TIME_GAP_S)
-    return Measured(ticks=ticks, values=values[ticks], evidence=_topics(condition))
+    return Measured(ticks=ticks, values=values[ticks], evidence=ground_topics(condition))
 
 
 def measure_distance_travelled(context: Context, condition: Condition) -> Evaluation:
@@ -217,4 +216,4 @@ def measure_distance_travelled(context: Context, condition: Condition) -> Evalua
     last = int(ticks[-1])
     value = float(motion.travelled(context.view, context.view.body(condition.of[0]))[last])
     story = f'{condition.of[0]} covered {value:.2f} m by {context.time_s(last):.2f} s'
-    return at_tick(last, value, story, _topics(condition), later=Later.RISES)
+    return at_tick(last, value, story, ground_topics(condition), later=Later.RISES)

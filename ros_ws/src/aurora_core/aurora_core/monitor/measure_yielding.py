@@ -18,14 +18,11 @@ from aurora_core.monitor.evaluation import (
     Later,
     Missing,
     at_tick,
+    ground_topics,
 )
 from aurora_core.monitor.verdict import Reason
 from aurora_core.quantities import motion
 from aurora_core.quantities.ticks import first_tick
-
-
-def _topics(condition: Condition) -> tuple[str, ...]:
-    return tuple(f'ground/state[{name}]' for name in condition.of)
 
 
 def _ahead(context: Context, condition: Condition, end: int) -> FloatArray:
@@ -57,7 +54,7 @@ def measure_yielding(context: Context, condition: Condition) -> Evaluation:
     if condition.arguments.aspect == 'passed':
         farthest = start + int(np.argmax(ahead[start:]))
         most_m = float(ahead[farthest])
-        return at_tick(farthest, most_m, evidence=_topics(condition), later=Later.RISES)
+        return at_tick(farthest, most_m, evidence=ground_topics(condition), later=Later.RISES)
     return _slower(context, condition, end, first_tick(ahead > 0.0, start))
 
 
@@ -76,4 +73,4 @@ def _slower(context: Context, condition: Condition, end: int, passed: int | None
         drop = np.maximum.accumulate(until) - until
         tick = int(np.argmax(drop))
         value = float(drop[tick])
-    return at_tick(tick, value, evidence=_topics(condition), later=Later.RISES)
+    return at_tick(tick, value, evidence=ground_topics(condition), later=Later.RISES)
