@@ -136,7 +136,7 @@ class _SkippingMachine(MissionMachine):
 class _FloatingMachine(MissionMachine):
     """Calls itself landed while it stands in the air."""
 
-    def _fly_home(self, state: list[float]) -> None:
+    def _fly_home(self, state: list[float], target: TargetMotion | None) -> None:
         self.landed = True
 
     def _command(self, state: list[float]) -> FloatArray:

@@ -21,8 +21,13 @@ Point2 = tuple[float, float]
 APART_M = 10.0
 # Distance of a way to a spot from the other UAVs at its height, and from their ways (m).
 WAY_APART_M = 7.5
+# Ways past UAVs that fly on are compared with theirs for so long, in steps (s).
+AHEAD_S = 12.0
+STEP_S = 0.25
 # A UAV waits so long for its way to become free of others, then it goes (s).
 PATIENCE_S = 10.0
+
+_MOTION = (UavColumn.X, UavColumn.Y, UavColumn.VX, UavColumn.VY)
 
 
 def landing_spot(
@@ -85,18 +90,33 @@ def _crowded(
     """Tell whether another flying UAV, or its way to its spot, is near the way to a spot."""
     height_m = float(uav[index, UavColumn.Z])
     own = _legs(machines[index], uav[index], spot)
+    track = machines[index].way_home(uav[index], spot, AHEAD_S, STEP_S)
     for k, other in enumerate(machines):
         x, y, z = uav[k, UavColumn.X : UavColumn.Z + 1].tolist()
         if k == index or other.landed or z < 1.0:
             continue
-        legs = _legs(other, uav[k], other.landing_spot)
         level = abs(z - height_m) < APART_M
+        if other.followed is not None:  # it goes on with its target
+            if level and _meets(track, uav[k]):
+                return True
+            continue
+        legs = _legs(other, uav[k], other.landing_spot)
         if level and any(ways_apart_m(*a, *b) < WAY_APART_M for a in own for b in legs):
             return True
         # The descent passes the heights of all that fly lower.
         if z < height_m and norm2(spot[0] - x, spot[1] - y) < WAY_APART_M:
             return True
     return False
+
+
+def _meets(track: Sequence[Point2], state: FloatArray) -> bool:
+    """Tell whether a track comes nearer to a UAV that flies on as it does now, and too near."""
+    x, y, vx, vy = (float(state[c]) for c in _MOTION)
+    apart_m = [
+        norm2(own_x - x - vx * k * STEP_S, own_y - y - vy * k * STEP_S)
+        for k, (own_x, own_y) in enumerate(track)
+    ]
+    return min(apart_m) < min(WAY_APART_M, apart_m[0])
 
 
 def _legs(

@@ -26,7 +26,6 @@ from aurora_core.mission.machine import MissionMachine
 from aurora_core.quantities.instant_sight import InstantSight
 from aurora_core.quantities.world_geometry import WorldGeometry
 from aurora_core.spec.scenario import ScenarioSpec
-from aurora_core.spec.vocabulary import MissionMode
 from aurora_core.trace.commands import GroundCommand
 from aurora_core.trace.layout import UAV_COMMAND_WIDTH, GroundCommandKind, UavPhase
 from aurora_core.trace.records import (
@@ -40,7 +39,6 @@ from aurora_core.trace.roster import Roster
 
 FloatArray = npt.NDArray[np.float64]
 
-_ASCENT = int(UavPhase.ASCENT)
 
 # Distance recorded for a transmission to or from a body that is gone (m).
 GONE_M = 1e6
@@ -183,13 +181,8 @@ class ScenarioExecutor:
         for index, machine in enumerate(self._setup.machines):
             if tick == 0:
                 machine.start()
-            # The first sample inside the altitude tolerance may be the capture as well.
-            climbing = machine.phase == _ASCENT
-            mission = machine.plan.missions[0] if climbing else machine.mission
-            target = None
-            if mission is not None and mission.mode is MissionMode.TRACK:
-                assert mission.target is not None
-                target = seen.motion(mission.target)
+            followed = machine.followed
+            target = None if followed is None else seen.motion(followed)
             row = machine.step(tick, uav[index], target)
             if machine.needs_landing_spot():
                 self._choose_landing_spot(tick, index, uav)

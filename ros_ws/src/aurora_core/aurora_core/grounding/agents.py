@@ -31,7 +31,7 @@ from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.net_types import Lane
 from aurora_core.knowledge.route_path import RoutePath
 from aurora_core.knowledge.settings import Settings
-from aurora_core.spec.scenario import GroundAgent, ScenarioSpec, TimeTrigger
+from aurora_core.spec.scenario import GroundAgent, ScenarioSpec, TimeTrigger, UavMission
 from aurora_core.spec.vocabulary import BehaviorKind, MissionMode, Place
 
 # Tries at random places before all places are looked through, and how far apart those are (m).
@@ -317,9 +317,22 @@ def _release(spec: ScenarioSpec, split: SceneSplit) -> _Release:
             continue
         if mission.mode is MissionMode.HOVER and not moves(spec, target):
             return _Release(on=ReleaseOn.OBSERVED, uav=mission.uav)
-        return _Release(on=ReleaseOn.CAPTURED, uav=mission.uav, mission=mission.id)
+        last = _captured_last(spec, mission)
+        return _Release(on=ReleaseOn.CAPTURED, uav=last.uav, mission=last.id)
     met = {name for m in encounters(spec) for name in (m.actor, m.other)}
     for mission in spec.missions:
         if met & set(members):
             return _Release(on=ReleaseOn.ASCENDED, uav=mission.uav)
     return _Release()
+
+
+def _captured_last(spec: ScenarioSpec, mission: UavMission) -> UavMission:
+    """Return which of the UAVs that begin by watching the same body is ready last.
+
+    The highest one; nobody has to catch up with a target that another one has set free.
+    """
+    first = {m.uav: m for m in reversed(spec.missions)}.values()
+    if mission not in first:
+        return mission
+    sharing = [m for m in first if m.target == mission.target and m.mode is mission.mode]
+    return max((mission, *sharing), key=lambda m: m.altitude_m.value)

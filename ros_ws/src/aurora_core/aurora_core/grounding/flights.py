@@ -20,6 +20,7 @@ from aurora_core.grounding.patterns import pattern_points, place_pattern
 from aurora_core.grounding.places import intersection_point, landmark_point
 from aurora_core.grounding.sites import Site, samples_along
 from aurora_core.grounding.spots import SpotFinder
+from aurora_core.grounding.starts import uncrossed
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_model import MapModel
@@ -164,6 +165,16 @@ class FlightPlanner:
             landing_spots=(home,),
             missions=tuple(f.plan for f in flights),
             safe_altitude_m=min(self._limits.uav_altitude_max_m, max(highest, over_all)),
+        )
+
+    def uncrossed(self, plans: Sequence[UavPlan], site: Site) -> tuple[UavPlan, ...]:
+        """Exchange starts so that UAVs at one height do not meet on their first ways."""
+        return uncrossed(
+            plans,
+            [_first_point(p.missions[0], site) for p in plans],
+            self._air,
+            apart_m=self._apart_m,
+            clearance_m=self._settings.clearance_m,
         )
 
     def _ways_between_are_free(self, flights: list[PlannedFlight], site: Site) -> bool:

@@ -173,7 +173,11 @@ class Grounder:
                 return plan
             uavs.append(plan)
             flights += own
-        return _Option(site=site, uavs=tuple(uavs), score=self._score(road, flights, spec))
+        return _Option(
+            site=site,
+            uavs=planner.uncrossed(uavs, site),
+            score=self._score(road, flights, spec),
+        )
 
     def _score(self, road: float, flights: list[PlannedFlight], spec: ScenarioSpec) -> AnchorScore:
         planned = self._settings.grounding.clearance_m
@@ -198,7 +202,7 @@ class Grounder:
     ) -> GroundedScenario:
         uavs = tuple(planner.with_landing_spots(u, best.site) for u in best.uavs)
         placer = AgentPlacer(self._map, self._types, self._settings, self._limits)
-        agents = placer.convoy(spec, split, best.site)
+        agents = placer.convoy(layered(spec, self._limits), split, best.site)
         generator = stream(seed, 'grounding:background')
         agents, missing = placer.free(spec, split, best.site, agents, run_m, generator)
         lane_id, position_m = best.site.origin_path.lane_position_at(best.site.origin_arc_m)

@@ -8,6 +8,7 @@ never for a fixed delay. Source: paper, "Temporal planning".
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import dataclass
 from math import ceil
 
@@ -66,6 +67,7 @@ class MissionMachine:
         self.landed = False
         self._pursuit = PursuitReference(plan.home_x_m, plan.home_y_m, 0.0)
         self._route: RouteReference | None = None
+        self._flown: MissionPlan | None = None
         self._landing_spot: tuple[float, float] | None = None
         self._return_altitude_m = 0.0
         self._descending = False
@@ -84,6 +86,19 @@ class MissionMachine:
         if self.phase < _LANDING and 0 <= index < len(self._plan.missions):
             return self._plan.missions[index]
         return None
+
+    @property
+    def followed(self) -> str | None:
+        """The body whose motion the next step needs, None when there is none.
+
+        A UAV that waits for its way to a landing spot stays with the target of its last mission,
+        among the other UAVs that follow it.
+        """
+        mission = self._flown if self.needs_landing_spot() else self.mission
+        if self.phase == _ASCENT:  # the first sample at its altitude may be the capture as well
+            mission = self._plan.missions[0]
+        tracks = mission is not None and mission.mode is MissionMode.TRACK
+        return mission.target if mission is not None and tracks else None
 
     @property
     def missions_done(self) -> bool:
@@ -128,6 +143,19 @@ class MissionMachine:
         """Whether the executor has to choose a landing spot now."""
         return self.missions_done and self._landing_spot is None
 
+    def way_home(
+        self, state: FloatArray, spot: tuple[float, float], duration_s: float, step_s: float
+    ) -> list[tuple[float, float]]:
+        """Return where it would be on its way to a landing spot, step by step (x, y in m)."""
+        reference = copy(self._pursuit)
+        if not self._airborne:
+            reference = PursuitReference(*state[_X : _Z + 1].tolist())
+        points = [(reference.x, reference.y)]
+        for _ in range(round(duration_s / step_s)):
+            reference.step((*spot, reference.z), (0.0, 0.0), self._settings, step_s)
+            points.append((reference.x, reference.y))
+        return points
+
     def set_landing_spot(self, spot: tuple[float, float], altitude_m: float) -> None:
         """Fly to `spot` (x, y in m, ENU) at `altitude_m` above ground and land there."""
         self._landing_spot = spot
@@ -139,7 +167,7 @@ class MissionMachine:
         Args:
             tick: Tick of the state.
             state: (UAV_WIDTH,) row of this UAV.
-            target: Motion of the present mission's target, None when there is none.
+            target: Motion of the body that is `followed`, None when there is none.
 
         Returns:
             (UAV_COMMAND_WIDTH,) command row.
@@ -151,7 +179,7 @@ class MissionMachine:
         if mission is not None:
             self._fly(mission, tick, row, target)
         if self.phase == _LANDING:
-            self._fly_home(row)
+            self._fly_home(row, target)
         return self._command(row)
 
     def _first_altitude_m(self) -> float:
@@ -185,6 +213,7 @@ class MissionMachine:
     def _fly(
         self, mission: MissionPlan, tick: int, state: list[float], target: TargetMotion | None
     ) -> None:
+        self._flown = mission
         if mission.mode is MissionMode.NAVIGATE:
             finished = self._fly_route(mission, tick, state)
         else:
@@ -195,26 +224,24 @@ class MissionMachine:
     def _fly_hold(
         self, mission: MissionPlan, tick: int, state: list[float], target: TargetMotion | None
     ) -> bool:
-        if mission.mode is MissionMode.HOVER:
-            assert mission.hover_point is not None
-            goal = mission.hover_point
-            velocity = (0.0, 0.0)
-        elif target is not None:
-            goal = (
-                target.x_m + mission.offset_m[0],
-                target.y_m + mission.offset_m[1],
-                mission.altitude_m,
-            )
-            velocity = (target.vx_mps, target.vy_mps)
-        else:  # The target is gone: hold where the reference is.
-            goal = (self._pursuit.x, self._pursuit.y, mission.altitude_m)
-            velocity = (0.0, 0.0)
+        goal, velocity = self._goal(mission, target)
         if self.capture_tick is None and self._meets(mission, state, goal, target):
             self._capture(mission, tick)
         if self._phase_over(mission, tick):
             return True
         self._pursuit.step(goal, velocity, self._settings, self._dt)
         return False
+
+    def _goal(
+        self, mission: MissionPlan, target: TargetMotion | None
+    ) -> tuple[tuple[float, float, float], tuple[float, float]]:
+        """Return the point of a holding mission and its velocity."""
+        if mission.hover_point is not None:
+            return mission.hover_point, (0.0, 0.0)
+        if target is None:  # The target is gone: hold where the reference is.
+            return (self._pursuit.x, self._pursuit.y, mission.altitude_m), (0.0, 0.0)
+        x_m, y_m = target.x_m + mission.offset_m[0], target.y_m + mission.offset_m[1]
+        return (x_m, y_m, mission.altitude_m), (target.vx_mps, target.vy_mps)
 
     def _capture(self, mission: MissionPlan, tick: int) -> None:
         self.capture_tick = tick
@@ -267,13 +294,13 @@ class MissionMachine:
         last = mission.waypoints[-1]
         return self._route.done and norm2(x - last[0], y - last[1]) <= ARRIVED_M
 
-    def _fly_home(self, state: list[float]) -> None:
+    def _fly_home(self, state: list[float], target: TargetMotion | None) -> None:
         if not self._airborne:  # told to land while still climbing
             self._start_reference(state)
         if self._landing_spot is None:
-            if self._waits:  # the spot is not free yet: hold where the reference is
-                here = (self._pursuit.x, self._pursuit.y, self._pursuit.z)
-                self._pursuit.step(here, (0.0, 0.0), self._settings, self._dt)
+            if self._waits:  # the way is not free yet
+                goal, velocity = self._waiting_goal(target)
+                self._pursuit.step(goal, velocity, self._settings, self._dt)
             self._waits = True
             return
         x, y = state[_X], state[_Y]
@@ -289,6 +316,13 @@ class MissionMachine:
             self._descending = True
         if self._descending and state[_LANDED] > 0.5 and state[_ARMED] < 0.5:
             self.landed = True
+
+    def _waiting_goal(
+        self, target: TargetMotion | None
+    ) -> tuple[tuple[float, float, float], tuple[float, float]]:
+        if target is not None and self._flown is not None:
+            return self._goal(self._flown, target)
+        return (self._pursuit.x, self._pursuit.y, self._pursuit.z), (0.0, 0.0)
 
     def _command(self, state: list[float]) -> FloatArray:
         """Return the command row; the order is that of `UavCommandColumn`."""

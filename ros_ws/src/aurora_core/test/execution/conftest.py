@@ -135,6 +135,8 @@ class Stage:
                     x, y = self.uav[k, :2].tolist()
                 if mode != UavMode.IDLE:
                     self.fly(name, x, y, z)
+                    velocity = output.uav_commands[k, 4:6] if mode == UavMode.OFFBOARD else 0.0
+                    self.uav[k, UavColumn.VX : UavColumn.VY + 1] = velocity
         return self.outputs[-1]
 
     def notes(self, kind: ScenarioEventKind) -> list[tuple[int, str, str]]:

@@ -71,3 +71,23 @@ def test_nobody_waits_for_ever(stage: Callable[..., Any]) -> None:
     )
     scene.put('van1', 10.0).follow(1500)
     assert all(m.landed for m in scene.machines)
+
+
+def test_the_first_of_a_column_does_not_brake_in_front_of_the_next(
+    stage: Callable[..., Any],
+) -> None:
+    scene = stage(
+        tracks={'uav1': 'van1', 'uav2': 'ego'},
+        landing_spots=((0.0, 0.0), (0.0, 60.0)),
+        hold_s=15.0,
+    )
+    apart = []
+    for k in range(3000):
+        x = 0.4 * k - 20.0
+        scene.put('van1', x, speed=8.0).put('ego', x - 10.0, speed=8.0).follow()
+        flying = scene.uav[:, UavColumn.Z] > 20.0
+        if k > 200 and flying.all():
+            delta = scene.uav[0] - scene.uav[1]
+            apart.append(float(np.hypot(delta[UavColumn.X], delta[UavColumn.Y])))
+    assert all(m.landed for m in scene.machines)
+    assert min(apart) >= 7.0
