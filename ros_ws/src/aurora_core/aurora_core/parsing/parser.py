@@ -76,7 +76,7 @@ def parse_offline(prompt: str, context: ParseContext) -> ParseOutcome:
     _look_ahead(scene, told.atoms)
     reader = Reader(scene)
     reader.read(segment(told.atoms))
-    _note_taken_back(scene, told)
+    _note_left_out(scene, told)
     _note_corrections(scene, tagged.corrections)
     if not scene.refusals:
         settle(scene)
@@ -131,13 +131,15 @@ def _settle_doubts(scene: Scene) -> None:
         scene.clauses.append(ClauseDraft(span=doubt.span, notes=[doubt.question]))
 
 
-def _note_taken_back(scene: Scene, told: Rewritten) -> None:
+def _note_left_out(scene: Scene, told: Rewritten) -> None:
     for span in told.taken_back:
         scene.clauses.append(
             ClauseDraft(
                 span=span, status=ClauseStatus.NO_REQUIREMENT, notes=['the speaker took it back']
             )
         )
+    for span in told.background:
+        scene.clauses.append(ClauseDraft(span=span, status=ClauseStatus.NO_REQUIREMENT))
 
 
 def _note_corrections(scene: Scene, corrections: tuple[tuple[int, int, str], ...]) -> None:

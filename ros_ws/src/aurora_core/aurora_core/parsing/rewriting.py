@@ -11,10 +11,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind, NounPhrase
+from aurora_core.parsing.clefts import plain_order
 from aurora_core.parsing.inversions import straighten
 from aurora_core.parsing.measures import LENGTH
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.pieces import TRANSPARENT
+from aurora_core.parsing.wrapping import unwrap
 from aurora_core.spec.parameter import Bound, Span
 
 # Words that take back the number in front of them (listed among the frames of the lexicon).
@@ -28,18 +30,22 @@ _MOST_BETWEEN = 9
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Rewritten:
-    """The atoms to cut into clauses, and the characters that the speaker took back."""
+    """The atoms to cut into clauses; what the speaker took back, and what asks for nothing."""
 
     atoms: tuple[Atom, ...]
     taken_back: tuple[Span, ...] = ()
+    background: tuple[Span, ...] = ()
 
 
 def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
     """Return the atoms with shorthand written out and retracted numbers left out."""
-    kept, spans = _take_back(straighten(atoms, prompt))
+    told, background = unwrap(atoms, prompt)
+    told = plain_order(_places(told), prompt)
+    kept, spans = _take_back(straighten(told, prompt))
     return Rewritten(
         atoms=tuple(_relatives(_climbs(_small_words(_fronted(_labels(kept)), prompt), prompt))),
         taken_back=tuple(spans),
+        background=tuple(background),
     )
 
 
@@ -75,6 +81,27 @@ def _retracted(atoms: Sequence[Atom], i: int) -> int | None:
         if before.kind not in _PAUSES and before.key != 'no':
             return None
     return None
+
+
+def _places(atoms: list[Atom]) -> list[Atom]:
+    """`a crosswalk; 30 m before it a truck is parked`: where, and what `it` can only mean."""
+    changed = list(atoms)
+    place: Atom | None = None
+    acted = False
+    for i, atom in enumerate(atoms):
+        before = changed[i - 1] if i else None
+        upstream = before is not None and before.key == 'before'
+        if atom.kind is AtomKind.SUBORDINATOR and atom.key == 'before':
+            if before is not None and before.key == LENGTH and before.measure is not None:
+                changed[i] = replace(atom, kind=AtomKind.PREPOSITION)
+        elif atom.is_place:
+            place = atom
+        elif place is not None and atom.key == 'it' and atom.is_actor and before is not None:
+            governed = before.kind in (AtomKind.PREPOSITION, AtomKind.RELATION)
+            if governed and (upstream or not acted):
+                changed[i] = replace(place, start=atom.start, end=atom.end)
+        acted = acted or (atom.is_actor and atom.key != 'it')
+    return changed
 
 
 def _comma_at(atoms: Sequence[Atom], i: int) -> bool:

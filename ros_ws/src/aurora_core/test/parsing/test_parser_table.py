@@ -23,7 +23,13 @@ CONTEXT = ParseContext(
 )
 _TABLES = [
     Path(__file__).with_name(name)
-    for name in ('prompts.yaml', 'wordings.yaml', 'shorthand.yaml', 'commands.yaml')
+    for name in (
+        'prompts.yaml',
+        'wordings.yaml',
+        'shorthand.yaml',
+        'commands.yaml',
+        'wrapped.yaml',
+    )
 ]
 _MARK = {Provenance.EXPLICIT: '', Provenance.INFERRED: 'i', Provenance.DEFAULT: 'd'}
 _BOUND = {Bound.EXACTLY: '', Bound.AT_LEAST: '>=', Bound.AT_MOST: '<='}

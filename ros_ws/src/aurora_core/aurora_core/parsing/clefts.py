@@ -1,0 +1,334 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Sentences turned round so that something stands out, put back into plain order.
+
+`it is the park that the drone hovers over`, `the park is what it hovers over`, `parked at the
+kerb is a van`, `a bus, which a police car is following, …`, `the bus has two cars following it`,
+`its tracker is a drone`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import lru_cache
+
+from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
+from aurora_core.parsing.lexicon import read_data
+from aurora_core.parsing.morphology import VerbForm
+
+_LOOSE = (AtomKind.FILL, AtomKind.FRAME)
+_HELPERS = (AtomKind.AUXILIARY, *_LOOSE)
+_WHICH = ('which', 'who', 'whom', 'that')
+_GOVERNING = (AtomKind.PREPOSITION, AtomKind.RELATION)
+
+
+def plain_order(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
+    """Return the atoms with every sentence in the order subject, predicate, rest."""
+    written: list[Atom] = []
+    sentence: list[Atom] = []
+    for atom in (*atoms, None):
+        if atom is not None and atom.kind is not AtomKind.STOP:
+            sentence.append(atom)
+            continue
+        for turn in _TURNS:
+            sentence = turn(sentence, prompt)
+        written += sentence
+        sentence = []
+        if atom is not None:
+            written.append(atom)
+    return written
+
+
+def _word(atom: Atom, prompt: str) -> str:
+    return prompt[atom.start : atom.end].lower()
+
+
+def _next(atoms: Sequence[Atom], i: int, skip: tuple[AtomKind, ...] = _LOOSE) -> int:
+    while i < len(atoms) and atoms[i].kind in skip:
+        i += 1
+    return i
+
+
+def _is_be(atoms: Sequence[Atom], i: int) -> bool:
+    here = i < len(atoms) and atoms[i].kind in (AtomKind.VERB, AtomKind.AUXILIARY)
+    return here and atoms[i].key == 'be'
+
+
+def _named(atoms: Sequence[Atom], i: int) -> bool:
+    return i < len(atoms) and (atoms[i].is_actor or atoms[i].is_place)
+
+
+def _stop(at: Atom) -> Atom:
+    return Atom(kind=AtomKind.STOP, key=';', start=at.start, end=at.end)
+
+
+def _cleft(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """`it is over the park that the drone hovers`: `the drone hovers over the park`."""
+    told = [i for i, a in enumerate(atoms) if a.kind is AtomKind.RELATIVE]
+    if not told:
+        return atoms
+    for that in told:
+        it = _opening_it(atoms, that, prompt)
+        if it is None:
+            continue
+        front = it
+        while front < that and not _is_be(atoms, front) and atoms[front].kind is not AtomKind.FILL:
+            front += 1
+        while front < that and (_is_be(atoms, front) or atoms[front].kind in _LOOSE):
+            front += 1
+        focus, rest = atoms[front:that], atoms[that + 1 :]
+        first = _next(rest, 0, _HELPERS)
+        if first >= len(rest) or not focus:
+            continue
+        if rest[first].kind is AtomKind.VERB:
+            return atoms[:it] + focus + rest
+        if rest[first].is_actor:
+            return atoms[:it] + _behind_verb(rest, focus)
+    return atoms
+
+
+def _opening_it(atoms: Sequence[Atom], that: int, prompt: str) -> int | None:
+    """Return where `it is` begins that `that` answers to, with one thing between them."""
+    for i in range(that - 1, -1, -1):
+        if atoms[i].kind in (AtomKind.VERB, AtomKind.SUBORDINATOR) and not _is_be(atoms, i):
+            return None
+        if _word(atoms[i], prompt) != 'it':
+            continue
+        be = _next(atoms, i + 1)
+        copula = _is_be(atoms, be) or _word(atoms[i + 1], prompt) in ('is', 'was')
+        between = [a for a in atoms[i + 1 : that] if a.kind not in _HELPERS and a.key != 'be']
+        one = sum(a.noun is not None for a in between) == 1
+        plain = all(a.noun is not None or a.kind in _GOVERNING for a in between)
+        return i if copula and one and plain else None
+    return None
+
+
+def _behind_verb(rest: list[Atom], focus: list[Atom]) -> list[Atom]:
+    """`the drone hovers over … for 20 s`: what stood in front goes where it belongs."""
+    verb = next((i for i, a in enumerate(rest) if a.kind is AtomKind.VERB), None)
+    if verb is None:
+        return rest + focus
+    at = verb + 1
+    while at < len(rest) and rest[at].kind is AtomKind.FILL:
+        at += 1
+    governed = at < len(rest) and rest[at].kind in _GOVERNING
+    if governed and not _takes_noun(rest, at) and focus[0].noun is not None:
+        return rest[: at + 1] + focus + rest[at + 1 :]
+    for i in range(at, len(rest)):
+        if rest[i].kind in _GOVERNING and not _takes_noun(rest, i) and focus[0].noun is not None:
+            return rest[: i + 1] + focus + rest[i + 1 :]
+    return rest[: verb + 1] + focus + rest[verb + 1 :]
+
+
+def _takes_noun(atoms: Sequence[Atom], i: int) -> bool:
+    behind = _next(atoms, i + 1)
+    if behind >= len(atoms):
+        return False
+    return atoms[behind].noun is not None or atoms[behind].kind in (
+        AtomKind.MEASURE,
+        AtomKind.THING,
+        AtomKind.PATTERN,
+        AtomKind.ROUTE,
+        AtomKind.WORLD,
+        AtomKind.VERB,
+        *_GOVERNING,
+    )
+
+
+def _what(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """`the park is what a drone hovers over`, `what it tracks is a bus`."""
+    for i, atom in enumerate(atoms):
+        if _word(atom, prompt) not in ('what', 'where', 'whom', 'the place where'):
+            continue
+        behind = _next(atoms, i + 1)
+        if behind >= len(atoms) or not atoms[behind].is_actor:
+            continue
+        be = i - 1
+        while be >= 0 and atoms[be].kind in _LOOSE and not _is_be(atoms, be):
+            be -= 1
+        focus = be - 1
+        copula = be >= 0 and (_is_be(atoms, be) or _was_be(atoms[be + 1 : i], prompt))
+        if copula and not _is_be(atoms, be):
+            focus = be
+        while focus >= 0 and atoms[focus].kind in _LOOSE:
+            focus -= 1
+        if copula and focus >= 0 and _named(atoms, focus):
+            begin = focus
+            told = _located(atom, prompt, [atoms[begin]])
+            return atoms[:begin] + _behind_verb(atoms[i + 1 :], told)
+        k = next((k for k in range(behind + 1, len(atoms)) if _copula_at(atoms, k)), None)
+        if k is not None and any(a.kind is AtomKind.VERB for a in atoms[behind:k]):
+            named = _next(atoms, k + 1)
+            if _named(atoms, named):
+                told = _located(atom, prompt, [atoms[named]])
+                clause = _behind_verb(atoms[i + 1 : k], told)
+                return atoms[:i] + clause + atoms[named + 1 :]
+    return atoms
+
+
+def _copula_at(atoms: Sequence[Atom], k: int) -> bool:
+    named = _next(atoms, k + 1)
+    return _is_be(atoms, k) and named < len(atoms) and _named(atoms, named)
+
+
+def _was_be(atoms: Sequence[Atom], prompt: str) -> bool:
+    return any(_word(a, prompt) in ('is', 'was', 'are', 'be') for a in atoms)
+
+
+def _located(word: Atom, prompt: str, focus: list[Atom]) -> list[Atom]:
+    """`where it hovers is the park`: at the park."""
+    if 'where' not in _word(word, prompt):
+        return focus
+    return [replace(word, kind=AtomKind.PREPOSITION, key='at', noun=None), *focus]
+
+
+def _turned(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """`parked 30 m before the junction is a truck`, `visible to it must be the van`."""
+    first = _next(atoms, 0)
+    if first >= len(atoms):
+        return atoms
+    lead = atoms[first]
+    participle = lead.kind is AtomKind.VERB and lead.form in (VerbForm.ING, VerbForm.PAST)
+    if not participle and lead.kind not in (AtomKind.STATE, AtomKind.IN_VIEW):
+        return atoms
+    for k in range(first + 1, len(atoms)):
+        if atoms[k].kind is AtomKind.VERB and not _is_be(atoms, k):
+            return atoms
+        if atoms[k].kind in (AtomKind.SUBORDINATOR, AtomKind.RELATIVE):
+            return atoms
+        helper = atoms[k].kind is AtomKind.AUXILIARY or _is_be(atoms, k)
+        finite = helper or _word(atoms[k], prompt) in ('is', 'are', 'was', 'were')
+        if not finite:
+            continue
+        who = _next(atoms, k + 1, (*_HELPERS, AtomKind.VERB))
+        if who >= len(atoms) or not atoms[who].is_actor or not _are_helpers(atoms[k:who]):
+            return atoms
+        subject = [atoms[who]]
+        end = who + 1
+        while end + 1 < len(atoms) and atoms[end].kind is AtomKind.CONJUNCTION:
+            if not atoms[end + 1].is_actor:
+                break
+            subject += atoms[end : end + 2]
+            end += 2
+        be = replace(atoms[k], kind=AtomKind.AUXILIARY, key='be')
+        if lead.kind is AtomKind.IN_VIEW:
+            be = replace(be, kind=AtomKind.VERB, form=VerbForm.THIRD)
+        turned = [*atoms[:first], *subject, be, *atoms[first:k]]
+        return turned + _rest_about(atoms[who], atoms[end:])
+    return atoms
+
+
+def _are_helpers(atoms: Sequence[Atom]) -> bool:
+    return all(a.kind in _HELPERS or a.key == 'be' for a in atoms)
+
+
+def _rest_about(subject: Atom, rest: list[Atom]) -> list[Atom]:
+    """`…, who is tracked for 40 s`: a sentence about the noun that was moved."""
+    i = 0
+    while i < len(rest) and rest[i].kind is AtomKind.COMMA:
+        i += 1
+    if i < len(rest) and rest[i].kind is AtomKind.RELATIVE:
+        return [_stop(rest[i]), subject, *rest[i + 1 :]]
+    return rest
+
+
+def _relative_object(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """`a bus, which a police car is following`: who follows it is a sentence of its own."""
+    for i in range(1, len(atoms) - 2):
+        if atoms[i].kind is not AtomKind.RELATIVE or _word(atoms[i], prompt) not in _WHICH:
+            continue
+        about = i - 1
+        while about > 0 and atoms[about].kind is AtomKind.COMMA:
+            about -= 1
+        who = _next(atoms, i + 1)
+        if not _named(atoms, about) or who >= len(atoms) or not atoms[who].is_actor:
+            continue
+        verb = _next(atoms, who + 1, (*_HELPERS, AtomKind.NEGATION))
+        if verb >= len(atoms) or atoms[verb].kind is not AtomKind.VERB:
+            continue
+        end = verb + 1
+        while end < len(atoms) and atoms[end].kind not in (
+            AtomKind.COMMA,
+            AtomKind.CONJUNCTION,
+            AtomKind.VERB,
+            AtomKind.SUBORDINATOR,
+            AtomKind.THEN,
+            AtomKind.RELATIVE,
+        ):
+            end += 1
+        behind = _next(atoms, verb + 1)
+        if behind < end and atoms[behind].is_actor:
+            continue
+        told = _behind_verb(atoms[who:end], [atoms[about]])
+        rest = atoms[end:]
+        goes_on = _next(rest, 0, (AtomKind.COMMA, *_HELPERS))
+        main = goes_on < len(rest) and rest[goes_on].kind is AtomKind.VERB
+        alone = not any(a.kind is AtomKind.VERB for a in atoms[:about])
+        conjoined = any(a.kind is AtomKind.CONJUNCTION for a in rest[: goes_on + 1])
+        if main and alone and not conjoined:
+            kept = atoms[: about + 1] + [a for a in rest if a is not rest[0] or rest[0].key != ',']
+            return [*kept, _stop(atoms[i]), *told]
+        if main and not conjoined:
+            continue
+        return [*atoms[: about + 1], _stop(atoms[i]), *told, *rest]
+    return atoms
+
+
+def _having(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """`the bus has two cars following it`: `two cars following the bus`."""
+    for i in range(1, len(atoms) - 3):
+        has = _word(atoms[i], prompt) in ('has', 'have', 'having', 'had')
+        owner, who = atoms[i - 1], atoms[i + 1]
+        if not has or not owner.is_actor or not who.is_actor:
+            continue
+        verb = _next(atoms, i + 2)
+        if verb >= len(atoms) or atoms[verb].form is not VerbForm.ING:
+            continue
+        for k in range(verb + 1, min(verb + 4, len(atoms))):
+            noun = atoms[k].noun
+            if noun is not None and noun.kind is NounKind.PRONOUN and noun.key in ('it', 'person'):
+                told = replace(owner, start=atoms[k].start, end=atoms[k].end)
+                acting = replace(atoms[verb], form=VerbForm.THIRD)
+                return [*atoms[: i - 1], who, acting, *atoms[verb + 1 : k], told, *atoms[k + 1 :]]
+            if noun is not None:
+                break
+    return atoms
+
+
+@lru_cache(maxsize=1)
+def _agent_nouns() -> dict[str, str]:
+    listed = read_data('lexicon.yaml')['agent_nouns']
+    return {word: key for key, words in listed.items() for word in words}
+
+
+def _by_role(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """`its tracker is a drone`, `the pursuer of the bus is a van`: who does it to whom."""
+    for i, atom in enumerate(atoms):
+        role = next((w for w in _agent_nouns() if _word(atom, prompt).split()[-1:] == [w]), None)
+        if role is None or atom.kind is AtomKind.VERB:
+            continue
+        whom = atoms[i - 1] if i and atoms[i - 1].is_actor else None
+        begin = i - 1 if whom is not None else i
+        be = i + 1
+        if whom is None and be < len(atoms) and atoms[be].key == 'of' and _named(atoms, be + 1):
+            whom, be = atoms[be + 1], be + 2
+        be = _next(atoms, be, (AtomKind.COMMA, *_LOOSE)) if not _is_be(atoms, be) else be
+        who = _next(atoms, be + 1, _HELPERS)
+        if whom is None or not _is_be(atoms, be) or not _named(atoms, who):
+            continue
+        verb = replace(
+            atoms[be], kind=AtomKind.VERB, key=_agent_nouns()[role], form=VerbForm.THIRD
+        )
+        return [*atoms[:begin], atoms[who], verb, whom, *atoms[who + 1 :]]
+    return atoms
+
+
+_TURNS: tuple[Callable[[list[Atom], str], list[Atom]], ...] = (
+    _cleft,
+    _what,
+    _turned,
+    _having,
+    _by_role,
+    _relative_object,
+)

@@ -1,0 +1,203 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""What stands around a request: who wishes it, how politely, and why.
+
+`We work on X, which is why we would be glad if you could set up …`, `what counts is that …`,
+`a simple picture would be very welcome`. The wish is a frame; what asks nothing is background.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from functools import lru_cache
+
+from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind, NounPhrase
+from aurora_core.parsing.lexicon import read_data
+from aurora_core.parsing.measures import COUNT
+from aurora_core.parsing.morphology import VerbForm
+from aurora_core.spec.parameter import Span
+
+# What asks for something wherever it stands.
+_TELLING = frozenset(
+    {
+        AtomKind.WORLD,
+        AtomKind.NO_TRAFFIC,
+        AtomKind.IN_VIEW,
+        AtomKind.NEGATION,
+        AtomKind.STREETS_FLAG,
+        AtomKind.SIREN,
+        AtomKind.IN_FLIGHT,
+    }
+)
+_NAMED = (NounKind.AGENT, NounKind.VEHICLE, NounKind.UAV, NounKind.UNSUPPORTED, NounKind.AMBIGUOUS)
+_NEW = (Determiner.INDEFINITE, Determiner.ONE, Determiner.ANOTHER)
+# What may be said of anything: a unicorn that crosses the road is asked for.
+_IDLE = frozenset({'be', 'come', 'contain', 'exist', 'keep', 'last', 'trace', 'put', 'see'})
+_WHERE = (NounKind.LANDMARK, NounKind.MISSING_LANDMARK)
+
+
+def unwrap(atoms: Sequence[Atom], prompt: str) -> tuple[list[Atom], list[Span]]:
+    """Return the atoms with wishes as frames and without background, and what was left out."""
+    kept: list[Atom] = []
+    spans: list[Span] = []
+    sentence: list[Atom] = []
+    for atom in (*atoms, None):
+        if atom is not None and atom.kind is not AtomKind.STOP:
+            sentence.append(atom)
+            continue
+        told, left_out = _sentence(sentence, prompt)
+        kept += told
+        spans += left_out
+        sentence = []
+        if atom is not None:
+            kept.append(atom)
+    return kept, spans
+
+
+def _sentence(atoms: list[Atom], prompt: str) -> tuple[list[Atom], list[Span]]:
+    if not atoms:
+        return [], []
+    begin, end = atoms[0].start, atoms[-1].end
+    text = prompt[begin:end].lower().replace('’', "'")
+    wishes = list(_find(text, begin))
+    kept: list[Atom] = []
+    spans: list[Span] = []
+    chunk: list[Atom] = []
+    framed = False
+    for atom in (*atoms, None):
+        wish = next((w for w in wishes if atom is not None and _within(atom, w)), None)
+        if atom is not None and wish is None:
+            chunk.append(atom)
+            continue
+        if chunk and _is_background(chunk, prompt, before_wish=atom is not None, framed=framed):
+            spans.append(Span(start=chunk[0].start, end=chunk[-1].end))
+        else:
+            kept += chunk
+        chunk = []
+        if atom is not None:
+            kept.append(replace(atom, kind=AtomKind.FRAME, key='wish', noun=None, measure=None))
+            framed = True
+    return kept, spans
+
+
+def _within(atom: Atom, span: Span) -> bool:
+    return span.start <= atom.start and atom.end <= span.end
+
+
+def _find(text: str, offset: int) -> Iterator[Span]:
+    for match in _wishes().finditer(text):
+        yield Span(start=offset + match.start(), end=offset + match.end())
+
+
+def _is_background(atoms: Sequence[Atom], prompt: str, *, before_wish: bool, framed: bool) -> bool:
+    """Return whether words tell of the speaker or of the world at large, and ask nothing."""
+    solid = [a for a in atoms if a.kind not in (AtomKind.COMMA, AtomKind.CONJUNCTION)]
+    if not solid:
+        return False
+    text = prompt[atoms[0].start : atoms[-1].end].lower().replace('’', "'")
+    personal = _speaker().search(text) is not None
+    idle = all(a.kind is not AtomKind.VERB or a.key in _IDLE for a in solid)
+    strange = (idle or _purpose().search(text)) and any(_is_strange(a) for a in solid)
+    if not personal and not (strange and (before_wish or framed)):
+        return False
+    return not _asks(solid, prompt, before_wish=before_wish)
+
+
+def _is_strange(atom: Atom) -> bool:
+    unknown = atom.noun is not None and atom.noun.kind is NounKind.UNKNOWN
+    return unknown or (atom.kind is AtomKind.UNKNOWN and atom.key.isalpha())
+
+
+def _asks(atoms: Sequence[Atom], prompt: str, *, before_wish: bool) -> bool:
+    acting = any(a.kind is AtomKind.VERB for a in atoms)
+    idle = all(a.kind is not AtomKind.VERB or a.key in (*_IDLE, 'alert') for a in atoms)
+    headed = _is_strange(atoms[0])
+    for i, atom in enumerate(atoms):
+        if atom.kind in _TELLING:
+            return True
+        measure = atom.measure
+        digits = any(c.isdigit() for c in prompt[atom.start : atom.end])
+        if digits or (measure is not None and measure.dimension != COUNT):
+            return True
+        noun = atom.noun
+        if noun is None or (noun.plural and noun.determiner is Determiner.BARE):
+            continue
+        if noun.count > 1 or (noun.kind in _WHERE and not before_wish):
+            return True
+        if noun.kind is NounKind.LANDMARK or (noun.kind is NounKind.EGO and not idle):
+            return True
+        if noun.kind is NounKind.PRONOUN and _acts(atoms, i) and not before_wish:
+            return True
+        told = _matters(noun) or not before_wish or _acts(atoms, i)
+        if noun.kind in _NAMED and told and not (headed and not acting):
+            return True
+    return False
+
+
+def _matters(noun: NounPhrase) -> bool:
+    """`drivers who come up behind cyclists` are nobody of the scene; `a drone` is."""
+    return noun.determiner in (*_NEW, Determiner.MY) or noun.index > 0
+
+
+def _acts(atoms: Sequence[Atom], i: int) -> bool:
+    behind = atoms[i + 1] if i + 1 < len(atoms) else None
+    finite = (AtomKind.VERB, AtomKind.AUXILIARY)
+    return behind is not None and behind.kind in finite and behind.form is not VerbForm.PAST
+
+
+def _any_of(words: Sequence[str]) -> str:
+    longest = sorted(words, key=len, reverse=True)
+    return '(?:' + '|'.join(re.escape(w).replace(r'\ ', r'\s+') for w in longest) + ')'
+
+
+@lru_cache(maxsize=1)
+def _speaker() -> re.Pattern[str]:
+    words = read_data('lexicon.yaml')['wishes']
+    return re.compile(rf'\b{_any_of(words["speaker_words"])}\b')
+
+
+@lru_cache(maxsize=1)
+def _purpose() -> re.Pattern[str]:
+    words = read_data('lexicon.yaml')['wishes']
+    return re.compile(rf'^\W*{_any_of(words["purposes"])}\b')
+
+
+@lru_cache(maxsize=1)
+def _wishes() -> re.Pattern[str]:
+    """Return the pattern of all frames that the lists of the lexicon make."""
+    words = {name: _any_of(listed) for name, listed in read_data('lexicon.yaml')['wishes'].items()}
+    blank = r',?\s+'
+    who = words['speakers']
+    hedge = rf'(?:{blank}{words["hedges"]})*'
+    modal = rf'(?:{blank}{words["modals"]})*'
+    link = rf'(?:{words["links"]}{blank})*'
+    see = rf'(?:{blank}(?:to\s+)?{words["see"]})?'
+    make = rf'(?:{blank}(?:to\s+)?{words["make"]})?'
+    help_me = rf'(?:{blank}(?:if|that|whether)\s+{who}{hedge}{modal}{hedge}{make})?'
+    wish = rf'{modal}{hedge}{modal}{hedge}{blank}{words["wish"]}{hedge}'
+    follows = rf'(?:{blank}(?:as follows|the following|this|simply|just))?'
+    copula = rf'{modal}{blank}(?:is|are|be|was|reads)\b{follows}(?:{blank}that\b)?'
+    patterns = (
+        rf'(?:{words["what"]}(?:\s+(?:that|which))?{blank})?{who}{wish}{see}{make}'
+        rf'(?:{blank}{words["about"]})*{copula}',
+        rf'{link}{who}{wish}(?:{blank}{words["about"]})?{help_me}{see}{make}(?:{blank}that\b)?',
+        rf'(?:and|but)(?:{blank}(?:would|should|could|might|may)){hedge}{blank}{words["wish"]}'
+        rf'(?:{blank}{words["about"]})?{help_me}{see}{make}(?:{blank}that\b)?',
+        rf'(?:the|my|our)(?:\s+\w+){{1,3}}?{modal}\s+(?:is|are|be|looks?|goes|go|reads?|runs?)\s+'
+        rf'(?:as follows|like this|the following)',
+        rf'{link}{words["modals"]}\s+{who}{hedge}{blank}(?:{words["kind"]}{blank})?'
+        rf'{words["make"]}(?:{blank}that\b)?',
+        rf'{link}{words["please"]}{hedge}{make}(?:{blank}that\b)?',
+        rf'{link}{words["it_is"]}{hedge}\s+{words["good"]}(?:{blank}{words["for_us"]})?'
+        rf'{blank}(?:that|if){help_me}\b',
+        rf'{link}{words["it_is"]}{hedge}\s+{words["good"]}(?:{blank}{words["for_us"]})?'
+        rf'{blank}to\s+{words["see"]}',
+        rf'{link}{words["sure"]}(?:{blank}that\b)?',
+        rf'{link}{words["point"]}(?:{blank}{words["for_us"]})?{blank}(?:is|means)(?:{blank}that\b)?',
+        rf'{link}{words["success"]}{blank}(?:only\s+)?(?:if|when|provided that|as long as|that)\b',
+        rf'would\s+be{hedge}\s+{words["good"]}(?:{blank}{words["for_us"]})?(?=[\s,]*$)',
+        rf'{words["asides"]}',
+    )
+    return re.compile('|'.join(rf'\b(?:{p})(?!\w)' for p in patterns))
