@@ -4,21 +4,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from fractions import Fraction
 from functools import lru_cache
 from importlib import resources
+from itertools import product
 from typing import Any
 
 import yaml
 
 from aurora_core.errors import ConfigError
 from aurora_core.parsing.morphology import VerbForm, plural, verb_forms
+from aurora_core.parsing.preludes import Preludes
 
 # Every scalar stays text: `on`, `no` and `off` are words here.
 _LOADER = getattr(yaml, 'CBaseLoader', yaml.BaseLoader)
+
+
+_ALTERNATIVES = re.compile(r'\(([^()]*)\)')
 
 
 class Tag(StrEnum):
@@ -190,22 +196,31 @@ _EMPTY = frozenset(
 )
 
 
+def expanded(phrases: Iterable[str]) -> Iterator[str]:
+    """Write out phrases with alternatives: `on (its|the) left( side|)` is four."""
+    for phrase in phrases:
+        choices = [part.split('|') for part in _ALTERNATIVES.split(str(phrase))]
+        for words in product(*choices):
+            yield ' '.join(''.join(words).split())
+
+
 class Lexicon:
     """Phrases by their first word, each with its senses."""
 
     def __init__(self, data: Mapping[str, Any]) -> None:
         self._phrases: dict[tuple[str, ...], dict[Sense, None]] = {}
         self.units: dict[str, UnitWord] = {}
+        self.preludes = Preludes(data['preludes'])
         self.ambiguous_agents: dict[str, list[str]] = dict(data['ambiguous_agents'])
         irregular = data['irregular_verbs']
         for section, tag, plurals in _KEYED:
             for key, phrases in data[section].items():
                 if tag is Tag.AMBIGUOUS:
                     phrases = [key]
-                for phrase in phrases:
+                for phrase in expanded(phrases):
                     self._noun(phrase, tag, key, plurals)
         for section, tag, plurals in _LISTED:
-            for phrase in data[section]:
+            for phrase in expanded(data[section]):
                 self._noun(phrase, tag, phrase, plurals)
         for section, tag in _VALUED:
             for phrase, value in data[section].items():
@@ -214,7 +229,7 @@ class Lexicon:
             for sense in self.senses((lemma,)):
                 self._add(form, Sense(tag=sense.tag, key=sense.key, plural=True))
         for key, phrases in data['verbs'].items():
-            for phrase in phrases:
+            for phrase in expanded(phrases):
                 for form, kind in verb_forms(phrase, irregular):
                     self._add(form, Sense(tag=Tag.VERB, key=key, form=kind))
         for tag, phrases in (

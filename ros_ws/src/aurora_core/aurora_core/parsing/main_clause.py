@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from aurora_core.parsing import values
 from aurora_core.parsing.adjuncts import AdjunctKind
-from aurora_core.parsing.atoms import AtomKind, NounKind
+from aurora_core.parsing.atoms import AtomKind, NounKind, NounPhrase
 from aurora_core.parsing.constructions import actions, conditions, ground, messages, missions
 from aurora_core.parsing.constructions.ascent import ascent, landing
 from aurora_core.parsing.constructions.demands import demands, seen_for
@@ -104,8 +104,19 @@ def shared_words(frame: Frame) -> None:
     for noun in frame.nouns():
         if noun.kind in (NounKind.UNSUPPORTED, NounKind.AMBIGUOUS):
             frame.resolver.actors((noun,))
-        elif noun.kind is NounKind.UNKNOWN and noun in frame.subject_nouns and _moves(frame):
+        elif noun.kind is NounKind.UNKNOWN and _acts(frame, noun) and _moves(frame):
             frame.resolver.unknown_actor(noun)
+
+
+def _acts(frame: Frame, noun: NounPhrase) -> bool:
+    """`a dragon follows`; in `to study a shock wave, the car brakes` the car does."""
+    if noun not in frame.subject_nouns:
+        return False
+    behind = frame.subject_nouns[frame.subject_nouns.index(noun) + 1 :]
+    if not behind:
+        return True
+    between = frame.scene.prompt[noun.end : behind[0].start].strip().lower()
+    return between in ('and', 'or', '&', '+')
 
 
 def _moves(frame: Frame) -> bool:

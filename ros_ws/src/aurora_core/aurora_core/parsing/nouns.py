@@ -182,7 +182,9 @@ class NounReader:
     def _head(self, j: int) -> tuple[NounKind, str, str, bool, int] | None:
         named = self._landmark(j)
         matches = self._lexicon.matches(self._words, j)
-        if named is not None and not self._is_agent_beyond(matches, named[1] - j):
+        if named is not None and not (
+            self._is_agent_beyond(matches, named[1] - j) or self._parks(j, named[1])
+        ):
             name, stop = named
             return NounKind.LANDMARK, name, name, False, stop
         if not matches:
@@ -196,6 +198,13 @@ class NounReader:
                     text = ' '.join(self._words[j : j + length])
                     return kind, sense.key, text, sense.plural, j + length
         return None
+
+    def _parks(self, j: int, stop: int) -> bool:
+        """`two trucks park at the roadside`: behind who acts, no short name of a landmark."""
+        verb = self._lexicon.longest_of(self._words, j, (Tag.VERB,)) is not None
+        acting = (Tag.AGENT, Tag.AUXILIARY, Tag.VEHICLE)
+        told = j and self._lexicon.longest_of(self._words, j - 1, acting) is not None
+        return stop == j + 1 and verb and bool(told)
 
     @staticmethod
     def _is_agent_beyond(matches: Sequence[tuple[int, tuple[Sense, ...]]], length: int) -> bool:

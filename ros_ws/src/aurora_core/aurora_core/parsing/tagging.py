@@ -76,6 +76,17 @@ _NOUN_LIKE = (
 )
 
 
+# Behind what an opening may stand.
+_OPENS = (
+    AtomKind.STOP,
+    AtomKind.COMMA,
+    AtomKind.CONJUNCTION,
+    AtomKind.FRAME,
+    AtomKind.THEN,
+    AtomKind.FILL,
+)
+
+
 # Where several classes are possible and neither noun nor verb decides: the first listed wins.
 _ORDER = tuple(_KINDS)
 
@@ -183,6 +194,9 @@ class _Tagger:
             else:
                 self._add(AtomKind.UNKNOWN, token.norm, i, i + 1)
             return i + 1
+        opening = self._prelude(i)
+        if opening is not None:
+            return opening
         special = self._longer_phrase(i)
         if special is not None:
             return special
@@ -220,6 +234,18 @@ class _Tagger:
                 return i + length
         self._add(AtomKind.UNKNOWN, self._words[i], i, i + 1)
         return i + 1
+
+    def _prelude(self, i: int) -> int | None:
+        """`what matters to us is that`: words around a request, where a clause may begin."""
+        last = self._atoms[-1].kind if self._atoms else AtomKind.STOP
+        if last not in _OPENS:
+            return None
+        stop = self._lexicon.preludes.read(self._words, i)
+        known = self._lexicon.longest_of(self._words, i, (Tag.FRAME,))
+        if stop is None or (known is not None and i + known[0] >= stop):
+            return None
+        self._add(AtomKind.FRAME, ' '.join(self._words[i:stop]), i, stop)
+        return stop
 
     def _longer_phrase(self, i: int) -> int | None:
         """Phrases that contain nouns or numbers (`over the streets`, `the moment`) come first."""
