@@ -181,6 +181,7 @@ class AdjunctReader:
     def _measure(self, begin: int, i: int, prep: str) -> tuple[Adjunct, int]:
         measure = self._atoms[i].measure
         assert measure is not None
+        self._merge_prepositions(i, prep)
         several, stop = self._respective(i)
         if several:
             made = self._make(AdjunctKind.MARK, 'list', begin, stop, prep=prep)
@@ -192,9 +193,12 @@ class AdjunctReader:
             and shared is not None
             and shared.key == measure.dimension == LENGTH
             and shared.kind is AtomKind.MEASURE
-        ):  # `at 30 m and 40 m`: whose is which is not read
+        ):  # `at 30 m and 40 m`: each of two has one of them
+            assert shared.measure is not None
             stop = i + 4 if self._is(i + 3, AtomKind.THING) else i + 3
-            return self._make(AdjunctKind.MARK, 'unknown', begin, stop, value='list'), stop
+            made = self._make(AdjunctKind.MARK, 'list', begin, stop, prep=prep)
+            made.measures = (measure, shared.measure)
+            return made, stop
         j = i + 1
         if self._is(j, AtomKind.PREPOSITION, 'of', 'in') and self._is(j + 1, AtomKind.THING):
             j += 1
@@ -220,6 +224,12 @@ class AdjunctReader:
             adjunct, stop = self._relation(begin, j, measure)
             adjunct.prep = prep
             return adjunct, stop
+        if (
+            measure.dimension == LENGTH
+            and self._is(j, AtomKind.PREPOSITION, 'to', 'on')
+            and self._is(j + 1, AtomKind.COMPASS)
+        ):  # `25 m to the west of it`
+            return self._compass(begin, j + 1, measure)
         if self._is(j, AtomKind.COMPASS) and measure.dimension == LENGTH:
             return self._compass(begin, j, measure)
         if self._is(j, AtomKind.PREPOSITION, 'beyond', 'below') and self._at(j + 1) is not None:
@@ -275,6 +285,15 @@ class AdjunctReader:
             ),
             i + 1,
         )
+
+    def _merge_prepositions(self, i: int, prep: str) -> None:
+        """`from 20 m and from 60 m`: the second preposition says nothing new."""
+        again = self._at(i + 2)
+        if again is None or again.key != prep or not self._is(i + 1, AtomKind.CONJUNCTION):
+            return
+        beyond = self._at(i + 3)
+        if again.kind is AtomKind.PREPOSITION and beyond is not None and beyond.key == LENGTH:
+            del self._atoms[i + 2]
 
     def _respective(self, i: int) -> tuple[tuple[Measure, ...], int]:
         """Read `30, 45 and 60 m respectively`; the last one has the unit."""
@@ -339,6 +358,15 @@ class AdjunctReader:
         if follows is not None and follows.measure is not None and fits(thing, follows.measure):
             name = 'altitude' if thing == 'altitude_suffix' else thing
             stop = k + 1
+            other = self._at(stop + 1)
+            if self._is(stop, AtomKind.CONJUNCTION) and other is not None and not nouns:
+                plain = other.measure is not None and other.key == follows.key == LENGTH
+                if plain and other.measure is not None:  # `from distances of 20 m and 60 m`
+                    made = self._make(
+                        AdjunctKind.MARK, 'list', begin, stop + 2, prep=prep or inner
+                    )
+                    made.measures = (follows.measure, other.measure)
+                    return made, stop + 2
             if self._is(stop, AtomKind.THING, 'altitude_suffix'):
                 stop += 1
             return (

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from aurora_core.parsing.atoms import Atom, AtomKind
+from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
 from aurora_core.parsing.morphology import VerbForm
 
 _SKIPPED = (AtomKind.FILL, AtomKind.NEGATION, AtomKind.AUXILIARY)
@@ -25,12 +25,35 @@ def settle_verbs(atoms: list[Atom]) -> list[Atom]:
             settled[i] = replace(atom, kind=AtomKind.AUXILIARY)
         if atom.kind is AtomKind.VERB and atom.key == 'finish' and _ground_act_follows(settled, i):
             settled[i] = replace(atom, kind=AtomKind.AUXILIARY)
+        if AtomKind.CAUSATIVE in kinds and _sends_off(settled, i):
+            settled[i] = replace(atom, kind=AtomKind.VERB, key='fly', form=VerbForm.BASE)
+            continue
         if AtomKind.CAUSATIVE in kinds:
             if _actor_then_verb(settled, i) and not _tells(settled, i):
                 settled[i] = _as(atom, AtomKind.CAUSATIVE)
             elif AtomKind.VERB in kinds and settled[i].kind is AtomKind.CAUSATIVE:
                 settled[i] = _as(atom, AtomKind.VERB)
     return settled
+
+
+def _sends_off(atoms: list[Atom], i: int) -> bool:
+    """`send a drone to the school`, `take a drone up over the park`: it flies there."""
+    before = next((a for a in reversed(atoms[:i]) if a.kind is not AtomKind.FILL), None)
+    if before is not None and (before.is_actor or before.kind is AtomKind.VERB):
+        return False
+    solid = [a for a in atoms[i + 1 :] if a.kind is not AtomKind.FILL][:3]
+    if len(solid) < 2 or solid[0].noun is None or solid[0].noun.kind is not NounKind.UAV:
+        return False
+    places = (AtomKind.PREPOSITION, AtomKind.RELATION, AtomKind.MEASURE, AtomKind.THING)
+    if solid[1].kind not in places or atoms[i].key not in _SENT:
+        return False
+    return len(solid) < 3 or solid[2].kind is not AtomKind.VERB
+
+
+_SENT = frozenset(
+    {'send', 'dispatch', 'take', 'bring', 'get', 'launch', 'direct', 'guide', 'steer', 'pilot'}
+    | {'deploy', 'put', 'use', 'order', 'command'}
+)
 
 
 # `starts tracking`, `keeps following`: the second verb is the predicate.

@@ -171,7 +171,12 @@ def _in_brackets(frame: Frame) -> None:
 def _siren(frame: Frame) -> None:
     """`an ambulance with its siren on`."""
     mark = frame.free(AdjunctKind.MARK, AtomKind.SIREN.value)
-    agents = [e for e in frame.scene.clause.subjects if not e.is_uav]
+    about = frame.scene.clause
+    agents = [e for e in about.subjects or about.objects if not e.is_uav]
+    if mark and not agents:  # `tracks a fire engine on an emergency run`
+        agents = [e for e in about.objects if not e.is_uav]
+        targets = {m.target for m in frame.scene.missions[-1:]}
+        agents = agents or [e for e in frame.scene.agents if e.id in targets]
     if mark and agents:
         mark[0].used = True
         for entity in agents:

@@ -140,6 +140,10 @@ class NounReader:
                     ),
                     stop,
                 )
+            if loose and self._words[j] == "'s":
+                loose = []  # `the surveyor's drone`: whose it is says nothing
+                j += 1
+                continue
             step = self._prefix(j, determiner)
             if step is None:
                 if j == i or (determiner is Determiner.BARE and not count):
@@ -363,8 +367,10 @@ class NounReader:
             return None
         if word in ('one', 'other') and self._lexicon.longest_of(self._words, i + 1, (Tag.VERB,)):
             return self._pronoun_phrase(i, i + 1, word)
-        if word == 'one' and self._at_its_height(i):
+        if word == 'one' and (self._at_its_height(i) or self._shares(i)):
             return self._pronoun_phrase(i, i + 1, word)
+        if word == 'another' and self._placed(i + 1):
+            return self._pronoun_phrase(i, i + 1, word)  # `one van near …, another at …`
         found = self._lexicon.longest_of(self._words, i, (Tag.EGO_PRONOUN, Tag.PRONOUN))
         if found is None:
             return None
@@ -387,6 +393,18 @@ class NounReader:
         if before not in (',', 'and', ':', ';') or i + 2 >= len(self._words):
             return False
         return self._words[i + 1] == 'at' and self._tokens[i + 2].kind is TokenKind.NUMBER
+
+    def _shares(self, i: int) -> bool:
+        """`two drones track it, one from 20 m`, `two vans, one near the park`."""
+        before = self._words[i - 1] if i else ''
+        plain = before not in ('the', 'this', 'that', 'which', 'each', 'another', 'every', 'no')
+        several = any(a in self._words[:i] for a in ('two', '2', 'three', '3', 'both', 'four'))
+        return several and plain and before not in _BY_HEIGHT and self._placed(i + 1)
+
+    def _placed(self, i: int) -> bool:
+        """Return whether a place or a number with a preposition follows."""
+        found = self._lexicon.longest_of(self._words, i, (Tag.RELATION, Tag.PREPOSITION))
+        return found is not None and found[1].key not in ('of', 'to', 'by', 'within', 'beyond')
 
     def _letter(self, i: int) -> tuple[NounPhrase, int] | None:
         """`drone A …, and B passes it on`: the letter alone, once it was given to somebody."""

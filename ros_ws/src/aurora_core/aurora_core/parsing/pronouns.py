@@ -34,6 +34,7 @@ class PronounResolver:
 
     def __init__(self, scene: Scene) -> None:
         self._scene = scene
+        self._pair: tuple[Entity, ...] = ()  # whom `the former` and `the latter` mean
 
     def resolve(
         self, noun: NounPhrase, accept: Fits, exclude: Sequence[Entity], as_object: bool
@@ -44,7 +45,7 @@ class PronounResolver:
         if noun.key == 'other':
             return self._member(accept, first=False)
         if noun.key.startswith('nth'):
-            return self._nth(accept, int(noun.key[3:])) or self._ask(noun)
+            return self._nth(noun, accept, exclude, int(noun.key[3:])) or self._ask(noun)
         if noun.key == 'target':
             tracked = [m.target for m in self._scene.missions if m.target is not None]
             target = self._scene.by_id(tracked[-1]) if tracked else None
@@ -139,13 +140,34 @@ class PronounResolver:
         chosen.assigned = True
         return (chosen,)
 
-    def _nth(self, accept: Fits, number: int) -> tuple[Entity, ...]:
+    def _nth(
+        self, noun: NounPhrase, accept: Fits, exclude: Sequence[Entity], number: int
+    ) -> tuple[Entity, ...]:
         members = self._last_group(accept)
+        if noun.head_text in ('the former', 'the latter'):
+            return self._of_two(accept, number) or self._singular(noun, accept, exclude, False)
         if len(members) < number:
             return ()
         chosen = members[number - 1]
         chosen.index, chosen.assigned = number, True
         return (chosen,)
+
+    def _of_two(self, accept: Fits, number: int) -> tuple[Entity, ...]:
+        """`one drone circles, a second one hovers; the former …`: the last two told of."""
+        if number == 2 and self._pair:
+            return self._pair[1:]
+        told: list[Entity] = []
+        for clause in reversed(self._scene.clauses[:-1]):
+            fitting = [e for e in clause.subjects if accept(e) and e not in told]
+            told = fitting + told
+            if len(told) >= 2:
+                self._pair = tuple(told[-2:])
+                return (told[number - 3],)
+            objects = [e for e in clause.objects if accept(e) and e not in told]
+            if told and objects and clause is self._scene.clauses[-2]:
+                self._pair = (told[-1], objects[-1])
+                return (self._pair[number - 1],)
+        return ()
 
     def _ask(self, noun: NounPhrase) -> tuple[Entity, ...]:
         words = self._scene.prompt[noun.start : noun.end]

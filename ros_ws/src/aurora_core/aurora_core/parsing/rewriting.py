@@ -40,13 +40,37 @@ class Rewritten:
 def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
     """Return the atoms with shorthand written out and retracted numbers left out."""
     told, background = unwrap(atoms, prompt)
-    told = plain_order(_places(told), prompt)
+    told = plain_order(_places(_shares(told)), prompt)
     kept, spans = _take_back(straighten(told, prompt))
     return Rewritten(
         atoms=tuple(_relatives(_climbs(_small_words(_fronted(_labels(kept)), prompt), prompt))),
         taken_back=tuple(spans),
         background=tuple(background),
     )
+
+
+def _shares(atoms: Sequence[Atom]) -> list[Atom]:
+    """`hover over it one at 30 m the other at 50 m`: each share is a clause of its own."""
+    written: list[Atom] = []
+    for i, atom in enumerate(atoms):
+        before = written[-1] if written else None
+        behind = atoms[i + 1] if i + 1 < len(atoms) else None
+        member = atom.noun is not None and atom.noun.kind is NounKind.PRONOUN
+        named = atom.key in ('one', 'other', 'another') or atom.key.startswith('nth')
+        placed = behind is not None and behind.kind in (AtomKind.PREPOSITION, AtomKind.RELATION)
+        told = before is not None and (before.is_place or before.measure is not None)
+        actor = before is not None and before.is_actor and atom.key == 'one'
+        if (
+            member
+            and named
+            and placed
+            and before is not None
+            and (told or actor)
+            and before.end < atom.start
+        ):
+            written.append(Atom(kind=AtomKind.COMMA, key=',', start=before.end, end=atom.start))
+        written.append(atom)
+    return written
 
 
 def _take_back(atoms: list[Atom]) -> tuple[list[Atom], list[Span]]:

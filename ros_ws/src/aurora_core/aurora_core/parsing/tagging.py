@@ -110,6 +110,12 @@ _BEFORE_NOUN = (
 )
 
 
+# What stands behind a subject: the word in front of it is no command.
+_BEHIND_SUBJECT = frozenset(
+    {'must', 'may', 'should', 'shall', 'can', 'has', 'is', 'will', ':', '<', '≤', '=', 'stays'}
+)
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Tagged:
     """The atoms of a prompt and the spelling that was assumed."""
@@ -228,7 +234,7 @@ class _Tagger:
             return stop
         matches = self._lexicon.matches(self._words, i)
         for length, senses in matches:
-            if length > 1 and self._noun_here(i, senses):
+            if length > 1 and (self._noun_here(i, senses) or self._and_forth(i + length)):
                 continue  # `an orbit around …`
             if self._take(i, length, senses):
                 return i + length
@@ -253,7 +259,7 @@ class _Tagger:
         if not matches or matches[0][0] == 1:
             return None
         length, senses = matches[0]
-        if self._noun_here(i, senses):
+        if self._noun_here(i, senses) or self._and_forth(i + length):
             return None  # `an orbit around …`
         if any(
             s.tag
@@ -276,6 +282,13 @@ class _Tagger:
             if noun[1] > i + length or (names and noun[1] == i + length):
                 return None
         return i + length if self._take(i, length, senses) else None
+
+    def _and_forth(self, stop: int) -> bool:
+        """`flies back and forth` is no return."""
+        return self._words[stop - 1] == 'back' and tuple(self._words[stop : stop + 2]) == (
+            'and',
+            'forth',
+        )
 
     def _noun_here(self, i: int, senses: tuple[Sense, ...]) -> bool:
         """Words that are a verb elsewhere stand behind an article; `that turns left` is one."""
@@ -322,6 +335,10 @@ class _Tagger:
         before = self._words[i - 1] if i else ''
         if before in _BEFORE_NOUN:
             return True
+        opens = not self._atoms or self._atoms[-1].kind in _OPENS
+        behind = self._words[i + 1] if i + 1 < len(self._words) else ''
+        if opens and verb.form is VerbForm.BASE and behind in _BEHIND_SUBJECT:
+            return True  # `drift must not exceed 2 m`
         if not self._atoms:
             return False
         last = self._atoms[-1]

@@ -173,7 +173,7 @@ def _limit(frame: Frame) -> bool:
         lower = 'beyond' in preps or (frame.key == 'keep' and frame.length('over') is not None)
     if upper == lower:
         return False
-    if frame.has_mark('thing', 'gap', 'standoff', 'separation'):
+    if frame.has_mark('thing', 'gap', 'standoff', 'separation', 'drift'):
         return False
     op: Op = '<=' if upper else '>='
     speed = frame.attribute('speed')

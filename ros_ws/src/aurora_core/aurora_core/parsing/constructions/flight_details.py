@@ -56,7 +56,7 @@ def _is_detail(frame: Frame, adjunct: Adjunct) -> bool:
     if measure is None or adjunct.nouns or adjunct.prep == 'within':
         return False
     if adjunct.kind is AdjunctKind.ATTRIBUTE:
-        alone = adjunct.key == 'speed' and frame.verb is None
+        alone = adjunct.key in ('speed', 'duration') and frame.verb is None
         lasting = (
             adjunct.key == 'duration'
             and adjunct.prep in ('over', 'for', 'of')
@@ -80,7 +80,7 @@ def _last(frame: Frame) -> MissionDraft | None:
     if not scene.missions or any(not e.is_uav for e in _own_subjects(frame)):
         return None
     draft = scene.missions[-1]
-    near = scene.clauses[draft.clause].sentence >= frame.piece.sentence - 1
+    near = scene.clauses[draft.clause].sentence >= frame.piece.sentence - 3
     ended = any(
         isinstance(e.action, UavAction)
         and e.action.uav == draft.uav.id

@@ -139,12 +139,19 @@ def _bare_length(frame: Frame, found: FlightValues, mode: MissionMode | None) ->
         behind = frame.scene.prompt[adjunct.end :].lstrip().lower()
         if behind.startswith(('between', 'apart')):
             continue  # a separation
-        keeps = frame.key == 'keep' and mode is None
+        keeps = frame.key == 'keep' and mode is None and _follows_somebody(frame)
         hangs = adjunct.prep == 'at' and any(  # `above the ego at 40 m`
             a.kind is AdjunctKind.PHRASE and a.key == 'over' and a.end <= adjunct.start
             for a in frame.adjuncts
         )
-        tracking = (mode is MissionMode.TRACK and not hangs) or keeps
+        away = found.standoff is not None and adjunct.prep == 'at'  # `30 m behind it at 25 m`
+        tracking = (mode is MissionMode.TRACK and not hangs and not away) or keeps
+        tracking = tracking or (
+            mode is None
+            and adjunct.prep == 'from'
+            and bool(frame.scene.missions)
+            and _follows_somebody(frame)
+        )
         if tracking and adjunct.prep in ('from', 'at', '', 'by', 'with'):
             if found.standoff is None:
                 found.standoff = ranged_value(found, 'standoff', measure) or values.explicit(
@@ -160,6 +167,12 @@ def _bare_length(frame: Frame, found: FlightValues, mode: MissionMode | None) ->
                 values.explicit('altitude', measure), adjunct.prep
             )
             use(found, adjunct)
+
+
+def _follows_somebody(frame: Frame) -> bool:
+    """`it stays at 40 m`: away from whom it tracks; who hovers has a height only."""
+    drafts = frame.scene.missions
+    return not drafts or drafts[-1].mode is MissionMode.TRACK
 
 
 def _duration_and_speed(frame: Frame, found: FlightValues) -> None:

@@ -104,6 +104,8 @@ def behavior(frame: Frame) -> bool:
     _tracked_for(frame, subjects)
     speed = _speed(frame)
     closing = _closing_distance(frame) if frame.key in ('tailgate', 'approach', 'come') else None
+    if kind is BehaviorKind.OVERTAKE and not _overtakes(frame, target):
+        kind = BehaviorKind.DRIVE  # `a bus goes past at 20 km/h`
     placements = _placements(frame, subjects, target, closing)
     made = Behavior(
         kind=kind, target=target, speed_mps=speed, closing_from_m=closing, span=frame.span
@@ -113,6 +115,12 @@ def behavior(frame: Frame) -> bool:
         _add(entity, made, own)
     frame.scene.became(*(e.id for e in subjects))
     return True
+
+
+def _overtakes(frame: Frame, target: str | None) -> bool:
+    named = any(_names_actor(a) for a in frame.adjuncts) or frame.passive
+    place = target is not None and frame.scene.by_id(target) is None
+    return named or (target is not None and not place) or frame.attribute('speed') is None
 
 
 def _tracked_for(frame: Frame, subjects: tuple[Entity, ...]) -> None:

@@ -52,6 +52,11 @@ _TRACKING = frozenset({'track', 'follow', 'trail', 'approach'})
 _CONCURRENT = (Link.WHILE, Link.PARTICIPLE, Link.RELATIVE)
 
 
+_BOTH_WAYS = frozenset(
+    {'back and forth', 'to and fro', 'there and back', 'up and down', 'out and back'}
+)
+
+
 _WAYPOINT_PREPS = ('to', 'through', 'via')
 
 
@@ -84,12 +89,15 @@ def mission(frame: Frame) -> bool:
             mode = _mode(frame, target, 'over')
     if mode is None and target is not None and (found.standoff or found.bearing):
         mode = MissionMode.TRACK if _is_actor(frame, target) else MissionMode.HOVER
+    if mode is None and _waits_aloft(frame, flying, found):
+        mode = MissionMode.HOVER
     if mode is None:
         return _plain_flight(frame, flying, found)
     made = []
-    heights = _respective_heights(frame, flying)
+    heights, standoffs = _respective(frame, flying, mode)
     for k, uav in enumerate(flying):
         found.altitude = heights[k] if heights else found.altitude
+        found.standoff = standoffs[k] if standoffs else found.standoff
         made.append(_one(frame, uav, mode, target, pattern, found))
     frame.scene.became(*made)
     return True
@@ -111,13 +119,23 @@ def watching(frame: Frame) -> None:
         found.release()
 
 
-def _respective_heights(frame: Frame, flying: tuple[Entity, ...]) -> list[Parameter]:
-    """`three drones hover at 30, 45 and 60 m respectively`."""
+def _respective(
+    frame: Frame, flying: tuple[Entity, ...], mode: MissionMode
+) -> tuple[list[Parameter], list[Parameter]]:
+    """`three drones hover at 30, 45 and 60 m respectively`: heights, or standoffs (`from`)."""
     for adjunct in frame.free(AdjunctKind.MARK, 'list'):
-        if len(adjunct.measures) == len(flying) and adjunct.prep == 'at':
-            adjunct.used = True
-            return [values.explicit('altitude', m) for m in adjunct.measures]
-    return []
+        if len(adjunct.measures) != len(flying) or adjunct.prep not in ('at', 'from', '', 'of'):
+            continue
+        words = frame.scene.prompt[max(0, adjunct.start - 16) : adjunct.end + 8].lower()
+        away = adjunct.prep == 'from' or 'away' in words or 'distance' in words
+        adjunct.used = True
+        name = 'standoff' if away and mode is MissionMode.TRACK else 'altitude'
+        told = [values.explicit(name, m) for m in adjunct.measures]
+        if name == 'standoff':
+            frame.mark('thing', 'standoff')
+            return [], told
+        return told, []
+    return [], []
 
 
 def _is_actor(frame: Frame, reference: str) -> bool:
@@ -245,11 +263,13 @@ def _mode(frame: Frame, target: str | None, prep: str) -> MissionMode | None:
 
 
 def _pattern(frame: Frame, mode: MissionMode | None, target: str | None) -> Pattern | None:
-    mark = frame.mark(AtomKind.PATTERN.value)
-    for other in frame.free(AdjunctKind.MARK, AtomKind.PATTERN.value):
-        other.used = mark is not None and other.value == mark.value
-    if mark is not None:
-        return Pattern(mark.value)
+    told = _told_pattern(frame, target)
+    if told is not None:
+        return told
+    if frame.verb is not None and frame.key == 'navigate' and mode is MissionMode.NAVIGATE:
+        word = frame.scene.prompt[frame.verb.start : frame.verb.end].lower()
+        if word.startswith('mow'):
+            return Pattern.LAWNMOWER
     if frame.key == 'orbit':
         return Pattern.ORBIT
     if mode is not MissionMode.NAVIGATE:
@@ -268,6 +288,26 @@ def _pattern(frame: Frame, mode: MissionMode | None, target: str | None) -> Patt
     if frame.key in ('fly', 'drive', '') and any(p in _WAYPOINT_PREPS for p in phrases):
         return Pattern.WAYPOINTS
     return Pattern.RECTANGLE
+
+
+def _told_pattern(frame: Frame, target: str | None) -> Pattern | None:
+    """Return the pattern that is named; `back and forth` is how a line is flown as well."""
+    marks = frame.free(AdjunctKind.MARK, AtomKind.PATTERN.value)
+    vague = [m for m in marks if _words(frame, m) in _BOTH_WAYS]
+    clear = [m for m in marks if m not in vague]
+    if not marks:
+        return None
+    chosen = (clear or vague)[0]
+    for mark in marks:
+        mark.used = mark in vague or mark.value == chosen.value
+    along = any(a.key == 'along' for a in frame.adjuncts if a.kind is AdjunctKind.PHRASE)
+    if not clear and (along or target == Place.MAIN_ROAD):
+        return Pattern.LINE
+    return Pattern(chosen.value)
+
+
+def _words(frame: Frame, adjunct: Adjunct) -> str:
+    return frame.scene.prompt[adjunct.start : adjunct.end].lower()
 
 
 def _one(
@@ -346,6 +386,12 @@ def _continues(
     if pattern is not None and stated and last.pattern is not pattern:
         return False
     return not found.clashes(last)
+
+
+def _waits_aloft(frame: Frame, flying: tuple[Entity, ...], found: FlightValues) -> bool:
+    """`has to stay in the air for half an hour`: nothing but how long is said."""
+    told = found.duration is not None and frame.key in ('fly', 'keep', 'be', '')
+    return told and not any(frame.scene.missions_of(uav) for uav in flying)
 
 
 def _plain_flight(frame: Frame, flying: tuple[Entity, ...], found: FlightValues) -> bool:
