@@ -19,6 +19,9 @@ from aurora_core.parsing.morphology import VerbForm
 
 _LOOSE = (AtomKind.FILL, AtomKind.FRAME)
 _HELPERS = (AtomKind.AUXILIARY, *_LOOSE)
+_JOINING = (AtomKind.SUBORDINATOR, AtomKind.RELATIVE, AtomKind.THEN)
+# Participles that `reader.py` ties to what follows.
+_KEPT_FRONTED = frozenset({'approach', 'receive', 'start', 'see', 'reach'})
 _WHICH = ('which', 'who', 'whom', 'that')
 _GOVERNING = (AtomKind.PREPOSITION, AtomKind.RELATION)
 
@@ -233,6 +236,33 @@ def _rest_about(subject: Atom, rest: list[Atom]) -> list[Atom]:
     return rest
 
 
+def _participle(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """`driving at 8 m/s, a car approaches`: `a car is driving at 8 m/s; it approaches`."""
+    first = _next(atoms, 0)
+    if first >= len(atoms) or atoms[first].kind is not AtomKind.VERB:
+        return atoms
+    lead = atoms[first]
+    if lead.form not in (VerbForm.ING, VerbForm.PAST) or lead.key in _KEPT_FRONTED:
+        return atoms
+    for k in range(first + 1, len(atoms) - 2):
+        if atoms[k].kind in (AtomKind.VERB, *_JOINING):
+            return atoms
+        if atoms[k].kind is not AtomKind.COMMA:
+            continue
+        who = _next(atoms, k + 1)
+        if who >= len(atoms) or not atoms[who].is_actor:
+            return atoms
+        subject, noun = atoms[who], atoms[who].noun
+        assert noun is not None
+        verb = _next(atoms, who + 1, (*_HELPERS, AtomKind.NEGATION))
+        finite = verb < len(atoms) and atoms[verb].kind is AtomKind.VERB
+        if not finite or noun.kind is NounKind.UAV or noun.kind is NounKind.PRONOUN:
+            return atoms
+        be = Atom(kind=AtomKind.AUXILIARY, key='be', start=lead.start, end=lead.end)
+        return [*atoms[:first], subject, be, *atoms[first:k], _stop(atoms[k]), *atoms[k + 1 :]]
+    return atoms
+
+
 def _relative_object(atoms: list[Atom], prompt: str) -> list[Atom]:
     """`a bus, which a police car is following`: who follows it is a sentence of its own."""
     for i in range(1, len(atoms) - 2):
@@ -328,6 +358,7 @@ _TURNS: tuple[Callable[[list[Atom], str], list[Atom]], ...] = (
     _cleft,
     _what,
     _turned,
+    _participle,
     _having,
     _by_role,
     _relative_object,

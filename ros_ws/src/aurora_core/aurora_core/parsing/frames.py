@@ -66,7 +66,10 @@ class Frame:
             a.kind is AtomKind.NEGATION and not _of_weather(atoms, i) for i, a in enumerate(atoms)
         )
         self.subject_nouns, rest = split_subject(before, scene.prompt)
-        self.adjuncts = AdjunctReader(rest).read() + AdjunctReader(after).read()
+        ahead = AdjunctReader(rest).read()
+        # By place in the sentence: reordered words keep the characters that they were read from.
+        self._ahead = frozenset(id(a) for a in ahead)
+        self.adjuncts = ahead + AdjunctReader(after).read()
         self.flagged: list[tuple[int, int]] = []
         self.avoid: tuple[Entity, ...] = ()
         self.heir: Entity | None = None  # who acts when the clause names nobody
@@ -99,7 +102,7 @@ class Frame:
         if self.key != 'be' or self.verb is None:
             return
         for name, value in self._around_the_verb():
-            around = name.end <= self.verb.start and value.start >= self.verb.end
+            around = id(name) in self._ahead and id(value) not in self._ahead
             thing = name.kind is AdjunctKind.MARK and name.key == 'thing'
             measure = value.measure
             plain = value.kind in (AdjunctKind.MEASURE, AdjunctKind.ATTRIBUTE)
@@ -117,8 +120,9 @@ class Frame:
             if told not in ('altitude', 'speed') or not adjunct.nouns:
                 continue
             between = self.scene.prompt[adjunct.start : adjunct.nouns[0].start].lower().split()
-            in_front = self.verb is not None and adjunct.nouns[-1].end <= self.verb.start
-            if in_front and 'of' in between and all(n.kind in ACTORS for n in adjunct.nouns):
+            belongs = 'of' in between or adjunct.nouns[0].start < adjunct.start
+            in_front = self.verb is not None and id(adjunct) in self._ahead
+            if in_front and belongs and all(n.kind in ACTORS for n in adjunct.nouns):
                 self.subject_nouns, adjunct.nouns = adjunct.nouns, ()
                 return
 

@@ -16,6 +16,7 @@ from aurora_core.parsing.inversions import straighten
 from aurora_core.parsing.measures import LENGTH
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.pieces import TRANSPARENT
+from aurora_core.parsing.statements import value_statements
 from aurora_core.parsing.wrapping import unwrap
 from aurora_core.spec.parameter import Bound, Span
 
@@ -40,7 +41,7 @@ class Rewritten:
 def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
     """Return the atoms with shorthand written out and retracted numbers left out."""
     told, background = unwrap(atoms, prompt)
-    told = plain_order(_places(_shares(told)), prompt)
+    told = value_statements(plain_order(_places(_shares(told)), prompt), prompt)
     kept, spans = _take_back(straighten(told, prompt))
     return Rewritten(
         atoms=tuple(_relatives(_climbs(_small_words(_fronted(_labels(kept)), prompt), prompt))),

@@ -34,6 +34,12 @@ _TARGETED = frozenset(
 )
 
 
+# What a speed told beside it belongs to.
+_HAS_A_SPEED = frozenset(
+    {BehaviorKind.EMERGENCY_RUN, BehaviorKind.APPROACH, BehaviorKind.CIRCULATE}
+)
+
+
 def settle(scene: Scene) -> None:
     """Apply the scene rules; what stays open becomes a question."""
     _seen_from_above(scene)
@@ -44,6 +50,7 @@ def settle(scene: Scene) -> None:
             )
         return
     _late_anchors(scene)
+    _shared_speeds(scene)
     _climb_only(scene)
     _onlookers(scene)
     if scene.no_uavs and scene.uavs:
@@ -60,6 +67,25 @@ def settle(scene: Scene) -> None:
             _infer_target(scene, draft)
     _general_links(scene)
     _senders(scene)
+
+
+def _shared_speeds(scene: Scene) -> None:
+    """`an ambulance on an emergency run drives at 15 m/s`: one act and its speed."""
+    for entity in scene.entities:
+        acts = entity.behaviors
+        plain = [b for b in acts if b.kind is BehaviorKind.DRIVE and b.speed_mps and not b.target]
+        open_acts = [b for b in acts if b.kind in _HAS_A_SPEED and b.speed_mps is None]
+        if len(plain) != 1 or len(open_acts) != 1 or len(acts) != len(plain) + len(open_acts):
+            continue
+        one = open_acts[0]
+        whole = Behavior(
+            kind=one.kind,
+            target=one.target,
+            speed_mps=plain[0].speed_mps,
+            closing_from_m=one.closing_from_m,
+            span=one.span,
+        )
+        entity.behaviors[:] = [whole]
 
 
 def _senders(scene: Scene) -> None:

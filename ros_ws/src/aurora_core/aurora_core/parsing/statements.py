@@ -1,0 +1,331 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Values told in sentences of their own, put in the one order that is read: name, verb, value.
+
+`45 m is its altitude`, `a truck whose speed is 8 m/s`, `its latency 200 ms`, `the car has a speed
+of 8 m/s`, `the number of retries is 2`, `after 180 s the scenario is over`, `traffic: medium`.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+
+from aurora_core.parsing.adjunct_reader import fits
+from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
+from aurora_core.parsing.measures import COUNT, SPEED, TIME
+from aurora_core.parsing.morphology import VerbForm
+from aurora_core.parsing.world_statements import horizon, traffic
+
+_LOOSE = (AtomKind.FILL, AtomKind.FRAME)
+_HELPERS = (AtomKind.AUXILIARY, *_LOOSE)
+_BREAKS = (AtomKind.COMMA, AtomKind.CONJUNCTION)
+_GROUND = (NounKind.AGENT, NounKind.EGO, NounKind.VEHICLE)
+_OWNERS = ('its', 'their', 'his', 'her', 'whose', 'the', 'a', 'an')
+_SO = re.compile(
+    r'(?:(?:which|that|this)(?: it| he| she| they)?(?: should| must| shall| will| has to)?'
+    r' (?:do|does)'
+    r'|(?:do|does|doing|done|did) (?:so|this|that)|this|that|all this|all of this|both)\b'
+)
+
+
+def value_statements(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
+    """Return the atoms with every stated value behind its name."""
+    written = traffic(list(atoms), prompt)
+    for turn in (_repeated, _counted, _swapped, _paired, _owned, _of_ground, _lasting, _doing):
+        written = turn(written, prompt)
+    return horizon(_so(_going(written, prompt), prompt))
+
+
+def _word(atom: Atom, prompt: str) -> str:
+    return prompt[atom.start : atom.end].lower()
+
+
+def _at(atoms: Sequence[Atom], i: int) -> Atom | None:
+    return atoms[i] if 0 <= i < len(atoms) else None
+
+
+def _skip(atoms: Sequence[Atom], i: int, kinds: tuple[AtomKind, ...] = _LOOSE) -> int:
+    while i < len(atoms) and atoms[i].kind in kinds:
+        i += 1
+    return i
+
+
+def _is_be(atom: Atom | None) -> bool:
+    told = atom is not None and atom.kind in (AtomKind.VERB, AtomKind.AUXILIARY)
+    return told and atom is not None and atom.key == 'be'
+
+
+def _is_value(name: Atom | None, value: Atom | None) -> bool:
+    told = name is not None and value is not None and name.kind is AtomKind.THING
+    return bool(told and name and value and value.measure and fits(name.key, value.measure))
+
+
+def _copula(at: Atom) -> Atom:
+    return Atom(kind=AtomKind.VERB, key='be', start=at.start, end=at.end, form=VerbForm.THIRD)
+
+
+def _swapped(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """`45 m is its altitude and 6 m/s its speed`: the name first."""
+    changed = list(atoms)
+    copula: Atom | None = None
+    i = 0
+    while i < len(changed):
+        atom = changed[i]
+        if atom.kind is AtomKind.STOP:
+            copula = None
+        before = _at(changed, i - 1)
+        opens = before is None or before.kind in (AtomKind.STOP, *_BREAKS)
+        if atom.measure is None or not opens:
+            i += 1
+            continue
+        be = _skip(changed, i + 1)
+        name = be
+        verb = changed[be] if be < len(changed) and _is_be(changed[be]) else None
+        if verb is not None or copula is not None:
+            name = be + 1 if verb is not None else be
+            while name < len(changed) and (
+                changed[name].kind in _HELPERS or _word(changed[name], prompt) in _OWNERS
+            ):
+                name += 1
+        told = _at(changed, name)
+        if (verb is not None or copula is not None) and _is_value(told, atom):
+            assert told is not None
+            copula = verb or copula
+            assert copula is not None
+            stop = name + 1
+            of = _at(changed, stop)
+            owner = _at(changed, stop + 1)
+            if of is not None and of.key == 'of' and owner is not None and owner.noun is not None:
+                stop += 2
+            words = [*changed[be:name], *changed[name:stop]]
+            words = [a for a in words if not _is_be(a)]
+            changed[i:stop] = [*words, _copula(copula), atom]
+            i += len(words) + 2
+            continue
+        i += 1
+    return changed
+
+
+def _paired(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """`its speed is 6 m/s and its altitude 45 m`: the verb is said once."""
+    changed: list[Atom] = []
+    copula: Atom | None = None
+    for i, atom in enumerate(atoms):
+        if atom.kind is AtomKind.STOP:
+            copula = None
+        if _is_be(atom) and copula is None:
+            before = [a for a in changed[-6:] if a.kind is AtomKind.THING]
+            copula = atom if before else None
+        value = _at(atoms, i + 1)
+        if copula is not None and _is_value(atom, value):
+            k = len(changed)
+            while k and (changed[k - 1].kind is AtomKind.FILL or changed[k - 1].key == 'it'):
+                k -= 1
+            if k and changed[k - 1].kind in _BREAKS and any(_is_be(a) for a in changed):
+                changed[k:] = [
+                    replace(a, kind=AtomKind.FILL, key='its', noun=None) for a in changed[k:]
+                ]
+                changed += [atom, _copula(copula)]
+                continue
+        changed.append(atom)
+    return changed
+
+
+def _owned(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """`the car has a speed of 8 m/s`: `the speed of the car is 8 m/s`."""
+    changed = list(atoms)
+    for i in range(len(changed) - 4):
+        owner, has = changed[i], changed[i + 1]
+        ground = owner.noun is not None and owner.noun.kind in (*_GROUND, NounKind.PRONOUN)
+        if not ground or _word(has, prompt) not in ('has', 'have', 'with', 'having'):
+            continue
+        if _word(has, prompt) == 'with' and not _ends(changed, i + 2):
+            continue
+        name = _skip(changed, i + 2)
+        told = _at(changed, name)
+        if told is None or told.key != 'speed' or told.kind is not AtomKind.THING:
+            continue
+        of = name + 1
+        if of < len(changed) and changed[of].key == 'of':
+            value = _skip(changed, of + 1)
+            if _is_value(told, _at(changed, value)) and _ends(changed, value):
+                drive = Atom(
+                    kind=AtomKind.VERB,
+                    key='drive',
+                    start=has.start,
+                    end=has.end,
+                    form=VerbForm.THIRD,
+                )
+                changed[i + 1 : value] = [drive, replace(changed[of], key='at')]
+    return changed
+
+
+def _ends(atoms: Sequence[Atom], i: int) -> bool:
+    """Return whether the clause that holds the atom has no verb."""
+    for atom in atoms[i:]:
+        if atom.kind in (AtomKind.STOP, AtomKind.COMMA):
+            return True
+        if atom.kind is AtomKind.VERB:
+            return False
+    return True
+
+
+def _of_ground(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """`a truck, whose speed is 8 m/s, …`: a sentence of its own, behind this one."""
+    written: list[Atom] = []
+    later: list[Atom] = []
+    i = 0
+    while i < len(atoms):
+        atom = atoms[i]
+        if atom.kind is AtomKind.STOP:
+            written += later
+            later = []
+        owner = next((a for a in reversed(written) if a.is_actor), None)
+        span = _whose(atoms, i, prompt) if _word(atom, prompt) == 'whose' else None
+        ground = owner is not None and owner.noun is not None and owner.noun.kind in _GROUND
+        if span is None or not ground or owner is None:
+            written.append(atom)
+            i += 1
+            continue
+        name, value = span
+        of = Atom(kind=AtomKind.PREPOSITION, key='of', start=atom.start, end=atom.end)
+        stop = Atom(kind=AtomKind.STOP, key=';', start=atom.start, end=atom.end)
+        later += [stop, atoms[name], of, owner, _copula(atom), atoms[value]]
+        while written and written[-1].kind in _BREAKS:
+            written.pop()
+        i = value + 1
+        if i < len(atoms) and atoms[i].kind is AtomKind.COMMA:
+            i += 1
+    return written + later
+
+
+def _whose(atoms: Sequence[Atom], i: int, prompt: str) -> tuple[int, int] | None:
+    name = _skip(atoms, i + 1)
+    told = _at(atoms, name)
+    if told is None or told.kind is not AtomKind.THING or told.key != 'speed':
+        return None
+    value = name + 1
+    while value < len(atoms) and (atoms[value].kind in _HELPERS or _is_be(atoms[value])):
+        value += 1
+    return (name, value) if _is_value(told, _at(atoms, value)) else None
+
+
+def _counted(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """`the number of its retransmissions is 2`: the retransmissions are 2."""
+    written: list[Atom] = []
+    for i, atom in enumerate(atoms):
+        word = _word(atom, prompt).split()[-1:]
+        of = _at(atoms, i + 1)
+        if word in (['number'], ['count'], ['amount']) and of is not None and of.key == 'of':
+            name = i + 2
+            while name < len(atoms) and _word(atoms[name], prompt) in _OWNERS:
+                name += 1
+            told = _at(atoms, name)
+            if told is not None and told.key in ('retransmissions', 'waypoint'):
+                for k in range(i, name):
+                    written.append(replace(atoms[k], kind=AtomKind.FILL, noun=None))
+                return written + _counted(atoms[name:], prompt)
+        written.append(atom)
+    return written
+
+
+def _lasting(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """`…, which lasts 40 s`, `… and this takes 40 s`: for 40 s."""
+    changed = list(atoms)
+    i = 1
+    while i < len(changed) - 1:
+        verb, value = changed[i], changed[i + 1]
+        opener = changed[i - 1]
+        refers = opener.kind is AtomKind.RELATIVE or _word(opener, prompt) in ('this', 'that')
+        if verb.kind is AtomKind.VERB and verb.key == 'last' and value.key == TIME and refers:
+            begin = i - 1
+            while begin and changed[begin - 1].kind in _BREAKS:
+                begin -= 1
+            about = _at(changed, begin - 1)
+            if about is not None and about.kind is not AtomKind.SCENARIO:
+                word = replace(verb, kind=AtomKind.PREPOSITION, key='for')
+                changed[begin : i + 1] = [word]
+                i = begin
+        i += 1
+    return changed
+
+
+def _repeated(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """`two thirds of a minute (forty seconds)`: the same once more."""
+    changed = list(atoms)
+    for i, atom in enumerate(atoms):
+        if atom.kind is not AtomKind.FILL or atom.key != '(':
+            continue
+        close = next((k for k in range(i + 1, len(atoms)) if atoms[k].key == ')'), None)
+        if close is None:
+            continue
+        inside = [a for a in atoms[i + 1 : close] if a.kind not in _LOOSE]
+        values = [a.measure for a in inside if a.measure is not None]
+        before = [a.measure for a in atoms[max(0, i - 4) : i] if a.measure is not None]
+        if len(values) != 1 or not before:
+            continue
+        same = abs(before[-1].value - values[0].value) < 1e-6 * max(1.0, abs(values[0].value))
+        kind = before[-1].dimension == values[0].dimension or COUNT in (
+            before[-1].dimension,
+            values[0].dimension,
+        )
+        if same and kind and all(a.measure or a.kind is AtomKind.THING for a in inside):
+            first = next(k for k in range(i - 1, -1, -1) if atoms[k].measure is not None)
+            if before[-1].dimension == COUNT:
+                changed[first] = replace(atoms[first], kind=AtomKind.FILL, measure=None)
+                continue
+            for k in range(i, close + 1):
+                changed[k] = replace(atoms[k], kind=AtomKind.FILL, measure=None)
+    return changed
+
+
+def _doing(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """`doing 28 km/h, a car …`: it drives as fast as that."""
+    changed = list(atoms)
+    for i in range(len(changed) - 1):
+        word = _word(changed[i], prompt)
+        value = changed[_skip(changed, i + 1)] if _skip(changed, i + 1) < len(changed) else None
+        fast = value is not None and value.key == SPEED and value.measure is not None
+        before = next((a.noun for a in reversed(changed[:i]) if a.noun is not None), None)
+        ground = word == 'doing' or (before is not None and before.kind in _GROUND)
+        if fast and ground and word in ('do', 'does', 'doing'):
+            form = {'do': VerbForm.BASE, 'doing': VerbForm.ING}.get(word, VerbForm.THIRD)
+            changed[i] = replace(changed[i], kind=AtomKind.VERB, key='drive', form=form)
+    return changed
+
+
+def _going(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """`ten seconds in, a car starts`: after the start of the scenario."""
+    changed = list(atoms)
+    for i in range(1, len(changed)):
+        behind = _at(changed, i + 1)
+        alone = behind is None or behind.kind in (AtomKind.COMMA, AtomKind.STOP)
+        if _word(changed[i], prompt) == 'in' and alone and changed[i - 1].key == TIME:
+            changed[i] = replace(changed[i], kind=AtomKind.FROM_START, key='into the run')
+    return changed
+
+
+def _so(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """`approaches it and does so at 8 m/s`, `…, and this for 40 s`: goes on with the clause."""
+    written: list[Atom] = []
+    i = 0
+    while i < len(atoms):
+        written.append(atoms[i])
+        i += 1
+        if atoms[i - 1].kind not in _BREAKS:
+            continue
+        k = _skip(atoms, i, (*_BREAKS, *_HELPERS, AtomKind.RELATIVE, AtomKind.VERB, AtomKind.NOUN))
+        if k >= len(atoms) or k == i or k > i + 5:
+            continue
+        told = prompt[atoms[i].start : atoms[k].start].lower().strip()
+        told = re.sub(r'^(?:and|but)\s+', '', told)
+        value = atoms[k + 1] if k + 1 < len(atoms) else None
+        governed = atoms[k].kind is AtomKind.PREPOSITION and value is not None and value.measure
+        if governed and _SO.fullmatch(told):
+            written.pop()
+            while written and written[-1].kind in _BREAKS:
+                written.pop()
+            i = k
+    return written
