@@ -263,6 +263,30 @@ def _participle(atoms: list[Atom], prompt: str) -> list[Atom]:
     return atoms
 
 
+def _sent(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """`park a drone above the square`, `send a UAV down the main road`: it hovers, it flies."""
+    first = _next(atoms, 0)
+    if first + 2 >= len(atoms):
+        return atoms
+    told, who = atoms[first], atoms[first + 1]
+    mode = next((m for m, words in _orders().items() if _word(told, prompt) in words), None)
+    if mode is None or who.noun is None or who.noun.kind is not NounKind.UAV:
+        return atoms
+    behind = _next(atoms, first + 2)
+    clause = atoms[behind:]
+    cut = next((i for i, a in enumerate(clause) if a.kind in _JOINING), len(clause))
+    acts = any(a.kind in (AtomKind.VERB, AtomKind.CAUSATIVE) for a in clause[:cut])
+    if not clause or clause[0].kind not in (*_GOVERNING, AtomKind.THING) or acts:
+        return atoms
+    verb = replace(told, kind=AtomKind.VERB, key=mode, form=VerbForm.THIRD)
+    return [*atoms[:first], who, verb, *atoms[first + 2 :]]
+
+
+@lru_cache(maxsize=1)
+def _orders() -> dict[str, list[str]]:
+    return dict(read_data('lexicon.yaml')['orders_to_fly'])
+
+
 def _relative_object(atoms: list[Atom], prompt: str) -> list[Atom]:
     """`a bus, which a police car is following`: who follows it is a sentence of its own."""
     for i in range(1, len(atoms) - 2):
@@ -357,6 +381,7 @@ def _by_role(atoms: list[Atom], prompt: str) -> list[Atom]:
 _TURNS: tuple[Callable[[list[Atom], str], list[Atom]], ...] = (
     _cleft,
     _what,
+    _sent,
     _turned,
     _participle,
     _having,

@@ -40,6 +40,7 @@ _TRANSITIVE = frozenset(
         'reach',
         'trace',
         'cross',
+        'circulate',
         'lose',
         'put',
         'fly',

@@ -114,11 +114,15 @@ class MeasureReader:
 
     def _one_in(self, j: int) -> tuple[Measure, int] | None:
         """`one in five packets`, `one out of ten messages`: a share."""
+        if self._word(j) == 'every':
+            return self._every(j)
         if self._word(j) not in ('one', '1'):
             return None
-        k = j + 2 if self._word(j + 1) == 'in' else j + 3
-        if self._word(j + 1) != 'in' and (self._word(j + 1), self._word(j + 2)) != ('out', 'of'):
+        m = j + 2 if self._is_message(j + 1) else j + 1  # `one packet in ten`
+        k = m + 1 if self._word(m) == 'in' else m + 2
+        if self._word(m) != 'in' and (self._word(m), self._word(m + 1)) != ('out', 'of'):
             return None
+        k += self._word(k) == 'every'
         whole = self._number(k)
         if whole is None or not whole.value or self._unit(whole.stop)[0] is not None:
             return None
@@ -126,11 +130,47 @@ class MeasureReader:
         share = Measure(dimension=RATIO, value=float(1 / whole.value), start=start, end=end)
         return share, whole.stop
 
+    def _is_message(self, j: int) -> bool:
+        return self._lexicon.longest_of(self._words, j, (Tag.MESSAGE,)) is not None
+
+    def _every(self, j: int) -> tuple[Measure, int] | None:
+        """`every tenth packet`: a share."""
+        part = self._lexicon.fractions.get(self._word(j + 1))
+        if part is None or not self._is_message(j + 2):
+            return None
+        start, end = self._tokens[j].start, self._tokens[j + 1].end
+        return Measure(dimension=RATIO, value=1 / part, start=start, end=end), j + 2
+
+    def _share(self, j: int) -> tuple[_Number, bool] | None:
+        """`two thirds of a`, `a fifth of`: a part of a unit, or a share."""
+        number = self._number(j)
+        article = number is None and self._word(j) in ('a', 'an', 'one')
+        stop = j + 1 if article else (number.stop if number is not None else j)
+        part = self._lexicon.fractions.get(self._word(stop))
+        if part is None or (number is not None and not number.value):
+            return None
+        many = self._word(stop).endswith('s') or self._word(stop) == 'halves'
+        times = number.value if number is not None and number.value is not None else Fraction(1)
+        if times.denominator != 1 or (times > 1) is not many or times > part:
+            return None
+        of = stop + 1
+        if self._word(of) != 'of':
+            return (_Number(times / part, of, True), True) if many else None
+        unit = of + 2 if self._word(of + 1) in ('a', 'an', 'one') else of + 1
+        if self._unit(unit)[0] is not None:
+            return _Number(times / part, unit, True), False
+        return _Number(times / part, of, True), True
+
     def _core(self, j: int, *, between: bool) -> tuple[Measure, int] | None:
         share = self._one_in(j)
         if share is not None:
             return share
-        first = self._number(j) or self._article(j)
+        part = self._share(j)
+        if part is not None and part[1] and part[0].value is not None:
+            start, end = self._tokens[j].start, self._tokens[part[0].stop - 1].end
+            value = float(part[0].value)
+            return Measure(dimension=RATIO, value=value, start=start, end=end), part[0].stop
+        first = part[0] if part is not None else self._number(j) or self._article(j)
         if first is None:
             return None
         unit, k = self._unit(first.stop)

@@ -103,6 +103,9 @@ class NounReader:
             head = self._head(j)
             if head is not None and not (head[0] is NounKind.EGO and self._agent_follows(j)):
                 kind, key, head_text, is_plural, stop = head
+                # `the aircraft are`: one word for one and for many
+                many = self._words[stop : stop + 1] in (['are'], ['were'], ['have'])
+                is_plural = is_plural or (head_text.endswith('craft') and many)
                 if head_text == 'crossing' and self._agent_at(stop):
                     states.append('cross')  # `a crossing pedestrian`
                     j = stop
@@ -353,6 +356,9 @@ class NounReader:
         return int(measure.value), stop
 
     def _is_unknown(self, j: int) -> bool:
+        share = self._words[j] in self._lexicon.fractions  # `a quarter of an hour`
+        if share and list(self._words[j + 1 : j + 2]) == ['of']:
+            return False
         return self._tokens[j].kind is TokenKind.WORD and not self._lexicon.matches(self._words, j)
 
     # --- phrases without a known head ---------------------------------------------------------

@@ -15,6 +15,7 @@ from aurora_core.parsing.clefts import plain_order
 from aurora_core.parsing.inversions import straighten
 from aurora_core.parsing.measures import LENGTH
 from aurora_core.parsing.morphology import VerbForm
+from aurora_core.parsing.nominal import predicates
 from aurora_core.parsing.pieces import TRANSPARENT
 from aurora_core.parsing.statements import value_statements
 from aurora_core.parsing.wrapping import unwrap
@@ -41,7 +42,9 @@ class Rewritten:
 def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
     """Return the atoms with shorthand written out and retracted numbers left out."""
     told, background = unwrap(atoms, prompt)
-    told = value_statements(plain_order(_places(_shares(told)), prompt), prompt)
+    told = value_statements(
+        predicates(plain_order(_places(_shares(told)), prompt), prompt), prompt
+    )
     kept, spans = _take_back(straighten(told, prompt))
     return Rewritten(
         atoms=tuple(_relatives(_climbs(_small_words(_fronted(_labels(kept)), prompt), prompt))),

@@ -7,12 +7,28 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 _SHORTEST = 5
+# English words that only look like a slip (`in the form of`).
+_REAL = frozenset(
+    {'form', 'trial', 'angel', 'quite', 'dose', 'causal', 'martial', 'clam', 'sliver'}
+)
 
 
 class Speller:
     """Finds the one known word within one insertion, deletion, change or swap of letters."""
 
-    def __init__(self, words: Iterable[str]) -> None:
+    def __init__(self, words: Iterable[str], every: Iterable[str] = ()) -> None:
+        """Index the words.
+
+        Args:
+            words: Words with a meaning of their own: any slip.
+            every: All words: two neighbouring letters swapped, and nothing else.
+        """
+        self._swapped: dict[str, set[str]] = {}
+        for word in every:
+            if len(word) >= _SHORTEST - 2 and word.isalpha():
+                for i in range(len(word) - 1):
+                    slip = word[:i] + word[i + 1] + word[i] + word[i + 2 :]
+                    self._swapped.setdefault(slip, set()).add(word)
         self._by_deletion: dict[str, list[str]] = {}
         for word in sorted(words):
             if len(word) >= _SHORTEST and word.isalpha():
@@ -21,7 +37,7 @@ class Speller:
 
     def correct(self, word: str) -> str | None:
         """Return the known word that was meant, None when there is none or several."""
-        if len(word) < _SHORTEST or not word.isalpha():
+        if len(word) < _SHORTEST - 2 or not word.isalpha():
             return None
         candidates = {
             known
@@ -29,6 +45,8 @@ class Speller:
             for known in self._by_deletion.get(key, ())
             if _alike(word, known) and _one_slip(word, known)
         }
+        if not candidates and word not in _REAL:
+            candidates = set(self._swapped.get(word, ()))
         return candidates.pop() if len(candidates) == 1 else None
 
 
@@ -36,7 +54,10 @@ def _alike(word: str, known: str) -> bool:
     """Same first letter; another or a further last letter makes another word (`blocks`)."""
     if known[0] != word[0] or word.startswith(known):
         return False
-    return len(known) != len(word) or known[-1] == word[-1]
+    if len(word) < _SHORTEST:  # `hovr`, `trak`: a letter is missing inside
+        return len(known) > len(word) and known[-1] == word[-1]
+    swapped = word[-2:] == known[:-3:-1] and word[:-2] == known[:-2]  # `lenght`
+    return len(known) != len(word) or known[-1] == word[-1] or swapped
 
 
 def _deletions(word: str) -> tuple[str, ...]:

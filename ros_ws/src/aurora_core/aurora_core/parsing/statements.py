@@ -33,7 +33,17 @@ _SO = re.compile(
 def value_statements(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
     """Return the atoms with every stated value behind its name."""
     written = traffic(list(atoms), prompt)
-    for turn in (_repeated, _counted, _swapped, _paired, _owned, _of_ground, _lasting, _doing):
+    for turn in (
+        _repeated,
+        _delayed,
+        _counted,
+        _swapped,
+        _paired,
+        _owned,
+        _of_ground,
+        _lasting,
+        _doing,
+    ):
         written = turn(written, prompt)
     return horizon(_so(_going(written, prompt), prompt))
 
@@ -229,6 +239,19 @@ def _counted(atoms: list[Atom], prompt: str) -> list[Atom]:
                 return written + _counted(atoms[name:], prompt)
         written.append(atom)
     return written
+
+
+def _delayed(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """`delays everything by 0.2 s`: a latency of 0.2 s."""
+    changed = list(atoms)
+    for i in range(len(changed) - 2):
+        if changed[i].key != 'latency' or changed[i].kind is not AtomKind.THING:
+            continue
+        for k in range(i + 1, min(i + 5, len(changed) - 1)):
+            if changed[k].key == 'by' and _is_value(changed[i], changed[k + 1]):
+                for m in range(i + 1, k + 1):
+                    changed[m] = replace(changed[m], kind=AtomKind.FILL, noun=None)
+    return changed
 
 
 def _lasting(atoms: list[Atom], prompt: str) -> list[Atom]:

@@ -126,7 +126,7 @@ class Tagged:
 
 @lru_cache(maxsize=4)
 def _speller(lexicon: Lexicon) -> Speller:
-    return Speller(lexicon.content_words)
+    return Speller(lexicon.content_words, lexicon.words)
 
 
 def tag(
@@ -188,6 +188,7 @@ class _Tagger:
             '>',
             '≥',
             '≤',
+            '+',
         ):
             if token.norm in _STOPS:
                 self._add(AtomKind.STOP, token.norm, i, i + 1)

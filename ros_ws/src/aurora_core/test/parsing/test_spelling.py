@@ -9,7 +9,21 @@ import pytest
 from aurora_core.parsing.spelling import Speller
 
 _SPELLER = Speller(
-    ['motorcycle', 'intersection', 'follow', 'truck', 'track', 'delivery', 'block', 'van']
+    [
+        'motorcycle',
+        'intersection',
+        'follow',
+        'truck',
+        'track',
+        'delivery',
+        'block',
+        'van',
+        'rectangle',
+        'length',
+        'hover',
+        'drone',
+    ],
+    ['drone'],
 )
 
 
@@ -21,6 +35,10 @@ _SPELLER = Speller(
         ('folllow', 'follow'),
         ('interesction', 'intersection'),
         ('motorcycl', 'motorcycle'),
+        ('rectangel', 'rectangle'),
+        ('lenght', 'length'),
+        ('hovr', 'hover'),
+        ('rdone', 'drone'),
     ],
 )
 def test_one_slip(written: str, meant: str) -> None:
