@@ -196,7 +196,8 @@ def _turned(atoms: list[Atom], prompt: str) -> list[Atom]:
     if not participle and lead.kind not in (AtomKind.STATE, AtomKind.IN_VIEW):
         return atoms
     for k in range(first + 1, len(atoms)):
-        if atoms[k].kind is AtomKind.VERB and not _is_be(atoms, k):
+        phase = k + 1 < len(atoms) and atoms[k + 1].kind in (AtomKind.ROUTE, AtomKind.THING)
+        if atoms[k].kind is AtomKind.VERB and not _is_be(atoms, k) and not phase:
             return atoms
         if atoms[k].kind in (AtomKind.SUBORDINATOR, AtomKind.RELATIVE):
             return atoms

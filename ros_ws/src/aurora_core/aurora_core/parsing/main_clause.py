@@ -210,6 +210,8 @@ def _absent(frame: Frame) -> bool:
     """`no drone`: as it is unless one is named."""
     nouns = frame.nouns()
     told = frame.negated and frame.key in ('', 'be', 'exist', 'contain', 'put')
+    if frame.key == 'be' and not frame.subject_nouns:
+        return False  # `is not acceptable for the drone`
     if not told or not nouns or any(n.kind is not NounKind.UAV for n in nouns):
         return False
     for adjunct in frame.adjuncts:

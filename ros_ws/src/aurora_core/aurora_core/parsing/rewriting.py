@@ -28,6 +28,7 @@ _TAKES_BACK = frozenset(
 _BREAKS = (AtomKind.COMMA, AtomKind.STOP, AtomKind.THEN, AtomKind.CONJUNCTION)
 _PAUSES = (AtomKind.COMMA, AtomKind.STOP, AtomKind.FILL, AtomKind.UNKNOWN, AtomKind.THING)
 _MOST_BETWEEN = 9
+_SCENES = frozenset({'scene', 'scenario', 'simulation', 'situation'})
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -43,7 +44,8 @@ def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
     """Return the atoms with shorthand written out and retracted numbers left out."""
     told, background = unwrap(atoms, prompt)
     told = value_statements(
-        predicates(plain_order(_places(_shares(told)), prompt), prompt), prompt
+        predicates(plain_order(_places(_shares(_scenes(told, prompt))), prompt), prompt),
+        prompt,
     )
     kept, spans = _take_back(straighten(told, prompt))
     return Rewritten(
@@ -129,6 +131,22 @@ def _places(atoms: list[Atom]) -> list[Atom]:
             if governed and (upstream or not acted):
                 changed[i] = replace(place, start=atom.start, end=atom.end)
         acted = acted or (atom.is_actor and atom.key != 'it')
+    return changed
+
+
+def _scenes(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """`we want a scene with a bus`: a bus."""
+    changed = list(atoms)
+    for i in range(1, len(changed) - 1):
+        head = changed[i - 1]
+        named = head.kind in (AtomKind.FRAME, AtomKind.SCENARIO)
+        scene = prompt[head.start : head.end].lower().split()[-1] in _SCENES
+        begin = i
+        while begin and changed[begin - 1].kind in (*TRANSPARENT, AtomKind.SCENARIO):
+            begin -= 1
+        opens = begin == 0 or changed[begin - 1].kind is AtomKind.STOP
+        if changed[i].key == 'with' and named and scene and opens and changed[i + 1].is_actor:
+            changed[i] = replace(changed[i], kind=AtomKind.FILL)
     return changed
 
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 _SHORTEST = 5
+_VOWELS = 'aeiou'
 # English words that only look like a slip (`in the form of`).
 _REAL = frozenset(
     {'form', 'trial', 'angel', 'quite', 'dose', 'causal', 'martial', 'clam', 'sliver'}
@@ -54,8 +55,10 @@ def _alike(word: str, known: str) -> bool:
     """Same first letter; another or a further last letter makes another word (`blocks`)."""
     if known[0] != word[0] or word.startswith(known):
         return False
-    if len(word) < _SHORTEST:  # `hovr`, `trak`: a letter is missing inside
-        return len(known) > len(word) and known[-1] == word[-1]
+    if len(word) < _SHORTEST:  # `hovr`, `drne`: a vowel is missing inside; `cope` is a word
+        vowels = sum(c in _VOWELS for c in word)
+        missing = sum(c in _VOWELS for c in known) == vowels + 1
+        return len(known) > len(word) and known[-1] == word[-1] and missing and vowels < 2
     swapped = word[-2:] == known[:-3:-1] and word[:-2] == known[:-2]  # `lenght`
     return len(known) != len(word) or known[-1] == word[-1] or swapped
 

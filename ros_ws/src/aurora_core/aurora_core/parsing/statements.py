@@ -14,7 +14,7 @@ from dataclasses import replace
 
 from aurora_core.parsing.adjunct_reader import fits
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
-from aurora_core.parsing.measures import COUNT, SPEED, TIME
+from aurora_core.parsing.measures import COUNT, LENGTH, SPEED, TIME
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.world_statements import horizon, traffic
 
@@ -35,6 +35,7 @@ def value_statements(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
     written = traffic(list(atoms), prompt)
     for turn in (
         _repeated,
+        _between,
         _delayed,
         _counted,
         _swapped,
@@ -252,6 +253,45 @@ def _delayed(atoms: list[Atom], prompt: str) -> list[Atom]:
                 for m in range(i + 1, k + 1):
                     changed[m] = replace(changed[m], kind=AtomKind.FILL, noun=None)
     return changed
+
+
+def _between(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """`if less than 12 m remain between it and the bus`, `… separate it from the bus`."""
+    changed = list(atoms)
+    for i in range(1, len(changed) - 3):
+        if changed[i].key != LENGTH or changed[i].measure is None:
+            continue
+        begin = i
+        while begin and changed[begin - 1].key in _OPENS_BETWEEN:
+            begin -= 1
+        opener = changed[begin - 1] if begin else changed[0]
+        asked = changed[begin].key == 'should' and (not begin or opener.kind in _STOPS)
+        if not asked and (opener.kind is not AtomKind.SUBORDINATOR or opener.key != 'when'):
+            continue
+        k = next((k for k in range(i + 1, min(i + 5, len(changed))) if changed[k].is_actor), None)
+        if k is None or k + 2 >= len(changed) or not changed[k + 2].is_actor:
+            continue
+        words = prompt[changed[i].end : changed[k].start].lower().split()
+        told = bool(_APART.intersection(words)) or words == ['between']
+        if not told or changed[k + 1].key not in ('and', '&', 'from', 'to'):
+            continue
+        at = changed[i]
+        name = Atom(kind=AtomKind.THING, key='standoff', start=at.start, end=at.end)
+        link = Atom(kind=AtomKind.PREPOSITION, key='between', start=at.start, end=at.end)
+        both = replace(changed[k + 1], kind=AtomKind.CONJUNCTION, key='and')
+        bound = [a for a in changed[begin:i] if a.key in ('within', 'beyond')]
+        when = replace(changed[begin], kind=AtomKind.SUBORDINATOR, key='when', noun=None)
+        told_now = [name, link, changed[k], both, changed[k + 2], _copula(at), *bound, at]
+        changed[begin : k + 3] = [when, *told_now] if asked else told_now
+        return _between(changed, prompt)
+    return changed
+
+
+_OPENS_BETWEEN = frozenset({'exist', 'there', 'be', 'within', 'beyond', 'should', 'only'})
+_STOPS = (AtomKind.STOP, AtomKind.COMMA, AtomKind.CONJUNCTION)
+_APART = frozenset(
+    {'left', 'remain', 'remains', 'remaining', 'separate', 'separates', 'lie', 'lies'}
+)
 
 
 def _lasting(atoms: list[Atom], prompt: str) -> list[Atom]:

@@ -113,7 +113,6 @@ def _is_strange(atom: Atom) -> bool:
 
 def _asks(atoms: Sequence[Atom], prompt: str, *, before_wish: bool) -> bool:
     acting = any(a.kind is AtomKind.VERB for a in atoms)
-    idle = all(a.kind is not AtomKind.VERB or a.key in (*_IDLE, 'alert') for a in atoms)
     headed = _is_strange(atoms[0])
     for i, atom in enumerate(atoms):
         if atom.kind in _TELLING:
@@ -125,9 +124,10 @@ def _asks(atoms: Sequence[Atom], prompt: str, *, before_wish: bool) -> bool:
         noun = atom.noun
         if noun is None or (noun.plural and noun.determiner is Determiner.BARE):
             continue
-        if noun.count > 1 or (noun.kind in _WHERE and not before_wish):
+        counted = noun.count > 1 and noun.kind in _NAMED
+        if counted or (noun.kind in _WHERE and not before_wish):
             return True
-        if noun.kind is NounKind.LANDMARK or (noun.kind is NounKind.EGO and not idle):
+        if noun.kind is NounKind.LANDMARK or _meets_ego(atoms, i):
             return True
         if noun.kind is NounKind.PRONOUN and _acts(atoms, i) and not before_wish:
             return True
@@ -135,6 +135,20 @@ def _asks(atoms: Sequence[Atom], prompt: str, *, before_wish: bool) -> bool:
         if noun.kind in _NAMED and told and not (headed and not acting):
             return True
     return False
+
+
+def _meets_ego(atoms: Sequence[Atom], i: int) -> bool:
+    """`follows us`, `behind me`, `my car`; `has asked us` is no part of the scene."""
+    noun = atoms[i].noun
+    if noun is None or noun.kind is not NounKind.EGO:
+        return False
+    before = atoms[i - 1] if i else None
+    if noun.determiner is not Determiner.BARE or noun.key not in ('us', 'me', 'i'):
+        return True
+    acted = before is not None and before.kind is AtomKind.VERB
+    return before is not None and (
+        before.kind is AtomKind.RELATION or (acted and before.key not in (*_IDLE, 'alert'))
+    )
 
 
 def _matters(noun: NounPhrase) -> bool:
