@@ -1,13 +1,12 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""`python -m aurora_bench.fidelity [FILE]`: parse every prompt and score the specification."""
+"""`python -m aurora_bench.fidelity [FILE…]`: parse every prompt and score the specification."""
 
 from __future__ import annotations
 
 import argparse
 import sys
 from collections.abc import Sequence
-from importlib.resources import files
 from pathlib import Path
 
 from aurora_bench.fidelity.answer import answer
@@ -16,6 +15,7 @@ from aurora_bench.interrupt import stop_on_sigterm
 from aurora_bench.machine import machine_facts
 from aurora_bench.progress import Progress
 from aurora_bench.prompts.reading import read_prompts
+from aurora_bench.prompts.shipped import first_files
 from aurora_bench.results import ResultsError, markdown_table, write_results
 from aurora_core.errors import ConfigError
 from aurora_core.pipeline.stages import RunRequest
@@ -27,12 +27,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     stop_on_sigterm()
     parser = argparse.ArgumentParser(prog='aurora_bench.fidelity', description=__doc__)
     parser.add_argument(
-        'file',
-        nargs='?',
+        'files',
+        nargs='*',
         type=Path,
-        default=Path(str(files('aurora_bench.prompts').joinpath('tune.jsonl'))),
+        default=first_files('tune'),
         metavar='FILE',
-        help='prompts, one JSON object a line (default: the shipped ones for tuning)',
+        help='prompts, one JSON object a line (default: the 200 shipped ones for tuning)',
     )
     parser.add_argument('--model', default='offline', help='who parses, as in aurora run')
     parser.add_argument(
@@ -48,10 +48,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     machine = machine_facts()
     try:
         check_model_name(options.model)
-        prompts = [p for p in read_prompts(options.file) if p.id.startswith(options.only)]
+        everything = [prompt for path in options.files for prompt in read_prompts(path)]
     except (ResultsError, ConfigError) as err:
         sys.stderr.write(f'{err}\n')
         return 64
+    prompts = [p for p in everything if p.id.startswith(options.only)]
     progress = Progress('fidelity', len(prompts))
     judged: list[Judged] = []
     for prompt in prompts:
@@ -75,12 +76,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
     shown = tables(judged)
     sys.stdout.write('\n\n'.join(markdown_table(table) for table in shown) + '\n\n')
     if options.results is not None:
-        document = {'file': options.file.name, 'model': options.model, **as_json(judged)}
+        names = [f'{path.parent.name}/{path.name}' for path in options.files]
+        document = {'files': names, 'model': options.model, **as_json(judged)}
         _, written = write_results(
             options.results,
             options.name,
             document,
-            title=f'Fidelity of {options.model} on {options.file.name}',
+            title=f'Fidelity of {options.model} on {", ".join(names)}',
             tables=shown,
             notes=(f'`{last_line(judged)}`',),
             machine=machine,

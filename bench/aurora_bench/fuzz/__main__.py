@@ -7,7 +7,6 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Sequence
-from importlib.resources import files
 from pathlib import Path
 
 from aurora_bench.fuzz.campaign import LIMIT_S, Tally, fuzz_prompts, fuzz_replies
@@ -15,6 +14,7 @@ from aurora_bench.interrupt import stop_on_sigterm
 from aurora_bench.machine import machine_facts
 from aurora_bench.progress import Progress
 from aurora_bench.prompts.reading import read_prompts
+from aurora_bench.prompts.shipped import first_files
 from aurora_bench.results import Goal, Table, goal_table, markdown_table, write_results
 from aurora_core.pipeline.functions import parse_context
 
@@ -34,8 +34,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = parser.parse_args(arguments)
     machine = machine_facts()
     progress = Progress('fuzz')
-    file = Path(str(files('aurora_bench.prompts').joinpath('tune.jsonl')))
-    originals = [p.prompt for p in read_prompts(file)]
+    originals = [p.prompt for path in first_files('tune') for p in read_prompts(path)]
     context = parse_context('downtown', 1)
     read = fuzz_prompts(originals, context, options.prompts, options.seed, progress.note)
     judged = fuzz_replies(context, options.replies, options.seed, progress.note)

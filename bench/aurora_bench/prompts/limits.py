@@ -57,8 +57,6 @@ def check_limits(
     if prompt.feasibility == 'infeasible':
         if not rejects:
             yield _error(prompt, 'is infeasible and has no requirement of kind reject')
-        if prompt.end_to_end:
-            yield _error(prompt, 'is infeasible, so it cannot be executed end to end')
         return
     if rejects:
         yield _error(prompt, f'is {prompt.feasibility} and asks for a refusal')

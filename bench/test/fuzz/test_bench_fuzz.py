@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 import random
-from importlib.resources import files
 from pathlib import Path
 
 import pytest
@@ -16,13 +15,13 @@ from aurora_bench.fuzz.campaign import fuzz_prompts, fuzz_replies
 from aurora_bench.fuzz.judge import faults
 from aurora_bench.fuzz.prompts import MUTATIONS, mutated
 from aurora_bench.prompts.reading import read_prompts
+from aurora_bench.prompts.shipped import first_files
 from aurora_core.parsing.outcome import ParseContext, ParseOutcome
 from aurora_core.parsing.parser import parse_offline
 from aurora_core.spec.vocabulary import ClauseStatus
 
 CONTEXT = ParseContext(landmark_names=('City Hall', 'Harbor Market', 'Union Station'))
-FILE = Path(str(files('aurora_bench.prompts').joinpath('tune.jsonl')))
-ORIGINALS = [p.prompt for p in read_prompts(FILE)]
+ORIGINALS = [p.prompt for path in first_files('tune') for p in read_prompts(path)]
 
 
 def _quiet(_text: str) -> None:

@@ -5,19 +5,18 @@
 from __future__ import annotations
 
 import json
-from importlib.resources import as_file, files
 from pathlib import Path
 
 import pytest
 
 from aurora_bench.prompts.__main__ import main
 from aurora_bench.prompts.format import AnnotatedPrompt
+from aurora_bench.prompts.shipped import first_files, prompt_file
 from aurora_bench.prompts.statistics import style
 
 
 def test_a_file_in_order_gives_tables_and_zero(capsys: pytest.CaptureFixture[str]) -> None:
-    with as_file(files('aurora_bench.prompts').joinpath('tune.jsonl')) as path:
-        assert main([str(path)]) == 0
+    assert main([str(path) for path in first_files('tune')]) == 0
     text = capsys.readouterr().out
     assert '| communication' in text
     assert '| temporal_contradiction' in text
@@ -27,7 +26,10 @@ def test_a_file_in_order_gives_tables_and_zero(capsys: pytest.CaptureFixture[str
 def test_errors_and_a_group_in_two_files_give_one(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    line = files('aurora_bench.prompts').joinpath('tune.jsonl').read_text('utf-8').split('\n')[0]
+    lines = prompt_file('tune', 'bench').read_text('utf-8').splitlines()
+    line = next(
+        line for line in lines if AnnotatedPrompt.model_validate_json(line).paraphrase_group
+    )
     group = AnnotatedPrompt.model_validate_json(line).paraphrase_group
     one, two = tmp_path / 'one.jsonl', tmp_path / 'two.jsonl'
     one.write_text(line, encoding='utf-8')
