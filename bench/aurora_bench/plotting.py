@@ -18,11 +18,12 @@ from aurora_bench.results import write_whole
 # Told apart also by colour-blind readers (after Okabe and Ito), in the order of use.
 COLOURS = ('#0072B2', '#D55E00', '#009E73', '#CC79A7', '#E69F00', '#56B4E9', '#F0E442', '#7F7F7F')
 _DPI = 150
+_FONT_SIZE = 10.0
 # Equal figures give equal files: no date, no random ids.
 _SETTINGS: Any = {
     'svg.hashsalt': 'aurora',
     'svg.fonttype': 'none',
-    'font.size': 10.0,
+    'font.size': _FONT_SIZE,
     'axes.spines.top': False,
     'axes.spines.right': False,
     'axes.grid': True,
@@ -33,19 +34,28 @@ _SETTINGS: Any = {
 _METADATA: dict[str, dict[str, Any]] = {'svg': {'Date': None}, 'png': {'Software': None}}
 
 
-def new_figure(width_in: float, height_in: float, panels: int = 1) -> tuple[Figure, list[Axes]]:
-    """Return a figure with panels side by side.
+def new_figure(
+    width_in: float,
+    height_in: float,
+    panels: int = 1,
+    *,
+    rows: int = 1,
+    font_size: float = _FONT_SIZE,
+) -> tuple[Figure, list[Axes]]:
+    """Return a figure with its panels, row by row.
 
     Args:
         width_in: Inches.
         height_in: Inches.
-        panels: How many.
+        panels: How many side by side.
+        rows: How many rows of them.
+        font_size: Points.
     """
-    with mpl.rc_context(_SETTINGS):
+    with mpl.rc_context({**_SETTINGS, 'font.size': font_size}):
         figure = Figure(figsize=(width_in, height_in), layout='constrained')
         FigureCanvasAgg(figure)
-        axes = figure.subplots(1, panels, squeeze=False)
-    return figure, list(axes[0])
+        axes = figure.subplots(rows, panels, squeeze=False)
+    return figure, list(axes.flat)
 
 
 def save_figure(figure: Figure, folder: Path, name: str) -> tuple[Path, Path]:

@@ -10,6 +10,8 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from aurora_bench.prompts.figure import draw
+from aurora_bench.prompts.format import AnnotatedPrompt
 from aurora_bench.prompts.paraphrases import check_split
 from aurora_bench.prompts.reading import file_text, read_lines
 from aurora_bench.prompts.statistics import statistics_tables
@@ -23,6 +25,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument('files', nargs='+', type=Path, metavar='FILE')
     parser.add_argument('--map', default='downtown', help='whose landmarks count as places')
     parser.add_argument('--json', action='store_true', help='findings as JSON, no tables')
+    parser.add_argument('--figure', type=Path, metavar='DIR', help='draw them, into this folder')
+    parser.add_argument('--name', default='prompts', help='of the files of the figure')
     options = parser.parse_args(arguments)
     try:
         texts = [file_text(path) for path in options.files]
@@ -56,8 +60,25 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if prompts:
         tables = '\n\n'.join(markdown_table(table) for table in statistics_tables(prompts))
         sys.stdout.write(f'{tables}\n\n')
+    if prompts and options.figure is not None:
+        try:
+            drawn, _ = draw(_by_folder(options.files, parts), options.figure, options.name)
+        except ResultsError as err:
+            sys.stderr.write(f'{err}\n')
+            return 64
+        sys.stdout.write(f'see {drawn}\n')
     sys.stdout.write(f'{len(prompts)} prompts, {errors} errors\n')
     return int(errors > 0)
+
+
+def _by_folder(
+    files: Sequence[Path], parts: Sequence[Sequence[AnnotatedPrompt]]
+) -> dict[str, list[AnnotatedPrompt]]:
+    """Put the prompts of one folder together: folders tell who may look."""
+    found: dict[str, list[AnnotatedPrompt]] = {}
+    for file, prompts in zip(files, parts, strict=True):
+        found.setdefault(file.resolve().parent.name, []).extend(prompts)
+    return found
 
 
 if __name__ == '__main__':

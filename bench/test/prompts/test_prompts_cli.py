@@ -43,6 +43,25 @@ def test_errors_and_a_group_in_two_files_give_one(
     }
 
 
+def test_the_figure_is_drawn_and_the_same_again(tmp_path: Path) -> None:
+    path = str(prompt_file('tune', 'bench'))
+    for name in ('one', 'two'):
+        assert main([path, '--figure', str(tmp_path), '--name', name]) == 0
+    assert (tmp_path / 'one.png').read_bytes() == (tmp_path / 'two.png').read_bytes()
+    text = (tmp_path / 'one.svg').read_text('utf-8')
+    assert '120 prompts by category' in text
+    assert text == (tmp_path / 'two.svg').read_text('utf-8')
+
+
+def test_a_figure_that_cannot_be_written_is_a_usage_error(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / 'taken').write_text('')
+    path = str(prompt_file('tune', 'multi_uav'))
+    assert main([path, '--figure', str(tmp_path / 'taken')]) == 64
+    assert 'taken' in capsys.readouterr().err
+
+
 def test_a_file_that_is_not_there_is_a_usage_error(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
