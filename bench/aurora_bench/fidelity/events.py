@@ -18,6 +18,7 @@ from aurora_bench.prompts.format import (
     Trigger,
     stated_fields,
 )
+from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.scenario import (
     Event,
     EventDoneTrigger,
@@ -138,11 +139,14 @@ def order_fields(r: OrderRequirement, subject: Subject, rule: NumberRule) -> Fie
     then = subject.binding.moments.get(r.then)
     fields = {'then': first is not None and then is not None and (first, then) in subject.before}
     if r.within_s is not None:
+        own = [e for e in subject.spec.events if e.id == then]
+        orders = [o for o in subject.spec.orders if (o.first, o.then) == (first, then)]
+        given = [
+            number for e in own for number in (e.delay_s, getattr(e.trigger, 'after_s', None))
+        ]
+        given += [order.within_s for order in orders]
         fields['within_s'] = fields['then'] and any(
-            rule.counts('within_s', r.within_s, number)
-            for event in subject.spec.events
-            if event.id == then
-            for number in (event.delay_s, getattr(event.trigger, 'after_s', None))
+            rule.counts('within_s', r.within_s, number) for number in given
         )
     return fields
 
@@ -163,7 +167,7 @@ def condition_fields(r: ConditionRequirement, subject: Subject, rule: NumberRule
         fields |= {
             'quantity': True,
             'of': wanted == given or is_part,
-            'op': found.op == r.op,
+            'op': _same_op(r.quantity, r.op, found.op),
             'value': rule.counts('value', float(r.value), found.value),
         }
         for name in optional:
@@ -172,7 +176,42 @@ def condition_fields(r: ConditionRequirement, subject: Subject, rule: NumberRule
 
     if not optional and _is_implied(r, subject, rule):
         return dict.fromkeys(names, True)
-    return best((compare(found) for found in subject.spec.conditions), names)
+    found = [compare(stated) for stated in subject.spec.conditions]
+    return best([*found, *_bounds(r, names, subject, rule)], names)
+
+
+def _same_op(quantity: str, wanted: str, found: str) -> bool:
+    """Whether two comparisons ask for the same; no run tells `<` from `<=`."""
+    if quantity == 'waypoints_visited' and {wanted, found} <= {'>=', '=='}:
+        return True
+    return wanted[0] == found[0]
+
+
+def _bounds(
+    r: ConditionRequirement, names: list[str], subject: Subject, rule: NumberRule
+) -> Iterator[Fields]:
+    """Return how far one-sided numbers of missions and behaviours ("at least 40 m") say it."""
+    bodies = _bodies(r, subject)
+    missions = [(m, {m.uav}) for m in subject.spec.missions]
+    numbers: dict[str, list[tuple[Parameter | None, set[str]]]] = {
+        'altitude': [(m.altitude_m, of) for m, of in missions],
+        'speed': [
+            *((m.speed_mps, of) for m, of in missions),
+            *((b.speed_mps, {b.agent}) for b in subject.behaviors),
+        ],
+        'horizontal_distance': [
+            (m.standoff_m, {m.uav, m.target.casefold()}) for m, _ in missions if m.target
+        ],
+    }
+    for number, of in numbers.get(r.quantity, []):
+        if number is not None and number.bound is not Bound.EXACTLY and of == bodies:
+            op = '>=' if number.bound is Bound.AT_LEAST else '<='
+            yield dict.fromkeys(names, False) | {
+                'quantity': True,
+                'of': True,
+                'op': _same_op(r.quantity, r.op, op),
+                'value': rule.counts('value', float(r.value), number),
+            }
 
 
 def _bodies(r: ConditionRequirement, subject: Subject) -> set[str]:

@@ -28,6 +28,7 @@ def precedence(spec: ScenarioSpec) -> frozenset[tuple[str, str]]:
         (e.trigger.at_s.value, e.id) for e in spec.events if isinstance(e.trigger, TimeTrigger)
     ]
     pairs |= {(a, b) for at_a, a in timed for at_b, b in timed if at_a < at_b}
+    pairs |= {(order.first, order.then) for order in spec.orders}
     for event in spec.events:
         pairs |= {(before, event.id) for before in _causes(event, spec)}
         if isinstance(event.action, UavAction) and event.action.mission is not None:

@@ -36,6 +36,8 @@ class NumberRule:
         if isinstance(tol, dict):
             tol = tol.get(path.split('.')[-1])
         slack = _RELATIVE * abs(wanted) if tol is None else tol
+        if path.endswith('bearing_deg'):  # 350 and -10 degrees are one direction
+            value = wanted + (value - wanted + 180.0) % 360.0 - 180.0
         # A wanted zero has no relative tolerance, and decimal fractions round.
         if abs(value - wanted) <= slack + 1e-9:
             return True

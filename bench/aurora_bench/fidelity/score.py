@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -52,6 +52,7 @@ from aurora_bench.prompts.format import (
     Requirement,
     UavRequirement,
     WorldRequirement,
+    flat,
 )
 from aurora_core.spec.parameter import Document
 from aurora_core.spec.scenario import ScenarioSpec
@@ -163,8 +164,37 @@ class _Scorer:
             ]
             bound = {events[k].ref: spec.events[n].id for k, n in _assigned(held)}
             moments = {**moments, **bound}
+            moments = {**moments, **self._readings_bound(moments)}
         binding = replace(self._subject.binding, moments=moments)
         self._subject = replace(self._subject, binding=binding)
+
+    def _readings_bound(self, moments: Mapping[str, str]) -> dict[str, str]:
+        """Bind what readings of an `any_of` name: they share elements, so each takes its best."""
+        binding = replace(self._subject.binding, moments=moments)
+        subject = replace(self._subject, binding=binding)
+        held: dict[tuple[str, str], Fields] = {}
+        for r in flat(self._prompt.requirements):
+            if not isinstance(r, MissionRequirement | EventRequirement):
+                continue
+            if r in self._prompt.requirements:
+                continue
+            for name, fields in self._elements(r, subject):
+                key = (r.ref, name)  # two readings may call the same thing by one name
+                held[key] = max(held.get(key, {}), fields, key=_worth)
+        bound: dict[str, str] = {}
+        for (ref, name), fields in held.items():
+            found = bound.get(ref)
+            if _worth(fields) > (_worth(held[ref, found]) if found is not None else 0):
+                bound[ref] = name
+        return bound
+
+    def _elements(
+        self, r: MissionRequirement | EventRequirement, subject: Subject
+    ) -> list[tuple[str, Fields]]:
+        rule = self._rule(r)
+        if isinstance(r, MissionRequirement):
+            return [(m.id, mission_fields(r, m, subject, rule)) for m in subject.spec.missions]
+        return [(e.id, event_fields(r, e, subject, rule)) for e in subject.spec.events]
 
     def _rule(self, r: Requirement) -> NumberRule:
         return NumberRule(requirement=r, variation=self._prompt.variation)
@@ -227,10 +257,14 @@ class _Scorer:
         return best([*held, *implied_event_fields(r, subject, rule)], event_names(r))
 
 
+def _worth(fields: Fields) -> int:
+    return _WHOLE * (bool(fields) and all(fields.values())) + sum(fields.values())
+
+
 def _assigned(held: Sequence[Sequence[Fields]]) -> list[tuple[int, int]]:
     """Return the pairs of the assignment in which most requirements, then fields, hold."""
     if not held or not held[0]:
         return []
-    worth = np.array([[_WHOLE * all(f.values()) + sum(f.values()) for f in row] for row in held])
+    worth = np.array([[_worth(fields) for fields in row] for row in held])
     rows, columns = linear_sum_assignment(worth, maximize=True)
     return [(int(k), int(n)) for k, n in zip(rows, columns, strict=True) if worth[k, n] > 0]
