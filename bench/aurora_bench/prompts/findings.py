@@ -18,6 +18,7 @@ class Rule(StrEnum):
     DUPLICATE_PROMPT = 'duplicate-prompt'
     REQUIREMENT_ID = 'requirement-id'
     REFERENCE = 'reference'
+    MEANING = 'meaning'
     VARIATION = 'variation'
     NOT_STATED = 'number-not-stated'
     NOT_ANNOTATED = 'number-not-annotated'

@@ -54,6 +54,9 @@ def check_limits(
     """Find feasible prompts beyond a limit, boundary ones far from all, and wrong refusals."""
     requirements = flat(prompt.requirements)
     rejects = [r for r in requirements if r.kind == 'reject']
+    for name in ('boundary', 'infeasible'):
+        if (prompt.category == name) != (prompt.feasibility == name):
+            yield _error(prompt, f'is {prompt.feasibility} in category {prompt.category}')
     if prompt.feasibility == 'infeasible':
         if not rejects:
             yield _error(prompt, 'is infeasible and has no requirement of kind reject')
@@ -76,8 +79,6 @@ def check_limits(
             text='is boundary, but no annotated number is near a limit that this check knows',
             is_error=False,
         )
-    if (prompt.category == 'boundary') != (prompt.feasibility == 'boundary'):
-        yield _error(prompt, f'is {prompt.feasibility} in category {prompt.category}')
 
 
 def _uses(

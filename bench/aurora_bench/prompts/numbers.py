@@ -12,6 +12,7 @@ from aurora_bench.prompts.findings import Finding, Rule
 from aurora_bench.prompts.format import (
     AgentRequirement,
     AnnotatedPrompt,
+    Requirement,
     UavRequirement,
     everything,
     flat,
@@ -92,7 +93,7 @@ def annotated_numbers(prompt: AnnotatedPrompt) -> Iterator[AnnotatedNumber]:
     """Return every number of a prompt's requirements and variations."""
     for requirement in flat(prompt.requirements):
         quantity = getattr(requirement, 'quantity', None)
-        for path, value in _walk(requirement.model_dump(exclude_none=True), requirement.id):
+        for path, value in numbers_at(requirement):
             field = _field_of(path)
             is_one_of_a_kind = field == 'count' and value == 1
             is_line = path.endswith('size_m.1') and value == 0
@@ -113,6 +114,11 @@ def annotated_numbers(prompt: AnnotatedPrompt) -> Iterator[AnnotatedNumber]:
             yield AnnotatedNumber(
                 value=end, dimension=_dimension(field, quantity), path=path, is_required=False
             )
+
+
+def numbers_at(requirement: Requirement) -> Iterator[tuple[str, float]]:
+    """Return every number of a requirement with its path, tolerances included."""
+    yield from _walk(requirement.model_dump(exclude_none=True), requirement.id)
 
 
 def _walk(value: object, path: str) -> Iterator[tuple[str, float]]:

@@ -63,14 +63,13 @@ def check_references(prompt: AnnotatedPrompt, landmarks: frozenset[str]) -> Iter
             yield _error(
                 prompt, Rule.REFERENCE, f'{requirement.id}: {requirement.uav!r} is no UAV'
             )
-        if isinstance(requirement, OrderRequirement):
-            for name in (requirement.first, requirement.then):
-                if name not in moments:
-                    yield _error(
-                        prompt,
-                        Rule.REFERENCE,
-                        f'{requirement.id}: {name!r} is no event and no mission',
-                    )
+        for name in _moments_of(requirement):
+            if name not in moments:
+                yield _error(
+                    prompt,
+                    Rule.REFERENCE,
+                    f'{requirement.id}: {name!r} is no event and no mission',
+                )
         if isinstance(requirement, EventRequirement):
             yield from _event(prompt, requirement, events)
     yield from _variation(prompt, requirements)
@@ -118,6 +117,14 @@ def number_at(by_id: dict[str, Requirement], path: str) -> float | None:
             found = getattr(found, field, None)
     is_number = isinstance(found, int | float) and not isinstance(found, bool)
     return float(found) if is_number else None  # type: ignore[arg-type]
+
+
+def _moments_of(requirement: Requirement) -> tuple[str, ...]:
+    if isinstance(requirement, OrderRequirement):
+        return requirement.first, requirement.then
+    if isinstance(requirement, ConditionRequirement) and requirement.quantity == 'event_time':
+        return requirement.of
+    return ()
 
 
 def _bodies_of(requirement: Requirement) -> Iterator[str]:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""Validate prompt files: format, names, numbers, limits, paraphrases."""
+"""Validate prompt files: format, names, meaning, numbers, limits, paraphrases."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from functools import lru_cache
 from aurora_bench.prompts.findings import Finding
 from aurora_bench.prompts.format import AnnotatedPrompt
 from aurora_bench.prompts.limits import check_limits
+from aurora_bench.prompts.meaning import check_meaning
 from aurora_bench.prompts.numbers import check_numbers
 from aurora_bench.prompts.paraphrases import check_set
 from aurora_bench.prompts.reading import read_lines
@@ -41,7 +42,11 @@ def validate(
     for prompt in prompts:
         findings += check_references(prompt, landmarks)
         findings += check_numbers(prompt)
-        findings += check_limits(prompt, limits, types)
+        nonsense = [*check_meaning(prompt)]
+        findings += nonsense
+        # Limits are looked up by weather and the like, which have to be known words.
+        if not nonsense:
+            findings += check_limits(prompt, limits, types)
     findings += check_set(prompts)
     return tuple(prompts), tuple(findings)
 

@@ -104,46 +104,102 @@ def more(**fields: object) -> Plant:
     return plant
 
 
+def condition(quantity: str, of: list[str], value: object, **more_fields: object) -> Plant:
+    """Return a plant that adds a condition."""
+    return more(kind='condition', quantity=quantity, of=of, op='==', value=value, **more_fields)
+
+
+# What is planted, how, the rule that must find it, and words that its finding must have.
 PLANTED = [
-    ('category that is none', put('category', 'flying'), Rule.FORMAT),
-    ('id with blanks', put('id', 'track 1'), Rule.FORMAT),
-    ('no prompt', put('prompt', ''), Rule.FORMAT),
-    ('feasibility that is none', put('feasibility', 'maybe'), Rule.FORMAT),
-    ('unknown field', put('difficulty', 3), Rule.FORMAT),
-    ('no paraphrase group given', drop('paraphrase_group'), Rule.FORMAT),
-    ('unknown field of a requirement', put('r5.height_m', 35), Rule.FORMAT),
-    ('unknown kind', put('r7.kind', 'sequence'), Rule.FORMAT),
-    ('unknown agent type', put('r2.type', 'lorry'), Rule.FORMAT),
-    ('unknown behaviour', more(kind='behavior', agent='ego', behavior='fly'), Rule.FORMAT),
-    ('unknown relation', put('r4.relation', 'under'), Rule.FORMAT),
-    ('number as text', put('r5.altitude_m', 'high'), Rule.FORMAT),
-    ('field of another trigger', put('r6.trigger.at_s', 20), Rule.FORMAT),
-    ('field of another action', put('r6.action.agent', 'ego'), Rule.FORMAT),
-    ('event without trigger and action', more(kind='event', ref='e5'), Rule.FORMAT),
-    ('no requirements', put('requirements', []), Rule.FORMAT),
-    ('repeated requirement id', put('r7.id', 'r10'), Rule.REQUIREMENT_ID),
-    ('agent that is not declared', put('r4.agent', 'bus1'), Rule.REFERENCE),
-    ('landmark that is not on the map', put('r5.target', 'Old Mill'), Rule.REFERENCE),
-    ('UAV that is none', put('r5.uav', 'van1'), Rule.REFERENCE),
-    ('order of nothing', put('r7.then', 'e9'), Rule.REFERENCE),
-    ('agent declared twice', put('r2.ref', 'ego'), Rule.REFERENCE),
-    (
-        'wait for itself',
-        put('r6.trigger', {'on': 'event_done', 'event': 'e1'}),
-        Rule.REFERENCE,
-    ),
-    ('variation of nothing', put('variation', {'r5.radius_m': [1, 2]}), Rule.VARIATION),
+    ('category that is none', put('category', 'flying'), Rule.FORMAT, 'category: Input'),
+    ('id with blanks', put('id', 'track 1'), Rule.FORMAT, 'id: String should match'),
+    ('no prompt', put('prompt', ''), Rule.FORMAT, 'prompt: String should have'),
+    ('feasibility that is none', put('feasibility', 'maybe'), Rule.FORMAT, 'feasibility: Input'),
+    ('unknown field', put('difficulty', 3), Rule.FORMAT, 'difficulty: Extra'),
+    ('no paraphrase group given', drop('paraphrase_group'), Rule.FORMAT, 'paraphrase_group'),
+    ('unknown field of a requirement', put('r5.height_m', 35), Rule.FORMAT, 'height_m: Extra'),
+    ('unknown kind', put('r7.kind', 'sequence'), Rule.FORMAT, "'sequence'"),
+    ('unknown agent type', put('r2.type', 'lorry'), Rule.FORMAT, 'agent.type: Input'),
+    ('unknown behaviour', more(kind='behavior', agent='ego', behavior='fly'), Rule.FORMAT,
+     'behavior.behavior: Input'),
+    ('unknown relation', put('r4.relation', 'under'), Rule.FORMAT, 'placement.relation: Input'),
+    ('unknown quantity', condition('height', ['uav1'], 20), Rule.FORMAT, 'quantity: Input'),
+    ('unknown reason', more(kind='reject', because='bad'), Rule.FORMAT, 'reject.because: Input'),
+    ('number as text', put('r5.altitude_m', 'high'), Rule.FORMAT, 'altitude_m: Input'),
+    ('one reading only', more(kind='any_of', any_of=[{'id': 'r30', 'kind': 'uav', 'ref': 'u'}]),
+     Rule.FORMAT, 'any_of: Tuple should have at least 2'),
+    ('field of another trigger', put('r6.trigger.at_s', 20), Rule.FORMAT,
+     "distance_below has no 'at_s'"),
+    ('field of another action', put('r6.action.agent', 'ego'), Rule.FORMAT,
+     "send_message has no 'agent'"),
+    ('event without trigger and action', more(kind='event', ref='e5'), Rule.FORMAT,
+     'r20 has neither'),
+    ('no requirements', put('requirements', []), Rule.FORMAT, 'requirements: Tuple'),
+    ('repeated requirement id', put('r7.id', 'r10'), Rule.REQUIREMENT_ID, "'r10' is there twice"),
+    ('agent that is not declared', put('r4.agent', 'bus1'), Rule.REFERENCE, "r4 names 'bus1'"),
+    ('landmark that is not on the map', put('r5.target', 'Old Mill'), Rule.REFERENCE,
+     "r5 names 'Old Mill'"),
+    ('UAV that is none', put('r5.uav', 'van1'), Rule.REFERENCE, "r5: 'van1' is no UAV"),
+    ('order of nothing', put('r7.then', 'e9'), Rule.REFERENCE, "r7: 'e9' is no event"),
+    ('time of a body', condition('event_time', ['ego'], 30), Rule.REFERENCE,
+     "r20: 'ego' is no event"),
+    ('agent declared twice', put('r2.ref', 'ego'), Rule.REFERENCE, "'ego' is declared twice"),
+    ('wait for itself', put('r6.trigger', {'on': 'event_done', 'event': 'e1'}), Rule.REFERENCE,
+     "r6 waits for unknown 'e1'"),
+    ('weather that is none', more(kind='world', field='weather', value='sunny'), Rule.MEANING,
+     "weather is one of clear, cloudy, fog, heavy_rain, rain, snow, not 'sunny'"),
+    ('duration in words', more(kind='world', field='duration_s', value='long'), Rule.MEANING,
+     "duration_s cannot be 'long'"),
+    ('distance below zero', put('r4.distance_m', -45), Rule.MEANING, 'r4.distance_m = -45 is'),
+    ('tolerance below zero', put('r4.tol', -1), Rule.MEANING, 'r4.tol = -1 is below zero'),
+    ('tolerance of nothing', put('r4.tol', {'height_m': 1}), Rule.MEANING, "to 'height_m'"),
+    ('percent as a share', more(kind='link', sender='uav1', receiver='ego', loss=20),
+     Rule.MEANING, 'r20.loss = 20 is no share'),
+    ('behind itself', put('r4.of', 'van1'), Rule.MEANING, "'van1' cannot stand in relation"),
+    ('link to itself', more(kind='link', sender='uav1', receiver='uav1'), Rule.MEANING,
+     "'uav1' cannot stand in relation"),
+    ('distance of one', condition('distance', ['uav1'], 20), Rule.MEANING, 'distance is of 2'),
+    ('altitude that is yes', condition('altitude', ['uav1'], True), Rule.MEANING,
+     'altitude cannot be True'),
+    ('landed that is a number', condition('landed', ['uav1'], 20), Rule.MEANING,
+     'landed cannot be 20'),
+    ('two egos', put('r2.role', 'ego'), Rule.MEANING, 'one ego only'),
+    ('two missions of one name', more(kind='mission', ref='m1', uav='uav1', mode='hover'),
+     Rule.MEANING, "'m1' names two moments"),
+    ('orbit flown by track', put('r5.pattern', 'orbit'), Rule.MEANING, 'flown by navigate'),
+    ('UAV that tracks itself', put('r5.target', 'uav1'), Rule.MEANING, 'its own target'),
+    ('nothing to execute', put('requirements', [
+        {'id': 'r1', 'kind': 'world', 'field': 'weather', 'value': 'rain'}]),
+     Rule.MEANING, 'marked end_to_end'),
+    ('variation of nothing', put('variation', {'r5.radius_m': [1, 2]}), Rule.VARIATION,
+     'r5.radius_m is no number'),
     ('variation that excludes its value', put('variation', {'r5.altitude_m': [40, 50]}),
-     Rule.VARIATION),
-    ('another number than stated', put('r4.distance_m', 54), Rule.NOT_STATED),
-    ('feet as metres', put('prompt', good()['prompt'].replace('45 m', '45 ft')), Rule.NOT_STATED),
-    ('stated number without annotation', drop('r4.distance_m'), Rule.NOT_ANNOTATED),
-    ('duration without annotation', drop('r5.duration_s'), Rule.NOT_ANNOTATED),
-    ('feasible above the ceiling', put('r5.altitude_m', 135), Rule.LIMIT),
-    ('feasible and faster than a UAV flies', put('r5.speed_mps', 25), Rule.LIMIT),
-    ('infeasible without a reason', put('feasibility', 'infeasible'), Rule.FEASIBILITY),
-    ('refusal of a feasible prompt', more(kind='reject', because='count'), Rule.FEASIBILITY),
-    ('alone in its group', put('paraphrase_group', 'van-track'), Rule.PARAPHRASE),
+     Rule.VARIATION, 'r5.altitude_m = 35.0 is outside [40.0, 50.0]'),
+    ('variation upside down', put('variation', {'r5.altitude_m': [40, 30]}), Rule.VARIATION,
+     'is outside [40.0, 30.0]'),
+    ('another number than stated', put('r4.distance_m', 54), Rule.NOT_STATED,
+     'r4.distance_m = 54 m'),
+    ('feet as metres', put('prompt', good()['prompt'].replace('45 m', '45 ft')), Rule.NOT_STATED,
+     'r4.distance_m = 45 m'),
+    ('half a minute as half a second', put('r5.duration_s', 0.5), Rule.NOT_STATED,
+     'r5.duration_s = 0.5 s'),
+    ('a number that is nowhere', put('r5.standoff_m', 17), Rule.NOT_STATED, 'r5.standoff_m = 17'),
+    ('stated number without annotation', drop('r4.distance_m'), Rule.NOT_ANNOTATED, "'45 m'"),
+    ('duration without annotation', drop('r5.duration_s'), Rule.NOT_ANNOTATED, "'half a minute'"),
+    ('feasible above the ceiling', put('r5.altitude_m', 135), Rule.LIMIT,
+     'r5.altitude_m = 135 is outside altitude_m [3.0, 120.0]'),
+    ('feasible and faster than a UAV flies', put('r5.speed_mps', 25), Rule.LIMIT,
+     'r5.speed_mps = 25 is outside'),
+    ('feasible and out of sight', put('r5.standoff_m', 900), Rule.LIMIT, 'sensing range'),
+    ('more UAVs than there may be', put('r3.count', 40), Rule.LIMIT, 'UAVs = 40 is outside'),
+    ('infeasible without a reason', put('feasibility', 'infeasible'), Rule.FEASIBILITY,
+     'no requirement of kind reject'),
+    ('refusal of a feasible prompt', more(kind='reject', because='count'), Rule.FEASIBILITY,
+     'is feasible and asks for a refusal'),
+    ('feasible among the infeasible', put('category', 'infeasible'), Rule.FEASIBILITY,
+     'is feasible in category infeasible'),
+    ('alone in its group', put('paraphrase_group', 'van-track'), Rule.PARAPHRASE,
+     'is alone in paraphrase group van-track'),
 ]  # fmt: skip
 
 
@@ -151,13 +207,29 @@ def test_the_good_prompt_has_no_finding() -> None:
     assert [str(f) for f in found(good()) if f.is_error] == []
 
 
+def test_there_are_more_than_thirty_errors_and_no_two_are_one() -> None:
+    assert len({name for name, *_ in PLANTED}) == len(PLANTED) >= 30
+    assert len({(rule, words) for *_, rule, words in PLANTED}) == len(PLANTED)
+
+
 @pytest.mark.parametrize(
-    ('plant', 'rule'), [p[1:] for p in PLANTED], ids=[p[0].replace(' ', '-') for p in PLANTED]
+    ('plant', 'rule', 'words'),
+    [p[1:] for p in PLANTED],
+    ids=[p[0].replace(' ', '-') for p in PLANTED],
 )
-def test_a_planted_error_is_found(plant: Plant, rule: Rule) -> None:
+def test_a_planted_error_is_found_by_its_own_finding(plant: Plant, rule: Rule, words: str) -> None:
     document = good()
     plant(document)
-    assert rule in {f.rule for f in found(document) if f.is_error}
+    errors = [f for f in found(document) if f.is_error and f.rule is rule]
+    assert any(words in f.text for f in errors), [str(f) for f in errors]
+    assert {f.where for f in errors} == {document['id']}
+
+
+def test_an_observer_on_the_ground_is_pointed_out() -> None:
+    document = good()
+    put('r6.trigger', {'on': 'visible', 'observer': 'ego', 'target': 'van1'})(document)
+    notes = [str(f) for f in found(document) if not f.is_error]
+    assert "note: track-901: meaning: r6: 'ego' observes and is no UAV" in notes
 
 
 def test_a_line_that_is_no_json_is_named_and_the_others_are_read() -> None:

@@ -1,0 +1,134 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Annotations that have the right form and names, and still mean nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from aurora_bench.prompts.findings import Finding, Rule
+from aurora_bench.prompts.format import (
+    AgentRequirement,
+    AnnotatedPrompt,
+    AnyOfRequirement,
+    ConditionRequirement,
+    EventRequirement,
+    LinkRequirement,
+    MissionRequirement,
+    OrderRequirement,
+    PlacementRequirement,
+    Requirement,
+    UavRequirement,
+    WorldRequirement,
+    everything,
+    flat,
+)
+from aurora_bench.prompts.numbers import numbers_at
+from aurora_core.spec.vocabulary import MissionMode, TimeOfDay, TrafficDensity, Weather
+
+_WORDS: dict[str, frozenset[str]] = {
+    'weather': frozenset(Weather),
+    'time_of_day': frozenset(TimeOfDay),
+    'traffic_density': frozenset(TrafficDensity),
+}
+# How many bodies (or events) a quantity is of; the others take any number of them.
+_OF_ONE = frozenset({'altitude', 'speed', 'hover_drift', 'waypoints_visited', 'event_time'})
+_OF_TWO = frozenset(
+    {'distance', 'horizontal_distance', 'tracked_fraction', 'visible_time', 'visible_fraction',
+     'delivery_latency', 'delivered', 'delivery_ratio'}
+)  # fmt: skip
+_YES_OR_NO = frozenset({'delivered', 'mission_completed', 'landed'})
+_SHARES = frozenset({'loss', 'fraction'})
+
+
+def check_meaning(prompt: AnnotatedPrompt) -> Iterator[Finding]:
+    """Find values that nothing can have, and requirements that nothing can meet or run."""
+    requirements = flat(prompt.requirements)
+    texts = [text for r in everything(prompt.requirements) for text in _of_one(r)]
+    egos = [r for r in prompt.requirements if isinstance(r, AgentRequirement) and r.role == 'ego']
+    if len(egos) > 1:
+        texts.append('there can be one ego only')
+    moments = [r.ref for r in prompt.requirements if isinstance(r, _MOMENTS)]
+    texts += [f'{ref!r} names two moments' for ref in sorted(_repeated(moments))]
+    if prompt.end_to_end and not any(r.kind in ('agent', 'uav', 'reject') for r in requirements):
+        texts.append('is marked end_to_end, but there is nobody to run and nothing to refuse')
+    for text in texts:
+        yield Finding(where=prompt.id, rule=Rule.MEANING, text=text)
+    uavs = {r.ref for r in requirements if isinstance(r, UavRequirement)}
+    for r in requirements:
+        trigger = r.trigger if isinstance(r, EventRequirement) else None
+        if trigger is not None and trigger.observer is not None and trigger.observer not in uavs:
+            # People see things too; the product has no eyes but those of a UAV.
+            yield Finding(
+                where=prompt.id,
+                rule=Rule.MEANING,
+                text=f'{r.id}: {trigger.observer!r} observes and is no UAV',
+                is_error=False,
+            )
+
+
+_MOMENTS = (MissionRequirement, EventRequirement)
+
+
+def _repeated(names: list[str]) -> set[str]:
+    return {name for name in names if names.count(name) > 1}
+
+
+def _of_one(r: Requirement) -> Iterator[str]:
+    if isinstance(r, AnyOfRequirement):
+        if any(isinstance(reading, AnyOfRequirement) for reading in r.any_of):
+            yield f'{r.id}: a reading cannot have readings itself'
+        return
+    yield from _numbers(r)
+    if isinstance(r, WorldRequirement):
+        yield from _world(r)
+    elif isinstance(r, ConditionRequirement):
+        yield from _condition(r)
+    elif isinstance(r, MissionRequirement):
+        if r.pattern is not None and r.mode is not MissionMode.NAVIGATE:
+            yield f'{r.id}: a pattern is flown by navigate, not by {r.mode}'
+        if r.target == r.uav:
+            yield f'{r.id}: {r.uav!r} cannot be its own target'
+    for one, other in _pairs(r):
+        if one == other:
+            yield f'{r.id}: {one!r} cannot stand in relation to itself'
+
+
+def _pairs(r: Requirement) -> Iterator[tuple[str, str | None]]:
+    if isinstance(r, PlacementRequirement):
+        yield r.agent, r.of
+    elif isinstance(r, LinkRequirement):
+        yield r.sender, r.receiver
+    elif isinstance(r, OrderRequirement):
+        yield r.first, r.then
+
+
+def _numbers(r: Requirement) -> Iterator[str]:
+    for path, value in numbers_at(r):
+        field = path.split('.')[-1] if not path.split('.')[-1].isdigit() else path.split('.')[-2]
+        if field == 'bearing_deg':
+            continue
+        if value < 0.0:
+            yield f'{path} = {value:g} is below zero'
+        elif field in _SHARES and value > 1.0:
+            yield f'{path} = {value:g} is no share between 0 and 1'
+    if isinstance(r.tol, dict):
+        held = {path.split('.')[-1] for path, _ in numbers_at(r) if '.tol.' not in path}
+        for name in sorted(set(r.tol) - held - {'size_m'}):
+            yield f'{r.id}.tol gives a tolerance to {name!r}, which has no number'
+
+
+def _world(r: WorldRequirement) -> Iterator[str]:
+    if (r.field == 'duration_s') is isinstance(r.value, str):
+        yield f'{r.id}: {r.field} cannot be {r.value!r}'
+    elif r.field in _WORDS and r.value not in _WORDS[r.field]:
+        yield f'{r.id}: {r.field} is one of {", ".join(sorted(_WORDS[r.field]))}, not {r.value!r}'
+
+
+def _condition(r: ConditionRequirement) -> Iterator[str]:
+    number = len(r.of)
+    wanted = 1 if r.quantity in _OF_ONE else 2 if r.quantity in _OF_TWO else None
+    if number == 0 or (wanted is not None and number != wanted):
+        yield f'{r.id}: {r.quantity} is of {wanted or "at least 1"}, not of {number}'
+    if (r.quantity in _YES_OR_NO) is not isinstance(r.value, bool):
+        yield f'{r.id}: {r.quantity} cannot be {r.value!r}'
