@@ -4,10 +4,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from functools import lru_cache
 
-from aurora_bench.prompts.findings import Finding
+from pydantic import ValidationError
+
+from aurora_bench.prompts.findings import Finding, Rule
 from aurora_bench.prompts.format import AnnotatedPrompt
 from aurora_bench.prompts.limits import check_limits
 from aurora_bench.prompts.meaning import check_meaning
@@ -19,6 +21,7 @@ from aurora_core.knowledge.agent_types import load_agent_types
 from aurora_core.knowledge.config_files import config_path
 from aurora_core.knowledge.limits import load_limits
 from aurora_core.knowledge.map_model import load_map
+from aurora_core.spec.scenario import ScenarioSpec
 
 
 def validate(
@@ -42,13 +45,27 @@ def validate(
     for prompt in prompts:
         findings += check_references(prompt, landmarks)
         findings += check_numbers(prompt)
-        nonsense = [*check_meaning(prompt)]
+        nonsense = [*check_meaning(prompt), *_reference(prompt)]
         findings += nonsense
         # Limits are looked up by weather and the like, which have to be known words.
         if not nonsense:
             findings += check_limits(prompt, limits, types)
     findings += check_set(prompts)
     return tuple(prompts), tuple(findings)
+
+
+def _reference(prompt: AnnotatedPrompt) -> Iterator[Finding]:
+    if prompt.reference is None:
+        return
+    try:
+        spec = ScenarioSpec.model_validate(prompt.reference)
+    except ValidationError as err:
+        text = f'its reference is no specification: {err.errors()[0]["msg"]}'
+        yield Finding(where=prompt.id, rule=Rule.MEANING, text=text)
+        return
+    if spec.prompt != prompt.prompt:
+        text = 'its reference is that of another prompt'
+        yield Finding(where=prompt.id, rule=Rule.MEANING, text=text)
 
 
 @lru_cache

@@ -171,6 +171,11 @@ PLANTED = [
     ('nothing to execute', put('requirements', [
         {'id': 'r1', 'kind': 'world', 'field': 'weather', 'value': 'rain'}]),
      Rule.MEANING, 'marked end_to_end'),
+    ('reference of a UAV that is not there', put('reference', {
+        'prompt': good()['prompt'], 'missions': [{'id': 'm1', 'uav': 'u', 'mode': 'hover'}]}),
+     Rule.MEANING, 'its reference is no specification'),
+    ('reference of another prompt', put('reference', {'prompt': 'any'}), Rule.MEANING,
+     'its reference is that of another prompt'),
     ('variation of nothing', put('variation', {'r5.radius_m': [1, 2]}), Rule.VARIATION,
      'r5.radius_m is no number'),
     ('variation that excludes its value', put('variation', {'r5.altitude_m': [40, 50]}),

@@ -1,0 +1,200 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Elements of a reference specification, each from one requirement, as plain documents."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from aurora_bench.prompts.format import (
+    Action,
+    BehaviorRequirement,
+    ConditionRequirement,
+    EventRequirement,
+    LinkRequirement,
+    MissionRequirement,
+    PlacementRequirement,
+    Requirement,
+    Trigger,
+)
+from aurora_bench.prompts.reference_names import Names, NotExpressibleError, id_of
+from aurora_core.spec.parameter import Unit
+from aurora_core.spec.requirements import STATED_QUANTITIES
+
+Doc = dict[str, Any]
+
+# What the product takes where a request is silent, and the domain in which it may move.
+_DEFAULTS: dict[str, tuple[float, float, float]] = {
+    'altitude_m': (30.0, 10.0, 100.0),
+    'standoff_m': (0.0, 0.0, 50.0),
+    'duration_s': (30.0, 10.0, 120.0),
+    'speed_mps': (8.0, 2.0, 15.0),
+    'latency_s': (0.1, 0.0, 1.0),
+    'loss': (0.0, 0.0, 0.0),
+    'retransmissions': (3.0, 0.0, 3.0),
+    'retransmission_interval_s': (0.2, 0.2, 0.2),
+    'value_m': (20.0, 5.0, 50.0),
+    'value_mps': (2.0, 0.5, 5.0),
+    'at_s': (10.0, 5.0, 60.0),
+    'radius_m': (40.0, 20.0, 80.0),
+    'waypoint_count': (4.0, 3.0, 8.0),
+}
+_SIZE_M = (100.0, 60.0)
+_MISSION_NUMBERS = (
+    'altitude_m', 'standoff_m', 'bearing_deg', 'duration_s', 'radius_m', 'waypoint_count',
+    'speed_mps',
+)  # fmt: skip
+_SUFFIXES = (('_mps', 'm/s'), ('_deg', 'deg'), ('_m', 'm'), ('_s', 's'))
+
+
+class Numbers:
+    """Parameters of one requirement; a stated range is the domain."""
+
+    def __init__(self, r: Requirement, variation: Mapping[str, tuple[float, float]]) -> None:
+        self._id = r.id
+        self._variation = variation
+
+    def stated(self, path: str, value: float, unit: str | None = None) -> Doc:
+        """Return the parameter of an annotated number.
+
+        Args:
+            path: Field inside the requirement, e.g. `trigger.value_m`.
+            value: In the unit of the field.
+            unit: Where the field's name does not say it.
+        """
+        low, high = self._variation.get(f'{self._id}.{path}', (value, value))
+        field = path.split('.')[0] if path.startswith('size_m') else path.split('.')[-1]
+        return {
+            'value': value, 'unit': unit or _unit(field), 'low': min(low, value),
+            'high': max(high, value), 'provenance': 'inferred',
+        }  # fmt: skip
+
+    def of(self, holder: object, names: tuple[str, ...], prefix: str = '') -> Doc:
+        """Return the parameters of all numbers of these names that are annotated."""
+        values = {name: getattr(holder, name, None) for name in names}
+        return {n: self.stated(prefix + n, v) for n, v in values.items() if v is not None}
+
+
+def default(name: str) -> Doc:
+    """Return the parameter that the product takes when nothing is said."""
+    value, low, high = _DEFAULTS[name]
+    return {'value': value, 'unit': _unit(name), 'low': low, 'high': high, 'provenance': 'default'}
+
+
+def _unit(field: str) -> str:
+    return next((unit for end, unit in _SUFFIXES if field.endswith(end)), Unit.ONE.value)
+
+
+def placement(r: PlacementRequirement, names: Names, numbers: Numbers) -> Doc:
+    """Return a placement."""
+    given = numbers.of(r, ('distance_m', 'bearing_deg'))
+    return {'relation': r.relation, 'of': names.one(r.of), **given}
+
+
+def behavior(r: BehaviorRequirement, names: Names, numbers: Numbers) -> Doc:
+    """Return a behaviour."""
+    return {'kind': r.behavior, 'target': names.one(r.target), **numbers.of(r, ('speed_mps',))}
+
+
+def mission(
+    r: MissionRequirement | Action, ident: str, uav: str, names: Names, numbers: Numbers
+) -> Doc:
+    """Return a mission; an action that changes a mission has the same fields."""
+    prefix = 'action.' if isinstance(r, Action) else ''
+    mode = r.mode.value if r.mode is not None else ('track' if r.target else 'hover')
+    found: Doc = {'id': ident, 'uav': uav, 'mode': mode, 'target': names.one(r.target)}
+    found |= {'altitude_m': default('altitude_m'), **numbers.of(r, _MISSION_NUMBERS, prefix)}
+    if mode == 'track':
+        found = {'standoff_m': default('standoff_m'), **found}
+        if found['target'] is None:
+            found |= {'target': names.agent(None), 'target_inferred': True}
+    if mode != 'navigate':
+        return {'duration_s': default('duration_s'), **found}
+    pattern = r.pattern.value if r.pattern is not None else 'rectangle'
+    found = {'speed_mps': default('speed_mps'), **found, 'pattern': pattern}
+    if pattern == 'orbit':
+        found = {'radius_m': default('radius_m'), **found}
+    elif pattern == 'waypoints':
+        found = {'waypoint_count': default('waypoint_count'), **found}
+    if r.size_m is not None or pattern in ('rectangle', 'lawnmower', 'line'):
+        size = r.size_m or (_SIZE_M if pattern != 'line' else (_SIZE_M[0], 0.0))
+        found['size_m'] = [
+            numbers.stated(f'{prefix}size_m.{k}', v, 'm') for k, v in enumerate(size)
+        ]
+    return found
+
+
+def link(r: LinkRequirement, ident: str, names: Names, numbers: Numbers) -> Doc:
+    """Return a link."""
+    silent = ('loss', 'latency_s', 'retransmissions', 'retransmission_interval_s')
+    return {
+        'id': ident, 'sender': names.body(r.sender), 'receiver': names.body(r.receiver),
+        **{name: default(name) for name in silent},
+        **numbers.of(r, ('loss', 'latency_s', 'range_m', 'retransmissions')),
+    }  # fmt: skip
+
+
+def event(r: EventRequirement, names: Names, numbers: Numbers) -> Doc:
+    """Return an event; a change of mission flies the mission `<event>_mission`."""
+    found: Doc = {'id': id_of(r.ref)}
+    if r.trigger is not None:
+        found['trigger'] = _trigger(r.trigger, names, numbers)
+    if r.action is not None:
+        found['action'] = _action(r.action, found['id'], names, numbers)
+    return found
+
+
+def _trigger(t: Trigger, names: Names, numbers: Numbers) -> Doc:
+    given = numbers.of(t, ('value_m', 'value_mps', 'at_s', 'after_s'), 'trigger.')
+    found: Doc = {'on': t.on}
+    if t.on in ('distance_below', 'distance_above'):
+        found |= {'a': names.body(t.a), 'b': names.one(t.b) or names.agent(None)}
+        found['value_m'] = default('value_m')
+    elif t.on in ('visible', 'occluded'):
+        found |= {'observer': names.uav(t.observer)}
+        found['target'] = names.one(t.target) or names.agent(None)
+    elif t.on == 'altitude_reached':
+        found |= {'uav': names.uav(t.uav), 'value_m': default('altitude_m')}
+    elif t.on == 'arrives':
+        if t.place is None:
+            raise NotExpressibleError('an arrival needs a place')
+        found |= {'who': names.body(t.who), 'place': names.one(t.place)}
+    elif t.on == 'message_received':
+        found |= {'by': names.body(t.by), 'sender': names.one(t.from_)}
+    elif t.on in ('speed_below', 'speed_above'):
+        found |= {'who': names.body(t.who), 'value_mps': default('value_mps')}
+    elif t.on == 'event_done':
+        found['event'] = names.moment(t.event or '')
+    elif t.on == 'mission_done':
+        found['uav'] = names.uav(t.uav)
+    elif t.on == 'time':
+        found['at_s'] = default('at_s')
+    return found | given
+
+
+def _action(a: Action, event_id: str, names: Names, numbers: Numbers) -> Doc:
+    if a.do == 'send_message':
+        sender = names.body(a.sender) if a.sender is not None else names.uav(None)
+        return {'do': a.do, 'sender': sender, 'receiver': names.body(a.receiver)}
+    if a.do in ('land', 'ascend', 'change_mission'):
+        found: Doc = {'do': a.do, 'uav': names.uav(a.uav)}
+        if a.do == 'change_mission':
+            return found | {'mission': f'{event_id}_mission'}
+        given = numbers.of(a, ('altitude_m',), 'action.')
+        return found | ({'altitude_m': default('altitude_m')} if a.do == 'ascend' else {}) | given
+    return {
+        'do': a.do, 'agent': names.agent(a.agent), **numbers.of(a, ('value_mps',), 'action.')
+    }  # fmt: skip
+
+
+def condition(r: ConditionRequirement, ident: str, names: Names, numbers: Numbers) -> Doc:
+    """Return a stated condition; yes is 1."""
+    of = [
+        i
+        for ref in r.of
+        for i in ((names.moment(ref),) if r.quantity == 'event_time' else names.all(ref))
+    ]
+    value = numbers.stated('value', float(r.value), STATED_QUANTITIES[r.quantity].value)
+    optional = numbers.of(r, ('hold_s', 'by_s', 'fraction'))
+    return {'id': ident, 'quantity': r.quantity, 'of': of, 'op': r.op, 'value': value, **optional}

@@ -1,0 +1,211 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""`python -m aurora_bench.prompts.reference_spec FILE…`: write the reference specifications.
+
+A reference says what the annotation says, and nothing of the parser is in it: every requirement
+becomes one element, what is not annotated has the product's default. It has no spans, so no value
+is explicit; stated ones have a domain of one point, or the annotated range.
+"""
+
+from __future__ import annotations
+
+import argparse
+import itertools
+import json
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from aurora_bench.prompts.format import (
+    AgentRequirement,
+    AnnotatedPrompt,
+    AnyOfRequirement,
+    BehaviorRequirement,
+    ConditionRequirement,
+    EventRequirement,
+    LinkRequirement,
+    MissionRequirement,
+    OrderRequirement,
+    PlacementRequirement,
+    Requirement,
+    UavRequirement,
+    WorldRequirement,
+)
+from aurora_bench.prompts.reading import file_text
+from aurora_bench.prompts.reference_names import Names, NotExpressibleError, id_of
+from aurora_bench.prompts.reference_parts import (
+    Numbers,
+    behavior,
+    condition,
+    event,
+    link,
+    mission,
+    placement,
+)
+from aurora_bench.results import write_whole
+from aurora_core.spec.scenario import ScenarioSpec
+
+Doc = dict[str, Any]
+_MOST_READINGS = 64
+
+
+def reference_spec(prompt: AnnotatedPrompt) -> ScenarioSpec:
+    """Return a specification that says what a prompt's annotation says.
+
+    Of several readings the first is taken that the schema can express together with the rest.
+
+    Raises:
+        NotExpressibleError: None can be expressed, or the prompt is to be refused.
+    """
+    if prompt.feasibility == 'infeasible':
+        raise NotExpressibleError('a refusal has no specification')
+    choices = [r.any_of if isinstance(r, AnyOfRequirement) else (r,) for r in prompt.requirements]
+    reason = ''
+    for readings in itertools.islice(itertools.product(*choices), _MOST_READINGS):
+        try:
+            return ScenarioSpec.model_validate(_Builder(prompt, readings).document())
+        except (NotExpressibleError, ValidationError) as err:
+            reason = reason or str(err)
+    raise NotExpressibleError(reason)
+
+
+class _Builder:
+    def __init__(self, prompt: AnnotatedPrompt, requirements: Sequence[Requirement]) -> None:
+        self._prompt = prompt
+        self._requirements = requirements
+        self._names = Names(requirements)
+        self._agents: dict[str, Doc] = {}
+        self._spec: Doc = {
+            'prompt': prompt.prompt, 'world': {}, 'uavs': [], 'missions': [], 'links': [],
+            'events': [], 'conditions': [], 'orders': [], 'prohibitions': [],
+        }  # fmt: skip
+
+    def document(self) -> Doc:
+        """Return the specification as a document, bodies first: the others name them."""
+        for r in self._requirements:
+            if isinstance(r, AgentRequirement | UavRequirement):
+                self._body(r)
+        for r in self._requirements:
+            if r.negate:
+                self._prohibit(r)
+            else:
+                self._add(r)
+        return {**self._spec, 'agents': list(self._agents.values())}
+
+    def _body(self, r: AgentRequirement | UavRequirement) -> None:
+        if r.count == 0 or r.negate:
+            what = r.type.value if isinstance(r, AgentRequirement) else 'uav'
+            self._spec['prohibitions'].append(
+                {'forbids': 'agent', 'id': self._new('no'), 'type': what}
+            )
+            return
+        group = {'group': f'{id_of(r.ref)}_all'} if r.count > 1 else {}
+        for ident in self._names.all(r.ref):
+            if isinstance(r, UavRequirement):
+                self._spec['uavs'].append({'id': ident, **group})
+            else:
+                role = {'role': r.role} if r.role is not None else {}
+                lists: Doc = {'placements': [], 'behaviors': []}
+                self._agents[ident] = {'id': ident, 'type': r.type, **role, **group, **lists}
+
+    def _add(self, r: Requirement) -> None:
+        numbers = Numbers(r, self._prompt.variation)
+        names = self._names
+        if isinstance(r, WorldRequirement):
+            self._world(r, numbers)
+        elif isinstance(r, PlacementRequirement):
+            for ident in self._members(r.agent):
+                self._agents[ident]['placements'].append(placement(r, names, numbers))
+        elif isinstance(r, BehaviorRequirement):
+            for ident in self._members(r.agent):
+                self._agents[ident]['behaviors'].append(behavior(r, names, numbers))
+        elif isinstance(r, MissionRequirement):
+            flyers = names.all(r.uav)
+            if not set(flyers) <= set(names.uavs):
+                raise NotExpressibleError(f'{r.uav!r} is no UAV')
+            for k, uav in enumerate(flyers):
+                ident = id_of(r.ref) if k == 0 else f'{id_of(r.ref)}_{k + 1}'
+                self._spec['missions'].append(mission(r, ident, uav, names, numbers))
+        elif isinstance(r, LinkRequirement):
+            self._spec['links'].append(link(r, self._new('link'), names, numbers))
+        elif isinstance(r, EventRequirement):
+            found = event(r, names, numbers)
+            self._spec['events'].append(found)
+            if r.action is not None and r.action.do == 'change_mission':
+                ident, uav = found['action']['mission'], found['action']['uav']
+                self._spec['missions'].append(mission(r.action, ident, uav, names, numbers))
+        elif isinstance(r, OrderRequirement):
+            self._spec['orders'].append(
+                {
+                    'id': self._new('order'), 'first': names.moment(r.first),
+                    'then': names.moment(r.then), **numbers.of(r, ('within_s',)),
+                }
+            )  # fmt: skip
+        elif isinstance(r, ConditionRequirement):
+            found = condition(r, self._new('condition'), names, numbers)
+            self._spec['conditions'].append(found)
+
+    def _world(self, r: WorldRequirement, numbers: Numbers) -> None:
+        if r.field == 'duration_s':
+            self._spec['world']['duration_s'] = numbers.stated('value', float(r.value), 's')
+        else:
+            self._spec['world']['map_name' if r.field == 'map' else r.field] = r.value
+
+    def _prohibit(self, r: Requirement) -> None:
+        """Forbid what must not be so, for the kinds that prompts forbid."""
+        numbers = Numbers(r, self._prompt.variation)
+        found: Doc = {'forbids': r.kind, 'id': self._new('no')}
+        if isinstance(r, WorldRequirement) and r.field != 'duration_s':
+            found['map_name' if r.field == 'map' else r.field] = r.value
+        elif isinstance(r, PlacementRequirement):
+            agent = self._names.agent(r.agent)
+            found |= {'agent': agent, **placement(r, self._names, numbers)}
+        elif isinstance(r, BehaviorRequirement):
+            agent = self._names.agent(r.agent)
+            found |= {'agent': agent, **behavior(r, self._names, numbers)}
+        elif isinstance(r, MissionRequirement):
+            found |= {'uav': self._names.uav(r.uav), 'mode': r.mode}
+            found['target'] = self._names.one(r.target)
+        elif not isinstance(r, AgentRequirement | UavRequirement):
+            raise NotExpressibleError(f'{r.id} forbids a {r.kind}')
+        if not isinstance(r, AgentRequirement | UavRequirement):
+            self._spec['prohibitions'].append(found)
+
+    def _members(self, ref: str) -> tuple[str, ...]:
+        members = self._names.all(ref)
+        if not set(members) <= self._agents.keys():
+            raise NotExpressibleError(f'{ref!r} is no ground agent')
+        return members
+
+    def _new(self, stem: str) -> str:
+        elements = [e for part in self._spec.values() if isinstance(part, list) for e in part]
+        taken = {*self._names.moments, *self._agents, *(e['id'] for e in elements)}
+        return next(f'{stem}{k}' for k in itertools.count(1) if f'{stem}{k}' not in taken)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Give every prompt of the files its reference, or none; print those without, and why."""
+    parser = argparse.ArgumentParser(prog='aurora_bench.prompts.reference_spec')
+    parser.add_argument('files', nargs='+', type=Path, metavar='FILE')
+    for path in parser.parse_args(arguments).files:
+        documents = [json.loads(line) for line in file_text(path).splitlines() if line.strip()]
+        for document in documents:
+            document.pop('reference', None)
+            prompt = AnnotatedPrompt.model_validate(document)
+            try:
+                spec = reference_spec(prompt)
+            except NotExpressibleError as err:
+                if prompt.feasibility != 'infeasible':
+                    sys.stdout.write(f'{prompt.id}: {err}\n')
+                continue
+            document['reference'] = spec.model_dump(mode='json', exclude_defaults=True)
+        text = ''.join(json.dumps(d, ensure_ascii=False) + '\n' for d in documents)
+        write_whole(path, text.encode())
+    return 0
+
+
+if __name__ == '__main__':
+    sys.exit(main())
