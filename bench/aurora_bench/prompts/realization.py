@@ -138,10 +138,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
             if found is not None:
                 document['realization'] = found
             failed += found is None
+            # After every run: minutes of work are not lost when the next one is stopped.
+            text = ''.join(json.dumps(d, ensure_ascii=False) + '\n' for d in documents)
+            write_whole(path, text.encode())
             sys.stdout.write(f'{prompt.id}: {report.status}: {report.summary}\n')
             sys.stdout.flush()
-        text = ''.join(json.dumps(d, ensure_ascii=False) + '\n' for d in documents)
-        write_whole(path, text.encode())
     return int(failed > 0)
 
 

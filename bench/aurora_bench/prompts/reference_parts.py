@@ -127,12 +127,15 @@ def mission(
 
 def link(r: LinkRequirement, ident: str, names: Names, numbers: Numbers) -> Doc:
     """Return a link."""
+    given = numbers.of(r, ('loss', 'latency_s', 'range_m', 'retransmissions'))
+    return default_link(ident, names.body(r.sender), names.body(r.receiver)) | given
+
+
+def default_link(ident: str, sender: str, receiver: str) -> Doc:
+    """Return a link of which nothing is said."""
     silent = ('loss', 'latency_s', 'retransmissions', 'retransmission_interval_s')
-    return {
-        'id': ident, 'sender': names.body(r.sender), 'receiver': names.body(r.receiver),
-        **{name: default(name) for name in silent},
-        **numbers.of(r, ('loss', 'latency_s', 'range_m', 'retransmissions')),
-    }  # fmt: skip
+    numbers = {name: default(name) for name in silent}
+    return {'id': ident, 'sender': sender, 'receiver': receiver, **numbers}
 
 
 def event(r: EventRequirement, names: Names, numbers: Numbers) -> Doc:

@@ -40,6 +40,7 @@ from aurora_bench.prompts.reference_parts import (
     Numbers,
     behavior,
     condition,
+    default_link,
     event,
     link,
     mission,
@@ -93,7 +94,18 @@ class _Builder:
                 self._prohibit(r)
             else:
                 self._add(r)
+        self._link_messages()
         return {**self._spec, 'agents': list(self._agents.values())}
+
+    def _link_messages(self) -> None:
+        """Give every message that no annotated link carries a default one."""
+        linked = {(found['sender'], found['receiver']) for found in self._spec['links']}
+        for found in self._spec['events']:
+            action = found.get('action', {})
+            ends = (action.get('sender'), action.get('receiver'))
+            if action.get('do') == 'send_message' and ends not in linked:
+                linked.add(ends)
+                self._spec['links'].append(default_link(self._new('link'), *ends))
 
     def _body(self, r: AgentRequirement | UavRequirement) -> None:
         if r.count == 0 or r.negate:

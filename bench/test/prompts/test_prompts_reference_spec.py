@@ -100,6 +100,22 @@ def test_a_change_of_mission_flies_a_mission_of_its_own() -> None:
     assert (changed.mode, changed.target) == ('track', 'car1')
 
 
+def test_a_message_without_an_annotated_link_has_a_default_one() -> None:
+    event = {
+        'id': 'r7', 'kind': 'event', 'ref': 'e1', 'trigger': {'on': 'time', 'at_s': 20},
+        'action': {'do': 'send_message', 'sender': 'uav1', 'receiver': 'car1'},
+    }  # fmt: skip
+    link = {'id': 'r8', 'kind': 'link', 'sender': 'uav1', 'receiver': 'car1', 'loss': 0.2}
+    ends = [('uav1', 'car1')]
+    silent, stated = (
+        reference_spec(prompt(CAR, UAV, event)),
+        reference_spec(prompt(CAR, UAV, event, link)),
+    )
+    assert [(found.sender, found.receiver) for found in silent.links] == ends
+    assert [(found.sender, found.receiver) for found in stated.links] == ends
+    assert [silent.links[0].loss.value, stated.links[0].loss.value] == [0.0, 0.2]
+
+
 def test_the_first_reading_that_can_be_said_is_taken() -> None:
     readings: Doc = {
         'id': 'r8', 'kind': 'any_of', 'any_of': [
