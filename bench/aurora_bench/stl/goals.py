@@ -79,17 +79,24 @@ def _equal_to_rtamt(comparison: Comparison) -> list[Goal]:
 
 
 def _confirmed(measured: Sequence[Measured]) -> Goal:
-    """Other libraries read until in other ways, so what counts is that somebody confirms us."""
+    """Count the cells whose values somebody confirms who reads the formula as we do.
+
+    Several libraries read until in other ways. One that has our values in no cell of a formula
+    confirms and refutes nothing there; the table of values names it.
+    """
     given = [each for each in measured if each.tool != OURS and each.seconds]
-    cells = {each.cell for each in given}
+    alike = {(each.tool, each.cell.kind) for each in given if each.agrees}
+    kinds = {each.cell.kind for each in given}
+    cells = {each.cell for each in given if (each.tool, each.cell.kind) in alike}
     confirmed = {each.cell for each in given if each.agrees}
     equal = sum(each.agrees is True for each in given)
+    every_kind = {kind for _, kind in alike} == kinds
     return Goal(
         name='cells whose values another library confirms',
-        target=f'all {len(cells)} for which one has values',
+        target=f'all {len(cells)} for which one that reads the formula as we do has values',
         figure=f'{len(confirmed)} ({equal} of {len(given)} results of others are ours; the '
         'table of values names the rest)',
-        met=len(confirmed) == len(cells) if cells else None,
+        met=every_kind and len(confirmed) == len(cells) if given else None,
     )
 
 

@@ -114,6 +114,23 @@ def test_goals_judge_ratios_growth_and_confirmation() -> None:
     assert exponent(found, Kind.NESTED) == pytest.approx(1.0)
 
 
+def test_who_reads_a_formula_otherwise_confirms_and_refutes_nothing() -> None:
+    name = 'cells whose values another library confirms'
+    short, long = goal_cell(Kind.UNTIL, 1000), goal_cell(Kind.UNTIL, 10_000)
+
+    def met(*given: tuple[str, Cell, bool]) -> bool | None:
+        found = [
+            Measured(tool=tool, cell=cell, seconds=(0.1,), agrees=agrees)
+            for tool, cell, agrees in given
+        ]
+        return {goal.name: goal for goal in goals(Comparison(), found)}[name].met
+
+    assert met(('RTAMT', short, True), ('reelay', short, False), ('reelay', long, False))
+    assert met(('RTAMT', short, True), ('RTAMT', long, False)) is False
+    assert met(('reelay', short, False)) is False  # nobody reads it as we do
+    assert met() is None
+
+
 def test_one_unequal_pair_is_a_goal_missed() -> None:
     comparison = Comparison()
     for counts in comparison.modes.values():
