@@ -134,6 +134,7 @@ class Atom:
     other_kinds: frozenset[AtomKind] = frozenset()
     verb_key: str = ''
     verb_form: VerbForm = VerbForm.BASE
+    words: str = ''  # in lower case, spelling corrected
 
     @property
     def is_actor(self) -> bool:

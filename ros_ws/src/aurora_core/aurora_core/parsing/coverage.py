@@ -22,7 +22,12 @@ _NO_ACTORS = (NounKind.PRONOUN, NounKind.UNSUPPORTED, NounKind.AMBIGUOUS)
 
 
 def unaccounted(
-    spec: ScenarioSpec, atoms: Sequence[Atom], resolver: Resolver, *, no_uavs: bool
+    spec: ScenarioSpec,
+    atoms: Sequence[Atom],
+    resolver: Resolver,
+    *,
+    no_uavs: bool,
+    understood: Sequence[Span] = (),
 ) -> list[Span]:
     """Return the numbers and named actors that no element and no unread clause accounts for.
 
@@ -31,13 +36,14 @@ def unaccounted(
         atoms: All atoms of the prompt.
         resolver: Knows which noun phrases became actors.
         no_uavs: The prompt says that there is no UAV: naming one is not asking for it.
+        understood: Clauses that were read word by word.
     """
     stated = [p.span for p in _parameters(spec) if p.span is not None]
     unread = [c.span for c in spec.clauses if c.status is ClauseStatus.NOT_ENCODED]
     lost: list[Span] = []
     for atom in atoms:
         span = Span(start=atom.start, end=atom.end)
-        if any(_inside(span, clause) for clause in unread):
+        if any(_inside(span, clause) for clause in (*unread, *understood)):
             continue
         if atom.measure is not None:
             number = Span(start=atom.measure.start, end=atom.measure.end)

@@ -33,11 +33,21 @@ def straighten(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
 def _named(atoms: list[Atom]) -> list[Atom]:
     """`altitude: 35 m`: a colon between a name and its number ends nothing."""
     changed = list(atoms)
+    begin = 0
     for i in range(1, len(changed) - 1):
-        named = changed[i - 1].kind is AtomKind.THING and changed[i + 1].measure is not None
+        begin = i if changed[i - 1].kind is AtomKind.STOP else begin
+        named = changed[i - 1].kind is AtomKind.THING or _is_heading(changed[begin:i])
+        named = named and changed[i + 1].measure is not None
         if changed[i].kind is AtomKind.STOP and changed[i].key == ':' and named:
             changed[i] = replace(changed[i], kind=AtomKind.FILL)
     return changed
+
+
+def _is_heading(atoms: Sequence[Atom]) -> bool:
+    """`Least spacing between any two drones: 8 m`, `Visibility of the bus: 70 %`."""
+    names = (AtomKind.THING, AtomKind.WORLD_NOUN, AtomKind.IN_VIEW, AtomKind.MESSAGE)
+    verbless = not any(a.kind in (AtomKind.VERB, AtomKind.MEASURE) for a in atoms)
+    return verbless and any(a.kind in names for a in atoms)
 
 
 def _criteria(atoms: list[Atom], prompt: str) -> list[Atom]:

@@ -186,6 +186,7 @@ class MeasureReader:
             and link in ('-', 'to')
             and self._word(j - 1) != 'from'
             and self._number(k + 1) is not None
+            and self._word(k + 2) != 'another'
         )
         joins_size = link in ('x', 'by') and self._number(k + 1) is not None
         if joins_range or joins_size:

@@ -93,7 +93,13 @@ def parse_offline(prompt: str, context: ParseContext) -> ParseOutcome:
         question = ' '.join(dict.fromkeys(scene.questions))
         return ParseOutcome(question=question, clauses=scene.finished_clauses())
     spec = _build(scene)
-    lost = unaccounted(spec, told.atoms, reader.resolver, no_uavs=scene.no_uavs)
+    lost = unaccounted(
+        spec,
+        told.atoms,
+        reader.resolver,
+        no_uavs=scene.no_uavs,
+        understood=scene.understood,
+    )
     if lost:
         scene.clauses += [
             ClauseDraft(span=span, notes=['nothing in the scenario accounts for this'])

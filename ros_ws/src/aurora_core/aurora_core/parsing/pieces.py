@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from aurora_core.parsing.atoms import Atom, AtomKind
+from aurora_core.parsing.criteria.criterion import Criterion
 
 
 class Link(StrEnum):
@@ -38,6 +39,7 @@ class Piece:
         opens: First clause of its sentence, or opened by `and when …`.
         lead: Where the subordinating word begins.
         theme: The noun that a relative clause has as its object (`the van that the drone tracks`).
+        criterion: The success condition that the whole clause states.
     """
 
     atoms: tuple[Atom, ...]
@@ -48,6 +50,7 @@ class Piece:
     opens: bool = False
     lead: int | None = None
     theme: Atom | None = None
+    criterion: Criterion | None = None
 
     @property
     def start(self) -> int:

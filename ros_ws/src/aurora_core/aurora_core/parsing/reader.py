@@ -20,6 +20,8 @@ from aurora_core.parsing.constructions.triggers import (
     cause,
 )
 from aurora_core.parsing.constructions.world import world_words
+from aurora_core.parsing.criteria.criterion import Criterion
+from aurora_core.parsing.criteria.meaning import Meaning
 from aurora_core.parsing.events import complete_event, same_cause, settled
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.main_clause import main_clause, shared_words
@@ -27,6 +29,7 @@ from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.pieces import Link, Piece
 from aurora_core.parsing.resolver import Resolver
 from aurora_core.parsing.scene import ClauseDraft, EventDraft, Scene, UntilDraft
+from aurora_core.parsing.segments import clauses
 from aurora_core.parsing.sequence import (
     HAPPENS,
     after_sight,
@@ -88,13 +91,19 @@ class Reader:
 
     def read(self, pieces: Sequence[Piece]) -> None:
         """Read all clauses."""
+        self._read(pieces)
+        self._drop_held(-1)
+
+    def _read(self, pieces: Sequence[Piece]) -> None:
         i = 0
         while i < len(pieces):
             piece = pieces[i]
             self._drop_held(piece.sentence)
             nxt = pieces[i + 1] if i + 1 < len(pieces) else None
             same = nxt is not None and nxt.sentence == piece.sentence
-            if piece.link is Link.UNTIL and piece.opens and same and nxt is not None:
+            if piece.criterion is not None:
+                self._criterion(piece, piece.criterion)
+            elif piece.link is Link.UNTIL and piece.opens and same and nxt is not None:
                 self._effect_then_cause(nxt, piece)  # `until it stops, the drone tracks it`
                 piece = replace(piece, link=Link.WHEN)
                 i += 1
@@ -131,7 +140,18 @@ class Reader:
                 self._plain(piece)
             self._before = piece
             i += 1
-        self._drop_held(-1)
+
+    def _criterion(self, piece: Piece, told: Criterion) -> None:
+        """A success condition; read as any other clause when it is not known of whom it is."""
+        waits = self._held is not None or self._unknown_cause == piece.sentence
+        if not waits:
+            frame = self._open(piece)
+            if Meaning(told, self._scene, self.resolver, frame.span).state():
+                self._scene.understood.append(frame.span)
+                adjectives(frame)
+                return
+            self._scene.clauses.pop()
+        self._read(clauses(piece.atoms, piece.sentence))
 
     def _drop_held(self, sentence: int) -> None:
         """A cause whose effect never came was not understood."""

@@ -104,6 +104,11 @@ class Resolver:
 
     # --- actors -------------------------------------------------------------------------------
 
+    def note(self, noun: NounPhrase, meant: Sequence[Entity]) -> None:
+        """Note whom a noun phrase means, when a construction found it out by itself."""
+        if meant:
+            self._read[noun.start, noun.end] = tuple(meant)
+
     def actors(
         self,
         nouns: Sequence[NounPhrase],

@@ -187,6 +187,8 @@ class Scene:
         self.unanchored: list[Unanchored] = []
         self.reported: dict[str, str] = {}
         self.untils: list[UntilDraft] = []
+        # Clauses that were read word by word: no number of them can have been lost.
+        self.understood: list[Span] = []
         self._counters: dict[str, int] = {}
 
     # --- names --------------------------------------------------------------------------------

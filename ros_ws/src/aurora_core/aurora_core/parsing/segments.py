@@ -9,6 +9,7 @@ from dataclasses import replace
 
 from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind
 from aurora_core.parsing.brackets import take_out
+from aurora_core.parsing.criteria.spans import stretches
 from aurora_core.parsing.gaps import fill_gaps, opens_gap
 from aurora_core.parsing.measures import RATIO, TIME
 from aurora_core.parsing.morphology import VerbForm
@@ -37,7 +38,20 @@ def segment(atoms: Sequence[Atom]) -> tuple[Piece, ...]:
 
 
 def _sentence(atoms: list[Atom], number: int) -> list[Piece]:
-    plain, asides = take_out(atoms)
+    """Cut out the conditions that a sentence states, then read what stands around them."""
+    pieces: list[Piece] = []
+    for stretch in stretches(atoms):
+        if stretch.criterion is None:
+            pieces += clauses(stretch.atoms, number)
+        else:
+            told = Piece(atoms=stretch.atoms, sentence=number, criterion=stretch.criterion)
+            pieces.append(told)
+    return pieces
+
+
+def clauses(atoms: Sequence[Atom], number: int) -> list[Piece]:
+    """Cut a sentence, or a stretch of one, into clauses."""
+    plain, asides = take_out(list(atoms))
     raw = _cut_at_markers(_plain_prepositions(plain))
     parts = [part for whole in raw for part in _cut_behind_comparison(whole)]
     pieces = [piece for part in parts for piece in cut_at_verbs(part)]

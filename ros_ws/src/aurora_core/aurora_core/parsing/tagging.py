@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
@@ -174,7 +174,14 @@ class _Tagger:
         i = 0
         while i < len(self._tokens):
             i = self._step(i)
-        return tuple(settle_verbs(self._atoms))
+        return tuple(settle_verbs([replace(a, words=self._said(a)) for a in self._atoms]))
+
+    def _said(self, atom: Atom) -> str:
+        return ' '.join(
+            word
+            for token, word in zip(self._tokens, self._words, strict=True)
+            if atom.start <= token.start and token.end <= atom.end
+        )
 
     def _step(self, i: int) -> int:
         token = self._tokens[i]

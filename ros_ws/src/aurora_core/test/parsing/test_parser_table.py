@@ -29,6 +29,7 @@ _TABLES = [
         'shorthand.yaml',
         'commands.yaml',
         'wrapped.yaml',
+        'criteria.yaml',
     )
 ]
 _MARK = {Provenance.EXPLICIT: '', Provenance.INFERRED: 'i', Provenance.DEFAULT: 'd'}
@@ -117,7 +118,11 @@ def scene_lines(spec: ScenarioSpec) -> list[str]:
     for condition in spec.conditions:
         of = ' '.join(condition.of)
         line = f'require {condition.quantity} {of} {condition.op} {_p(condition.value)}'
-        for word, value in (('hold', condition.hold_s), ('by', condition.by_s)):
+        for word, value in (
+            ('hold', condition.hold_s),
+            ('by', condition.by_s),
+            ('share', condition.fraction),
+        ):
             line += f' {word} {_p(value)}' if value is not None else ''
         lines.append(line)
     return lines

@@ -1,0 +1,296 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Reads a clause as a condition: every word has a place in it, or it is none."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+
+from aurora_core.parsing.atoms import Atom
+from aurora_core.parsing.criteria.criterion import Criterion, Limit, Op
+from aurora_core.parsing.criteria.told import Told, told
+from aurora_core.parsing.criteria.words import Words, criteria_words, whole
+from aurora_core.parsing.measures import Measure
+
+_FLIPPED: dict[Op, Op] = {'<': '>=', '<=': '>', '>': '<=', '>=': '<', '==': '=='}
+_CLOCK = r'(?:(?:the|a|time|t|=|second|mark|at|first|that|point|moment|s|about|of) )*'
+_BARE = re.compile(r'\b[A-Z]\d+\b')
+_OWNED = whole(r'(?:its|their|his|her)')
+# Words about something else make it another clause: `is followed, 35 m away`.
+_TOPICS_OF = {
+    'L': frozenset({'drift', 'horizontal', 'altitude', 'distance', 'pairs'}),
+    'V': frozenset({'speed', 'altitude'}),
+    'T': frozenset({'seen', 'delivered', 'latency'}),
+    'P': frozenset({'seen', 'tracked', 'delivered'}),
+    'C': frozenset({'waypoints', 'seen', 'tracked', 'delivered'}),
+    '': frozenset({'landed', 'completed', 'delivered', 'waypoints'}),
+}
+# `should it slow below 3 m/s, …` is a cause.
+_INVERTED = re.compile(r' should (?:the |its |a |an )?\w* ?(?:N\d|speed|distance|gap|altitude)')
+_AFTER = re.compile(r'\b(?:to|from|of) (?:either|any|both|them|all|each)?(?: of)? ?N\d')
+_YES_OR_NO = ('landed', 'completed', 'delivered', 'waypoints')
+
+
+def criterion(atoms: Sequence[Atom]) -> Criterion | None:
+    """Return the condition that a clause states, None when it says anything else."""
+    line = told(atoms)
+    reading = _Reading(line, criteria_words())
+    return reading.run()
+
+
+class _Reading:
+    """The line, from which what is understood is taken out."""
+
+    def __init__(self, line: Told, words: Words) -> None:
+        self._line = line
+        self._words = words
+        self._text = line.text
+        self._begin = line.text
+
+    def run(self) -> Criterion | None:
+        words = self._words
+        if _INVERTED.match(self._text):
+            return None
+        asked = bool(words['demands'].search(self._text))
+        topics = frozenset(k for k, p in words.topics.items() if p.search(self._text))
+        bounded = bool(re.search(r'\b(?:atleast|atmost|nolater)\b', self._text))
+        bounded = bounded or bool(words['or_more'].search(self._text))
+        if not asked and not bounded:
+            return None
+        by = self._deadline(topics)
+        self._cut(words['frames'], words['always'], words['sometime'])
+        if 'horizontal' in topics:
+            self._cut(words.topics['horizontal'])
+        share = self._share()
+        between = self._between()
+        hold, unbroken = self._hold(topics)
+        self._cut(words['altogether'])
+        negated = self._negations()
+        limits = between or self._limits(negated)
+        if limits is None or len({limit.dimension for limit in limits}) > 1:
+            return None
+        if not limits and share is None and hold is None:
+            plain = by is not None or words['musts'].search(self._begin)
+            if negated or not plain or not topics & set(_YES_OR_NO):
+                return None
+        if limits and (share or hold) and limits[0].name[0] not in 'LV':
+            return None
+        if hold is not None and (share is not None or (negated and limits)):
+            return None
+        used = _TOPICS_OF[(limits[0].name[0] if limits else 'P' if share else 'T' if hold else '')]
+        if hold is not None and not limits and not topics & {'seen', 'delivered', 'latency'}:
+            return None
+        topics &= used
+        for name in used:
+            self._cut(words.topics[name])
+        self._cut(words['objects'], words['demands'], words['from_start'], words['always'])
+        left = re.sub(r'\bN\d+\b', ' ', self._text)
+        left = words['fill'].sub(' ', left)
+        if left.strip(' ,.;:\'"()-='):
+            return None
+        return Criterion(
+            limits=limits,
+            hold=hold,
+            unbroken=unbroken,
+            by=by,
+            share=share,
+            topics=topics,
+            nouns=tuple(self._line.nouns.values()),
+            owned=bool(_OWNED.search(self._begin)),
+            others=self._is_of_others(limits),
+            words=self._begin,
+        )
+
+    def _is_of_others(self, limits: tuple[Limit, ...]) -> bool:
+        """`…, never nearer than 20 m to either`: who acts was told before."""
+        if not limits or not limits[0].name.startswith('L'):
+            return False
+        before, _, after = self._begin.partition(f'{limits[0].name} ')
+        return 'N' not in before and _AFTER.search(after) is not None
+
+    def _cut(self, *patterns: re.Pattern[str]) -> bool:
+        found = False
+        for pattern in patterns:
+            self._text, count = pattern.subn(' ', self._text)
+            self._text = re.sub(r' +', ' ', self._text)
+            found = found or count > 0
+        return found
+
+    def _take(self, pattern: str) -> re.Match[str] | None:
+        match = re.search(rf"(?<![\w'])(?:{pattern})(?![\w'])", self._text)
+        if match is not None:
+            self._text = f'{self._text[: match.start()]} {self._text[match.end() :]}'
+            self._text = re.sub(r' +', ' ', self._text)
+        return match
+
+    # --- time ---------------------------------------------------------------------------------
+
+    def _deadline(self, topics: frozenset[str]) -> Measure | None:
+        """`by t = 45 s`, `no later than 40 s into the run`, `within 20 s of the start`."""
+        by = self._words['by'].pattern
+        start = self._words['from_start'].pattern
+        word = rf'(?:{by}) {_CLOCK}(?:{by} )?{_CLOCK}(?:atmost |nolater )?(T\d+)'
+        told = (
+            self._take(rf'{word} (?:{start})(?: {start})?')
+            or self._take(rf'(?:atmost|nolater) (T\d+) (?:{start})(?: {start})?')
+            or self._take(rf'(?:at )?{_CLOCK}(T\d+)(?: {start})? (?:at the latest|at latest)')
+        )
+        # Behind a message a time without a start is how long it takes.
+        if told is None and not topics & {'delivered', 'latency'}:
+            told = self._take(word) or self._take(r'nolater (T\d+)')
+        if told is None:
+            told = self._take(rf'(?:by|before|until) {_CLOCK}(T\d+)')
+        if told is None and not topics & {'delivered', 'latency', 'seen', 'tracked'}:
+            told = self._take(r'(?:after|in) atmost (T\d+)')
+        return self._line.measures[told.group(1)] if told is not None else None
+
+    def _hold(self, topics: frozenset[str]) -> tuple[Limit | None, bool]:
+        """`for at least 8 s in a row`: how long."""
+        more, less = self._words['more'].pattern, self._words['less'].pattern
+        unbroken = bool(self._words['unbroken'].search(self._text))
+        told = self._take(
+            rf'(?:for|during|over|lasting|a (?:total|period|stretch|minimum) of) '
+            rf'(?:(?:a|the|period|stretch|of|total|minimum|time|interval|no|not) )*'
+            rf'(?P<cmp>(?:{more}|{less}|at ?least|at ?most) (?:than )?)?(?P<t>T\d+)'
+            rf'(?P<or>(?: or (?:more|longer))| at least| min(?:imum)?)?'
+        )
+        if told is None and topics & {'seen', 'tracked'}:
+            told = self._take(
+                rf'(?P<cmp>(?:{more}|{less}|at ?least|at ?most) (?:than )?)?(?P<t>T\d+)'
+                rf'(?P<or>(?: or (?:more|longer))| at least| min(?:imum)?)?'
+            )
+        self._cut(self._words['unbroken'])
+        if told is None:
+            return None, unbroken
+        compared = (told.group('cmp') or '').strip()
+        negated = bool(re.search(r'\b(?:no|not)\b', told.group(0)))
+        op: Op = '>=' if not compared or compared in ('atleast', 'at least') else '>'
+        if re.match(self._words['less'].pattern, compared):
+            op = '>=' if negated else '<'
+        elif compared in ('atmost', 'at most') or negated:
+            op = '<='
+        name = told.group('t')
+        return Limit(op=op, measure=self._line.measures[name], name=name), unbroken
+
+    def _share(self) -> Limit | None:
+        """`for 80 % of the time`."""
+        phases = self._words['phases'].pattern
+        word = r'(?:for|during|in|over|on|throughout)?'
+        compared = self._words['more'].pattern
+        told = self._take(
+            rf'{word} ?(?:(?:a|the|all|of|no|not|less|fewer|than) )*'
+            rf'(?P<cmp>{compared} (?:than )?)?'
+            rf'(?:at ?least )?(?P<p>P\d+)(?: at least| or (?:more|better|higher)| min)?'
+            rf' ?(?:{phases})(?: at least| or (?:more|better|higher)| min(?:imum)?)?'
+            rf'(?: at a minimum)?'
+        )
+        if told is None:
+            return None
+        name = told.group('p')
+        compared_too = told.group('cmp')
+        most = 'atmost' in told.group(0)
+        op: Op = '>' if compared_too else '<=' if most else '>='
+        return Limit(op=op, measure=self._line.measures[name], name=name)
+
+    # --- numbers ------------------------------------------------------------------------------
+
+    def _between(self) -> tuple[Limit, ...]:
+        """`between t = 15 s and t = 50 s`, `not below 20 m nor above 40 m` are two limits."""
+        found = self._take(
+            rf'(?:between|from|in the (?:window|interval|range) (?:from|of|between)) {_CLOCK}'
+            rf'([LTVPC]\d+) (?:and|to|until|till|-) {_CLOCK}([LTVPC]\d+)'
+        )
+        names = found.groups() if found is not None else ()
+        if found is None:
+            for name, measure in self._line.measures.items():
+                if measure.upper is not None and self._take(rf'(?:between |from )?{name}'):
+                    return (
+                        Limit(op='>=', measure=measure, name=name),
+                        Limit(op='<=', measure=_upper(measure), name=name),
+                    )
+            return ()
+        low, high = names
+        if low[0] != high[0]:
+            return ()
+        return (
+            Limit(op='>=', measure=self._line.measures[low], name=low),
+            Limit(op='<=', measure=self._line.measures[high], name=high),
+        )
+
+    def _negations(self) -> bool:
+        # `no less than`, `no smaller than` belong to the number
+        low = self._words['less'].pattern
+        high = self._words['more'].pattern
+        self._text = re.sub(rf'\b(?:no|not|never) (?:any )?{low} than\b', 'atleast', self._text)
+        self._text = re.sub(rf'\b(?:no|not|never) (?:any )?{high} than\b', 'atmost', self._text)
+        return self._cut(self._words['negations'])
+
+    def _limits(self, negated: bool) -> tuple[Limit, ...] | None:
+        """Return every number left with its comparison; None when one has none."""
+        found: list[Limit] = []
+        behind = 0
+        names = list(re.finditer(r'\b([LTVPC]\d+)\b', self._text))
+        for k, match in enumerate(names):
+            end = names[k + 1].start() if k + 1 < len(names) else len(self._text)
+            before = self._text[behind : match.start()]
+            after = self._text[match.end() : end]
+            op = self._compared(before, after, negated, last=k + 1 == len(names))
+            if op is None:
+                return None
+            found.append(
+                Limit(op=op, measure=self._line.measures[match.group(1)], name=match.group(1))
+            )
+            behind = match.end()
+        if found:
+            words = self._words
+            self._text = _BARE.sub(lambda m: m.group() if m.group()[0] == 'N' else ' ', self._text)
+            self._cut(words['at_least'], words['at_most'], words['more'], words['less'])
+            self._cut(words['or_more'], words['or_less'])
+        return tuple(found)
+
+    def _governs(self, word: str, between: str) -> bool:
+        """A preposition stands right in front of its number; `closer to it than` has `than`."""
+        if self._words['prepositions'].fullmatch(word):
+            return not self._words['articles'].sub('', between).strip()
+        if word.endswith('er') and between.split():
+            return 'than' in between.split()
+        return True
+
+    def _compared(self, before: str, after: str, negated: bool, *, last: bool) -> Op | None:
+        words = self._words
+        told: list[tuple[int, int, Op, bool]] = []
+        ops: tuple[tuple[str, Op, bool], ...] = (
+            ('more', '>', True),
+            ('less', '<', True),
+            ('at_most', '<=', False),
+            ('at_least', '>=', False),
+        )
+        for name, op, flips in ops:
+            for match in words[name].finditer(before):
+                if name == 'at_most' and match.group() == 'to':
+                    continue
+                if not self._governs(match.group(), before[match.end() :]):
+                    continue
+                within = match.group() in ('within', 'inside')
+                told.append((match.end(), len(match.group()), op, flips or within))
+        if told:
+            _, _, op, flips = max(told, key=lambda one: (one[0], one[1]))
+            return _FLIPPED[op] if negated and flips else op
+        if words['or_more'].search(after):
+            return '>='
+        if words['or_less'].search(after):
+            return '<='
+        apart = re.search(
+            r'\b(?:apart|away|separation|separated|distance|clear)\b', before + after
+        )
+        keeps = re.search(r'\b(?:keep|keeps|stay|stays|maintain|remain|leave)\w*\b', before)
+        if apart and keeps and last and not negated:
+            return '>='
+        return None
+
+
+def _upper(measure: Measure) -> Measure:
+    assert measure.upper is not None
+    return replace(measure, value=measure.upper, upper=None)

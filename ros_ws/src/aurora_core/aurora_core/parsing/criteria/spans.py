@@ -1,0 +1,87 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Where in a sentence a condition stands: between two pauses, the longest stretch that is one."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from aurora_core.parsing.atoms import Atom, AtomKind
+from aurora_core.parsing.criteria.criterion import Criterion
+from aurora_core.parsing.criteria.slots import criterion
+
+_PAUSES = (AtomKind.COMMA, AtomKind.CONJUNCTION, AtomKind.THEN)
+_LEADS = ('such', 'so that', 'hence', 'thus', 'so')
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Stretch:
+    """Neighbouring atoms of a sentence, and the condition that they state, if they do."""
+
+    atoms: tuple[Atom, ...]
+    criterion: Criterion | None = None
+
+
+def stretches(atoms: Sequence[Atom]) -> list[Stretch]:
+    """Cut a sentence into its conditions and what stands around them."""
+    if not any(a.measure is not None for a in atoms) and not _asks(atoms):
+        return [Stretch(atoms=tuple(atoms))]
+    starts = [i for i in range(len(atoms)) if i == 0 or _begins(atoms, i)]
+    found: list[Stretch] = []
+    done = 0
+    for start in starts:
+        if start < done:
+            continue
+        for stop in _stops(atoms, start):
+            made = criterion(atoms[start:stop])
+            if made is not None:
+                stop, made = _first(atoms, start, stop) or (stop, made)
+                found += _rest(atoms[done:start], opens=done > 0)
+                found.append(Stretch(atoms=tuple(atoms[start:stop]), criterion=made))
+                done = stop
+                break
+    found += _rest(atoms[done:], opens=done > 0)
+    return found
+
+
+def _first(atoms: Sequence[Atom], start: int, stop: int) -> tuple[int, Criterion] | None:
+    """`it must take 2 s at most, and it has to arrive`: two of them, when each stands alone."""
+    for pause in sorted(_stops(atoms[:stop], start))[:-1]:
+        rest = next((i for i in range(pause, stop) if atoms[i].kind not in _PAUSES), stop)
+        first = criterion(atoms[start:pause])
+        if first is not None and criterion(atoms[rest:stop]) is not None:
+            return pause, first
+    return None
+
+
+def _asks(atoms: Sequence[Atom]) -> bool:
+    return any(a.kind is AtomKind.AUXILIARY for a in atoms)
+
+
+def _begins(atoms: Sequence[Atom], i: int) -> bool:
+    pause = atoms[i - 1].kind in _PAUSES and atoms[i].kind not in _PAUSES
+    return pause or atoms[i].words in _LEADS or _is_own(atoms, i)
+
+
+def _is_own(atoms: Sequence[Atom], i: int) -> bool:
+    """`a UAV that hovers there for 45 s | is meant to see it`: the subject is told before."""
+    if atoms[i].kind is not AtomKind.AUXILIARY or atoms[i - 1].kind is AtomKind.AUXILIARY:
+        return False
+    told = any(a.kind is AtomKind.VERB for a in atoms[:i])
+    return told and atoms[i - 1].measure is not None
+
+
+def _stops(atoms: Sequence[Atom], start: int) -> list[int]:
+    ends = [i for i in range(start + 1, len(atoms)) if atoms[i].kind in _PAUSES]
+    return sorted([*ends, len(atoms)], reverse=True)
+
+
+def _rest(atoms: Sequence[Atom], *, opens: bool) -> list[Stretch]:
+    """What stands around a condition, without the pauses that part it from it."""
+    kept = list(atoms)
+    while kept and kept[-1].kind in _PAUSES:
+        kept.pop()
+    while opens and kept and kept[0].kind in (AtomKind.COMMA, AtomKind.CONJUNCTION):
+        kept.pop(0)
+    return [Stretch(atoms=tuple(kept))] if kept else []
