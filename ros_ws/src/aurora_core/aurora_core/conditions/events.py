@@ -16,7 +16,7 @@ from aurora_core.conditions.links import (
     ratio_condition,
 )
 from aurora_core.conditions.missions import mission_arguments
-from aurora_core.spec.parameter import Provenance
+from aurora_core.spec.parameter import Bound, Provenance
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import (
     AgentAction,
@@ -97,11 +97,13 @@ def _moment(inputs: Inputs, event: Event, source: Source) -> Iterator[Condition]
     delay_s, provenance = 0.0, Provenance.DEFAULT
     earliest_s = 0.0
     if event.delay_s is not None:
-        delay_s, provenance = event.delay_s.value, event.delay_s.provenance
+        delay_s, provenance = event.waits_s, event.delay_s.provenance
         if provenance is Provenance.EXPLICIT:
             slack = inputs.tolerances.duration_s.of(delay_s, approximate=event.delay_s.approximate)
             earliest_s = max(0.0, delay_s - slack)
     latest_s = delay_s + inputs.tolerances.event_delay_s
+    if event.delay_s is not None and event.delay_s.bound is Bound.AT_MOST:
+        latest_s = event.delay_s.value
     source = Source(ids=source.ids, spans=source.spans, provenance=provenance)
     after = 'its trigger' if earliest_s == 0.0 else f'{number(earliest_s)} s after its trigger'
     bounds = [

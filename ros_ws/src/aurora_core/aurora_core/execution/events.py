@@ -94,8 +94,7 @@ class EventRunner:
                 note(tick, ScenarioEventKind.TRIGGERED, event.id, '')
             if state.triggered_tick is None:
                 continue
-            delay_s = 0.0 if event.delay_s is None else event.delay_s.value
-            due = tick >= state.triggered_tick + whole_ticks(delay_s, dt_s)
+            due = tick >= state.triggered_tick + whole_ticks(event.waits_s, dt_s)
             if due and self._allowed(event, seen, machines):
                 commands += self._act(tick, event, seen, machines)
                 state.done = True

@@ -51,9 +51,7 @@ def horizon_s(spec: ScenarioSpec, limits: Limits) -> float:
 
 def _event_s(spec: ScenarioSpec, event: Event) -> float:
     """Return the time for an event to come about, with its stated delays and its message."""
-    need = _EVENT_S
-    if event.delay_s is not None:
-        need += event.delay_s.value
+    need = _EVENT_S + event.waits_s
     if isinstance(event.trigger, EventDoneTrigger) and event.trigger.after_s is not None:
         need += event.trigger.after_s.value
     if isinstance(event.action, SendMessage):

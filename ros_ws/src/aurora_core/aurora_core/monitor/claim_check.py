@@ -106,7 +106,7 @@ def _actions(context: Context) -> Iterator[Finding]:
         claims = [
             r for r in _records(context, ScenarioEventKind.TRIGGERED) if r.subject == event.id
         ]
-        delay_s = 0.0 if event.delay_s is None else event.delay_s.value
+        delay_s = event.waits_s
         if claims and context.time_s(view.ticks - 1 - claims[0].tick) > delay_s + view.dt_s:
             text = f'trigger claimed, but no action {delay_s:g} s later'
             yield _finding(context, 'event', event.id, claims[0].tick, text)

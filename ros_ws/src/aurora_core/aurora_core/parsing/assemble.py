@@ -48,6 +48,7 @@ def build(scene: Scene) -> ScenarioSpec:
         links=tuple(_link(link) for link in scene.links),
         events=scene.events_as_values(),
         conditions=tuple(scene.conditions),
+        orders=tuple(scene.orders),
         clauses=scene.finished_clauses(),
     )
 

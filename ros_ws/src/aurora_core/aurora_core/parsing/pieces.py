@@ -10,6 +10,7 @@ from enum import StrEnum
 
 from aurora_core.parsing.atoms import Atom, AtomKind
 from aurora_core.parsing.criteria.criterion import Criterion
+from aurora_core.parsing.criteria.moments import Sequel
 
 
 class Link(StrEnum):
@@ -39,7 +40,7 @@ class Piece:
         opens: First clause of its sentence, or opened by `and when …`.
         lead: Where the subordinating word begins.
         theme: The noun that a relative clause has as its object (`the van that the drone tracks`).
-        criterion: The success condition that the whole clause states.
+        criterion: The success condition, or the order of events, that the whole clause states.
     """
 
     atoms: tuple[Atom, ...]
@@ -50,7 +51,7 @@ class Piece:
     opens: bool = False
     lead: int | None = None
     theme: Atom | None = None
-    criterion: Criterion | None = None
+    criterion: Criterion | Sequel | None = None
 
     @property
     def start(self) -> int:

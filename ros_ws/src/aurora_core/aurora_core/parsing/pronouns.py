@@ -24,6 +24,11 @@ def ground(entity: Entity) -> bool:
     return not entity.is_uav
 
 
+def mobile(entity: Entity) -> bool:
+    """Accept ground agents that can move."""
+    return not entity.is_uav and entity.type is not AgentType.RSU
+
+
 def airborne(entity: Entity) -> bool:
     """Accept UAVs."""
     return entity.is_uav

@@ -22,6 +22,9 @@ from aurora_core.parsing.constructions.triggers import (
 from aurora_core.parsing.constructions.world import world_words
 from aurora_core.parsing.criteria.criterion import Criterion
 from aurora_core.parsing.criteria.meaning import Meaning
+from aurora_core.parsing.criteria.moments import Sequel
+from aurora_core.parsing.criteria.parties import Parties
+from aurora_core.parsing.criteria.sequels import Sequels
 from aurora_core.parsing.events import complete_event, same_cause, settled
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.main_clause import main_clause, shared_words
@@ -33,6 +36,8 @@ from aurora_core.parsing.segments import clauses
 from aurora_core.parsing.sequence import (
     HAPPENS,
     after_sight,
+    after_told,
+    before_told,
     in_sequence,
     is_arrival,
     is_earlier,
@@ -41,6 +46,7 @@ from aurora_core.parsing.sequence import (
     later,
     leads_to,
     sight,
+    soon,
     who_was_told,
     without_link,
 )
@@ -141,17 +147,23 @@ class Reader:
             self._before = piece
             i += 1
 
-    def _criterion(self, piece: Piece, told: Criterion) -> None:
+    def _criterion(self, piece: Piece, told: Criterion | Sequel) -> None:
         """A success condition; read as any other clause when it is not known of whom it is."""
         waits = self._held is not None or self._unknown_cause == piece.sentence
         if not waits:
             frame = self._open(piece)
-            if Meaning(told, self._scene, self.resolver, frame.span).state():
+            if self._states(told, frame.span):
                 self._scene.understood.append(frame.span)
                 adjectives(frame)
                 return
             self._scene.clauses.pop()
         self._read(clauses(piece.atoms, piece.sentence))
+
+    def _states(self, told: Criterion | Sequel, span: Span) -> bool:
+        if isinstance(told, Sequel):
+            who = Parties(self._scene, self.resolver, told.nouns).actors()
+            return Sequels(self._scene, span, who).state(told)
+        return Meaning(told, self._scene, self.resolver, span).state()
 
     def _drop_held(self, sentence: int) -> None:
         """A cause whose effect never came was not understood."""
@@ -208,6 +220,8 @@ class Reader:
             self._named_later(frame, following)
         if piece.link in (Link.UNLESS, Link.BEFORE, Link.UNTIL, Link.WHEN):
             # alone such a clause has no effect that it could govern
+            if piece.link is Link.BEFORE:
+                before_told(frame, self._before)
             self._close(frame)
             return
         main = piece.link is not Link.RELATIVE
@@ -218,10 +232,12 @@ class Reader:
             self._without_cause(frame)
         elif not self._told_to(frame) and not self._follows_event(frame):
             before = len(self._scene.events)
-            if not later(frame) and not who_was_told(frame):
+            told = later(frame) or who_was_told(frame) or after_told(frame, self._before)
+            if not told:
                 main_clause(frame)
             self._note_fronted_time(frame, before)
             in_sequence(frame, before)
+            soon(frame, before)
             after_sight(self._scene, before, self._seen)
             self._seen = sight(frame)
         self._close(frame)

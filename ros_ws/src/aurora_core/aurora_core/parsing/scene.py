@@ -14,6 +14,7 @@ from aurora_core.spec.scenario import (
     Clause,
     Event,
     EventAction,
+    Order,
     Placement,
     StatedCondition,
     Trigger,
@@ -171,6 +172,7 @@ class Scene:
         self.links: list[LinkDraft] = []
         self.events: list[EventDraft] = []
         self.conditions: list[StatedCondition] = []
+        self.orders: list[Order] = []
         self.clauses: list[ClauseDraft] = []
         self.questions: list[str] = []
         self.doubts: list[Doubt] = []

@@ -7,13 +7,23 @@ from __future__ import annotations
 from dataclasses import replace
 
 from aurora_core.parsing import values
+from aurora_core.parsing.adjuncts import AdjunctKind
 from aurora_core.parsing.atoms import AtomKind, NounKind
 from aurora_core.parsing.constructions import actions
+from aurora_core.parsing.constructions.triggers import cause
+from aurora_core.parsing.criteria.sequels import Sequels
+from aurora_core.parsing.criteria.words import criteria_words
 from aurora_core.parsing.events import complete_event
 from aurora_core.parsing.frames import Frame
+from aurora_core.parsing.measures import TIME
 from aurora_core.parsing.pieces import Link, Piece, first_solid
 from aurora_core.parsing.scene import EventDraft, Scene
+from aurora_core.spec.parameter import Bound
 from aurora_core.spec.scenario import (
+    AgentAction,
+    AltitudeTrigger,
+    ArrivalTrigger,
+    EventAction,
     EventDoneTrigger,
     MessageTrigger,
     MissionDoneTrigger,
@@ -26,6 +36,7 @@ _PHASES = frozenset({'hover', 'track', 'follow', 'orbit', 'navigate', 'observe',
 _REACTIONS = frozenset(
     {'brake', 'stop', 'slow', 'accelerate', 'change_lane', 'yield', 'start', 'cross'}
 )
+_MOMENTS = (EventDoneTrigger, MessageTrigger, AltitudeTrigger, ArrivalTrigger, VisibilityTrigger)
 _GROUND = (NounKind.AGENT, NounKind.VEHICLE, NounKind.EGO)
 
 
@@ -69,6 +80,74 @@ def who_was_told(frame: Frame) -> bool:
     heard = MessageTrigger(on='message_received', by=message.receiver, sender=message.sender)
     complete_event(frame.scene, heard, action, frame.span, ())
     return True
+
+
+def after_told(frame: Frame, before: Piece | None) -> bool:
+    """`it gets a message. Then it accelerates`, `the second car slows afterwards`."""
+    scene = frame.scene
+    told = scene.prompt[frame.piece.start : frame.piece.end].lower()
+    later_on = frame.piece.then or criteria_words()['later_words'].search(told)
+    if not later_on or before is None or frame.key not in (*_REACTIONS, 'land') or frame.negated:
+        return False
+    count = len(scene.events)
+    earlier = Frame(without_link(before, Link.AFTER), scene, frame.resolver)
+    found = cause(earlier)
+    if not isinstance(found, _MOMENTS):
+        if not scene.events:
+            return False
+        found = EventDoneTrigger(on='event_done', event=scene.events[-1].id)
+    action: EventAction | None = actions.agent_action(frame)
+    if frame.key == 'land' and any(a.key in _REACTIONS for a in before.atoms):
+        action = actions.action(frame)
+    told_so = [e.action for e in scene.events if e.id == getattr(found, 'event', None)]
+    if action is None or action in told_so:
+        del scene.events[count:]
+        return False
+    complete_event(scene, found, action, frame.span, ())
+    return True
+
+
+def before_told(frame: Frame, before: Piece | None) -> None:
+    """`the truck must brake | before the bus stops`: what is told second happens second."""
+    scene = frame.scene
+    second = actions.agent_action(frame)
+    if second is None or before is None:
+        return
+    acting = scene.clause.subjects
+    first = actions.agent_action(Frame(before, scene, frame.resolver))
+    scene.clause.subjects = acting
+    if first is None or first == second:
+        return
+    one, other = (_event_of(scene, action, frame) for action in (first, second))
+    Sequels(scene, frame.span).chain(one, other)
+    scene.became(other.id)
+
+
+def _event_of(scene: Scene, action: AgentAction, frame: Frame) -> EventDraft:
+    known = next((e for e in scene.events if e.action == action), None)
+    if known is None:
+        known = EventDraft(id=scene.new_id('e'), action=action, span=frame.span)
+        scene.events.append(known)
+    scene.became(known.id)
+    return known
+
+
+def soon(frame: Frame, before: int) -> None:
+    """`…, within 4 s`, `at most 20 s later`: the deadline of what the clause makes happen."""
+    events = frame.scene.events
+    made = events[before:] or [e for e in events if e.id in frame.scene.clause.ids]
+    if not made or made[-1].delay is not None:
+        return
+    if not isinstance(made[-1].trigger, EventDoneTrigger | MissionDoneTrigger | AltitudeTrigger):
+        return
+    for adjunct in frame.free(AdjunctKind.MEASURE, TIME):
+        measure = adjunct.measure
+        assert measure is not None
+        bounded = measure.bound is Bound.AT_MOST or adjunct.prep in ('within', 'below')
+        if bounded and values.accepts('delay', measure):
+            adjunct.used = True
+            made[-1].delay = values.rebound(values.explicit('delay', measure), Bound.AT_MOST)
+            return
 
 
 def _reacts(frame: Frame) -> bool:

@@ -8,7 +8,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from aurora_core.spec.parameter import Element, Parameter, Span
+from aurora_core.spec.parameter import Bound, Element, Parameter, Span
 from aurora_core.spec.reference import Id, PlaceRef, is_place
 
 
@@ -136,6 +136,7 @@ EventAction = Annotated[SendMessage | AgentAction | UavAction, Field(discriminat
 class Event(Element):
     """When `trigger` then `action`, within 1 s plus `delay_s`.
 
+    A delay that is only an upper bound (`within 6 s`) is a deadline: nothing waits for it.
     Without an action it is a milestone; without a trigger its cause is left open. Events that
     wait for each other (`event_done`) are a chain.
     """
@@ -145,6 +146,13 @@ class Event(Element):
     action: EventAction | None = None
     delay_s: Parameter | None = None
     span: Span | None = None
+
+    @property
+    def waits_s(self) -> float:
+        """Seconds from the trigger to the action."""
+        if self.delay_s is None or self.delay_s.bound is Bound.AT_MOST:
+            return 0.0
+        return self.delay_s.value
 
 
 def bodies_of(event: Event) -> frozenset[str]:

@@ -15,7 +15,7 @@ from aurora_core.parsing.constructions.flyers import flyers
 from aurora_core.parsing.constructions.messages import message
 from aurora_core.parsing.constructions.places import add_placement, place_of, placements_of
 from aurora_core.parsing.frames import Frame
-from aurora_core.parsing.pronouns import ground
+from aurora_core.parsing.pronouns import mobile
 from aurora_core.parsing.scene import Entity, Scene
 from aurora_core.spec.scenario import AgentAction, Behavior, EventAction, UavAction
 from aurora_core.spec.vocabulary import BehaviorKind, MissionMode
@@ -49,7 +49,7 @@ def agent_action(frame: Frame, *, triggered: bool = False) -> AgentAction | None
         return None
     if frame.key in _ONLY_TRIGGERED and not triggered:
         return None
-    who = frame.subjects(ground)
+    who = frame.subjects(mobile)
     if len(who) != 1:
         return None
     speed = None

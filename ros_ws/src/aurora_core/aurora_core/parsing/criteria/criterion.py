@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from aurora_core.parsing.atoms import NounPhrase
+from aurora_core.parsing.criteria.moments import Moment
 from aurora_core.parsing.measures import Measure
 
 Op = Literal['<=', '<', '>=', '>', '==']
@@ -38,6 +39,7 @@ class Criterion:
         share: Share of the time in which it has to hold.
         topics: Keys of `topics` in criteria.yaml whose words stand in the clause.
         nouns: Actors and places in the order of the text.
+        event: What must happen then: `the crossing must not begin before 20 s`.
         owned: `its distance`: of somebody named before.
         others: The clause names only those whom somebody named before keeps off.
     """
@@ -49,6 +51,7 @@ class Criterion:
     share: Limit | None = None
     topics: frozenset[str] = frozenset()
     nouns: tuple[NounPhrase, ...] = ()
+    event: Moment | None = None
     owned: bool = False
     others: bool = False
     words: str = ''

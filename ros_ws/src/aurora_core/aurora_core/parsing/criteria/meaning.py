@@ -9,7 +9,9 @@ from collections.abc import Sequence
 
 from aurora_core.parsing import values
 from aurora_core.parsing.criteria.criterion import Criterion, Limit, Op
+from aurora_core.parsing.criteria.moments import Moment
 from aurora_core.parsing.criteria.parties import Parties
+from aurora_core.parsing.criteria.sequels import Sequels
 from aurora_core.parsing.measures import Measure
 from aurora_core.parsing.pronouns import airborne, ground
 from aurora_core.parsing.resolver import Resolver
@@ -40,6 +42,8 @@ class Meaning:
         if re.search(r'\bwhile\b', self._told.words) and not self._scene.missions:
             return False  # what is done the while is not told elsewhere
         dimension = self._told.limits[0].dimension if self._told.limits else ''
+        if self._told.event is not None and dimension in ('', 'T'):
+            return self._moment(self._told.event)
         if dimension == 'V':
             return self._each('speed', self._movers())
         if dimension == 'L':
@@ -51,6 +55,20 @@ class Meaning:
         if dimension == 'C':
             return self._counts()
         return self._done()
+
+    def _moment(self, told: Moment) -> bool:
+        """When an event happens; the deadline of one is its latest moment."""
+        event = Sequels(self._scene, self._span, self._who.actors()).event(told)
+        if event is None:
+            return False
+        for limit in self._told.limits:
+            value = values.explicit('condition_time', limit.measure)
+            self._add('event_time', (event.id,), limit.op, value)
+        by = self._told.by
+        if not self._told.limits and by is not None:
+            value = values.explicit('condition_time', by)
+            self._add('event_time', (event.id,), '<=', value, deadline=False)
+        return bool(self._told.limits or by)
 
     # --- values at every moment ---------------------------------------------------------------
 
@@ -272,8 +290,9 @@ class Meaning:
         *,
         hold: Measure | None = None,
         share: Measure | None = None,
+        deadline: bool = True,
     ) -> None:
-        by = self._told.by
+        by = self._told.by if deadline else None
         made = StatedCondition(
             id=self._scene.new_id('c'),
             quantity=quantity,

@@ -10,6 +10,7 @@ from dataclasses import replace
 
 from aurora_core.parsing.atoms import Atom
 from aurora_core.parsing.criteria.criterion import Criterion, Limit, Op
+from aurora_core.parsing.criteria.moments import Moment, with_events
 from aurora_core.parsing.criteria.told import Told, told
 from aurora_core.parsing.criteria.words import Words, criteria_words, whole
 from aurora_core.parsing.measures import Measure
@@ -30,6 +31,11 @@ _TOPICS_OF = {
 # `should it slow below 3 m/s, …` is a cause.
 _INVERTED = re.compile(r' should (?:the |its |a |an )?\w* ?(?:N\d|speed|distance|gap|altitude)')
 _AFTER = re.compile(r'\b(?:to|from|of) (?:either|any|both|them|all|each)?(?: of)? ?N\d')
+_HAPPENS = re.compile(
+    r' (?:(?:and|but|the|its|their|so|please|make|sure|that|check|ensure|verify|N\d+|\'s) )*E0 '
+    r'(?:of (?:the )?N\d+ )?(?:\w+ ){0,3}'
+    r'(?:has|have|must|should|may|shall|is|needs|ought|can|shd|not|at|by|between|no|nolater) '
+)
 _YES_OR_NO = ('landed', 'completed', 'delivered', 'waypoints')
 
 
@@ -54,17 +60,19 @@ class _Reading:
         if _INVERTED.match(self._text):
             return None
         asked = bool(words['demands'].search(self._text))
+        event = self._event()
         topics = frozenset(k for k, p in words.topics.items() if p.search(self._text))
         bounded = bool(re.search(r'\b(?:atleast|atmost|nolater)\b', self._text))
         bounded = bounded or bool(words['or_more'].search(self._text))
         if not asked and not bounded:
             return None
-        by = self._deadline(topics)
+        waits = event is not None and re.search(r'\b(?:not|never) (?:\w+ )?before\b', self._text)
+        by = None if waits else self._deadline(topics)
+        between = self._between()
         self._cut(words['frames'], words['always'], words['sometime'])
         if 'horizontal' in topics:
             self._cut(words.topics['horizontal'])
         share = self._share()
-        between = self._between()
         hold, unbroken = self._hold(topics)
         self._cut(words['altogether'])
         negated = self._negations()
@@ -73,7 +81,7 @@ class _Reading:
             return None
         if not limits and share is None and hold is None:
             plain = by is not None or words['musts'].search(self._begin)
-            if negated or not plain or not topics & set(_YES_OR_NO):
+            if negated or not plain or not (topics & set(_YES_OR_NO) or (event and by)):
                 return None
         if limits and (share or hold) and limits[0].name[0] not in 'LV':
             return None
@@ -98,10 +106,20 @@ class _Reading:
             share=share,
             topics=topics,
             nouns=tuple(self._line.nouns.values()),
+            event=event,
             owned=bool(_OWNED.search(self._begin)),
             others=self._is_of_others(limits),
             words=self._begin,
         )
+
+    def _event(self) -> Moment | None:
+        """`the crossing must not begin before 20 s`: what only happens, as a noun in front."""
+        text, moments = with_events(self._text)
+        heads = _HAPPENS.match(text)
+        if heads is None or len(moments) != 1 or moments[0].key in ('mission', 'send', 'receive'):
+            return None
+        self._text = self._text.replace(moments[0].words, ' ', 1)
+        return moments[0]
 
     def _is_of_others(self, limits: tuple[Limit, ...]) -> bool:
         """`…, never nearer than 20 m to either`: who acts was told before."""

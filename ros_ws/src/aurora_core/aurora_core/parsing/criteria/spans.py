@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 from aurora_core.parsing.atoms import Atom, AtomKind
 from aurora_core.parsing.criteria.criterion import Criterion
+from aurora_core.parsing.criteria.moments import Sequel, sequel
 from aurora_core.parsing.criteria.slots import criterion
 
 _PAUSES = (AtomKind.COMMA, AtomKind.CONJUNCTION, AtomKind.THEN)
@@ -20,7 +21,7 @@ class Stretch:
     """Neighbouring atoms of a sentence, and the condition that they state, if they do."""
 
     atoms: tuple[Atom, ...]
-    criterion: Criterion | None = None
+    criterion: Criterion | Sequel | None = None
 
 
 def stretches(atoms: Sequence[Atom]) -> list[Stretch]:
@@ -34,9 +35,12 @@ def stretches(atoms: Sequence[Atom]) -> list[Stretch]:
         if start < done:
             continue
         for stop in _stops(atoms, start):
-            made = criterion(atoms[start:stop])
+            made: Criterion | Sequel | None = criterion(atoms[start:stop])
             if made is not None:
                 stop, made = _first(atoms, start, stop) or (stop, made)
+            else:
+                made = sequel(atoms[start:stop])
+            if made is not None:
                 found += _rest(atoms[done:start], opens=done > 0)
                 found.append(Stretch(atoms=tuple(atoms[start:stop]), criterion=made))
                 done = stop

@@ -17,6 +17,7 @@ class Words:
 
     lists: dict[str, re.Pattern[str]]
     topics: dict[str, re.Pattern[str]]
+    events: dict[str, re.Pattern[str]]
 
     def __getitem__(self, name: str) -> re.Pattern[str]:
         return self.lists[name]
@@ -37,10 +38,11 @@ def whole(pattern: str) -> re.Pattern[str]:
 def criteria_words() -> Words:
     """Return the shipped lists."""
     data = read_data('criteria.yaml')
-    topics = data.pop('topics')
+    topics, events = data.pop('topics'), data.pop('events')
     return Words(
         lists={name: whole(any_of(entries)) for name, entries in data.items()},
         topics={name: whole(any_of(entries)) for name, entries in topics.items()},
+        events={name: whole(any_of(entries)) for name, entries in events.items()},
     )
 
 

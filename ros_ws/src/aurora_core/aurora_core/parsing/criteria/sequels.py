@@ -1,0 +1,223 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Writes a stated order into the events: what comes second waits for what comes first."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+
+from aurora_core.parsing import values
+from aurora_core.parsing.criteria.moments import Moment, Sequel
+from aurora_core.parsing.scene import Entity, EventDraft, MissionDraft, Scene
+from aurora_core.spec.parameter import Bound, Parameter, Span
+from aurora_core.spec.scenario import (
+    AgentAction,
+    AltitudeTrigger,
+    EventDoneTrigger,
+    MessageTrigger,
+    MissionDoneTrigger,
+    Order,
+    SendMessage,
+    TimeTrigger,
+    UavAction,
+    VisibilityTrigger,
+)
+from aurora_core.spec.vocabulary import BehaviorKind
+
+_DOES = {
+    'brake': 'brake',
+    'stop': 'stop',
+    'slow': 'slow',
+    'accelerate': 'accelerate',
+    'change_lane': 'change_lane',
+    'yield': 'yield',
+    'start': 'start',
+    'cross': 'cross',
+}
+_WAITS_FOR: dict[str, tuple[type, ...]] = {
+    'receive': (MessageTrigger,),
+    'see': (VisibilityTrigger,),
+    'reach': (AltitudeTrigger,),
+    'ascend': (AltitudeTrigger,),
+}
+_BEHAVIOR = {'drive': 'start'}
+
+
+def bodies_of_action(event: EventDraft) -> set[str]:
+    """Return who does what an event does."""
+    names = ('agent', 'uav', 'sender', 'receiver')
+    found = {getattr(event.action, name, None) for name in names}
+    return {one for one in found if one is not None}
+
+
+class Sequels:
+    """Finds the events of an order and chains them."""
+
+    def __init__(self, scene: Scene, span: Span, who: Sequence[Entity] = ()) -> None:
+        self._scene = scene
+        self._who = {e.id for e in who}
+        self._span = span
+
+    def state(self, told: Sequel) -> bool:
+        """Return whether the order could be written into the scene."""
+        then = self.event(told.then) if told.then is not None else self._last(told.first)
+        if then is None:
+            return self._phases(told)
+        limit = self._limit(told)
+        if told.first is not None and told.first.key == 'mission':
+            return self._after_phase(then, limit)
+        first = self._first(told.first, then)
+        if first is None:
+            return False
+        if first is not then:
+            self.chain(first, then)
+        then.delay = limit or then.delay
+        self._scene.became(then.id)
+        return True
+
+    def chain(self, first: EventDraft, then: EventDraft) -> None:
+        """Let one event wait for another; what is set otherwise stays, with the order stated."""
+        if then.trigger is None and not self._waits(first, then):
+            then.trigger = EventDoneTrigger(on='event_done', event=first.id)
+        elif not self._waits(then, first) or self._waits(first, then):
+            self._order(first.id, then.id, None)
+            if self._waits(first, then):  # a circle: both orders are what was asked
+                self._order(then.id, first.id, None)
+
+    def _limit(self, told: Sequel) -> Parameter | None:
+        if told.within is None:
+            return None
+        return values.rebound(values.explicit('delay', told.within), Bound.AT_MOST)
+
+    def _order(self, first: str, then: str, within: Parameter | None) -> None:
+        made = Order(
+            id=self._scene.new_id('o'), first=first, then=then, within_s=within, span=self._span
+        )
+        self._scene.orders.append(made)
+        self._scene.became(made.id)
+
+    def _waits(self, event: EventDraft, cause: EventDraft) -> bool:
+        """Return whether an event waits for another, through others or at once."""
+        by_id = {e.id: e for e in self._scene.events}
+        seen: set[str] = set()
+        one: EventDraft | None = event
+        while one is not None and one.id not in seen:
+            if one is cause:
+                return True
+            seen.add(one.id)
+            trigger = one.trigger
+            one = by_id.get(trigger.event) if isinstance(trigger, EventDoneTrigger) else None
+        return False
+
+    # --- which events -------------------------------------------------------------------------
+
+    def event(self, moment: Moment) -> EventDraft | None:
+        """Return the event that a clause refers to, None when there is none of its kind."""
+        fitting = [e for e in self._scene.events if self._is(e, moment.key) and self._acts(e)]
+        if moment.rank is not None and moment.rank < len(fitting):
+            return fitting[moment.rank]
+        return fitting[-1] if fitting else self._of_behavior(moment.key)
+
+    def _acts(self, event: EventDraft) -> bool:
+        """Return whether those whom the clause names, if it names any, are those who act."""
+        return not self._who or bool(self._who & bodies_of_action(event))
+
+    @staticmethod
+    def _is(event: EventDraft, key: str) -> bool:
+        action = event.action
+        if key == 'send':
+            return isinstance(action, SendMessage)
+        if isinstance(action, UavAction):
+            return action.do == key
+        return isinstance(action, AgentAction) and action.do == _DOES.get(key)
+
+    def _of_behavior(self, key: str) -> EventDraft | None:
+        """`the van brakes; the braking must …`: what was told without a cause is an event now."""
+        agents = [e for e in self._scene.agents if not self._who or e.id in self._who]
+        for entity in reversed(agents):
+            for behavior in entity.behaviors:
+                do = _BEHAVIOR.get(behavior.kind.value, behavior.kind.value)
+                if do != _DOES.get(key) or behavior.kind not in set(BehaviorKind):
+                    continue
+                action = AgentAction.model_validate(
+                    {'do': do, 'agent': entity.id, 'value_mps': behavior.speed_mps}
+                )
+                made = EventDraft(
+                    id=self._scene.new_id('e'), action=action, span=behavior.span or entity.span
+                )
+                self._scene.events.append(made)
+                self._scene.clause.ids[made.id] = None
+                return made
+        return None
+
+    def _last(self, but: Moment | None) -> EventDraft | None:
+        told = [e for e in self._scene.events if e.action is not None]
+        others = [e for e in told if but is None or not self._is(e, but.key)]
+        return others[-1] if others else None
+
+    def _first(self, moment: Moment | None, then: EventDraft) -> EventDraft | None:
+        if moment is not None and moment.key not in _WAITS_FOR:
+            found = self.event(moment)
+            return found if found is not then else None
+        trigger = then.trigger
+        if isinstance(trigger, EventDoneTrigger):
+            return next((e for e in self._scene.events if e.id == trigger.event), None)
+        kinds = _WAITS_FOR[moment.key] if moment is not None else (object,)
+        if trigger is not None and isinstance(trigger, kinds):
+            if isinstance(trigger, TimeTrigger):
+                return self._before(then)
+            return self._milestone(then)
+        waiting = [e for e in self._scene.events if isinstance(e.trigger, kinds) and e is not then]
+        if moment is not None:
+            return waiting[-1] if waiting else None
+        return self._before(then)
+
+    def _before(self, then: EventDraft) -> EventDraft | None:
+        events = self._scene.events
+        place = events.index(then)
+        return events[place - 1] if place else None
+
+    def _milestone(self, then: EventDraft) -> EventDraft:
+        """What `then` waits for, as a moment of its own."""
+        made = EventDraft(id=self._scene.new_id('e'), trigger=then.trigger, span=then.span)
+        self._scene.events.insert(self._scene.events.index(then), made)
+        self._scene.clause.ids[made.id] = None
+        then.trigger = EventDoneTrigger(on='event_done', event=made.id)
+        return made
+
+    # --- phases -------------------------------------------------------------------------------
+
+    def _after_phase(self, then: EventDraft, limit: Parameter | None) -> bool:
+        flown = [m for m in self._scene.missions if m.id not in self._changed()]
+        if not flown:
+            return False
+        if then.trigger is None:
+            then.trigger = MissionDoneTrigger(on='mission_done', uav=flown[-1].uav.id)
+        elif not isinstance(then.trigger, MissionDoneTrigger):
+            return False
+        then.delay = limit or then.delay
+        self._scene.became(then.id)
+        return True
+
+    def _changed(self) -> set[str | None]:
+        actions = (e.action for e in self._scene.events)
+        return {a.mission for a in actions if isinstance(a, UavAction)}
+
+    def _phases(self, told: Sequel) -> bool:
+        """`the second hover must start within 60 s after the first`."""
+        both = (told.first, told.then)
+        if any(m is not None and m.key != 'mission' for m in both) or both == (None, None):
+            return False
+        flown = list(self._pairs(lambda a, b: a.uav is b.uav))
+        if len(flown) != 1 or told.then is None:
+            return False
+        first, then = flown[0]
+        self._order(first.id, then.id, self._limit(told))
+        return True
+
+    def _pairs(
+        self, fits: Callable[[MissionDraft, MissionDraft], bool]
+    ) -> Iterator[tuple[MissionDraft, MissionDraft]]:
+        missions = self._scene.missions
+        for k, one in enumerate(missions):
+            yield from ((one, two) for two in missions[k + 1 :] if fits(one, two))
