@@ -8,6 +8,7 @@ import re
 from collections.abc import Sequence
 
 from aurora_core.parsing import values
+from aurora_core.parsing.atoms import Determiner, NounKind, NounPhrase
 from aurora_core.parsing.criteria.criterion import Criterion, Limit, Op
 from aurora_core.parsing.criteria.moments import Moment
 from aurora_core.parsing.criteria.parties import Parties
@@ -21,8 +22,8 @@ from aurora_core.spec.scenario import StatedCondition
 
 _OF_HEIGHT = re.compile(r'\b(altitude|height|elevation|agl|above (?:the )?ground|flight level)\b')
 _BETWEEN = re.compile(
-    r'\b(from|of|to|between|apart|closer|nearer|away|distance|gap|spacing|clearance|separation|'
-    r'headway|within|near|together|leave)\b'
+    r'\b(?:(?:from|of|to) (?:(?:it|they|any|each|every|other|no) )*N\d|between|apart|closer|'
+    r'nearer|away|distance|gap|spacing|clearance|separation|headway|near|together|leave)'
 )
 _FRACTIONS = ('visible_fraction', 'tracked_fraction', 'delivery_ratio')
 _VALUE = {'L': 'condition_distance', 'V': 'condition_speed', 'T': 'condition_time'}
@@ -87,7 +88,7 @@ class Meaning:
 
     def _lengths(self) -> bool:
         told = self._told
-        if 'pairs' in told.topics and len(told.nouns) == 1:
+        if len(told.nouns) == 1 and ('pairs' in told.topics or self._is_kin(told.nouns[0])):
             return self._apart(self._who.kin())
         named = self._who.named()
         group = self._who.several()
@@ -115,6 +116,12 @@ class Meaning:
                 return self._each('altitude', self._who.flyers())
             return self._apart(self._who.pair())
         return self._between(named)
+
+    def _is_kin(self, noun: NounPhrase) -> bool:
+        """`drone separation`, `distance between drones`: of all UAVs from each other."""
+        bare = noun.kind is NounKind.UAV and noun.determiner is Determiner.BARE and not noun.index
+        apart = 'distance' in self._told.topics and not self._told.owned
+        return bare and apart and len(self._scene.uavs) > 1
 
     def _between(self, named: list[Entity | str]) -> bool:
         """From the first to every other one."""

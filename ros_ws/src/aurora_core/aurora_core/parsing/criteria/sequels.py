@@ -13,6 +13,7 @@ from aurora_core.spec.parameter import Bound, Parameter, Span
 from aurora_core.spec.scenario import (
     AgentAction,
     AltitudeTrigger,
+    Behavior,
     EventDoneTrigger,
     MessageTrigger,
     MissionDoneTrigger,
@@ -139,21 +140,34 @@ class Sequels:
                 do = _BEHAVIOR.get(behavior.kind.value, behavior.kind.value)
                 if do != _DOES.get(key) or behavior.kind not in set(BehaviorKind):
                     continue
-                action = AgentAction.model_validate(
-                    {'do': do, 'agent': entity.id, 'value_mps': behavior.speed_mps}
-                )
-                made = EventDraft(
-                    id=self._scene.new_id('e'), action=action, span=behavior.span or entity.span
-                )
-                self._scene.events.append(made)
-                self._scene.clause.ids[made.id] = None
-                return made
+                return self._made(entity, behavior, do)
         return None
 
+    def _made(self, entity: Entity, behavior: Behavior, do: str) -> EventDraft:
+        action = AgentAction.model_validate(
+            {'do': do, 'agent': entity.id, 'value_mps': behavior.speed_mps}
+        )
+        made = EventDraft(
+            id=self._scene.new_id('e'), action=action, span=behavior.span or entity.span
+        )
+        self._scene.events.append(made)
+        self._scene.clause.ids[made.id] = None
+        return made
+
     def _last(self, but: Moment | None) -> EventDraft | None:
-        told = [e for e in self._scene.events if e.action is not None]
-        others = [e for e in told if but is None or not self._is(e, but.key)]
-        return others[-1] if others else None
+        """Return what was told last, as an event or as what somebody does."""
+        for clause in reversed(self._scene.clauses[:-1]):
+            told = [e for e in self._scene.events if e.id in clause.ids and e.action is not None]
+            others = [e for e in told if but is None or not self._is(e, but.key)]
+            if others:
+                return others[-1]
+            for entity in clause.subjects:
+                for behavior in entity.behaviors:
+                    inside = behavior.span is not None and behavior.span.start >= clause.span.start
+                    key = behavior.kind.value
+                    if inside and key in _DOES and (but is None or key != but.key):
+                        return self._made(entity, behavior, key)
+        return None
 
     def _first(self, moment: Moment | None, then: EventDraft) -> EventDraft | None:
         if moment is not None and moment.key not in _WAITS_FOR:
@@ -175,7 +189,10 @@ class Sequels:
     def _before(self, then: EventDraft) -> EventDraft | None:
         events = self._scene.events
         place = events.index(then)
-        return events[place - 1] if place else None
+        if place:
+            return events[place - 1]
+        keys = [k for k in _DOES if k not in ('start', 'cross') and not self._is(then, k)]
+        return next((e for k in keys if (e := self._of_behavior(k)) is not None), None)
 
     def _milestone(self, then: EventDraft) -> EventDraft:
         """What `then` waits for, as a moment of its own."""

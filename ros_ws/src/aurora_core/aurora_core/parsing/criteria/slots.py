@@ -15,7 +15,8 @@ from aurora_core.parsing.criteria.told import Told, told
 from aurora_core.parsing.criteria.words import Words, criteria_words, whole
 from aurora_core.parsing.measures import Measure
 
-_FLIPPED: dict[Op, Op] = {'<': '>=', '<=': '>', '>': '<=', '>=': '<', '==': '=='}
+# `must not come within 10 m` keeps 10 m off.
+_FLIPPED: dict[Op, Op] = {'<': '>=', '<=': '>=', '>': '<=', '>=': '<', '==': '=='}
 _CLOCK = r'(?:(?:the|a|time|t|=|second|mark|at|first|that|point|moment|s|about|of) )*'
 _BARE = re.compile(r'\b[A-Z]\d+\b')
 _OWNED = whole(r'(?:its|their|his|her)')

@@ -35,11 +35,12 @@ def stretches(atoms: Sequence[Atom]) -> list[Stretch]:
         if start < done:
             continue
         for stop in _stops(atoms, start):
-            made: Criterion | Sequel | None = criterion(atoms[start:stop])
-            if made is not None:
-                stop, made = _first(atoms, start, stop) or (stop, made)
-            else:
-                made = sequel(atoms[start:stop])
+            made: Criterion | Sequel | None = None
+            told = criterion(atoms[start:stop])
+            if told is None:
+                made = sequel(atoms[start:stop]) if atoms[start].words != 'with' else None
+            elif not _is_detail(atoms[start], told):
+                stop, made = _first(atoms, start, stop) or (stop, told)
             if made is not None:
                 found += _rest(atoms[done:start], opens=done > 0)
                 found.append(Stretch(atoms=tuple(atoms[start:stop]), criterion=made))
@@ -65,7 +66,12 @@ def _asks(atoms: Sequence[Atom]) -> bool:
 
 def _begins(atoms: Sequence[Atom], i: int) -> bool:
     pause = atoms[i - 1].kind in _PAUSES and atoms[i].kind not in _PAUSES
-    return pause or atoms[i].words in _LEADS or _is_own(atoms, i)
+    return pause or atoms[i].words in (*_LEADS, 'with') or _is_own(atoms, i)
+
+
+def _is_detail(first: Atom, made: Criterion) -> bool:
+    """`with an altitude of at least 40 m` is how it is flown, `with a distance of …` a demand."""
+    return first.words == 'with' and 'distance' not in made.topics
 
 
 def _is_own(atoms: Sequence[Atom], i: int) -> bool:
