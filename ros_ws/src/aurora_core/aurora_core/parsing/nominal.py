@@ -29,16 +29,131 @@ def predicates(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
     """Return the atoms with acts that are nouns as verbs."""
     written: list[Atom] = []
     sentence: list[Atom] = []
-    for atom in (*_steps(atoms, prompt), None):
+    for atom in (*_counts(_steps(atoms, prompt), prompt), None):
         if atom is not None and atom.kind is not AtomKind.STOP:
             sentence.append(atom)
             continue
+        sentence = _front_siren(_kept(_message(sentence)))
         told = _done_by(_target(_acts(_same_count(sentence, prompt), prompt), prompt), prompt)
         written += _verbless(_of_whom(told))
         sentence = []
         if atom is not None:
             written.append(atom)
     return written
+
+
+def _counts(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """`the number of cars is four`, `cars, four in number`, `cars: 4`: four cars."""
+    written: list[Atom] = []
+    i = 0
+    while i < len(atoms):
+        atom = atoms[i]
+        noun = atom.noun
+        plain = noun is not None and atom.is_actor and noun.plural and not noun.count
+        value = _count_behind(atoms, i, prompt) if plain else None
+        if noun is None or value is None:
+            written.append(atom)
+            i += 1
+            continue
+        at, stop = value
+        measure = atoms[at].measure
+        assert measure is not None
+        counted = replace(noun, count=int(measure.value), determiner=Determiner.BARE)
+        if len(written) > 1 and written[-1].key == 'of':
+            del written[-2:]
+            if written and written[-1].kind is AtomKind.FILL:
+                written.pop()
+        written.append(replace(atom, noun=counted))
+        i = stop
+    return written
+
+
+def _count_behind(atoms: Sequence[Atom], i: int, prompt: str) -> tuple[int, int] | None:
+    """Return where the number of a noun stands behind it, and what follows."""
+    number = i > 1 and _word(atoms[i - 2], prompt).split()[-1] in ('number', 'count')
+    k = i + 1
+    while k < len(atoms) and (
+        atoms[k].kind in (*_HELPERS, AtomKind.COMMA)
+        or (atoms[k].key in ('be', ':') and (number or atoms[k].key == ':'))
+    ):
+        k += 1
+    if k >= len(atoms) or k == i + 1:
+        return None
+    measure = atoms[k].measure
+    whole = measure is not None and measure.dimension == COUNT and measure.value >= 1
+    if not whole or measure is None or measure.value != int(measure.value):
+        return None
+    told = prompt[atoms[k].end :].lower().split()[:2]
+    listed = [w.strip('.,;:') for w in told] == ['in', 'number']
+    colon = any(a.key == ':' for a in atoms[i + 1 : k])
+    ends = k + 1 == len(atoms) or atoms[k + 1].kind in (AtomKind.STOP, *_BREAKS)
+    if listed:
+        stop = k + 1
+        limit = prompt.lower().index('number', atoms[k].end) + len('number')
+        while stop < len(atoms) and atoms[stop].end <= limit:
+            stop += 1
+        if stop < len(atoms) and atoms[stop].kind is AtomKind.COMMA:
+            stop += 1
+        return k, stop
+    return (k, k + 1) if (number or colon) and ends else None
+
+
+def _message(atoms: list[Atom]) -> list[Atom]:
+    """`a message goes out from the UAV to the car`: the UAV sends it."""
+    for i in range(len(atoms) - 4):
+        if atoms[i].kind is not AtomKind.MESSAGE:
+            continue
+        verb = _skip(atoms, i + 1, _HELPERS)
+        if verb >= len(atoms) or atoms[verb].key not in ('drive', 'start', 'leave', 'send'):
+            continue
+        k = _skip(atoms, verb + 1)
+        ends = {a.key: n for n, a in enumerate(atoms) if n >= k and a.key in ('from', 'to')}
+        start, goal = ends.get('from'), ends.get('to')
+        if start is None or goal is None or goal + 1 >= len(atoms) or start + 1 >= len(atoms):
+            continue
+        sender, receiver = atoms[start + 1], atoms[goal + 1]
+        if not sender.is_actor or not receiver.is_actor:
+            continue
+        send = replace(atoms[verb], kind=AtomKind.VERB, key='send', form=VerbForm.THIRD)
+        rest = atoms[max(start, goal) + 2 :]
+        begin = i - 1 if i and atoms[i - 1].kind is AtomKind.FILL else i
+        return [*atoms[:begin], sender, send, atoms[i], atoms[goal], receiver, *rest]
+    return atoms
+
+
+def _kept(atoms: list[Atom]) -> list[Atom]:
+    """`a van is kept in view by a drone`: a drone keeps it in view."""
+    for i in range(1, len(atoms)):
+        if atoms[i].kind is not AtomKind.IN_VIEW:
+            continue
+        by = next((k for k in range(i + 1, len(atoms) - 1) if atoms[k].key == 'by'), None)
+        verb = i - 1
+        while verb > 0 and atoms[verb].kind in _LOOSE:
+            verb -= 1
+        held = atoms[verb].key in ('keep', 'be kept', 'hold')
+        who = verb - 1
+        while who >= 0 and (atoms[who].kind in _HELPERS or atoms[who].key == 'be'):
+            who -= 1
+        passive = verb > who + 1 or atoms[verb].key == 'be kept'
+        if by is None or not held or not passive or who < 0 or not atoms[who].is_actor:
+            continue
+        if not atoms[by + 1].is_actor:
+            continue
+        keep = replace(atoms[verb], kind=AtomKind.VERB, key='keep', form=VerbForm.THIRD)
+        middle = atoms[i:by]
+        return [*atoms[:who], atoms[by + 1], keep, atoms[who], *middle, *atoms[by + 2 :]]
+    return atoms
+
+
+def _front_siren(atoms: list[Atom]) -> list[Atom]:
+    """`with its siren on, an ambulance …`: behind the one who has it."""
+    first = _skip(atoms, 0)
+    if first + 2 >= len(atoms) or atoms[first].kind is not AtomKind.SIREN:
+        return atoms
+    who = _skip(atoms, first + 1, (AtomKind.COMMA, *_LOOSE))
+    if who >= len(atoms) or not atoms[who].is_actor:
+        return atoms
+    return [*atoms[:first], atoms[who], atoms[first], *atoms[who + 1 :]]
 
 
 def _word(atom: Atom, prompt: str) -> str:
