@@ -141,6 +141,10 @@ class MeasureReader:
         start, end = self._tokens[j].start, self._tokens[j + 1].end
         return Measure(dimension=RATIO, value=1 / part, start=start, end=end), j + 2
 
+    def is_part(self, j: int) -> bool:
+        """Return whether a part of something begins at token j (`a quarter of an hour`)."""
+        return self._share(j) is not None
+
     def _share(self, j: int) -> tuple[_Number, bool] | None:
         """`two thirds of a`, `a fifth of`: a part of a unit, or a share."""
         number = self._number(j)

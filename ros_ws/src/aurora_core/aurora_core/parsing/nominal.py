@@ -70,7 +70,7 @@ def _counts(atoms: list[Atom], prompt: str) -> list[Atom]:
 
 def _count_behind(atoms: Sequence[Atom], i: int, prompt: str) -> tuple[int, int] | None:
     """Return where the number of a noun stands behind it, and what follows."""
-    number = i > 1 and _word(atoms[i - 2], prompt).split()[-1] in ('number', 'count')
+    number = i > 1 and _word(atoms[i - 2], prompt).rpartition(' ')[2] in ('number', 'count')
     k = i + 1
     while k < len(atoms) and (
         atoms[k].kind in (*_HELPERS, AtomKind.COMMA)
@@ -210,7 +210,7 @@ def _done() -> frozenset[str]:
 
 
 def _is_done(words: str) -> bool:
-    return words in _done() or words.split()[-1] in _done()
+    return words in _done() or words.rpartition(' ')[2] in _done()
 
 
 def _done_by(atoms: list[Atom], prompt: str) -> list[Atom]:

@@ -88,6 +88,8 @@ class NounReader:
 
     def read(self, i: int) -> tuple[NounPhrase, int] | None:
         """Return the noun phrase that starts at token i and the next index, None if none does."""
+        if self._measures.is_part(i):
+            return None
         alone = self._letter(i) or self._ordinal_alone(i)
         if alone is not None:
             return alone
@@ -356,9 +358,6 @@ class NounReader:
         return int(measure.value), stop
 
     def _is_unknown(self, j: int) -> bool:
-        share = self._words[j] in self._lexicon.fractions  # `a quarter of an hour`
-        if share and list(self._words[j + 1 : j + 2]) == ['of']:
-            return False
         return self._tokens[j].kind is TokenKind.WORD and not self._lexicon.matches(self._words, j)
 
     # --- phrases without a known head ---------------------------------------------------------

@@ -140,7 +140,7 @@ def _scenes(atoms: list[Atom], prompt: str) -> list[Atom]:
     for i in range(1, len(changed) - 1):
         head = changed[i - 1]
         named = head.kind in (AtomKind.FRAME, AtomKind.SCENARIO)
-        scene = prompt[head.start : head.end].lower().split()[-1] in _SCENES
+        scene = prompt[head.start : head.end].lower().rpartition(' ')[2] in _SCENES
         begin = i
         while begin and changed[begin - 1].kind in (*TRANSPARENT, AtomKind.SCENARIO):
             begin -= 1

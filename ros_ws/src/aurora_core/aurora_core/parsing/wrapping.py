@@ -96,7 +96,7 @@ def _is_background(atoms: Sequence[Atom], prompt: str, *, before_wish: bool, fra
     solid = [a for a in atoms if a.kind not in (AtomKind.COMMA, AtomKind.CONJUNCTION)]
     if not solid:
         return False
-    words = [prompt[a.start : a.end] for a in atoms if a.kind is not AtomKind.FRAME]
+    words = [prompt[a.start : a.end] for a in atoms if before_wish or a.kind is not AtomKind.FRAME]
     text = ' '.join(words).lower().replace('’', "'")
     personal = _speaker().search(text) is not None
     idle = all(a.kind is not AtomKind.VERB or a.key in _IDLE for a in solid)
