@@ -143,7 +143,9 @@ class MeasureReader:
 
     def is_part(self, j: int) -> bool:
         """Return whether a part of something begins at token j (`a quarter of an hour`)."""
-        return self._share(j) is not None
+        number = self._spelled(j)
+        part = number is not None and number.value is not None and number.value < 1
+        return (part and bool(number and number.value)) or self._share(j) is not None
 
     def _share(self, j: int) -> tuple[_Number, bool] | None:
         """`two thirds of a`, `a fifth of`: a part of a unit, or a share."""
