@@ -337,6 +337,12 @@ class Frame:
             for a in self.adjuncts
         )
 
+    def taken(self) -> None:
+        """Note that every word of the clause was understood."""
+        for adjunct in self.adjuncts:
+            adjunct.used = True
+        self.subject_nouns = tuple(n for n in self.subject_nouns if n.kind is not NounKind.UNKNOWN)
+
     def flag(self, start: int, end: int) -> None:
         """Note characters that were not understood although their clause was."""
         self.flagged.append((start, end))

@@ -10,6 +10,7 @@ from aurora_core.parsing.atoms import AtomKind, NounKind
 from aurora_core.parsing.constructions.actions import agent_action
 from aurora_core.parsing.constructions.distances import DistanceCause, distance_cause, reference
 from aurora_core.parsing.constructions.missions import mission
+from aurora_core.parsing.criteria.thresholds import threshold
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.pronouns import anything
 from aurora_core.parsing.scene import Entity, EventDraft
@@ -32,7 +33,7 @@ Cause = DistanceCause | Trigger
 def cause(frame: Frame) -> Cause | None:
     """Read the clause behind `when`, None when it is none that can be watched."""
     if frame.negated:
-        return None
+        return threshold(frame)
     return (
         distance_cause(frame)
         or _altitude(frame)
@@ -42,6 +43,7 @@ def cause(frame: Frame) -> Cause | None:
         or _arrival(frame)
         or _done(frame)
         or _elapsed(frame)
+        or threshold(frame)
         or _behavior(frame)
     )
 

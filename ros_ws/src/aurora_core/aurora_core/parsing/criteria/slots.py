@@ -40,11 +40,16 @@ _HAPPENS = re.compile(
 _YES_OR_NO = ('landed', 'completed', 'delivered', 'waypoints')
 
 
-def criterion(atoms: Sequence[Atom]) -> Criterion | None:
-    """Return the condition that a clause states, None when it says anything else."""
+def criterion(atoms: Sequence[Atom], *, asked: bool = False) -> Criterion | None:
+    """Return the condition that a clause states, None when it says anything else.
+
+    Args:
+        atoms: Of the clause.
+        asked: It needs no word that asks for something: it stands behind `when`.
+    """
     line = told(atoms)
     reading = _Reading(line, criteria_words())
-    return reading.run()
+    return reading.run(asked=asked)
 
 
 class _Reading:
@@ -56,11 +61,11 @@ class _Reading:
         self._text = line.text
         self._begin = line.text
 
-    def run(self) -> Criterion | None:
+    def run(self, *, asked: bool = False) -> Criterion | None:
         words = self._words
         if _INVERTED.match(self._text):
             return None
-        asked = bool(words['demands'].search(self._text))
+        asked = asked or bool(words['demands'].search(self._text))
         event = self._event()
         topics = frozenset(k for k, p in words.topics.items() if p.search(self._text))
         bounded = bool(re.search(r'\b(?:atleast|atmost|nolater)\b', self._text))
