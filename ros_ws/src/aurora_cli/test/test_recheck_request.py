@@ -48,6 +48,9 @@ RULES = (
 )
 PROMPTS = dict(RULES)
 MORE = (
+    'Two drones fly 2 m apart over the main road at 80 m.',
+    'The van keeps at least 400 m from the ego and warns it over a link of 150 m range.',
+    'The bus starts when the van starts, and the van starts when the bus starts.',
     'A drone hovers at 500 meters altitude over the ego car.',
     'A bus drives at 45 m/s.',
     'At night in fog a UAV tracks a bus from a standoff of 80 m.',

@@ -73,18 +73,40 @@ def radio(proof: Certificate, request: Request) -> list[Step]:
         and e['action']['receiver'] == link['receiver']
         for e in request.all('events')
     )
-    flown = [m for m in request.all('missions') if m['uav'] in ends]
-    bound = bool(flown) and all(m.get('target') in ends for m in flown)
     reach = float(link['range_m']['value'])
-    near = min((_straight(request, m)[0] for m in flown), default=0.0)
-    return [
+    common: list[Step] = [
         _same(proof, reach),
         _asked(proof, link['range_m']),
         (sends, 'a message is to be sent over the link'),
-        (bound, 'in every phase one end flies at the other'),
         (link['range_m'].get('bound') != 'at_least', 'the range is not "at least"'),
+    ]
+    kept = _kept_apart(request, ends)
+    if kept > reach:
+        return [*common, (True, f'they are to stay {kept:g} m apart, it reaches {reach:g} m')]
+    flown = [m for m in request.all('missions') if m['uav'] in ends]
+    bound = bool(flown) and all(m.get('target') in ends for m in flown)
+    near = min((_straight(request, m)[0] for m in flown), default=0.0)
+    return [
+        *common,
+        (bound, 'in every phase one end flies at the other'),
         (near > reach, f'they are {near:.1f} m apart at least, the link reaches {reach:g} m'),
     ]
+
+
+def _kept_apart(request: Request, ends: set[str]) -> float:
+    """Return the greatest distance that a condition keeps between two, all the time."""
+    return max(
+        (
+            float(c['value']['value'])
+            for c in request.all('conditions')
+            if c['quantity'] in ('distance', 'horizontal_distance', 'separation')
+            and c['op'] in ('>', '>=')
+            and set(c['of']) == ends
+            and c.get('fraction') is None
+            and c.get('hold_s') is None
+        ),
+        default=0.0,
+    )
 
 
 def closeness(proof: Certificate, request: Request) -> list[Step]:
@@ -95,11 +117,13 @@ def closeness(proof: Certificate, request: Request) -> list[Step]:
         return [(False, f'{proof.path} is about the separation')]
     least = request.limit('separation_min_m')
     value = float(condition['value']['value'])
+    exact = condition['value'].get('bound', 'exactly') == 'exactly'
+    upward = condition['op'] == '>=' and exact  # `2 m apart` asks for 2 m and no more
     return [
         _same(proof, least),
         _asked(proof, condition['value']),
         (
-            condition['op'] in ('<', '<=', '==') and value < least,
+            (condition['op'] in ('<', '<=', '==') or upward) and value < least,
             f'it asks for {condition["op"]} {value:g} m, at least {least:g} m are kept',
         ),
     ]

@@ -131,9 +131,26 @@ def horizon(proof: Certificate, request: Request) -> list[Step]:
     return [(needed > end, f'{proof.path} needs {needed:.1f} s at least, there are {end:g} s')]
 
 
+def _circle(event: str, request: Request) -> Step:
+    """Follow the causes back: whoever waits for itself never happens."""
+    waits = {
+        e['id']: e['trigger']['event']
+        for e in request.all('events')
+        if (e.get('trigger') or {}).get('on') == 'event_done'
+    }
+    at: str | None = event
+    for _ in waits:
+        at = waits.get(at or '')
+        if at == event:
+            return True, f'{event} waits for itself'
+    return False, f'{event} waits for itself'
+
+
 def order(proof: Certificate, request: Request) -> list[Step]:
     """What is to come first comes second by other orders, or by the stated times."""
     one = request.one(proof.path)
+    if one is not None and proof.path.startswith('events/'):
+        return [_circle(proof.path.split('/')[1], request)]
     if one is None or 'then' not in one:
         return [(False, f'{proof.path} is an order')]
     first, then = one['first'], one['then']

@@ -24,9 +24,11 @@ from aurora_core.feasibility.verdict import Certificate, Fact, Rule
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.quantity import QuantityName
-from aurora_core.spec.scenario import ScenarioSpec, SendMessage, StatedCondition, UavMission
+from aurora_core.spec.scenario import Link, ScenarioSpec, SendMessage, StatedCondition, UavMission
 from aurora_core.spec.vocabulary import MissionMode
 
+# Quantities that say how far two stay from each other.
+_BETWEEN = (QuantityName.DISTANCE, QuantityName.HORIZONTAL_DISTANCE, QuantityName.SEPARATION)
 # No point of a target that is looked at stands higher: half the height of the tallest vehicle.
 _TARGET_HEIGHT_M = 2.0
 
@@ -130,6 +132,7 @@ def _radio(spec: ScenarioSpec, geometry: Geometry) -> Iterator[Certificate]:
         pair = (link.sender, link.receiver)
         if link.range_m is None or not is_stated(link.range_m) or pair not in sent:
             continue
+        yield from _kept_out_of_range(spec, link, link.range_m)
         flown = [m for m in spec.missions if m.uav in pair]
         if not flown or any(m.target not in pair for m in flown):
             continue
@@ -150,10 +153,37 @@ def _radio(spec: ScenarioSpec, geometry: Geometry) -> Iterator[Certificate]:
             )
 
 
+def _kept_out_of_range(spec: ScenarioSpec, link: Link, reach: Parameter) -> Iterator[Certificate]:
+    """`the two never come nearer than 300 m`, and their link reaches 120 m."""
+    for condition in spec.conditions:
+        apart = condition.quantity in _BETWEEN and condition.op in ('>', '>=')
+        whole = condition.fraction is None and condition.hold_s is None
+        if not (apart and whole) or set(condition.of) != {link.sender, link.receiver}:
+            continue
+        if condition.value.value > reach.value and reach.bound is not Bound.AT_LEAST:
+            yield beyond(
+                Rule.RADIO,
+                'comm_range',
+                reach,
+                f'links/{link.id}/range_m',
+                ('range_m', reach.value),
+                f'{link.sender} and {link.receiver} are to stay {condition.value.value:g} m '
+                f'apart; the link reaches {reach.value:g} m.',
+                (
+                    *says(f'links/{link.id}/range_m', reach),
+                    *says(f'conditions/{condition.id}/value', condition.value),
+                ),
+            )
+
+
 def _separation(spec: ScenarioSpec, limits: Limits) -> Iterator[Certificate]:
     limit = limits.separation_min_m
     for condition in spec.conditions:
-        close = condition.op in ('<', '<=', '==') and condition.value.value < limit
+        # `2 m apart` asks for 2 m; `at least 2 m apart` leaves room.
+        exact = condition.value.bound is Bound.EXACTLY and is_stated(condition.value)
+        close = condition.value.value < limit and (
+            condition.op in ('<', '<=', '==') or (condition.op == '>=' and exact)
+        )
         if condition.quantity == QuantityName.SEPARATION and close:
             yield beyond(
                 Rule.CLOSENESS,

@@ -130,6 +130,7 @@ def check_times(
     yield from _deadlines(spec, earliest)
     yield from _horizon(spec, earliest)
     yield from _orders(spec, earliest)
+    yield from _circles(spec)
 
 
 def _battery(spec: ScenarioSpec, limits: Limits) -> Iterator[Certificate]:
@@ -241,6 +242,29 @@ def _orders(spec: ScenarioSpec, earliest: Earliest) -> Iterator[Certificate]:
                     *earliest.facts(),
                 ),
             )
+
+
+def _circles(spec: ScenarioSpec) -> Iterator[Certificate]:
+    """Events that wait for each other: none of them can be the first."""
+    causes = {
+        e.id: e.trigger.event for e in spec.events if isinstance(e.trigger, EventDoneTrigger)
+    }
+    follows = {cause: {e for e, c in causes.items() if c == cause} for cause in causes.values()}
+    for event in spec.events:
+        if event.id in causes and _reaches(follows, event.id, causes[event.id]):
+            yield contradiction(
+                Rule.ORDER,
+                'temporal_contradiction',
+                f'events/{event.id}',
+                f'{event.id} waits for {causes[event.id]}, which itself waits for {event.id}.',
+                event.span,
+                tuple(
+                    fact
+                    for e, cause in causes.items()
+                    for fact in says(f'events/{e}/trigger/event', cause)
+                ),
+            )
+            return
 
 
 def _reaches(follows: dict[str, set[str]], start: str, goal: str) -> bool:

@@ -52,7 +52,7 @@ def unaccounted(
         elif atom.noun is not None:
             noun = atom.noun
             names = noun.kind in ACTORS and noun.kind not in _NO_ACTORS
-            forgotten = names and not resolver.known(noun)
+            forgotten = names and not resolver.known(noun) and not resolver.denied(noun)
             if no_uavs and noun.kind is NounKind.UAV:
                 forgotten = False
             counted = not names and noun.count > 0 and noun.kind is not NounKind.UNKNOWN

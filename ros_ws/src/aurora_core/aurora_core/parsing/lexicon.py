@@ -39,6 +39,7 @@ class Tag(StrEnum):
     UNSUPPORTED = 'unsupported'
     AMBIGUOUS = 'ambiguous'
     BACKGROUND = 'background'
+    PLACE_PART = 'place_part'
     COLLECTIVE = 'collective'
     SIREN = 'siren'
     LABEL = 'label'
@@ -142,6 +143,7 @@ _LISTED: tuple[tuple[str, Tag, bool], ...] = (
     ('streets_flag', Tag.STREETS_FLAG, False),
     ('surroundings', Tag.SURROUNDINGS, False),
     ('landmark_nouns', Tag.LANDMARK_NOUN, False),
+    ('place_parts', Tag.PLACE_PART, False),
     ('no_traffic', Tag.NO_TRAFFIC, False),
     ('world_nouns', Tag.WORLD_NOUN, False),
     ('aerial_view', Tag.AERIAL, False),

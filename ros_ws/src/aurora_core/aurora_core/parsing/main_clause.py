@@ -8,6 +8,7 @@ from aurora_core.parsing import values
 from aurora_core.parsing.adjuncts import AdjunctKind
 from aurora_core.parsing.atoms import AtomKind, NounKind, NounPhrase
 from aurora_core.parsing.constructions import actions, conditions, ground, messages, missions
+from aurora_core.parsing.constructions.absence import none_such
 from aurora_core.parsing.constructions.ascent import ascent, landing
 from aurora_core.parsing.constructions.demands import demands, seen_for
 from aurora_core.parsing.constructions.flight_details import flight_details
@@ -126,7 +127,7 @@ def _moves(frame: Frame) -> bool:
 
 def main_clause(frame: Frame) -> None:
     shared_words(frame)
-    if _absent(frame):
+    if _absent(frame) or none_such(frame):
         return
     _in_brackets(frame)
     flies = _flies(frame)

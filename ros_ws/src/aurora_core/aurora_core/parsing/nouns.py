@@ -90,7 +90,7 @@ class NounReader:
         """Return the noun phrase that starts at token i and the next index, None if none does."""
         if self._measures.is_part(i):
             return None
-        alone = self._letter(i) or self._ordinal_alone(i)
+        alone = self._part_of_place(i) or self._letter(i) or self._ordinal_alone(i)
         if alone is not None:
             return alone
         if self._words[i] == 'that' and self._is_mine(i + 1):
@@ -125,6 +125,7 @@ class NounReader:
                     kind = NounKind.MISSING_LANDMARK
                     key = head_text = ' '.join(self._words[proper[0] : stop])
                     loose = []
+                stop = self._behind_place(kind, stop)
                 named = not count and (not is_plural or self._listed(stop))
                 number, stop = self._index(kind, stop) if named else (0, stop)
                 return (
@@ -179,6 +180,45 @@ class NounReader:
             elif sense_key:
                 labels.append(sense_key)
         return self._pronoun(i) or self._unknown(i)
+
+    def _part_of_place(self, i: int) -> tuple[NounPhrase, int] | None:
+        """`the helipad of the hospital`, `the middle of the junction`: the place itself."""
+        j = i
+        while j < len(self._words) and self._words[j] in ('the', 'a', 'its', 'main', 'very'):
+            j += 1
+        part = self._lexicon.longest_of(self._words, j, (Tag.PLACE_PART,))
+        if part is None:
+            return None
+        j += part[0]
+        if j >= len(self._words) or self._words[j] not in ('of', 'at', 'on', 'in'):
+            return None
+        j += 1
+        if j < len(self._words) and self._words[j] == 'the':
+            j += 1
+        whole = self._head(j) if j < len(self._words) else None
+        if whole is None or whole[0] not in (NounKind.LANDMARK, NounKind.PLACE):
+            return None
+        kind, key, text, _, stop = whole
+        start, end = self._tokens[i].start, self._tokens[stop - 1].end
+        return (
+            NounPhrase(
+                kind=kind,
+                key=key,
+                start=start,
+                end=end,
+                head_text=text,
+                determiner=Determiner.DEFINITE,
+            ),
+            stop,
+        )
+
+    def _behind_place(self, kind: NounKind, stop: int) -> int:
+        """`the hospital's roof`, `the hospital helipad`: the part adds nothing."""
+        if kind is not NounKind.LANDMARK:
+            return stop
+        j = stop + 1 if stop < len(self._words) and self._words[stop] == "'s" else stop
+        part = self._lexicon.longest_of(self._words, j, (Tag.PLACE_PART,))
+        return stop if part is None else j + part[0]
 
     def _agent_at(self, j: int) -> bool:
         return self._lexicon.longest_of(self._words, j, (Tag.AGENT,)) is not None

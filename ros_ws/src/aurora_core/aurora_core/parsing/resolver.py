@@ -31,11 +31,30 @@ class Resolver:
         self._scene = scene
         self._lexicon = lexicon if lexicon is not None else shipped_lexicon()
         self._pronouns = PronounResolver(scene)
+        self._denied: set[tuple[int, int]] = set()
+        self._none_of: set[str] = set()
         self._read: dict[tuple[int, int], tuple[Entity, ...]] = {}
 
     def known(self, noun: NounPhrase) -> tuple[Entity, ...]:
         """Return the actors that a phrase was resolved to, none when it was not."""
         return self._read.get((noun.start, noun.end), ())
+
+    def deny(self, noun: NounPhrase, *, strictly: bool) -> None:
+        """Note that there is nobody of this kind; whoever is asked for all the same is missing."""
+        self._denied.add((noun.start, noun.end))
+        if not strictly:
+            return
+        self._none_of.add(noun.key)
+        if any(e.type.value == noun.key and not e.is_uav for e in self._scene.entities):
+            self._refuse_absent(noun)
+
+    def denied(self, noun: NounPhrase) -> bool:
+        """Return whether a phrase only says that there is nobody."""
+        return (noun.start, noun.end) in self._denied
+
+    def _refuse_absent(self, noun: NounPhrase) -> None:
+        kinds = tuple(t.value for t in AgentType if t.value not in self._none_of)
+        self._refuse(noun, RefusalKind.MISSING_ELEMENT, 'what the scene may have', kinds)
 
     # --- places -------------------------------------------------------------------------------
 
@@ -350,6 +369,8 @@ class Resolver:
         return noun.labels <= entity.labels or entity.labels <= noun.labels
 
     def _new(self, noun: NounPhrase) -> tuple[Entity, ...]:
+        if noun.kind is NounKind.AGENT and noun.key in self._none_of:
+            self._refuse_absent(noun)
         count = noun.count or (2 if noun.plural else 1)
         if count > MOST_AGENTS + 1:  # enough to be refused by the limit on agents
             count = MOST_AGENTS + 1

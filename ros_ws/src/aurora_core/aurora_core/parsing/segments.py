@@ -208,6 +208,9 @@ def _decide(
     if relative:
         head = next((a for a in reversed(current) if a.is_actor), None)
         alone = sum(a.kind is AtomKind.VERB for a in ahead) == 1 and _is_placed(current)
+        listed = any(m.kind is AtomKind.CONJUNCTION for m in markers) and has_verb(current)
+        if listed and has_verb(ahead) and solid.noun is not None and markers[-1].key == 'that':
+            return Piece(atoms=())  # `make sure that … and that no bus comes`
         if solid.kind is not AtomKind.VERB or head is None:
             return None
         if not has_verb(current) and not (alone and head is current[-1]):

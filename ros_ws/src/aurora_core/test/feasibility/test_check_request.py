@@ -46,9 +46,21 @@ REFUSED = (
     ),
     ('A drone flies a rectangle of 100 m by -5 m at 40 m altitude.', 'spatial_contradiction'),
     ('A drone hovers over Signal Tower at 50 m.', 'geofence'),
+    ('Two drones fly 2 m apart over the main road at 80 m.', 'separation'),
+    (
+        'The van keeps at least 400 m from the ego and warns it over a link of 150 m range.',
+        'comm_range',
+    ),
+    (
+        'The bus starts when the van starts, and the van starts when the bus starts.',
+        'temporal_contradiction',
+    ),
     ('A drone orbits Mercy Hospital at a radius of 100 m, 110 m above the ground.', 'geofence'),
 )
 ACCEPTED = (
+    'Two drones keep at least 4 m apart while they hover over City Hall at 40 m.',
+    'The van keeps at least 100 m from the ego and warns it over a link of 150 m range.',
+    'The bus starts when the van starts, and the car starts when the bus starts.',
     'In fog a drone hovers over the crosswalk at 75 m.',
     'At night, in heavy rain, the drone tracks a car from 40 m away at an altitude of 40 m.',
     'two drones 5m apart, both 50m up hovering over harbor market',

@@ -163,6 +163,7 @@ def link_values(frame: Frame) -> bool:
         if adjunct.prep in ('below', 'within'):
             parameter = values.rebound(parameter, Bound.AT_MOST)
         found[name] = parameter
+    _reaching(frame, found)
     _losing(frame, found)
     _no_retries(frame, found)
     if not found:
@@ -175,6 +176,16 @@ def link_values(frame: Frame) -> bool:
         mark.used = True
     frame.scene.became(draft.id)
     return True
+
+
+def _reaching(frame: Frame, found: dict[str, Parameter]) -> None:
+    """`the drone's radio reaches 50 m`, `the link only works up to 120 m`."""
+    if frame.key != 'reach' or 'radio_range' in found or not frame.has_mark(AtomKind.LINK.value):
+        return
+    adjunct = frame.length('', 'to', 'within', 'at') or frame.attribute('away', 'standoff')
+    if adjunct is not None and adjunct.measure is not None:
+        adjunct.used = True
+        found['radio_range'] = values.explicit('link_range', adjunct.measure)
 
 
 def _losing(frame: Frame, found: dict[str, Parameter]) -> None:
