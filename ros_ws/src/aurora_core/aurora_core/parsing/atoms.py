@@ -116,6 +116,7 @@ class NounPhrase:
     labels: frozenset[str] = frozenset()
     states: tuple[str, ...] = ()
     background: bool = False
+    target: bool = False
     index: int = 0
     loose: tuple[tuple[int, int], ...] = ()
 

@@ -146,6 +146,9 @@ class NounReader:
                     ),
                     stop,
                 )
+            if count and self._words[j] == 'other':
+                j += 1  # `ten other cars`
+                continue
             if loose and self._words[j] == "'s":
                 loose = []  # `the surveyor's drone`: whose it is says nothing
                 j += 1

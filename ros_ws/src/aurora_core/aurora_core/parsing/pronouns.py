@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 from aurora_core.parsing.atoms import NounPhrase
 from aurora_core.parsing.scene import Doubt, Entity, Scene
 from aurora_core.spec.parameter import Span
-from aurora_core.spec.vocabulary import AgentType
+from aurora_core.spec.vocabulary import AgentType, Role
 
 Fits = Callable[[Entity], bool]
 
@@ -54,6 +54,8 @@ class PronounResolver:
         if noun.key == 'target':
             tracked = [m.target for m in self._scene.missions if m.target is not None]
             target = self._scene.by_id(tracked[-1]) if tracked else None
+            cast = [e for e in self._scene.entities if e.role is Role.TARGET]
+            target = target or (cast[-1] if len(cast) == 1 else None)
             return (target,) if target is not None else self._ask(noun)
         if noun.key == 'both' and noun.head_text.startswith('all'):
             everyone = self._everyone(accept)

@@ -24,6 +24,12 @@ def _last_words(name: str) -> tuple[str, ...]:
     return tuple(' '.join(words[i:]) for i in range(len(words)))
 
 
+def _role(noun: NounPhrase) -> Role:
+    if noun.background:
+        return Role.BACKGROUND
+    return Role.TARGET if noun.target else Role.OTHER
+
+
 class Resolver:
     """Turns noun phrases into actors of the scene, adding those that are new."""
 
@@ -386,7 +392,7 @@ class Resolver:
                 id=self._scene.new_id(stem),
                 is_uav=noun.kind is NounKind.UAV,
                 type=AgentType(noun.key) if noun.kind is NounKind.AGENT else AgentType.CAR,
-                role=Role.BACKGROUND if noun.background else Role.OTHER,
+                role=_role(noun),
                 group=group,
                 index=noun.index if count == 1 else 0,
                 labels=noun.labels,

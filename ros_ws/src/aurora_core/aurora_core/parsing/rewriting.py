@@ -19,6 +19,7 @@ from aurora_core.parsing.nominal import predicates
 from aurora_core.parsing.pieces import TRANSPARENT
 from aurora_core.parsing.statements import value_statements
 from aurora_core.parsing.wrapping import unwrap
+from aurora_core.parsing.roles import cast
 from aurora_core.spec.parameter import Bound, Span
 
 # Words that take back the number in front of them (listed among the frames of the lexicon).
@@ -42,7 +43,7 @@ class Rewritten:
 
 def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
     """Return the atoms with shorthand written out and retracted numbers left out."""
-    told, background = unwrap(atoms, prompt)
+    told, background = unwrap(cast(atoms, prompt), prompt)
     told = value_statements(
         predicates(plain_order(_places(_shares(_scenes(told, prompt))), prompt), prompt),
         prompt,

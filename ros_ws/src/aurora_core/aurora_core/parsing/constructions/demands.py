@@ -121,6 +121,8 @@ def _separation(frame: Frame) -> None:
     adjunct = _length(frame)
     if adjunct is None or adjunct.measure is None or not _APART.search(_text(frame)):
         return
+    if _two_apart(frame, adjunct):
+        return
     named = [e for e in _named(frame) if e.is_uav]
     flying = named if len(named) > 1 else frame.scene.uavs
     they = all(n.kind is NounKind.PRONOUN for n in frame.subject_nouns)
@@ -142,6 +144,27 @@ def _separation(frame: Frame) -> None:
         '<=' if near and not frame.negated else '>=',
         values.explicit('condition_distance', adjunct.measure),
     )
+
+
+def _two_apart(frame: Frame, adjunct: Adjunct) -> bool:
+    """`the van and the bus are never nearer to one another than 8 m`: any two that act."""
+    measure = adjunct.measure
+    acting = frame.scene.clause.subjects or frame.subjects()
+    if measure is None or len(acting) != 2 or any(e.is_uav for e in acting):
+        return False
+    near = adjunct.prep in ('within', 'below') or measure.bound is Bound.AT_MOST
+    bounded = near or measure.bound is Bound.AT_LEAST or adjunct.prep == 'beyond'
+    if not bounded or not values.accepts('condition_distance', measure):
+        return False
+    adjunct.used = True
+    add_condition(
+        frame,
+        'distance',
+        (acting[0].id, acting[1].id),
+        '<=' if near and not frame.negated else '>=',
+        values.explicit('condition_distance', measure),
+    )
+    return True
 
 
 def _length(frame: Frame) -> Adjunct | None:

@@ -18,9 +18,9 @@ from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.pronouns import ground
 from aurora_core.parsing.scene import Entity
-from aurora_core.spec.parameter import Parameter
+from aurora_core.spec.parameter import Parameter, Span
 from aurora_core.spec.scenario import Behavior, Placement
-from aurora_core.spec.vocabulary import AgentType, BehaviorKind, MissionMode, Relation
+from aurora_core.spec.vocabulary import AgentType, BehaviorKind, MissionMode, Place, Relation
 
 # Predicates that name a behaviour in other words.
 BEHAVIORS = {kind.value: kind for kind in BehaviorKind} | {
@@ -106,7 +106,7 @@ def behavior(frame: Frame) -> bool:
     closing = _closing_distance(frame) if frame.key in ('tailgate', 'approach', 'come') else None
     if kind is BehaviorKind.OVERTAKE and not _overtakes(frame, target):
         kind = BehaviorKind.DRIVE  # `a bus goes past at 20 km/h`
-    placements = _placements(frame, subjects, target, closing)
+    placements = _placements(frame, subjects, target, closing) + _departure(frame)
     made = Behavior(
         kind=kind, target=target, speed_mps=speed, closing_from_m=closing, span=frame.span
     )
@@ -121,6 +121,20 @@ def _overtakes(frame: Frame, target: str | None) -> bool:
     named = any(_names_actor(a) for a in frame.adjuncts) or frame.passive
     place = target is not None and frame.scene.by_id(target) is None
     return named or (target is not None and not place) or frame.attribute('speed') is None
+
+
+def _departure(frame: Frame) -> tuple[Placement, ...]:
+    """`leaves the station`, `sets off from the market`: there it is at the start."""
+    found = frame.free(AdjunctKind.PHRASE, 'from')
+    if frame.key == 'start':
+        found += frame.free(AdjunctKind.OBJECT)
+    for adjunct in found:
+        place = place_of(frame, adjunct)
+        if place is not None:
+            adjunct.used = True
+            span = Span(start=adjunct.start, end=adjunct.end)
+            return (Placement(relation=Relation.AT, of=place, span=span),)
+    return ()
 
 
 def _tracked_for(frame: Frame, subjects: tuple[Entity, ...]) -> None:
@@ -188,6 +202,8 @@ def _target(frame: Frame, subjects: tuple[Entity, ...]) -> str | None:
         acting = [n for n in adjunct.nouns if n.kind in ACTORS and n.key != 'there']
         if frame.key not in _TARGETED and acting:
             continue
+        if frame.key == 'start' and adjunct.kind is AdjunctKind.OBJECT:
+            continue  # `leaves the station`
         there = _place_again(frame, acting)
         if there is not None:
             adjunct.used = True
@@ -218,6 +234,12 @@ def _target(frame: Frame, subjects: tuple[Entity, ...]) -> str | None:
             place = place_of(frame, adjunct)
             if place is not None:
                 adjunct.used = frame.key not in ('wait', 'park')
+                return place
+    if frame.key in ('drive', 'start'):
+        for adjunct in frame.free(AdjunctKind.PHRASE, 'for'):  # `heads for the main road`
+            place = place_of(frame, adjunct)
+            if place is not None:
+                adjunct.used = True
                 return place
     if frame.key in ('drive', 'cross', 'walk', 'visit'):
         for adjunct in frame.free(AdjunctKind.PHRASE, 'through', 'along', 'at', 'over', 'on'):
@@ -253,6 +275,9 @@ def _speed(frame: Frame) -> Parameter | None:
 
 def _closing_distance(frame: Frame) -> Parameter | None:
     adjunct = frame.length('from')
+    away = frame.attribute('standoff', 'away')  # `approaches from 50 m away`
+    if adjunct is None and away is not None and away.prep == 'from' and not away.nouns:
+        adjunct = away
     if adjunct is None or adjunct.measure is None:
         return None
     if not values.accepts('closing_from', adjunct.measure):
@@ -305,6 +330,14 @@ def _is_placed(frame: Frame, subjects: tuple[Entity, ...], target: str) -> bool:
     return other is not None and any(p.of == e.id for e in subjects for p in other.placements)
 
 
+def _place_told(frame: Frame) -> str | None:
+    """`a boy crosses at the crosswalk, a car approaches from 50 m`: what it approaches."""
+    for clause in reversed(frame.scene.clauses[:-1]):
+        if clause.sentence == frame.piece.sentence and clause.places:
+            return clause.places[-1]
+    return None
+
+
 def _placements(
     frame: Frame, subjects: tuple[Entity, ...], target: str | None, closing: Parameter | None
 ) -> tuple[Placement, ...]:
@@ -318,6 +351,12 @@ def _placements(
             wanted = Relation.AHEAD
     if target is not None and _is_placed(frame, subjects, target):
         wanted = None
+    place = target if target is not None else _place_told(frame)
+    if closing is not None and not made and place is not None:
+        if frame.scene.by_id(place) is None:  # `approaches the junction from 50 m away`
+            made.append(
+                Placement(relation=Relation.BEFORE, of=place, distance_m=closing, span=frame.span)
+            )
     if wanted is not None and target is not None and frame.scene.by_id(target) is not None:
         distance = closing or gap(frame)
         made.append(
@@ -368,6 +407,7 @@ def placing(frame: Frame) -> bool:
     frame.scene.clause.subjects = subjects
     placements = placements_of(frame, subjects, kept=False)
     speed = _speed(frame)
+    _on_one_road(frame, placements)
     for entity in subjects:
         for placement in placements:
             if placement.of != entity.id:
@@ -382,6 +422,18 @@ def placing(frame: Frame) -> bool:
         return False
     frame.scene.became(*(e.id for e in subjects))
     return True
+
+
+def _on_one_road(frame: Frame, placements: tuple[Placement, ...]) -> None:
+    """`A is 35 m ahead of B on the main road`: then B is on it as well."""
+    roads = [p for p in placements if p.relation is Relation.ON and p.of == Place.MAIN_ROAD]
+    for placement in placements:
+        other = frame.scene.by_id(placement.of or '')
+        if roads and other is not None and placement.relation in _IN_LINE:
+            add_placement(other, roads[0])
+
+
+_IN_LINE = (Relation.AHEAD, Relation.BEHIND, Relation.SAME_LANE, Relation.ADJACENT_LANE)
 
 
 def _listed(frame: Frame, lead: Adjunct) -> tuple[NounPhrase, ...]:

@@ -1,0 +1,104 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Who is the target, who only fills the streets: `the target is a van`, `background: ten cars`."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind
+from aurora_core.parsing.morphology import VerbForm
+from aurora_core.parsing.pieces import TRANSPARENT
+
+_SERVES = frozenset({'be', 'serve', 'trace', 'act', 'form', 'wait'})
+
+
+def cast(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
+    """Return the atoms with roles noted at the nouns that have them."""
+    return _targets(_background(list(atoms), prompt), prompt)
+
+
+def _background(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """`background traffic: ten cars`, `fifteen cars serve as background traffic`."""
+    for i, atom in enumerate(atoms):
+        words = prompt[atom.start : atom.end].lower()
+        if atom.kind is not AtomKind.WORLD or 'background' not in words:
+            continue
+        first, last = _sentence(atoms, i)
+        behind = [k for k in range(i + 1, len(atoms)) if atoms[k].kind not in TRANSPARENT]
+        listed = bool(behind) and atoms[behind[0]].key == ':'
+        if listed:
+            last = _sentence(atoms, behind[0] + 1)[1]
+        serves = any(_serves(a) for a in atoms[first:i]) and not listed
+        if not listed and not serves:
+            continue
+        told = range(i + 1, last) if listed else range(first, i)
+        filling = [k for k in told if _is_agent(atoms[k])]
+        if not filling:
+            continue
+        for k in filling:
+            noun = atoms[k].noun
+            assert noun is not None
+            atoms[k] = replace(atoms[k], noun=replace(noun, background=True))
+        atoms[i] = replace(atom, kind=AtomKind.FILL)
+        if listed:
+            atoms[behind[0]] = replace(atoms[behind[0]], kind=AtomKind.FILL)
+    return atoms
+
+
+def _serves(atom: Atom) -> bool:
+    return atom.kind in (AtomKind.VERB, AtomKind.UNKNOWN, AtomKind.AUXILIARY) and (
+        atom.key in _SERVES
+    )
+
+
+def _is_agent(atom: Atom) -> bool:
+    noun = atom.noun
+    return (
+        noun is not None and noun.kind is NounKind.AGENT and noun.determiner is not Determiner.MY
+    )
+
+
+def _targets(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """`the target is a van parked at the market`: the van is there, and it is the target."""
+    for i in range(2, len(atoms)):
+        first, last = _sentence(atoms, i)
+        closes = atoms[i].noun is not None and atoms[i].key == 'target' and i + 1 == last
+        agents = [k for k in range(first, i) if _is_agent(atoms[k])]
+        if closes and atoms[i - 1].key == 'be' and len(agents) == 1:  # `the bus is the target`
+            noun = atoms[agents[0]].noun
+            assert noun is not None
+            atoms[agents[0]] = replace(atoms[agents[0]], noun=replace(noun, target=True))
+            atoms[i] = replace(atoms[i], kind=AtomKind.FILL, noun=None)
+    for i in range(len(atoms) - 2):
+        named = atoms[i].noun is not None and atoms[i].key == 'target'
+        if not named:
+            continue
+        solid = [k for k in range(i + 1, min(i + 8, len(atoms)))]
+        solid = [k for k in solid if atoms[k].kind not in (AtomKind.FILL, AtomKind.AUXILIARY)]
+        if len(solid) < 2:
+            continue
+        link, new = atoms[solid[0]], atoms[solid[1]]
+        joins = link.key in ('be', ':') or link.kind is AtomKind.COMMA
+        noun = new.noun
+        if not joins or noun is None or noun.kind is not NounKind.AGENT or noun.plural:
+            continue
+        if noun.determiner not in (Determiner.INDEFINITE, Determiner.ONE, Determiner.BARE):
+            continue
+        atoms[solid[1]] = replace(new, noun=replace(noun, target=True))
+        there = link.kind is AtomKind.VERB
+        verb = replace(link, kind=AtomKind.VERB, key='exist', form=VerbForm.THIRD)
+        atoms[i] = replace(atoms[i], kind=AtomKind.FILL, noun=None)
+        atoms[solid[0]] = verb if there else replace(link, kind=AtomKind.FILL)
+    return atoms
+
+
+def _sentence(atoms: Sequence[Atom], i: int) -> tuple[int, int]:
+    first = i
+    while first and atoms[first - 1].kind is not AtomKind.STOP:
+        first -= 1
+    last = i
+    while last < len(atoms) and atoms[last].kind is not AtomKind.STOP:
+        last += 1
+    return first, last
