@@ -17,9 +17,9 @@ from aurora_core.parsing.measures import LENGTH
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.nominal import predicates
 from aurora_core.parsing.pieces import TRANSPARENT
+from aurora_core.parsing.roles import cast
 from aurora_core.parsing.statements import value_statements
 from aurora_core.parsing.wrapping import unwrap
-from aurora_core.parsing.roles import cast
 from aurora_core.spec.parameter import Bound, Span
 
 # Words that take back the number in front of them (listed among the frames of the lexicon).

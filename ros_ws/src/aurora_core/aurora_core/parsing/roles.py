@@ -75,7 +75,10 @@ def _targets(atoms: list[Atom], prompt: str) -> list[Atom]:
         named = atoms[i].noun is not None and atoms[i].key == 'target'
         if not named:
             continue
-        solid = [k for k in range(i + 1, min(i + 8, len(atoms)))]
+        first, _ = _sentence(atoms, i)
+        if any(a.noun is not None and a.noun.kind is NounKind.UAV for a in atoms[first:i]):
+            continue  # `a UAV tracks, the target being a truck`: of its mission
+        solid = list(range(i + 1, min(i + 8, len(atoms))))
         solid = [k for k in solid if atoms[k].kind not in (AtomKind.FILL, AtomKind.AUXILIARY)]
         if len(solid) < 2:
             continue

@@ -352,11 +352,11 @@ def _placements(
     if target is not None and _is_placed(frame, subjects, target):
         wanted = None
     place = target if target is not None else _place_told(frame)
-    if closing is not None and not made and place is not None:
-        if frame.scene.by_id(place) is None:  # `approaches the junction from 50 m away`
-            made.append(
-                Placement(relation=Relation.BEFORE, of=place, distance_m=closing, span=frame.span)
-            )
+    free = closing is not None and not made and frame.scene.by_id(place or '') is None
+    if free and place is not None:  # `approaches the junction from 50 m away`
+        made.append(
+            Placement(relation=Relation.BEFORE, of=place, distance_m=closing, span=frame.span)
+        )
     if wanted is not None and target is not None and frame.scene.by_id(target) is not None:
         distance = closing or gap(frame)
         made.append(
