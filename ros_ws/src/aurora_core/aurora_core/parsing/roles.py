@@ -16,7 +16,51 @@ _SERVES = frozenset({'be', 'serve', 'trace', 'act', 'form', 'wait'})
 
 def cast(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
     """Return the atoms with roles noted at the nouns that have them."""
-    return _targets(_background(list(atoms), prompt), prompt)
+    return _targets(_background(_own_types(_lets_pass(list(atoms))), prompt), prompt)
+
+
+def _own_types(atoms: list[Atom]) -> list[Atom]:
+    """`the ego vehicle, a van, drives`, `the ego is a truck`: what the ego vehicle is."""
+    i = 0
+    while i + 2 < len(atoms):
+        ego, link, told = atoms[i : i + 3]
+        noun = told.noun
+        own = ego.noun is not None and ego.noun.kind is NounKind.EGO and noun is not None
+        if own and noun is not None and noun.kind is NounKind.AGENT and not noun.plural:
+            new = noun.determiner in (Determiner.INDEFINITE, Determiner.ONE)
+            behind = atoms[i + 3] if i + 3 < len(atoms) else None
+            ends = behind is None or behind.kind is AtomKind.STOP
+            apposed = link.kind is AtomKind.COMMA and not ends
+            apposed = apposed and behind is not None and behind.kind is AtomKind.COMMA
+            if new and noun.key != 'pedestrian' and (apposed or (link.key == 'be' and ends)):
+                whole = replace(
+                    noun, start=ego.start, end=told.end, determiner=Determiner.MY, count=0
+                )
+                merged = replace(told, start=ego.start, noun=whole)
+                atoms[i : i + 4 if apposed else i + 3] = [merged]
+        i += 1
+    return atoms
+
+
+def _lets_pass(atoms: list[Atom]) -> list[Atom]:
+    """`lets a bus through`, `slows down to let a child cross`: it yields."""
+    for i in range(1, len(atoms) - 1):
+        before, let, other = atoms[i - 1], atoms[i], atoms[i + 1]
+        if let.key != 'let' or let.kind not in (AtomKind.CAUSATIVE, AtomKind.UNKNOWN):
+            continue
+        acts = before.is_actor or before.key == 'to' or before.kind is AtomKind.AUXILIARY
+        if not acts or not other.is_actor:
+            continue
+        behind = atoms[i + 2] if i + 2 < len(atoms) else None
+        if behind is None or behind.key not in _PASSING:
+            continue
+        form = VerbForm.BASE if before.key == 'to' else VerbForm.THIRD
+        atoms[i] = replace(let, kind=AtomKind.VERB, key='yield', form=form)
+        atoms[i + 2] = replace(behind, kind=AtomKind.FILL)
+    return atoms
+
+
+_PASSING = frozenset({'through', 'by', 'past', 'cross', 'overtake', 'drive', 'start', 'walk'})
 
 
 def _background(atoms: list[Atom], prompt: str) -> list[Atom]:
