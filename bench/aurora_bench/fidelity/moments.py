@@ -24,6 +24,8 @@ def precedence(spec: ScenarioSpec) -> frozenset[tuple[str, str]]:
         for two in spec.missions[k + 1 :]
         if one.uav == two.uav
     }
+    # Every mission ends with a landing that no event has to tell.
+    pairs |= {(m.id, landing_of(m.uav)) for m in spec.missions if not m.ends_in_flight}
     timed = [
         (e.trigger.at_s.value, e.id) for e in spec.events if isinstance(e.trigger, TimeTrigger)
     ]
@@ -34,6 +36,11 @@ def precedence(spec: ScenarioSpec) -> frozenset[tuple[str, str]]:
         if isinstance(event.action, UavAction) and event.action.mission is not None:
             pairs.add((event.id, event.action.mission))
     return _closed(pairs)
+
+
+def landing_of(uav: str) -> str:
+    """Return the name of the landing that ends the last mission of a UAV."""
+    return f'landing of {uav}'
 
 
 def _causes(event: Event, spec: ScenarioSpec) -> set[str]:

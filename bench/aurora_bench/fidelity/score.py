@@ -34,7 +34,7 @@ from aurora_bench.fidelity.fields import (
     uav_fields,
     world_fields,
 )
-from aurora_bench.fidelity.moments import precedence
+from aurora_bench.fidelity.moments import landing_of, precedence
 from aurora_bench.fidelity.numbers import NumberRule
 from aurora_bench.fidelity.search import Picked, best_pick
 from aurora_bench.prompts.format import (
@@ -163,7 +163,7 @@ class _Scorer:
                 for r in events
             ]
             bound = {events[k].ref: spec.events[n].id for k, n in _assigned(held)}
-            moments = {**moments, **bound}
+            moments = {**moments, **bound, **self._landings(events, bound)}
             moments = {**moments, **self._readings_bound(moments)}
         binding = replace(self._subject.binding, moments=moments)
         self._subject = replace(self._subject, binding=binding)
@@ -195,6 +195,21 @@ class _Scorer:
         if isinstance(r, MissionRequirement):
             return [(m.id, mission_fields(r, m, subject, rule)) for m in subject.spec.missions]
         return [(e.id, event_fields(r, e, subject, rule)) for e in subject.spec.events]
+
+    def _landings(
+        self, events: Sequence[EventRequirement], bound: Mapping[str, str]
+    ) -> dict[str, str]:
+        """Bind landings without a cause to the end of the missions, where no event tells them."""
+        told = {e.id for e in self._subject.spec.events if getattr(e.action, 'do', '') == 'land'}
+        found: dict[str, str] = {}
+        for r in events:
+            lands = r.trigger is None and r.action is not None and r.action.do == 'land'
+            if not lands or bound.get(r.ref) in told or r.action is None or r.action.uav is None:
+                continue
+            flyers = self._subject.binding.of(r.action.uav)
+            if len(flyers) == 1:
+                found[r.ref] = landing_of(next(iter(flyers)))
+        return found
 
     def _rule(self, r: Requirement) -> NumberRule:
         return NumberRule(requirement=r, variation=self._prompt.variation)

@@ -408,3 +408,16 @@ def test_which_side_of_a_rectangle_is_long_does_not_matter() -> None:
     assert missed(scored(spec, [*REQUIREMENTS[1:5], wanted])) == {}
     mission['size_m'] = [number(60), number(60)]
     assert missed(scored(spec, [*REQUIREMENTS[1:5], wanted])) == {'r9': {'size_m'}}
+
+
+@pytest.mark.parametrize(('stays_up', 'expected'), [(False, {}), (True, {'r22': {'then'}})])
+def test_the_landing_follows_the_missions(stays_up: bool, expected: dict[str, set[str]]) -> None:
+    landing: Doc = {
+        'id': 'r20', 'kind': 'event', 'ref': 'e9', 'action': {'do': 'land', 'uav': 'uav1'},
+    }  # fmt: skip
+    order: Doc = {'id': 'r22', 'kind': 'order', 'first': 'm2', 'then': 'e9'}
+    spec = right_spec()
+    for mission in spec['missions']:
+        mission['ends_in_flight'] = stays_up
+    found = missed(scored(spec, [*REQUIREMENTS, landing, order]))
+    assert found.get('r22', set()) == expected.get('r22', set())

@@ -47,6 +47,9 @@ class AtomKind(StrEnum):
     FILL = 'fill'
     FRAME = 'frame'
     CONTEXT = 'context'
+    HAPPENING = 'happening'  # an event as a noun: `arrival`; key: that of the verb
+    BECAUSE = 'because'  # `in response to`
+    CAUSING = 'causing'  # `causes the car to …`
     UNKNOWN = 'unknown'
 
 

@@ -73,6 +73,7 @@ class Frame:
         self.adjuncts = ahead + AdjunctReader(after).read()
         self.flagged: list[tuple[int, int]] = []
         self.avoid: tuple[Entity, ...] = ()
+        self.watched = False  # the effect of something that a UAV can see
         self.heir: Entity | None = None  # who acts when the clause names nobody
         self._deny_weather(atoms)
         self._named_values()

@@ -94,6 +94,9 @@ class Tag(StrEnum):
     AFTER_AT_LEAST = 'after_at_least'
     AFTER_AT_MOST = 'after_at_most'
     UNIT = 'unit'
+    HAPPENING = 'happening'
+    BECAUSE = 'because'
+    CAUSING = 'causing'
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -126,6 +129,7 @@ _KEYED: tuple[tuple[str, Tag, bool], ...] = (
     ('things', Tag.THING, True),
     ('patterns', Tag.PATTERN, True),
     ('subordinators', Tag.SUBORDINATOR, False),
+    ('happenings', Tag.HAPPENING, True),
 )
 # Sections that are plain lists.
 _LISTED: tuple[tuple[str, Tag, bool], ...] = (
@@ -166,6 +170,7 @@ _LISTED: tuple[tuple[str, Tag, bool], ...] = (
     ('in_view', Tag.IN_VIEW, False),
     ('in_flight', Tag.IN_FLIGHT, False),
     ('from_start', Tag.FROM_START, False),
+    ('because', Tag.BECAUSE, False),
     ('approximate', Tag.APPROXIMATE, False),
     ('at_least', Tag.AT_LEAST, False),
     ('at_most', Tag.AT_MOST, False),
@@ -238,6 +243,7 @@ class Lexicon:
         for tag, phrases in (
             (Tag.CAUSATIVE, data['causative']),
             (Tag.AUXILIARY, data['auxiliaries']),
+            (Tag.CAUSING, data['causing']),
         ):
             for phrase in phrases:
                 for form, kind in verb_forms(phrase, irregular):

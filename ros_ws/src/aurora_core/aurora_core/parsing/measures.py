@@ -7,6 +7,7 @@ Conversion to SI is exact (fractions) and rounded once, at the end.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -17,6 +18,9 @@ from aurora_core.spec.parameter import Bound
 
 LENGTH, TIME, SPEED, RATIO, ANGLE, COUNT = 'length', 'time', 'speed', 'ratio', 'angle', 'count'
 UNREADABLE = 'unreadable'
+# Words in front of a time after the start: `at second 20`, `until 0:45`.
+_AT = frozenset({'at', '@', 'until', 'till', 'from', 'by', 'on', 'around', 'about', 'in', 'after'})
+_CLOCK = re.compile(r'(0?[0-5]):([0-5]\d)')
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -167,8 +171,40 @@ class MeasureReader:
             return _Number(times / part, unit, True), False
         return _Number(times / part, of, True), True
 
+    def _clock(self, j: int) -> tuple[Measure, int] | None:
+        """`at second forty`, `at 0:45`, `at t=25`: a time after the start."""
+        before = self._word(j - 1)
+        start = self._tokens[j].start if j < len(self._tokens) else 0
+        if self._word(j) in ('second', 'sec', 'minute') and before in _AT:
+            counted = self._number(j + 1)
+            if counted is None or counted.value is None or self._unit(counted.stop)[0]:
+                return None
+            factor = 60 if self._word(j) == 'minute' else 1
+            end = self._tokens[counted.stop - 1].end
+            seconds = float(counted.value * factor)
+            return Measure(dimension=TIME, value=seconds, start=start, end=end), counted.stop
+        number = self._number(j) if before in _AT or before in ('=', 't', '+') else None
+        if number is None or j >= len(self._tokens):
+            return None
+        read = _CLOCK.fullmatch(self._tokens[j].norm)
+        if read is not None and before in _AT:
+            seconds = 60.0 * int(read[1]) + int(read[2])
+            stop = j + 2 if self._word(j + 1) in ('min', 'minutes', 'h', 's') else j + 1
+            end = self._tokens[stop - 1].end
+            return Measure(dimension=TIME, value=seconds, start=start, end=end), stop
+        named = 't' in (before, self._word(j - 2), self._word(j - 3)) and before not in _AT
+        if named and number.value is not None and self._unit(number.stop)[0] is None:
+            end = self._tokens[number.stop - 1].end
+            seconds = float(number.value)
+            return Measure(dimension=TIME, value=seconds, start=start, end=end), number.stop
+        return None
+
+    def starts_clock(self, j: int) -> bool:
+        """Return whether a time after the start begins here: `second 15` counts nobody."""
+        return self._clock(j) is not None
+
     def _core(self, j: int, *, between: bool) -> tuple[Measure, int] | None:
-        share = self._one_in(j)
+        share = self._one_in(j) or self._clock(j)
         if share is not None:
             return share
         part = self._share(j)

@@ -43,6 +43,13 @@ _EGO_ACTS = frozenset(
         'slow',
         'cross',
         'follow',
+        'accelerate',
+        'start',
+        'change_lane',
+        'yield',
+        'turn_left',
+        'turn_right',
+        'wait',
     }
 )
 _BY_HEIGHT = frozenset({'lowest', 'lower', 'bottom', 'middle', 'highest', 'upper', 'top'})
@@ -423,7 +430,9 @@ class NounReader:
         if found is None:
             return None
         length, sense = found
-        if self._words[i] == 'i' and not self._acts(i + 1):
+        aside = self._words[i + 1] if i + 1 < len(self._words) else ''
+        acts = i + 2 if aside in ('then', 'now', 'also', 'only', 'just') else i + 1
+        if self._words[i] == 'i' and not self._acts(acts):
             return None  # `I think that …`
         if self._words[i] == 'its' and self._lexicon.longest_of(
             self._words, i + 1, (Tag.MESSAGE, Tag.LINK)

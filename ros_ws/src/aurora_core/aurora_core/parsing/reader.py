@@ -9,16 +9,14 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from aurora_core.parsing import values
-from aurora_core.parsing.atoms import ACTORS, AtomKind, NounKind, needs_nothing
+from aurora_core.parsing.atoms import ACTORS, AtomKind, NounKind, NounPhrase, needs_nothing
 from aurora_core.parsing.constructions import actions, messages
 from aurora_core.parsing.constructions.demands import demands
+from aurora_core.parsing.constructions.distances import DistanceCause
 from aurora_core.parsing.constructions.flight_details import flight_details
 from aurora_core.parsing.constructions.noun_places import noun_places
 from aurora_core.parsing.constructions.states import adjectives
-from aurora_core.parsing.constructions.triggers import (
-    Cause,
-    cause,
-)
+from aurora_core.parsing.constructions.triggers import ELAPSED, Cause, cause
 from aurora_core.parsing.constructions.world import world_words
 from aurora_core.parsing.criteria.criterion import Criterion
 from aurora_core.parsing.criteria.meaning import Meaning
@@ -38,6 +36,8 @@ from aurora_core.parsing.sequence import (
     after_sight,
     after_told,
     before_told,
+    ends_of_own,
+    got_message,
     in_sequence,
     is_arrival,
     is_earlier,
@@ -53,6 +53,8 @@ from aurora_core.parsing.sequence import (
 from aurora_core.spec.parameter import Parameter, Span
 from aurora_core.spec.scenario import (
     AgentAction,
+    EventAction,
+    EventDoneTrigger,
     MessageTrigger,
     SendMessage,
     TimeTrigger,
@@ -71,14 +73,21 @@ _UNTIL_THEN = re.compile(
 )
 
 
+_WAS_DOING = re.compile(r'\b(?:was|were|had been|has been|have been)\s+\w+ing\b')
+
+
 def _waits_for(frame: Frame) -> bool:
     return frame.key in HAPPENS
+
+
+def _on_ground(nouns: Sequence[NounPhrase]) -> bool:
+    return bool(nouns) and nouns[0].kind in (NounKind.AGENT, NounKind.VEHICLE, NounKind.EGO)
 
 
 def _is_earlier_state(frame: Frame) -> bool:
     """`…, until then it follows the bus`: what holds before the event is no effect of it."""
     told = frame.scene.prompt[frame.piece.start : frame.piece.end].lower()
-    return _UNTIL_THEN.match(told) is not None
+    return _UNTIL_THEN.match(told) is not None or _WAS_DOING.search(told) is not None
 
 
 class Reader:
@@ -97,7 +106,7 @@ class Reader:
 
     def read(self, pieces: Sequence[Piece]) -> None:
         """Read all clauses."""
-        self._read(pieces)
+        self._read(ends_of_own(pieces))
         self._drop_held(-1)
 
     def _read(self, pieces: Sequence[Piece]) -> None:
@@ -125,7 +134,12 @@ class Reader:
                 i += 1
             elif piece.link in _CAUSES and piece.opens and same and nxt is not None:
                 self._leading(piece, nxt)
-            elif nxt is not None and same and nxt.then and (is_arrival(piece) or leads_to(piece)):
+            elif (
+                nxt is not None
+                and same
+                and (nxt.then or (got_message(piece) and nxt.link is Link.MAIN))
+                and (is_arrival(piece) or leads_to(piece) or got_message(piece))
+            ):
                 self._leading(piece, nxt)  # `the bus arrives at the station, then …`
             elif same and nxt is not None and is_earlier(nxt) and piece.link is Link.MAIN:
                 self._leading(replace(nxt, opens=True), piece)
@@ -218,6 +232,7 @@ class Reader:
         frame = self._open(piece)
         if following is not None:
             self._named_later(frame, following)
+            self._acts_later(frame, following)
         if piece.link in (Link.UNLESS, Link.BEFORE, Link.UNTIL, Link.WHEN):
             # alone such a clause has no effect that it could govern
             if piece.link is Link.BEFORE:
@@ -230,9 +245,11 @@ class Reader:
         elif main and self._unknown_cause == piece.sentence:
             self._unknown_cause = -1
             self._without_cause(frame)
-        elif not self._told_to(frame) and not self._follows_event(frame):
+        elif (
+            not self._told_to(frame) and not self._later(frame) and not self._follows_event(frame)
+        ):
             before = len(self._scene.events)
-            told = later(frame) or who_was_told(frame) or after_told(frame, self._before)
+            told = who_was_told(frame) or after_told(frame, self._before)
             if not told:
                 main_clause(frame)
             self._note_fronted_time(frame, before)
@@ -249,11 +266,14 @@ class Reader:
             frame.verb is not None and frame.verb.form is VerbForm.ING and not frame.subject_nouns
         )
         if frame.key == 'finish' and not frame.subject_nouns:
-            frame.subject_nouns = Frame(following, self._scene, self.resolver).subject_nouns
+            actors = Frame(following, self._scene, self.resolver).subject_nouns
+            frame.subject_nouns = () if _on_ground(actors) else actors
             gerund = False
-        if gerund and piece.link is not Link.UNTIL and _waits_for(frame):
-            frame.subject_nouns = Frame(following, self._scene, self.resolver).subject_nouns
-            gerund = False
+        if gerund and piece.link is not Link.UNTIL:
+            actors = Frame(following, self._scene, self.resolver).subject_nouns
+            if _waits_for(frame) or piece.link is Link.WHEN or _on_ground(actors):
+                frame.subject_nouns = actors
+                gerund = False
         if gerund or piece.link is Link.UNTIL:
             upcoming = Frame(following, self._scene, self.resolver)
             if not frame.subject_nouns and upcoming.subject_nouns:
@@ -272,15 +292,35 @@ class Reader:
             world_words(frame)
             self._scene.clause.status = ClauseStatus.ENCODED
             self._held = (found, self._scene.clause, piece.sentence, delay)
-        elif piece.link is Link.AFTER or frame.has_mark(AtomKind.LINK.value):
+        elif (
+            piece.link is Link.AFTER
+            or frame.has_mark(AtomKind.LINK.value)
+            or (
+                frame.verb is not None
+                and frame.verb.form is VerbForm.ING
+                and self._is_flown(frame)
+            )
+        ):
             main_clause(frame)  # `if the link loses 20 % of the messages`: no event, a value
         else:
             self._unknown_cause = piece.sentence
         self._close(frame)
 
+    @staticmethod
+    def _is_flown(frame: Frame) -> bool:
+        """`when tracking the bus, the drone …`: a phase that goes on."""
+        return frame.key in ('hover', 'track', 'follow', 'orbit', 'navigate', 'observe', 'fly')
+
     def _again(self, frame: Frame) -> Cause | None:
         """`…, and when it does, …`: the cause is what the clause in front tells."""
-        if self._before is None or not is_ellipsis(frame.piece):
+        if not is_ellipsis(frame.piece):
+            return None
+        named = any(n.kind is not NounKind.PRONOUN for n in frame.subject_nouns)
+        who = frame.subjects() if named else ()
+        for event in reversed(self._scene.events):  # `after the truck does`
+            if who and isinstance(event.action, AgentAction) and event.action.agent == who[0].id:
+                return EventDoneTrigger(on='event_done', event=event.id)
+        if self._before is None:
             return None
         told = Frame(without_link(self._before, frame.piece.link), self._scene, self.resolver)
         if not told.subject_nouns:
@@ -297,15 +337,35 @@ class Reader:
         if upcoming and all(n.kind in ACTORS and n.kind is not NounKind.PRONOUN for n in upcoming):
             frame.subject_nouns = upcoming
 
+    def _acts_later(self, frame: Frame, following: Piece) -> None:
+        """`While following a van, the drone …`: who follows is named behind."""
+        gerund = frame.verb is not None and frame.verb.form is VerbForm.ING
+        if gerund and not frame.subject_nouns and frame.piece.head is None:
+            upcoming = Frame(following, self._scene, self.resolver).subject_nouns
+            if upcoming and all(n.kind in ACTORS for n in upcoming):
+                frame.subject_nouns = upcoming
+
     def _effect_of_held(self, frame: Frame) -> None:
         assert self._held is not None
         found, clause, sentence, delay = self._held
         self._held = None
         shared_words(frame)
         flying = self._scene.uavs
+        frame.watched = not isinstance(found, MessageTrigger)
         if messages.is_command(frame) and len(flying) == 1:
             frame.heir = flying[0]  # `if the van exceeds 15 m/s, notify the police`
         action = actions.action(frame)
+        for one in actions.together(frame) if action is None else ():
+            event = complete_event(self._scene, found, one, frame.span, (clause,))
+            if event is not None:
+                event.delay = delay
+                self._last = (event, sentence)
+            if one.do in ('brake', 'land', 'ascend') or event is not None:
+                action = one
+        if action is not None and self._last is not None and self._last[0].action == action:
+            messages.link_values(frame)
+            demands(frame)
+            return
         if action is None:
             clause.status = ClauseStatus.NOT_ENCODED
             clause.notes.append('what should happen then was not understood')
@@ -339,6 +399,13 @@ class Reader:
         stated = made[-1].trigger.at_s.span
         if stated is not None and stated.end <= frame.verb.start:
             self._last = (made[-1], frame.piece.sentence)
+
+    def _later(self, frame: Frame) -> bool:
+        """`…, and 5 s later it starts again`: also where the sentence has a cause."""
+        if not later(frame):
+            return False
+        self._last = None
+        return True
 
     def _told_to(self, frame: Frame) -> bool:
         """`the RSU tells the truck to stop`: the receiver acts when the message arrives."""
@@ -378,17 +445,39 @@ class Reader:
         """`When …, the drone alerts the ego and the ego brakes`: a second effect of one cause."""
         if self._last is None or self._last[1] != frame.piece.sentence:
             return False
-        if frame.piece.link is not Link.MAIN or _is_earlier_state(frame):
+        if _is_earlier_state(frame):
+            return False
+        if frame.piece.link is not Link.MAIN and not self._told_head(frame):
             return False
         shared_words(frame)
         action = actions.action(frame)
         if action is None:
             return False
-        event = same_cause(self._scene, self._last[0], action, frame.span, then=frame.piece.then)
+        event = self._when_told(frame, action) or same_cause(
+            self._scene, self._last[0], action, frame.span, then=frame.piece.then
+        )
         self._last = (event, frame.piece.sentence)
         messages.link_values(frame)
         demands(frame)
         return True
+
+    def _told_head(self, frame: Frame) -> bool:
+        """`…, it messages the van, which then stops`: whoever is told is the head."""
+        before = self._last[0].action if self._last is not None else None
+        head = frame.piece.head
+        if frame.piece.link is not Link.RELATIVE or head is None or head.noun is None:
+            return False
+        known = [e.id for e in self.resolver.known(head.noun)]
+        return isinstance(before, SendMessage) and known == [before.receiver]
+
+    def _when_told(self, frame: Frame, action: EventAction) -> EventDraft | None:
+        """`…, the drone warns the car and the car brakes`: once it has the message."""
+        before = self._last[0].action if self._last is not None else None
+        who = action.agent if isinstance(action, AgentAction) else None
+        if not isinstance(before, SendMessage) or before.receiver != who:
+            return None
+        heard = MessageTrigger(on='message_received', by=before.receiver, sender=before.sender)
+        return complete_event(self._scene, heard, action, frame.span, ())
 
     def _effect_then_cause(self, piece: Piece, because: Piece) -> None:
         """`… alerts the ego when the van comes within 20 m`."""
@@ -415,7 +504,8 @@ class Reader:
             self._close(second)
             return
         delay = self._delay(second)
-        found = cause(second) if action is not None else None
+        found = (cause(second) or self._again(second)) if action is not None else None
+        found = self._about_the_told(second, found, action)
         if found is None or action is None:
             if action is not None:
                 effect_clause.notes.append('its cause was not understood')
@@ -435,6 +525,18 @@ class Reader:
         messages.link_values(second)
         self._close(second)
 
+    def _about_the_told(
+        self, frame: Frame, found: Cause | None, action: EventAction | None
+    ) -> Cause | None:
+        """`alerts it when it is closer than 60 m to a bus`: no UAV drives up to a bus."""
+        if not isinstance(found, DistanceCause) or not isinstance(action, SendMessage):
+            return found
+        told = self._scene.by_id(action.receiver)
+        pronoun = all(n.kind is NounKind.PRONOUN for n in frame.subject_nouns)
+        if told is None or told.is_uav or not found.a.is_uav or not pronoun:
+            return found
+        return found if found.b in (None, told.id) else replace(found, a=told)
+
     @staticmethod
     def _delay(frame: Frame) -> Parameter | None:
         """Take `5 s` of `5 s after the bus stops`."""
@@ -447,6 +549,8 @@ class Reader:
             return None
         if frame.verb is None or not values.accepts('delay', adjunct.measure):
             return None
+        if frame.key in ELAPSED and not frame.subject_nouns:
+            return None  # `when 10 s have passed`
         adjunct.used = True
         return values.explicit('delay', adjunct.measure)
 

@@ -13,10 +13,13 @@ from aurora_core.parsing.outcome import Refusal, RefusalKind
 from aurora_core.parsing.pronouns import Fits, PronounResolver, anything
 from aurora_core.parsing.scene import Entity, Scene
 from aurora_core.spec.parameter import Span
-from aurora_core.spec.vocabulary import AgentType, Role
+from aurora_core.spec.scenario import Placement
+from aurora_core.spec.vocabulary import AgentType, Relation, Role
 
 _VEHICLES = frozenset(set(AgentType) - {AgentType.PEDESTRIAN, AgentType.RSU})
 MOST_AGENTS = 200
+_FRONT = frozenset({'front', 'leading', 'lead', 'preceding'})
+_REAR = frozenset({'rear', 'trailing', 'back', 'following'})
 
 
 def _last_words(name: str) -> tuple[str, ...]:
@@ -348,6 +351,9 @@ class Resolver:
             plain = [e for e in plain if e.seen == latest]
         told = [e for e in plain if self._scene.speaks_of(e)]
         plain = told if len(told) == 1 else plain  # a scene is about whom something is said of
+        pair = self._front_or_rear(noun, plain)
+        if pair is not None:
+            return (pair,)
         if len(plain) > 1:
             self._scene.questions.append(
                 f'Which one do you mean by {self._quote(noun)}: '
@@ -358,6 +364,18 @@ class Resolver:
         if only_ego and noun.determiner is Determiner.BARE:
             return self._new(noun)
         return (chosen,)
+
+    @staticmethod
+    def _front_or_rear(noun: NounPhrase, known: Sequence[Entity]) -> Entity | None:
+        """`two cars …; the front car …, the rear car …`: the first drives ahead of the second."""
+        if len(known) != 2 or any(e.is_uav for e in known):
+            return None
+        front, rear = known
+        if not noun.labels & (_FRONT | _REAR) or front.group is None:
+            return None
+        if not front.placements:
+            front.placements.append(Placement(relation=Relation.AHEAD, of=rear.id))
+        return front if noun.labels & _FRONT else rear
 
     @staticmethod
     def _same_kind(entity: Entity, noun: NounPhrase) -> bool:

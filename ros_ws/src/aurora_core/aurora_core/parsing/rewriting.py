@@ -14,9 +14,12 @@ from aurora_core.parsing.atoms import Atom, AtomKind, NounKind, NounPhrase
 from aurora_core.parsing.clefts import plain_order
 from aurora_core.parsing.inversions import straighten
 from aurora_core.parsing.measures import LENGTH
+from aurora_core.parsing.moments import dated
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.nominal import predicates
+from aurora_core.parsing.nominal_causes import verbal
 from aurora_core.parsing.pieces import TRANSPARENT
+from aurora_core.parsing.radio import radio
 from aurora_core.parsing.roles import cast
 from aurora_core.parsing.statements import value_statements
 from aurora_core.parsing.wrapping import unwrap
@@ -25,6 +28,28 @@ from aurora_core.spec.parameter import Bound, Span
 # Words that take back the number in front of them (listed among the frames of the lexicon).
 _TAKES_BACK = frozenset(
     {'let me say', 'sorry', 'i mean', 'or rather', 'rather', 'make that', 'make it', 'correction'}
+)
+# Words of sequence that stand at the end of what they open (listed among `then_words`).
+_AS_A_RESULT = frozenset(
+    {
+        'in response',
+        'in reaction',
+        'in return',
+        'as a result',
+        'as a consequence',
+        'consequently',
+        'accordingly',
+        'in consequence',
+        'thereupon',
+        'as a reaction',
+        'as a response',
+        'afterwards',
+        'subsequently',
+        'thereafter',
+        'after that',
+        'next',
+        'in answer',
+    }
 )
 _BREAKS = (AtomKind.COMMA, AtomKind.STOP, AtomKind.THEN, AtomKind.CONJUNCTION)
 _PAUSES = (AtomKind.COMMA, AtomKind.STOP, AtomKind.FILL, AtomKind.UNKNOWN, AtomKind.THING)
@@ -44,6 +69,7 @@ class Rewritten:
 def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
     """Return the atoms with shorthand written out and retracted numbers left out."""
     told, background = unwrap(cast(atoms, prompt), prompt)
+    told = dated(verbal(radio(told, prompt), prompt), prompt)
     told = value_statements(
         predicates(plain_order(_places(_shares(_scenes(told, prompt))), prompt), prompt),
         prompt,
@@ -182,6 +208,13 @@ def _commands(atoms: Sequence[Atom], i: int) -> bool:
 def _fronted(atoms: list[Atom]) -> list[Atom]:
     """`and the ego then stops`: in sequence, wherever the word stands."""
     moved = list(atoms)
+    for i in range(1, len(moved)):
+        last = i + 1 == len(moved) or moved[i + 1].kind is AtomKind.STOP
+        if last and moved[i].kind is AtomKind.THEN and moved[i].key in _AS_A_RESULT:
+            begin = i
+            while begin and moved[begin - 1].kind not in _BREAKS:
+                begin -= 1
+            moved.insert(begin, moved.pop(i))  # `the car brakes in response`
     for i in range(1, len(moved) - 1):
         verbal = moved[i + 1].kind in (AtomKind.VERB, AtomKind.AUXILIARY)
         worded = moved[i].kind is AtomKind.THEN and moved[i].key != '→'

@@ -52,7 +52,7 @@ def _sentence(atoms: list[Atom], number: int) -> list[Piece]:
 def clauses(atoms: Sequence[Atom], number: int) -> list[Piece]:
     """Cut a sentence, or a stretch of one, into clauses."""
     plain, asides = take_out(list(atoms))
-    raw = _cut_at_markers(_plain_prepositions(plain))
+    raw = _cut_at_markers(_end_causes(_plain_prepositions(plain)))
     parts = [part for whole in raw for part in _cut_behind_comparison(whole)]
     pieces = [piece for part in parts for piece in cut_at_verbs(part)]
     pieces = _causes_first(_attach_adjuncts(_delays(fill_gaps(pieces))))
@@ -88,11 +88,26 @@ def _plain_prepositions(atoms: list[Atom]) -> list[Atom]:
         timed = first is not None and first.key == TIME and atom.key in _MAYBE_PREPOSITION
         if has_verb(ahead) and not timed:
             continue
+        if atom.key == 'when' and _is_count(ahead) and not opens_sentence(atoms, i):
+            changed[i] = replace(atom, kind=AtomKind.FILL)
+            continue
         if atom.key in _MAYBE_PREPOSITION:
             changed[i] = replace(atom, kind=AtomKind.PREPOSITION)
         elif atom.key == 'while' and not any(a.is_actor for a in ahead):
             changed[i] = replace(atom, kind=AtomKind.FILL)
     return changed
+
+
+def _is_count(ahead: Sequence[Atom]) -> bool:
+    """`circles it once with a radius of 40 m`: how often, not when."""
+    first = first_solid(ahead)
+    preposition = first is not None and first.kind is AtomKind.PREPOSITION
+    return preposition and not any(a.is_actor for a in ahead)
+
+
+def opens_sentence(atoms: Sequence[Atom], i: int) -> bool:
+    """Return whether only small words or a pause stand in front."""
+    return i == 0 or atoms[i - 1].kind in (AtomKind.COMMA, AtomKind.CONJUNCTION, AtomKind.THEN)
 
 
 def _inverted(atoms: Sequence[Atom], i: int) -> bool:
@@ -128,6 +143,56 @@ def _cut_behind_comparison(piece: Piece) -> list[Piece]:
         if atoms[i].kind is AtomKind.MEASURE and acts and not has_verb(atoms[:i]):
             return [replace(piece, atoms=atoms[: i + 1]), Piece(atoms=atoms[i + 1 :])]
     return [piece]
+
+
+# Predicates that need nothing behind them.
+_ALONE = frozenset(
+    {'brake', 'stop', 'start', 'slow', 'accelerate', 'change_lane', 'yield', 'appear', 'vanish'}
+)
+
+
+def _end_causes(atoms: list[Atom]) -> list[Atom]:
+    """`when it exceeds 15 m/s a truck ahead of it brakes`: a comma where the effect begins."""
+    ended = list(atoms)
+    i = 0
+    while i < len(ended):
+        if ended[i].kind is AtomKind.SUBORDINATOR and ended[i].key in ('when', 'after', 'until'):
+            run = []
+            for atom in ended[i + 1 :]:
+                if atom.kind in MARKERS and atom.kind is not AtomKind.RELATIVE:
+                    break
+                run.append(atom)
+            cut = _missing_comma(run)
+            if cut is not None:
+                at = run[cut].start
+                ended.insert(i + 1 + cut, Atom(kind=AtomKind.COMMA, key=',', start=at, end=at))
+        i += 1
+    return ended
+
+
+def _missing_comma(atoms: Sequence[Atom]) -> int | None:
+    """Return where the effect begins behind a cause that no comma ends."""
+    verbs = [i for i, a in enumerate(atoms) if a.kind is AtomKind.VERB]
+    if len(verbs) < 2:
+        return None
+    for i in range(verbs[0] + 1, len(atoms)):
+        before = atoms[i - 1]
+        if not atoms[i].is_actor:
+            continue
+        full = (
+            before.kind is AtomKind.MEASURE or before.is_place or before.kind is AtomKind.IN_VIEW
+        )
+        full = full or (before.is_actor and before.noun is not atoms[i].noun)
+        full = full or (i - 1 == verbs[0] and before.key in _ALONE)
+        behind = [k for k in verbs if k > i]
+        if not full or not behind or any(a.kind is AtomKind.VERB for a in atoms[verbs[0] + 1 : i]):
+            continue
+        helped = any(a.kind is AtomKind.AUXILIARY for a in atoms[i:])
+        finite = any(atoms[k].form in (VerbForm.THIRD, VerbForm.BASE) for k in behind)
+        describes = any(a.kind is AtomKind.RELATIVE for a in atoms[:i])
+        if (finite or helped) and not describes:
+            return i
+    return None
 
 
 def _until_marker(atoms: Sequence[Atom], start: int) -> list[Atom]:

@@ -4,10 +4,12 @@
 
 from __future__ import annotations
 
+import re
+from collections.abc import Sequence
 from dataclasses import replace
 
 from aurora_core.parsing import values
-from aurora_core.parsing.adjuncts import AdjunctKind
+from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
 from aurora_core.parsing.atoms import AtomKind, NounKind
 from aurora_core.parsing.constructions import actions
 from aurora_core.parsing.constructions.triggers import cause
@@ -37,30 +39,85 @@ _REACTIONS = frozenset(
     {'brake', 'stop', 'slow', 'accelerate', 'change_lane', 'yield', 'start', 'cross'}
 )
 _MOMENTS = (EventDoneTrigger, MessageTrigger, AltitudeTrigger, ArrivalTrigger, VisibilityTrigger)
+_LATER = (
+    'later',
+    'afterwards',
+    'after that',
+    'after this',
+    'thereafter',
+    'subsequently',
+    'after it',
+)
+_LAGGING = re.compile(r'\b(delay|lag|pause|wait|another|further|more) (of )?$')
 _GROUND = (NounKind.AGENT, NounKind.VEHICLE, NounKind.EGO)
 
 
 def later(frame: Frame) -> bool:
     """`…; ten seconds later, the bus starts`: so long after the last event."""
     scene = frame.scene
-    adjunct = frame.time('')
-    if adjunct is None or adjunct.measure is None or not scene.events:
+    adjunct = _lag(frame)
+    if adjunct is None or adjunct.measure is None or not _known_event(frame):
         return False
-    behind = scene.prompt[adjunct.end :].lstrip().lower()
-    told = behind.startswith(('later', 'afterwards', 'after that'))
-    if not told or not values.accepts('delay', adjunct.measure):
+    if not values.accepts('delay', adjunct.measure):
         return False
     action = actions.action(frame)
     if action is None:
         return False
     adjunct.used = True
-    after = EventDoneTrigger(
-        on='event_done',
-        event=scene.events[-1].id,
-        after_s=values.explicit('delay', adjunct.measure),
+    lag = values.explicit('delay', adjunct.measure)
+    if adjunct.prep == 'within':
+        lag = values.rebound(lag, Bound.AT_MOST)
+    first = scene.events[-1]
+    if isinstance(action, AgentAction) and first.action == action and len(scene.events) > 1:
+        first = scene.events[-2]
+    complete_event(
+        scene,
+        EventDoneTrigger(on='event_done', event=first.id, after_s=lag),
+        action,
+        frame.span,
+        (),
     )
-    complete_event(scene, after, action, frame.span, ())
     return True
+
+
+def _lag(frame: Frame) -> Adjunct | None:
+    """Return the time of `5 s later`, `with a delay of 5 s`, `then … within 5 s`."""
+    adjunct = frame.time('', 'after')
+    if adjunct is not None:
+        behind = frame.scene.prompt[adjunct.end :].lstrip(' ,').lower()
+        if behind.startswith(_LATER) or _LAGGING.search(_in_front(frame, adjunct)):
+            return adjunct
+    delayed = frame.attribute('latency')
+    if delayed is not None and not frame.has_mark(AtomKind.LINK.value) and frame.key in _REACTIONS:
+        return delayed
+    soon = frame.time('within')
+    return soon if soon is not None and frame.piece.then and frame.key in _REACTIONS else None
+
+
+def _in_front(frame: Frame, adjunct: Adjunct) -> str:
+    start = adjunct.measure.start if adjunct.measure is not None else adjunct.start
+    return frame.scene.prompt[max(0, start - 24) : start].lower()
+
+
+def _known_event(frame: Frame) -> bool:
+    """Return whether something happened before; a plain `brakes` in front becomes an event."""
+    scene = frame.scene
+    if scene.events:
+        return True
+    for clause in reversed(scene.clauses[:-1]):
+        for entity in clause.subjects:
+            done = [b for b in entity.behaviors if b.kind.value in _REACTIONS]
+            if not done or entity.is_uav:
+                continue
+            entity.behaviors.remove(done[-1])
+            action = AgentAction.model_validate(
+                {'do': done[-1].kind.value, 'agent': entity.id, 'value_mps': done[-1].speed_mps}
+            )
+            made = EventDraft(id=scene.new_id('e'), action=action, span=clause.span)
+            scene.events.append(made)
+            clause.ids[made.id] = None
+            return True
+    return False
 
 
 def who_was_told(frame: Frame) -> bool:
@@ -155,7 +212,11 @@ def _reacts(frame: Frame) -> bool:
     scene = frame.scene
     same = [c for c in scene.clauses[:-1] if c.sentence == frame.piece.sentence]
     told = [e for e in scene.events if any(e.id in c.ids for c in same)]
-    if not told or not frame.subject_nouns or frame.key not in _REACTIONS:
+    if not frame.subject_nouns or frame.key not in _REACTIONS:
+        return False
+    if not told and _known_event(frame):
+        told = [e for e in scene.events if any(e.id in c.ids for c in same)]
+    if not told:
         return False
     action = actions.agent_action(frame)
     if action is None:
@@ -224,6 +285,25 @@ def after_sight(scene: Scene, before: int, seen: VisibilityTrigger | None) -> No
             event.trigger = seen
 
 
+def ends_of_own(pieces: Sequence[Piece]) -> list[Piece]:
+    """`flies a line, when finished it messages …`: no flight waits for its own end."""
+    marked = list(pieces)
+    for k in range(1, len(marked) - 1):
+        piece, behind = marked[k], marked[k + 1]
+        verb = next((a for a in piece.atoms if a.kind is AtomKind.VERB), None)
+        ends = verb is not None and verb.key == 'finish' and piece.link in (Link.WHEN, Link.AFTER)
+        named = any(
+            a.noun is not None and a.is_actor and a.noun.kind is not NounKind.PRONOUN
+            for a in piece.atoms
+        )
+        before = next((a.key for a in marked[k - 1].atoms if a.kind is AtomKind.VERB), '')
+        if before not in _PHASES | {'trace', 'visit', ''} or behind.then:
+            continue
+        if ends and not named and behind.link is Link.MAIN and behind.sentence == piece.sentence:
+            marked[k] = replace(piece, opens=True)
+    return marked
+
+
 def is_arrival(piece: Piece) -> bool:
     """Return whether a clause only tells that a ground agent gets somewhere."""
     verb = next((a for a in piece.atoms if a.kind is AtomKind.VERB), None)
@@ -233,12 +313,27 @@ def is_arrival(piece: Piece) -> bool:
     return told and grounded and any(a.is_place for a in piece.atoms)
 
 
+def got_message(piece: Piece) -> bool:
+    """`B gets the message and tracks the bus`: told as a fact, meant as a cause."""
+    verb = next((a for a in piece.atoms if a.kind is AtomKind.VERB), None)
+    got = verb is not None and verb.key in ('receive', 'come', 'contain')
+    message = any(a.kind is AtomKind.MESSAGE for a in piece.atoms) or (
+        verb is not None and verb.key == 'receive'
+    )
+    named = any(a.is_actor for a in piece.atoms)
+    source = any(a.kind is AtomKind.PREPOSITION for a in piece.atoms)
+    denied = any(a.kind is AtomKind.NEGATION for a in piece.atoms)
+    return piece.link is Link.MAIN and got and message and named and not source and not denied
+
+
+# What happens at once and may be a cause.
+_AT_ONCE = ('vanish', 'exceed', 'lose', 'fall_below', 'receive', 'appear')
+
+
 def leads_to(piece: Piece) -> bool:
     """`van gets occluded -> drone warns the ego`: only what happens at once is a cause."""
     verb = next((a for a in piece.atoms if a.kind is AtomKind.VERB), None)
-    return (
-        piece.link is Link.MAIN and verb is not None and verb.key in ('vanish', 'exceed', 'lose')
-    )
+    return piece.link is Link.MAIN and verb is not None and verb.key in _AT_ONCE
 
 
 def is_phase(piece: Piece) -> bool:
@@ -257,6 +352,8 @@ def is_earlier(piece: Piece) -> bool:
     if piece.link is not Link.AFTER:
         return False
     first = first_solid(piece.atoms)
+    if any(a.kind is AtomKind.MESSAGE for a in piece.atoms):
+        return False  # `lands after getting the message`
     gerund = first is not None and first.form.value == 'ing' and first.key not in HAPPENS
     return gerund or is_phase(piece)
 

@@ -59,6 +59,9 @@ _KINDS = {
     Tag.STATE: AtomKind.STATE,
     Tag.DEFINITE: AtomKind.FILL,
     Tag.INDEFINITE: AtomKind.FILL,
+    Tag.BECAUSE: AtomKind.BECAUSE,
+    Tag.CAUSING: AtomKind.CAUSING,
+    Tag.HAPPENING: AtomKind.HAPPENING,
 }
 
 
@@ -214,7 +217,7 @@ class _Tagger:
         special = self._longer_phrase(i)
         if special is not None:
             return special
-        noun = self._nouns.read(i)
+        noun = None if self._measures.starts_clock(i) else self._nouns.read(i)
         if noun is not None:
             phrase, stop = noun
             self._atoms.append(
@@ -242,7 +245,9 @@ class _Tagger:
             return stop
         matches = self._lexicon.matches(self._words, i)
         for length, senses in matches:
-            if length > 1 and (self._noun_here(i, senses) or self._and_forth(i + length)):
+            stop = i + length
+            split = self._and_forth(stop) or self._tells_apart(stop)
+            if length > 1 and (self._noun_here(i, senses) or split):
                 continue  # `an orbit around …`
             if self._take(i, length, senses):
                 return i + length
@@ -267,7 +272,8 @@ class _Tagger:
         if not matches or matches[0][0] == 1:
             return None
         length, senses = matches[0]
-        if self._noun_here(i, senses) or self._and_forth(i + length):
+        split = self._and_forth(i + length) or self._tells_apart(i + length)
+        if self._noun_here(i, senses) or split:
             return None  # `an orbit around …`
         if any(
             s.tag
@@ -296,6 +302,15 @@ class _Tagger:
         return self._words[stop - 1] == 'back' and tuple(self._words[stop : stop + 2]) == (
             'and',
             'forth',
+        )
+
+    def _tells_apart(self, stop: int) -> bool:
+        """`to the rear car`: the last word of the phrase belongs to the noun behind it."""
+        if stop < 2 or self._words[stop - 1] not in ('rear', 'front', 'back'):
+            return False
+        tags = (Tag.AGENT, Tag.UAV, Tag.VEHICLE)
+        return self._words[stop - 2] == 'the' and (
+            self._lexicon.longest_of(self._words, stop, tags) is not None
         )
 
     def _noun_here(self, i: int, senses: tuple[Sense, ...]) -> bool:
@@ -350,7 +365,8 @@ class _Tagger:
         if not self._atoms:
             return False
         last = self._atoms[-1]
-        if last.kind is AtomKind.VERB and last.key in ('send', 'receive', 'trace'):
+        told = 'send' in (last.key, last.verb_key) and last.kind is AtomKind.CAUSATIVE
+        if told or (last.kind is AtomKind.VERB and last.key in ('send', 'receive', 'trace')):
             return True  # `sends alert to it`, `makes circles`
         if last.kind in (
             AtomKind.MEASURE,

@@ -30,6 +30,7 @@ _TABLES = [
         'commands.yaml',
         'wrapped.yaml',
         'criteria.yaml',
+        'events.yaml',
     )
 ]
 _MARK = {Provenance.EXPLICIT: '', Provenance.INFERRED: 'i', Provenance.DEFAULT: 'd'}

@@ -8,7 +8,7 @@ from typing import Literal
 
 from aurora_core.parsing import values
 from aurora_core.parsing.adjuncts import AdjunctKind
-from aurora_core.parsing.atoms import ACTORS
+from aurora_core.parsing.atoms import ACTORS, NounKind
 from aurora_core.parsing.constructions import missions
 from aurora_core.parsing.constructions.flight_values import take_flight_values
 from aurora_core.parsing.constructions.flyers import flyers
@@ -30,9 +30,11 @@ _AGENT_DO: dict[str, AgentDo] = {
     'yield': 'yield',
     'start': 'start',
     'cross': 'cross',
+    'step_onto': 'cross',
     'wait': 'stop',
     'drive': 'start',
     'walk': 'start',
+    'ascend': 'start',
 }
 # Only as the effect of an event: a plain `drives` is a behaviour.
 _ONLY_TRIGGERED = frozenset({'wait', 'drive', 'walk'})
@@ -43,9 +45,37 @@ def action(frame: Frame) -> EventAction | None:
     return message(frame) or agent_action(frame, triggered=True) or _uav_action(frame)
 
 
+def together(frame: Frame) -> tuple[EventAction, ...]:
+    """`all of them land`, `the trucks stop`: one effect for each."""
+    if frame.negated:
+        return ()
+    found: tuple[EventAction, ...] = ()
+    if frame.key == 'land':
+        uavs = flyers(frame)
+        found = tuple(UavAction(do='land', uav=u.id) for u in uavs)
+        frame.scene.became(*(u.id for u in uavs))
+    elif frame.key in ('ascend', 'descend'):
+        uavs = flyers(frame)
+        values_found = take_flight_values(frame, MissionMode.HOVER, None)
+        height = values_found.altitude
+        if height is not None:
+            found = tuple(UavAction(do='ascend', uav=u.id, altitude_m=height) for u in uavs)
+            frame.scene.became(*(u.id for u in uavs))
+        else:
+            values_found.release()
+    elif frame.key in _AGENT_DO and frame.attribute('speed') is None:
+        do = _AGENT_DO[frame.key]
+        agents = frame.subjects(mobile)
+        found = tuple(AgentAction(do=do, agent=e.id) for e in agents)
+        frame.scene.became(*(e.id for e in agents))
+    return found if len(found) > 1 else ()
+
+
 def agent_action(frame: Frame, *, triggered: bool = False) -> AgentAction | None:
     """Read `brakes`, `stops`, `slows to 5 m/s`, `changes lanes`."""
     if frame.negated or frame.key not in _AGENT_DO:
+        return None
+    if frame.key == 'ascend' and not _sets_off(frame):
         return None
     if frame.key in _ONLY_TRIGGERED and not triggered:
         return None
@@ -65,7 +95,7 @@ def agent_action(frame: Frame, *, triggered: bool = False) -> AgentAction | None
             frame.objects([n for n in other.nouns if n.kind in ACTORS])
     if frame.key in ('stop', 'wait'):
         _stopped_at(frame, who[0])
-    if frame.key == 'cross':
+    if frame.key in ('cross', 'step_onto'):
         for crossed in frame.free(AdjunctKind.OBJECT):
             crossed.used = all(n.kind.value in ('street', 'place') for n in crossed.nouns)
     placed = frame.key in ('cross', 'start', 'walk', 'drive')
@@ -74,6 +104,13 @@ def agent_action(frame: Frame, *, triggered: bool = False) -> AgentAction | None
             add_placement(who[0], placement)
     frame.scene.became(who[0].id)
     return AgentAction(do=_AGENT_DO[frame.key], agent=who[0].id, value_mps=speed)
+
+
+def _sets_off(frame: Frame) -> bool:
+    """`the motorcycle takes off`."""
+    nouns = frame.subject_nouns
+    named = bool(nouns) and nouns[0].kind in (NounKind.AGENT, NounKind.VEHICLE, NounKind.EGO)
+    return named and not any(a.measure is not None for a in frame.adjuncts)
 
 
 def _stopped_at(frame: Frame, entity: Entity) -> None:

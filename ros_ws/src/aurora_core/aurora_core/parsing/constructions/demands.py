@@ -272,9 +272,15 @@ def _deadline(frame: Frame) -> None:
 def _told_within(frame: Frame) -> None:
     """`reports this to the police car within 3 s`."""
     named = frame.key == '' and _DELIVERED.search(_text(frame))  # `loss 5 %, delivery within 1 s`
-    if not (named or frame.key in ('alert', 'send', 'report')) or frame.negated:
+    denied = frame.negated and frame.key in ('last', 'be', 'come', 'contain')
+    arrives = frame.key in ('receive', 'reach', 'come', 'be', 'contain', 'last', 'overtake') and (
+        frame.has_mark(AtomKind.MESSAGE.value) or _about_message(frame)
+    )
+    if not (named or arrives or frame.key in ('alert', 'send', 'report')):
         return
-    adjunct = frame.time('within')
+    if frame.negated and not (denied and arrives):
+        return
+    adjunct = frame.time('within') or (_late(frame) if arrives else None)
     link = _link(frame)
     if adjunct is None or adjunct.measure is None or link is None:
         return
@@ -282,9 +288,34 @@ def _told_within(frame: Frame) -> None:
         return
     assert link.receiver is not None
     adjunct.used = True
+    for mark in frame.free(AdjunctKind.MARK, AtomKind.MESSAGE.value):
+        mark.used = True
+    if arrives:
+        frame.subjects()
+        for taken in frame.free(AdjunctKind.OBJECT):
+            taken.used = True
     value = values.explicit('condition_time', adjunct.measure)
     op: Op = '<' if _STRICT.search(_in_front(frame, adjunct)) else '<='
     add_condition(frame, 'delivery_latency', (link.sender, link.receiver), op, value)
+
+
+def _about_message(frame: Frame) -> bool:
+    """`the car must get it within 1 s`: the message that was told before."""
+    told = frame.scene.links and any(e.action for e in frame.scene.events)
+    nouns = [n for n in frame.nouns() if n.kind is NounKind.PRONOUN and n.key == 'it']
+    return (
+        bool(told) and bool(nouns) and frame.key in ('receive', 'come', 'reach', 'last', 'contain')
+    )
+
+
+def _late(frame: Frame) -> Adjunct | None:
+    """`may take no longer than 1.5 s`, `must not take more than 2 s`, `takes at most 1 s`."""
+    for adjunct in frame.free(AdjunctKind.MEASURE, TIME):
+        measure = adjunct.measure
+        most = measure is not None and measure.bound is Bound.AT_MOST
+        if most or (frame.negated and adjunct.prep in ('beyond', 'for', '')):
+            return adjunct
+    return None
 
 
 def _drift(frame: Frame) -> None:

@@ -53,6 +53,8 @@ def distance_cause(frame: Frame) -> DistanceCause | None:
             other = reference(frame, nouns)
             if other is None:
                 return None
+    if other == subjects[0].id:
+        return None
     adjunct.used = True
     return DistanceCause(
         below=below,

@@ -145,7 +145,9 @@ def _bare_length(frame: Frame, found: FlightValues, mode: MissionMode | None) ->
             for a in frame.adjuncts
         )
         away = found.standoff is not None and adjunct.prep == 'at'  # `30 m behind it at 25 m`
-        tracking = (mode is MissionMode.TRACK and not hangs and not away) or keeps
+        flying = _of_the_flyer(frame, adjunct)  # `a drone at 30 m tracks the bus`
+        above = hangs or away or flying
+        tracking = (mode is MissionMode.TRACK and not above) or keeps
         tracking = tracking or (
             mode is None
             and adjunct.prep == 'from'
@@ -173,6 +175,14 @@ def _follows_somebody(frame: Frame) -> bool:
     """`it stays at 40 m`: away from whom it tracks; who hovers has a height only."""
     drafts = frame.scene.missions
     return not drafts or drafts[-1].mode is MissionMode.TRACK
+
+
+def _of_the_flyer(frame: Frame, adjunct: Adjunct) -> bool:
+    """Return whether a length stands between the UAV and what it does."""
+    nouns = [n for n in frame.subject_nouns if n.kind is NounKind.UAV]
+    if not nouns or frame.verb is None or adjunct.prep not in ('at', ''):
+        return False
+    return nouns[-1].end <= adjunct.start and adjunct.end <= frame.verb.start
 
 
 def _duration_and_speed(frame: Frame, found: FlightValues) -> None:

@@ -29,6 +29,7 @@ BEHAVIORS = {kind.value: kind for kind in BehaviorKind} | {
     'start': BehaviorKind.DRIVE,
     'track': BehaviorKind.FOLLOW,
     'come': BehaviorKind.APPROACH,
+    'step_onto': BehaviorKind.CROSS,
     'visit': BehaviorKind.DRIVE,
     'reach': BehaviorKind.DRIVE,
     'orbit': BehaviorKind.CIRCULATE,
@@ -81,6 +82,8 @@ def behavior(frame: Frame) -> bool:
         return False
     if frame.key == 'start' and frame.free(AdjunctKind.PLACE):
         return False  # `starts 45 m behind the ego` is a place
+    if frame.key == 'come' and _gets_something(frame):
+        return False
     if frame.key == 'reach' and not any(n.kind in _GOALS for n in frame.nouns()):
         return False
     _commanded(frame)
@@ -163,6 +166,13 @@ def _goes_at(frame: Frame) -> bool:
 _COMMANDS = frozenset(
     {'drive', 'circulate', 'stop', 'brake', 'slow', 'park', 'walk', 'wait', 'start'}
 )
+
+
+def _gets_something(frame: Frame) -> bool:
+    """`the car must get it within 1 s`: a message, not somebody to drive up to."""
+    if frame.verb is None or not frame.free(AdjunctKind.OBJECT):
+        return False
+    return frame.scene.prompt[frame.verb.start : frame.verb.end].lower().startswith(('get', 'got'))
 
 
 def _commanded(frame: Frame) -> None:

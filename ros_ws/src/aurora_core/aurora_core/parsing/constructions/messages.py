@@ -42,6 +42,7 @@ def message(frame: Frame) -> SendMessage | None:
         frame.scene.clause.subjects = senders
     if not senders:
         return None
+    senders = _teller(frame, senders)
     receivers = _receivers(frame, senders)
     if not receivers:
         ego = frame.scene.ego
@@ -56,6 +57,19 @@ def message(frame: Frame) -> SendMessage | None:
     frame.scene.clause.objects = receivers
     frame.scene.became(link.id)
     return SendMessage(do='send_message', sender=senders[0].id, receiver=receivers[0].id)
+
+
+def _teller(frame: Frame, senders: tuple[Entity, ...]) -> tuple[Entity, ...]:
+    """`when an ambulance arrives, it alerts the bus`: whoever watches tells, not who is seen."""
+    flying = frame.scene.uavs
+    it = len(frame.subject_nouns) == 1 and _is_it(list(frame.subject_nouns))
+    if not it or not frame.watched or len(flying) != 1 or flying[0] in senders:
+        return senders
+    named = [n for a in frame.adjuncts for n in a.nouns]
+    if any(n.kind is NounKind.UAV for n in named) or not frame.scene.missions_of(flying[0]):
+        return senders
+    frame.scene.clause.subjects = (flying[0],)
+    return (flying[0],)
 
 
 def is_command(frame: Frame) -> bool:

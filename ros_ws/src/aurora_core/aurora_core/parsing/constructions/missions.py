@@ -85,6 +85,9 @@ def mission(frame: Frame) -> bool:
     found = take_flight_values(frame, mode, pattern, above=watching)
     if target is None:
         target = found.target
+        watched = frame.key in ('observe', 'see') and target is not None
+        if watched and target is not None and not _is_actor(frame, target):
+            mode = MissionMode.HOVER  # `100 ft above the crosswalk it watches it all`
         if mode is None and target is not None and found.altitude is not None:
             mode = _mode(frame, target, 'over')
     if mode is None and target is not None and (found.standoff or found.bearing):

@@ -6,12 +6,13 @@ from __future__ import annotations
 
 from aurora_core.parsing import values
 from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
-from aurora_core.parsing.atoms import AtomKind, NounKind
+from aurora_core.parsing.atoms import ACTORS, AtomKind, NounKind
 from aurora_core.parsing.constructions.actions import agent_action
 from aurora_core.parsing.constructions.distances import DistanceCause, distance_cause, reference
 from aurora_core.parsing.constructions.missions import mission
 from aurora_core.parsing.criteria.thresholds import threshold
 from aurora_core.parsing.frames import Frame
+from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.pronouns import anything
 from aurora_core.parsing.scene import Entity, EventDraft
 from aurora_core.spec.scenario import (
@@ -28,6 +29,8 @@ from aurora_core.spec.scenario import (
 )
 
 Cause = DistanceCause | Trigger
+# `when 10 s have passed`
+ELAPSED = ('overtake', 'drive', 'finish', 'elapse')
 
 
 def cause(frame: Frame) -> Cause | None:
@@ -68,13 +71,13 @@ def time_adjunct(frame: Frame) -> tuple[TimeTrigger, Adjunct] | None:
 
 
 def _altitude(frame: Frame) -> AltitudeTrigger | None:
-    if frame.key not in ('reach', 'ascend', 'be', 'come', 'exceed'):
+    if frame.key not in ('reach', 'ascend', 'be', 'come', 'exceed', 'visit', 'overtake', 'cross'):
         return None
     adjunct = frame.attribute('altitude')
     if adjunct is None:
-        adjunct = frame.length('', 'to', 'at')
+        adjunct = frame.length('', 'to', 'at', 'through')
     if adjunct is None or adjunct.measure is None:
-        return None
+        return _up_there(frame)
     if not values.accepts('altitude', adjunct.measure):
         return None
     uavs = frame.subjects(lambda e: e.is_uav)
@@ -88,10 +91,24 @@ def _altitude(frame: Frame) -> AltitudeTrigger | None:
     )
 
 
+def _up_there(frame: Frame) -> AltitudeTrigger | None:
+    """`goes up to 45 m, and as soon as it is there, …`."""
+    text = frame.scene.prompt[frame.piece.start : frame.piece.end].lower()
+    if not text.rstrip().endswith(('there', 'that high', 'that height', 'that altitude')):
+        return None
+    uavs = frame.subjects(lambda e: e.is_uav)
+    height = frame.scene.pending_altitude.get(uavs[0].id) if len(uavs) == 1 else None
+    if height is None:
+        return None
+    for adjunct in frame.free(AdjunctKind.OBJECT):
+        adjunct.used = True
+    return AltitudeTrigger(on='altitude_reached', uav=uavs[0].id, value_m=height)
+
+
 def _speed(frame: Frame) -> SpeedTrigger | None:
     adjunct = frame.attribute('speed')
     above = frame.key in ('exceed', 'reach', 'accelerate', 'drive', 'come')
-    below = frame.key in ('fall_below', 'slow')
+    below = frame.key in ('fall_below', 'slow', 'stop')  # `stops (< 0.5 m/s)`
     if adjunct is None or adjunct.measure is None:
         return None
     compared = frame.key in ('', 'be') and adjunct.prep in ('below', 'within', 'beyond')
@@ -142,11 +159,27 @@ def _sight(frame: Frame) -> VisibilityTrigger | None:
 
 
 def _message(frame: Frame) -> MessageTrigger | None:
-    arrived = frame.key in ('reach', 'come') and frame.has_mark(AtomKind.MESSAGE.value)
-    if frame.key != 'receive' and not arrived:
+    told = [e.action.receiver for e in frame.scene.events if isinstance(e.action, SendMessage)]
+    warned = frame.verb is not None and frame.verb.form is VerbForm.PAST
+    if frame.key == 'alert' and warned and not frame.subject_nouns and told and not frame.passive:
+        return MessageTrigger(on='message_received', by=told[-1], sender=None)  # `once warned`
+    if frame.key == 'alert' and frame.passive:
+        return _warned(frame)
+    has_it = frame.key in ('contain', 'come') and _gets_it(frame, told)
+    arrived = frame.key in ARRIVES and frame.has_mark(AtomKind.MESSAGE.value)
+    if frame.key != 'receive' and not arrived and not has_it:
         return None
     who = frame.subjects(anything)
-    told = [e.action.receiver for e in frame.scene.events if isinstance(e.action, SendMessage)]
+    if frame.key in ARRIVES and not frame.subject_nouns and told:
+        receiver = frame.scene.by_id(told[-1])  # `as soon as the message is there`
+        who = (receiver,) if receiver is not None else who
+    for adjunct in frame.free(AdjunctKind.OBJECT):
+        adjunct.used = has_it
+    for adjunct in frame.free(AdjunctKind.OBJECT) + frame.free(AdjunctKind.PHRASE, 'to'):
+        found = frame.objects([n for n in adjunct.nouns if n.kind in ACTORS]) if arrived else ()
+        if found and found[0].id in told:  # `once the message has reached the car`
+            adjunct.used = True
+            who = found
     refers = all(n.kind is NounKind.PRONOUN for n in frame.subject_nouns)
     if refers and told and all(e.id not in told for e in who):
         receiver = frame.scene.by_id(told[-1])  # `when it gets the message`: who was told
@@ -161,8 +194,30 @@ def _message(frame: Frame) -> MessageTrigger | None:
     )
 
 
+ARRIVES = ('reach', 'come', 'be', 'contain', 'keep')
+
+
+def _gets_it(frame: Frame, told: list[str]) -> bool:
+    """`once it has it`, `when the car has got that`: the message that was told before."""
+    objects = [n for a in frame.free(AdjunctKind.OBJECT) for n in a.nouns]
+    it = all(n.kind is NounKind.PRONOUN and n.key == 'it' for n in objects)
+    return bool(told) and bool(objects) and it
+
+
+def _warned(frame: Frame) -> MessageTrigger | None:
+    """`once the car has been warned (by the drone)`."""
+    patient = frame.take(AdjunctKind.OBJECT)
+    receivers = frame.objects(patient.nouns) if patient is not None else ()
+    if len(receivers) != 1:
+        return None
+    senders = frame.subjects() if frame.subject_nouns else ()
+    return MessageTrigger(
+        on='message_received', by=receivers[0].id, sender=senders[0].id if senders else None
+    )
+
+
 def _arrival(frame: Frame) -> ArrivalTrigger | None:
-    if frame.key not in ('reach', 'drive', 'come', 'be', 'walk'):
+    if frame.key not in ('reach', 'drive', 'come', 'be', 'walk', 'step_onto'):
         return None
     for adjunct in frame.free(AdjunctKind.OBJECT) + frame.free(
         AdjunctKind.PHRASE, 'at', 'to', 'in', 'on'
@@ -177,16 +232,37 @@ def _arrival(frame: Frame) -> ArrivalTrigger | None:
 
 
 def _done(frame: Frame) -> MissionDoneTrigger | None:
-    if frame.key not in ('finish', 'land'):
+    completes = frame.key == 'trace' and frame.verb is not None and _COMPLETES in _said(frame)
+    if frame.key not in ('finish', 'land') and not completes:
         return None
     uavs = frame.subjects(lambda e: e.is_uav)
+    if not uavs and not frame.subject_nouns:
+        uavs = tuple(frame.scene.uavs)  # `message the bus when done`
     if len(uavs) != 1:
         return None
-    if frame.key == 'finish':
+    if frame.key == 'finish' and frame.verb is not None and _tells_more(frame):
         mission(frame)  # `when finished with its orbit of the market`
     for mark in frame.free(AdjunctKind.MARK, AtomKind.ROUTE.value, AtomKind.PATTERN.value):
         mark.used = True
     return MissionDoneTrigger(on='mission_done', uav=uavs[0].id)
+
+
+_COMPLETES = 'complet'
+
+
+def _said(frame: Frame) -> str:
+    assert frame.verb is not None
+    return frame.scene.prompt[frame.verb.start : frame.verb.end].lower()
+
+
+def _tells_more(frame: Frame) -> bool:
+    """`when finished with its orbit of the market`: the flight is told here."""
+    route = AtomKind.ROUTE.value
+    return any(not a.used and a.key != route and not _refers(a) for a in frame.adjuncts)
+
+
+def _refers(adjunct: Adjunct) -> bool:
+    return bool(adjunct.nouns) and all(n.kind is NounKind.PRONOUN for n in adjunct.nouns)
 
 
 def _elapsed(frame: Frame) -> TimeTrigger | None:
@@ -194,9 +270,7 @@ def _elapsed(frame: Frame) -> TimeTrigger | None:
     adjunct = frame.time('')
     if adjunct is None or adjunct.measure is None or frame.subject_nouns:
         return None
-    if frame.key not in ('overtake', 'drive', 'finish') or not values.accepts(
-        'trigger_time', adjunct.measure
-    ):
+    if frame.key not in ELAPSED or not values.accepts('trigger_time', adjunct.measure):
         return None
     adjunct.used = True
     return TimeTrigger(on='time', at_s=values.explicit('trigger_time', adjunct.measure))

@@ -1,0 +1,273 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""When things happen, told beside the clause that says what happens.
+
+`25 s in, the van brakes`, `20 s: the van brakes`, `drives on until 40 s, and then brakes`,
+`the van brakes, which happens at 20 s`, `it is at 20 s that the van brakes`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
+from aurora_core.parsing.measures import TIME
+
+_PAUSES = (AtomKind.STOP, AtomKind.COMMA, AtomKind.CONJUNCTION, AtomKind.THEN)
+_SMALL = (AtomKind.FILL, AtomKind.FRAME, AtomKind.AUXILIARY)
+_AFTERWARDS = frozenset(
+    {'later', 'later on', 'afterwards', 'after that', 'thereafter', 'subsequently'}
+)
+_HAPPENS = frozenset({'happen', 'be', 'do so'})
+_REFERRING = frozenset({'that', 'this', 'which', 'it', 'that one', 'he', 'she', 'they'})
+
+
+def dated(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
+    """Return the atoms with every time in the clause of what happens then."""
+    told = _leaving(_clefts(list(atoms), prompt))
+    told = _in_that_case(_that_happens(told, prompt), prompt)
+    return _until_then(_headings(_into_it(_later(told))))
+
+
+def _is_time(atoms: Sequence[Atom], i: int) -> bool:
+    return 0 <= i < len(atoms) and atoms[i].measure is not None and atoms[i].key == TIME
+
+
+def _is_pronoun(atom: Atom) -> bool:
+    return atom.noun is not None and atom.noun.kind is NounKind.PRONOUN
+
+
+def _at(atom: Atom) -> Atom:
+    return Atom(kind=AtomKind.PREPOSITION, key='at', start=atom.start, end=atom.end)
+
+
+def _ends(atoms: Sequence[Atom], i: int) -> bool:
+    return i >= len(atoms) or atoms[i].kind in _PAUSES
+
+
+def _into_it(atoms: list[Atom]) -> list[Atom]:
+    """`25 seconds in, …`: from the start."""
+    changed = list(atoms)
+    for i in range(1, len(changed)):
+        inside = changed[i].kind is AtomKind.PREPOSITION and changed[i].key == 'in'
+        if inside and _is_time(changed, i - 1) and _ends(changed, i + 1):
+            changed[i] = replace(changed[i], kind=AtomKind.FROM_START)
+    return changed
+
+
+def _leaving(atoms: list[Atom]) -> list[Atom]:
+    """`leaves the station`, `sets off from the park`: it starts at that place."""
+    written: list[Atom] = []
+    for i, atom in enumerate(atoms):
+        before = written[-1] if written else None
+        starts = before is not None and before.kind is AtomKind.VERB and before.key == 'start'
+        if atom.is_place and starts:
+            written.append(_at(atom))
+        behind = atoms[i + 1] if i + 1 < len(atoms) else None
+        away = atom.kind is AtomKind.PREPOSITION and atom.key in ('from', 'of')
+        if away and starts and behind is not None and behind.is_place:
+            atom = _at(atom)
+        written.append(atom)
+    return written
+
+
+def _later(atoms: list[Atom]) -> list[Atom]:
+    """`5 s later`: a time, and no word of sequence."""
+    changed = list(atoms)
+    for i in range(1, len(changed)):
+        then = changed[i].kind is AtomKind.THEN and changed[i].key in _AFTERWARDS
+        if then and _is_time(changed, i - 1):
+            changed[i] = replace(changed[i], kind=AtomKind.FILL)
+    return changed
+
+
+def _headings(atoms: list[Atom]) -> list[Atom]:
+    """`20 s: the van brakes`, `t=20 van brakes`: the time of what follows."""
+    written: list[Atom] = []
+    i = 0
+    while i < len(atoms):
+        opens = not written or written[-1].kind in _PAUSES
+        named = atoms[i].kind is AtomKind.UNKNOWN and atoms[i].key in ('t', 'time')
+        k = i + 1 if named else i
+        while named and k < len(atoms) and atoms[k].kind is AtomKind.FILL:
+            k += 1
+        colon = k + 1 < len(atoms) and atoms[k + 1].key == ':'
+        after = k + 2 if colon else k + 1
+        while after < len(atoms) and atoms[after].kind is AtomKind.FILL:
+            after += 1
+        acts = after + 1 < len(atoms) and atoms[after].is_actor
+        if opens and (named or colon) and _is_time(atoms, k) and acts:
+            written += [_at(atoms[i]), atoms[k]]
+            i = k + 2 if colon else k + 1
+            continue
+        written.append(atoms[i])
+        i += 1
+    return written
+
+
+def _until_then(atoms: list[Atom]) -> list[Atom]:
+    """`drives at 10 m/s until 40 s, and then it brakes`: it brakes at 40 s."""
+    written: list[Atom] = []
+    i = 0
+    while i < len(atoms):
+        until = atoms[i].kind in (AtomKind.PREPOSITION, AtomKind.SUBORDINATOR)
+        if until and atoms[i].key == 'until' and _is_time(atoms, i + 1):
+            k = i + 2
+            while k < len(atoms) and atoms[k].kind in (
+                AtomKind.COMMA,
+                AtomKind.CONJUNCTION,
+                AtomKind.STOP,
+            ):
+                k += 1
+            if k < len(atoms) and k > i + 2 and atoms[k].kind is AtomKind.THEN:
+                joint = replace(atoms[i + 2], kind=AtomKind.CONJUNCTION, key='and')
+                written += [joint, _at(atoms[i]), atoms[i + 1]]
+                i = k + 1
+                continue
+            if k < len(atoms) and atoms[k].kind is AtomKind.THEN:
+                joint = replace(atoms[k], kind=AtomKind.CONJUNCTION, key='and')
+                written += [joint, _at(atoms[i]), atoms[i + 1]]
+                i = k + 1
+                continue
+        written.append(atoms[i])
+        i += 1
+    return written
+
+
+def _that_happens(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """`…, which happens at 20 s`, `…. That will be 5 s later`: of the clause in front."""
+    written: list[Atom] = []
+    i = 0
+    while i < len(atoms):
+        stop = _dating(atoms, i, prompt) if atoms[i].kind in _PAUSES else None
+        if stop is None or not written:
+            written.append(atoms[i])
+            i += 1
+        else:
+            i = stop
+    return written
+
+
+def _in_that_case(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """`It may lose the van. When that happens, …`: then."""
+    written: list[Atom] = []
+    i = 0
+    while i < len(atoms):
+        stop = _that_case(atoms, i, prompt)
+        if stop is None or not written:
+            written.append(atoms[i])
+            i += 1
+            continue
+        then = replace(atoms[i], kind=AtomKind.THEN, key='then', end=atoms[stop - 1].end)
+        while stop < len(atoms) and atoms[stop].kind is AtomKind.COMMA:
+            stop += 1
+        if written[-1].kind in _PAUSES:
+            if written[-1].kind is AtomKind.STOP:
+                written[-1] = replace(written[-1], kind=AtomKind.COMMA, key=',')
+            written.append(then)
+        else:  # `tell the police when that happens`
+            begin = len(written)
+            while begin and written[begin - 1].kind not in (AtomKind.STOP, AtomKind.COMMA):
+                begin -= 1
+            if begin and written[begin - 1].kind is AtomKind.STOP:
+                written[begin - 1] = replace(written[begin - 1], kind=AtomKind.COMMA, key=',')
+            written.insert(begin, then)
+        i = stop
+    return written
+
+
+def _that_case(atoms: Sequence[Atom], i: int, prompt: str) -> int | None:
+    """Return where `when that happens` ends that begins at i."""
+    if atoms[i].kind is not AtomKind.SUBORDINATOR or atoms[i].key not in ('when', 'after'):
+        return None
+    k = i + 1
+    referred = False
+    while k < len(atoms) and (
+        atoms[k].kind in (*_SMALL, AtomKind.RELATIVE) or _is_pronoun(atoms[k])
+    ):
+        words = prompt[atoms[k].start : atoms[k].end].lower()
+        referred = referred or words in ('that', 'this', 'it', 'so', 'which')
+        k += 1
+    happens = k < len(atoms) and atoms[k].kind is AtomKind.VERB and atoms[k].key == 'happen'
+    end = k + 1 if happens else k
+    so = prompt[atoms[k - 1].start : atoms[k - 1].end].lower() == 'so'
+    return end if referred and (happens or so) and _ends(atoms, end) else None
+
+
+def _dating(atoms: Sequence[Atom], i: int, prompt: str) -> int | None:
+    """Return where the time begins of a clause that says nothing but when."""
+    while i < len(atoms) and (
+        atoms[i].kind in _PAUSES or prompt[atoms[i].start : atoms[i].end].lower() == 'and'
+    ):
+        i += 1
+    referred = False
+    while i < len(atoms) and (
+        atoms[i].kind in (*_SMALL, AtomKind.RELATIVE) or _is_pronoun(atoms[i])
+    ):
+        words = prompt[atoms[i].start : atoms[i].end].lower()
+        referred = referred or words in _REFERRING
+        i += 1
+    if not referred or i >= len(atoms) or atoms[i].kind is not AtomKind.VERB:
+        return None
+    does = prompt[atoms[i].start : atoms[i].end].lower() in (
+        'does',
+        'do',
+        'does so',
+        'do so',
+        'does this',
+        'does that',
+    )
+    if atoms[i].key not in _HAPPENS and not does:
+        return None
+    begin = i + 1
+    while begin < len(atoms) and atoms[begin].kind is AtomKind.FILL:
+        begin += 1
+    timed = begin < len(atoms) and (
+        _is_time(atoms, begin)
+        or (
+            atoms[begin].kind is AtomKind.PREPOSITION
+            and atoms[begin].key in ('at', 'after')
+            and _is_time(atoms, begin + 1)
+        )
+    )
+    k = begin + 1 if _is_time(atoms, begin) else begin + 2
+    while k < len(atoms) and atoms[k].kind in (AtomKind.FROM_START, AtomKind.FILL, AtomKind.THEN):
+        k += 1
+    return begin if timed and _ends(atoms, k) else None
+
+
+def _clefts(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """`it is at 20 s that the van brakes`, `it is the car that brakes`."""
+    written: list[Atom] = []
+    i = 0
+    while i < len(atoms):
+        it = prompt[atoms[i].start : atoms[i].end].lower() in ('it', "it's")
+        opens = not written or written[-1].kind in _PAUSES
+        k = i + 1
+        while k < len(atoms) and atoms[k].kind in _SMALL:
+            k += 1
+        be = k < len(atoms) and atoms[k].kind is AtomKind.VERB and atoms[k].key == 'be'
+        begin = k + 1 if be else k
+        timed = begin < len(atoms) and atoms[begin].key == 'at' and _is_time(atoms, begin + 1)
+        who = begin
+        while not timed and who < len(atoms) and atoms[who].kind is AtomKind.FILL:
+            who += 1
+        that = begin + 2 if timed else who + 1
+        is_that = that < len(atoms) and prompt[atoms[that].start : atoms[that].end].lower() in (
+            'that',
+            'who',
+            'which',
+        )
+        verbal = that + 1 < len(atoms) and atoms[that + 1].kind in (
+            AtomKind.VERB,
+            AtomKind.AUXILIARY,
+        )
+        named = not timed and who < len(atoms) and atoms[who].is_actor and verbal
+        if it and opens and is_that and (timed or named) and (be or k > i + 1):
+            written += atoms[begin:that]
+            i = that + 1
+            continue
+        written.append(atoms[i])
+        i += 1
+    return written

@@ -1,0 +1,491 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Causes that are no clauses yet, written out as `when …`.
+
+`on the arrival of the bus`, `in response to the truck's braking`, `having seen a cyclist, …`,
+`the landing of the drone makes the bus start`, `…, which makes the car brake`.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+from itertools import pairwise
+
+from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
+from aurora_core.parsing.measures import LENGTH, SPEED, TIME
+from aurora_core.parsing.morphology import VerbForm
+from aurora_core.parsing.pieces import TRANSPARENT
+from aurora_core.spec.parameter import Bound
+
+_OPENERS = frozenset({'on', 'upon', 'at', 'with', 'after', 'following', 'by'})
+# What the noun behind `of` undergoes: `at the sight of a cyclist`.
+_OF_OBJECT = frozenset({'see', 'lose', 'receive', 'finish'})
+# What a participle in front of a sentence tells as its cause.
+_NOTICED = frozenset({'see', 'lose', 'receive', 'finish', 'reach'})
+_FLOWN = frozenset({'hover', 'track', 'follow', 'orbit', 'navigate', 'observe', 'fly', 'wait'})
+_DONE = frozenset({'done', 'finished', 'complete', 'completed', 'over', 'through', 'accomplished'})
+_TAKES_PLACE = ('happen', 'be', 'come', 'follow')
+_ENDS = (AtomKind.STOP, AtomKind.COMMA, AtomKind.THEN, AtomKind.CONJUNCTION)
+_SMALL = (AtomKind.FILL, AtomKind.FRAME)
+
+
+def verbal(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """Return the atoms with events that are told as nouns written out as clauses."""
+    atoms = _interrupted(_verbless(atoms, prompt))
+    written = _participles(_nominal(_made_to(_done(atoms, prompt), prompt), prompt), prompt)
+    return [
+        replace(a, kind=AtomKind.UNKNOWN)
+        if a.kind in (AtomKind.HAPPENING, AtomKind.BECAUSE, AtomKind.CAUSING)
+        else a
+        for a in written
+    ]
+
+
+def _words(atom: Atom, prompt: str) -> str:
+    return prompt[atom.start : atom.end].lower()
+
+
+def _solid(atoms: Sequence[Atom], i: int) -> int:
+    """Return the index of the next atom that is no small word."""
+    while i < len(atoms) and atoms[i].kind in _SMALL:
+        i += 1
+    return i
+
+
+# --- nouns ---
+
+
+def _nominal(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """`on the arrival of the bus at the park`: `when the bus reaches the park`."""
+    written: list[Atom] = []
+    i = 0
+    while i < len(atoms):
+        atom = atoms[i]
+        dated = _dated_event(written, atoms, i, prompt)
+        if dated is not None:
+            clause, i = dated
+            written += clause
+            continue
+        lag = _within_of(written, atom)
+        opens = (
+            lag
+            or atom.kind is AtomKind.BECAUSE
+            or (
+                atom.kind in (AtomKind.PREPOSITION, AtomKind.SUBORDINATOR)
+                and _words(atom, prompt).strip() in _OPENERS
+            )
+        )
+        event = _event(atoms, i + 1, prompt, because=atom.kind is AtomKind.BECAUSE)
+        if not opens or event is None:
+            written.append(atom)
+            i += 1
+            continue
+        clause, i = event
+        when = replace(
+            atom,
+            kind=AtomKind.SUBORDINATOR,
+            key='after' if lag else 'when',
+            other_kinds=frozenset(),
+        )
+        if lag:  # `within 5 s of the van's braking`: at most so long after it
+            late = written.pop()
+            assert late.measure is not None
+            written[-1] = replace(
+                late, start=written[-1].start, measure=replace(late.measure, bound=Bound.AT_MOST)
+            )
+        if written and written[-1].kind is AtomKind.COMMA and _acts_behind(atoms, i):
+            written[-1] = replace(written[-1], kind=AtomKind.CONJUNCTION, key='and')
+        written += [when, *clause]
+        takes = clause[-1].kind is AtomKind.VERB and clause[-1].key not in _OF_OBJECT
+        if takes and i < len(atoms) and atoms[i].is_actor:  # `on arrival the bus …`
+            written.append(replace(atom, kind=AtomKind.COMMA, key=','))
+    return written
+
+
+def _within_of(written: Sequence[Atom], atom: Atom) -> bool:
+    if atom.kind is not AtomKind.PREPOSITION or atom.key != 'of' or len(written) < 2:
+        return False
+    timed = written[-1].measure is not None and written[-1].key == TIME
+    return timed and written[-2].kind is AtomKind.PREPOSITION and written[-2].key == 'within'
+
+
+def _verbless(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """`truck above 60 km/h: the drone warns it`, `bus out of sight -> it climbs`."""
+    told = list(atoms)
+    for i in range(1, len(told)):
+        colon = told[i].kind is AtomKind.STOP and told[i].key == ':'
+        if not colon and not (told[i].kind is AtomKind.THEN and told[i].key == '→'):
+            continue
+        begin = i
+        while begin and told[begin - 1].kind is not AtomKind.STOP:
+            begin -= 1
+        cause = told[begin:i]
+        first = _solid(cause, 0)
+        if first >= len(cause) or not cause[first].is_actor:
+            continue
+        text = prompt[cause[0].start : cause[-1].end].lower()
+        gone = re.search(r'\b(?:out of (?:sight|view)|hidden|gone|invisible|occluded)$', text)
+        linked = any(a.kind is AtomKind.SUBORDINATOR for a in cause)
+        if linked or (not gone and any(a.kind is AtomKind.VERB for a in cause)):
+            continue
+        compared = any(
+            a.kind is AtomKind.PREPOSITION
+            and a.key in ('within', 'beyond', 'below', 'over')
+            and b.measure is not None
+            and b.key in (LENGTH, SPEED)
+            for a, b in pairwise(cause)
+        )
+        seen = any(a.kind is AtomKind.IN_VIEW for a in cause)
+        effect = any(a.kind is AtomKind.VERB for a in told[i + 1 : i + 6])
+        if not effect or not (gone or compared or seen):
+            continue
+        clause = cause
+        if gone:
+            word = replace(cause[-1], kind=AtomKind.VERB, key='vanish', form=VerbForm.THIRD)
+            clause = [*cause[: first + 1], replace(word, noun=None, measure=None)]
+        clause = [
+            replace(a, key='beyond') if a.kind is AtomKind.PREPOSITION and a.key == 'over' else a
+            for a in clause
+        ]
+        at = cause[0].start
+        when = Atom(kind=AtomKind.SUBORDINATOR, key='when', start=at, end=at + 1)
+        told[begin : i + 1] = [when, *clause, replace(told[i], kind=AtomKind.COMMA, key=',')]
+        return _verbless(told, prompt)
+    return told
+
+
+def _interrupted(atoms: list[Atom]) -> list[Atom]:
+    """`the car, when it has the message, yields`: the cause first."""
+    told = _asides(list(atoms))
+    for i in range(1, len(told) - 2):
+        opens = told[i].kind is AtomKind.COMMA and told[i - 1].is_actor
+        if not opens or told[i + 1].kind is not AtomKind.SUBORDINATOR or told[i + 1].key != 'when':
+            continue
+        begin = i - 1
+        while begin and told[begin - 1].kind in _SMALL:
+            begin -= 1
+        if begin and told[begin - 1].kind not in (*_ENDS, AtomKind.SUBORDINATOR):
+            continue
+        stop = next((k for k in range(i + 2, len(told)) if told[k].kind is AtomKind.COMMA), None)
+        if stop is None or any(a.kind is AtomKind.STOP for a in told[i:stop]):
+            continue
+        behind = stop + 1
+        while behind < len(told) and told[behind].kind in TRANSPARENT:
+            behind += 1
+        if behind < len(told) and told[behind].kind is AtomKind.VERB:
+            told[begin : stop + 1] = [*told[i + 1 : stop + 1], *told[begin:i]]
+    return told
+
+
+def _asides(atoms: list[Atom]) -> list[Atom]:
+    """`when the drone, hovering over the park, sees it, …`: what it does is told before."""
+    for i in range(1, len(atoms) - 2):
+        who, verb = atoms[i - 1], atoms[i + 1]
+        flies = verb.kind is AtomKind.VERB and verb.form is VerbForm.ING and verb.key in _FLOWN
+        if atoms[i].kind is not AtomKind.COMMA or not who.is_actor or not flies:
+            continue
+        stop = next((k for k in range(i + 2, len(atoms)) if atoms[k].kind is AtomKind.COMMA), None)
+        if stop is None or any(a.kind is AtomKind.STOP for a in atoms[i:stop]):
+            continue
+        behind = stop + 1
+        while behind < len(atoms) and atoms[behind].kind in TRANSPARENT:
+            behind += 1
+        if behind >= len(atoms) or atoms[behind].kind is not AtomKind.VERB:
+            continue
+        if atoms[behind].form is VerbForm.ING:
+            continue
+        begin = i - 1
+        while begin and atoms[begin - 1].kind is not AtomKind.STOP:
+            begin -= 1
+        if not any(a.kind is AtomKind.SUBORDINATOR for a in atoms[begin : i - 1]):
+            continue
+        pause = replace(atoms[i], kind=AtomKind.STOP, key=';')
+        told = [who, replace(verb, form=VerbForm.THIRD), *atoms[i + 2 : stop], pause]
+        return _asides([*atoms[:begin], *told, *atoms[begin:i], *atoms[stop + 1 :]])
+    return atoms
+
+
+def _done(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """`when done`, `once finished`, `with all of that done, …`: at the end of the flight."""
+    written: list[Atom] = []
+    i = 0
+    while i < len(atoms):
+        atom = atoms[i]
+        opens = not written or written[-1].kind in _ENDS
+        linked = atom.kind is AtomKind.SUBORDINATOR and atom.key in ('when', 'after', 'while')
+        absolute = opens and atom.kind is AtomKind.PREPOSITION and atom.key == 'with'
+        k = i + 1
+        while k < len(atoms) and not _is_done(atoms[k], prompt) and _is_small(atoms[k]):
+            k += 1
+        end = k + 1 >= len(atoms) or atoms[k + 1].kind in (*_ENDS, AtomKind.FRAME)
+        done = k < len(atoms) and _is_done(atoms[k], prompt) and (end or atoms[k + 1].is_actor)
+        if (linked or absolute) and done and k - i < 6:
+            written.append(
+                replace(atom, kind=AtomKind.SUBORDINATOR, key='when', other_kinds=frozenset())
+            )
+            written.append(
+                replace(atoms[k], kind=AtomKind.VERB, key='finish', form=VerbForm.ING, noun=None)
+            )
+            i = k + 1
+            continue
+        written.append(atom)
+        i += 1
+    return written
+
+
+def _is_small(atom: Atom) -> bool:
+    pronoun = (
+        atom.noun is not None and atom.noun.kind is NounKind.PRONOUN and atom.noun.key == 'it'
+    )
+    small = (*_SMALL, AtomKind.AUXILIARY, AtomKind.PREPOSITION, AtomKind.ROUTE, AtomKind.RELATIVE)
+    return atom.kind in small or pronoun or atom.key in ('all', 'everything')
+
+
+def _is_done(atom: Atom, prompt: str) -> bool:
+    return _words(atom, prompt) in _DONE
+
+
+def _dated_event(
+    written: Sequence[Atom], atoms: Sequence[Atom], i: int, prompt: str
+) -> tuple[list[Atom], int] | None:
+    """`the truck's braking takes place at 20 s`, `the bus's departure is at 8 s`."""
+    if written and written[-1].kind not in _ENDS:
+        return None
+    event = _event(atoms, i, prompt, because=False)
+    if event is None:
+        return None
+    clause, k = event
+    while k < len(atoms) and atoms[k].kind in TRANSPARENT:
+        k += 1
+    if k >= len(atoms) or atoms[k].kind is not AtomKind.VERB or atoms[k].key not in _TAKES_PLACE:
+        return None
+    timed = any(a.measure is not None and a.key == TIME for a in atoms[k + 1 : k + 4])
+    return (clause, k + 1) if timed and any(a.is_actor for a in clause) else None
+
+
+def _acts_behind(atoms: Sequence[Atom], i: int) -> bool:
+    """Return whether another clause follows behind the next comma."""
+    for k in range(i, len(atoms)):
+        if atoms[k].kind is AtomKind.STOP:
+            return False
+        if atoms[k].kind is AtomKind.COMMA:
+            return any(a.kind is AtomKind.VERB for a in atoms[k : k + 6])
+    return False
+
+
+def _event(
+    atoms: Sequence[Atom], i: int, prompt: str, *, because: bool
+) -> tuple[list[Atom], int] | None:
+    """Read the event that begins at i as a clause without its link, and where it ends."""
+    begin = i
+    i = _solid(atoms, i)
+    if i >= len(atoms):
+        return None
+    articled = i > begin
+    first = atoms[i]
+    if first.is_actor:  # `the truck's braking`, `the truck braking`
+        k = i + 1
+        owned = k < len(atoms) and _words(atoms[k], prompt) == "'s"
+        k = _solid(atoms, k)
+        if k >= len(atoms) or not (owned or because):
+            return None
+        named = _named_event(atoms[k], owned=owned)
+        if named is None:
+            return None
+        return [first, named], k + 1 + _skipped(atoms, k + 1, named)
+    own = articled and any(_words(a, prompt) in ('its', 'their') for a in atoms[begin:i])
+    named = _named_event(first, owned=articled)
+    gerund = first.kind is AtomKind.VERB and first.form is VerbForm.ING
+    if named is None:
+        return None
+    if first.kind is AtomKind.VERB and not gerund and not articled:
+        return None
+    k = i + 1
+    of = k < len(atoms) and atoms[k].kind is AtomKind.PREPOSITION and atoms[k].key in ('of', 'by')
+    who = _solid(atoms, k + 1) if of else k
+    if of and who < len(atoms) and (atoms[who].noun is not None) and not own:
+        if named.key in _OF_OBJECT and atoms[k].key == 'of':
+            verb = replace(named, form=VerbForm.ING)
+            return [verb, *atoms[k + 1 : who + 1]], who + 1
+        verb = replace(named, form=VerbForm.THIRD)
+        return [*atoms[k + 1 : who + 1], verb], who + 1 + _skipped(atoms, who + 1, named)
+    if gerund and not articled and not because and first.key not in _NOTICED:
+        return None  # `after hovering`, `by climbing`: the other readers know these
+    verb = replace(named, form=VerbForm.ING)
+    return [verb], k + _skipped(atoms, k, named)
+
+
+def _named_event(atom: Atom, *, owned: bool) -> Atom | None:
+    """Return the verb of an event noun or of a verb that stands as a noun."""
+    if atom.kind is AtomKind.HAPPENING:
+        return replace(atom, kind=AtomKind.VERB, form=VerbForm.THIRD)
+    if atom.kind is not AtomKind.VERB or atom.key in _FLOWN:
+        return None
+    gerund = atom.form is VerbForm.ING
+    noun = owned and atom.form is VerbForm.BASE
+    return replace(atom, form=VerbForm.THIRD) if gerund or noun else None
+
+
+def _skipped(atoms: Sequence[Atom], i: int, named: Atom) -> int:
+    """Return how many prepositions behind an arrival say nothing of their own."""
+    told = named.key == 'reach' and i < len(atoms) and atoms[i].kind is AtomKind.PREPOSITION
+    return 1 if told and atoms[i].key in ('at', 'to', 'in', 'on') else 0
+
+
+# --- participles ---
+
+
+def _participles(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """`seeing a cyclist, the drone …`, `having received it, the car …`, `once warned, …`."""
+    written: list[Atom] = []
+    done = -1  # the participle behind `having`
+    for i, atom in enumerate(atoms):
+        if i == done:
+            atom = replace(atom, form=VerbForm.ING)
+        opens = not written or written[-1].kind in _ENDS
+        helped = opens and _words(atom, prompt) == 'having' and i + 1 < len(atoms)
+        verb = (
+            atoms[_solid(atoms, i + 1)] if helped and _solid(atoms, i + 1) < len(atoms) else None
+        )
+        told = atom if verb is None else verb
+        noticed = (
+            opens
+            and i != done
+            and told.kind is AtomKind.VERB
+            and (verb is not None or (told.form is VerbForm.ING and told.key in _NOTICED))
+            and _subject_behind(atoms, i)
+        )
+        if noticed and verb is not None and (verb.form is VerbForm.PAST or verb.key == 'come'):
+            link = 'after' if verb.key in _FLOWN else 'when'
+            if written and written[-1].kind is AtomKind.COMMA:
+                written[-1] = replace(written[-1], kind=AtomKind.CONJUNCTION, key='and')
+            word = replace(atom, kind=AtomKind.SUBORDINATOR, key=link)
+            written.append(word)
+            if link == 'after':
+                written.append(replace(atom, kind=AtomKind.AUXILIARY, key='have'))
+            else:
+                done = _solid(atoms, i + 1)
+            continue
+        if noticed and verb is None:
+            if written and written[-1].kind is AtomKind.COMMA:
+                written.append(atom)
+                continue
+            written.append(
+                replace(
+                    atom,
+                    kind=AtomKind.SUBORDINATOR,
+                    key='when',
+                    end=atom.start + 1,
+                    other_kinds=frozenset(),
+                )
+            )
+        written.append(atom)
+    return written
+
+
+def _subject_behind(atoms: Sequence[Atom], i: int) -> bool:
+    """Return whether a comma and an actor follow: the participle opens the sentence."""
+    for k in range(i + 1, len(atoms)):
+        if atoms[k].kind is AtomKind.STOP:
+            return False
+        if atoms[k].is_actor and atoms[k - 1].kind is not AtomKind.PREPOSITION:
+            behind = atoms[k + 1] if k + 1 < len(atoms) else None
+            if behind is not None and behind.kind in (AtomKind.VERB, AtomKind.AUXILIARY):
+                return True
+        if atoms[k].kind is AtomKind.COMMA:
+            after = _solid(atoms, k + 1)
+            return after < len(atoms) and atoms[after].is_actor
+    return False
+
+
+# --- what makes whom do it ---
+
+
+def _made_to(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """`…, which makes the car brake`, `the arrival of the bus makes the drone land`."""
+    changed = list(atoms)
+    i = 0
+    while i < len(changed):
+        effect = _effect(changed, i)
+        if effect is None:
+            i += 1
+            continue
+        who, verb = effect
+        begin = _clause_start(changed, i)
+        cause = changed[begin:i]
+        solid = [a for a in cause if a.kind not in TRANSPARENT]
+        acts = [changed[who], replace(changed[verb], form=VerbForm.THIRD)]
+        relative = bool(solid) and all(
+            a.kind is AtomKind.RELATIVE or a.key == 'that' for a in solid
+        )
+        ing = changed[i].form is VerbForm.ING or changed[i].verb_form is VerbForm.ING
+        if relative or (not solid and ing and begin) or _is_message(solid):
+            then = replace(changed[i], kind=AtomKind.THEN, key='then', start=changed[i].start)
+            changed[begin : verb + 1] = [then, *acts]
+            i = begin
+            continue
+        clause = _told_event(cause, prompt)
+        if clause is not None:
+            comma = replace(changed[i], kind=AtomKind.COMMA, key=',')
+            changed[begin : verb + 1] = [*clause, comma, *acts]
+        i += 1
+    return changed
+
+
+def _is_message(solid: Sequence[Atom]) -> bool:
+    """`the warning makes the car brake`."""
+    return len(solid) == 1 and solid[0].kind is AtomKind.MESSAGE
+
+
+def _effect(atoms: Sequence[Atom], i: int) -> tuple[int, int] | None:
+    """Return where the actor and the verb stand that a causing verb governs."""
+    atom = atoms[i]
+    if AtomKind.CAUSING not in (*atom.other_kinds, atom.kind):
+        return None
+    if atom.kind is AtomKind.CAUSATIVE and atom.form is VerbForm.BASE:
+        return None  # `make the bus stop`: a request
+    who = _solid(atoms, i + 1)
+    if who >= len(atoms) or not atoms[who].is_actor:
+        return None
+    k = _solid(atoms, who + 1)
+    while k < len(atoms) and (
+        atoms[k].kind is AtomKind.AUXILIARY or atoms[k].key in ('to', 'into')
+    ):
+        k += 1
+    if k >= len(atoms) or atoms[k].kind is not AtomKind.VERB:
+        return None
+    plain = atoms[k].form in (VerbForm.BASE, VerbForm.ING)
+    return (who, k) if plain else None
+
+
+def _clause_start(atoms: Sequence[Atom], i: int) -> int:
+    k = i
+    while k and atoms[k - 1].kind not in (AtomKind.STOP, AtomKind.COMMA, AtomKind.THEN):
+        k -= 1
+    return k
+
+
+def _told_event(cause: Sequence[Atom], prompt: str) -> list[Atom] | None:
+    """`the arrival of the bus`, `a bus arriving at the park`: as a clause behind `when`."""
+    if not cause:
+        return None
+    when = Atom(
+        kind=AtomKind.SUBORDINATOR, key='when', start=cause[0].start, end=cause[0].start + 1
+    )
+    first = _solid(cause, 0)
+    if first + 1 < len(cause) and cause[first].is_actor:
+        acts = cause[first + 1]
+        if acts.kind is AtomKind.VERB and acts.form is VerbForm.ING:
+            return [
+                when,
+                *cause[: first + 1],
+                replace(acts, form=VerbForm.THIRD),
+                *cause[first + 2 :],
+            ]
+    event = _event(cause, 0, prompt, because=False)
+    if event is None:
+        return None
+    clause, stop = event
+    return [when, *clause, *cause[stop:]]
