@@ -66,6 +66,7 @@ def _asks(atoms: Sequence[Atom]) -> bool:
 
 def _begins(atoms: Sequence[Atom], i: int) -> bool:
     pause = atoms[i - 1].kind in _PAUSES and atoms[i].kind not in _PAUSES
+    pause = pause or _is_wish(atoms[i])
     return pause or atoms[i].words in (*_LEADS, 'with') or _is_own(atoms, i)
 
 
@@ -82,8 +83,17 @@ def _is_own(atoms: Sequence[Atom], i: int) -> bool:
     return told and atoms[i - 1].measure is not None
 
 
+def _is_wish(atom: Atom) -> bool:
+    """`… and make sure that …`: what asks for a clause begins it."""
+    return atom.kind is AtomKind.FRAME and atom.key == 'wish'
+
+
 def _stops(atoms: Sequence[Atom], start: int) -> list[int]:
-    ends = [i for i in range(start + 1, len(atoms)) if atoms[i].kind in _PAUSES]
+    ends = [
+        i
+        for i in range(start + 1, len(atoms))
+        if atoms[i].kind in _PAUSES or (_is_wish(atoms[i]) and not _is_wish(atoms[i - 1]))
+    ]
     return sorted([*ends, len(atoms)], reverse=True)
 
 

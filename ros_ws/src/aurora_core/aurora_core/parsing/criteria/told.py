@@ -53,7 +53,7 @@ def told(atoms: Sequence[Atom]) -> Told:
             name = f'N{len(nouns)}'
             nouns[name] = atom.noun
             words += [*_members(atom), name]
-        elif atom.measure is not None and _is_repeated(atom, measures):
+        elif _is_repeated(atom, measures):
             continue  # `two minutes (120 s)`
         elif atom.measure is not None and atom.measure.dimension in _LETTERS:
             if atom.measure.dimension == COUNT and atom.words == 'two':
@@ -78,6 +78,8 @@ def _is_name(atom: Atom, atoms: Sequence[Atom], i: int) -> bool:
 
 
 def _is_repeated(atom: Atom, before: dict[str, Measure]) -> bool:
+    if atom.kind is AtomKind.FILL and any(c.isdigit() for c in atom.words):
+        return True  # found out by the rewriting
     measure = atom.measure
     last = list(before.values())[-1:]
     return measure is not None and any(
