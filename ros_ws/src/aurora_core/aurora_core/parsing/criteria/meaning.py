@@ -268,7 +268,7 @@ class Meaning:
         return bool(fitting)
 
     def _done(self) -> bool:
-        """`must have landed by 60 s`, `the alert must arrive`, `all corners must be visited`."""
+        """`must have landed by 60 s`, `the alert must arrive`."""
         told = self._told
         yes = values.inferred('condition_ratio', 1.0)
         if 'landed' in told.topics or 'completed' in told.topics:

@@ -27,7 +27,7 @@ _TOPICS_OF = {
     'T': frozenset({'seen', 'delivered', 'latency'}),
     'P': frozenset({'seen', 'tracked', 'delivered'}),
     'C': frozenset({'waypoints', 'seen', 'tracked', 'delivered'}),
-    '': frozenset({'landed', 'completed', 'delivered', 'waypoints'}),
+    '': frozenset({'landed', 'completed', 'delivered'}),
 }
 # `should it slow below 3 m/s, …` is a cause.
 _INVERTED = re.compile(r' should (?:the |its |a |an )?\w* ?(?:N\d|speed|distance|gap|altitude)')
@@ -37,7 +37,7 @@ _HAPPENS = re.compile(
     r'(?:of (?:the )?N\d+ )?(?:\w+ ){0,3}'
     r'(?:has|have|must|should|may|shall|is|needs|ought|can|shd|not|at|by|between|no|nolater) '
 )
-_YES_OR_NO = ('landed', 'completed', 'delivered', 'waypoints')
+_YES_OR_NO = ('landed', 'completed', 'delivered')
 
 
 def criterion(atoms: Sequence[Atom], *, asked: bool = False) -> Criterion | None:
