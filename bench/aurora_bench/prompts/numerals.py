@@ -51,7 +51,7 @@ _UNITS: tuple[tuple[str, Dimension, float], ...] = (
     (r'mph|miles? (?:per|an) hour', Dimension.SPEED, 0.44704),
     (r'knots?|kn|kts?', Dimension.SPEED, 1852.0 / 3600.0),
     (r'kilomet(?:re|er)s?|km', Dimension.LENGTH, 1000.0),
-    (r'miles?', Dimension.LENGTH, 1609.344),
+    (r'miles?|mi', Dimension.LENGTH, 1609.344),
     (r'feet|foot|ft', Dimension.LENGTH, 0.3048),
     (r'yards?|yd', Dimension.LENGTH, 0.9144),
     (r'milliseconds?|msecs?|ms', Dimension.TIME, 0.001),

@@ -72,6 +72,9 @@ MARKERS = (
 )
 
 
+# A sentence beyond that is nobody's; looking for patterns in it would take minutes.
+MOST_ATOMS = 300
+
 TRANSPARENT = (AtomKind.FILL, AtomKind.AUXILIARY, AtomKind.NEGATION, AtomKind.FRAME)
 
 

@@ -18,7 +18,7 @@ from aurora_core.parsing.moments import dated
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.nominal import predicates
 from aurora_core.parsing.nominal_causes import verbal
-from aurora_core.parsing.pieces import TRANSPARENT
+from aurora_core.parsing.pieces import MOST_ATOMS, TRANSPARENT
 from aurora_core.parsing.radio import radio
 from aurora_core.parsing.roles import cast
 from aurora_core.parsing.statements import value_statements
@@ -66,8 +66,19 @@ class Rewritten:
     background: tuple[Span, ...] = ()
 
 
+def longest_sentence(atoms: Sequence[Atom]) -> int:
+    """Return the number of atoms of the longest sentence."""
+    longest = length = 0
+    for atom in atoms:
+        length = 0 if atom.kind is AtomKind.STOP else length + 1
+        longest = max(longest, length)
+    return longest
+
+
 def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
     """Return the atoms with shorthand written out and retracted numbers left out."""
+    if longest_sentence(atoms) > MOST_ATOMS:
+        return Rewritten(atoms=tuple(atoms))
     told, background = unwrap(cast(atoms, prompt), prompt)
     told = dated(verbal(radio(told, prompt), prompt), prompt)
     told = value_statements(

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -177,14 +178,13 @@ class _Tagger:
         i = 0
         while i < len(self._tokens):
             i = self._step(i)
-        return tuple(settle_verbs([replace(a, words=self._said(a)) for a in self._atoms]))
+        starts = [token.start for token in self._tokens]
+        return tuple(settle_verbs([replace(a, words=self._said(a, starts)) for a in self._atoms]))
 
-    def _said(self, atom: Atom) -> str:
-        return ' '.join(
-            word
-            for token, word in zip(self._tokens, self._words, strict=True)
-            if atom.start <= token.start and token.end <= atom.end
-        )
+    def _said(self, atom: Atom, starts: Sequence[int]) -> str:
+        first, stop = bisect_left(starts, atom.start), bisect_left(starts, atom.end)
+        inside = zip(self._tokens[first:stop], self._words[first:stop], strict=True)
+        return ' '.join(word for token, word in inside if token.end <= atom.end)
 
     def _step(self, i: int) -> int:
         token = self._tokens[i]

@@ -11,6 +11,7 @@ from aurora_core.parsing.atoms import Atom, AtomKind
 from aurora_core.parsing.criteria.criterion import Criterion
 from aurora_core.parsing.criteria.moments import Sequel, sequel
 from aurora_core.parsing.criteria.slots import criterion
+from aurora_core.parsing.pieces import MOST_ATOMS
 
 _PAUSES = (AtomKind.COMMA, AtomKind.CONJUNCTION, AtomKind.THEN)
 _LEADS = ('such', 'so that', 'hence', 'thus', 'so')
@@ -26,7 +27,8 @@ class Stretch:
 
 def stretches(atoms: Sequence[Atom]) -> list[Stretch]:
     """Cut a sentence into its conditions and what stands around them."""
-    if not any(a.measure is not None for a in atoms) and not _asks(atoms):
+    told = any(a.measure is not None for a in atoms) or _asks(atoms)
+    if not told or len(atoms) > MOST_ATOMS:
         return [Stretch(atoms=tuple(atoms))]
     starts = [i for i in range(len(atoms)) if i == 0 or _begins(atoms, i)]
     found: list[Stretch] = []
