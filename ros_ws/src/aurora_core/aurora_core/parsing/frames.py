@@ -358,7 +358,8 @@ class Frame:
             loose += noun.loose
         loose += [(n.start, n.end) for n in self.subject_nouns if n.kind is NounKind.UNKNOWN]
         merged: list[tuple[int, int]] = []
-        for start, end in sorted(loose):
+        # Words that were put in another order may end before they begin.
+        for start, end in sorted((min(ends), max(ends)) for ends in loose):
             if merged and not self.scene.prompt[merged[-1][1] : start].strip(' ,-'):
                 merged[-1] = (merged[-1][0], max(end, merged[-1][1]))
             elif not merged or start >= merged[-1][1]:

@@ -151,3 +151,13 @@ def test_same_text_gives_the_same_answer(prompt: str) -> None:
     assert json.dumps(first and first.model_dump(mode='json')) == json.dumps(
         second and second.model_dump(mode='json')
     )
+
+
+def test_words_in_another_order_keep_their_place() -> None:
+    # `half as fast` stands behind the verb, and `the drone` is moved in front of it.
+    prompt = (
+        'A car waits. Behind it is a motorcycle, and it is the motorcycle that the drone '
+        'tracks, at half as fast 35 m altitude.'
+    )
+    outcome = parse_offline(prompt, ParseContext())
+    assert all(c.span.start < c.span.end for c in outcome.clauses)

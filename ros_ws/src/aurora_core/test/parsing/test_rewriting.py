@@ -8,6 +8,10 @@ import pytest
 
 from aurora_core.parsing.outcome import ParseContext
 from aurora_core.parsing.parser import parse_offline
+from aurora_core.parsing.pieces import MOST_ATOMS
+from aurora_core.parsing.rewriting import longest_sentence, rewrite
+from aurora_core.parsing.tagging import tag
+from aurora_core.parsing.tokens import tokenize
 from aurora_core.spec.vocabulary import ClauseStatus
 
 
@@ -57,3 +61,14 @@ def test_a_label_of_several_is_a_sentence() -> None:
         ('uav1', 'track'),
         ('uav2', 'hover'),
     ]
+
+
+def test_an_endless_sentence_is_left_alone() -> None:
+    # Patterns are looked for from every word on: minutes for what nobody writes.
+    endless = 'the drone and the bus and ' * 100
+    atoms = tag(tokenize(endless), {}).atoms
+    assert len(atoms) > MOST_ATOMS
+    assert rewrite(atoms, endless).atoms == atoms
+    again = 'A drone tracks a bus. ' * 200
+    atoms = tag(tokenize(again), {}).atoms
+    assert len(atoms) > MOST_ATOMS > longest_sentence(atoms)

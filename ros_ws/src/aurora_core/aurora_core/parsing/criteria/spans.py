@@ -27,8 +27,8 @@ class Stretch:
 
 def stretches(atoms: Sequence[Atom]) -> list[Stretch]:
     """Cut a sentence into its conditions and what stands around them."""
-    told = any(a.measure is not None for a in atoms) or _asks(atoms)
-    if not told or len(atoms) > MOST_ATOMS:
+    may_ask = any(a.measure is not None for a in atoms) or _asks(atoms)
+    if not may_ask or len(atoms) > MOST_ATOMS:
         return [Stretch(atoms=tuple(atoms))]
     starts = [i for i in range(len(atoms)) if i == 0 or _begins(atoms, i)]
     found: list[Stretch] = []
