@@ -6,11 +6,13 @@ from __future__ import annotations
 
 import argparse
 import sys
+import time
 from collections.abc import Sequence
 from pathlib import Path
 
 from aurora_bench.fidelity.answer import answer
 from aurora_bench.fidelity.summary import Judged, as_json, judge, last_line, tables
+from aurora_bench.fidelity.timing import seconds_per_prompt, timing_table
 from aurora_bench.interrupt import stop_on_sigterm
 from aurora_bench.machine import machine_facts
 from aurora_bench.progress import Progress
@@ -23,7 +25,7 @@ from aurora_llm.parse import check_model_name
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Score a file; return 0, 64 when it cannot be read, 4 when a recorded reply is missing."""
+    """Score files; return 0, 64 when one cannot be read, 4 when a recorded reply is missing."""
     stop_on_sigterm()
     parser = argparse.ArgumentParser(prog='aurora_bench.fidelity', description=__doc__)
     parser.add_argument(
@@ -32,7 +34,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         type=Path,
         default=first_files('tune'),
         metavar='FILE',
-        help='prompts, one JSON object a line (default: the 200 shipped ones for tuning)',
+        help='prompts, one JSON object a line (default: the first 200 shipped ones to tune on)',
     )
     parser.add_argument('--model', default='offline', help='who parses, as in aurora run')
     parser.add_argument(
@@ -55,6 +57,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     prompts = [p for p in everything if p.id.startswith(options.only)]
     progress = Progress('fidelity', len(prompts))
     judged: list[Judged] = []
+    seconds: list[float] = []
     for prompt in prompts:
         request = RunRequest(
             prompt=prompt.prompt,
@@ -66,18 +69,27 @@ def main(arguments: Sequence[str] | None = None) -> int:
             history_frozen=True,
         )
         try:
-            done = judge(prompt, answer(request))
+            begin = time.perf_counter()
+            given = answer(request)
+            seconds.append(time.perf_counter() - begin)
+            done = judge(prompt, given)
         except ConfigError as err:
             sys.stderr.write(f'{prompt.id}: {err}\n')
             return 4
         judged.append(done)
         kinds = ', '.join(f'{m.kind} ({m.told})' for m in done.misses)
         progress.step(f'{prompt.id}: {f"missed: {kinds}" if kinds else "all met"}')
-    shown = tables(judged)
+    warm = seconds[1:]  # the first prompt loads map and lexicon
+    shown = (*tables(judged), timing_table(warm))
     sys.stdout.write('\n\n'.join(markdown_table(table) for table in shown) + '\n\n')
     if options.results is not None:
         names = [f'{path.parent.name}/{path.name}' for path in options.files]
-        document = {'files': names, 'model': options.model, **as_json(judged)}
+        document = {
+            'files': names,
+            'model': options.model,
+            'seconds_per_prompt': seconds_per_prompt(warm),
+            **as_json(judged),
+        }
         _, written = write_results(
             options.results,
             options.name,

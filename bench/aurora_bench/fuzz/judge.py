@@ -24,8 +24,11 @@ _DIGITS = re.compile(
 )
 # A number as it is written: signed, with groups of thousands and an exponent.
 _WRITTEN = re.compile(
-    r'(?P<number>[-−+]?(?:\d{1,3}(?:,\d{3})+|\d+|(?=\.\d))(?:\.\d+)?(?:e[-+]?\d+)?)', re.IGNORECASE
+    r'(?P<number>(?:(?<!\d)[-−+])?(?:\d{1,3}(?:,\d{3})+|\d+|(?=\.\d))(?:\.\d+)?(?:e[-+]?\d+)?)',
+    re.IGNORECASE,
 )
+# Two numbers with one unit.
+_RANGE = re.compile(r'(?P<low>\d[\d.,]*) ?[-–−] ?(?P<high>\d[\d.,]*) ?(?P<unit>[^\d\W].*)')
 # What a number may be taken times: a diameter gives a radius, a percentage a share.
 _FACTORS = (1.0, 0.5, 0.01)
 # What may be numbered, right in front of its number.
@@ -82,6 +85,9 @@ def _invented(prompt: str, spec: ScenarioSpec, meant: Mapping[str, str]) -> Iter
 
 def _says(said: str, value: float) -> bool:
     """Return whether words with digits state a value: as it stands or with one of their units."""
+    ends = _RANGE.fullmatch(said)
+    if ends is not None:  # `20-30 ft`: the unit is that of both
+        return any(_says(f'{ends[end]} {ends["unit"]}', value) for end in ('low', 'high'))
     units = [abs(n.value) for n in stated_numbers(_plainly(said))]
     bare = [abs(float(n)) for n in _WRITTEN.findall(_ungrouped(said))]
     sums = [sum(units)] if len(units) > 1 else []

@@ -12,18 +12,16 @@ from __future__ import annotations
 
 import argparse
 import hashlib
-import json
 import sys
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
+from aurora_bench.prompts.documents import Doc, read_documents, write_documents
 from aurora_bench.prompts.format import AnnotatedPrompt, flat
-from aurora_bench.prompts.reading import file_text, read_prompts
+from aurora_bench.prompts.reading import read_prompts
 from aurora_bench.prompts.shipped import Split
-from aurora_bench.results import write_whole
 
 CATEGORIES = (
     'hover', 'track', 'patrol', 'spatial', 'multi_agent', 'environment', 'communication',
@@ -169,20 +167,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
     files = {s: [data / s / f'{part}.jsonl' for part in ('bench', 'more')] for s in SIZES}
     choice = choose({s: [p for path in files[s] for p in read_prompts(path)] for s in SIZES})
     for split, paths in files.items():
-        lines = [line for path in paths for line in file_text(path).splitlines()]
-        documents = sorted((json.loads(line) for line in lines if line), key=_place)
+        documents = sorted((d for path in paths for d in read_documents(path)), key=_place)
         chosen = [d for d in documents if d['id'] in choice.chosen[split]]
         for document in chosen:
             document['end_to_end'] = document['id'] in choice.executed[split]
         others = [d for d in documents if d['id'] not in choice.chosen[split]]
         for path, part in zip(paths, (chosen, others), strict=True):
-            text = ''.join(json.dumps(d, ensure_ascii=False) + '\n' for d in part)
-            write_whole(path, text.encode())
+            write_documents(path, part)
     sys.stdout.write(f'seed {choice.seed}\n')
     return 0
 
 
-def _place(document: dict[str, Any]) -> tuple[int, str]:
+def _place(document: Doc) -> tuple[int, str]:
     return CATEGORIES.index(document['category']), document['id']
 
 

@@ -8,22 +8,14 @@ from collections.abc import Iterator
 
 from aurora_bench.prompts.findings import Finding, Rule
 from aurora_bench.prompts.format import (
-    AgentRequirement,
     AnnotatedPrompt,
-    AnyOfRequirement,
     ConditionRequirement,
-    EventRequirement,
-    LinkRequirement,
-    MissionRequirement,
-    OrderRequirement,
-    PlacementRequirement,
     Requirement,
-    UavRequirement,
     WorldRequirement,
     everything,
     flat,
 )
-from aurora_bench.prompts.numbers import numbers_at
+from aurora_bench.prompts.numbers import field_of, numbers_at
 from aurora_core.spec.vocabulary import MissionMode, TimeOfDay, TrafficDensity, Weather
 
 _WORDS: dict[str, frozenset[str]] = {
@@ -45,18 +37,18 @@ def check_meaning(prompt: AnnotatedPrompt) -> Iterator[Finding]:
     """Find values that nothing can have, and requirements that nothing can meet or run."""
     requirements = flat(prompt.requirements)
     texts = [text for r in everything(prompt.requirements) for text in _of_one(r)]
-    egos = [r for r in prompt.requirements if isinstance(r, AgentRequirement) and r.role == 'ego']
+    egos = [r for r in prompt.requirements if r.kind == 'agent' and r.role == 'ego']
     if len(egos) > 1:
         texts.append('there can be one ego only')
-    moments = [r.ref for r in prompt.requirements if isinstance(r, _MOMENTS)]
+    moments = [r.ref for r in prompt.requirements if r.kind == 'mission' or r.kind == 'event']
     texts += [f'{ref!r} names two moments' for ref in sorted(_repeated(moments))]
     if prompt.end_to_end and not any(r.kind in ('agent', 'uav', 'reject') for r in requirements):
         texts.append('is marked end_to_end, but there is nobody to run and nothing to refuse')
     for text in texts:
         yield Finding(where=prompt.id, rule=Rule.MEANING, text=text)
-    uavs = {r.ref for r in requirements if isinstance(r, UavRequirement)}
+    uavs = {r.ref for r in requirements if r.kind == 'uav'}
     for r in requirements:
-        trigger = r.trigger if isinstance(r, EventRequirement) else None
+        trigger = r.trigger if r.kind == 'event' else None
         if trigger is not None and trigger.observer is not None and trigger.observer not in uavs:
             # People see things too; the product has no eyes but those of a UAV.
             yield Finding(
@@ -67,24 +59,21 @@ def check_meaning(prompt: AnnotatedPrompt) -> Iterator[Finding]:
             )
 
 
-_MOMENTS = (MissionRequirement, EventRequirement)
-
-
 def _repeated(names: list[str]) -> set[str]:
     return {name for name in names if names.count(name) > 1}
 
 
 def _of_one(r: Requirement) -> Iterator[str]:
-    if isinstance(r, AnyOfRequirement):
-        if any(isinstance(reading, AnyOfRequirement) for reading in r.any_of):
+    if r.kind == 'any_of':
+        if any(reading.kind == 'any_of' for reading in r.any_of):
             yield f'{r.id}: a reading cannot have readings itself'
         return
     yield from _numbers(r)
-    if isinstance(r, WorldRequirement):
+    if r.kind == 'world':
         yield from _world(r)
-    elif isinstance(r, ConditionRequirement):
+    elif r.kind == 'condition':
         yield from _condition(r)
-    elif isinstance(r, MissionRequirement):
+    elif r.kind == 'mission':
         if r.pattern is not None and r.mode is not MissionMode.NAVIGATE:
             yield f'{r.id}: a pattern is flown by navigate, not by {r.mode}'
         if r.target == r.uav:
@@ -95,17 +84,17 @@ def _of_one(r: Requirement) -> Iterator[str]:
 
 
 def _pairs(r: Requirement) -> Iterator[tuple[str, str | None]]:
-    if isinstance(r, PlacementRequirement):
+    if r.kind == 'placement':
         yield r.agent, r.of
-    elif isinstance(r, LinkRequirement):
+    elif r.kind == 'link':
         yield r.sender, r.receiver
-    elif isinstance(r, OrderRequirement):
+    elif r.kind == 'order':
         yield r.first, r.then
 
 
 def _numbers(r: Requirement) -> Iterator[str]:
     for path, value in numbers_at(r):
-        field = path.split('.')[-1] if not path.split('.')[-1].isdigit() else path.split('.')[-2]
+        field = field_of(path)
         if field == 'bearing_deg':
             continue
         if value < 0.0:

@@ -94,7 +94,7 @@ def annotated_numbers(prompt: AnnotatedPrompt) -> Iterator[AnnotatedNumber]:
     for requirement in flat(prompt.requirements):
         quantity = getattr(requirement, 'quantity', None)
         for path, value in numbers_at(requirement):
-            field = _field_of(path)
+            field = field_of(path)
             is_one_of_a_kind = field == 'count' and value == 1
             is_line = path.endswith('size_m.1') and value == 0
             if '.tol' in path or is_one_of_a_kind or is_line:
@@ -107,7 +107,7 @@ def annotated_numbers(prompt: AnnotatedPrompt) -> Iterator[AnnotatedNumber]:
                 is_required=value not in _none_and_all(field),
             )
     for path, ends in prompt.variation.items():
-        field = _field_of(path)
+        field = field_of(path)
         by_id = {r.id: r for r in everything(prompt.requirements)}
         quantity = getattr(by_id.get(path.split('.')[0]), 'quantity', None)
         for end in ends:
@@ -132,7 +132,8 @@ def _walk(value: object, path: str) -> Iterator[tuple[str, float]]:
         yield path, float(value)
 
 
-def _field_of(path: str) -> str:
+def field_of(path: str) -> str:
+    """Return the field that a path such as `r6.size_m.0` leads to, here `size_m`."""
     return next(part for part in reversed(path.split('.')) if not part.isdigit())
 
 

@@ -18,9 +18,8 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
+from aurora_bench.prompts.documents import Doc, read_documents, write_documents
 from aurora_bench.prompts.format import AnnotatedPrompt
-from aurora_bench.prompts.reading import file_text
-from aurora_bench.results import write_whole
 from aurora_cli.clock import MonotonicClock
 from aurora_cli.local_engine import LocalStages
 from aurora_core.parsing.outcome import ParseOutcome
@@ -30,7 +29,6 @@ from aurora_core.report.run_folder import RunFolder, StageFile, new_run_id
 from aurora_core.report.run_report import RunReport
 from aurora_core.spec.scenario import ScenarioSpec
 
-Doc = dict[str, Any]
 SEED = 1
 _AGENT = ('lane_id', 'lane_position_m', 'x_m', 'y_m', 'speed_mps')
 _MISSION = (
@@ -127,7 +125,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument('files', nargs='+', type=Path, metavar='FILE')
     failed = 0
     for path in parser.parse_args(arguments).files:
-        documents = [json.loads(line) for line in file_text(path).splitlines() if line.strip()]
+        documents = read_documents(path)
         for document in documents:
             document.pop('realization', None)
             prompt = AnnotatedPrompt.model_validate(document)
@@ -139,8 +137,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 document['realization'] = found
             failed += found is None
             # After every run: minutes of work are not lost when the next one is stopped.
-            text = ''.join(json.dumps(d, ensure_ascii=False) + '\n' for d in documents)
-            write_whole(path, text.encode())
+            write_documents(path, documents)
             sys.stdout.write(f'{prompt.id}: {report.status}: {report.summary}\n')
             sys.stdout.flush()
     return int(failed > 0)

@@ -67,10 +67,7 @@ class Names:
         Raises:
             NotExpressibleError: There is none, or the name is that of something else.
         """
-        found = self.one(ref) if ref is not None else next(iter([*self.egos, *self.agents]), None)
-        if found not in self.agents:
-            raise NotExpressibleError(f'{ref!r} is no ground agent')
-        return found
+        return self._named(ref, [*self.egos, *self.agents], self.agents, 'ground agent')
 
     def uav(self, ref: str | None) -> str:
         """Return a UAV: the named one, else the first.
@@ -78,10 +75,7 @@ class Names:
         Raises:
             NotExpressibleError: There is none, or the name is that of something else.
         """
-        found = self.one(ref) if ref is not None else next(iter(self.uavs), None)
-        if found not in self.uavs:
-            raise NotExpressibleError(f'{ref!r} is no UAV')
-        return found
+        return self._named(ref, self.uavs, self.uavs, 'UAV')
 
     def body(self, ref: str | None) -> str:
         """Return any body: the named one, else the ego or another agent, else a UAV.
@@ -90,9 +84,13 @@ class Names:
             NotExpressibleError: There is none, or the name is that of a place.
         """
         everybody = [*self.egos, *self.agents, *self.uavs]
-        found = self.one(ref) if ref is not None else next(iter(everybody), None)
-        if found not in everybody:
-            raise NotExpressibleError(f'{ref!r} is no body')
+        return self._named(ref, everybody, everybody, 'body')
+
+    def _named(self, ref: str | None, silent: list[str], known: list[str], kind: str) -> str:
+        """Return the named one, or without a name the first of `silent`; it has to be known."""
+        found = self.one(ref) if ref is not None else next(iter(silent), None)
+        if found not in known:
+            raise NotExpressibleError(f'{ref!r} is no {kind}')
         return found
 
     def moment(self, ref: str) -> str:

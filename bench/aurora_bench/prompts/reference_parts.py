@@ -5,8 +5,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
 
+from aurora_bench.prompts.documents import Doc
 from aurora_bench.prompts.format import (
     Action,
     BehaviorRequirement,
@@ -19,13 +19,13 @@ from aurora_bench.prompts.format import (
     Trigger,
 )
 from aurora_bench.prompts.reference_names import Names, NotExpressibleError, id_of
-from aurora_core.spec.parameter import Unit
+from aurora_core.spec.parameter import unit_of
 from aurora_core.spec.requirements import STATED_QUANTITIES
 
-Doc = dict[str, Any]
-
-# What the product takes where a request is silent, and the domain in which it may move.
-_DEFAULTS: dict[str, tuple[float, float, float]] = {
+# What stands where an annotation is silent, and the domain in which it may move. The values are
+# those of the product, so that a reference is no other scenario than the prompt: a test compares
+# them. Only the speed that a trigger waits for is our own: 2 m/s says `slow`, not `stopped`.
+DEFAULTS: dict[str, tuple[float, float, float]] = {
     'altitude_m': (30.0, 10.0, 100.0),
     'standoff_m': (0.0, 0.0, 50.0),
     'duration_s': (30.0, 10.0, 120.0),
@@ -37,15 +37,15 @@ _DEFAULTS: dict[str, tuple[float, float, float]] = {
     'value_m': (20.0, 5.0, 50.0),
     'value_mps': (2.0, 0.5, 5.0),
     'at_s': (10.0, 5.0, 60.0),
-    'radius_m': (40.0, 20.0, 80.0),
+    'radius_m': (30.0, 20.0, 80.0),
     'waypoint_count': (4.0, 3.0, 8.0),
 }
-_SIZE_M = (100.0, 60.0)
+# Of a rectangle; a line has the length alone.
+SIZE_M = (100.0, 60.0)
 _MISSION_NUMBERS = (
     'altitude_m', 'standoff_m', 'bearing_deg', 'duration_s', 'radius_m', 'waypoint_count',
     'speed_mps',
 )  # fmt: skip
-_SUFFIXES = (('_mps', 'm/s'), ('_deg', 'deg'), ('_m', 'm'), ('_s', 's'))
 
 
 class Numbers:
@@ -64,9 +64,8 @@ class Numbers:
             unit: Where the field's name does not say it.
         """
         low, high = self._variation.get(f'{self._id}.{path}', (value, value))
-        field = path.split('.')[0] if path.startswith('size_m') else path.split('.')[-1]
         return {
-            'value': value, 'unit': unit or _unit(field), 'low': min(low, value),
+            'value': value, 'unit': unit or unit_of(path.split('.')[-1]), 'low': min(low, value),
             'high': max(high, value), 'provenance': 'inferred',
         }  # fmt: skip
 
@@ -77,13 +76,15 @@ class Numbers:
 
 
 def default(name: str) -> Doc:
-    """Return the parameter that the product takes when nothing is said."""
-    value, low, high = _DEFAULTS[name]
-    return {'value': value, 'unit': _unit(name), 'low': low, 'high': high, 'provenance': 'default'}
-
-
-def _unit(field: str) -> str:
-    return next((unit for end, unit in _SUFFIXES if field.endswith(end)), Unit.ONE.value)
+    """Return the parameter that stands where nothing is said."""
+    value, low, high = DEFAULTS[name]
+    return {
+        'value': value,
+        'unit': unit_of(name),
+        'low': low,
+        'high': high,
+        'provenance': 'default',
+    }
 
 
 def placement(r: PlacementRequirement, names: Names, numbers: Numbers) -> Doc:
@@ -118,7 +119,7 @@ def mission(
     elif pattern == 'waypoints':
         found = {'waypoint_count': default('waypoint_count'), **found}
     if r.size_m is not None or pattern in ('rectangle', 'lawnmower', 'line'):
-        size = r.size_m or (_SIZE_M if pattern != 'line' else (_SIZE_M[0], 0.0))
+        size = r.size_m or (SIZE_M if pattern != 'line' else (SIZE_M[0], 0.0))
         found['size_m'] = [
             numbers.stated(f'{prefix}size_m.{k}', v, 'm') for k, v in enumerate(size)
         ]

@@ -11,30 +11,20 @@ from __future__ import annotations
 
 import argparse
 import itertools
-import json
 import sys
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 from pydantic import ValidationError
 
+from aurora_bench.prompts.documents import Doc, read_documents, write_documents
 from aurora_bench.prompts.format import (
     AgentRequirement,
     AnnotatedPrompt,
-    AnyOfRequirement,
-    BehaviorRequirement,
-    ConditionRequirement,
-    EventRequirement,
-    LinkRequirement,
-    MissionRequirement,
-    OrderRequirement,
-    PlacementRequirement,
     Requirement,
     UavRequirement,
     WorldRequirement,
 )
-from aurora_bench.prompts.reading import file_text
 from aurora_bench.prompts.reference_names import Names, NotExpressibleError, id_of
 from aurora_bench.prompts.reference_parts import (
     Numbers,
@@ -46,10 +36,8 @@ from aurora_bench.prompts.reference_parts import (
     mission,
     placement,
 )
-from aurora_bench.results import write_whole
 from aurora_core.spec.scenario import ScenarioSpec
 
-Doc = dict[str, Any]
 _MOST_READINGS = 64
 
 
@@ -63,7 +51,7 @@ def reference_spec(prompt: AnnotatedPrompt) -> ScenarioSpec:
     """
     if prompt.feasibility == 'infeasible':
         raise NotExpressibleError('a refusal has no specification')
-    choices = [r.any_of if isinstance(r, AnyOfRequirement) else (r,) for r in prompt.requirements]
+    choices = [r.any_of if r.kind == 'any_of' else (r,) for r in prompt.requirements]
     reason = ''
     for readings in itertools.islice(itertools.product(*choices), _MOST_READINGS):
         try:
@@ -126,37 +114,37 @@ class _Builder:
     def _add(self, r: Requirement) -> None:
         numbers = Numbers(r, self._prompt.variation)
         names = self._names
-        if isinstance(r, WorldRequirement):
+        if r.kind == 'world':
             self._world(r, numbers)
-        elif isinstance(r, PlacementRequirement):
+        elif r.kind == 'placement':
             for ident in self._members(r.agent):
                 self._agents[ident]['placements'].append(placement(r, names, numbers))
-        elif isinstance(r, BehaviorRequirement):
+        elif r.kind == 'behavior':
             for ident in self._members(r.agent):
                 self._agents[ident]['behaviors'].append(behavior(r, names, numbers))
-        elif isinstance(r, MissionRequirement):
+        elif r.kind == 'mission':
             flyers = names.all(r.uav)
             if not set(flyers) <= set(names.uavs):
                 raise NotExpressibleError(f'{r.uav!r} is no UAV')
             for k, uav in enumerate(flyers):
                 ident = id_of(r.ref) if k == 0 else f'{id_of(r.ref)}_{k + 1}'
                 self._spec['missions'].append(mission(r, ident, uav, names, numbers))
-        elif isinstance(r, LinkRequirement):
+        elif r.kind == 'link':
             self._spec['links'].append(link(r, self._new('link'), names, numbers))
-        elif isinstance(r, EventRequirement):
+        elif r.kind == 'event':
             found = event(r, names, numbers)
             self._spec['events'].append(found)
             if r.action is not None and r.action.do == 'change_mission':
                 ident, uav = found['action']['mission'], found['action']['uav']
                 self._spec['missions'].append(mission(r.action, ident, uav, names, numbers))
-        elif isinstance(r, OrderRequirement):
+        elif r.kind == 'order':
             self._spec['orders'].append(
                 {
                     'id': self._new('order'), 'first': names.moment(r.first),
                     'then': names.moment(r.then), **numbers.of(r, ('within_s',)),
                 }
             )  # fmt: skip
-        elif isinstance(r, ConditionRequirement):
+        elif r.kind == 'condition':
             found = condition(r, self._new('condition'), names, numbers)
             self._spec['conditions'].append(found)
 
@@ -170,15 +158,15 @@ class _Builder:
         """Forbid what must not be so, for the kinds that prompts forbid."""
         numbers = Numbers(r, self._prompt.variation)
         found: Doc = {'forbids': r.kind, 'id': self._new('no')}
-        if isinstance(r, WorldRequirement) and r.field != 'duration_s':
+        if r.kind == 'world' and r.field != 'duration_s':
             found['map_name' if r.field == 'map' else r.field] = r.value
-        elif isinstance(r, PlacementRequirement):
+        elif r.kind == 'placement':
             agent = self._names.agent(r.agent)
             found |= {'agent': agent, **placement(r, self._names, numbers)}
-        elif isinstance(r, BehaviorRequirement):
+        elif r.kind == 'behavior':
             agent = self._names.agent(r.agent)
             found |= {'agent': agent, **behavior(r, self._names, numbers)}
-        elif isinstance(r, MissionRequirement):
+        elif r.kind == 'mission':
             found |= {'uav': self._names.uav(r.uav), 'mode': r.mode}
             found['target'] = self._names.one(r.target)
         elif not isinstance(r, AgentRequirement | UavRequirement):
@@ -203,7 +191,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(prog='aurora_bench.prompts.reference_spec')
     parser.add_argument('files', nargs='+', type=Path, metavar='FILE')
     for path in parser.parse_args(arguments).files:
-        documents = [json.loads(line) for line in file_text(path).splitlines() if line.strip()]
+        documents = read_documents(path)
         for document in documents:
             document.pop('reference', None)
             prompt = AnnotatedPrompt.model_validate(document)
@@ -214,8 +202,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
                     sys.stdout.write(f'{prompt.id}: {err}\n')
                 continue
             document['reference'] = spec.model_dump(mode='json', exclude_defaults=True)
-        text = ''.join(json.dumps(d, ensure_ascii=False) + '\n' for d in documents)
-        write_whole(path, text.encode())
+        write_documents(path, documents)
     return 0
 
 

@@ -91,11 +91,13 @@ def _confirmed(measured: Sequence[Measured]) -> Goal:
     confirmed = {each.cell for each in given if each.agrees}
     equal = sum(each.agrees is True for each in given)
     every_kind = {kind for _, kind in alike} == kinds
+    others = len({each.cell for each in given} - cells)
+    beside = f'; {others} more have values only of who reads it otherwise' if others else ''
     return Goal(
         name='cells whose values another library confirms',
         target=f'all {len(cells)} for which one that reads the formula as we do has values',
         figure=f'{len(confirmed)} ({equal} of {len(given)} results of others are ours; the '
-        'table of values names the rest)',
+        f'table of values names the rest{beside})',
         met=every_kind and len(confirmed) == len(cells) if given else None,
     )
 

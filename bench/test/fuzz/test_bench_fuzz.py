@@ -81,6 +81,16 @@ def test_the_judge_sees_a_dropped_number() -> None:
     assert any("'17'" in fault for fault in faults(prompt, silent))
 
 
+def test_the_judge_reads_both_ends_of_a_range() -> None:
+    for dash in '-–−':
+        outcome = parse_offline(f'A drone hovers at 20{dash}30 m over City Hall.', CONTEXT)
+        assert outcome.spec is not None
+        assert {c.value.value for c in outcome.spec.conditions} == {20.0, 30.0}
+        assert list(faults(outcome.spec.prompt, outcome)) == []
+        changed = outcome.spec.prompt.replace('30', '40')
+        assert any('30' in fault for fault in faults(changed, outcome))
+
+
 def test_results_are_written(tmp_path: Path) -> None:
     assert main(['--prompts', '20', '--replies', '20', '--results', str(tmp_path)]) == 0
     assert '0 of 20' in (tmp_path / 'fuzz.md').read_text(encoding='utf-8')

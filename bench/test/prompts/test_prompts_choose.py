@@ -13,7 +13,7 @@ from aurora_bench.prompts.choose import BEHAVIORAL, Pools, choose, main
 from aurora_bench.prompts.format import AnnotatedPrompt, flat
 from aurora_bench.prompts.paraphrases import check_split
 from aurora_bench.prompts.reading import read_prompts
-from aurora_bench.prompts.shipped import FIRST, SECOND, THIRD, Split, prompt_file
+from aurora_bench.prompts.shipped import FIRST, FOURTH, SECOND, THIRD, Split, prompt_file
 from aurora_bench.prompts.validate import validate
 
 SPLITS: tuple[Split, Split] = ('tune', 'held_out')
@@ -35,7 +35,7 @@ def pools() -> Pools:
 
 def test_every_shipped_file_is_in_order_and_no_group_is_on_both_sides() -> None:
     parts: dict[Split, tuple[str, ...]] = {
-        'tune': (*FIRST, SECOND, THIRD),
+        'tune': (*FIRST, SECOND, THIRD, FOURTH),
         'held_out': (*FIRST, THIRD),
     }
     texts = {
@@ -44,7 +44,7 @@ def test_every_shipped_file_is_in_order_and_no_group_is_on_both_sides() -> None:
     }
     prompts, findings = validate([*texts['tune'], *texts['held_out']])
     assert [str(f) for f in findings if f.is_error] == []
-    assert len(prompts) == 942
+    assert len(prompts) == 1122
     assert check_split(validate(texts['tune'])[0], validate(texts['held_out'])[0]) == []
 
 

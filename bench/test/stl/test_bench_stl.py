@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from aurora_bench.results import markdown_table
+from aurora_bench.results import Goal, markdown_table
 from aurora_bench.stl.agreement import Comparison
 from aurora_bench.stl.cells import LENGTHS, Cell, Kind, all_cells
 from aurora_bench.stl.goals import exponent, goal_cell, goals, shape
@@ -118,17 +118,21 @@ def test_who_reads_a_formula_otherwise_confirms_and_refutes_nothing() -> None:
     name = 'cells whose values another library confirms'
     short, long = goal_cell(Kind.UNTIL, 1000), goal_cell(Kind.UNTIL, 10_000)
 
-    def met(*given: tuple[str, Cell, bool]) -> bool | None:
+    def judged(*given: tuple[str, Cell, bool]) -> Goal:
         found = [
             Measured(tool=tool, cell=cell, seconds=(0.1,), agrees=agrees)
             for tool, cell, agrees in given
         ]
-        return {goal.name: goal for goal in goals(Comparison(), found)}[name].met
+        return {goal.name: goal for goal in goals(Comparison(), found)}[name]
 
-    assert met(('RTAMT', short, True), ('reelay', short, False), ('reelay', long, False))
-    assert met(('RTAMT', short, True), ('RTAMT', long, False)) is False
-    assert met(('reelay', short, False)) is False  # nobody reads it as we do
-    assert met() is None
+    left_out = judged(('RTAMT', short, True), ('reelay', short, False), ('reelay', long, False))
+    assert left_out.met
+    assert '1 more have values only of who reads it otherwise' in left_out.figure
+    against = judged(('RTAMT', short, True), ('RTAMT', long, False))
+    assert against.met is False
+    assert 'otherwise' not in against.figure
+    assert judged(('reelay', short, False)).met is False  # nobody reads it as we do
+    assert judged().met is None
 
 
 def test_one_unequal_pair_is_a_goal_missed() -> None:

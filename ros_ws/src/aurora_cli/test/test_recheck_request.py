@@ -161,3 +161,14 @@ def test_what_cannot_be_checked_is_not_refuted(here: Path, call: Call) -> None:
     assert 'not checked: it rests on the specification' in alone.out
     del proof['rule']
     assert _again(call, here, document).code == 4
+
+
+def test_a_specification_without_its_defaults_is_read_the_same(here: Path, call: Call) -> None:
+    document = _checked(call, 'A bus is 20 m ahead of the ego. The bus is 60 m ahead of the ego.')
+    whole = ScenarioSpec.model_validate(document['spec'])
+    document['spec'] = whole.model_dump(mode='json', exclude_defaults=True) | {
+        'missions': document['spec']['missions']
+    }
+    assert 'bound' not in json.dumps(document['spec']['agents'])
+    again = _again(call, here, document)
+    assert again.code == 0, again.out

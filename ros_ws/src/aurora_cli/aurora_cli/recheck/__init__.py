@@ -15,9 +15,9 @@ from typing import Any
 
 from aurora_cli.recheck import flights, places, schedule
 from aurora_cli.recheck.finding import Finding, Outcome, Step, finding
-from aurora_cli.recheck.limits import by_limit, by_sign, quoted
+from aurora_cli.recheck.limits import by_limit, by_sign
 from aurora_cli.recheck.listings import by_listing
-from aurora_cli.recheck.request import Request, fact_holds
+from aurora_cli.recheck.request import Request, fact_holds, quoted
 from aurora_core.feasibility.verdict import Certificate, Rule
 
 __all__ = ['Finding', 'Outcome', 'recheck']

@@ -7,7 +7,7 @@ from __future__ import annotations
 from typing import Any
 
 from aurora_cli.recheck.finding import Step
-from aurora_cli.recheck.request import node_at, read_config
+from aurora_cli.recheck.request import node_at, quoted, read_config
 from aurora_core.feasibility.verdict import Certificate
 
 # Limit name of a certificate -> (key in limits.json of its lower end, of its upper end).
@@ -113,17 +113,6 @@ def _stated(proof: Certificate, spec: dict[str, Any] | None) -> list[Step]:
         escape = 'at_most' if above else 'at_least'
         checks.append((bound != escape, f'the number binds {bound}, so it cannot be moved inside'))
     return [*checks, *quoted(proof, spec)]
-
-
-def quoted(proof: Certificate, spec: dict[str, Any] | None, word: str = '') -> list[Step]:
-    """The prompt has words, or this word, where the proof points."""
-    if spec is None or proof.span is None:
-        return []
-    words = str(spec.get('prompt', ''))[proof.span.start : proof.span.end]
-    if word:
-        same = word.casefold() in words.casefold() or words.casefold() in word.casefold()
-        return [(bool(words) and same, f'the prompt says {words!r} there')]
-    return [(bool(words.strip()), f'the prompt says {words!r} there')]
 
 
 def _at(spec: dict[str, Any], path: str) -> dict[str, Any] | None:

@@ -13,8 +13,12 @@ from aurora_cli.recheck.request import Request, left_open, stated
 from aurora_core.feasibility.verdict import Certificate
 
 # Relation -> axis, and where on it the placed one is, seen from the other one.
-_WHERE = {'ahead': ('length', 1), 'behind': ('length', -1), 'left': ('width', 1)}
-_WHERE['right'] = ('width', -1)
+_WHERE = {
+    'ahead': ('length', 1),
+    'behind': ('length', -1),
+    'left': ('width', 1),
+    'right': ('width', -1),
+}
 
 
 def placement(proof: Certificate, request: Request) -> list[Step]:
@@ -48,7 +52,9 @@ def _exclude(
     if sign != other_sign:
         return True
     far, away = a.get('distance_m'), b.get('distance_m')
-    if not (stated(far) and stated(away)) or {far['bound'], away['bound']} != {'exactly'}:
+    if not (stated(far) and stated(away)):
+        return False
+    if any(number.get('bound', 'exactly') != 'exactly' for number in (far, away)):
         return False
     low, high = left_open(far, request.slack('placement_other_m', far))
     least, most = left_open(away, request.slack('placement_other_m', away))
@@ -100,7 +106,6 @@ def _inside(
     radius = mission.get('radius_m')
     if mission.get('pattern') != 'orbit' or not stated(radius):
         return False, 'the flight hovers or flies around the place at a stated radius'
-    # A circle around the centre meets every radius between the nearest and the farthest point.
     core = area.buffer(-request.slack('standoff_m', radius))
     value = float(radius['value'])
     # A circle meets a connected area when its radius lies between the nearest and farthest point.

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""The specification and the configuration as plain JSON, and what a stated number leaves open."""
+"""The specification and the configuration as plain JSON, and what they say."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ import json
 import math
 from typing import Any, TypeGuard
 
-from aurora_core.feasibility.verdict import Fact, FactSource
+from aurora_cli.recheck.finding import Step
+from aurora_core.feasibility.verdict import Certificate, Fact, FactSource
 from aurora_core.knowledge.config_files import config_path
 
 # "about" widens a relative tolerance to a tenth.
@@ -88,7 +89,7 @@ def left_open(
     return low, high
 
 
-def fact_holds(request: Request, fact: Fact) -> tuple[bool, str]:
+def fact_holds(request: Request, fact: Fact) -> Step:
     """Look a fact up where it says that it stands."""
     if fact.source is FactSource.REQUEST:
         found = node_at(request.spec, fact.path)
@@ -104,3 +105,14 @@ def fact_holds(request: Request, fact: Fact) -> tuple[bool, str]:
         properties = [f['properties'] for f in request.features('zones.geojson')]
         found = node_at(properties, fact.path)
     return found == fact.value, f'{fact.source} has {fact.path} = {found}'
+
+
+def quoted(proof: Certificate, spec: dict[str, Any] | None, word: str = '') -> list[Step]:
+    """The prompt has words, or this word, where the proof points."""
+    if spec is None or proof.span is None:
+        return []
+    words = str(spec.get('prompt', ''))[proof.span.start : proof.span.end]
+    if word:
+        same = word.casefold() in words.casefold() or words.casefold() in word.casefold()
+        return [(bool(words) and same, f'the prompt says {words!r} there')]
+    return [(bool(words.strip()), f'the prompt says {words!r} there')]

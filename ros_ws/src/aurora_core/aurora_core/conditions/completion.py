@@ -41,6 +41,32 @@ def completed_condition(
     )
 
 
+def deadline_condition(
+    inputs: Inputs, arguments: MissionArguments, by_s: float, *, id: str, source: Source
+) -> Condition:
+    """Return that a mission is over by a time from scenario start, completed or not.
+
+    Args:
+        inputs: The request.
+        arguments: The mission.
+        by_s: Deadline.
+        id: Of the condition.
+        source: Where it comes from.
+    """
+    uav, mission = arguments.uav, arguments.mission
+    return condition(
+        id=id,
+        sentence=f'{mission} of {uav} is over by {number(by_s)} s',
+        quantity=QuantityName.MISSION_COMPLETED,
+        signal=f'end_of_mission({uav},{mission})',
+        of=(uav,),
+        target=Target(op='<=', threshold=by_s, unit='s'),
+        arguments=inputs.arguments(Window.PHASE, aspect='end', mission=arguments),
+        source=source,
+        every_sample=False,
+    )
+
+
 def landed_condition(
     inputs: Inputs,
     missions: tuple[MissionArguments, ...],

@@ -12,6 +12,7 @@ from aurora_core.conditions.build import Inputs, Underivable
 from aurora_core.conditions.condition import Condition
 from aurora_core.conditions.events import event_conditions
 from aurora_core.conditions.missions import mission_conditions
+from aurora_core.conditions.orders import order_conditions
 from aurora_core.conditions.placements import placement_conditions
 from aurora_core.conditions.plan_facts import PlanFacts
 from aurora_core.conditions.safety import safety_conditions
@@ -27,7 +28,8 @@ class Derivation:
     """What a request asks for.
 
     Attributes:
-        conditions: In a fixed order: stated, missions, placements, behaviours, events, safety.
+        conditions: In a fixed order: stated, missions, placements, behaviours, events,
+            orders, safety.
         underivable: Elements that no condition can express yet; their clauses are `incomplete`.
     """
 
@@ -71,6 +73,7 @@ def _all(inputs: Inputs) -> Iterator[Condition | Underivable]:
         placement_conditions(inputs),
         behavior_conditions(inputs),
         event_conditions(inputs),
+        order_conditions(inputs),
         safety_conditions(inputs),
         unsaid(inputs),
     )

@@ -6,7 +6,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from aurora_core.conditions.build import Inputs, Source, Target, Underivable, condition, number
+from aurora_core.conditions.build import (
+    Inputs,
+    Source,
+    Target,
+    Underivable,
+    bound_words,
+    condition,
+    number,
+    number_target,
+    stated_by,
+)
 from aurora_core.conditions.condition import Condition, MissionArguments, Window
 from aurora_core.conditions.links import (
     delivery_deadline_s,
@@ -16,7 +26,7 @@ from aurora_core.conditions.links import (
     ratio_condition,
 )
 from aurora_core.conditions.missions import mission_arguments
-from aurora_core.spec.parameter import Bound, Provenance
+from aurora_core.spec.parameter import Bound, Parameter, Provenance
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import (
     AgentAction,
@@ -27,6 +37,7 @@ from aurora_core.spec.scenario import (
     SendMessage,
     SpeedTrigger,
     TimeTrigger,
+    UavAction,
     VisibilityTrigger,
 )
 from aurora_core.spec.vocabulary import MissionMode
@@ -60,6 +71,8 @@ def event_conditions(inputs: Inputs) -> Iterator[Condition | Underivable]:
             continue
         source = Source(ids=(event.id,), spans=(event.span,))
         yield from _moment(inputs, event, source)
+        if isinstance(event.action, UavAction) and event.action.altitude_m is not None:
+            yield _climb(inputs, event.action, event.action.altitude_m, event, source)
         if isinstance(event.action, SendMessage):
             link = link_between(inputs.spec, event.action.sender, event.action.receiver)
             if link is None:
@@ -110,8 +123,10 @@ def _moment(inputs: Inputs, event: Event, source: Source) -> Iterator[Condition]
         ('within', f'within {number(latest_s)} s of its trigger', _at_most(latest_s)),
         ('not_before', f'not before {after}', _at_least(earliest_s)),
     ]
-    if isinstance(event.action, AgentAction):
-        # Drivers slow down and speed up for many reasons: what was before says nothing.
+    climbs = isinstance(event.action, UavAction) and event.action.do == 'ascend'
+    if isinstance(event.action, AgentAction) or climbs:
+        # Drivers slow down and speed up for many reasons, and a UAV has climbed at its take-off:
+        # what was before says nothing.
         bounds.pop()
     for name, words, target in bounds:
         yield condition(
@@ -139,6 +154,24 @@ def _moment(inputs: Inputs, event: Event, source: Source) -> Iterator[Condition]
                 source=Source(ids=source.ids, spans=(at.span,), provenance=at.provenance),
                 every_sample=False,
             )
+
+
+def _climb(
+    inputs: Inputs, action: UavAction, altitude: Parameter, event: Event, source: Source
+) -> Condition:
+    """Return that a UAV reaches the altitude that it is to climb to."""
+    if altitude.provenance is Provenance.EXPLICIT:
+        source = stated_by(source, altitude)
+    return condition(
+        id=f'{event.id}.altitude',
+        sentence=f'{action.uav} reaches {bound_words(altitude)} {number(altitude.value)} m',
+        quantity=QuantityName.ALTITUDE,
+        of=(action.uav,),
+        target=number_target(altitude, inputs.tolerances.altitude_m),
+        arguments=inputs.arguments(Window.RUN, event=event.id),
+        source=source,
+        by_s=inputs.facts.horizon_s,
+    )
 
 
 def _at_most(seconds: float) -> Target:

@@ -7,7 +7,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from aurora_core.conditions.build import Inputs, Target, condition
-from aurora_core.conditions.completion import completed_condition, landed_condition
+from aurora_core.conditions.completion import (
+    completed_condition,
+    deadline_condition,
+    landed_condition,
+)
 from aurora_core.conditions.condition import Condition, Window
 from aurora_core.conditions.missions import mission_arguments
 from aurora_core.conditions.stated_values import (
@@ -53,13 +57,18 @@ def stated_flight(inputs: Inputs, stated: StatedCondition) -> Iterator[Condition
             by_s=value_of(stated.by_s),
         )
         return
-    only(stated)
+    completed = stated.quantity == 'mission_completed'
+    only(stated, *(['by_s'] if completed else []))
     for mission in missions:
         name = f'{stated.id}.holds' + (f'.{mission.id}' if len(missions) > 1 else '')
         arguments = mission_arguments(inputs, mission)
-        if stated.quantity == 'mission_completed':
+        if completed:
             asked_true(stated)
             yield completed_condition(inputs, arguments, id=name, source=source)
+            by_s = value_of(stated.by_s)
+            if by_s is not None:
+                late = name.replace('.holds', '.deadline', 1)
+                yield deadline_condition(inputs, arguments, by_s, id=late, source=source)
             continue
         asked = target_of(inputs.tolerances, stated)
         if asked.op == '==':

@@ -24,9 +24,6 @@ def unsaid(inputs: Inputs) -> Iterator[Underivable]:
         if link.occlusion is not LinkOcclusion.SHORTENS:
             what = f'a link with occlusion {link.occlusion.value}'
             yield Underivable(element=link.id, what=what, span=link.span)
-    for order in spec.orders:
-        what = f'that {order.first} comes before {order.then}'
-        yield Underivable(element=order.id, what=what, span=order.span)
     for prohibition in spec.prohibitions:
         what = f'a forbidden {prohibition.forbids}'
         yield Underivable(element=prohibition.id, what=what, span=prohibition.span)

@@ -19,8 +19,10 @@ from aurora_core.spec.scenario import (
     Event,
     EventDoneTrigger,
     MessageTrigger,
+    MissionDoneTrigger,
     ScenarioSpec,
     SendMessage,
+    UavAction,
     bodies_of,
 )
 from aurora_core.spec.vocabulary import BehaviorKind
@@ -66,13 +68,14 @@ def judgeable(
         placement_id(agent, index)
         for agent in spec.agents
         for index, placement in enumerate(agent.placements)
-        if not can_be_placed(placement, spec)
+        if not can_be_placed(agent.id, placement, spec)
     ]
     return tuple(
         c
         for c in conditions
         if not absent & set(c.of)
         and c.arguments.event not in events
+        and not events.keys() & set(c.of)
         and not any(c.id == name or c.id.startswith(f'{name}.') for name in undone)
     )
 
@@ -82,7 +85,8 @@ def _undone_events(spec: ScenarioSpec, grounded: GroundedScenario) -> dict[str, 
     absent = {a.id for a in spec.agents} - {a.id for a in grounded.agents}
     undone: dict[str, str] = {}
     for event in spec.events:
-        if event.action is not None and event.action.do in _NO_ACTIONS:
+        refused = event.action is not None and event.action.do in _NO_ACTIONS
+        if event.action is not None and refused and not _climbs_last(event):
             undone[event.id] = f'action {event.action.do}'
         elif bodies_of(event) & absent:
             undone[event.id] = ''
@@ -93,6 +97,17 @@ def _undone_events(spec: ScenarioSpec, grounded: GroundedScenario) -> dict[str, 
             names = ' and '.join(_waits_for(event, spec))
             undone[event.id] = f'waits for {names}, which nobody carries out'
     return undone
+
+
+def _climbs_last(event: Event) -> bool:
+    """Tell whether a UAV is to climb once its missions are over, and not during one of them."""
+    trigger, action = event.trigger, event.action
+    return (
+        isinstance(action, UavAction)
+        and action.do == 'ascend'
+        and isinstance(trigger, MissionDoneTrigger)
+        and trigger.uav == action.uav
+    )
 
 
 def _is_blocked(event: Event, spec: ScenarioSpec, undone: Mapping[str, str]) -> bool:

@@ -35,6 +35,17 @@ _SPEED_ACTIONS = frozenset({'brake', 'stop', 'yield'})
 _FROM_MOTION = _SPEED_ACTIONS | {'slow'}
 
 
+def _shows_after(event: Event) -> int:
+    """Return how many ticks after it is due an action shows in the record.
+
+    A message is sent at once. What an agent is told shows in its state one tick later. A UAV
+    begins a phase with its next step, whose command belongs to the tick after.
+    """
+    if isinstance(event.action, UavAction):
+        return 2
+    return 1 if isinstance(event.action, AgentAction) else 0
+
+
 @dataclass(slots=True)
 class _EventState:
     event: Event
@@ -58,6 +69,11 @@ class EventRunner:
         self._roster = roster
         self._links = links
         self._states = [_EventState(event=e) for e in spec.events]
+        ids = {e.id for e in spec.events}
+        self._before: dict[str, set[str]] = {
+            e.id: {o.first for o in spec.orders if o.then == e.id and o.first in ids}
+            for e in spec.events
+        }
         self._progress = Progress(arrival_m=arrival_m)
         self._messages = 0
 
@@ -69,6 +85,23 @@ class EventRunner:
     def received(self, receiver: str, sender: str) -> None:
         """Note a delivered message."""
         self._progress.received.add((receiver, sender))
+
+    def keeps_up(self, uav_id: str, tick: int) -> bool:
+        """Tell whether something is still to happen before a UAV lands after its missions."""
+        return any(
+            s.event.trigger is None
+            and isinstance(s.event.action, UavAction)
+            and s.event.action.do == 'land'
+            and s.event.action.uav == uav_id
+            and not self._may_follow(s.event, tick)
+            for s in self._states
+            if not s.done
+        )
+
+    def _may_follow(self, event: Event, tick: int) -> bool:
+        """Tell whether everything that is to come before an event shows by `tick`."""
+        done = self._progress.done_tick
+        return all(first in done and done[first] <= tick for first in self._before[event.id])
 
     def step(
         self,
@@ -95,12 +128,11 @@ class EventRunner:
             if state.triggered_tick is None:
                 continue
             due = tick >= state.triggered_tick + whole_ticks(event.waits_s, dt_s)
+            due = due and self._may_follow(event, tick)
             if due and self._allowed(event, seen, machines):
                 commands += self._act(tick, event, seen, machines)
                 state.done = True
-                # What an agent is told shows in its state one tick later; a message is sent now.
-                shows = tick + 1 if isinstance(event.action, AgentAction) else tick
-                self._progress.done_tick[event.id] = shows
+                self._progress.done_tick[event.id] = tick + _shows_after(event)
                 note(tick, ScenarioEventKind.ACTION, event.id, '')
         return commands
 
@@ -114,6 +146,11 @@ class EventRunner:
     ) -> bool:
         if event.trigger is not None:
             return holds(event, tick, dt_s, seen, self._progress)
+        if not self._may_follow(event, tick):
+            return False
+        if isinstance(event.action, UavAction) and event.action.do == 'land':
+            # Nobody says when: a UAV lands after its missions.
+            return event.action.uav in self._progress.missions_done
         # Nobody says when: once the UAVs watch, and once who is to brake or stop is on the move.
         if any(m.first_capture_tick is None for m in machines):
             return False
@@ -160,6 +197,8 @@ class EventRunner:
             for machine in machines:
                 if machine.plan.id == action.uav and action.do == 'land':
                     machine.land_now()
+                elif machine.plan.id == action.uav and action.altitude_m is not None:
+                    machine.climb_to(action.altitude_m.value)
             return []
         if isinstance(action, AgentAction):
             return self._agent_commands(action, seen)

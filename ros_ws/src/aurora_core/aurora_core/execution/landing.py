@@ -16,6 +16,7 @@ from aurora_core.trace.layout import UavColumn
 
 FloatArray = npt.NDArray[np.float64]
 Point2 = tuple[float, float]
+Point3 = tuple[float, float, float]
 
 # Distance between the landing spots of two UAVs (m): twice the separation in flight.
 APART_M = 10.0
@@ -74,7 +75,8 @@ def landing_spot(
     free = []
     for spot in spots:
         end = (spot[0], spot[1], z)
-        if airspace.way_clearance_m((end, (x, y, z), beyond, end)) >= clearance_m:
+        ways = ((end, (x, y, z), beyond, end), _turning(machine, uav[index], spot, z))
+        if all(airspace.way_clearance_m(way) >= clearance_m for way in ways):
             free.append(spot)
     for spot in free:
         if not _crowded(index, spot, machines, uav):
@@ -82,6 +84,14 @@ def landing_spot(
     if patient and free:
         return None
     return (free[0], z) if free else (spots[0], max(z, plan.safe_altitude_m))
+
+
+def _turning(
+    machine: MissionMachine, state: FloatArray, spot: Point2, height_m: float
+) -> tuple[Point3, ...]:
+    """Return the way to a spot as it will be flown: in motion it may turn wide and come back."""
+    track = machine.way_home(state, spot, AHEAD_S, STEP_S)
+    return tuple((x, y, height_m) for x, y in track)
 
 
 def _crowded(
@@ -96,15 +106,16 @@ def _crowded(
         if k == index or other.landed or z < 1.0:
             continue
         level = abs(z - height_m) < APART_M
+        # The descent passes the heights of all that fly lower.
+        below = z < height_m and norm2(spot[0] - x, spot[1] - y) < WAY_APART_M
         if other.followed is not None:  # it goes on with its target
-            if level and _meets(track, uav[k]):
+            if _meets(track, uav[k]) if level else below:
                 return True
             continue
         legs = _legs(other, uav[k], other.landing_spot)
         if level and any(ways_apart_m(*a, *b) < WAY_APART_M for a in own for b in legs):
             return True
-        # The descent passes the heights of all that fly lower.
-        if z < height_m and norm2(spot[0] - x, spot[1] - y) < WAY_APART_M:
+        if below:
             return True
     return False
 

@@ -181,6 +181,7 @@ class ScenarioExecutor:
         for index, machine in enumerate(self._setup.machines):
             if tick == 0:
                 machine.start()
+            machine.stays_up = self._runner.keeps_up(machine.plan.id, tick)
             followed = machine.followed
             target = None if followed is None else seen.motion(followed)
             row = machine.step(tick, uav[index], target)

@@ -9,16 +9,10 @@ from dataclasses import dataclass
 
 import shapely
 
-from aurora_core.feasibility.certificates import (
-    contradiction,
-    is_stated,
-    least,
-    limit_facts,
-    most,
-    says,
-    tolerance_facts,
-)
-from aurora_core.feasibility.verdict import Certificate, Fact, FactSource, Rule
+from aurora_core.feasibility.certificates import contradiction
+from aurora_core.feasibility.facts import limit_facts, map_fact, says, tolerance_facts
+from aurora_core.feasibility.stated import is_stated, least, most
+from aurora_core.feasibility.verdict import Certificate, Fact, Rule
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_types import Landmark, NoFlyZone
 from aurora_core.spec.parameter import Bound, Parameter
@@ -142,17 +136,13 @@ def check_zones(
                         *says(f'missions/{mission.id}/target', mission.target),
                         *says(f'missions/{mission.id}/altitude_m', mission.altitude_m),
                         *says(f'missions/{mission.id}/radius_m', mission.radius_m),
-                        _of_map(f'{zone.id}/name', zone.name),
-                        _of_map(f'{zone.id}/floor_m', zone.floor_m),
-                        _of_map(f'{zone.id}/ceiling_m', zone.ceiling_m),
+                        map_fact(f'{zone.id}/name', zone.name),
+                        map_fact(f'{zone.id}/floor_m', zone.floor_m),
+                        map_fact(f'{zone.id}/ceiling_m', zone.ceiling_m),
                         *limit_facts(limits, 'uav_altitude_min_m', 'uav_altitude_max_m'),
                         *tolerance_facts(tolerances, 'altitude_m', beside),
                     ),
                 )
-
-
-def _of_map(path: str, value: float | str) -> Fact:
-    return Fact(source=FactSource.MAP, path=path, value=value)
 
 
 def _enters(mission: UavMission, mark: Landmark, zone: NoFlyZone, tolerances: Tolerances) -> bool:

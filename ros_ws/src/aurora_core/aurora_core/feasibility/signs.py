@@ -8,7 +8,9 @@ from collections.abc import Iterator
 
 from pydantic import BaseModel
 
-from aurora_core.feasibility.certificates import contradiction, is_stated, says
+from aurora_core.feasibility.certificates import contradiction
+from aurora_core.feasibility.facts import says
+from aurora_core.feasibility.stated import is_stated
 from aurora_core.feasibility.verdict import Certificate, Rule
 from aurora_core.spec.parameter import Parameter, Unit
 from aurora_core.spec.scenario import ScenarioSpec

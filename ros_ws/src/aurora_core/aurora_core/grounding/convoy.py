@@ -64,6 +64,19 @@ class _Tie:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class BeforeIntersection:
+    """A member whose place along its route an intersection decides.
+
+    Attributes:
+        agent: Id.
+        distance_m: Along its route from its reference point to the centre of the intersection.
+    """
+
+    agent: str
+    distance_m: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class SceneSplit:
     """Agents by how they are placed.
 
@@ -72,12 +85,14 @@ class SceneSplit:
         free: Vehicles without a relation, placed around.
         persons: Pedestrians.
         unsupported: Placements that grounding cannot realise yet, in words.
+        before: The member that is placed before an intersection, None when nobody is.
     """
 
     convoy: tuple[ConvoyMember, ...]
     free: tuple[GroundAgent, ...]
     persons: tuple[GroundAgent, ...]
     unsupported: tuple[str, ...]
+    before: BeforeIntersection | None = None
 
 
 def split_scene(spec: ScenarioSpec) -> SceneSplit:
@@ -90,6 +105,8 @@ def split_scene(spec: ScenarioSpec) -> SceneSplit:
     ties = [t for a in vehicles for t in _ties(a, by_id, unsupported, meetings)]
     origin = _origin(spec, vehicles, ties)
     if origin is None:
+        _, others = _before_intersection(vehicles, {})
+        unsupported += [f'{i}: placement before intersection' for i in others]
         return SceneSplit(
             convoy=(), free=tuple(vehicles), persons=persons, unsupported=tuple(unsupported)
         )
@@ -110,18 +127,49 @@ def split_scene(spec: ScenarioSpec) -> SceneSplit:
     unsupported += [
         f'{a.id}: places that contradict each other' for a in vehicles if a.id in broken
     ]
+    before, others = _before_intersection(vehicles, offsets)
+    unsupported += [f'{i}: placement before intersection' for i in others]
     convoy = tuple(
         ConvoyMember(agent=by_id[i], offset_m=offset, lane_shift=shift)
         for i, (offset, shift) in offsets.items()
     )
     free = tuple(a for a in vehicles if a.id not in offsets)
-    return SceneSplit(convoy=convoy, free=free, persons=persons, unsupported=tuple(unsupported))
+    return SceneSplit(
+        convoy=convoy,
+        free=free,
+        persons=persons,
+        unsupported=tuple(unsupported),
+        before=before,
+    )
 
 
-def can_be_placed(placement: Placement, spec: ScenarioSpec) -> bool:
+def _is_before_intersection(placement: Placement) -> bool:
+    return placement.relation is Relation.BEFORE and placement.of == Place.INTERSECTION
+
+
+def _before_intersection(
+    vehicles: list[GroundAgent], offsets: dict[str, tuple[float, int]]
+) -> tuple[BeforeIntersection | None, list[str]]:
+    """Return the first member that is placed so, and everybody else who is to be.
+
+    One place on the route fixes the places of all members.
+    """
+    asked = [(a.id, p) for a in vehicles for p in a.placements if _is_before_intersection(p)]
+    for agent, placement in asked:
+        if agent in offsets:
+            stated = placement.distance_m
+            distance_m = DEFAULT_GAP_M if stated is None else stated.value
+            held = BeforeIntersection(agent=agent, distance_m=distance_m)
+            return held, [i for i, p in asked if p is not placement]
+    return None, [i for i, _ in asked]
+
+
+def can_be_placed(agent: str, placement: Placement, spec: ScenarioSpec) -> bool:
     """Tell whether a placement of a vehicle is realised, once it has found a place at all."""
     if placement.relation is Relation.ON:
         return placement.of in _ROADS
+    if _is_before_intersection(placement):
+        return f'{agent}: placement before intersection' not in split_scene(spec).unsupported
     persons = (AgentType.PEDESTRIAN, AgentType.RSU)
     vehicles = {a.id for a in spec.agents if a.type not in persons}
     return placement.of in vehicles and placement.relation in ALONG
@@ -137,6 +185,8 @@ def _ties(
     for placement in agent.placements:
         if placement.of in by_id and placement.relation in ALONG:
             others.setdefault(str(placement.of), []).append(placement)
+        elif _is_before_intersection(placement):
+            continue  # nobody else's place follows from it
         elif placement.relation is not Relation.ON or placement.of not in _ROADS:
             where = f' {placement.of}' if placement.of is not None else ''
             unsupported.append(f'{agent.id}: placement {placement.relation.value}{where}')

@@ -17,7 +17,14 @@ from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.grounding.pace import moves
 from aurora_core.grounding.patterns import pattern_points, place_pattern
-from aurora_core.grounding.places import intersection_point, landmark_point
+from aurora_core.grounding.places import (
+    ROAD_STEP_M,
+    ROAD_WAY_M,
+    ROADS,
+    intersection_point,
+    landmark_point,
+    road_point,
+)
 from aurora_core.grounding.sites import Site, samples_along
 from aurora_core.grounding.spots import SpotFinder
 from aurora_core.grounding.starts import uncrossed
@@ -450,8 +457,13 @@ class FlightPlanner:
         if target == 'intersection':
             near_x, near_y = intersection_point(self._map, (x, y))
             return near_x, near_y, hx, hy
-        if target in ('main_road', 'roadside'):
-            return x, y, hx, hy
+        if target in ROADS:
+            samples = samples_along(
+                site.origin_path, site.origin_arc_m, ROAD_WAY_M, ROAD_STEP_M
+            ).tolist()
+            seats = [s.path.position_at(s.arc_m)[:2] for s in site.seated]
+            road_x, road_y = road_point([(p[0], p[1]) for p in samples], seats)
+            return road_x, road_y, hx, hy
         return None
 
     def _landing_areas(self, plan: MissionPlan, site: Site) -> list[tuple[float, float]]:

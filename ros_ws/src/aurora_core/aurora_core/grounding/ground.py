@@ -14,10 +14,10 @@ from dataclasses import dataclass
 from aurora_core.conditions.missions import hover_drift_limit_m
 from aurora_core.grounding.agents import AgentPlacer
 from aurora_core.grounding.airspace import Airspace
+from aurora_core.grounding.choices import chosen
 from aurora_core.grounding.convoy import SceneSplit, split_scene
 from aurora_core.grounding.flights import FlightPlanner, PlannedFlight, Rejected
 from aurora_core.grounding.grounded import AnchorScore, GroundedScenario
-from aurora_core.grounding.layers import layered
 from aurora_core.grounding.outcome import GroundingFailure
 from aurora_core.grounding.pace import watched_speed_mps
 from aurora_core.grounding.realised import realised_values
@@ -82,7 +82,7 @@ class Grounder:
             spec: What to ground.
             seed: Seed of the run (background traffic).
         """
-        requested, spec = spec, layered(spec, self._limits)
+        requested, spec = spec, chosen(spec, self._limits)
         split = split_scene(spec)
         planner = FlightPlanner(
             map_model=self._map,
@@ -133,7 +133,7 @@ class Grounder:
         need_m = way_m if len(split.convoy) > 1 else 0.0
         wanted = grounding.target_speed_mps
         ranked: list[tuple[float, Site]] = []
-        found = sites(self._map, split.convoy, self._types, run_m, self._settings.grounding)
+        found = sites(self._map, split.convoy, self._types, run_m, grounding, split.before)
         for site in found:
             free = min(1.0, site.free_run_m / need_m) if need_m > 0.0 else 1.0
             brisk = min(1.0, site.fastest_mps(self._map.network, way_m) / wanted)
@@ -202,7 +202,7 @@ class Grounder:
     ) -> GroundedScenario:
         uavs = tuple(planner.with_landing_spots(u, best.site) for u in best.uavs)
         placer = AgentPlacer(self._map, self._types, self._settings, self._limits)
-        agents = placer.convoy(layered(spec, self._limits), split, best.site)
+        agents = placer.convoy(chosen(spec, self._limits), split, best.site)
         generator = stream(seed, 'grounding:background')
         agents, missing = placer.free(spec, split, best.site, agents, run_m, generator)
         lane_id, position_m = best.site.origin_path.lane_position_at(best.site.origin_arc_m)

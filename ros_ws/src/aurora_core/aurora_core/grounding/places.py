@@ -4,12 +4,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import shapely
 
 from aurora_core.geometry.kernel import norm2
+from aurora_core.geometry.polyline import Polyline
 from aurora_core.grounding.grounded import GroundedScenario
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.spec.vocabulary import Place
+
+Point2 = tuple[float, float]
+
+# A point of the road is looked at where no vehicle stands on it at t = 0: this far from the centre
+# of any. Half of the longest vehicle and room to look past it.
+_CLEAR_M = 12.0
+
+# The point is looked for along the way of the first vehicle, in such steps and so far (m).
+ROAD_STEP_M = 5.0
+ROAD_WAY_M = 200.0
+
+# Places that are the road itself, wherever the scenario is.
+ROADS = frozenset({Place.MAIN_ROAD, Place.ROADSIDE})
 
 # Streets cross where at least this many ways lead on; the end of a street is no intersection.
 _CROSSING_WAYS = 3
@@ -28,10 +45,41 @@ def place_positions(
     for event in spec.events:
         names |= {getattr(event.trigger, name, None) for name in ('b', 'place', 'target')}
     bodies = {a.id for a in spec.agents} | {u.id for u in spec.uavs}
+    road = (x, y)
+    if names & ROADS:
+        road = road_point(_way_on(grounded, road), [(a.x_m, a.y_m) for a in grounded.agents])
     return {
-        name: _position(name, map_model, (x, y))
+        name: road if name in ROADS else _position(name, map_model, (x, y))
         for name in sorted(n for n in names if n is not None and n not in bodies)
     }
+
+
+def road_point(way: Sequence[Point2], bodies: Sequence[Point2]) -> Point2:
+    """Return the point that stands for the road: the first one on which no vehicle stands.
+
+    Nobody can look at a point inside a vehicle, so the road is looked at before it.
+
+    Args:
+        way: Points along the road from the anchor on (x, y in m, ENU), at least one.
+        bodies: Where the vehicles stand at t = 0.
+
+    Returns:
+        The last point where all are taken.
+    """
+    for x, y in way:
+        if all(norm2(x - b[0], y - b[1]) >= _CLEAR_M for b in bodies):
+            return x, y
+    return way[-1]
+
+
+def _way_on(grounded: GroundedScenario, anchor: Point2) -> tuple[Point2, ...]:
+    """Return the points of the road from the anchor on, as far as somebody's route leads."""
+    for agent in grounded.agents:
+        if norm2(agent.x_m - anchor[0], agent.y_m - anchor[1]) < ROAD_STEP_M:
+            line = Polyline(agent.route_xy_m)
+            count = int(min(ROAD_WAY_M, line.length_m) / ROAD_STEP_M) + 1
+            return tuple(line.at(k * ROAD_STEP_M)[:2] for k in range(count))
+    return (anchor,)
 
 
 def landmark_point(map_model: MapModel, name: str) -> tuple[float, float]:
@@ -53,15 +101,24 @@ def landmark_point(map_model: MapModel, name: str) -> tuple[float, float]:
 
 def intersection_point(map_model: MapModel, anchor: tuple[float, float]) -> tuple[float, float]:
     """Return the centre of the intersection nearest to the anchor (x, y in m, ENU)."""
+    return nearest_to(anchor, crossings(map_model))
+
+
+def nearest_to(anchor: Point2, centres: Sequence[Point2]) -> Point2:
+    """Return the centre nearest to a point; of equally near ones the first."""
+    return min(centres, key=lambda c: norm2(c[0] - anchor[0], c[1] - anchor[1]))
+
+
+def crossings(map_model: MapModel) -> tuple[Point2, ...]:
+    """Return the centres of all intersections (x, y in m, ENU), by their ids."""
     ways: dict[str, set[str]] = {}
     for edge in map_model.network.edges.values():
         if not edge.is_internal:
             ways.setdefault(edge.from_junction, set()).add(edge.to_junction)
             ways.setdefault(edge.to_junction, set()).add(edge.from_junction)
     crossing = [name for name, onward in ways.items() if len(onward) >= _CROSSING_WAYS]
-    junctions = [map_model.network.junction(name) for name in crossing]
-    near = min(junctions, key=lambda j: (norm2(j.x_m - anchor[0], j.y_m - anchor[1]), j.id))
-    return near.x_m, near.y_m
+    junctions = [map_model.network.junction(name) for name in sorted(crossing)]
+    return tuple((j.x_m, j.y_m) for j in junctions)
 
 
 def _position(name: str, map_model: MapModel, anchor: tuple[float, float]) -> tuple[float, float]:

@@ -14,7 +14,8 @@ import numpy as np
 import numpy.typing as npt
 
 from aurora_core.errors import MapError
-from aurora_core.grounding.convoy import ConvoyMember
+from aurora_core.grounding.convoy import BeforeIntersection, ConvoyMember
+from aurora_core.grounding.places import crossings, nearest_to
 from aurora_core.grounding.routes import RouteFinder
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.map_model import MapModel
@@ -29,6 +30,10 @@ FloatArray = npt.NDArray[np.float64]
 
 # Class of a site without vehicles (a mission over a place needs a road only as an anchor).
 ANY_CLASS = 'passenger'
+
+# The route of who stands before an intersection passes its centre at most this far off (m): inside
+# the tolerance of that placement.
+_ASIDE_M = 8.0
 
 # Clear road in front of the first and behind the last bumper at t = 0.
 _END_GAP_M = 2.0
@@ -114,8 +119,19 @@ def sites(
     types: Mapping[str, AgentTypeRecord],
     route_length_m: float,
     settings: GroundingSettings,
+    before: BeforeIntersection | None = None,
 ) -> Iterator[Site]:
-    """Yield every site of the map in a fixed order, `anchor_spacing_m` apart."""
+    """Yield every site of the map in a fixed order, `anchor_spacing_m` apart.
+
+    Args:
+        map_model: Map.
+        convoy: Who is to be placed.
+        types: Agent sizes.
+        route_length_m: Of the routes.
+        settings: Search settings.
+        before: A member that stands before an intersection; only such sites are yielded.
+    """
+    centres = () if before is None else crossings(map_model)
     network = map_model.network
     classes = sorted({types[m.agent.type.value].vclass for m in convoy}) or [ANY_CLASS]
     lanes = [
@@ -144,9 +160,44 @@ def sites(
         end_m = lane.arc_length_m + max(0.0, back_m)
         while arc_m < end_m:
             site = _site(map_model, convoy, types, edges, lane.id, arc_m, paths)
+            if site is not None and before is not None:
+                exact_m = _exact_arc_m(site, before, centres, settings.anchor_spacing_m)
+                site = None
+                if exact_m is not None:
+                    site = _site(map_model, convoy, types, edges, lane.id, exact_m, paths)
             if site is not None:
                 yield site
             arc_m += settings.anchor_spacing_m
+
+
+def _exact_arc_m(
+    site: Site,
+    before: BeforeIntersection,
+    centres: Sequence[tuple[float, float]],
+    spacing_m: float,
+) -> float | None:
+    """Return where the origin stands when a member is exactly before an intersection.
+
+    None where no intersection is near enough: sites are `spacing_m` apart, so that one half of it
+    in each direction is looked through.
+    """
+    seat = site.seat(before.agent)
+    assert seat is not None  # it is a member of the convoy
+    ahead_m = seat.arc_m + before.distance_m
+    if ahead_m > seat.path.length_m:
+        return None
+    x, y, _, _ = seat.path.position_at(ahead_m)
+    centre = nearest_to((x, y), centres)
+    along_m, aside_m = seat.path.line.project(
+        *centre, near_s=ahead_m, window_m=spacing_m / 2.0 + _ASIDE_M
+    )
+    shift_m = along_m - ahead_m
+    if abs(aside_m) > _ASIDE_M or abs(shift_m) > spacing_m / 2.0:
+        return None
+    exact_m = site.origin_arc_m + shift_m
+    here = site.origin_path.position_at(max(0.0, exact_m))
+    # A scenario has one intersection: the nearest one to its origin.
+    return exact_m if nearest_to((here[0], here[1]), centres) == centre else None
 
 
 def _site(

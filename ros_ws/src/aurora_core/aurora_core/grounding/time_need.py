@@ -17,6 +17,7 @@ from aurora_core.spec.scenario import (
     ScenarioSpec,
     SendMessage,
     TimeTrigger,
+    UavAction,
     UavMission,
 )
 from aurora_core.spec.vocabulary import MissionMode, Pattern
@@ -54,6 +55,8 @@ def _event_s(spec: ScenarioSpec, event: Event) -> float:
     need = _EVENT_S + event.waits_s
     if isinstance(event.trigger, EventDoneTrigger) and event.trigger.after_s is not None:
         need += event.trigger.after_s.value
+    if isinstance(event.action, UavAction) and event.action.altitude_m is not None:
+        need += event.action.altitude_m.value * (1.0 / _CLIMB_MPS + 1.0 / _SINK_MPS)
     if isinstance(event.action, SendMessage):
         pair = (event.action.sender, event.action.receiver)
         for link in spec.links:

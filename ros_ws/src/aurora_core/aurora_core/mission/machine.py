@@ -53,6 +53,9 @@ class MissionMachine:
         plan: What to fly.
         settings: Limits of the reference motion.
         dt_s: Time step.
+
+    Attributes:
+        stays_up: Something has to happen before it may land: its last mission goes on until then.
     """
 
     def __init__(self, plan: UavPlan, settings: FlightSettings, dt_s: float) -> None:
@@ -73,6 +76,8 @@ class MissionMachine:
         self._descending = False
         self._waits = False
         self._airborne = False
+        self._climb: tuple[float, float, float] | None = None
+        self.stays_up = False
 
     @property
     def plan(self) -> UavPlan:
@@ -132,6 +137,12 @@ class MissionMachine:
         if _IDLE < self.phase < _LANDING:
             self._begin(_LANDING)
 
+    def climb_to(self, altitude_m: float) -> None:
+        """Climb where it is before it flies to a landing spot; only after the missions."""
+        if self.missions_done and not self._descending:
+            self._climb = (self._pursuit.x, self._pursuit.y, altitude_m)
+            self._landing_spot = None
+
     def stop_point(self, state: FloatArray) -> tuple[float, float]:
         """Return where it would come to rest, braking from its present velocity (x, y in m)."""
         row: list[float] = state.tolist()
@@ -141,7 +152,7 @@ class MissionMachine:
 
     def needs_landing_spot(self) -> bool:
         """Whether the executor has to choose a landing spot now."""
-        return self.missions_done and self._landing_spot is None
+        return self.missions_done and self._landing_spot is None and self._climb is None
 
     def way_home(
         self, state: FloatArray, spot: tuple[float, float], duration_s: float, step_s: float
@@ -268,7 +279,7 @@ class MissionMachine:
 
     def _phase_over(self, mission: MissionPlan, tick: int) -> bool:
         """Whether the command for tick + 1 is the first of the next phase."""
-        if self.capture_tick is None or mission.duration_s is None:
+        if self.capture_tick is None or mission.duration_s is None or self._held_up():
             return False
         return (tick + 1) - self.capture_tick >= ceil(mission.duration_s / self._dt - 1e-9)
 
@@ -292,11 +303,21 @@ class MissionMachine:
         self._pursuit.vx, self._pursuit.vy = self._route.vx, self._route.vy
         self._pursuit.vz = self._route.vz
         last = mission.waypoints[-1]
-        return self._route.done and norm2(x - last[0], y - last[1]) <= ARRIVED_M
+        arrived = self._route.done and norm2(x - last[0], y - last[1]) <= ARRIVED_M
+        return arrived and not self._held_up()
+
+    def _held_up(self) -> bool:
+        """Whether it is to stay on its last mission although that is over."""
+        return self.stays_up and self._next_phase() == _LANDING
 
     def _fly_home(self, state: list[float], target: TargetMotion | None) -> None:
         if not self._airborne:  # told to land while still climbing
             self._start_reference(state)
+        if self._climb is not None:
+            self._pursuit.step(self._climb, (0.0, 0.0), self._settings, self._dt)
+            if abs(state[_Z] - self._climb[2]) <= ARRIVED_M:
+                self._climb = None
+            return
         if self._landing_spot is None:
             if self._waits:  # the way is not free yet
                 goal, velocity = self._waiting_goal(target)

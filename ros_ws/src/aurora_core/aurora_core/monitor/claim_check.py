@@ -99,9 +99,13 @@ def _actions(context: Context) -> Iterator[Finding]:
             text = f'action claimed, but nothing was commanded to {action.agent}'
             yield _finding(context, 'event', record.subject, record.tick, text)
     acted = {record.subject for record in _records(context, ScenarioEventKind.ACTION)}
+    waiting = {order.then for order in context.spec.orders if order.first in actions}
     for event in context.spec.events:
-        # A message may wait for sight; nothing else waits for more than its delay.
+        # A message may wait for sight, and an event for what is ordered before it; nothing else
+        # waits for more than its delay.
         if isinstance(event.action, SendMessage) or event.action is None or event.id in acted:
+            continue
+        if event.id in waiting:
             continue
         claims = [
             r for r in _records(context, ScenarioEventKind.TRIGGERED) if r.subject == event.id

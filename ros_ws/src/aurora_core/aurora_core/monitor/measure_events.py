@@ -49,7 +49,12 @@ def trigger_story(context: Context, event_id: str, tick: int) -> str:
 
 
 def measure_event_delay(context: Context, condition: Condition) -> Evaluation:
-    """Seconds from trigger to action; `not_before`: of the first action at all."""
+    """Seconds from trigger to action; `not_before`: of the first action at all.
+
+    `order`: from the moment of another event to that of this one.
+    """
+    if condition.arguments.aspect == 'order':
+        return _order(context, condition)
     event_id = _event_id(condition)
     trigger = context.events.trigger_tick(event_id)
     if trigger is None:
@@ -71,15 +76,34 @@ def measure_event_delay(context: Context, condition: Condition) -> Evaluation:
     return context.short(condition)
 
 
+def _order(context: Context, condition: Condition) -> Evaluation:
+    first, then = (_moment(context, event_id) for event_id in condition.of)
+    if first is None or then is None:
+        what = condition.of[0] if first is None else condition.of[1]
+        return _never(context, condition, f'{what} never happened')
+    value = context.time_s(then - first)
+    story = (
+        f'{condition.of[0]} happened at {context.time_s(first):.2f} s, {condition.of[1]} at '
+        f'{context.time_s(then):.2f} s'
+    )
+    return at_tick(then, value, story, ('ground/state', 'uav/state', 'comm'))
+
+
+def _moment(context: Context, event_id: str) -> int | None:
+    """Return the tick of an event's action, of its trigger where it has no action."""
+    trigger = context.events.trigger_tick(event_id)
+    event = context.events.event(event_id)
+    if event is not None and event.action is not None:
+        return context.events.action_tick(event_id, trigger or 0)
+    return trigger
+
+
 def measure_event_time(context: Context, condition: Condition) -> Evaluation:
     """Seconds from scenario start to the `trigger` or the `action` of an event."""
     event_id = _event_id(condition)
-    trigger = context.events.trigger_tick(event_id)
-    tick = trigger
+    tick = context.events.trigger_tick(event_id)
     if condition.arguments.aspect == 'action':
-        event = context.events.event(event_id)
-        if event is not None and event.action is not None:
-            tick = context.events.action_tick(event_id, trigger or 0)
+        tick = _moment(context, event_id)
     if tick is None:
         return _never(context, condition, f'{event_id} never happened')
     value = context.time_s(tick)

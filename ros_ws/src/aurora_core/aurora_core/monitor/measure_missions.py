@@ -91,14 +91,16 @@ def _not_yet(
 
 
 def measure_mission_completed(context: Context, condition: Condition) -> Evaluation:
-    """Aspects: `order` of the phases, `time` on the mission, `route` flown before its end."""
+    """Aspects: `order` of the phases, `time` on the mission, `route` flown before its `end`."""
     if condition.arguments.aspect == 'order':
         return _order(context, condition)
     mission = mission_of(condition)
     missing = context.phase_missing(condition, mission)
+    phase = context.phase(mission, condition.arguments.touchdown_m)
+    if condition.arguments.aspect == 'end':
+        return _end(context, condition, missing)
     if missing is not None:
         return missing
-    phase = context.phase(mission, condition.arguments.touchdown_m)
     assert phase.capture_tick is not None  # nothing is missing
     if condition.arguments.aspect == 'time':
         value = context.time_s(phase.stop_tick - phase.capture_tick)
@@ -115,6 +117,23 @@ def measure_mission_completed(context: Context, condition: Condition) -> Evaluat
     value = context.time_s(phase.stop_tick - last.tick)
     story = f'{mission.uav} had flown its route {value:.2f} s before the phase ended'
     return at_tick(last.tick, value, story, _topics(condition), later=Later.RISES)
+
+
+def _end(context: Context, condition: Condition, missing: Missing | None) -> Evaluation:
+    """Return the seconds from scenario start to the first command of the phase after a mission."""
+    mission = mission_of(condition)
+    phase = context.phase(mission, condition.arguments.touchdown_m)
+    if phase.end_tick is not None and missing is None:
+        value = context.time_s(phase.end_tick)
+        story = f'{mission.mission} was over at {value:.2f} s'
+        return at_tick(phase.end_tick, value, story, _topics(condition))
+    earliest_s = context.time_s(context.view.ticks)
+    decided = earliest_s > condition.threshold or context.complete(condition)
+    if phase.end_tick is None and phase.capture_tick is not None and decided:
+        last_tick = context.view.ticks - 1
+        story = f'{mission.mission} was not over at the end, {context.time_s(last_tick):.2f} s'
+        return _not_yet(context, condition, last_tick, earliest_s, story, _topics(condition))
+    return context.short(condition) if missing is None else missing
 
 
 def _order(context: Context, condition: Condition) -> Evaluation:

@@ -9,6 +9,7 @@ from enum import StrEnum
 
 from aurora_core.parsing.atoms import NounPhrase
 from aurora_core.parsing.measures import Measure
+from aurora_core.spec.parameter import Span
 
 
 class AdjunctKind(StrEnum):
@@ -41,3 +42,8 @@ class Adjunct:
     nouns: tuple[NounPhrase, ...] = ()
     measures: tuple[Measure, ...] = ()
     used: bool = field(default=False)
+
+    @property
+    def span(self) -> Span:
+        """Its characters; words that were put in another order may end before they begin."""
+        return Span(start=min(self.start, self.end), end=max(self.start, self.end))

@@ -13,12 +13,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import lru_cache
 
+from aurora_core.parsing.atom_runs import HELPERS, LOOSE, runs, skip, text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
 from aurora_core.parsing.lexicon import read_data
 from aurora_core.parsing.morphology import VerbForm
 
-_LOOSE = (AtomKind.FILL, AtomKind.FRAME)
-_HELPERS = (AtomKind.AUXILIARY, *_LOOSE)
 _JOINING = (AtomKind.SUBORDINATOR, AtomKind.RELATIVE, AtomKind.THEN)
 # Participles that `reader.py` ties to what follows.
 _KEPT_FRONTED = frozenset({'approach', 'receive', 'start', 'see', 'reach'})
@@ -29,28 +28,13 @@ _GOVERNING = (AtomKind.PREPOSITION, AtomKind.RELATION)
 def plain_order(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
     """Return the atoms with every sentence in the order subject, predicate, rest."""
     written: list[Atom] = []
-    sentence: list[Atom] = []
-    for atom in (*atoms, None):
-        if atom is not None and atom.kind is not AtomKind.STOP:
-            sentence.append(atom)
-            continue
+    for sentence, stop in runs(atoms, AtomKind.STOP):
         for turn in _TURNS:
             sentence = turn(sentence, prompt)
         written += sentence
-        sentence = []
-        if atom is not None:
-            written.append(atom)
+        if stop is not None:
+            written.append(stop)
     return written
-
-
-def _word(atom: Atom, prompt: str) -> str:
-    return prompt[atom.start : atom.end].lower()
-
-
-def _next(atoms: Sequence[Atom], i: int, skip: tuple[AtomKind, ...] = _LOOSE) -> int:
-    while i < len(atoms) and atoms[i].kind in skip:
-        i += 1
-    return i
 
 
 def _is_be(atoms: Sequence[Atom], i: int) -> bool:
@@ -78,10 +62,10 @@ def _cleft(atoms: list[Atom], prompt: str) -> list[Atom]:
         front = it
         while front < that and not _is_be(atoms, front) and atoms[front].kind is not AtomKind.FILL:
             front += 1
-        while front < that and (_is_be(atoms, front) or atoms[front].kind in _LOOSE):
+        while front < that and (_is_be(atoms, front) or atoms[front].kind in LOOSE):
             front += 1
         focus, rest = atoms[front:that], atoms[that + 1 :]
-        first = _next(rest, 0, _HELPERS)
+        first = skip(rest, 0, HELPERS)
         if first >= len(rest) or not focus:
             continue
         if rest[first].kind is AtomKind.VERB:
@@ -96,11 +80,11 @@ def _opening_it(atoms: Sequence[Atom], that: int, prompt: str) -> int | None:
     for i in range(that - 1, -1, -1):
         if atoms[i].kind in (AtomKind.VERB, AtomKind.SUBORDINATOR) and not _is_be(atoms, i):
             return None
-        if _word(atoms[i], prompt) != 'it':
+        if text_of(atoms[i], prompt) != 'it':
             continue
-        be = _next(atoms, i + 1)
-        copula = _is_be(atoms, be) or _word(atoms[i + 1], prompt) in ('is', 'was')
-        between = [a for a in atoms[i + 1 : that] if a.kind not in _HELPERS and a.key != 'be']
+        be = skip(atoms, i + 1)
+        copula = _is_be(atoms, be) or text_of(atoms[i + 1], prompt) in ('is', 'was')
+        between = [a for a in atoms[i + 1 : that] if a.kind not in HELPERS and a.key != 'be']
         one = sum(a.noun is not None for a in between) == 1
         plain = all(a.noun is not None or a.kind in _GOVERNING for a in between)
         return i if copula and one and plain else None
@@ -125,7 +109,7 @@ def _behind_verb(rest: list[Atom], focus: list[Atom]) -> list[Atom]:
 
 
 def _takes_noun(atoms: Sequence[Atom], i: int) -> bool:
-    behind = _next(atoms, i + 1)
+    behind = skip(atoms, i + 1)
     if behind >= len(atoms):
         return False
     return atoms[behind].noun is not None or atoms[behind].kind in (
@@ -142,19 +126,19 @@ def _takes_noun(atoms: Sequence[Atom], i: int) -> bool:
 def _what(atoms: list[Atom], prompt: str) -> list[Atom]:
     """`the park is what a drone hovers over`, `what it tracks is a bus`."""
     for i, atom in enumerate(atoms):
-        if _word(atom, prompt) not in ('what', 'where', 'whom', 'the place where'):
+        if text_of(atom, prompt) not in ('what', 'where', 'whom', 'the place where'):
             continue
-        behind = _next(atoms, i + 1)
+        behind = skip(atoms, i + 1)
         if behind >= len(atoms) or not atoms[behind].is_actor:
             continue
         be = i - 1
-        while be >= 0 and atoms[be].kind in _LOOSE and not _is_be(atoms, be):
+        while be >= 0 and atoms[be].kind in LOOSE and not _is_be(atoms, be):
             be -= 1
         focus = be - 1
         copula = be >= 0 and (_is_be(atoms, be) or _was_be(atoms[be + 1 : i], prompt))
         if copula and not _is_be(atoms, be):
             focus = be
-        while focus >= 0 and atoms[focus].kind in _LOOSE:
+        while focus >= 0 and atoms[focus].kind in LOOSE:
             focus -= 1
         if copula and focus >= 0 and _named(atoms, focus):
             begin = focus
@@ -162,7 +146,7 @@ def _what(atoms: list[Atom], prompt: str) -> list[Atom]:
             return atoms[:begin] + _behind_verb(atoms[i + 1 :], told)
         k = next((k for k in range(behind + 1, len(atoms)) if _copula_at(atoms, k)), None)
         if k is not None and any(a.kind is AtomKind.VERB for a in atoms[behind:k]):
-            named = _next(atoms, k + 1)
+            named = skip(atoms, k + 1)
             if _named(atoms, named):
                 told = _located(atom, prompt, [atoms[named]])
                 clause = _behind_verb(atoms[i + 1 : k], told)
@@ -171,24 +155,24 @@ def _what(atoms: list[Atom], prompt: str) -> list[Atom]:
 
 
 def _copula_at(atoms: Sequence[Atom], k: int) -> bool:
-    named = _next(atoms, k + 1)
+    named = skip(atoms, k + 1)
     return _is_be(atoms, k) and named < len(atoms) and _named(atoms, named)
 
 
 def _was_be(atoms: Sequence[Atom], prompt: str) -> bool:
-    return any(_word(a, prompt) in ('is', 'was', 'are', 'be') for a in atoms)
+    return any(text_of(a, prompt) in ('is', 'was', 'are', 'be') for a in atoms)
 
 
 def _located(word: Atom, prompt: str, focus: list[Atom]) -> list[Atom]:
     """`where it hovers is the park`: at the park."""
-    if 'where' not in _word(word, prompt):
+    if 'where' not in text_of(word, prompt):
         return focus
     return [replace(word, kind=AtomKind.PREPOSITION, key='at', noun=None), *focus]
 
 
 def _turned(atoms: list[Atom], prompt: str) -> list[Atom]:
     """`parked 30 m before the junction is a truck`, `visible to it must be the van`."""
-    first = _next(atoms, 0)
+    first = skip(atoms, 0)
     if first >= len(atoms):
         return atoms
     lead = atoms[first]
@@ -202,10 +186,10 @@ def _turned(atoms: list[Atom], prompt: str) -> list[Atom]:
         if atoms[k].kind in (AtomKind.SUBORDINATOR, AtomKind.RELATIVE):
             return atoms
         helper = atoms[k].kind is AtomKind.AUXILIARY or _is_be(atoms, k)
-        finite = helper or _word(atoms[k], prompt) in ('is', 'are', 'was', 'were')
+        finite = helper or text_of(atoms[k], prompt) in ('is', 'are', 'was', 'were')
         if not finite:
             continue
-        who = _next(atoms, k + 1, (*_HELPERS, AtomKind.VERB))
+        who = skip(atoms, k + 1, (*HELPERS, AtomKind.VERB))
         if who >= len(atoms) or not atoms[who].is_actor or not _are_helpers(atoms[k:who]):
             return atoms
         subject = [atoms[who]]
@@ -224,7 +208,7 @@ def _turned(atoms: list[Atom], prompt: str) -> list[Atom]:
 
 
 def _are_helpers(atoms: Sequence[Atom]) -> bool:
-    return all(a.kind in _HELPERS or a.key == 'be' for a in atoms)
+    return all(a.kind in HELPERS or a.key == 'be' for a in atoms)
 
 
 def _rest_about(subject: Atom, rest: list[Atom]) -> list[Atom]:
@@ -239,7 +223,7 @@ def _rest_about(subject: Atom, rest: list[Atom]) -> list[Atom]:
 
 def _participle(atoms: list[Atom], prompt: str) -> list[Atom]:
     """`driving at 8 m/s, a car approaches`: `a car is driving at 8 m/s; it approaches`."""
-    first = _next(atoms, 0)
+    first = skip(atoms, 0)
     if first >= len(atoms) or atoms[first].kind is not AtomKind.VERB:
         return atoms
     lead = atoms[first]
@@ -250,12 +234,12 @@ def _participle(atoms: list[Atom], prompt: str) -> list[Atom]:
             return atoms
         if atoms[k].kind is not AtomKind.COMMA:
             continue
-        who = _next(atoms, k + 1)
+        who = skip(atoms, k + 1)
         if who >= len(atoms) or not atoms[who].is_actor:
             return atoms
         subject, noun = atoms[who], atoms[who].noun
         assert noun is not None
-        verb = _next(atoms, who + 1, (*_HELPERS, AtomKind.NEGATION))
+        verb = skip(atoms, who + 1, (*HELPERS, AtomKind.NEGATION))
         finite = verb < len(atoms) and atoms[verb].kind is AtomKind.VERB
         if not finite or noun.kind is NounKind.UAV or noun.kind is NounKind.PRONOUN:
             return atoms
@@ -266,14 +250,14 @@ def _participle(atoms: list[Atom], prompt: str) -> list[Atom]:
 
 def _sent(atoms: list[Atom], prompt: str) -> list[Atom]:
     """`park a drone above the square`, `send a UAV down the main road`: it hovers, it flies."""
-    first = _next(atoms, 0)
+    first = skip(atoms, 0)
     if first + 2 >= len(atoms):
         return atoms
     told, who = atoms[first], atoms[first + 1]
-    mode = next((m for m, words in _orders().items() if _word(told, prompt) in words), None)
+    mode = next((m for m, words in _orders().items() if text_of(told, prompt) in words), None)
     if mode is None or who.noun is None or who.noun.kind is not NounKind.UAV:
         return atoms
-    behind = _next(atoms, first + 2)
+    behind = skip(atoms, first + 2)
     clause = atoms[behind:]
     cut = next((i for i, a in enumerate(clause) if a.kind in _JOINING), len(clause))
     acts = any(a.kind in (AtomKind.VERB, AtomKind.CAUSATIVE) for a in clause[:cut])
@@ -291,15 +275,15 @@ def _orders() -> dict[str, list[str]]:
 def _relative_object(atoms: list[Atom], prompt: str) -> list[Atom]:
     """`a bus, which a police car is following`: who follows it is a sentence of its own."""
     for i in range(1, len(atoms) - 2):
-        if atoms[i].kind is not AtomKind.RELATIVE or _word(atoms[i], prompt) not in _WHICH:
+        if atoms[i].kind is not AtomKind.RELATIVE or text_of(atoms[i], prompt) not in _WHICH:
             continue
         about = i - 1
         while about > 0 and atoms[about].kind is AtomKind.COMMA:
             about -= 1
-        who = _next(atoms, i + 1)
+        who = skip(atoms, i + 1)
         if not _named(atoms, about) or who >= len(atoms) or not atoms[who].is_actor:
             continue
-        verb = _next(atoms, who + 1, (*_HELPERS, AtomKind.NEGATION))
+        verb = skip(atoms, who + 1, (*HELPERS, AtomKind.NEGATION))
         if verb >= len(atoms) or atoms[verb].kind is not AtomKind.VERB:
             continue
         end = verb + 1
@@ -312,12 +296,12 @@ def _relative_object(atoms: list[Atom], prompt: str) -> list[Atom]:
             AtomKind.RELATIVE,
         ):
             end += 1
-        behind = _next(atoms, verb + 1)
+        behind = skip(atoms, verb + 1)
         if behind < end and atoms[behind].is_actor:
             continue
         told = _behind_verb(atoms[who:end], [atoms[about]])
         rest = atoms[end:]
-        goes_on = _next(rest, 0, (AtomKind.COMMA, *_HELPERS))
+        goes_on = skip(rest, 0, (AtomKind.COMMA, *HELPERS))
         main = goes_on < len(rest) and rest[goes_on].kind is AtomKind.VERB
         alone = not any(a.kind is AtomKind.VERB for a in atoms[:about])
         conjoined = any(a.kind is AtomKind.CONJUNCTION for a in rest[: goes_on + 1])
@@ -333,11 +317,11 @@ def _relative_object(atoms: list[Atom], prompt: str) -> list[Atom]:
 def _having(atoms: list[Atom], prompt: str) -> list[Atom]:
     """`the bus has two cars following it`: `two cars following the bus`."""
     for i in range(1, len(atoms) - 3):
-        has = _word(atoms[i], prompt) in ('has', 'have', 'having', 'had')
+        has = text_of(atoms[i], prompt) in ('has', 'have', 'having', 'had')
         owner, who = atoms[i - 1], atoms[i + 1]
         if not has or not owner.is_actor or not who.is_actor:
             continue
-        verb = _next(atoms, i + 2)
+        verb = skip(atoms, i + 2)
         if verb >= len(atoms) or atoms[verb].form is not VerbForm.ING:
             continue
         for k in range(verb + 1, min(verb + 4, len(atoms))):
@@ -360,7 +344,7 @@ def _agent_nouns() -> dict[str, str]:
 def _by_role(atoms: list[Atom], prompt: str) -> list[Atom]:
     """`its tracker is a drone`, `the pursuer of the bus is a van`: who does it to whom."""
     for i, atom in enumerate(atoms):
-        role = next((w for w in _agent_nouns() if _word(atom, prompt).split()[-1:] == [w]), None)
+        role = next((w for w in _agent_nouns() if text_of(atom, prompt).split()[-1:] == [w]), None)
         if role is None or atom.kind is AtomKind.VERB:
             continue
         whom = atoms[i - 1] if i and atoms[i - 1].is_actor else None
@@ -368,8 +352,8 @@ def _by_role(atoms: list[Atom], prompt: str) -> list[Atom]:
         be = i + 1
         if whom is None and be < len(atoms) and atoms[be].key == 'of' and _named(atoms, be + 1):
             whom, be = atoms[be + 1], be + 2
-        be = _next(atoms, be, (AtomKind.COMMA, *_LOOSE)) if not _is_be(atoms, be) else be
-        who = _next(atoms, be + 1, _HELPERS)
+        be = skip(atoms, be, (AtomKind.COMMA, *LOOSE)) if not _is_be(atoms, be) else be
+        who = skip(atoms, be + 1, HELPERS)
         if whom is None or not _is_be(atoms, be) or not _named(atoms, who):
             continue
         verb = replace(

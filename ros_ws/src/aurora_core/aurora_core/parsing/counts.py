@@ -10,15 +10,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from aurora_core.parsing.atom_runs import HELPERS, text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, Determiner
 from aurora_core.parsing.measures import COUNT
 
-_HELPERS = (AtomKind.AUXILIARY, AtomKind.FILL, AtomKind.FRAME)
 _BREAKS = (AtomKind.COMMA, AtomKind.CONJUNCTION)
-
-
-def _word(atom: Atom, prompt: str) -> str:
-    return prompt[atom.start : atom.end].lower()
 
 
 def counted(atoms: list[Atom], prompt: str) -> list[Atom]:
@@ -49,10 +45,10 @@ def counted(atoms: list[Atom], prompt: str) -> list[Atom]:
 
 def _count_behind(atoms: Sequence[Atom], i: int, prompt: str) -> tuple[int, int] | None:
     """Return where the number of a noun stands behind it, and what follows."""
-    number = i > 1 and _word(atoms[i - 2], prompt).rpartition(' ')[2] in ('number', 'count')
+    number = i > 1 and text_of(atoms[i - 2], prompt).rpartition(' ')[2] in ('number', 'count')
     k = i + 1
     while k < len(atoms) and (
-        atoms[k].kind in (*_HELPERS, AtomKind.COMMA)
+        atoms[k].kind in (*HELPERS, AtomKind.COMMA)
         or (atoms[k].key in ('be', ':') and (number or atoms[k].key == ':'))
     ):
         k += 1
@@ -82,7 +78,7 @@ def said_twice(atoms: list[Atom], prompt: str) -> list[Atom]:
     changed = list(atoms)
     for i in range(1, len(changed) - 2):
         measure = changed[i].measure
-        them = _word(changed[i + 2], prompt) in ('them', 'these', 'those')
+        them = text_of(changed[i + 2], prompt) in ('them', 'these', 'those')
         if measure is None or measure.dimension != COUNT or changed[i + 1].key != 'of' or not them:
             continue
         counted = next((a.noun for a in reversed(changed[:i]) if a.noun is not None), None)

@@ -9,10 +9,12 @@ from itertools import takewhile
 
 from pydantic import BaseModel
 
+from aurora_core.parsing.atom_runs import text_of
 from aurora_core.parsing.atoms import ACTORS, Atom, AtomKind, NounKind
+from aurora_core.parsing.measures import COUNT
 from aurora_core.parsing.resolver import Resolver
 from aurora_core.spec.parameter import Parameter, Span
-from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.spec.scenario import Clause, ScenarioSpec
 from aurora_core.spec.vocabulary import ClauseStatus
 
 # A group beyond this many is cut: it is refused as too many in any case.
@@ -69,21 +71,40 @@ def unaccounted(
     return lost
 
 
+def in_no_clause(atoms: Sequence[Atom], clauses: Sequence[Clause]) -> list[Span]:
+    """Return the numbers that no clause holds: rewriting left them behind.
+
+    Counts are left to `unaccounted`: `the number of cars is four` becomes four cars.
+    """
+    told = [a for a in atoms if a.measure is not None and a.measure.dimension != COUNT]
+    numbers = [Span(start=a.start, end=a.end) for a in told]
+    return [n for n in numbers if not any(_meets(n, c.span) for c in clauses)]
+
+
 def _telling(prompt: str, atoms: Sequence[Atom]) -> Iterator[Span]:
     """Return small words that change the meaning where they stand, though mostly they are filler.
 
     `lands first`, unless it goes on with `then`; `at the same height`: as high as somebody else.
     """
     for k, atom in enumerate(atoms):
-        word = prompt[atom.start : atom.end].lower()
+        word = text_of(atom, prompt)
         before = atoms[k - 1] if k else None
         after = atoms[k + 1 :]
         if word in _RANKS and before is not None and before.kind is AtomKind.VERB:
             sentence = takewhile(lambda a: a.kind is not AtomKind.STOP, after)
             if not any(a.kind is AtomKind.THEN for a in sentence):
-                yield Span(start=before.start, end=atom.end)
+                yield _covering(before, atom)
         elif word == 'same' and after and after[0].kind is AtomKind.THING:
-            yield Span(start=atom.start, end=after[0].end)
+            yield _covering(atom, after[0])
+
+
+def _covering(first: Atom, last: Atom) -> Span:
+    """Return the characters from one word to the other, whichever stands first."""
+    return Span(start=min(first.start, last.start), end=max(first.end, last.end))
+
+
+def _meets(one: Span, other: Span) -> bool:
+    return one.start < other.end and other.start < one.end
 
 
 def _inside(inner: Span, outer: Span) -> bool:

@@ -33,7 +33,65 @@ def settle_verbs(atoms: list[Atom]) -> list[Atom]:
                 settled[i] = _as(atom, AtomKind.CAUSATIVE)
             elif AtomKind.VERB in kinds and settled[i].kind is AtomKind.CAUSATIVE:
                 settled[i] = _as(atom, AtomKind.VERB)
+        if atom.kind is AtomKind.VERB and atom.key == 'hover' and _on_the_ground(settled, i):
+            settled[i] = replace(settled[i], key='wait')
+        to = _goes_off_to(settled, i) if atom.kind is AtomKind.VERB else None
+        if to is not None:
+            settled[i] = replace(settled[i], kind=AtomKind.AUXILIARY)
+            settled[to] = replace(settled[to], kind=AtomKind.FILL)
+        stop = _lane_of_another(settled, i)
+        if stop is not None:
+            settled[i] = replace(settled[i], key='change_lane')
+            for k in range(i + 1, stop):
+                if not settled[k].is_actor:
+                    settled[k] = replace(settled[k], kind=AtomKind.FILL, noun=None)
     return settled
+
+
+def _goes_off_to(atoms: list[Atom], i: int) -> int | None:
+    """`the second drone goes off to track it`: return the `to` of what it goes for."""
+    to = i + 1
+    while to < len(atoms) and atoms[to].kind is AtomKind.FILL:
+        to += 1
+    if atoms[i].key not in ('drive', 'start', 'fly') or to + 1 >= len(atoms):
+        return None
+    goal = atoms[to + 1]
+    flown = goal.kind is AtomKind.VERB and goal.key in _FLOWN and goal.form is VerbForm.BASE
+    return to if atoms[to].words == 'to' and flown and not _on_the_ground(atoms, i) else None
+
+
+_FLOWN = ('track', 'follow', 'hover', 'orbit', 'observe', 'navigate', 'land', 'trail')
+
+
+def _on_the_ground(atoms: list[Atom], i: int) -> bool:
+    """`the police car standing by at the hospital`: who cannot hover waits."""
+    before = next((a for a in reversed(atoms[:i]) if a.kind not in _BESIDE_SUBJECT), None)
+    ground = (NounKind.AGENT, NounKind.VEHICLE, NounKind.EGO)
+    return before is not None and before.noun is not None and before.noun.kind in ground
+
+
+_BESIDE_SUBJECT = (*_SKIPPED, AtomKind.RELATIVE)
+
+
+# How one gets from lane to lane.
+_SIDEWAYS = frozenset({'swerve', 'cross', 'drive', 'start', 'come', 'change_lane', 'visit'})
+_INTO_A_LANE = 5  # words, at most, from the verb to the lane
+
+
+def _lane_of_another(atoms: list[Atom], i: int) -> int | None:
+    """`moves over into the truck's lane`: return what lies behind the lane."""
+    atom = atoms[i]
+    if atom.kind is not AtomKind.VERB or atom.key not in _SIDEWAYS:
+        return None
+    into = atom.key == 'swerve'  # `swerves into`
+    for k in range(i + 1, min(i + 1 + _INTO_A_LANE, len(atoms))):
+        behind = atoms[k]
+        if behind.noun is not None and behind.noun.kind is NounKind.STREET:
+            return k + 1 if into and behind.key == 'lane' else None
+        into = into or behind.key == 'to'
+        if not (behind.key == 'to' or behind.kind is AtomKind.FILL or (into and behind.is_actor)):
+            return None
+    return None
 
 
 def _sends_off(atoms: list[Atom], i: int) -> bool:

@@ -45,8 +45,7 @@ def complete_event(
         event = known[0]
         event.trigger = trigger
     else:
-        event = EventDraft(id=scene.new_id('e'), trigger=trigger, action=action, span=span)
-        scene.events.append(event)
+        event = scene.add_event(action, span, trigger)
     for clause in (*clauses, scene.clause):
         clause.ids[event.id] = None
         clause.status = ClauseStatus.ENCODED
@@ -67,8 +66,7 @@ def same_cause(
     if trigger == first.trigger and action == first.action:
         scene.became(first.id)
         return first
-    event = EventDraft(id=scene.new_id('e'), trigger=trigger, action=action, span=span)
-    scene.events.append(event)
+    event = scene.add_event(action, span, trigger)
     scene.became(event.id)
     return event
 

@@ -261,7 +261,7 @@ class Frame:
             if c.sentence == self.piece.sentence or self.piece.then
         ]
         for clause in sorted(earlier, key=lambda c: c.describes):  # main clauses first
-            fitting = tuple(e for e in clause.subjects if accept(e))
+            fitting = tuple(e for e in clause.topic if accept(e))
             if fitting:
                 return fitting
         return ()
@@ -269,7 +269,7 @@ class Frame:
     def patient(self, accept: Fits) -> tuple[Entity, ...]:
         """Return whom the sentence is about: `… and is followed and filmed by a drone`."""
         for clause in self.scene.clauses[:-1]:
-            fitting = tuple(e for e in clause.subjects if accept(e))
+            fitting = tuple(e for e in clause.topic if accept(e))
             if clause.sentence == self.piece.sentence and fitting and not clause.describes:
                 return fitting
         return ()

@@ -11,9 +11,11 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 
+from aurora_core.parsing.atom_runs import text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
 from aurora_core.parsing.measures import COUNT, LENGTH, TIME
 from aurora_core.parsing.morphology import VerbForm
+from aurora_core.parsing.phases import FLOWN
 from aurora_core.parsing.pieces import TRANSPARENT
 
 _STANDS = frozenset({'wait', 'be', 'hover', 'exist'})
@@ -21,12 +23,11 @@ _MOVES = frozenset({'come', 'drive', 'approach', 'walk', 'follow', 'cross'})
 _DO = frozenset({'do', 'does', 'did'})
 _SUCCESS = re.compile(r'\b(?:success|succeed|pass|valid|accept|fulfil|satisf|good if|won\b)')
 _BEHIND_DO = 6
-_FLOWN = frozenset({'hover', 'track', 'follow', 'orbit', 'navigate', 'observe', 'fly'})
 
 
 def straighten(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
     """Return the atoms of statements in the order subject, predicate."""
-    told = _sides(_phases(_named(list(atoms))))
+    told = _sides(_phases(_named(_applied(list(atoms), prompt))))
     return _presented(_asked(_criteria(told, prompt), prompt), prompt)
 
 
@@ -41,6 +42,28 @@ def _named(atoms: list[Atom]) -> list[Atom]:
         if changed[i].kind is AtomKind.STOP and changed[i].key == ':' and named:
             changed[i] = replace(changed[i], kind=AtomKind.FILL)
     return changed
+
+
+def _applied(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """`the brakes are applied by the truck`: the truck brakes."""
+    changed = list(atoms)
+    for i in range(1, len(atoms) - 2):
+        if text_of(atoms[i], prompt) != 'brakes' or text_of(atoms[i - 1], prompt) != 'the':
+            continue
+        by = next((k for k in range(i + 1, min(i + 5, len(atoms))) if atoms[k].key == 'by'), None)
+        if by is None or by + 1 >= len(atoms) or not atoms[by + 1].is_actor:
+            continue
+        if not _is_be(atoms[i + 1], prompt):
+            continue
+        for k in range(i - 1, by + 1):
+            changed[k] = replace(atoms[k], kind=AtomKind.FILL, noun=None)
+        brake = replace(atoms[i], kind=AtomKind.VERB, key='brake', form=VerbForm.THIRD, noun=None)
+        changed[by], changed[by + 1] = atoms[by + 1], brake
+    return changed
+
+
+def _is_be(atom: Atom, prompt: str) -> bool:
+    return text_of(atom, prompt) in ('is', 'are', 'being', 'get', 'be')
 
 
 def _is_heading(atoms: Sequence[Atom]) -> bool:
@@ -72,7 +95,7 @@ def _asked(atoms: list[Atom], prompt: str) -> list[Atom]:
     """`only then does the car start`: `does` says nothing before who acts."""
     kept: list[Atom] = []
     for i, atom in enumerate(atoms):
-        does = prompt[atom.start : atom.end].lower() in _DO
+        does = text_of(atom, prompt) in _DO
         if does and i + 1 < len(atoms) and atoms[i + 1].is_actor:
             behind = atoms[i + 2 : i + 2 + _BEHIND_DO]
             acts = any(a.kind is AtomKind.VERB and a.form is VerbForm.BASE for a in behind)
@@ -87,7 +110,7 @@ def _presented(atoms: list[Atom], prompt: str) -> list[Atom]:
     changed = list(atoms)
     for i in range(len(changed) - 2):
         there, verb, new = changed[i : i + 3]
-        is_there = prompt[there.start : there.end].lower() == 'there'
+        is_there = text_of(there, prompt) == 'there'
         if not is_there or verb.kind is not AtomKind.VERB or new.noun is None:
             continue
         if not new.is_actor or verb.key == 'exist' or verb.form is VerbForm.ING:
@@ -119,7 +142,7 @@ def _phases(atoms: list[Atom]) -> list[Atom]:
         last = written[k]
         while k and written[k - 1].kind in (*TRANSPARENT, AtomKind.ROUTE):
             k -= 1
-        flown = k and written[k - 1].kind is AtomKind.VERB and written[k - 1].key in _FLOWN
+        flown = k and written[k - 1].kind is AtomKind.VERB and written[k - 1].key in FLOWN
         opens = k < 2 or written[k - 2].kind in (AtomKind.FILL, AtomKind.STOP, AtomKind.COMMA)
         if flown and opens:
             word = Atom(

@@ -220,6 +220,7 @@ class Lexicon:
         self.preludes = Preludes(data['preludes'])
         self.ambiguous_agents: dict[str, list[str]] = dict(data['ambiguous_agents'])
         self.fractions = {word: int(part) for word, part in data['fractions'].items()}
+        self.turns = {name: frozenset(words) for name, words in data['turns'].items()}
         irregular = data['irregular_verbs']
         for section, tag, plurals in _KEYED:
             for key, phrases in data[section].items():

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from aurora_core.parsing import values
 from aurora_core.parsing.adjuncts import AdjunctKind
-from aurora_core.parsing.atoms import AtomKind, NounKind, NounPhrase
+from aurora_core.parsing.atoms import AtomKind, Determiner, NounKind, NounPhrase
 from aurora_core.parsing.constructions import actions, conditions, ground, messages, missions
 from aurora_core.parsing.constructions.absence import none_such
 from aurora_core.parsing.constructions.ascent import ascent, landing
@@ -22,7 +22,7 @@ from aurora_core.parsing.events import complete_event
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.pronouns import ground as ground_agent
-from aurora_core.parsing.scene import EventDraft
+from aurora_core.parsing.scene import Entity
 from aurora_core.spec.scenario import Behavior
 from aurora_core.spec.vocabulary import BehaviorKind, ClauseStatus, MissionMode
 
@@ -146,11 +146,25 @@ def main_clause(frame: Frame) -> None:
     if not frame.negated:
         predicate_adjectives(frame)
     if frame.scene.clause.status is not ClauseStatus.ENCODED:
-        frame.subjects()  # named although nothing is said of them
+        _only_named(frame)
         command = frame.verb is not None and frame.verb.form is VerbForm.BASE
         if command and not frame.subject_nouns:  # `take my car as the reference`
             egos = [n for n in frame.nouns() if frame.resolver.names_ego(n)]
             frame.scene.clause.objects += frame.resolver.actors(egos)
+
+
+def _only_named(frame: Frame) -> None:
+    """Actors are in the scene although what is said of them was not understood.
+
+    `the owner has hired us`: an unknown noun that is taken as known belongs to the speaker's
+    world, `a dragon sleeps` asks for one.
+    """
+    strange = any(
+        n.kind is NounKind.UNKNOWN and n.determiner is Determiner.DEFINITE
+        for n in frame.subject_nouns
+    )
+    if not strange:
+        frame.subjects()
 
 
 def _in_brackets(frame: Frame) -> None:
@@ -184,10 +198,25 @@ def _siren(frame: Frame) -> None:
     if mark and agents:
         mark[0].used = True
         for entity in agents:
-            entity.behaviors.append(
-                Behavior(kind=BehaviorKind.EMERGENCY_RUN, target=_goal(frame), span=frame.span)
+            _rush(
+                entity,
+                Behavior(kind=BehaviorKind.EMERGENCY_RUN, target=_goal(frame), span=frame.span),
             )
         frame.scene.clause.status = ClauseStatus.ENCODED
+
+
+def _rush(entity: Entity, made: Behavior) -> None:
+    """`drives to the hospital with its siren on`: one run, not two."""
+    last = entity.behaviors[-1] if entity.behaviors else None
+    if last is not None and last.kind is BehaviorKind.DRIVE and last.span == made.span:
+        entity.behaviors[-1] = Behavior(
+            kind=made.kind,
+            target=made.target or last.target,
+            speed_mps=last.speed_mps,
+            span=made.span,
+        )
+    else:
+        entity.behaviors.append(made)
 
 
 def _goal(frame: Frame) -> str | None:
@@ -248,9 +277,7 @@ def _told(frame: Frame) -> bool:
     action = messages.message(frame) or actions.agent_action(frame)
     if action is None:
         return False
-    event = EventDraft(id=frame.scene.new_id('e'), action=action, span=frame.span)
-    frame.scene.events.append(event)
-    frame.scene.became(event.id)
+    frame.scene.became(frame.scene.add_event(action, frame.span).id)
     return True
 
 

@@ -20,6 +20,10 @@ LENGTH, TIME, SPEED, RATIO, ANGLE, COUNT = 'length', 'time', 'speed', 'ratio', '
 UNREADABLE = 'unreadable'
 # Words in front of a time after the start: `at second 20`, `until 0:45`.
 _AT = frozenset({'at', '@', 'until', 'till', 'from', 'by', 'on', 'around', 'about', 'in', 'after'})
+# Between an article and what it counts: `a full minute`, `a good two minutes`, `a further 90 s`.
+_EMPHASIS = frozenset(
+    {'full', 'whole', 'good', 'solid', 'entire', 'complete', 'round', 'mere', 'further', 'total'}
+)
 _CLOCK = re.compile(r'(0?[0-5]):([0-5]\d)')
 
 
@@ -86,6 +90,8 @@ class MeasureReader:
             j + 1
         ):
             j += 1
+        if self._is_stressed(j) and self._number(j + 2) is not None:
+            j += 2
         ranged = self._word(j) == 'between'
         core = self._core(j + 1 if ranged else j, between=ranged)
         if core is None:
@@ -146,7 +152,9 @@ class MeasureReader:
         return Measure(dimension=RATIO, value=1 / part, start=start, end=end), j + 2
 
     def is_part(self, j: int) -> bool:
-        """Return whether a part of something begins at token j (`a quarter of an hour`)."""
+        """Return whether an amount begins here: `a quarter of an hour`, `a full minute`."""
+        if self._is_stressed(j):
+            return True
         number = self._spelled(j)
         part = number is not None and number.value is not None and number.value < 1
         return (part and bool(number and number.value)) or self._share(j) is not None
@@ -267,15 +275,14 @@ class MeasureReader:
                 )
         if between:
             return None
-        if unit is not None and self._dimension(unit) == TIME:
+        if unit is not None and self._dimension(unit) in (TIME, LENGTH):
             added = self._more_time(k)
             if added is not None:
                 extra, k = added
                 total = float(first.value * self._factor(unit) + extra)
-                return (
-                    Measure(dimension=TIME, value=total, start=start, end=self._tokens[k - 1].end),
-                    k,
-                )
+                end = self._tokens[k - 1].end
+                dimension = self._dimension(unit)
+                return Measure(dimension=dimension, value=total, start=start, end=end), k
         return self._single(first, unit, start, end), k
 
     def _single(self, first: _Number, unit: str | None, start: int, end: int) -> Measure:
@@ -311,7 +318,7 @@ class MeasureReader:
         )
 
     def _more_time(self, k: int) -> tuple[Fraction, int] | None:
-        """`1 min 30 s`, `one minute and thirty seconds`, `a minute and a half`."""
+        """`1 min 30 s`, `one minute and thirty seconds`, `a metre and a half`."""
         if self._word(k) == 'and' and self._word(k + 1) == 'a' and self._word(k + 2) == 'half':
             unit = self._lexicon.longest_of(self._words, k - 1, (Tag.UNIT,))
             if unit is not None:
@@ -330,12 +337,14 @@ class MeasureReader:
 
     def _article(self, j: int) -> _Number | None:
         """`a minute`; `a second` is left to the ordinals unless a preposition precedes."""
+        if self._is_stressed(j):
+            return _Number(Fraction(1), j + 2, True)
         if self._word(j) not in ('a', 'an'):
             return None
         unit = self._lexicon.longest_of(self._words, j + 1, (Tag.UNIT,))
         if unit is None or len(self._word(j + 1)) < 3:
             return None
-        if self._dimension(unit[1].key) != TIME:
+        if self._dimension(unit[1].key) not in (TIME, LENGTH):
             return None
         before = self._words[j - 1] if j > 0 else ''
         if self._word(j + 1) == 'second' and before not in (
@@ -347,6 +356,16 @@ class MeasureReader:
         ):
             return None
         return _Number(Fraction(1), j + 1, True)
+
+    def _is_stressed(self, j: int) -> bool:
+        """`a full minute`, `another good 40 m`."""
+        if (
+            self._word(j) not in ('a', 'an', 'another', 'the')
+            or self._word(j + 1) not in _EMPHASIS
+        ):
+            return False
+        number = self._number(j + 2)
+        return self._unit(number.stop if number is not None else j + 2)[0] is not None
 
     def _unit(self, i: int) -> tuple[str | None, int]:
         found = self._lexicon.longest_of(self._words, i, (Tag.UNIT,))

@@ -11,21 +11,20 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from aurora_core.parsing.atom_runs import text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
+from aurora_core.parsing.earlier_phases import before_that
+from aurora_core.parsing.lexicon import shipped_lexicon
 from aurora_core.parsing.measures import TIME
 
 _PAUSES = (AtomKind.STOP, AtomKind.COMMA, AtomKind.CONJUNCTION, AtomKind.THEN)
 _SMALL = (AtomKind.FILL, AtomKind.FRAME, AtomKind.AUXILIARY)
-_AFTERWARDS = frozenset(
-    {'later', 'later on', 'afterwards', 'after that', 'thereafter', 'subsequently'}
-)
 _HAPPENS = frozenset({'happen', 'be', 'do so'})
-_REFERRING = frozenset({'that', 'this', 'which', 'it', 'that one', 'he', 'she', 'they'})
 
 
 def dated(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
     """Return the atoms with every time in the clause of what happens then."""
-    told = _leaving(_clefts(list(atoms), prompt))
+    told = _leaving(_clefts(before_that(atoms), prompt))
     told = _in_that_case(_that_happens(told, prompt), prompt)
     return _until_then(_headings(_into_it(_later(told))))
 
@@ -76,7 +75,10 @@ def _later(atoms: list[Atom]) -> list[Atom]:
     """`5 s later`: a time, and no word of sequence."""
     changed = list(atoms)
     for i in range(1, len(changed)):
-        then = changed[i].kind is AtomKind.THEN and changed[i].key in _AFTERWARDS
+        then = (
+            changed[i].kind is AtomKind.THEN
+            and changed[i].key in shipped_lexicon().turns['behind_a_time']
+        )
         if then and _is_time(changed, i - 1):
             changed[i] = replace(changed[i], kind=AtomKind.FILL)
     return changed
@@ -186,31 +188,29 @@ def _that_case(atoms: Sequence[Atom], i: int, prompt: str) -> int | None:
     while k < len(atoms) and (
         atoms[k].kind in (*_SMALL, AtomKind.RELATIVE) or _is_pronoun(atoms[k])
     ):
-        words = prompt[atoms[k].start : atoms[k].end].lower()
+        words = text_of(atoms[k], prompt)
         referred = referred or words in ('that', 'this', 'it', 'so', 'which')
         k += 1
     happens = k < len(atoms) and atoms[k].kind is AtomKind.VERB and atoms[k].key == 'happen'
     end = k + 1 if happens else k
-    so = prompt[atoms[k - 1].start : atoms[k - 1].end].lower() == 'so'
+    so = text_of(atoms[k - 1], prompt) == 'so'
     return end if referred and (happens or so) and _ends(atoms, end) else None
 
 
 def _dating(atoms: Sequence[Atom], i: int, prompt: str) -> int | None:
     """Return where the time begins of a clause that says nothing but when."""
-    while i < len(atoms) and (
-        atoms[i].kind in _PAUSES or prompt[atoms[i].start : atoms[i].end].lower() == 'and'
-    ):
+    while i < len(atoms) and (atoms[i].kind in _PAUSES or text_of(atoms[i], prompt) == 'and'):
         i += 1
     referred = False
     while i < len(atoms) and (
         atoms[i].kind in (*_SMALL, AtomKind.RELATIVE) or _is_pronoun(atoms[i])
     ):
-        words = prompt[atoms[i].start : atoms[i].end].lower()
-        referred = referred or words in _REFERRING
+        words = text_of(atoms[i], prompt)
+        referred = referred or words in shipped_lexicon().turns['referring']
         i += 1
     if not referred or i >= len(atoms) or atoms[i].kind is not AtomKind.VERB:
         return None
-    does = prompt[atoms[i].start : atoms[i].end].lower() in (
+    does = text_of(atoms[i], prompt) in (
         'does',
         'do',
         'does so',
@@ -242,7 +242,7 @@ def _clefts(atoms: list[Atom], prompt: str) -> list[Atom]:
     written: list[Atom] = []
     i = 0
     while i < len(atoms):
-        it = prompt[atoms[i].start : atoms[i].end].lower() in ('it', "it's")
+        it = text_of(atoms[i], prompt) in ('it', "it's")
         opens = not written or written[-1].kind in _PAUSES
         k = i + 1
         while k < len(atoms) and atoms[k].kind in _SMALL:
@@ -254,7 +254,7 @@ def _clefts(atoms: list[Atom], prompt: str) -> list[Atom]:
         while not timed and who < len(atoms) and atoms[who].kind is AtomKind.FILL:
             who += 1
         that = begin + 2 if timed else who + 1
-        is_that = that < len(atoms) and prompt[atoms[that].start : atoms[that].end].lower() in (
+        is_that = that < len(atoms) and text_of(atoms[that], prompt) in (
             'that',
             'who',
             'which',

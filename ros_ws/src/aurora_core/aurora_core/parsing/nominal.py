@@ -13,13 +13,12 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
 
+from aurora_core.parsing.atom_runs import HELPERS, LOOSE, runs, skip, text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind
 from aurora_core.parsing.counts import counted, said_twice
 from aurora_core.parsing.lexicon import read_data
 from aurora_core.parsing.morphology import VerbForm
 
-_LOOSE = (AtomKind.FILL, AtomKind.FRAME)
-_HELPERS = (AtomKind.AUXILIARY, *_LOOSE)
 _BREAKS = (AtomKind.COMMA, AtomKind.CONJUNCTION)
 _WITHOUT_OBJECT = frozenset({'land', 'hover', 'ascend', 'descend', 'start', 'stop', 'brake'})
 _WITH_OBJECT = frozenset({'track', 'follow', 'observe', 'orbit', 'navigate', 'overtake', 'cross'})
@@ -28,17 +27,12 @@ _WITH_OBJECT = frozenset({'track', 'follow', 'observe', 'orbit', 'navigate', 'ov
 def predicates(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
     """Return the atoms with acts that are nouns as verbs."""
     written: list[Atom] = []
-    sentence: list[Atom] = []
-    for atom in (*counted(_steps(atoms, prompt), prompt), None):
-        if atom is not None and atom.kind is not AtomKind.STOP:
-            sentence.append(atom)
-            continue
+    for sentence, stop in runs(counted(_steps(atoms, prompt), prompt), AtomKind.STOP):
         sentence = _front_siren(_kept(_message(sentence)))
         told = _done_by(_target(_acts(said_twice(sentence, prompt), prompt), prompt), prompt)
         written += _verbless(_of_whom(told))
-        sentence = []
-        if atom is not None:
-            written.append(atom)
+        if stop is not None:
+            written.append(stop)
     return written
 
 
@@ -47,10 +41,10 @@ def _message(atoms: list[Atom]) -> list[Atom]:
     for i in range(len(atoms) - 4):
         if atoms[i].kind is not AtomKind.MESSAGE:
             continue
-        verb = _skip(atoms, i + 1, _HELPERS)
+        verb = skip(atoms, i + 1, HELPERS)
         if verb >= len(atoms) or atoms[verb].key not in ('drive', 'start', 'leave', 'send'):
             continue
-        k = _skip(atoms, verb + 1)
+        k = skip(atoms, verb + 1)
         ends = {a.key: n for n, a in enumerate(atoms) if n >= k and a.key in ('from', 'to')}
         start, goal = ends.get('from'), ends.get('to')
         if start is None or goal is None or goal + 1 >= len(atoms) or start + 1 >= len(atoms):
@@ -72,11 +66,11 @@ def _kept(atoms: list[Atom]) -> list[Atom]:
             continue
         by = next((k for k in range(i + 1, len(atoms) - 1) if atoms[k].key == 'by'), None)
         verb = i - 1
-        while verb > 0 and atoms[verb].kind in _LOOSE:
+        while verb > 0 and atoms[verb].kind in LOOSE:
             verb -= 1
         held = atoms[verb].key in ('keep', 'be kept', 'hold')
         who = verb - 1
-        while who >= 0 and (atoms[who].kind in _HELPERS or atoms[who].key == 'be'):
+        while who >= 0 and (atoms[who].kind in HELPERS or atoms[who].key == 'be'):
             who -= 1
         passive = verb > who + 1 or atoms[verb].key == 'be kept'
         if by is None or not held or not passive or who < 0 or not atoms[who].is_actor:
@@ -91,23 +85,13 @@ def _kept(atoms: list[Atom]) -> list[Atom]:
 
 def _front_siren(atoms: list[Atom]) -> list[Atom]:
     """`with its siren on, an ambulance …`: behind the one who has it."""
-    first = _skip(atoms, 0)
+    first = skip(atoms, 0)
     if first + 2 >= len(atoms) or atoms[first].kind is not AtomKind.SIREN:
         return atoms
-    who = _skip(atoms, first + 1, (AtomKind.COMMA, *_LOOSE))
+    who = skip(atoms, first + 1, (AtomKind.COMMA, *LOOSE))
     if who >= len(atoms) or not atoms[who].is_actor:
         return atoms
     return [*atoms[:first], atoms[who], atoms[first], *atoms[who + 1 :]]
-
-
-def _word(atom: Atom, prompt: str) -> str:
-    return prompt[atom.start : atom.end].lower()
-
-
-def _skip(atoms: Sequence[Atom], i: int, kinds: tuple[AtomKind, ...] = _LOOSE) -> int:
-    while i < len(atoms) and atoms[i].kind in kinds:
-        i += 1
-    return i
 
 
 @lru_cache(maxsize=1)
@@ -163,7 +147,7 @@ def _done_by(atoms: list[Atom], prompt: str) -> list[Atom]:
         (
             i
             for i in range(2, len(atoms) - 1)
-            if atoms[i].key == 'by' and atoms[i + 1].is_actor and _word(atoms[i - 1], prompt)
+            if atoms[i].key == 'by' and atoms[i + 1].is_actor and text_of(atoms[i - 1], prompt)
         ),
         None,
     )
@@ -171,12 +155,12 @@ def _done_by(atoms: list[Atom], prompt: str) -> list[Atom]:
         return atoms
     begin = by - 1
     while begin > 0 and (
-        _is_done(_word(atoms[begin], prompt))
-        or atoms[begin].kind in _HELPERS
+        _is_done(text_of(atoms[begin], prompt))
+        or atoms[begin].kind in HELPERS
         or atoms[begin].key == 'be'
     ):
         begin -= 1
-    told = [_word(a, prompt) for a in atoms[begin + 1 : by]]
+    told = [text_of(a, prompt) for a in atoms[begin + 1 : by]]
     act = next((i for i, a in enumerate(atoms[: begin + 1]) if a.kind is AtomKind.VERB), None)
     if act is None or not any(_is_done(w) for w in told):
         return atoms
@@ -205,7 +189,7 @@ def _acts(atoms: list[Atom], prompt: str) -> list[Atom]:
     """`the observation of the bus`: as `observing` it."""
     changed = list(atoms)
     for i in range(len(changed) - 2):
-        words = re.sub(r'^(?:the|a|an|its)\s+', '', _word(changed[i], prompt))
+        words = re.sub(r'^(?:the|a|an|its)\s+', '', text_of(changed[i], prompt))
         key = _act_nouns().get(words)
         about = changed[i + 2].is_actor or changed[i + 2].is_place
         if key is not None and changed[i + 1].key == 'of' and about:
@@ -218,11 +202,11 @@ def _acts(atoms: list[Atom], prompt: str) -> list[Atom]:
 def _target(atoms: list[Atom], prompt: str) -> list[Atom]:
     """`tracking is done by a UAV, the target being a truck`: a UAV tracks a truck."""
     for i in range(1, len(atoms) - 2):
-        word = re.sub(r'^(?:the|its)\s+', '', _word(atoms[i], prompt))
+        word = re.sub(r'^(?:the|its)\s+', '', text_of(atoms[i], prompt))
         if word != 'target':
             continue
-        be = _skip(atoms, i + 1)
-        who = _skip(atoms, be + 1 if be < len(atoms) and atoms[be].key == 'be' else be)
+        be = skip(atoms, i + 1)
+        who = skip(atoms, be + 1 if be < len(atoms) and atoms[be].key == 'be' else be)
         copula = prompt[atoms[i].end : atoms[who].start].split() if who < len(atoms) else []
         if not {'is', 'being', 'was'}.intersection(copula) or not atoms[who].is_actor:
             continue

@@ -13,9 +13,12 @@ from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
 
+from aurora_core.parsing.atom_runs import LOOSE, skip, text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
+from aurora_core.parsing.lexicon import shipped_lexicon
 from aurora_core.parsing.measures import LENGTH, SPEED, TIME
 from aurora_core.parsing.morphology import VerbForm
+from aurora_core.parsing.phases import PHASES
 from aurora_core.parsing.pieces import TRANSPARENT
 from aurora_core.spec.parameter import Bound
 
@@ -24,11 +27,8 @@ _OPENERS = frozenset({'on', 'upon', 'at', 'with', 'after', 'following', 'by'})
 _OF_OBJECT = frozenset({'see', 'lose', 'receive', 'finish'})
 # What a participle in front of a sentence tells as its cause.
 _NOTICED = frozenset({'see', 'lose', 'receive', 'finish', 'reach'})
-_FLOWN = frozenset({'hover', 'track', 'follow', 'orbit', 'navigate', 'observe', 'fly', 'wait'})
-_DONE = frozenset({'done', 'finished', 'complete', 'completed', 'over', 'through', 'accomplished'})
 _TAKES_PLACE = ('happen', 'be', 'come', 'follow')
 _ENDS = (AtomKind.STOP, AtomKind.COMMA, AtomKind.THEN, AtomKind.CONJUNCTION)
-_SMALL = (AtomKind.FILL, AtomKind.FRAME)
 
 
 def verbal(atoms: list[Atom], prompt: str) -> list[Atom]:
@@ -41,17 +41,6 @@ def verbal(atoms: list[Atom], prompt: str) -> list[Atom]:
         else a
         for a in written
     ]
-
-
-def _words(atom: Atom, prompt: str) -> str:
-    return prompt[atom.start : atom.end].lower()
-
-
-def _solid(atoms: Sequence[Atom], i: int) -> int:
-    """Return the index of the next atom that is no small word."""
-    while i < len(atoms) and atoms[i].kind in _SMALL:
-        i += 1
-    return i
 
 
 # --- nouns ---
@@ -74,7 +63,7 @@ def _nominal(atoms: list[Atom], prompt: str) -> list[Atom]:
             or atom.kind is AtomKind.BECAUSE
             or (
                 atom.kind in (AtomKind.PREPOSITION, AtomKind.SUBORDINATOR)
-                and _words(atom, prompt).strip() in _OPENERS
+                and text_of(atom, prompt).strip() in _OPENERS
             )
         )
         event = _event(atoms, i + 1, prompt, because=atom.kind is AtomKind.BECAUSE)
@@ -122,7 +111,7 @@ def _verbless(atoms: list[Atom], prompt: str) -> list[Atom]:
         while begin and told[begin - 1].kind is not AtomKind.STOP:
             begin -= 1
         cause = told[begin:i]
-        first = _solid(cause, 0)
+        first = skip(cause, 0)
         if first >= len(cause) or not cause[first].is_actor:
             continue
         text = prompt[cause[0].start : cause[-1].end].lower()
@@ -164,16 +153,14 @@ def _interrupted(atoms: list[Atom]) -> list[Atom]:
         if not opens or told[i + 1].kind is not AtomKind.SUBORDINATOR or told[i + 1].key != 'when':
             continue
         begin = i - 1
-        while begin and told[begin - 1].kind in _SMALL:
+        while begin and told[begin - 1].kind in LOOSE:
             begin -= 1
         if begin and told[begin - 1].kind not in (*_ENDS, AtomKind.SUBORDINATOR):
             continue
         stop = next((k for k in range(i + 2, len(told)) if told[k].kind is AtomKind.COMMA), None)
         if stop is None or any(a.kind is AtomKind.STOP for a in told[i:stop]):
             continue
-        behind = stop + 1
-        while behind < len(told) and told[behind].kind in TRANSPARENT:
-            behind += 1
+        behind = skip(told, stop + 1, TRANSPARENT)
         if behind < len(told) and told[behind].kind is AtomKind.VERB:
             told[begin : stop + 1] = [*told[i + 1 : stop + 1], *told[begin:i]]
     return told
@@ -183,15 +170,13 @@ def _asides(atoms: list[Atom]) -> list[Atom]:
     """`when the drone, hovering over the park, sees it, …`: what it does is told before."""
     for i in range(1, len(atoms) - 2):
         who, verb = atoms[i - 1], atoms[i + 1]
-        flies = verb.kind is AtomKind.VERB and verb.form is VerbForm.ING and verb.key in _FLOWN
+        flies = verb.kind is AtomKind.VERB and verb.form is VerbForm.ING and verb.key in PHASES
         if atoms[i].kind is not AtomKind.COMMA or not who.is_actor or not flies:
             continue
         stop = next((k for k in range(i + 2, len(atoms)) if atoms[k].kind is AtomKind.COMMA), None)
         if stop is None or any(a.kind is AtomKind.STOP for a in atoms[i:stop]):
             continue
-        behind = stop + 1
-        while behind < len(atoms) and atoms[behind].kind in TRANSPARENT:
-            behind += 1
+        behind = skip(atoms, stop + 1, TRANSPARENT)
         if behind >= len(atoms) or atoms[behind].kind is not AtomKind.VERB:
             continue
         if atoms[behind].form is VerbForm.ING:
@@ -239,12 +224,12 @@ def _is_small(atom: Atom) -> bool:
     pronoun = (
         atom.noun is not None and atom.noun.kind is NounKind.PRONOUN and atom.noun.key == 'it'
     )
-    small = (*_SMALL, AtomKind.AUXILIARY, AtomKind.PREPOSITION, AtomKind.ROUTE, AtomKind.RELATIVE)
+    small = (*LOOSE, AtomKind.AUXILIARY, AtomKind.PREPOSITION, AtomKind.ROUTE, AtomKind.RELATIVE)
     return atom.kind in small or pronoun or atom.key in ('all', 'everything')
 
 
 def _is_done(atom: Atom, prompt: str) -> bool:
-    return _words(atom, prompt) in _DONE
+    return text_of(atom, prompt) in shipped_lexicon().turns['finished']
 
 
 def _dated_event(
@@ -257,8 +242,7 @@ def _dated_event(
     if event is None:
         return None
     clause, k = event
-    while k < len(atoms) and atoms[k].kind in TRANSPARENT:
-        k += 1
+    k = skip(atoms, k, TRANSPARENT)
     if k >= len(atoms) or atoms[k].kind is not AtomKind.VERB or atoms[k].key not in _TAKES_PLACE:
         return None
     timed = any(a.measure is not None and a.key == TIME for a in atoms[k + 1 : k + 4])
@@ -280,22 +264,22 @@ def _event(
 ) -> tuple[list[Atom], int] | None:
     """Read the event that begins at i as a clause without its link, and where it ends."""
     begin = i
-    i = _solid(atoms, i)
+    i = skip(atoms, i)
     if i >= len(atoms):
         return None
     articled = i > begin
     first = atoms[i]
     if first.is_actor:  # `the truck's braking`, `the truck braking`
         k = i + 1
-        owned = k < len(atoms) and _words(atoms[k], prompt) == "'s"
-        k = _solid(atoms, k)
+        owned = k < len(atoms) and text_of(atoms[k], prompt) == "'s"
+        k = skip(atoms, k)
         if k >= len(atoms) or not (owned or because):
             return None
         named = _named_event(atoms[k], owned=owned)
         if named is None:
             return None
         return [first, named], k + 1 + _skipped(atoms, k + 1, named)
-    own = articled and any(_words(a, prompt) in ('its', 'their') for a in atoms[begin:i])
+    own = articled and any(text_of(a, prompt) in ('its', 'their') for a in atoms[begin:i])
     named = _named_event(first, owned=articled)
     gerund = first.kind is AtomKind.VERB and first.form is VerbForm.ING
     if named is None:
@@ -304,7 +288,7 @@ def _event(
         return None
     k = i + 1
     of = k < len(atoms) and atoms[k].kind is AtomKind.PREPOSITION and atoms[k].key in ('of', 'by')
-    who = _solid(atoms, k + 1) if of else k
+    who = skip(atoms, k + 1) if of else k
     if of and who < len(atoms) and (atoms[who].noun is not None) and not own:
         if named.key in _OF_OBJECT and atoms[k].key == 'of':
             verb = replace(named, form=VerbForm.ING)
@@ -321,7 +305,7 @@ def _named_event(atom: Atom, *, owned: bool) -> Atom | None:
     """Return the verb of an event noun or of a verb that stands as a noun."""
     if atom.kind is AtomKind.HAPPENING:
         return replace(atom, kind=AtomKind.VERB, form=VerbForm.THIRD)
-    if atom.kind is not AtomKind.VERB or atom.key in _FLOWN:
+    if atom.kind is not AtomKind.VERB or atom.key in PHASES:
         return None
     gerund = atom.form is VerbForm.ING
     noun = owned and atom.form is VerbForm.BASE
@@ -345,10 +329,8 @@ def _participles(atoms: list[Atom], prompt: str) -> list[Atom]:
         if i == done:
             atom = replace(atom, form=VerbForm.ING)
         opens = not written or written[-1].kind in _ENDS
-        helped = opens and _words(atom, prompt) == 'having' and i + 1 < len(atoms)
-        verb = (
-            atoms[_solid(atoms, i + 1)] if helped and _solid(atoms, i + 1) < len(atoms) else None
-        )
+        helped = opens and text_of(atom, prompt) == 'having' and i + 1 < len(atoms)
+        verb = atoms[skip(atoms, i + 1)] if helped and skip(atoms, i + 1) < len(atoms) else None
         told = atom if verb is None else verb
         noticed = (
             opens
@@ -358,7 +340,7 @@ def _participles(atoms: list[Atom], prompt: str) -> list[Atom]:
             and _subject_behind(atoms, i)
         )
         if noticed and verb is not None and (verb.form is VerbForm.PAST or verb.key == 'come'):
-            link = 'after' if verb.key in _FLOWN else 'when'
+            link = 'after' if verb.key in PHASES else 'when'
             if written and written[-1].kind is AtomKind.COMMA:
                 written[-1] = replace(written[-1], kind=AtomKind.CONJUNCTION, key='and')
             word = replace(atom, kind=AtomKind.SUBORDINATOR, key=link)
@@ -366,7 +348,7 @@ def _participles(atoms: list[Atom], prompt: str) -> list[Atom]:
             if link == 'after':
                 written.append(replace(atom, kind=AtomKind.AUXILIARY, key='have'))
             else:
-                done = _solid(atoms, i + 1)
+                done = skip(atoms, i + 1)
             continue
         if noticed and verb is None:
             if written and written[-1].kind is AtomKind.COMMA:
@@ -395,7 +377,7 @@ def _subject_behind(atoms: Sequence[Atom], i: int) -> bool:
             if behind is not None and behind.kind in (AtomKind.VERB, AtomKind.AUXILIARY):
                 return True
         if atoms[k].kind is AtomKind.COMMA:
-            after = _solid(atoms, k + 1)
+            after = skip(atoms, k + 1)
             return after < len(atoms) and atoms[after].is_actor
     return False
 
@@ -446,10 +428,10 @@ def _effect(atoms: Sequence[Atom], i: int) -> tuple[int, int] | None:
         return None
     if atom.kind is AtomKind.CAUSATIVE and atom.form is VerbForm.BASE:
         return None  # `make the bus stop`: a request
-    who = _solid(atoms, i + 1)
+    who = skip(atoms, i + 1)
     if who >= len(atoms) or not atoms[who].is_actor:
         return None
-    k = _solid(atoms, who + 1)
+    k = skip(atoms, who + 1)
     while k < len(atoms) and (
         atoms[k].kind is AtomKind.AUXILIARY or atoms[k].key in ('to', 'into')
     ):
@@ -474,7 +456,7 @@ def _told_event(cause: Sequence[Atom], prompt: str) -> list[Atom] | None:
     when = Atom(
         kind=AtomKind.SUBORDINATOR, key='when', start=cause[0].start, end=cause[0].start + 1
     )
-    first = _solid(cause, 0)
+    first = skip(cause, 0)
     if first + 1 < len(cause) and cause[first].is_actor:
         acts = cause[first + 1]
         if acts.kind is AtomKind.VERB and acts.form is VerbForm.ING:

@@ -4,10 +4,13 @@
 
 It is a grammar and a lexicon: deterministic, without a network, a few milliseconds a prompt. The
 stages, one module each: `text` (is it a prompt at all), `tokens`, `tagging` (atoms, with
-`measures`, `nouns`, `spelling`, `disambiguation`), `segments` and `predicates` (clauses as
-`pieces`), `frames` (predicate, subject, `adjuncts`), `reader` (clauses in order, cause and effect)
-with `main_clause` and `constructions/` (what clauses mean, written into `scene` through
-`resolver`), `rules` (what is implied, what stays open), `assemble` (the specification).
+`measures`, `nouns`, `spelling`, `disambiguation`), `segments` (clauses as `pieces`, with
+`clause_openings`, `clause_cuts`, `predicates`, `clause_order`), `frames` (predicate, subject,
+`adjuncts`), `reader` (clauses in order) with `leading_causes`, `trailing_causes` and `effects`
+(cause and effect, remembered in the `story`), `main_clause` and `constructions/` (what clauses
+mean, written into `scene` through `resolver`), `rules` (what is implied, what stays open),
+`assemble` (the specification). One reading of them is an `attempt`; what it left unread gets a
+`second_look`.
 
 Nothing is dropped in silence. A construction marks every adjunct that it understood as used; what
 stays unused in an encoded clause becomes a clause of its own with the status `not_encoded`;
@@ -24,21 +27,17 @@ under `verbs:` in the lexicon.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from pydantic import ValidationError
 
 from aurora_core.errors import SpecError
 from aurora_core.parsing.assemble import build
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
-from aurora_core.parsing.coverage import unaccounted
-from aurora_core.parsing.nouns import landmark_phrases
+from aurora_core.parsing.attempt import attempt
+from aurora_core.parsing.coverage import in_no_clause, unaccounted
+from aurora_core.parsing.landmarks import landmark_phrases
 from aurora_core.parsing.outcome import ParseContext, ParseOutcome, Refusal, RefusalKind
-from aurora_core.parsing.reader import Reader
-from aurora_core.parsing.rewriting import Rewritten, rewrite
-from aurora_core.parsing.rules import settle
 from aurora_core.parsing.scene import ClauseDraft, Scene
-from aurora_core.parsing.segments import segment
+from aurora_core.parsing.second_look import second_look
 from aurora_core.parsing.tagging import tag
 from aurora_core.parsing.text import check_prompt_text
 from aurora_core.parsing.tokens import tokenize
@@ -70,17 +69,14 @@ def parse_offline(prompt: str, context: ParseContext) -> ParseOutcome:
         SpecError: The result contradicts its own schema: a defect of the parser.
     """
     check_prompt_text(prompt)
-    scene = Scene(prompt, context)
     tagged = tag(tokenize(prompt), landmark_phrases(context.landmark_names))
-    told = rewrite(tagged.atoms, prompt)
-    _look_ahead(scene, told.atoms)
-    reader = Reader(scene)
-    reader.read(segment(told.atoms))
-    _note_left_out(scene, told)
+    read = attempt(prompt, context, tagged.atoms)
+    unknown = _mostly_unknown(tagged.atoms)
+    if not unknown:
+        read = second_look(read)
+    scene = read.scene
     _note_corrections(scene, tagged.corrections)
-    if not scene.refusals:
-        settle(scene)
-    if _mostly_unknown(tagged.atoms):
+    if unknown:
         scene.questions = [
             'Most of this could not be read. Which vehicles, pedestrians or UAVs should take '
             'part, and what should they do? (English, please.)'
@@ -95,11 +91,12 @@ def parse_offline(prompt: str, context: ParseContext) -> ParseOutcome:
     spec = _build(scene)
     lost = unaccounted(
         spec,
-        told.atoms,
-        reader.resolver,
+        read.told.atoms,
+        read.resolver,
         no_uavs=scene.no_uavs,
         understood=scene.understood,
     )
+    lost += in_no_clause(tagged.atoms, scene.finished_clauses())
     if lost:
         scene.clauses += [
             ClauseDraft(span=span, notes=['nothing in the scenario accounts for this'])
@@ -119,15 +116,6 @@ def _build(scene: Scene) -> ScenarioSpec:
         ) from err
 
 
-def _look_ahead(scene: Scene, atoms: Sequence[Atom]) -> None:
-    """Note what the whole prompt says of flying: clauses may leave the flyer out."""
-    heights = ('altitude', 'altitude_suffix')
-    scene.altitude_stated = any(a.kind is AtomKind.THING and a.key in heights for a in atoms)
-    scene.uav_nouns = tuple(
-        a.noun for a in atoms if a.noun is not None and a.noun.kind is NounKind.UAV
-    )
-
-
 def _settle_doubts(scene: Scene) -> None:
     """Words that stay open are admitted as unread; they are asked about only when all is open."""
     if not any(c.status is ClauseStatus.ENCODED for c in scene.clauses):
@@ -135,17 +123,6 @@ def _settle_doubts(scene: Scene) -> None:
         return
     for doubt in dict.fromkeys(scene.doubts):
         scene.clauses.append(ClauseDraft(span=doubt.span, notes=[doubt.question]))
-
-
-def _note_left_out(scene: Scene, told: Rewritten) -> None:
-    for span in told.taken_back:
-        scene.clauses.append(
-            ClauseDraft(
-                span=span, status=ClauseStatus.NO_REQUIREMENT, notes=['the speaker took it back']
-            )
-        )
-    for span in told.background:
-        scene.clauses.append(ClauseDraft(span=span, status=ClauseStatus.NO_REQUIREMENT))
 
 
 def _note_corrections(scene: Scene, corrections: tuple[tuple[int, int, str], ...]) -> None:

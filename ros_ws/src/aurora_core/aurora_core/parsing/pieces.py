@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
-from aurora_core.parsing.atoms import Atom, AtomKind
+from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
 from aurora_core.parsing.criteria.criterion import Criterion
 from aurora_core.parsing.criteria.moments import Sequel
 
@@ -40,7 +40,9 @@ class Piece:
         opens: First clause of its sentence, or opened by `and when …`.
         lead: Where the subordinating word begins.
         theme: The noun that a relative clause has as its object (`the van that the drone tracks`).
+        paused: A comma stands in front.
         criterion: The success condition, or the order of events, that the whole clause states.
+        whole: A cause that was read word by word: nothing of it is cut off.
     """
 
     atoms: tuple[Atom, ...]
@@ -51,7 +53,9 @@ class Piece:
     opens: bool = False
     lead: int | None = None
     theme: Atom | None = None
+    paused: bool = False
     criterion: Criterion | Sequel | None = None
+    whole: bool = False
 
     @property
     def start(self) -> int:
@@ -85,3 +89,8 @@ def has_verb(atoms: Sequence[Atom]) -> bool:
 
 def first_solid(atoms: Sequence[Atom]) -> Atom | None:
     return next((a for a in atoms if a.kind not in TRANSPARENT), None)
+
+
+def flies(atom: Atom) -> bool:
+    """Return whether a UAV may be meant."""
+    return atom.noun is not None and atom.noun.kind in (NounKind.UAV, NounKind.PRONOUN)

@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
 
+from aurora_core.parsing.atom_runs import runs
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
 from aurora_core.parsing.lexicon import read_data
 from aurora_core.parsing.measures import COUNT, LENGTH, RATIO, TIME, Measure
@@ -48,15 +49,10 @@ def _shares() -> tuple[dict[str, int], tuple[re.Pattern[str], ...]]:
 def radio(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
     """Return the atoms with what is said of messages as named values of the link."""
     written: list[Atom] = []
-    sentence: list[Atom] = []
-    for atom in (*atoms, None):
-        if atom is not None and atom.kind is not AtomKind.STOP:
-            sentence.append(atom)
-            continue
+    for sentence, stop in runs(atoms, AtomKind.STOP):
         written += _sentence(sentence, prompt)
-        sentence = []
-        if atom is not None:
-            written.append(atom)
+        if stop is not None:
+            written.append(stop)
     return written
 
 
@@ -67,15 +63,10 @@ def _sentence(atoms: list[Atom], prompt: str) -> list[Atom]:
     if _words()['about'].search(text) is None:
         return atoms
     written: list[Atom] = []
-    chunk: list[Atom] = []
-    for atom in (*atoms, None):
-        if atom is not None and atom.kind not in _BREAKS:
-            chunk.append(atom)
-            continue
+    for chunk, joint in runs(atoms, *_BREAKS):
         written += _chunk(chunk, prompt)
-        chunk = []
-        if atom is not None:
-            written.append(atom)
+        if joint is not None:
+            written.append(joint)
     return written
 
 

@@ -7,8 +7,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from aurora_core.parsing.atoms import Determiner, NounKind, NounPhrase
+from aurora_core.parsing.landmarks import landmark_words
 from aurora_core.parsing.lexicon import Lexicon, shipped_lexicon
-from aurora_core.parsing.nouns import landmark_words
 from aurora_core.parsing.outcome import Refusal, RefusalKind
 from aurora_core.parsing.pronouns import Fits, PronounResolver, anything
 from aurora_core.parsing.scene import Entity, Scene
@@ -148,7 +148,8 @@ class Resolver:
         """Return the actors that noun phrases name, in order, without repeats."""
         found: dict[str, Entity] = {}
         for noun in nouns:
-            for entity in self._one(noun, accept, exclude, as_object):
+            beside = (*exclude, *found.values())  # `the ego and the car ahead of it` are two
+            for entity in self._one(noun, accept, beside, as_object):
                 found[entity.id] = entity
                 entity.seen = len(self._scene.clauses)
         return tuple(found.values())
@@ -318,6 +319,10 @@ class Resolver:
         full = {'car': AgentType.POLICE, 'truck': AgentType.FIRETRUCK}.get(noun.key)
         fitting = [e for e in self._scene.agents if e.type is full and e not in exclude]
         definite = noun.determiner is Determiner.DEFINITE and not noun.plural and not noun.labels
+        if noun.head_text == 'bike' and noun.determiner is not Determiner.ANOTHER:
+            # `tracks the motorbike, and if the bike …`
+            fitting = [e for e in self._scene.agents if e.type is AgentType.MOTORCYCLE]
+            definite = not noun.plural and not noun.count
         return tuple(fitting) if definite and len(fitting) == 1 else ()
 
     def _again(
@@ -360,8 +365,10 @@ class Resolver:
                 f'there are {len(plain)} that it fits?'
             )
         chosen = plain[-1]
-        only_ego = chosen.role is Role.EGO and noun.kind is NounKind.AGENT
-        if only_ego and noun.determiner is Determiner.BARE:
+        only_ego = chosen.role is Role.EGO and noun.kind in (NounKind.AGENT, NounKind.VEHICLE)
+        bare = noun.determiner is Determiner.BARE and noun.kind is NounKind.AGENT
+        told_apart = chosen in exclude or noun.labels & (_FRONT | _REAR)  # `the lead car`
+        if only_ego and (bare or told_apart):
             return self._new(noun)
         return (chosen,)
 

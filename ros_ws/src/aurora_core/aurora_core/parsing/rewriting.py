@@ -10,10 +10,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from aurora_core.parsing.atom_runs import text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind, NounPhrase
 from aurora_core.parsing.clefts import plain_order
 from aurora_core.parsing.inversions import straighten
-from aurora_core.parsing.measures import LENGTH
+from aurora_core.parsing.lexicon import shipped_lexicon
+from aurora_core.parsing.measures import LENGTH, TIME
 from aurora_core.parsing.moments import dated
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.nominal import predicates
@@ -25,36 +27,9 @@ from aurora_core.parsing.statements import value_statements
 from aurora_core.parsing.wrapping import unwrap
 from aurora_core.spec.parameter import Bound, Span
 
-# Words that take back the number in front of them (listed among the frames of the lexicon).
-_TAKES_BACK = frozenset(
-    {'let me say', 'sorry', 'i mean', 'or rather', 'rather', 'make that', 'make it', 'correction'}
-)
-# Words of sequence that stand at the end of what they open (listed among `then_words`).
-_AS_A_RESULT = frozenset(
-    {
-        'in response',
-        'in reaction',
-        'in return',
-        'as a result',
-        'as a consequence',
-        'consequently',
-        'accordingly',
-        'in consequence',
-        'thereupon',
-        'as a reaction',
-        'as a response',
-        'afterwards',
-        'subsequently',
-        'thereafter',
-        'after that',
-        'next',
-        'in answer',
-    }
-)
 _BREAKS = (AtomKind.COMMA, AtomKind.STOP, AtomKind.THEN, AtomKind.CONJUNCTION)
 _PAUSES = (AtomKind.COMMA, AtomKind.STOP, AtomKind.FILL, AtomKind.UNKNOWN, AtomKind.THING)
 _MOST_BETWEEN = 9
-_SCENES = frozenset({'scene', 'scenario', 'simulation', 'situation'})
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -82,12 +57,13 @@ def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
     told, background = unwrap(cast(atoms, prompt), prompt)
     told = dated(verbal(radio(told, prompt), prompt), prompt)
     told = value_statements(
-        predicates(plain_order(_places(_shares(_scenes(told, prompt))), prompt), prompt),
+        predicates(plain_order(_places(_shares(_scenes(told, prompt)), prompt), prompt), prompt),
         prompt,
     )
     kept, spans = _take_back(straighten(told, prompt))
+    told = _fronted(_labels(_asides(_contrasts(kept))))
     return Rewritten(
-        atoms=tuple(_relatives(_climbs(_small_words(_fronted(_labels(kept)), prompt), prompt))),
+        atoms=tuple(_relatives(_climbs(_small_words(told, prompt), prompt))),
         taken_back=tuple(spans),
         background=tuple(background),
     )
@@ -135,7 +111,9 @@ def _retracted(atoms: Sequence[Atom], i: int) -> int | None:
     """Return where the measure begins that the words at i take back."""
     atom = atoms[i]
     denied = atom.kind is AtomKind.NEGATION and atom.key == 'no' and _comma_at(atoms, i + 1)
-    if not denied and not (atom.kind is AtomKind.FRAME and atom.key in _TAKES_BACK):
+    if not denied and not (
+        atom.kind is AtomKind.FRAME and atom.key in shipped_lexicon().turns['takes_back']
+    ):
         return None
     behind = next((a for a in atoms[i + 1 : i + 4] if a.kind is not AtomKind.COMMA), None)
     if behind is None or behind.measure is None:
@@ -151,25 +129,64 @@ def _retracted(atoms: Sequence[Atom], i: int) -> int | None:
     return None
 
 
-def _places(atoms: list[Atom]) -> list[Atom]:
+def _places(atoms: list[Atom], prompt: str) -> list[Atom]:
     """`a crosswalk; 30 m before it a truck is parked`: where, and what `it` can only mean."""
     changed = list(atoms)
     place: Atom | None = None
     acted = False
     for i, atom in enumerate(atoms):
         before = changed[i - 1] if i else None
+        if place is not None and _is_same_road(atom, before, place, prompt):
+            changed[i] = replace(place, start=atom.start, end=atom.end)
+            continue
         upstream = before is not None and before.key == 'before'
         if atom.kind is AtomKind.SUBORDINATOR and atom.key == 'before':
             if before is not None and before.key == LENGTH and before.measure is not None:
                 changed[i] = replace(atom, kind=AtomKind.PREPOSITION)
-        elif atom.is_place:
+        elif atom.is_place and (atom.noun is None or atom.noun.kind is not NounKind.PRONOUN):
             place = atom
         elif place is not None and atom.key == 'it' and atom.is_actor and before is not None:
             governed = before.kind in (AtomKind.PREPOSITION, AtomKind.RELATION)
             if governed and (upstream or not acted):
                 changed[i] = replace(place, start=atom.start, end=atom.end)
         acted = acted or (atom.is_actor and atom.key != 'it')
-    return changed
+    return _overhead(changed)
+
+
+def _overhead(atoms: list[Atom]) -> list[Atom]:
+    """`a bus stops at the crosswalk, a drone hovering above at 30 m`: above the one place."""
+    written: list[Atom] = []
+    places: dict[str, Atom] = {}
+    for i, atom in enumerate(atoms):
+        written.append(atom)
+        if atom.is_place and atom.noun is not None and atom.noun.kind is not NounKind.PRONOUN:
+            places.setdefault(atom.key, atom)
+        before = atoms[i - 1] if i else None
+        behind = atoms[i + 1] if i + 1 < len(atoms) else None
+        alone = behind is None or behind.kind in (AtomKind.PREPOSITION, *_BREAKS)
+        above = atom.kind is AtomKind.PREPOSITION and atom.words == 'above'
+        flown = before is not None and before.kind is AtomKind.VERB and before.key in _STAYING
+        if above and alone and flown and len(places) == 1:
+            (place,) = places.values()
+            written.append(replace(place, start=atom.start, end=atom.end))
+        if flown and 'main_road' in places and atom.words in _ABOVE_A_ROAD:
+            written[-1] = replace(atom, kind=AtomKind.PREPOSITION, key='over')
+            written.append(replace(places['main_road'], start=atom.start, end=atom.end))
+    return written
+
+
+_ABOVE_A_ROAD = ('above the road', 'above the street', 'above the carriageway')
+_STAYING = frozenset({'hover', 'orbit', 'wait', 'keep'})
+
+
+def _is_same_road(atom: Atom, before: Atom | None, place: Atom, prompt: str) -> bool:
+    """`two cars are on the main road; a drone flies over this road`."""
+    noun = atom.noun
+    if noun is None or noun.kind is not NounKind.STREET or before is None or noun.plural:
+        return False
+    words = text_of(atom, prompt).split()
+    again = words[0] in ('the', 'this', 'that') and words[-1] in ('road', 'street', 'carriageway')
+    return again and place.key == 'main_road' and before.key in ('over', 'along', 'around')
 
 
 def _scenes(atoms: list[Atom], prompt: str) -> list[Atom]:
@@ -178,7 +195,7 @@ def _scenes(atoms: list[Atom], prompt: str) -> list[Atom]:
     for i in range(1, len(changed) - 1):
         head = changed[i - 1]
         named = head.kind in (AtomKind.FRAME, AtomKind.SCENARIO)
-        scene = prompt[head.start : head.end].lower().rpartition(' ')[2] in _SCENES
+        scene = text_of(head, prompt).rpartition(' ')[2] in shipped_lexicon().turns['scenes']
         begin = i
         while begin and changed[begin - 1].kind in (*TRANSPARENT, AtomKind.SCENARIO):
             begin -= 1
@@ -190,6 +207,57 @@ def _scenes(atoms: list[Atom], prompt: str) -> list[Atom]:
 
 def _comma_at(atoms: Sequence[Atom], i: int) -> bool:
     return i < len(atoms) and atoms[i].kind is AtomKind.COMMA
+
+
+def _asides(atoms: list[Atom]) -> list[Atom]:
+    """`drives at 50 km/h and, at 15 s, brakes`: no commas around the time of what follows."""
+    kept = list(atoms)
+    for i in range(len(kept) - 1, 0, -1):
+        if kept[i].kind is not AtomKind.COMMA or kept[i - 1].kind not in _OPENS_ASIDE:
+            continue
+        close = i + 1
+        while close < len(kept) and kept[close].kind in _OF_A_TIME:
+            close += 1
+        times = [a for a in kept[i + 1 : close] if a.key == TIME]
+        behind = kept[close : close + 2]
+        if not times or len(behind) < 2 or behind[0].kind is not AtomKind.COMMA:
+            continue
+        if behind[1].kind is AtomKind.VERB and behind[1].form is not VerbForm.ING:
+            del kept[close]
+            del kept[i]
+    return kept
+
+
+def _contrasts(atoms: list[Atom]) -> list[Atom]:
+    """`tracks the motorcycle, not the van, from 30 m`: who is not meant is nobody's object."""
+    kept: list[Atom] = []
+    i = 0
+    while i < len(atoms):
+        told = [a for a in atoms[i : i + 5] if a.kind is not AtomKind.FILL]
+        denied = (
+            len(told) > 2
+            and told[0].kind is AtomKind.COMMA
+            and told[1].kind is AtomKind.NEGATION
+            and told[1].words == 'not'
+            and told[2].is_actor
+        )
+        close = atoms.index(told[2]) + 1 if denied else len(atoms)
+        if denied and close < len(atoms) and atoms[close].kind in (AtomKind.COMMA, AtomKind.STOP):
+            i = close + (atoms[close].kind is AtomKind.COMMA)
+            continue
+        kept.append(atoms[i])
+        i += 1
+    return kept
+
+
+_OPENS_ASIDE = (AtomKind.RELATIVE, AtomKind.CONJUNCTION, AtomKind.NOUN)
+_OF_A_TIME = (
+    AtomKind.PREPOSITION,
+    AtomKind.MEASURE,
+    AtomKind.FROM_START,
+    AtomKind.FILL,
+    AtomKind.SUBORDINATOR,
+)
 
 
 def _labels(atoms: list[Atom]) -> list[Atom]:
@@ -221,7 +289,11 @@ def _fronted(atoms: list[Atom]) -> list[Atom]:
     moved = list(atoms)
     for i in range(1, len(moved)):
         last = i + 1 == len(moved) or moved[i + 1].kind is AtomKind.STOP
-        if last and moved[i].kind is AtomKind.THEN and moved[i].key in _AS_A_RESULT:
+        if (
+            last
+            and moved[i].kind is AtomKind.THEN
+            and moved[i].key in shipped_lexicon().turns['at_the_end']
+        ):
             begin = i
             while begin and moved[begin - 1].kind not in _BREAKS:
                 begin -= 1
@@ -279,11 +351,11 @@ def _stands(atoms: Sequence[Atom], i: int) -> bool:
 
 
 def _is_receipt(written: Sequence[Atom], atom: Atom, prompt: str) -> bool:
-    words = prompt[atom.start : atom.end].lower()
+    words = text_of(atom, prompt)
     if atom.kind is not AtomKind.MESSAGE or words not in ('receipt', 'delivery'):
         return False
     before = written[-1] if written else None
-    return before is not None and prompt[before.start : before.end].lower() in ('on', 'upon')
+    return before is not None and text_of(before, prompt) in ('on', 'upon')
 
 
 def _climbs(atoms: list[Atom], prompt: str) -> list[Atom]:
@@ -301,7 +373,7 @@ def _climbs(atoms: list[Atom], prompt: str) -> list[Atom]:
             and before is not None
             and prompt[atom.start : measure.start].lower().strip() == 'up to'
             and (before.is_actor or before.kind in _BREAKS)
-            and (i + 1 == len(atoms) or atoms[i + 1].kind in _BREAKS)
+            and _ends_here(atoms, i + 1)
         ):
             up = atom.start + len('up')
             written += [
@@ -322,6 +394,13 @@ def _climbs(atoms: list[Atom], prompt: str) -> list[Atom]:
         else:
             written.append(atom)
     return written
+
+
+def _ends_here(atoms: Sequence[Atom], i: int) -> bool:
+    """`up to 30 m, …`, `up to 30 m over the park, …`: a climb goes no further."""
+    place = i + 1 < len(atoms) and atoms[i].key in ('over', 'at') and atoms[i + 1].is_place
+    i += 2 if place else 0
+    return i >= len(atoms) or atoms[i].kind in _BREAKS
 
 
 def _relatives(atoms: list[Atom]) -> list[Atom]:

@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from aurora_core.parsing.atom_runs import text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.pieces import TRANSPARENT
@@ -66,7 +67,7 @@ _PASSING = frozenset({'through', 'by', 'past', 'cross', 'overtake', 'drive', 'st
 def _background(atoms: list[Atom], prompt: str) -> list[Atom]:
     """`background traffic: ten cars`, `fifteen cars serve as background traffic`."""
     for i, atom in enumerate(atoms):
-        words = prompt[atom.start : atom.end].lower()
+        words = text_of(atom, prompt)
         if atom.kind is not AtomKind.WORLD or 'background' not in words:
             continue
         first, last = _sentence(atoms, i)

@@ -141,6 +141,16 @@ class ClauseDraft:
     places: tuple[str, ...] = ()
     sentence: int = 0
     describes: bool = False
+    passive: bool = False
+
+    @property
+    def topic(self) -> tuple[Entity, ...]:
+        """Whom the clause is about: `the car is overtaken by a van and brakes`."""
+        if not self.passive:
+            return self.subjects
+        first = self.objects[:1]
+        group = first[0].group if first else None
+        return first if group is None else tuple(e for e in self.objects if e.group == group)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -244,6 +254,14 @@ class Scene:
     @property
     def clause_number(self) -> int:
         return len(self.clauses) - 1
+
+    def add_event(
+        self, action: EventAction, span: Span, trigger: Trigger | None = None
+    ) -> EventDraft:
+        """Add an event of its own."""
+        made = EventDraft(id=self.new_id('e'), trigger=trigger, action=action, span=span)
+        self.events.append(made)
+        return made
 
     def became(self, *ids: str) -> None:
         """Note which elements the current clause turned into."""

@@ -17,8 +17,11 @@ from aurora_core.parsing.criteria.sequels import Sequels
 from aurora_core.parsing.criteria.words import criteria_words
 from aurora_core.parsing.events import complete_event
 from aurora_core.parsing.frames import Frame
+from aurora_core.parsing.lexicon import shipped_lexicon
 from aurora_core.parsing.measures import TIME
+from aurora_core.parsing.phases import PHASES
 from aurora_core.parsing.pieces import Link, Piece, first_solid
+from aurora_core.parsing.reactions import REACTIONS, reaction
 from aurora_core.parsing.scene import EventDraft, Scene
 from aurora_core.spec.parameter import Bound
 from aurora_core.spec.scenario import (
@@ -33,22 +36,7 @@ from aurora_core.spec.scenario import (
     VisibilityTrigger,
 )
 
-# What a UAV does for a while; `after it has hovered for 20 s` is a phase, not an event.
-_PHASES = frozenset({'hover', 'track', 'follow', 'orbit', 'navigate', 'observe', 'fly', 'wait'})
-_REACTIONS = frozenset(
-    {'brake', 'stop', 'slow', 'accelerate', 'change_lane', 'yield', 'start', 'cross'}
-)
 _MOMENTS = (EventDoneTrigger, MessageTrigger, AltitudeTrigger, ArrivalTrigger, VisibilityTrigger)
-_LATER = (
-    'later',
-    'afterwards',
-    'after that',
-    'after this',
-    'thereafter',
-    'subsequently',
-    'after it',
-)
-_LAGGING = re.compile(r'\b(delay|lag|pause|wait|another|further|more) (of )?$')
 _GROUND = (NounKind.AGENT, NounKind.VEHICLE, NounKind.EGO)
 
 
@@ -84,14 +72,17 @@ def _lag(frame: Frame) -> Adjunct | None:
     """Return the time of `5 s later`, `with a delay of 5 s`, `then … within 5 s`."""
     adjunct = frame.time('', 'after')
     if adjunct is not None:
+        words = shipped_lexicon().turns
         behind = frame.scene.prompt[adjunct.end :].lstrip(' ,').lower()
-        if behind.startswith(_LATER) or _LAGGING.search(_in_front(frame, adjunct)):
+        lag = rf'\b(?:{"|".join(sorted(words["lag"]))}) (?:of )?$'
+        last = behind.startswith(tuple(words['from_the_last']))
+        if last or re.search(lag, _in_front(frame, adjunct)):
             return adjunct
     delayed = frame.attribute('latency')
-    if delayed is not None and not frame.has_mark(AtomKind.LINK.value) and frame.key in _REACTIONS:
+    if delayed is not None and not frame.has_mark(AtomKind.LINK.value) and frame.key in REACTIONS:
         return delayed
     soon = frame.time('within')
-    return soon if soon is not None and frame.piece.then and frame.key in _REACTIONS else None
+    return soon if soon is not None and frame.piece.then and frame.key in REACTIONS else None
 
 
 def _in_front(frame: Frame, adjunct: Adjunct) -> str:
@@ -106,16 +97,12 @@ def _known_event(frame: Frame) -> bool:
         return True
     for clause in reversed(scene.clauses[:-1]):
         for entity in clause.subjects:
-            done = [b for b in entity.behaviors if b.kind.value in _REACTIONS]
+            done = [b for b in entity.behaviors if b.kind.value in REACTIONS]
             if not done or entity.is_uav:
                 continue
             entity.behaviors.remove(done[-1])
-            action = AgentAction.model_validate(
-                {'do': done[-1].kind.value, 'agent': entity.id, 'value_mps': done[-1].speed_mps}
-            )
-            made = EventDraft(id=scene.new_id('e'), action=action, span=clause.span)
-            scene.events.append(made)
-            clause.ids[made.id] = None
+            action = reaction(done[-1].kind.value, entity.id, done[-1].speed_mps)
+            clause.ids[scene.add_event(action, clause.span).id] = None
             return True
     return False
 
@@ -144,7 +131,7 @@ def after_told(frame: Frame, before: Piece | None) -> bool:
     scene = frame.scene
     told = scene.prompt[frame.piece.start : frame.piece.end].lower()
     later_on = frame.piece.then or criteria_words()['later_words'].search(told)
-    if not later_on or before is None or frame.key not in (*_REACTIONS, 'land') or frame.negated:
+    if not later_on or before is None or frame.key not in (*REACTIONS, 'land') or frame.negated:
         return False
     count = len(scene.events)
     earlier = Frame(without_link(before, Link.AFTER), scene, frame.resolver)
@@ -154,7 +141,7 @@ def after_told(frame: Frame, before: Piece | None) -> bool:
             return False
         found = EventDoneTrigger(on='event_done', event=scene.events[-1].id)
     action: EventAction | None = actions.agent_action(frame)
-    if frame.key == 'land' and any(a.key in _REACTIONS for a in before.atoms):
+    if frame.key == 'land' and any(a.key in REACTIONS for a in before.atoms):
         action = actions.action(frame)
     told_so = [e.action for e in scene.events if e.id == getattr(found, 'event', None)]
     if action is None or action in told_so:
@@ -183,8 +170,7 @@ def before_told(frame: Frame, before: Piece | None) -> None:
 def _event_of(scene: Scene, action: AgentAction, frame: Frame) -> EventDraft:
     known = next((e for e in scene.events if e.action == action), None)
     if known is None:
-        known = EventDraft(id=scene.new_id('e'), action=action, span=frame.span)
-        scene.events.append(known)
+        known = scene.add_event(action, frame.span)
     scene.became(known.id)
     return known
 
@@ -212,7 +198,7 @@ def _reacts(frame: Frame) -> bool:
     scene = frame.scene
     same = [c for c in scene.clauses[:-1] if c.sentence == frame.piece.sentence]
     told = [e for e in scene.events if any(e.id in c.ids for c in same)]
-    if not frame.subject_nouns or frame.key not in _REACTIONS:
+    if not frame.subject_nouns or frame.key not in REACTIONS:
         return False
     if not told and _known_event(frame):
         told = [e for e in scene.events if any(e.id in c.ids for c in same)]
@@ -221,6 +207,9 @@ def _reacts(frame: Frame) -> bool:
     action = actions.agent_action(frame)
     if action is None:
         return False
+    if told[-1].action == action:
+        scene.became(told[-1].id)  # `waits until it is green, then it starts`
+        return True
     done = EventDoneTrigger(on='event_done', event=told[-1].id)
     complete_event(scene, done, action, frame.span, ())
     return True
@@ -297,7 +286,7 @@ def ends_of_own(pieces: Sequence[Piece]) -> list[Piece]:
             for a in piece.atoms
         )
         before = next((a.key for a in marked[k - 1].atoms if a.kind is AtomKind.VERB), '')
-        if before not in _PHASES | {'trace', 'visit', ''} or behind.then:
+        if before not in PHASES | {'trace', 'visit', ''} or behind.then:
             continue
         if ends and not named and behind.link is Link.MAIN and behind.sentence == piece.sentence:
             marked[k] = replace(piece, opens=True)
@@ -344,7 +333,7 @@ def is_phase(piece: Piece) -> bool:
     if verb is None or not done or not lasted:
         return False
     there = any(a.noun is not None and a.noun.key == 'there' for a in piece.atoms)
-    return verb.key in _PHASES or (verb.key == 'be' and there)
+    return verb.key in PHASES or (verb.key == 'be' and there)
 
 
 def is_earlier(piece: Piece) -> bool:

@@ -13,13 +13,12 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from aurora_core.parsing.adjunct_reader import fits
+from aurora_core.parsing.atom_runs import HELPERS, LOOSE, skip, text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
 from aurora_core.parsing.measures import COUNT, LENGTH, SPEED, TIME
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.world_statements import horizon, traffic
 
-_LOOSE = (AtomKind.FILL, AtomKind.FRAME)
-_HELPERS = (AtomKind.AUXILIARY, *_LOOSE)
 _BREAKS = (AtomKind.COMMA, AtomKind.CONJUNCTION)
 _GROUND = (NounKind.AGENT, NounKind.EGO, NounKind.VEHICLE)
 _OWNERS = ('its', 'their', 'his', 'her', 'whose', 'the', 'a', 'an')
@@ -49,18 +48,8 @@ def value_statements(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
     return horizon(_so(_going(written, prompt), prompt))
 
 
-def _word(atom: Atom, prompt: str) -> str:
-    return prompt[atom.start : atom.end].lower()
-
-
 def _at(atoms: Sequence[Atom], i: int) -> Atom | None:
     return atoms[i] if 0 <= i < len(atoms) else None
-
-
-def _skip(atoms: Sequence[Atom], i: int, kinds: tuple[AtomKind, ...] = _LOOSE) -> int:
-    while i < len(atoms) and atoms[i].kind in kinds:
-        i += 1
-    return i
 
 
 def _is_be(atom: Atom | None) -> bool:
@@ -91,13 +80,13 @@ def _swapped(atoms: list[Atom], prompt: str) -> list[Atom]:
         if atom.measure is None or not opens:
             i += 1
             continue
-        be = _skip(changed, i + 1)
+        be = skip(changed, i + 1)
         name = be
         verb = changed[be] if be < len(changed) and _is_be(changed[be]) else None
         if verb is not None or copula is not None:
             name = be + 1 if verb is not None else be
             while name < len(changed) and (
-                changed[name].kind in _HELPERS or _word(changed[name], prompt) in _OWNERS
+                changed[name].kind in HELPERS or text_of(changed[name], prompt) in _OWNERS
             ):
                 name += 1
         told = _at(changed, name)
@@ -150,17 +139,17 @@ def _owned(atoms: list[Atom], prompt: str) -> list[Atom]:
     for i in range(len(changed) - 4):
         owner, has = changed[i], changed[i + 1]
         ground = owner.noun is not None and owner.noun.kind in (*_GROUND, NounKind.PRONOUN)
-        if not ground or _word(has, prompt) not in ('has', 'have', 'with', 'having'):
+        if not ground or text_of(has, prompt) not in ('has', 'have', 'with', 'having'):
             continue
-        if _word(has, prompt) == 'with' and not _ends(changed, i + 2):
+        if text_of(has, prompt) == 'with' and not _ends(changed, i + 2):
             continue
-        name = _skip(changed, i + 2)
+        name = skip(changed, i + 2)
         told = _at(changed, name)
         if told is None or told.key != 'speed' or told.kind is not AtomKind.THING:
             continue
         of = name + 1
         if of < len(changed) and changed[of].key == 'of':
-            value = _skip(changed, of + 1)
+            value = skip(changed, of + 1)
             if _is_value(told, _at(changed, value)) and _ends(changed, value):
                 drive = Atom(
                     kind=AtomKind.VERB,
@@ -194,7 +183,7 @@ def _of_ground(atoms: list[Atom], prompt: str) -> list[Atom]:
             written += later
             later = []
         owner = next((a for a in reversed(written) if a.is_actor), None)
-        span = _whose(atoms, i, prompt) if _word(atom, prompt) == 'whose' else None
+        span = _whose(atoms, i, prompt) if text_of(atom, prompt) == 'whose' else None
         ground = owner is not None and owner.noun is not None and owner.noun.kind in _GROUND
         if span is None or not ground or owner is None:
             written.append(atom)
@@ -213,12 +202,12 @@ def _of_ground(atoms: list[Atom], prompt: str) -> list[Atom]:
 
 
 def _whose(atoms: Sequence[Atom], i: int, prompt: str) -> tuple[int, int] | None:
-    name = _skip(atoms, i + 1)
+    name = skip(atoms, i + 1)
     told = _at(atoms, name)
     if told is None or told.kind is not AtomKind.THING or told.key != 'speed':
         return None
     value = name + 1
-    while value < len(atoms) and (atoms[value].kind in _HELPERS or _is_be(atoms[value])):
+    while value < len(atoms) and (atoms[value].kind in HELPERS or _is_be(atoms[value])):
         value += 1
     return (name, value) if _is_value(told, _at(atoms, value)) else None
 
@@ -227,11 +216,11 @@ def _counted(atoms: list[Atom], prompt: str) -> list[Atom]:
     """`the number of its retransmissions is 2`: the retransmissions are 2."""
     written: list[Atom] = []
     for i, atom in enumerate(atoms):
-        word = _word(atom, prompt).split()[-1:]
+        word = text_of(atom, prompt).split()[-1:]
         of = _at(atoms, i + 1)
         if word in (['number'], ['count'], ['amount']) and of is not None and of.key == 'of':
             name = i + 2
-            while name < len(atoms) and _word(atoms[name], prompt) in _OWNERS:
+            while name < len(atoms) and text_of(atoms[name], prompt) in _OWNERS:
                 name += 1
             told = _at(atoms, name)
             if told is not None and told.key in ('retransmissions', 'waypoint'):
@@ -301,7 +290,7 @@ def _lasting(atoms: list[Atom], prompt: str) -> list[Atom]:
     while i < len(changed) - 1:
         verb, value = changed[i], changed[i + 1]
         opener = changed[i - 1]
-        refers = opener.kind is AtomKind.RELATIVE or _word(opener, prompt) in ('this', 'that')
+        refers = opener.kind is AtomKind.RELATIVE or text_of(opener, prompt) in ('this', 'that')
         if verb.kind is AtomKind.VERB and verb.key == 'last' and value.key == TIME and refers:
             begin = i - 1
             while begin and changed[begin - 1].kind in _BREAKS:
@@ -324,7 +313,7 @@ def _repeated(atoms: list[Atom], prompt: str) -> list[Atom]:
         close = next((k for k in range(i + 1, len(atoms)) if atoms[k].key == ')'), None)
         if close is None:
             continue
-        inside = [a for a in atoms[i + 1 : close] if a.kind not in _LOOSE]
+        inside = [a for a in atoms[i + 1 : close] if a.kind not in LOOSE]
         values = [a.measure for a in inside if a.measure is not None]
         before = [a.measure for a in atoms[max(0, i - 4) : i] if a.measure is not None]
         if len(values) != 1 or not before:
@@ -348,8 +337,8 @@ def _doing(atoms: list[Atom], prompt: str) -> list[Atom]:
     """`doing 28 km/h, a car …`: it drives as fast as that."""
     changed = list(atoms)
     for i in range(len(changed) - 1):
-        word = _word(changed[i], prompt)
-        value = changed[_skip(changed, i + 1)] if _skip(changed, i + 1) < len(changed) else None
+        word = text_of(changed[i], prompt)
+        value = changed[skip(changed, i + 1)] if skip(changed, i + 1) < len(changed) else None
         fast = value is not None and value.key == SPEED and value.measure is not None
         before = next((a.noun for a in reversed(changed[:i]) if a.noun is not None), None)
         ground = word == 'doing' or (before is not None and before.kind in _GROUND)
@@ -365,7 +354,7 @@ def _going(atoms: list[Atom], prompt: str) -> list[Atom]:
     for i in range(1, len(changed)):
         behind = _at(changed, i + 1)
         alone = behind is None or behind.kind in (AtomKind.COMMA, AtomKind.STOP)
-        if _word(changed[i], prompt) == 'in' and alone and changed[i - 1].key == TIME:
+        if text_of(changed[i], prompt) == 'in' and alone and changed[i - 1].key == TIME:
             changed[i] = replace(changed[i], kind=AtomKind.FROM_START, key='into the run')
     return changed
 
@@ -379,7 +368,7 @@ def _so(atoms: list[Atom], prompt: str) -> list[Atom]:
         i += 1
         if atoms[i - 1].kind not in _BREAKS:
             continue
-        k = _skip(atoms, i, (*_BREAKS, *_HELPERS, AtomKind.RELATIVE, AtomKind.VERB, AtomKind.NOUN))
+        k = skip(atoms, i, (*_BREAKS, *HELPERS, AtomKind.RELATIVE, AtomKind.VERB, AtomKind.NOUN))
         if k >= len(atoms) or k == i or k > i + 5:
             continue
         told = prompt[atoms[i].start : atoms[k].start].lower().strip()

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from aurora_core.parsing.atom_runs import text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind, NounPhrase
 
 _SILENT = (AtomKind.FILL, AtomKind.AUXILIARY, AtomKind.CONJUNCTION, AtomKind.FRAME)
@@ -90,7 +91,7 @@ def _before_relative(rest: list[Atom]) -> tuple[list[NounPhrase], list[Atom]]:
 def _is_complete(before: Sequence[Atom], i: int, prompt: str) -> bool:
     """`to the rear there is`, `ahead a police car is`: who is new cannot be what it relates to."""
     word = before[i]
-    if prompt[word.start : word.end].lower() not in _COMPLETE:
+    if text_of(word, prompt) not in _COMPLETE:
         return False
     noun = next((a.noun for a in before[i + 1 :] if a.kind not in _SILENT), None)
     new = (Determiner.INDEFINITE, Determiner.ONE)

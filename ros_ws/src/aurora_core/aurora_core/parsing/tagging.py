@@ -21,6 +21,8 @@ from aurora_core.parsing.tokens import Token, TokenKind
 _STOPS = frozenset('.;!?\n:')
 
 
+# A known phrase goes before nouns of these kinds.
+_NAME_NOBODY = (NounKind.SURROUNDINGS, NounKind.STREET, NounKind.UNKNOWN)
 _HARMLESS = frozenset('"\'`()[]{}-_*#“”‘’…')
 
 
@@ -112,6 +114,10 @@ _BEFORE_NOUN = (
     'each',
     'any',
 )
+
+
+# What opens the object of a command.
+_OPENS_OBJECT = frozenset({'the', 'my', 'our', 'ego', 'it'})
 
 
 # What stands behind a subject: the word in front of it is no command.
@@ -292,7 +298,7 @@ class _Tagger:
             return None
         noun = self._nouns.read(i)
         if noun is not None:
-            names = noun[0].kind not in (NounKind.SURROUNDINGS, NounKind.STREET)
+            names = noun[0].kind not in _NAME_NOBODY
             if noun[1] > i + length or (names and noun[1] == i + length):
                 return None
         return i + length if self._take(i, length, senses) else None
@@ -376,6 +382,8 @@ class _Tagger:
             AtomKind.MESSAGE,
             AtomKind.THING,
         ):
+            if last.kind is AtomKind.MEASURE and behind in _OPENS_OBJECT:
+                return False  # `above 80 km/h alert my car`
             return last.kind is not AtomKind.THING or verb.form is not VerbForm.THIRD
         if last.kind is AtomKind.PREPOSITION and before != 'to':
             return verb.form is VerbForm.BASE

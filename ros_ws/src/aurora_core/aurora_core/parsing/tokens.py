@@ -43,7 +43,7 @@ class Token:
 # `100x60` must not become the word `x60m`, while `v2x` is a word.
 _TOKEN = re.compile(
     r"""
-    (?P<number>(?:\d+(?:[.,:/^*]\d+)*|\.\d+)(?:[eE][+-]?\d+)?)
+    (?P<number>(?:\d+|\.\d+)(?:[.,:/^*]\d+)*(?:[eE][+-]?\d+)?)
     |(?P<word>(?![xX]\d)[^\W\d_]+\d+[^\W\d_]+(?:'[^\W\d_]+)*|[^\W\d_]+(?:['’][^\W\d_]+)*)
     |(?P<space>\s+)
     |(?P<mark>.)
@@ -119,7 +119,7 @@ def tokenize(text: str) -> tuple[Token, ...]:
             mark = {'–': '-', '—': ';', '×': 'x', '−': '-', '＆': '&'}.get(piece, piece)
             token_kind = TokenKind.WORD if mark == 'x' else TokenKind.MARK
             raw.append(Token(kind=token_kind, norm=mark, start=start, end=end, glued=glued))
-    return _join_signs(_drop_hyphens(_list_marks(raw)))
+    return _join_signs(_drop_hyphens(_list_marks(_abbreviations(raw))))
 
 
 def _words(norm: str, start: int, end: int, glued: bool) -> list[Token]:
@@ -138,6 +138,26 @@ def _words(norm: str, start: int, end: int, glued: bool) -> list[Token]:
         Token(kind=TokenKind.WORD, norm=stem, start=start, end=cut, glued=glued),
         Token(kind=TokenKind.WORD, norm="'s", start=cut, end=end, glued=True),
     ]
+
+
+# Words that are cut short with a dot in front of a number: `min. 10 s`.
+_CUT_SHORT = frozenset(
+    ('min', 'max', 'approx', 'ca', 'alt', 'dist', 'spd', 'dur', 'lat', 'rad', 'vel', 'avg', 'alti')
+)
+
+
+def _abbreviations(tokens: list[Token]) -> list[Token]:
+    """Drop the dot of `min. 10 s`; `for 2 min. 3 cars …` ends a sentence."""
+    kept: list[Token] = []
+    for i, token in enumerate(tokens):
+        before = kept[-1] if kept else None
+        number = i + 1 < len(tokens) and tokens[i + 1].kind is TokenKind.NUMBER
+        short = before is not None and before.norm in _CUT_SHORT and not before.glued
+        unit = len(kept) > 1 and kept[-2].kind is TokenKind.NUMBER
+        if token.norm == '.' and token.glued and number and short and not unit:
+            continue
+        kept.append(token)
+    return kept
 
 
 def _list_marks(tokens: list[Token]) -> list[Token]:

@@ -50,6 +50,7 @@ def _is_scenario(atom: Atom, atoms: Sequence[Atom]) -> bool:
     return atom.kind is AtomKind.SCENARIO
 
 
+_OF_SOMETHING_ELSE = (AtomKind.WORLD, AtomKind.NEGATION, AtomKind.THEN, AtomKind.IN_VIEW)
 _ENDINGS = ('finish', 'be', 'last', 'trace', 'keep', 'come', 'stop')
 
 
@@ -74,7 +75,7 @@ def _clauses(atoms: list[Atom]) -> list[Atom]:
     others = any(a.noun is not None and (a.is_actor or a.is_place) for a in told)
     if len(times) != 1 or others or any(v.key not in _ENDINGS for v in verbs):
         return atoms
-    if any(a.kind in (AtomKind.WORLD, AtomKind.NEGATION, AtomKind.THEN) for a in told):
+    if any(a.kind in _OF_SOMETHING_ELSE for a in told):
         return atoms
     if not verbs and not any(a.key in ('length', 'duration') for a in told):
         return atoms
@@ -126,6 +127,10 @@ def _density() -> re.Pattern[str]:
     data = read_data('lexicon.yaml')['traffic_words']
     amount = r'(?:density|volume|level|amount|flow|intensity|load|conditions?)'
     kind = r'(?:road|street|city|urban|background|ambient|surrounding|other|overall|vehicle)'
+    where = (
+        r'(?:\s+(?:beneath|below|underneath|under|around|round|about|down there|there|nearby)'
+        r'(?:\s+(?:it|them|him|her|the (?:drones?|uavs?|copter|aircraft)))?)?'
+    )
     be = (
         r'(?:\s*[:=]\s*|\s+(?:(?:is|are|be|being|stays?|remains?|should|must|shall|will|has to|'
         r'ought to|set|at|of|with|on the (?:roads?|streets?)|supposed|to|meant|a|of|kept)\s+)+)'
@@ -138,7 +143,7 @@ def _density() -> re.Pattern[str]:
             rf'(?:{kind}\s+)*traffic\b(?:\s+{amount})?)'
         )
         patterns.append(
-            rf'(?P<{level}_>\b(?:the\s+)?traffic(?:\s+{amount})?{be}(?:{any_of})\b(?:[-\s]+{amount})?)'
+            rf'(?P<{level}_>\b(?:the\s+)?traffic(?:\s+{amount})?{where}{be}(?:{any_of})\b(?:[-\s]+{amount})?)'
         )
         patterns.append(
             rf'(?P<{level}__>\b(?:the\s+)?(?:{amount}\s+)(?:of\s+(?:the\s+)?)'

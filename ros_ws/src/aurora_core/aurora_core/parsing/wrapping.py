@@ -13,6 +13,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import lru_cache
 
+from aurora_core.parsing.atom_runs import runs
 from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind, NounPhrase
 from aurora_core.parsing.lexicon import read_data
 from aurora_core.parsing.measures import COUNT
@@ -42,17 +43,13 @@ def unwrap(atoms: Sequence[Atom], prompt: str) -> tuple[list[Atom], list[Span]]:
     """Return the atoms with wishes as frames and without background, and what was left out."""
     kept: list[Atom] = []
     spans: list[Span] = []
-    sentence: list[Atom] = []
-    for atom in (*atoms, None):
-        if atom is not None and atom.kind is not AtomKind.STOP:
-            sentence.append(atom)
-            continue
-        told, left_out = _sentence(sentence, prompt)
+    for sentence, stop in runs(atoms, AtomKind.STOP):
+        asked, reasons = _without_reasons(sentence, prompt)
+        told, left_out = _sentence(asked, prompt)
         kept += told
-        spans += left_out
-        sentence = []
-        if atom is not None:
-            kept.append(atom)
+        spans += [*reasons, *left_out]
+        if stop is not None:
+            kept.append(stop)
     return kept, spans
 
 
@@ -79,6 +76,31 @@ def _sentence(atoms: list[Atom], prompt: str) -> tuple[list[Atom], list[Span]]:
         if atom is not None:
             kept.append(replace(atom, kind=AtomKind.FRAME, key='wish', noun=None, measure=None))
             framed = True
+    return kept, spans
+
+
+_REASONS = frozenset(
+    {'because', 'since', 'given that', 'seeing that', 'seeing as', 'considering that'}
+)
+
+
+def _without_reasons(atoms: list[Atom], prompt: str) -> tuple[list[Atom], list[Span]]:
+    """`because the camera smears otherwise, …`: why something is wished is no part of it."""
+    kept: list[Atom] = []
+    spans: list[Span] = []
+    i = 0
+    while i < len(atoms):
+        stop = i + 1
+        if atoms[i].kind is AtomKind.CONJUNCTION and atoms[i].key in _REASONS:
+            while stop < len(atoms) and atoms[stop].kind is not AtomKind.COMMA:
+                stop += 1
+        told = atoms[i + 1 : stop]
+        strange = any(_is_strange(a) for a in told)
+        if strange and not _asks(told, prompt, before_wish=True):
+            spans.append(Span(start=atoms[i].start, end=told[-1].end))
+        else:
+            kept += atoms[i:stop]
+        i = stop
     return kept, spans
 
 

@@ -42,6 +42,7 @@ from aurora_core.knowledge.world import WorldModel
 from aurora_core.monitor.plan_check import NotComparable, Plan
 from aurora_core.monitor.verdict import Verdict
 from aurora_core.monitor.verify import verify
+from aurora_core.parsing.idle_uavs import hovering
 from aurora_core.parsing.outcome import ParseContext, ParseOutcome
 from aurora_core.parsing.parser import parse_offline
 from aurora_core.report.versions import AURORA_VERSION
@@ -119,15 +120,19 @@ def parse_stage(prompt: str, map_name: str, seed: int) -> ParseOutcome:
 def check_stage(agsg: Agsg) -> FeasibilityVerdict:
     """Judge feasibility of a specification against limits, tolerances and its map."""
     known = knowledge()
+    spec = hovering(agsg.spec)
     return check_request(
-        agsg.spec, known.map(agsg.spec.world.map_name), known.limits, known.tolerances, known.types
+        spec, known.map(spec.world.map_name), known.limits, known.tolerances, known.types
     )
 
 
 def ground_stage(agsg: Agsg, seed: int) -> GroundingOutcome:
-    """Ground a graph: places, routes, schedule, conditions."""
+    """Ground a graph: places, routes, schedule, conditions.
+
+    Whoever read the prompt, every UAV has a mission from here on.
+    """
     known = knowledge()
-    spec = agsg.spec
+    spec = hovering(agsg.spec)
     grounded = known.grounder(spec.world.map_name).ground(spec, seed)
     if isinstance(grounded, GroundingFailure):
         return GroundingOutcome(failure=grounded)

@@ -105,10 +105,14 @@ class SendMessage(Element):
     receiver: Id
 
 
+# What a ground agent can be made to do.
+AgentDo = Literal['brake', 'stop', 'slow', 'accelerate', 'change_lane', 'yield', 'start', 'cross']
+
+
 class AgentAction(Element):
     """A ground agent changes what it does."""
 
-    do: Literal['brake', 'stop', 'slow', 'accelerate', 'change_lane', 'yield', 'start', 'cross']
+    do: AgentDo
     agent: Id
     value_mps: Parameter | None = None
 

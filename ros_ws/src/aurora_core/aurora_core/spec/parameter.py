@@ -106,13 +106,17 @@ class Parameter(Document):
         return self
 
 
-# Unit by the end of a field's name; parameters named otherwise are pure numbers.
 _SUFFIXES = (
     ('_mps', Unit.METRE_PER_SECOND),
     ('_deg', Unit.DEGREE),
     ('_m', Unit.METRE),
     ('_s', Unit.SECOND),
 )
+
+
+def unit_of(name: str) -> Unit:
+    """Return the unit that the end of a parameter's name says; otherwise it is a pure number."""
+    return next((unit for end, unit in _SUFFIXES if name.endswith(end)), Unit.ONE)
 
 
 class Element(Document):
@@ -130,4 +134,4 @@ class Element(Document):
 
     def _unit_of(self, name: str) -> Unit:
         """Return the unit of a field that holds a parameter."""
-        return next((unit for end, unit in _SUFFIXES if name.endswith(end)), Unit.ONE)
+        return unit_of(name)

@@ -10,8 +10,8 @@ from pydantic import FiniteFloat
 
 from aurora_core.conditions.plan_facts import MissionFacts, PlanFacts
 from aurora_core.geometry.kernel import norm2
+from aurora_core.grounding.choices import chosen
 from aurora_core.grounding.grounded import GroundedScenario
-from aurora_core.grounding.layers import layered
 from aurora_core.grounding.time_need import horizon_s
 from aurora_core.knowledge.limits import Limits
 from aurora_core.mission.plan import MissionPlan, UavPlan
@@ -45,7 +45,7 @@ class Schedule(Document):
 
 def plan_time(spec: ScenarioSpec, grounded: GroundedScenario, limits: Limits) -> Schedule:
     """Return the schedule of a grounded scenario."""
-    horizon = horizon_s(layered(spec, limits), limits)
+    horizon = horizon_s(chosen(spec, limits), limits)
     missions = tuple(
         _facts(uav, mission, k, grounded)
         for uav in grounded.uavs

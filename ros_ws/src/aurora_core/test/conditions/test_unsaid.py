@@ -25,7 +25,6 @@ def test_every_such_element_is_named(tb: ModuleType) -> None:
         'world': dict(case.spec.world) | {'seed': 7},
         'missions': (route,),
         'links': (dict(link) | {'occlusion': 'blocks'},),
-        'orders': ({'id': 'o1', 'first': 'e1', 'then': mission.id},),
         'prohibitions': ({'id': 'p1', 'forbids': 'world', 'weather': 'rain'},),
     }
     inputs = Inputs(
@@ -38,7 +37,6 @@ def test_every_such_element_is_named(tb: ModuleType) -> None:
         ('world', 'the seed 7 of the request: give it to the run'),
         (mission.id, 'a dwell time at waypoints'),
         (link.id, 'a link with occlusion blocks'),
-        ('o1', f'that e1 comes before {mission.id}'),
         ('p1', 'a forbidden world'),
     }
 

@@ -32,6 +32,7 @@ from aurora_core.spec.scenario import (
     Event,
     GroundAgent,
     Link,
+    Order,
     ScenarioSpec,
     Uav,
     UavMission,
@@ -71,6 +72,7 @@ class Stage:
     tracks: dict[str, str] = field(default_factory=lambda: {'uav1': 'van1'})
     links: tuple[tuple[str, str], ...] = ()
     events: tuple[Event, ...] = ()
+    orders: tuple[Order, ...] = ()
     buildings: tuple[Building, ...] = ()
     landing_spots: tuple[tuple[float, float], ...] = ((0.0, 0.0),)
     faults: tuple[Fault, ...] = ()
@@ -251,6 +253,7 @@ class Stage:
                 for k, (a, b) in enumerate(self.links)
             ),
             events=self.events,
+            orders=self.orders,
         )
 
     def _link(self, link: Link) -> MessageLink:

@@ -123,7 +123,8 @@ def test_who_waits_for_a_message_that_is_never_sent(scene: Scene) -> None:
         ('on', 'main_road', True),
         ('on', 'crosswalk', False),
         ('parked_at', 'roadside', False),
-        ('before', 'intersection', False),
+        ('before', 'intersection', True),
+        ('at', 'intersection', False),
         ('oncoming', 'ego', False),
     ],
 )
@@ -137,3 +138,21 @@ def test_a_placement_is_judged_where_it_is_realised(
 def test_what_grounding_lacks_comes_first(scene: Scene) -> None:
     found = scene.found.model_copy(update={'unsupported': ('p1: pedestrians',)})
     assert unsupported(scene.spec, found) == ('p1: pedestrians',)
+
+
+@pytest.mark.parametrize(
+    ('trigger', 'done'), [('mission_done', True), ('altitude_reached', False)]
+)
+def test_a_climb_is_carried_out_after_the_missions_alone(
+    scene: Scene, trigger: str, done: bool, parameter: Callable[..., Any]
+) -> None:
+    more = {} if done else {'value_m': parameter(20.0).model_dump()}
+    climb = {
+        'id': 'e9',
+        'trigger': {'on': trigger, 'uav': 'uav1', **more},
+        'action': {'do': 'ascend', 'uav': 'uav1', 'altitude_m': parameter(60.0).model_dump()},
+    }
+    asked = scene.with_(events=[climb])
+    assert ('e9: action ascend' not in asked.missing()) is done
+    assert ({'e9.within', 'e9.altitude'} <= asked.judged()) is done
+    assert 'e9.not_before' not in asked.judged()

@@ -21,6 +21,7 @@ from aurora_core.spec.scenario import (
     EventDoneTrigger,
     MessageTrigger,
     MissionDoneTrigger,
+    Order,
     SendMessage,
     SpeedTrigger,
     TimeTrigger,
@@ -368,4 +369,70 @@ def test_land_ends_the_mission(stage: Build, parameter: Make) -> None:
     assert scene.machines[0].missions_done
     scene.follow(400)
     assert scene.outputs[-1].uav_commands[0, UavCommandColumn.MODE] == UavMode.IDLE
+    assert scene.machines[0].landed
+
+
+def _land(uav: str, number: int) -> Event:
+    return _event(None, UavAction(do='land', uav=uav), id=f'e{number}')
+
+
+def test_a_landing_of_which_nobody_says_when_comes_after_the_missions(stage: Build) -> None:
+    scene = stage(hold_s=2.0, events=(_land('uav1', 1),))
+    scene.follow(4000 // 5)
+    phases = {detail: tick for tick, _, detail in scene.notes(ScenarioEventKind.PHASE)}
+    assert [t for t, _, _ in scene.notes(ScenarioEventKind.ACTION)] == [phases['landing']]
+    assert phases['landing'] - scene.machines[0].first_capture_tick >= 2.0 / 0.05 - 1
+
+
+def test_who_lands_second_stays_up_until_the_first_has_begun_to_land(stage: Build) -> None:
+    scene = stage(
+        tracks={'uav1': 'van1', 'uav2': 'ego'},
+        hold_s=2.0,
+        landing_spots=((0.0, 0.0), (60.0, 0.0)),
+        events=(_land('uav1', 1), _land('uav2', 2)),
+        orders=(Order(id='o1', first='e2', then='e1'),),
+    )
+    # The van is near and the ego far: the first one is ready long before the second one.
+    scene.put('ego', 200.0).follow(1200)
+    landed = {
+        uav: tick for tick, uav, to in scene.notes(ScenarioEventKind.PHASE) if to == 'landing'
+    }
+    captured = {m.plan.id: m.first_capture_tick for m in scene.machines}
+    assert captured['uav1'] + 2.0 / 0.05 < landed['uav2'] < landed['uav1'] <= landed['uav2'] + 3
+    assert all(m.landed for m in scene.machines)
+
+
+def test_an_event_waits_for_what_comes_before_it(stage: Build, parameter: Make) -> None:
+    late = TimeTrigger(on='time', at_s=parameter(0.5, 's'))
+    scene = stage(
+        events=(
+            _event(NOW, id='e1'),
+            _event(late, AgentAction(do='start', agent='ego'), id='e2'),
+        ),
+        orders=(Order(id='o1', first='e2', then='e1'),),
+    )
+    scene.step(20)
+    # What the ego is told at tick 10 shows at tick 11. A trigger is noted when it holds.
+    assert _triggered(scene) == [(0, 'e1'), (10, 'e2')]
+    done = [(tick, name) for tick, name, _ in scene.notes(ScenarioEventKind.ACTION)]
+    assert done == [(10, 'e2'), (11, 'e1')]
+
+
+def test_who_is_to_climb_after_its_missions_lands_from_there(
+    stage: Build, parameter: Make
+) -> None:
+    climb = _event(
+        MissionDoneTrigger(on='mission_done', uav='uav1'),
+        UavAction(do='ascend', uav='uav1', altitude_m=parameter(45.0)),
+    )
+    scene = stage(hold_s=2.0, landing_spots=((60.0, 0.0),), events=(climb,))
+    track = []
+    for _ in range(1500):
+        scene.follow()
+        track.append(scene.uav[0, :3].tolist())
+    top = max(range(len(track)), key=lambda k: track[k][2])
+    assert track[top][2] == pytest.approx(45.0, abs=1.0)
+    assert abs(track[top][0]) < 1.0  # above where its mission ended
+    across = [z for x, _, z in track[top:] if 5.0 < x < 55.0]
+    assert min(across) >= 43.9  # the way to the spot is flown up there
     assert scene.machines[0].landed

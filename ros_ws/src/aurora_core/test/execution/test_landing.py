@@ -10,7 +10,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from aurora_core.execution.landing import ways_apart_m
+from aurora_core.execution.landing import landing_spot, ways_apart_m
+from aurora_core.grounding.airspace import Airspace
+from aurora_core.knowledge.map_types import Building
 from aurora_core.trace.layout import UavColumn
 
 Point = tuple[float, float]
@@ -48,6 +50,23 @@ def test_a_uav_waits_until_the_other_one_is_out_of_its_way(stage: Callable[..., 
     assert [m.landing_spot for m in scene.machines] == [(60.0, 20.0), (30.0, 0.0)]
     assert all(m.landed for m in scene.machines)
     assert min(apart) >= 5.0
+
+
+def test_nobody_comes_down_on_a_lower_one_that_stays_with_its_target(
+    stage: Callable[..., Any],
+) -> None:
+    scene = stage(tracks={'uav1': 'van1', 'uav2': 'ego'}, landing_spots=((60.0, 0.0),))
+    for machine in scene.machines:
+        machine.start()
+
+    def chosen(other_x_m: float) -> object:
+        scene.fly('uav1', 0.0, 0.0, 50.0).fly('uav2', other_x_m, 0.0, 30.0)
+        sky = Airspace((), ())
+        return landing_spot(0, scene.machines, scene.uav, sky, 3.0, patient=True)
+
+    assert scene.machines[1].followed == 'ego'
+    assert chosen(61.0) is None
+    assert chosen(90.0) == ((60.0, 0.0), 50.0)
 
 
 def test_the_start_of_a_uav_that_still_flies_is_kept_for_it(stage: Callable[..., Any]) -> None:
@@ -91,3 +110,44 @@ def test_the_first_of_a_column_does_not_brake_in_front_of_the_next(
             apart.append(float(np.hypot(delta[UavColumn.X], delta[UavColumn.Y])))
     assert all(m.landed for m in scene.machines)
     assert min(apart) >= 7.0
+
+
+def _landing_of_a_fast_one(
+    stage: Callable[..., Any], spots: tuple[tuple[float, float], ...], *buildings: Building
+) -> tuple[float, Any]:
+    """Follow a van east with 9.3 m/s at y = 0; return x (m) of the landing, and the scene."""
+    scene = stage(
+        agents=('van1',), tracks={'uav1': 'van1'}, landing_spots=spots, buildings=buildings,
+        hold_s=6.0,
+    )  # fmt: skip
+    machine = scene.machines[0]
+    for k in range(2000):
+        scene.put('van1', 0.465 * k - 60.0, speed=9.3).follow()
+        if machine.missions_done:
+            return float(scene.uav[0, UavColumn.X]), scene
+    raise AssertionError(f'it never began to land: {machine.phase_name}')
+
+
+def test_who_turns_wide_keeps_clear_of_what_is_beside_the_spot(
+    stage: Callable[..., Any],
+) -> None:
+    begin_m, _ = _landing_of_a_fast_one(stage, ((0.0, 0.0),))
+    # Just passed and 10 m to the right: it comes back over (begin + 6, -7.6).
+    near, far = (begin_m - 3.5, -10.0), (begin_m + 60.0, 10.0)
+    x0, x1 = begin_m + 6.0, begin_m + 26.0
+    # 2.9 m beside that way back, but 5.3 m from the straight way: braking, then to the spot.
+    house = Building(
+        id='house',
+        ring=((x0, -40.0), (x1, -40.0), (x1, -10.5), (x0, -10.5)),
+        holes=(),
+        height_m=60.0,
+        height_source='',
+        kind='block',
+        name='',
+    )
+    chosen = []
+    for buildings in ((), (house,)):
+        _, scene = _landing_of_a_fast_one(stage, (near, far), *buildings)
+        scene.follow(5)
+        chosen.append(scene.machines[0].landing_spot)
+    assert chosen == [near, far]

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from aurora_core.grounding.convoy import DETACHED_M, SceneSplit, split_scene
+from aurora_core.grounding.convoy import DETACHED_M, BeforeIntersection, SceneSplit, split_scene
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.scenario import (
     Behavior,
@@ -185,6 +185,18 @@ def test_a_second_placement_that_cannot_be_realised_is_named_too(parameter: Make
 
 def test_on_the_road_needs_nothing() -> None:
     assert split_scene(_spec(_agent('a', (Relation.ON, 'main_road', None)))).unsupported == ()
+
+
+def test_one_member_stands_before_the_intersection(parameter: Make) -> None:
+    bus = _agent('bus', (Relation.BEFORE, 'intersection', 50.0), make=parameter)
+    truck = _agent('truck', (Relation.BESIDE, 'bus', None))
+    split = split_scene(_spec(truck, bus))
+    assert split.unsupported == ()
+    assert split.before == BeforeIntersection(agent='bus', distance_m=50.0)
+    second = _agent('van', (Relation.BEFORE, 'intersection', None))
+    split = split_scene(_spec(truck, bus, second))
+    assert split.unsupported == ('van: placement before intersection',)
+    assert split_scene(_spec(second)).before == BeforeIntersection(agent='van', distance_m=20.0)
 
 
 def test_persons_and_unrelated_vehicles_are_apart() -> None:

@@ -12,7 +12,12 @@ import shapely
 
 from aurora_core.errors import MapError
 from aurora_core.grounding.grounded import GroundedScenario
-from aurora_core.grounding.places import intersection_point, landmark_point, place_positions
+from aurora_core.grounding.places import (
+    intersection_point,
+    landmark_point,
+    place_positions,
+    road_point,
+)
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.spec.scenario import ScenarioSpec
 
@@ -66,3 +71,28 @@ def test_the_flight_and_the_world_mean_the_same_place(
     point = found.uavs[0].missions[0].hover_point
     assert point is not None
     assert place_positions(spec, map_of('downtown'), found) == {place: (point[0], point[1])}
+
+
+def test_the_road_is_looked_at_where_no_vehicle_stands(
+    read_prompt: Callable[..., ScenarioSpec],
+    ground: Callable[..., GroundedScenario],
+    map_of: Maps,
+) -> None:
+    spec = read_prompt(
+        'A bus waits on the main road. A drone hovers over the main road at 50 m for 20 seconds.'
+    )
+    found = ground(spec)
+    x, y = place_positions(spec, map_of('downtown'), found)['main_road']
+    [bus] = found.agents
+    # In steps of 5 m along its route: the first one that is not less than 12 m away.
+    assert 12.0 <= sqrt((x - bus.x_m) ** 2 + (y - bus.y_m) ** 2) <= 17.0
+    point = found.uavs[0].missions[0].hover_point
+    assert point is not None
+    assert sqrt((x - point[0]) ** 2 + (y - point[1]) ** 2) < 1.0
+
+
+def test_a_free_road_is_looked_at_where_the_scenario_is() -> None:
+    way = [(0.0, 0.0), (5.0, 0.0), (10.0, 0.0), (15.0, 0.0)]
+    assert road_point(way, [(0.0, 12.0)]) == (0.0, 0.0)
+    assert road_point(way, [(0.0, 3.0)]) == (15.0, 0.0)
+    assert road_point(way, [(0.0, 0.0), (15.0, 0.0)]) == (15.0, 0.0)

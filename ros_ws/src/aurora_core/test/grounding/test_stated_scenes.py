@@ -10,7 +10,9 @@ from itertools import combinations
 import numpy as np
 import pytest
 
+from aurora_core.geometry.polyline import Polyline
 from aurora_core.grounding.grounded import GroundedScenario, ReleaseOn
+from aurora_core.grounding.places import place_positions
 from aurora_core.knowledge.limits import Limits
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.spec.scenario import ScenarioSpec
@@ -70,3 +72,17 @@ def test_a_car_on_the_main_road_has_another_lane_beside_it(
     (car,) = found.agents
     edge = network.lane(car.lane_id).edge_id
     assert sum(lane.edge_id == edge for lane in network.driving_lanes('passenger')) > 1
+
+
+@pytest.mark.parametrize('distance_m', [30.0, 50.0])
+def test_a_bus_stands_at_its_distance_before_the_intersection(
+    distance_m: float, read_prompt: Read, ground: Ground, map_of: Callable[[str], MapModel]
+) -> None:
+    spec = read_prompt(f'A bus stands {distance_m:g} m before the intersection.')
+    found = ground(spec)
+    assert found.unsupported == ()
+    [bus] = found.agents
+    centre = place_positions(spec, map_of('downtown'), found)['intersection']
+    along_m, aside_m = Polyline(bus.route_xy_m).project(*centre)
+    assert along_m == pytest.approx(distance_m, abs=0.01)
+    assert abs(aside_m) <= 8.0

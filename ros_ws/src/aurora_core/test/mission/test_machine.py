@@ -412,6 +412,21 @@ def test_land_now_ends_a_mission() -> None:
     assert follower.phases()[-1] == UavPhase.LANDING
 
 
+@pytest.mark.parametrize('last', [_hover('m2'), _route('m2')])
+def test_a_uav_that_is_to_stay_up_goes_on_with_its_last_mission(last: MissionPlan) -> None:
+    machine = _machine(_hover(), last)
+    machine.stays_up = True
+    follower = _Follower(machine)
+    machine.start()
+    follower.until(lambda: machine.mission is not None and machine.mission.id == 'm2')
+    for _ in range(1200):  # 60 s: more than the phase and its way take
+        follower.step()
+    assert machine.phase == UavPhase.MISSION + 1
+    machine.stays_up = False
+    follower.step()
+    assert machine.missions_done
+
+
 def test_land_now_while_climbing_lands_from_where_the_uav_is() -> None:
     machine = _machine(_hover())
     machine.start()

@@ -136,6 +136,22 @@ def test_a_false_claim_is_found(
     ]
 
 
+def test_what_waits_for_another_event_may_be_triggered_without_an_action(tb: ModuleType) -> None:
+    case = tb.tailgate_case()
+    _trigger_without_action(case)
+    (braking,) = case.spec.events
+    never = {'on': 'altitude_reached', 'uav': 'uav1', 'value_m': tb.number(99.0)}
+    changes = {
+        'events': (braking, {'id': 'e2', 'trigger': never}),
+        'orders': ({'id': 'o1', 'first': 'e2', 'then': braking.id},),
+    }
+    case.spec = tb.spec(**dict(case.spec) | changes)
+    verdict = tb.judge(case)
+    assert not [f.text for f in verdict.cross_check if 'no action' in f.text]
+    # That it never came about is a matter of the conditions.
+    assert not tb.result(verdict, 'o1.holds').satisfied
+
+
 @pytest.mark.parametrize(
     ('lost', 'drop', 'text'),
     [

@@ -115,14 +115,14 @@ def _lands(tick: int, at_s: float) -> Case:
     return _flown({'do': 'land'}, flight(1401, HOME, 30.0, landing=tick), at_s)
 
 
-def _ascends(tick: int, at_s: float) -> Case:
+def _ascends(tick: int, at_s: float, asked_m: float = 60.0) -> Case:
     """It climbs to 30 m, and at the tick on to 60 m."""
 
     def path(k: int) -> tuple[float, float, float]:
         return (100.0, 0.0, 60.0 if k >= tick else 30.0)
 
     one = flight(1401, HOME, 30.0, path, landing=900)
-    return _flown({'do': 'ascend', 'altitude_m': number(60.0)}, one, at_s)
+    return _flown({'do': 'ascend', 'altitude_m': number(asked_m)}, one, at_s)
 
 
 def _next_mission(tick: int, at_s: float) -> Case:
@@ -156,6 +156,14 @@ def _rows(do: str, make: Callable[[int, float], Case]) -> tuple[Row, ...]:
 
 ROWS = (
     *(row for do, make in ACTIONS.items() for row in _rows(do, make)),
+    # 2 m or 3 % are allowed: 2.1 m of 70 m.
+    Row(id='e1.altitude', make=lambda: _ascends(310, AT_S), margin=2.0, within=0.05),
+    Row(
+        id='e1.altitude',
+        make=lambda: _ascends(310, AT_S, 70.0),
+        margin=2.1 - 10.0,
+        within=0.05,
+    ),
     # It had begun to climb, to cross, to fly the mission before: that is not what was asked.
     Row(
         id='e1.within', make=lambda: _crosses(200, AT_S), margin=1.0 - 5.05, what='crossed-before'

@@ -97,6 +97,18 @@ def _fog(metres: float) -> Case:
     return case
 
 
+def _ordered(first: str, then: str, within_s: float | None = None, **alert: bool) -> Case:
+    """The alert e1 at 32.25 s and the milestone e2: 29 m are reached at 7.25 s."""
+    case = tailgate_case(**alert)
+    reached = {'on': 'altitude_reached', 'uav': 'uav1', 'value_m': number(29.0)}
+    order: dict[str, object] = {'id': 'o1', 'first': first, 'then': then}
+    if within_s is not None:
+        order['within_s'] = number(within_s, Unit.SECOND, explicit=True)
+    events = (*case.spec.events, {'id': 'e2', 'trigger': reached})
+    case.spec = spec(**{**dict(case.spec), 'events': events, 'orders': (order,)})
+    return case
+
+
 NEVER, SHORT = Reason.PREMISE_NEVER, Reason.TRACE_SHORT
 # 49.24 m to the waiting van in steps of 0.75 m, from tick 141 or 142 on: the 53rd is within 10 m.
 CAPTURED_S = 194 * 0.05
@@ -155,6 +167,14 @@ ROWS = (
     Row(id='e1.latency', make=lambda: _latency(2), margin=2.0),
     Row(id='e1.latency', make=lambda: _latency(5), margin=2.0 - 3.0),
     Row(id='e1.latency', make=lambda: _latency(2, lost=9), reason=NEVER),
+    # From 7.25 s to 32.25 s.
+    Row(id='o1.holds', make=lambda: _ordered('e2', 'e1'), margin=25.0, within=0.06),
+    Row(id='o1.holds', make=lambda: _ordered('e1', 'e2'), margin=-25.0, within=0.06),
+    Row(id='o1.holds', make=lambda: _ordered('e2', 'e1', alert=False), reason=NEVER),
+    Row(id='o1.holds', make=lambda: cut(_ordered('e2', 'e1'), 640), reason=SHORT),
+    Row(id='o1.within', make=lambda: _ordered('e2', 'e1', 26.0), margin=1.0, within=0.06),
+    Row(id='o1.within', make=lambda: _ordered('e2', 'e1', 20.0), margin=-5.0, within=0.06),
+    Row(id='o1.within', make=lambda: _ordered('e2', 'e1', 26.0, alert=False), reason=NEVER),
 )
 
 

@@ -218,6 +218,34 @@ FLIGHTS = (
         reason=EMPTY,
         what='completed',
     ),
+    # The hover is over at tick 900.
+    Row(
+        id='c1.deadline',
+        make=lambda: _flight(hover_case(), 'mission_completed', by_s=50.0),
+        margin=50.0 - 45.0,
+    ),
+    Row(
+        id='c1.deadline',
+        make=lambda: _flight(hover_case(), 'mission_completed', by_s=40.0),
+        margin=40.0 - 45.0,
+    ),
+    # It goes on until the end of the record, tick 1400: not before the tick after it.
+    Row(
+        id='c1.deadline',
+        make=lambda: _flight(hover_case(landing=None), 'mission_completed', by_s=40.0),
+        margin=40.0 - 70.05,
+        what='goes on',
+    ),
+    Row(
+        id='c1.deadline',
+        make=lambda: _flight(grounded(hover_case()), 'mission_completed', by_s=50.0),
+        reason=EMPTY,
+    ),
+    Row(
+        id='c1.deadline',
+        make=lambda: cut(_flight(hover_case(), 'mission_completed', by_s=50.0), 600),
+        reason=SHORT,
+    ),
     # Down at 60 s.
     Row(
         id='c1.holds',

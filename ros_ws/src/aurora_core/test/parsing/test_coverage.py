@@ -23,6 +23,8 @@ from aurora_core.spec.vocabulary import ClauseStatus
         ('A drone tracks a bus and a van.', 'a bus and a van'),
         ('A drone tracks a bus unless a van stops.', 'unless a van stops'),
         ('When the moon rises, which is nice, a drone tracks a bus.', 'When the moon'),
+        ('A bus drives. To 100 m within the first 8 s of the scenario.', '100 m'),
+        ('A drone hovers over the ego car at .12.3 m.', '.12.3 m'),
     ],
 )
 def test_quoted(prompt: str, quoted: str) -> None:

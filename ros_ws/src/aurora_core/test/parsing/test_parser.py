@@ -93,3 +93,11 @@ def test_typical_prompt_takes_less_than_50_ms() -> None:
         parse_offline(row['prompt'], CONTEXT)
         times.append(time.perf_counter() - began)
     assert statistics.median(times) < 0.05
+
+
+def test_whoever_an_unread_clause_names_takes_part() -> None:
+    outcome = parse_offline('When a van hums at a bus, a truck brakes.', CONTEXT)
+    assert outcome.spec is not None
+    assert {agent.type.value for agent in outcome.spec.agents} == {'van', 'bus', 'truck'}
+    unread = [c.text for c in outcome.clauses if c.status is ClauseStatus.NOT_ENCODED]
+    assert unread[0] == 'When a van hums at a bus'

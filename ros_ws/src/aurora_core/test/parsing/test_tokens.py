@@ -25,6 +25,7 @@ from aurora_core.parsing.tokens import TokenKind, tokenize
         ('30,45', None),
         ('1/2', None),
         ('10:30', None),
+        ('.12.3', None),
         ('2^3', None),
         ('1.2.3', None),
         ('9' * 30, None),

@@ -14,6 +14,7 @@ from aurora_core.agsg.graph import Agsg
 from aurora_core.conditions.condition import conditions_from_json
 from aurora_core.errors import VerificationError
 from aurora_core.execution.plan import Execution
+from aurora_core.grounding.grounded import GroundedScenario
 from aurora_core.knowledge.world import WorldModel
 from aurora_core.monitor.plan_check import NotComparable, Plan, plan_findings
 from aurora_core.pipeline.functions import (
@@ -22,6 +23,7 @@ from aurora_core.pipeline.functions import (
     parse_stage,
     recorded_plan,
 )
+from aurora_core.spec.scenario import ScenarioSpec
 
 PROMPT = (
     'A van tailgates the ego car closely, closing from 45 meters; a tracking drone alerts the ego '
@@ -112,3 +114,19 @@ def test_a_graph_without_a_grounding_cannot_be_judged(
     agsg, execution = grounded
     with pytest.raises(VerificationError, match='does not fit'):
         recorded_plan(execution.world, altered(agsg, grounding_json=grounding))
+
+
+def test_a_uav_without_a_mission_is_grounded_as_one_that_hovers() -> None:
+    spec = parse_stage(PROMPT, 'downtown', 1).spec
+    assert spec is not None
+    idle = {'id': 'relay', 'span': None}
+    with_relay = ScenarioSpec.model_validate(
+        {**spec.model_dump(), 'uavs': [*spec.model_dump()['uavs'], idle]}
+    )
+    agsg = ground_stage(build_agsg(with_relay), 1).agsg
+    assert agsg is not None
+    assert agsg.spec.missions[-1].uav == 'relay'
+    uavs = GroundedScenario.model_validate_json(agsg.grounding_json).uavs
+    assert [u.id for u in uavs] == ['uav1', 'relay']
+    ids = {c.id for c in conditions_from_json(agsg.conditions_json)}
+    assert {'relay.landed', f'{agsg.spec.missions[-1].id}.drift'} <= ids

@@ -4,8 +4,6 @@
 
 from __future__ import annotations
 
-from typing import Literal
-
 from aurora_core.parsing import values
 from aurora_core.parsing.adjuncts import AdjunctKind
 from aurora_core.parsing.atoms import ACTORS, NounKind
@@ -16,20 +14,15 @@ from aurora_core.parsing.constructions.messages import message
 from aurora_core.parsing.constructions.places import add_placement, place_of, placements_of
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.pronouns import mobile
+from aurora_core.parsing.reactions import REACTIONS
 from aurora_core.parsing.scene import Entity, Scene
+from aurora_core.spec.events import AgentDo
 from aurora_core.spec.scenario import AgentAction, Behavior, EventAction, UavAction
-from aurora_core.spec.vocabulary import BehaviorKind, MissionMode
+from aurora_core.spec.vocabulary import AgentType, BehaviorKind, MissionMode
 
-AgentDo = Literal['brake', 'stop', 'slow', 'accelerate', 'change_lane', 'yield', 'start', 'cross']
+# What ground agents do, by verb.
 _AGENT_DO: dict[str, AgentDo] = {
-    'brake': 'brake',
-    'stop': 'stop',
-    'slow': 'slow',
-    'accelerate': 'accelerate',
-    'change_lane': 'change_lane',
-    'yield': 'yield',
-    'start': 'start',
-    'cross': 'cross',
+    **{do: do for do in REACTIONS},
     'step_onto': 'cross',
     'wait': 'stop',
     'drive': 'start',
@@ -79,7 +72,7 @@ def agent_action(frame: Frame, *, triggered: bool = False) -> AgentAction | None
         return None
     if frame.key in _ONLY_TRIGGERED and not triggered:
         return None
-    who = frame.subjects(mobile)
+    who = frame.subjects(_on_wheels if frame.key in _WITH_WHEELS else mobile)
     if len(who) != 1:
         return None
     speed = None
@@ -89,9 +82,10 @@ def agent_action(frame: Frame, *, triggered: bool = False) -> AgentAction | None
             return None
         adjunct.used = True
         speed = values.explicit('ground_speed', adjunct.measure)
-    if frame.key == 'yield':
+    if frame.key in ('yield', 'change_lane'):
         for other in frame.free(AdjunctKind.PHRASE, 'to') + frame.free(AdjunctKind.OBJECT):
-            other.used = False  # whom it yields to has no place in an action
+            # whom it yields to has no place in an action, nor whose lane it takes
+            other.used = frame.key == 'change_lane'
             frame.objects([n for n in other.nouns if n.kind in ACTORS])
     if frame.key in ('stop', 'wait'):
         _stopped_at(frame, who[0])
@@ -104,6 +98,14 @@ def agent_action(frame: Frame, *, triggered: bool = False) -> AgentAction | None
             add_placement(who[0], placement)
     frame.scene.became(who[0].id)
     return AgentAction(do=_AGENT_DO[frame.key], agent=who[0].id, value_mps=speed)
+
+
+# What nobody on foot does: in `when a boy crosses it brakes` the boy is not `it`.
+_WITH_WHEELS = ('brake', 'accelerate', 'change_lane')
+
+
+def _on_wheels(entity: Entity) -> bool:
+    return mobile(entity) and entity.type is not AgentType.PEDESTRIAN
 
 
 def _sets_off(frame: Frame) -> bool:

@@ -56,7 +56,9 @@ def _is_detail(frame: Frame, adjunct: Adjunct) -> bool:
     if measure is None or adjunct.nouns or adjunct.prep == 'within':
         return False
     if adjunct.kind is AdjunctKind.ATTRIBUTE:
-        alone = adjunct.key in ('speed', 'duration') and frame.verb is None
+        alone = adjunct.key in ('speed', 'duration') and (
+            frame.verb is None or (frame.key == 'be' and _of_the_flight(frame))
+        )
         lasting = (
             adjunct.key == 'duration'
             and adjunct.prep in ('over', 'for', 'of')
@@ -72,6 +74,12 @@ def _is_detail(frame: Frame, adjunct: Adjunct) -> bool:
             frame.verb is None or frame.piece.link in (*_HANGING, *_CAUSES)
         )
     return False
+
+
+def _of_the_flight(frame: Frame) -> bool:
+    """`a drone flies a line. The speed is 18 m/s`: of whom the clause before was about."""
+    told = [c.subjects for c in frame.scene.clauses[:-1] if c.subjects]
+    return not frame.subject_nouns and bool(told) and all(e.is_uav for e in told[-1])
 
 
 def _last(frame: Frame) -> MissionDraft | None:

@@ -18,7 +18,7 @@ from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.pronouns import ground
 from aurora_core.parsing.scene import Entity
-from aurora_core.spec.parameter import Parameter, Span
+from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.scenario import Behavior, Placement
 from aurora_core.spec.vocabulary import AgentType, BehaviorKind, MissionMode, Place, Relation
 
@@ -135,7 +135,7 @@ def _departure(frame: Frame) -> tuple[Placement, ...]:
         place = place_of(frame, adjunct)
         if place is not None:
             adjunct.used = True
-            span = Span(start=adjunct.start, end=adjunct.end)
+            span = adjunct.span
             return (Placement(relation=Relation.AT, of=place, span=span),)
     return ()
 
@@ -238,6 +238,9 @@ def _target(frame: Frame, subjects: tuple[Entity, ...]) -> str | None:
         ):
             ego = frame.scene.ego
             return ego.id if ego not in subjects else None
+        others = [e for e in frame.scene.agents if e not in subjects]
+        if frame.key == 'tailgate' and len(others) == 1:
+            return others[0].id  # `a van with a motorcycle on its bumper`
         return None
     if frame.key in _AT_PLACES:
         for adjunct in frame.free(AdjunctKind.PHRASE, 'at', 'on', 'in', 'before', 'for'):
@@ -471,6 +474,8 @@ def _names_actor(adjunct: Adjunct) -> bool:
 
 def _having(frame: Frame) -> bool:
     """`the ego car has a bus ahead of it`: the owner is named, the object is placed."""
+    if any(n.kind is NounKind.UNKNOWN for n in frame.subject_nouns):
+        return False  # `the authority has granted us 120 m`
     owners = frame.resolver.actors(frame.subject_nouns, accept=ground)
     lead = next((a for a in frame.free(AdjunctKind.OBJECT) if _names_actor(a)), None)
     if not owners or lead is None:

@@ -15,7 +15,7 @@ from aurora_core.parsing.pieces import Link
 from aurora_core.parsing.pronouns import ground
 from aurora_core.parsing.scene import Entity, MissionDraft
 from aurora_core.spec.parameter import Parameter
-from aurora_core.spec.scenario import StatedCondition
+from aurora_core.spec.scenario import StatedCondition, UavAction
 from aurora_core.spec.vocabulary import MissionMode, Pattern, Place
 
 FLYING = frozenset(
@@ -195,7 +195,7 @@ def _target(frame: Frame, flying: tuple[Entity, ...]) -> tuple[str | None, str]:
             if adjunct.measure is None and adjunct.key in ('near', 'beside'):
                 adjunct.used = True
             return found, 'over'
-    told = frame.passive and frame.piece.link is Link.MAIN
+    told = frame.passive and frame.piece.link in (Link.MAIN, Link.WHILE)
     patients = frame.patient(ground) if told else ()
     if len(patients) == 1:  # `the bus drives on and is tracked by a drone`
         return patients[0].id, ''
@@ -334,7 +334,7 @@ def _one(
             clause=scene.clause_number,
             span=frame.span,
         )
-        draft.altitude = scene.pending_altitude.pop(uav.id, None)
+        draft.altitude = scene.pending_altitude.pop(uav.id, None) or _climbed_to(frame, uav)
         draft.speed = scene.pending_speed.pop(uav.id, None)
         place = scene.pending_place.pop(uav.id, None)
         draft.target = place if mode is MissionMode.HOVER and target is None else None
@@ -349,6 +349,16 @@ def _one(
     found.apply(draft)
     _state_ranges(frame, draft, found)
     return draft.id
+
+
+def _climbed_to(frame: Frame, uav: Entity) -> Parameter | None:
+    """`when it brakes the drone climbs to 60 m and hovers there`: the height of what follows."""
+    same = [c for c in frame.scene.clauses[:-1] if c.sentence == frame.piece.sentence]
+    for event in reversed(frame.scene.events):
+        action = event.action
+        if any(event.id in c.ids for c in same) and isinstance(action, UavAction):
+            return action.altitude_m if action.do == 'ascend' and action.uav == uav.id else None
+    return None
 
 
 def _is_assumed(frame: Frame, pattern: Pattern | None) -> bool:

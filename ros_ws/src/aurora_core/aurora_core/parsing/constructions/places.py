@@ -7,10 +7,12 @@ from __future__ import annotations
 from aurora_core.parsing import values
 from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
 from aurora_core.parsing.atoms import ACTORS, NounKind, NounPhrase
+from aurora_core.parsing.criteria.placed import Placed
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.pronouns import ground
+from aurora_core.parsing.resolver import Resolver
 from aurora_core.parsing.scene import Entity, Unanchored
-from aurora_core.spec.parameter import Parameter, Span
+from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.scenario import Placement
 from aurora_core.spec.vocabulary import Relation
 
@@ -129,6 +131,8 @@ def placements_of(
             continue  # the side of an overtaking is not part of the vocabulary
         if frame.key == 'stop' and adjunct.key == 'before':
             continue  # where it will stop is not where it is at the start
+        if _of_the_object(frame, adjunct):
+            continue
         placement = _relation(frame, adjunct, subjects, kept)
         if placement is not None:
             adjunct.used = True
@@ -145,7 +149,7 @@ def placements_of(
                     relation=relation,
                     of=place,
                     distance_m=default_distance(relation),
-                    span=Span(start=adjunct.start, end=adjunct.end),
+                    span=adjunct.span,
                 )
             )
     away = frame.attribute('away')
@@ -158,10 +162,26 @@ def placements_of(
                     relation=Relation.NEAR,
                     of=others[0].id,
                     distance_m=values.explicit('placement_distance', away.measure),
-                    span=Span(start=away.start, end=away.end),
+                    span=away.span,
                 )
             )
     return tuple(made)
+
+
+def _of_the_object(frame: Frame, adjunct: Adjunct) -> bool:
+    """`follows the truck ahead of it`: where the truck is."""
+    pronoun = bool(adjunct.nouns) and adjunct.nouns[0].kind is NounKind.PRONOUN
+    if not pronoun or adjunct.measure is not None:
+        return False
+    return any(
+        noun.kind in ACTORS
+        and noun.kind is not NounKind.PRONOUN
+        and noun.end <= adjunct.start
+        and not frame.scene.prompt[noun.end : adjunct.start].strip()
+        for other in frame.adjuncts
+        if other.kind is AdjunctKind.OBJECT
+        for noun in other.nouns
+    )
 
 
 def placement_at(frame: Frame, adjunct: Adjunct, entity: Entity) -> Placement | None:
@@ -169,6 +189,8 @@ def placement_at(frame: Frame, adjunct: Adjunct, entity: Entity) -> Placement | 
     if adjunct.kind is AdjunctKind.PLACE:
         if not adjunct.nouns or adjunct.key == 'compass':
             return None
+        if adjunct.nouns[0].kind is NounKind.PRONOUN:
+            return _relation(frame, adjunct, (entity,), kept=False, owner=entity)
         return _relation(frame, adjunct, (entity,), kept=False)
     relation = _PHRASE_RELATIONS.get(adjunct.key)
     place = place_of(frame, adjunct) if relation is not None else None
@@ -178,8 +200,23 @@ def placement_at(frame: Frame, adjunct: Adjunct, entity: Entity) -> Placement | 
         relation=relation,
         of=place,
         distance_m=default_distance(relation),
-        span=Span(start=adjunct.start, end=adjunct.end),
+        span=adjunct.span,
     )
+
+
+def place_party(resolver: Resolver, told: Placed) -> None:
+    """Place whom a condition names: `the gap between the ego and the van behind it`."""
+    known = resolver.known(told.owner)
+    owner = known[0] if len(known) == 1 and not known[0].is_uav else None
+    others = resolver.actors((told.of,), accept=ground, exclude=known) if owner else ()
+    if owner is not None and len(others) == 1 and others[0] is not owner:
+        placement = Placement(
+            relation=told.relation,
+            of=others[0].id,
+            distance_m=default_distance(told.relation),
+            span=told.span,
+        )
+        add_placement(owner, placement)
 
 
 def default_distance(relation: Relation) -> Parameter | None:
@@ -188,12 +225,16 @@ def default_distance(relation: Relation) -> Parameter | None:
 
 
 def _relation(
-    frame: Frame, adjunct: Adjunct, subjects: tuple[Entity, ...], kept: bool
+    frame: Frame,
+    adjunct: Adjunct,
+    subjects: tuple[Entity, ...],
+    kept: bool,
+    owner: Entity | None = None,
 ) -> Placement | None:
     if adjunct.key == 'compass':
         return _compass(frame, adjunct)
     relation = Relation(adjunct.key)
-    of = _anchor(frame, adjunct, subjects)
+    of = _anchor(frame, adjunct, subjects) if owner is None else _beside(frame, adjunct, owner)
     distance = default_distance(relation)
     loose = None if adjunct.measure is not None else gap(frame)
     if adjunct.measure is not None:
@@ -207,7 +248,7 @@ def _relation(
         of=of,
         distance_m=distance,
         kept_in_motion=kept and relation in _KEPT,
-        span=Span(start=adjunct.start, end=adjunct.end),
+        span=adjunct.span,
     )
     if of is None and relation is not Relation.ONCOMING:
         if adjunct.nouns:
@@ -239,6 +280,12 @@ def _anchor(frame: Frame, adjunct: Adjunct, subjects: tuple[Entity, ...]) -> str
     return max(others, key=lambda e: e.seen).id if others else None
 
 
+def _beside(frame: Frame, adjunct: Adjunct, owner: Entity) -> str | None:
+    """`the ego warns the van behind it`: anybody but the van, even who acts."""
+    found = frame.resolver.actors(adjunct.nouns, accept=ground, exclude=(owner,))
+    return found[0].id if len(found) == 1 else None
+
+
 def _is_one(nouns: tuple[NounPhrase, ...]) -> bool:
     return len(nouns) == 1
 
@@ -257,5 +304,5 @@ def _compass(frame: Frame, adjunct: Adjunct) -> Placement | None:
         of=of,
         distance_m=distance,
         bearing_deg=values.stated('bearing', float(adjunct.value), adjunct.start, adjunct.end),
-        span=Span(start=adjunct.start, end=adjunct.end),
+        span=adjunct.span,
     )

@@ -10,11 +10,13 @@ from aurora_core.parsing.atoms import ACTORS, AtomKind, NounKind
 from aurora_core.parsing.constructions.actions import agent_action
 from aurora_core.parsing.constructions.distances import DistanceCause, distance_cause, reference
 from aurora_core.parsing.constructions.missions import mission
+from aurora_core.parsing.constructions.noun_places import noun_places
+from aurora_core.parsing.criteria.causes import told_cause
 from aurora_core.parsing.criteria.thresholds import threshold
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.pronouns import anything
-from aurora_core.parsing.scene import Entity, EventDraft
+from aurora_core.parsing.scene import Entity
 from aurora_core.spec.scenario import (
     AltitudeTrigger,
     ArrivalTrigger,
@@ -36,8 +38,8 @@ ELAPSED = ('overtake', 'drive', 'finish', 'elapse')
 def cause(frame: Frame) -> Cause | None:
     """Read the clause behind `when`, None when it is none that can be watched."""
     if frame.negated:
-        return threshold(frame)
-    return (
+        return _sight(frame) or threshold(frame) or told_cause(frame)
+    found: Cause | None = (
         distance_cause(frame)
         or _altitude(frame)
         or _speed(frame)
@@ -45,10 +47,14 @@ def cause(frame: Frame) -> Cause | None:
         or _message(frame)
         or _arrival(frame)
         or _done(frame)
+        or _did_so(frame)
         or _elapsed(frame)
-        or threshold(frame)
-        or _behavior(frame)
     )
+    if found is not None:
+        noun_places(frame)
+    if found is None or frame.leftovers():
+        found = told_cause(frame) or threshold(frame) or found
+    return found or _behavior(frame)
 
 
 def time_adjunct(frame: Frame) -> tuple[TimeTrigger, Adjunct] | None:
@@ -133,7 +139,7 @@ def _speed(frame: Frame) -> SpeedTrigger | None:
 
 def _sight(frame: Frame) -> VisibilityTrigger | None:
     seen = frame.key in ('see', 'appear') or (
-        frame.key == 'be' and frame.mark(AtomKind.IN_VIEW.value) is not None
+        frame.key in ('be', '') and frame.mark(AtomKind.IN_VIEW.value) is not None
     )
     if not seen and frame.key not in ('lose', 'vanish'):
         return None
@@ -153,8 +159,9 @@ def _sight(frame: Frame) -> VisibilityTrigger | None:
             observer = frame.scene.uavs[0]
     if observer is None or not observer.is_uav or target is None:
         return None  # only UAVs have a camera
+    in_sight = seen is not frame.negated  # `once it no longer sees the van`
     return VisibilityTrigger(
-        on='visible' if seen else 'occluded', observer=observer.id, target=target
+        on='visible' if in_sight else 'occluded', observer=observer.id, target=target
     )
 
 
@@ -247,6 +254,18 @@ def _done(frame: Frame) -> MissionDoneTrigger | None:
     return MissionDoneTrigger(on='mission_done', uav=uavs[0].id)
 
 
+def _did_so(frame: Frame) -> EventDoneTrigger | None:
+    """`only after the van has done so`: the last event in which the van acted."""
+    if frame.key != 'keep' or not _said(frame).startswith('d'):
+        return None
+    who = frame.subjects()
+    for event in reversed(frame.scene.events):
+        actor = getattr(event.action, 'agent', None) or getattr(event.action, 'uav', None)
+        if len(who) == 1 and actor == who[0].id:
+            return EventDoneTrigger(on='event_done', event=event.id)
+    return None
+
+
 _COMPLETES = 'complet'
 
 
@@ -293,8 +312,7 @@ def _behavior(frame: Frame) -> EventDoneTrigger | None:
     for event in scene.events:
         if event.action == action:
             return EventDoneTrigger(on='event_done', event=event.id)
-    made = EventDraft(id=scene.new_id('e'), action=action, span=frame.span)
+    made = scene.add_event(action, frame.span)
     made.clauses.append(scene.clause_number)
-    scene.events.append(made)
     scene.became(made.id)
     return EventDoneTrigger(on='event_done', event=made.id)

@@ -77,6 +77,8 @@ def _duration(frame: Frame) -> bool:
     """A time beside the word for the whole scenario is the horizon."""
     if _next_to_its_name(frame) or _alone(frame):
         return True
+    if frame.has_mark(AtomKind.IN_VIEW.value):
+        return False  # `visible for 15 s in total`
     if not frame.has_mark(AtomKind.SCENARIO.value) or frame.key not in _LASTING:
         return False
     if frame.subject_nouns or frame.negated:

@@ -9,6 +9,7 @@ from typing import Literal
 
 from aurora_core.parsing.atoms import NounPhrase
 from aurora_core.parsing.criteria.moments import Moment
+from aurora_core.parsing.criteria.placed import Placed
 from aurora_core.parsing.measures import Measure
 
 Op = Literal['<=', '<', '>=', '>', '==']
@@ -42,6 +43,7 @@ class Criterion:
         event: What must happen then: `the crossing must not begin before 20 s`.
         owned: `its distance`: of somebody named before.
         others: The clause names only those whom somebody named before keeps off.
+        placed: Where those are whom it names.
     """
 
     limits: tuple[Limit, ...]
@@ -54,4 +56,5 @@ class Criterion:
     event: Moment | None = None
     owned: bool = False
     others: bool = False
+    placed: tuple[Placed, ...] = ()
     words: str = ''

@@ -59,7 +59,7 @@ class Meaning:
 
     def _moment(self, told: Moment) -> bool:
         """When an event happens; the deadline of one is its latest moment."""
-        event = Sequels(self._scene, self._span, self._who.actors()).event(told)
+        event = Sequels(self._scene, self._span, self._who.actors()).event(told, new=True)
         if event is None:
             return False
         for limit in self._told.limits:
@@ -221,6 +221,8 @@ class Meaning:
         targets = [
             e if isinstance(e, str) else e.id for e in named if isinstance(e, str) or ground(e)
         ]
+        if not self._told.nouns and re.search(r'\b(?:be|is|stay|remain)s?\b', self._told.words):
+            targets = self._going_on()
         observers = self._observers([e for e in named if isinstance(e, Entity)], targets)
         found = False
         for observer in observers:
@@ -230,6 +232,12 @@ class Meaning:
                 found = True
         self._spoken(observers)
         return found
+
+    def _going_on(self) -> list[str]:
+        """`the bus drives at 8 m/s and must be visible …`: who acts in the same sentence."""
+        clauses = self._scene.clauses
+        before = [c for c in clauses[:-1] if c.sentence == clauses[-1].sentence and c.subjects]
+        return [e.id for e in before[-1].subjects if ground(e)] if before else []
 
     def _observers(self, named: list[Entity], targets: list[str]) -> list[Entity]:
         flying = [e for e in named if e.is_uav]
@@ -247,10 +255,13 @@ class Meaning:
 
     def _target_of(self, observer: Entity) -> list[str]:
         flown = [m.target for m in self._scene.missions_of(observer) if m.target is not None]
-        if flown:
+        told = [c.subjects for c in self._scene.clauses[:-1] if c.subjects]
+        about = [e.id for e in told[-1] if ground(e)] if told else []
+        place = bool(flown) and self._scene.by_id(flown[-1]) is None
+        if flown and not (place and len(about) == 1):  # `hovers there. A bus drives by; it …`
             return flown[-1:]
         other = self._who.it(ground)
-        return [other.id] if other is not None else []
+        return about[:1] if place else [other.id] if other is not None else []
 
     # --- messages and ends --------------------------------------------------------------------
 

@@ -33,7 +33,9 @@ class Parties:
                 place = self._resolver.place(noun)
                 found += [place] if place is not None and place not in found else []
             elif self._is_one(noun):
-                found += [e for e in self._resolver.actors((noun,)) if e not in found]
+                others = [e for e in found if isinstance(e, Entity)]
+                meant = self._resolver.actors((noun,), exclude=others)
+                found += [e for e in meant if e not in found]
         return found
 
     def _is_one(self, noun: NounPhrase) -> bool:

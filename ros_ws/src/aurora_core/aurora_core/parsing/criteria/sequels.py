@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 
 from aurora_core.parsing import values
 from aurora_core.parsing.criteria.moments import Moment, Sequel
+from aurora_core.parsing.reactions import REACTIONS, reaction
 from aurora_core.parsing.scene import Entity, EventDraft, MissionDraft, Scene
 from aurora_core.spec.parameter import Bound, Parameter, Span
 from aurora_core.spec.scenario import (
@@ -23,18 +24,7 @@ from aurora_core.spec.scenario import (
     UavAction,
     VisibilityTrigger,
 )
-from aurora_core.spec.vocabulary import BehaviorKind
 
-_DOES = {
-    'brake': 'brake',
-    'stop': 'stop',
-    'slow': 'slow',
-    'accelerate': 'accelerate',
-    'change_lane': 'change_lane',
-    'yield': 'yield',
-    'start': 'start',
-    'cross': 'cross',
-}
 _WAITS_FOR: dict[str, tuple[type, ...]] = {
     'receive': (MessageTrigger,),
     'see': (VisibilityTrigger,),
@@ -112,12 +102,22 @@ class Sequels:
 
     # --- which events -------------------------------------------------------------------------
 
-    def event(self, moment: Moment) -> EventDraft | None:
-        """Return the event that a clause refers to, None when there is none of its kind."""
+    def event(self, moment: Moment, *, new: bool = False) -> EventDraft | None:
+        """Return the event that a clause refers to, None when there is none of its kind.
+
+        Args:
+            moment: What the clause says of the event.
+            new: One that nothing told of yet may be added, if it is clear who acts.
+        """
         fitting = [e for e in self._scene.events if self._is(e, moment.key) and self._acts(e)]
         if moment.rank is not None and moment.rank < len(fitting):
             return fitting[moment.rank]
-        return fitting[-1] if fitting else self._of_behavior(moment.key)
+        found = fitting[-1] if fitting else self._of_behavior(moment.key)
+        acting = [e for e in self._scene.agents if e.id in self._who]
+        if found is None and new and len(acting) == 1 and moment.key in REACTIONS:
+            found = self._scene.add_event(reaction(moment.key, acting[0].id, None), self._span)
+            self._scene.became(found.id)
+        return found
 
     def _acts(self, event: EventDraft) -> bool:
         """Return whether those whom the clause names, if it names any, are those who act."""
@@ -130,7 +130,7 @@ class Sequels:
             return isinstance(action, SendMessage)
         if isinstance(action, UavAction):
             return action.do == key
-        return isinstance(action, AgentAction) and action.do == _DOES.get(key)
+        return isinstance(action, AgentAction) and action.do == key
 
     def _of_behavior(self, key: str) -> EventDraft | None:
         """`the van brakes; the braking must …`: what was told without a cause is an event now."""
@@ -138,19 +138,14 @@ class Sequels:
         for entity in reversed(agents):
             for behavior in entity.behaviors:
                 do = _BEHAVIOR.get(behavior.kind.value, behavior.kind.value)
-                if do != _DOES.get(key) or behavior.kind not in set(BehaviorKind):
+                if do != key or do not in REACTIONS:
                     continue
                 return self._made(entity, behavior, do)
         return None
 
     def _made(self, entity: Entity, behavior: Behavior, do: str) -> EventDraft:
-        action = AgentAction.model_validate(
-            {'do': do, 'agent': entity.id, 'value_mps': behavior.speed_mps}
-        )
-        made = EventDraft(
-            id=self._scene.new_id('e'), action=action, span=behavior.span or entity.span
-        )
-        self._scene.events.append(made)
+        action = reaction(do, entity.id, behavior.speed_mps)
+        made = self._scene.add_event(action, behavior.span or entity.span)
         self._scene.clause.ids[made.id] = None
         return made
 
@@ -165,7 +160,7 @@ class Sequels:
                 for behavior in entity.behaviors:
                     inside = behavior.span is not None and behavior.span.start >= clause.span.start
                     key = behavior.kind.value
-                    if inside and key in _DOES and (but is None or key != but.key):
+                    if inside and key in REACTIONS and (but is None or key != but.key):
                         return self._made(entity, behavior, key)
         return None
 
@@ -191,7 +186,7 @@ class Sequels:
         place = events.index(then)
         if place:
             return events[place - 1]
-        keys = [k for k in _DOES if k not in ('start', 'cross') and not self._is(then, k)]
+        keys = [k for k in REACTIONS if k not in ('start', 'cross') and not self._is(then, k)]
         return next((e for k in keys if (e := self._of_behavior(k)) is not None), None)
 
     def _milestone(self, then: EventDraft) -> EventDraft:

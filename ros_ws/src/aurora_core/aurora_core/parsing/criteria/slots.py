@@ -11,9 +11,11 @@ from dataclasses import replace
 from aurora_core.parsing.atoms import Atom
 from aurora_core.parsing.criteria.criterion import Criterion, Limit, Op
 from aurora_core.parsing.criteria.moments import Moment, with_events
+from aurora_core.parsing.criteria.placed import take_places
 from aurora_core.parsing.criteria.told import Told, told
 from aurora_core.parsing.criteria.words import Words, criteria_words, whole
 from aurora_core.parsing.measures import Measure
+from aurora_core.parsing.reactions import REACTIONS
 
 # `must not come within 10 m` keeps 10 m off.
 _FLIPPED: dict[Op, Op] = {'<': '>=', '<=': '>=', '>': '<=', '>=': '<', '==': '=='}
@@ -37,6 +39,15 @@ _HAPPENS = re.compile(
     r'(?:of (?:the )?N\d+ )?(?:\w+ ){0,3}'
     r'(?:has|have|must|should|may|shall|is|needs|ought|can|shd|not|at|by|between|no|nolater) '
 )
+# `the ego shall have started braking before t = 15 s`
+_HAPPENED = re.compile(
+    r' (?:(?:and|but|that|the|please|make|sure|check|ensure|verify) )*N0 '
+    r'(?:must|should|shall|has to|have to|needs to|need to|ought to|shd|is to|has got to) '
+    r'(?:(?:already|at last|finally) )?(?P<done>have )?(?:(?:already|at last|finally) )?'
+    r'(?:(?:started|begun|finished|completed|done|made|start|begin)(?: to| its| the| a| with)* )?'
+    r'(?:come to a )?E0 '
+)
+_LATEST = re.compile(r'\b(?:by|before|nolater|latest)\b')
 _YES_OR_NO = ('landed', 'completed', 'delivered')
 
 
@@ -47,9 +58,12 @@ def criterion(atoms: Sequence[Atom], *, asked: bool = False) -> Criterion | None
         atoms: Of the clause.
         asked: It needs no word that asks for something: it stands behind `when`.
     """
-    line = told(atoms)
-    reading = _Reading(line, criteria_words())
-    return reading.run(asked=asked)
+    found = _Reading(told(atoms), criteria_words()).run(asked=asked)
+    if found is not None:
+        return found
+    rest, placed = take_places(atoms)
+    found = _Reading(told(rest), criteria_words()).run(asked=asked) if placed else None
+    return replace(found, placed=placed) if found is not None else None
 
 
 class _Reading:
@@ -60,9 +74,11 @@ class _Reading:
         self._words = words
         self._text = line.text
         self._begin = line.text
+        self._crosses = False
 
     def run(self, *, asked: bool = False) -> Criterion | None:
         words = self._words
+        self._crosses = asked
         if _INVERTED.match(self._text):
             return None
         asked = asked or bool(words['demands'].search(self._text))
@@ -122,6 +138,10 @@ class _Reading:
         """`the crossing must not begin before 20 s`: what only happens, as a noun in front."""
         text, moments = with_events(self._text)
         heads = _HAPPENS.match(text)
+        happened = _HAPPENED.match(text)
+        done = happened is not None and (happened['done'] or _LATEST.search(text))
+        if done and moments[0].key in REACTIONS:  # `must have landed` is a state
+            heads = happened
         if heads is None or len(moments) != 1 or moments[0].key in ('mission', 'send', 'receive'):
             return None
         self._text = self._text.replace(moments[0].words, ' ', 1)
@@ -270,6 +290,8 @@ class _Reading:
         if found:
             words = self._words
             self._text = _BARE.sub(lambda m: m.group() if m.group()[0] == 'N' else ' ', self._text)
+            if self._crosses:
+                self._cut(words['down_to'], words['up_to'])
             self._cut(words['at_least'], words['at_most'], words['more'], words['less'])
             self._cut(words['or_more'], words['or_less'])
         return tuple(found)
@@ -291,6 +313,8 @@ class _Reading:
             ('at_most', '<=', False),
             ('at_least', '>=', False),
         )
+        if self._crosses:
+            ops += (('down_to', '<=', False), ('up_to', '>=', False))
         for name, op, flips in ops:
             for match in words[name].finditer(before):
                 if name == 'at_most' and match.group() == 'to':

@@ -12,6 +12,7 @@ from typing import Literal
 
 from aurora_core.parsing import values
 from aurora_core.parsing.constructions.distances import DistanceCause
+from aurora_core.parsing.constructions.places import place_party
 from aurora_core.parsing.criteria.criterion import Criterion, Limit
 from aurora_core.parsing.criteria.parties import Parties
 from aurora_core.parsing.criteria.slots import criterion
@@ -40,6 +41,8 @@ def threshold(frame: Frame) -> DistanceCause | Trigger | None:
         found = _distance(who, told, limit)
     if found is not None:
         frame.taken()
+        for placed in told.placed:
+            place_party(frame.resolver, placed)
     return found
 
 

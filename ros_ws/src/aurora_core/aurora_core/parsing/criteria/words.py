@@ -39,11 +39,26 @@ def criteria_words() -> Words:
     """Return the shipped lists."""
     data = read_data('criteria.yaml')
     topics, events = data.pop('topics'), data.pop('events')
+    data.pop('causes')
     return Words(
         lists={name: whole(any_of(entries)) for name, entries in data.items()},
         topics={name: whole(any_of(entries)) for name, entries in topics.items()},
         events={name: whole(any_of(entries)) for name, entries in events.items()},
     )
+
+
+_NO_WORD = '(?!)'
+
+
+@lru_cache(maxsize=1)
+def cause_words() -> dict[str, re.Pattern[str]]:
+    """Return the lists of each kind of cause as `kind_list`, and `fill`."""
+    kinds = read_data('criteria.yaml')['causes']
+    lists = {'fill': kinds.pop('fill')}
+    for kind, parts in kinds.items():
+        for part in ('needs', 'weak', 'also', 'beside'):
+            lists[f'{kind}_{part}'] = parts.get(part, [_NO_WORD])
+    return {name: whole(any_of(entries)) for name, entries in lists.items()}
 
 
 def _alternatives(entry: str) -> list[str]:

@@ -1,0 +1,100 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""What comes before what: phases of one UAV, and events."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from aurora_core.conditions.build import Inputs, Source, Target, Underivable, condition, number
+from aurora_core.conditions.condition import Condition, Window
+from aurora_core.conditions.missions import mission_arguments
+from aurora_core.spec.parameter import Provenance
+from aurora_core.spec.quantity import QuantityName
+from aurora_core.spec.scenario import AgentAction, Event, Order, UavMission
+
+
+def order_conditions(inputs: Inputs) -> Iterator[Condition | Underivable]:
+    """Yield the conditions of all orders that can be carried out and judged."""
+    for order in inputs.spec.orders:
+        source = Source(
+            ids=(order.id,), spans=(order.span,), provenance=Provenance.EXPLICIT, implied=False
+        )
+        phases = _phases(inputs, order)
+        if phases:
+            yield from (_phase(inputs, order, mission, source) for mission in phases)
+        elif _of_events(inputs, order):
+            yield from _events(inputs, order, source)
+        else:
+            what = f'that {order.first} comes before {order.then}'
+            yield Underivable(element=order.id, what=what, span=order.span)
+
+
+def _phases(inputs: Inputs, order: Order) -> tuple[UavMission, ...]:
+    """Return the missions of one UAV that follow the first one, up to the second one.
+
+    A UAV flies its missions in the order listed; the other way round nobody can.
+    """
+    if order.within_s is not None:
+        return ()
+    flown = {mission.id: mission.uav for mission in inputs.spec.missions}
+    own = [m for m in inputs.spec.missions if m.uav == flown.get(order.first)]
+    ids = [m.id for m in own]
+    if order.then not in ids:
+        return ()
+    return tuple(own[ids.index(order.first) + 1 : ids.index(order.then) + 1])
+
+
+def _phase(inputs: Inputs, order: Order, mission: UavMission, source: Source) -> Condition:
+    name = f'{order.id}.holds' + ('' if mission.id == order.then else f'.{mission.id}')
+    return condition(
+        id=name,
+        sentence=f'{mission.uav} flies {mission.id} after the phase before it',
+        quantity=QuantityName.MISSION_COMPLETED,
+        signal=f'phase_order({mission.uav},{mission.id})',
+        of=(mission.uav,),
+        target=Target(op='>=', threshold=0.0, unit='s'),
+        arguments=inputs.arguments(
+            Window.MOMENT, aspect='order', mission=mission_arguments(inputs, mission)
+        ),
+        source=source,
+        every_sample=False,
+    )
+
+
+def _of_events(inputs: Inputs, order: Order) -> bool:
+    events = {event.id: event for event in inputs.spec.events}
+    pair = (events.get(order.first), events.get(order.then))
+    return all(event is not None and _has_a_moment(event) for event in pair)
+
+
+def _has_a_moment(event: Event) -> bool:
+    """Tell whether states and messages show when an event happened.
+
+    Drivers slow down and speed up for many reasons: without a trigger nothing says which time it
+    was that was meant.
+    """
+    if event.action is None or isinstance(event.action, AgentAction):
+        return event.trigger is not None
+    return True
+
+
+def _events(inputs: Inputs, order: Order, source: Source) -> Iterator[Condition]:
+    not_before = Target(op='>=', threshold=0.0, unit='s')
+    bounds = [('holds', f'{order.first} comes before {order.then}', not_before)]
+    if order.within_s is not None:
+        latest_s = order.within_s.value
+        words = f'{order.then} comes within {number(latest_s)} s of {order.first}'
+        bounds.append(('within', words, Target(op='<=', threshold=latest_s, unit='s')))
+    for name, sentence, target in bounds:
+        yield condition(
+            id=f'{order.id}.{name}',
+            sentence=sentence,
+            quantity=QuantityName.EVENT_DELAY,
+            signal=f'time_between({order.first},{order.then})',
+            of=(order.first, order.then),
+            target=target,
+            arguments=inputs.arguments(Window.MOMENT, aspect='order', event=order.then),
+            source=source,
+            every_sample=False,
+        )

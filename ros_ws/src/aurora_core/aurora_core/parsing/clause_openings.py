@@ -1,0 +1,133 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Atoms before they are cut: words that only look like openings, commas left out."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
+from aurora_core.parsing.measures import TIME
+from aurora_core.parsing.morphology import VerbForm
+from aurora_core.parsing.pieces import MARKERS, TRANSPARENT, first_solid, has_verb
+
+_MAYBE_PREPOSITION = ('after', 'before', 'until')
+# Predicates that need nothing behind them.
+_ALONE = frozenset(
+    {'brake', 'stop', 'start', 'slow', 'accelerate', 'change_lane', 'yield', 'appear', 'vanish'}
+)
+
+
+def plain_prepositions(atoms: list[Atom]) -> list[Atom]:
+    """`after 10 s`, `before the junction`, `as a test`: no clause follows."""
+    changed = list(atoms)
+    for i, atom in enumerate(atoms):
+        if atom.kind is AtomKind.AUXILIARY and atom.key == 'should' and _inverted(atoms, i):
+            changed[i] = atom = replace(atom, kind=AtomKind.SUBORDINATOR, key='when')
+        if atom.kind is AtomKind.PREPOSITION and atom.key == 'with' and i and _absolute(atoms, i):
+            changed[i] = replace(atom, kind=AtomKind.CONJUNCTION)
+        if atom.kind is not AtomKind.SUBORDINATOR:
+            continue
+        ahead = _until_marker(atoms, i + 1)
+        first = first_solid(ahead)
+        timed = first is not None and first.key == TIME and atom.key in _MAYBE_PREPOSITION
+        if has_verb(ahead) and not timed:
+            continue
+        if atom.key == 'when' and _is_count(ahead) and not _opens_sentence(atoms, i):
+            changed[i] = replace(atom, kind=AtomKind.FILL)
+            continue
+        if atom.key in _MAYBE_PREPOSITION:
+            changed[i] = replace(atom, kind=AtomKind.PREPOSITION)
+        elif atom.key == 'while' and not any(a.is_actor for a in ahead):
+            changed[i] = replace(atom, kind=AtomKind.FILL)
+    return changed
+
+
+def _is_count(ahead: Sequence[Atom]) -> bool:
+    """`circles it once with a radius of 40 m`: how often, not when."""
+    first = first_solid(ahead)
+    preposition = first is not None and first.kind is AtomKind.PREPOSITION
+    return preposition and not any(a.is_actor for a in ahead)
+
+
+def _opens_sentence(atoms: Sequence[Atom], i: int) -> bool:
+    """Return whether only small words or a pause stand in front."""
+    return i == 0 or atoms[i - 1].kind in (AtomKind.COMMA, AtomKind.CONJUNCTION, AtomKind.THEN)
+
+
+def _inverted(atoms: Sequence[Atom], i: int) -> bool:
+    """`should it slow below 3 m/s, …`: the auxiliary opens the clause."""
+    opens = i == 0 or atoms[i - 1].kind in (AtomKind.COMMA, AtomKind.CONJUNCTION)
+    ahead = next((a for a in atoms[i + 1 :] if a.kind is not AtomKind.FILL), None)
+    named = ahead is not None and (ahead.is_actor or ahead.kind is AtomKind.THING)
+    return opens and named
+
+
+def _absolute(atoms: Sequence[Atom], i: int) -> bool:
+    """`with two cars driving around`: a clause of its own."""
+    solid = [a for a in atoms[i + 1 : i + 6] if a.kind not in TRANSPARENT]
+    if len(solid) < 2 or not solid[0].is_actor:
+        return False
+    if solid[1].kind is AtomKind.VERB:
+        return solid[1].form is VerbForm.ING
+    beside = next((a for a in solid[1:3] if a.kind is AtomKind.RELATION), None)
+    if beside is None:
+        return False
+    behind = solid[solid.index(beside) + 1 :]  # `with a truck beside it`
+    return not behind or (behind[0].noun is not None and behind[0].noun.kind is NounKind.PRONOUN)
+
+
+def _until_marker(atoms: Sequence[Atom], start: int) -> list[Atom]:
+    ahead: list[Atom] = []
+    for atom in atoms[start:]:
+        if atom.kind in MARKERS and not (
+            atom.kind is AtomKind.CONJUNCTION and not has_verb(ahead)
+        ):
+            break
+        ahead.append(atom)
+    return ahead
+
+
+def end_causes(atoms: list[Atom]) -> list[Atom]:
+    """`when it exceeds 15 m/s a truck ahead of it brakes`: a comma where the effect begins."""
+    ended = list(atoms)
+    i = 0
+    while i < len(ended):
+        if ended[i].kind is AtomKind.SUBORDINATOR and ended[i].key in ('when', 'after', 'until'):
+            run = []
+            for atom in ended[i + 1 :]:
+                if atom.kind in MARKERS and atom.kind is not AtomKind.RELATIVE:
+                    break
+                run.append(atom)
+            cut = _missing_comma(run)
+            if cut is not None:
+                at = run[cut].start
+                ended.insert(i + 1 + cut, Atom(kind=AtomKind.COMMA, key=',', start=at, end=at))
+        i += 1
+    return ended
+
+
+def _missing_comma(atoms: Sequence[Atom]) -> int | None:
+    """Return where the effect begins behind a cause that no comma ends."""
+    verbs = [i for i, a in enumerate(atoms) if a.kind is AtomKind.VERB]
+    if len(verbs) < 2:
+        return None
+    for i in range(verbs[0] + 1, len(atoms)):
+        before = atoms[i - 1]
+        if not atoms[i].is_actor:
+            continue
+        full = (
+            before.kind is AtomKind.MEASURE or before.is_place or before.kind is AtomKind.IN_VIEW
+        )
+        full = full or (before.is_actor and before.noun is not atoms[i].noun)
+        full = full or (i - 1 == verbs[0] and before.key in _ALONE)
+        behind = [k for k in verbs if k > i]
+        if not full or not behind or any(a.kind is AtomKind.VERB for a in atoms[verbs[0] + 1 : i]):
+            continue
+        helped = any(a.kind is AtomKind.AUXILIARY for a in atoms[i:])
+        finite = any(atoms[k].form in (VerbForm.THIRD, VerbForm.BASE) for k in behind)
+        describes = any(a.kind is AtomKind.RELATIVE for a in atoms[:i])
+        if (finite or helped) and not describes:
+            return i
+    return None

@@ -1,0 +1,196 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""What an event waits for, in whatever words: `the drone's view of the van is blocked`.
+
+As a condition, a cause is read word by word: the words of one kind of cause, those whom it is
+about, and words that say nothing else; with any other word in it, it is not one of these.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Sequence
+from typing import Literal
+
+from aurora_core.parsing import values
+from aurora_core.parsing.atoms import Atom, AtomKind, NounKind, NounPhrase
+from aurora_core.parsing.criteria.parties import Parties
+from aurora_core.parsing.criteria.slots import criterion
+from aurora_core.parsing.criteria.told import Told, told
+from aurora_core.parsing.criteria.words import cause_words
+from aurora_core.parsing.frames import Frame
+from aurora_core.parsing.scene import Entity
+from aurora_core.spec.scenario import (
+    ArrivalTrigger,
+    MessageTrigger,
+    MissionDoneTrigger,
+    SendMessage,
+    TimeTrigger,
+    Trigger,
+    VisibilityTrigger,
+)
+
+_PLACES = (NounKind.PLACE, NounKind.LANDMARK)
+_PAUSES = (AtomKind.COMMA, AtomKind.CONJUNCTION, AtomKind.THEN)
+_COMMANDS = ('alert', 'send', 'report')
+_LETTER = re.compile(r'\b[A-Z]\d+\b')
+_FROM = re.compile(r"(?:\b(?:from|by|of) (?P<of>N\d+)|(?P<own>N\d+) (?:'s )?message\b)")
+
+
+def told_cause(frame: Frame) -> Trigger | None:
+    """Return what the clause waits for when every word of it is one of one kind of cause."""
+    line = told(frame.piece.atoms)
+    for name, meaning in _MEANINGS.items():
+        if not _is_all(line, name):
+            continue
+        found = meaning(frame, line)
+        if found is not None:
+            frame.taken()
+            return found
+    return None
+
+
+def cause_end(atoms: Sequence[Atom]) -> int:
+    """Return how many of the atoms behind `when` are one cause, up to a pause; 0 if none are."""
+    ends = [i for i, a in enumerate(atoms) if i and a.kind in _PAUSES and not _goes_on(atoms, i)]
+    for end in sorted([*ends, len(atoms)], reverse=True):
+        line = told(atoms[:end])
+        if any(_is_all(line, name) for name in _MEANINGS):
+            return end
+        if _compares(atoms[:end]):
+            return end
+    return 0
+
+
+def _compares(atoms: Sequence[Atom]) -> bool:
+    """One number is compared, and no command stands behind it without a comma."""
+    if any(a.key in _COMMANDS for a in atoms):
+        return False
+    compared = criterion(atoms, asked=True)
+    return (
+        compared is not None
+        and len(compared.limits) == 1
+        and compared.limits[0].dimension in ('L', 'V')
+    )
+
+
+def _goes_on(atoms: Sequence[Atom], pause: int) -> bool:
+    """`…, which starts 50 m ahead`: the noun in front of the pause belongs behind it, too."""
+    return any(a.kind is AtomKind.RELATIVE for a in atoms[pause : pause + 2])
+
+
+def _is_all(line: Told, name: str) -> bool:
+    """Return whether a line has words of this kind of cause, and none that say something else.
+
+    Weak words (`is there`, `no longer`) tell a kind only beside another word of it.
+    """
+    if line.measures and name != 'elapsed':
+        return False
+    words = cause_words()
+    left, strong = words[f'{name}_needs'].subn(' ', line.text)
+    left, weak = words[f'{name}_weak'].subn(' ', left)
+    left, also = words[f'{name}_also'].subn(' ', left)
+    left = words[f'{name}_beside'].sub(' ', left)
+    left = words['fill'].sub(' ', _LETTER.sub(' ', left))
+    tells = strong or (weak and also)
+    return bool(tells) and not left.strip(' ,.;:\'"()-=')
+
+
+def _elapsed(frame: Frame, line: Told) -> Trigger | None:
+    times = [m for letter, m in line.measures.items() if letter.startswith('T')]
+    if len(times) != 1 or len(line.measures) != 1 or line.nouns:
+        return None
+    if not values.accepts('trigger_time', times[0]):
+        return None
+    return TimeTrigger(on='time', at_s=values.explicit('trigger_time', times[0]))
+
+
+def _sight(
+    frame: Frame, line: Told, on: Literal['visible', 'occluded']
+) -> VisibilityTrigger | None:
+    named = _parties(frame, line).named()
+    observers = [e for e in named if isinstance(e, Entity) and e.is_uav]
+    others = [e for e in named if e not in observers]
+    if not observers and len(frame.scene.uavs) == 1:
+        observers = frame.scene.uavs
+    if not others:
+        others = [
+            e for e in (_parties(frame, line).it(lambda e: not e.is_uav),) if e and _refers(line)
+        ]
+    if len(observers) != 1 or len(others) != 1:
+        return None
+    target = others[0]
+    return VisibilityTrigger(
+        on=on,
+        observer=observers[0].id,
+        target=target if isinstance(target, str) else target.id,
+    )
+
+
+def _seen(frame: Frame, line: Told) -> Trigger | None:
+    return _sight(frame, line, 'visible')
+
+
+def _lost(frame: Frame, line: Told) -> Trigger | None:
+    return _sight(frame, line, 'occluded')
+
+
+def _arrives(frame: Frame, line: Told) -> Trigger | None:
+    named = _parties(frame, line).named()
+    places = [p for p in named if isinstance(p, str)]
+    who = [e for e in named if isinstance(e, Entity)]
+    if not who and _refers(line):
+        who = [e for e in (_parties(frame, line).it(),) if e is not None]
+    if len(places) != 1 or len(who) != 1:
+        return None
+    frame.scene.clause.places += (places[0],)
+    return ArrivalTrigger(on='arrives', who=who[0].id, place=places[0])
+
+
+def _received(frame: Frame, line: Told) -> Trigger | None:
+    """Of the messages that were told, the last one that fits whom the clause names."""
+    sent = [e.action for e in frame.scene.events if isinstance(e.action, SendMessage)]
+    named = [e.id for e in _parties(frame, line).actors()]
+    found = _FROM.search(line.text)
+    origin = (found['of'] or found['own']) if found is not None else None
+    sender = _entity(frame, line.nouns[origin]) if origin is not None else None
+    for message in reversed(sent):
+        fits = all(one in (message.sender, message.receiver) for one in named)
+        if fits and sender in (None, message.sender):
+            return MessageTrigger(
+                on='message_received', by=message.receiver, sender=message.sender
+            )
+    return None
+
+
+def _over(frame: Frame, line: Told) -> Trigger | None:
+    flying = [e for e in _parties(frame, line).actors() if e.is_uav]
+    if not flying and len(frame.scene.uavs) == 1:
+        flying = frame.scene.uavs
+    named = [n for n in line.nouns.values() if n.kind in _PLACES]
+    if len(flying) != 1 or named:
+        return None
+    return MissionDoneTrigger(on='mission_done', uav=flying[0].id)
+
+
+def _parties(frame: Frame, line: Told) -> Parties:
+    return Parties(frame.scene, frame.resolver, tuple(line.nouns.values()))
+
+
+def _entity(frame: Frame, noun: NounPhrase) -> str | None:
+    found = frame.resolver.actors((noun,))
+    return found[0].id if len(found) == 1 else None
+
+
+def _refers(line: Told) -> bool:
+    return any(n.kind is NounKind.PRONOUN for n in line.nouns.values())
+
+
+_MEANINGS: dict[str, Callable[[Frame, Told], Trigger | None]] = {
+    'elapsed': _elapsed,
+    'lost': _lost,
+    'seen': _seen,
+    'received': _received,
+    'over': _over,
+    'arrives': _arrives,
+}

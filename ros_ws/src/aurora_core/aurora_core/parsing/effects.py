@@ -1,0 +1,166 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Effects: of a cause in front, of the same cause as the effect before, of a message told."""
+
+from __future__ import annotations
+
+import re
+
+from aurora_core.parsing.atoms import AtomKind
+from aurora_core.parsing.constructions import actions, messages
+from aurora_core.parsing.constructions.demands import demands
+from aurora_core.parsing.events import complete_event, same_cause
+from aurora_core.parsing.frames import Frame
+from aurora_core.parsing.main_clause import main_clause, shared_words
+from aurora_core.parsing.pieces import Link
+from aurora_core.parsing.scene import EventDraft
+from aurora_core.parsing.sequence import later
+from aurora_core.parsing.story import Story
+from aurora_core.spec.scenario import (
+    AgentAction,
+    EventAction,
+    MessageTrigger,
+    SendMessage,
+    TimeTrigger,
+)
+from aurora_core.spec.vocabulary import ClauseStatus
+
+_UNTIL_THEN = re.compile(
+    r'(?:and |but )?(?:(?:up )?until then|till then|before that|before then)\b'
+)
+_WAS_DOING = re.compile(r'\b(?:was|were|had been|has been|have been)\s+\w+ing\b')
+
+
+def effect_of_held(story: Story, frame: Frame) -> None:
+    assert story.held is not None
+    found, clause, delay = story.held.cause, story.held.clause, story.held.delay
+    sentence = story.held.sentence
+    story.held = None
+    shared_words(frame)
+    flying = story.scene.uavs
+    frame.watched = not isinstance(found, MessageTrigger)
+    if messages.is_command(frame) and len(flying) == 1:
+        frame.heir = flying[0]  # `if the van exceeds 15 m/s, notify the police`
+    action = actions.action(frame)
+    for one in actions.together(frame) if action is None else ():
+        event = complete_event(story.scene, found, one, frame.span, (clause,))
+        if event is not None:
+            event.delay = delay
+            story.last = (event, sentence)
+        if one.do in ('brake', 'land', 'ascend') or event is not None:
+            action = one
+    if action is not None and story.last is not None and story.last[0].action == action:
+        messages.link_values(frame)
+        demands(frame)
+        return
+    if action is None:
+        clause.status = ClauseStatus.NOT_ENCODED
+        clause.notes.append('what should happen then was not understood')
+        main_clause(frame)
+        return
+    event = complete_event(story.scene, found, action, frame.span, (clause,))
+    if event is not None:
+        event.delay = delay
+        story.last = (event, sentence)
+    messages.link_values(frame)
+    demands(frame)
+
+
+def without_cause(story: Story, frame: Frame) -> None:
+    """The effect of a cause that was not understood must not hold without it."""
+    shared_words(frame)
+    action = actions.action(frame)
+    if action is None:
+        story.scene.clause.notes.append('its cause was not understood')
+        story.scene.clause.status = ClauseStatus.NOT_ENCODED
+        frame.subjects()
+        return
+    story.scene.became(story.scene.add_event(action, frame.span).id)
+
+
+def note_fronted_time(story: Story, frame: Frame, before: int) -> None:
+    """`After 15 s the bus stops and …`: the time holds for what follows, too."""
+    made = story.scene.events[before:]
+    if any(a.kind is AtomKind.RELATIVE for a in frame.piece.atoms):
+        return  # `the truck, which after 10 s stops, is tracked`
+    if not made or not isinstance(made[-1].trigger, TimeTrigger) or frame.verb is None:
+        return
+    stated = made[-1].trigger.at_s.span
+    if stated is not None and stated.end <= frame.verb.start:
+        story.last = (made[-1], frame.piece.sentence)
+
+
+def so_much_later(story: Story, frame: Frame) -> bool:
+    """`…, and 5 s later it starts again`: also where the sentence has a cause."""
+    if not later(frame):
+        return False
+    story.last = None
+    return True
+
+
+def told_to(story: Story, frame: Frame) -> bool:
+    """`the RSU tells the truck to stop`: the receiver acts when the message arrives."""
+    if frame.piece.link is not Link.INFINITIVE or frame.subject_nouns:
+        return False
+    ids = story.scene.clauses[-2].ids if len(story.scene.clauses) > 1 else {}
+    told = [e for e in story.scene.events if e.id in ids]
+    if not told or not isinstance(told[-1].action, SendMessage):
+        return False
+    message = told[-1].action
+    receiver = story.scene.by_id(message.receiver)
+    if receiver is None:
+        return False
+    frame.heir = receiver
+    action = actions.action(frame)
+    if action is None:
+        return False
+    heard = MessageTrigger(on='message_received', by=message.receiver, sender=message.sender)
+    complete_event(story.scene, heard, action, frame.span, ())
+    return True
+
+
+def follows_event(story: Story, frame: Frame) -> bool:
+    """`When …, the drone alerts the ego and the ego brakes`: a second effect of one cause."""
+    if story.last is None or story.last[1] != frame.piece.sentence:
+        return False
+    if _is_earlier_state(frame):
+        return False
+    if frame.piece.link is not Link.MAIN and not _told_head(story, frame):
+        return False
+    shared_words(frame)
+    action = actions.action(frame)
+    if action is None:
+        return False
+    event = _when_told(story, frame, action) or same_cause(
+        story.scene, story.last[0], action, frame.span, then=frame.piece.then
+    )
+    story.last = (event, frame.piece.sentence)
+    messages.link_values(frame)
+    demands(frame)
+    return True
+
+
+def _told_head(story: Story, frame: Frame) -> bool:
+    """`…, it messages the van, which then stops`: whoever is told is the head."""
+    before = story.last[0].action if story.last is not None else None
+    head = frame.piece.head
+    if frame.piece.link is not Link.RELATIVE or head is None or head.noun is None:
+        return False
+    known = [e.id for e in story.resolver.known(head.noun)]
+    return isinstance(before, SendMessage) and known == [before.receiver]
+
+
+def _when_told(story: Story, frame: Frame, action: EventAction) -> EventDraft | None:
+    """`…, the drone warns the car and the car brakes`: once it has the message."""
+    before = story.last[0].action if story.last is not None else None
+    who = action.agent if isinstance(action, AgentAction) else None
+    if not isinstance(before, SendMessage) or before.receiver != who:
+        return None
+    heard = MessageTrigger(on='message_received', by=before.receiver, sender=before.sender)
+    return complete_event(story.scene, heard, action, frame.span, ())
+
+
+def _is_earlier_state(frame: Frame) -> bool:
+    """`…, until then it follows the bus`: what holds before the event is no effect of it."""
+    told = frame.scene.prompt[frame.piece.start : frame.piece.end].lower()
+    return _UNTIL_THEN.match(told) is not None or _WAS_DOING.search(told) is not None

@@ -1,0 +1,70 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""A cause in front of its effect: it waits in the story until the effect comes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from aurora_core.parsing.atoms import AtomKind, NounKind, NounPhrase
+from aurora_core.parsing.cause_parts import again, delay_of
+from aurora_core.parsing.constructions.triggers import cause
+from aurora_core.parsing.constructions.world import world_words
+from aurora_core.parsing.frames import Frame
+from aurora_core.parsing.main_clause import main_clause
+from aurora_core.parsing.morphology import VerbForm
+from aurora_core.parsing.named_later import named_later
+from aurora_core.parsing.phases import FLOWN
+from aurora_core.parsing.pieces import Link, Piece
+from aurora_core.parsing.sequence import HAPPENS
+from aurora_core.parsing.story import HeldCause, Story
+from aurora_core.spec.vocabulary import ClauseStatus
+
+
+def leading(story: Story, piece: Piece, following: Piece) -> None:
+    """`When the van comes within 20 m, …`: the effect comes next."""
+    frame = story.open(piece)
+    gerund = frame.verb is not None and frame.verb.form is VerbForm.ING and not frame.subject_nouns
+    if frame.key == 'finish' and not frame.subject_nouns:
+        actors = Frame(following, story.scene, story.resolver).subject_nouns
+        frame.subject_nouns = () if _on_ground(actors) else actors
+        gerund = False
+    if gerund and piece.link is not Link.UNTIL:
+        actors = Frame(following, story.scene, story.resolver).subject_nouns
+        if frame.key in HAPPENS or piece.link is Link.WHEN or _on_ground(actors):
+            frame.subject_nouns = actors
+            gerund = False
+    if gerund or piece.link is Link.UNTIL:
+        upcoming = Frame(following, story.scene, story.resolver)
+        if not frame.subject_nouns and upcoming.subject_nouns:
+            frame.subject_nouns = upcoming.subject_nouns
+        if piece.link is Link.AFTER:
+            main_clause(frame)
+        story.close(frame)
+        return
+    if frame.has_mark(AtomKind.MESSAGE.value) and not frame.subject_nouns:
+        # `once the message has arrived, the ego slows`: with whom, is said behind
+        frame.subject_nouns = Frame(following, story.scene, story.resolver).subject_nouns
+    named_later(story, frame, following)
+    delay = delay_of(frame)
+    found = cause(frame) or again(story, frame)
+    if found is not None:
+        world_words(frame)
+        story.scene.clause.status = ClauseStatus.ENCODED
+        story.held = HeldCause(
+            cause=found, clause=story.scene.clause, sentence=piece.sentence, delay=delay
+        )
+    elif (
+        piece.link is Link.AFTER
+        or frame.has_mark(AtomKind.LINK.value)
+        or (frame.verb is not None and frame.verb.form is VerbForm.ING and frame.key in FLOWN)
+    ):
+        # `when tracking the bus, the drone …`: a phase that goes on
+        main_clause(frame)  # `if the link loses 20 % of the messages`: no event, a value
+    else:
+        story.unknown_cause = piece.sentence
+    story.close(frame)
+
+
+def _on_ground(nouns: Sequence[NounPhrase]) -> bool:
+    return bool(nouns) and nouns[0].kind in (NounKind.AGENT, NounKind.VEHICLE, NounKind.EGO)

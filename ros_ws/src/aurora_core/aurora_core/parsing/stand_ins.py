@@ -1,0 +1,177 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Words that stand in for a noun: pronouns, `one` of several, letters, ordinals."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from aurora_core.parsing.atoms import Determiner, NounKind, NounPhrase
+from aurora_core.parsing.lexicon import Tag
+from aurora_core.parsing.noun_words import NOUN_KINDS, NounWords
+from aurora_core.parsing.tokens import TokenKind
+
+# What `I` does when it means the ego vehicle.
+_EGO_ACTS = frozenset(
+    {
+        'come',
+        'drive',
+        'stop',
+        'brake',
+        'approach',
+        'overtake',
+        'reach',
+        'park',
+        'slow',
+        'cross',
+        'follow',
+        'accelerate',
+        'start',
+        'change_lane',
+        'yield',
+        'turn_left',
+        'turn_right',
+        'wait',
+    }
+)
+_BY_HEIGHT = frozenset({'lowest', 'lower', 'bottom', 'middle', 'highest', 'upper', 'top'})
+_I_AM = (('i', 'am'), ('we', 'are'))
+
+
+class StandInReader:
+    """Reads phrases that name nobody by type."""
+
+    def __init__(self, said: NounWords) -> None:
+        self._said = said
+        self._letters: dict[str, tuple[NounKind, str]] | None = None
+
+    def pronoun(self, i: int) -> tuple[NounPhrase, int] | None:
+        """`it`, `I am`, `one near the park`: the phrase and the next index."""
+        word = self._said.words[i]
+        moving = i + 1 if word in ("i'm", 'im', "we're") else i + 2
+        told = word in ("i'm", 'im', "we're") or tuple(self._said.words[i : i + 2]) in _I_AM
+        if told and self._acts(moving):  # `I am driving at 10 m/s`
+            return self._phrase(i, moving, 'i', NounKind.EGO)
+        if word == 'one' and i and self._said.words[i - 1] in _BY_HEIGHT:
+            return None
+        if word in ('one', 'other') and self._said.longest(i + 1, Tag.VERB):
+            return self._phrase(i, i + 1, word)
+        if word == 'one' and (self._at_its_height(i) or self._shares(i)):
+            return self._phrase(i, i + 1, word)
+        if word == 'another' and self._placed(i + 1):
+            return self._phrase(i, i + 1, word)  # `one van near …, another at …`
+        found = self._said.longest(i, Tag.EGO_PRONOUN, Tag.PRONOUN)
+        if found is None:
+            return None
+        length, sense = found
+        aside = self._said.words[i + 1] if i + 1 < len(self._said.words) else ''
+        acts = i + 2 if aside in ('then', 'now', 'also', 'only', 'just') else i + 1
+        if self._said.words[i] == 'i' and not self._acts(acts):
+            return None  # `I think that …`
+        if self._said.words[i] == 'its' and self._said.longest(i + 1, Tag.MESSAGE, Tag.LINK):
+            return None  # `of its messages`
+        by_height = _BY_HEIGHT.intersection(self._said.words[i : i + length])
+        if by_height and ' '.join(self._said.words[i + length : i + length + 1]) != 'at':
+            return None  # `the lower one lands`: who that is, only their heights tell
+        kind = NounKind.EGO if sense.tag is Tag.EGO_PRONOUN else NounKind.PRONOUN
+        return self._phrase(i, i + length, sense.key, kind)
+
+    def _acts(self, j: int) -> bool:
+        found = self._said.longest(j, Tag.VERB)
+        return found is not None and found[1].key in _EGO_ACTS
+
+    def _at_its_height(self, i: int) -> bool:
+        """`two drones, one at 40 m and one at 60 m`: `one` counts nothing."""
+        before = self._said.words[i - 1] if i else ''
+        if before not in (',', 'and', ':', ';') or i + 2 >= len(self._said.words):
+            return False
+        return (
+            self._said.words[i + 1] == 'at' and self._said.tokens[i + 2].kind is TokenKind.NUMBER
+        )
+
+    def _shares(self, i: int) -> bool:
+        """`two drones track it, one from 20 m`, `two vans, one near the park`."""
+        before = self._said.words[i - 1] if i else ''
+        plain = before not in ('the', 'this', 'that', 'which', 'each', 'another', 'every', 'no')
+        several = any(
+            a in self._said.words[:i] for a in ('two', '2', 'three', '3', 'both', 'four')
+        )
+        return several and plain and before not in _BY_HEIGHT and self._placed(i + 1)
+
+    def _placed(self, i: int) -> bool:
+        """Return whether a place or a number with a preposition follows."""
+        found = self._said.longest(i, Tag.RELATION, Tag.PREPOSITION)
+        return found is not None and found[1].key not in ('of', 'to', 'by', 'within', 'beyond')
+
+    def letter(self, i: int) -> tuple[NounPhrase, int] | None:
+        """`drone A …, and B passes it on`: the letter alone, once it was given to somebody."""
+        if not self._said.tokens[i].capital or self._said.words[i] not in self._named_letters():
+            return None
+        kind, key = self._named_letters()[self._said.words[i]]
+        if (
+            self._said.words[i] == 'a'
+            and not self._said.is_predicate(i + 1)
+            and not self._helps(i + 1)
+        ):
+            return None  # the article
+        phrase, stop = self._phrase(i, i + 1, key, kind)
+        number = ord(self._said.words[i]) - ord('a') + 1
+        return replace(phrase, index=number, determiner=Determiner.DEFINITE), stop
+
+    def _named_letters(self) -> dict[str, tuple[NounKind, str]]:
+        if self._letters is None:
+            self._letters = {}
+            for j in range(1, len(self._said.words)):
+                if not self._said.tokens[j].capital:
+                    continue
+                for _, senses in self._said.matches(j - 1):
+                    for sense in senses:
+                        if sense.tag in (Tag.UAV, Tag.AGENT, Tag.VEHICLE):
+                            self._letters[self._said.words[j]] = (NOUN_KINDS[sense.tag], sense.key)
+        return self._letters
+
+    def _helps(self, j: int) -> bool:
+        return self._said.has(j, Tag.AUXILIARY)
+
+    def ordinal_alone(self, i: int) -> tuple[NounPhrase, int] | None:
+        """`two drones: first hovers …, second tracks …`: told apart by number only."""
+        order = ('first', 'second', 'third', 'fourth')
+        if self._said.words[i] not in order:
+            return None
+        if i and self._said.words[i - 1] in ('the', 'a', 'at'):
+            return None
+        if self._at_its_height(i) and self._second_at_its_height():
+            return self._phrase(i, i + 1, f'nth{order.index(self._said.words[i]) + 1}')
+        if self._said.longest(i + 1, Tag.VERB) is None:
+            return None
+        if self._said.words[i] == 'first' and not self._second_acts():
+            return None
+        return self._phrase(i, i + 1, f'nth{order.index(self._said.words[i]) + 1}')
+
+    def _second_at_its_height(self) -> bool:
+        """`first at 40 m, then at 60 m` are two phases of one UAV."""
+        return any(
+            w == 'second' and self._at_its_height(j) for j, w in enumerate(self._said.words)
+        )
+
+    def _second_acts(self) -> bool:
+        return any(
+            word == 'second'
+            and (j == 0 or self._said.tokens[j - 1].kind is not TokenKind.NUMBER)
+            and self._said.is_predicate(j + 1)
+            for j, word in enumerate(self._said.words)
+        )
+
+    def _phrase(
+        self, i: int, stop: int, key: str, kind: NounKind = NounKind.PRONOUN
+    ) -> tuple[NounPhrase, int]:
+        return (
+            NounPhrase(
+                kind=kind,
+                key=key,
+                start=self._said.tokens[i].start,
+                end=self._said.tokens[stop - 1].end,
+                head_text=' '.join(self._said.words[i:stop]),
+            ),
+            stop,
+        )

@@ -1,0 +1,107 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Orders: those of one UAV's phases and of events are judged, the others are named."""
+
+from __future__ import annotations
+
+from types import ModuleType
+from typing import Any
+
+import pytest
+
+from aurora_core.conditions.build import Inputs, Underivable
+from aurora_core.conditions.condition import Condition
+from aurora_core.conditions.orders import order_conditions
+from aurora_core.conditions.plan_facts import MissionFacts
+from aurora_core.spec.parameter import Unit
+from aurora_core.spec.scenario import Uav
+from aurora_core.spec.vocabulary import MissionMode
+
+REACHED = {'on': 'altitude_reached', 'uav': 'uav1'}
+BRAKES = {'do': 'brake', 'agent': 'ego'}
+
+
+def _hover(tb: ModuleType, name: str, uav: str = 'uav1') -> tuple[Any, MissionFacts]:
+    facts = MissionFacts(
+        mission=name,
+        uav=uav,
+        mode=MissionMode.HOVER,
+        altitude_m=30.0,
+        hover_point=(0.0, 0.0, 30.0),
+        duration_s=30.0,
+    )
+    return tb.mission(name, MissionMode.HOVER, uav=uav), facts
+
+
+def _ordered(tb: ModuleType, *, uav_of_last: str = 'uav1', **order: Any) -> list[Any]:
+    """Derive the order of a request with three hovers, an alert, a milestone and two brakes."""
+    case = tb.tailgate_case()
+    (alert,) = case.spec.events
+    flown = [_hover(tb, 'm1'), _hover(tb, 'm2'), _hover(tb, 'm3', uav_of_last)]
+    events = (
+        alert,
+        {'id': 'e2', 'trigger': REACHED | {'value_m': tb.number(29.0)}},
+        {'id': 'e3', 'action': BRAKES},
+        {'id': 'e4', 'trigger': {'on': 'event_done', 'event': 'e1'}, 'action': BRAKES},
+    )
+    changes = {
+        'uavs': (Uav(id='uav1'), Uav(id='uav2')),
+        'missions': tuple(m for m, _ in flown),
+        'events': events,
+        'orders': ({'id': 'o1'} | order,),
+    }
+    inputs = Inputs(
+        spec=tb.spec(**dict(case.spec) | changes),
+        facts=tb.facts_of(*(f for _, f in flown), horizon_s=90.0),
+        limits=tb.LIMITS,
+        tolerances=tb.TOLERANCES,
+    )
+    return list(order_conditions(inputs))
+
+
+def test_phases_of_one_uav_follow_each_other(tb: ModuleType) -> None:
+    (only,) = _ordered(tb, first='m1', then='m2')
+    assert only.id == 'o1.holds'
+    assert only.formula == 'phase_order(uav1,m2) >= 0 s'
+    assert not only.implied
+
+
+def test_each_phase_between_the_two_is_in_its_place(tb: ModuleType) -> None:
+    found = _ordered(tb, first='m1', then='m3')
+    assert [c.id for c in found] == ['o1.holds.m2', 'o1.holds']
+    assert [c.arguments.mission.mission for c in found] == ['m2', 'm3']
+
+
+def test_events_are_compared_by_their_moments(tb: ModuleType) -> None:
+    first, second = _ordered(
+        tb, first='e2', then='e1', within_s=tb.number(9.0, Unit.SECOND, explicit=True)
+    )
+    assert first.formula == 'time_between(e2,e1) >= 0 s'
+    assert second.formula == 'time_between(e2,e1) <= 9 s'
+    assert first.of == ('e2', 'e1')
+
+
+def test_what_somebody_does_after_a_trigger_has_a_moment(tb: ModuleType) -> None:
+    (only,) = _ordered(tb, first='e1', then='e4')
+    assert isinstance(only, Condition)
+
+
+@pytest.mark.parametrize(
+    'order',
+    [
+        {'first': 'm2', 'then': 'm1'},  # a UAV flies its missions as listed
+        {'first': 'm1', 'then': 'm3', 'uav_of_last': 'uav2'},
+        {'first': 'm1', 'then': 'e1'},
+        {'first': 'e1', 'then': 'm1'},
+        {'first': 'e3', 'then': 'e1'},  # which braking is meant, nothing says
+    ],
+)
+def test_other_orders_are_named(order: dict[str, Any], tb: ModuleType) -> None:
+    (only,) = _ordered(tb, **order)
+    assert isinstance(only, Underivable)
+    assert only.what == f'that {order["first"]} comes before {order["then"]}'
+
+
+def test_a_limit_on_the_time_between_phases_is_named(tb: ModuleType) -> None:
+    (only,) = _ordered(tb, first='m1', then='m2', within_s=tb.number(9.0, Unit.SECOND))
+    assert isinstance(only, Underivable)
