@@ -107,31 +107,41 @@ def spin_until(node: Node, done: Callable[[], bool], limit_s: float | None = Non
     Returns:
         Whether it holds.
     """
-    executor = SingleThreadedExecutor()
-    executor.add_node(node)
     end_s = None if limit_s is None else time.monotonic() + limit_s
-    try:
-        with _interrupt_between_callbacks() as struck:
+    with interrupts_held() as struck:
+        executor = SingleThreadedExecutor()
+        executor.add_node(node)
+        try:
             while not done():
                 if struck.is_set() or (end_s is not None and time.monotonic() >= end_s):
                     return False
                 executor.spin_once(timeout_sec=_SLICE_S)
             return True
-    finally:
-        executor.remove_node(node)
-        executor.shutdown()
+        finally:
+            executor.remove_node(node)
+            executor.shutdown()
+            del executor  # here: an exception that strikes in its `__del__` is lost
+
+
+# Set by Ctrl-C while a block of `interrupts_held` runs.
+_held: threading.Event | None = None
 
 
 @contextmanager
-def _interrupt_between_callbacks() -> Iterator[threading.Event]:
-    """Hold Ctrl-C back until the block ends; a second one strikes at once.
+def interrupts_held() -> Iterator[threading.Event]:
+    """Hold Ctrl-C back until the block ends, or a block within it; a second one strikes at once.
 
     Amid a callback it would leave the callback group blocked, and cancelling a goal after it
-    would never be answered.
+    would never be answered; amid a finalizer Python drops it.
 
     Raises:
         KeyboardInterrupt: After the block, if Ctrl-C came.
     """
+    global _held
+    if _held is not None:
+        yield _held
+        _raise_if(_held)
+        return
     struck = threading.Event()
 
     def strike(_number: int, _frame: FrameType | None) -> None:
@@ -142,10 +152,16 @@ def _interrupt_between_callbacks() -> Iterator[threading.Event]:
     previous = signal.getsignal(signal.SIGINT)
     if previous is signal.default_int_handler:  # in a background job it is ignored
         signal.signal(signal.SIGINT, strike)
+    _held = struck
     try:
         yield struck
     finally:
+        _held = None
         signal.signal(signal.SIGINT, previous)
+    _raise_if(struck)
+
+
+def _raise_if(struck: threading.Event) -> None:
     if struck.is_set():
         raise KeyboardInterrupt
 

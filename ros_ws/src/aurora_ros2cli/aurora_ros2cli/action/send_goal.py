@@ -15,7 +15,13 @@ from rclpy.node import Node
 
 from aurora_ros2cli.errors import CliError
 from aurora_ros2cli.fields import FieldError, read_fields
-from aurora_ros2cli.graph import NAME_PREFIX, full_name, spin_until, temporary_node
+from aurora_ros2cli.graph import (
+    NAME_PREFIX,
+    full_name,
+    interrupts_held,
+    spin_until,
+    temporary_node,
+)
 from aurora_ros2cli.output import emit
 from aurora_ros2cli.rendering import WHOLE, as_yaml
 from aurora_ros2cli.types import load_type
@@ -82,12 +88,14 @@ def _send(
     emit(f'Sending goal:\n     {as_yaml(goal, WHOLE)}')
     sending = client.send_goal_async(goal, feedback)
     try:
-        handle = _answer(node, sending, 'sending goal')
-        if not handle.accepted:
-            emit('Goal was rejected.')
-            return
-        emit(f'Goal accepted with ID: {bytes(handle.goal_id.uuid).hex()}\n')
-        result = _answer(node, handle.get_result_async(), 'getting result')
+        # From here on Ctrl-C has a goal to cancel: it must not get lost between two waits.
+        with interrupts_held():
+            handle = _answer(node, sending, 'sending goal')
+            if not handle.accepted:
+                emit('Goal was rejected.')
+                return
+            emit(f'Goal accepted with ID: {bytes(handle.goal_id.uuid).hex()}\n')
+            result = _answer(node, handle.get_result_async(), 'getting result')
     except KeyboardInterrupt:
         _cancel(node, sending)
         raise
