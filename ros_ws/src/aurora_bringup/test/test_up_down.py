@@ -393,6 +393,7 @@ def test_down_while_up_is_starting_leaves_nothing(graph: Graph) -> None:
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
+        preexec_fn=_hear_ctrl_c,
     )
     _until(lambda: graph.pid('parser') != 0)
     pids = [graph.pid(name) for name in NODES]

@@ -3,12 +3,20 @@
 """Ctrl-C at any moment of a command: held back, never lost."""
 
 import signal
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
 import pytest
 from rclpy.executors import SingleThreadedExecutor
 
 from aurora_ros2cli.graph import interrupts_held, spin_until, temporary_node
+
+
+@pytest.fixture(autouse=True)
+def _interruptible() -> Iterator[None]:
+    """In a background job, SIGINT is ignored from the start, and then stays so on purpose."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
 
 
 def _press() -> None:
@@ -69,3 +77,10 @@ def test_an_interrupt_in_the_executors_finalizer_is_not_lost(
         with pytest.raises(KeyboardInterrupt):
             spin_until(node, lambda: True)
         monkeypatch.undo()
+
+
+def test_a_background_job_stays_deaf() -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+    assert not _struck([], _press, _wait)
+    assert signal.getsignal(signal.SIGINT) is signal.SIG_IGN
