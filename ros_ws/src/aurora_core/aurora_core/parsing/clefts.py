@@ -29,12 +29,19 @@ def plain_order(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
     """Return the atoms with every sentence in the order subject, predicate, rest."""
     written: list[Atom] = []
     for sentence, stop in runs(atoms, AtomKind.STOP):
-        for turn in _TURNS:
-            sentence = turn(sentence, prompt)
-        written += sentence
+        written += _sentence(tuple(sentence), prompt)
         if stop is not None:
             written.append(stop)
     return written
+
+
+# A second look reads the other sentences of a prompt again and again.
+@lru_cache(maxsize=64)
+def _sentence(atoms: tuple[Atom, ...], prompt: str) -> tuple[Atom, ...]:
+    sentence = list(atoms)
+    for turn in _TURNS:
+        sentence = turn(sentence, prompt)
+    return tuple(sentence)
 
 
 def _is_be(atoms: Sequence[Atom], i: int) -> bool:
@@ -344,8 +351,8 @@ def _agent_nouns() -> dict[str, str]:
 def _by_role(atoms: list[Atom], prompt: str) -> list[Atom]:
     """`its tracker is a drone`, `the pursuer of the bus is a van`: who does it to whom."""
     for i, atom in enumerate(atoms):
-        role = next((w for w in _agent_nouns() if text_of(atom, prompt).split()[-1:] == [w]), None)
-        if role is None or atom.kind is AtomKind.VERB:
+        role = text_of(atom, prompt).rpartition(' ')[2]
+        if role not in _agent_nouns() or atom.kind is AtomKind.VERB:
             continue
         whom = atoms[i - 1] if i and atoms[i - 1].is_actor else None
         begin = i - 1 if whom is not None else i

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import lru_cache
 
 from aurora_core.parsing.atom_runs import runs
 from aurora_core.parsing.atoms import Atom, AtomKind
@@ -32,11 +33,13 @@ def segment(atoms: Sequence[Atom]) -> tuple[Piece, ...]:
     pieces: list[Piece] = []
     sentences = [sentence for sentence, _ in runs(atoms, AtomKind.STOP) if sentence]
     for number, sentence in enumerate(sentences):
-        pieces += _sentence(sentence, number)
+        pieces += _sentence(tuple(sentence), number)
     return tuple(pieces)
 
 
-def _sentence(atoms: list[Atom], number: int) -> list[Piece]:
+# A second look reads the other sentences of a prompt again and again.
+@lru_cache(maxsize=64)
+def _sentence(atoms: tuple[Atom, ...], number: int) -> tuple[Piece, ...]:
     """Cut out the conditions that a sentence states, then read what stands around them."""
     pieces: list[Piece] = []
     for stretch in stretches(atoms):
@@ -45,7 +48,7 @@ def _sentence(atoms: list[Atom], number: int) -> list[Piece]:
         else:
             told = Piece(atoms=stretch.atoms, sentence=number, criterion=stretch.criterion)
             pieces.append(told)
-    return pieces
+    return tuple(pieces)
 
 
 def clauses(atoms: Sequence[Atom], number: int) -> list[Piece]:

@@ -44,16 +44,23 @@ def unwrap(atoms: Sequence[Atom], prompt: str) -> tuple[list[Atom], list[Span]]:
     kept: list[Atom] = []
     spans: list[Span] = []
     for sentence, stop in runs(atoms, AtomKind.STOP):
-        asked, reasons = _without_reasons(sentence, prompt)
-        told, left_out = _sentence(asked, prompt)
+        told, left_out = _sentence(tuple(sentence), prompt)
         kept += told
-        spans += [*reasons, *left_out]
+        spans += left_out
         if stop is not None:
             kept.append(stop)
     return kept, spans
 
 
-def _sentence(atoms: list[Atom], prompt: str) -> tuple[list[Atom], list[Span]]:
+# A second look reads the other sentences of a prompt again and again.
+@lru_cache(maxsize=64)
+def _sentence(atoms: tuple[Atom, ...], prompt: str) -> tuple[tuple[Atom, ...], tuple[Span, ...]]:
+    asked, reasons = _without_reasons(atoms, prompt)
+    told, left_out = _without_background(asked, prompt)
+    return tuple(told), (*reasons, *left_out)
+
+
+def _without_background(atoms: list[Atom], prompt: str) -> tuple[list[Atom], list[Span]]:
     if not atoms:
         return [], []
     begin, end = atoms[0].start, atoms[-1].end
@@ -84,7 +91,7 @@ _REASONS = frozenset(
 )
 
 
-def _without_reasons(atoms: list[Atom], prompt: str) -> tuple[list[Atom], list[Span]]:
+def _without_reasons(atoms: Sequence[Atom], prompt: str) -> tuple[list[Atom], list[Span]]:
     """`because the camera smears otherwise, …`: why something is wished is no part of it."""
     kept: list[Atom] = []
     spans: list[Span] = []

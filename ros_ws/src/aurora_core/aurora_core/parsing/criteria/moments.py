@@ -52,8 +52,10 @@ def sequel(atoms: Sequence[Atom]) -> Sequel | None:
     """Return the order that a clause states, None when it says anything else."""
     line = told(atoms)
     words = criteria_words()
+    if not words['demands'].search(line.text) and _limit(line.text) is None:
+        return None
     text, moments = with_events(line.text)
-    limit = next((m for m in _LIMIT.finditer(text) if m['bound'] or m['late']), None)
+    limit = _limit(text)
     refers = _REFERS.match(text) is not None and len(moments) == 1
     if limit is None and len(moments) < 2 and not (refers and _EARLIER.search(text)):
         return None
@@ -76,6 +78,10 @@ def sequel(atoms: Sequence[Atom]) -> Sequel | None:
         within=line.measures[limit['t']] if limit is not None else None,
         nouns=tuple(line.nouns.values()),
     )
+
+
+def _limit(text: str) -> re.Match[str] | None:
+    return next((m for m in _LIMIT.finditer(text) if m['bound'] or m['late']), None)
 
 
 def with_events(text: str) -> tuple[str, list[Moment]]:

@@ -47,6 +47,7 @@ _HAPPENED = re.compile(
     r'(?:(?:started|begun|finished|completed|done|made|start|begin)(?: to| its| the| a| with)* )?'
     r'(?:come to a )?E0 '
 )
+_BOUNDED = re.compile(r'\b(?:atleast|atmost|nolater)\b')
 _LATEST = re.compile(r'\b(?:by|before|nolater|latest)\b')
 _YES_OR_NO = ('landed', 'completed', 'delivered')
 
@@ -82,11 +83,11 @@ class _Reading:
         if _INVERTED.match(self._text):
             return None
         asked = asked or bool(words['demands'].search(self._text))
+        if not asked and not self._is_bounded():
+            return None
         event = self._event()
         topics = frozenset(k for k, p in words.topics.items() if p.search(self._text))
-        bounded = bool(re.search(r'\b(?:atleast|atmost|nolater)\b', self._text))
-        bounded = bounded or bool(words['or_more'].search(self._text))
-        if not asked and not bounded:
+        if not asked and not self._is_bounded():
             return None
         waits = event is not None and re.search(r'\b(?:not|never) (?:\w+ )?before\b', self._text)
         by = None if waits else self._deadline(topics)
@@ -133,6 +134,10 @@ class _Reading:
             others=self._is_of_others(limits),
             words=self._begin,
         )
+
+    def _is_bounded(self) -> bool:
+        bounded = _BOUNDED.search(self._text) or self._words['or_more'].search(self._text)
+        return bounded is not None
 
     def _event(self) -> Moment | None:
         """`the crossing must not begin before 20 s`: what only happens, as a noun in front."""
