@@ -258,8 +258,9 @@ class Lexicon:
                 first, _, rest = phrase.partition(' ')
                 if len(first) > 2:
                     self._add(f'{plural(first)} {rest}'.strip(), Sense(tag=Tag.UNIT, key=key))
-        self.longest = max(len(words) for words in self._phrases)
-        self._starts = {words[0] for words in self._phrases}
+        self._longest: dict[str, int] = {}  # phrase that begins with a word
+        for words in self._phrases:
+            self._longest[words[0]] = max(len(words), self._longest.get(words[0], 0))
         self.words = frozenset(word for words in self._phrases for word in words)
         # Spelling is only corrected into words that mean something: a slip is never hidden.
         self.content_words = frozenset(
@@ -283,10 +284,9 @@ class Lexicon:
 
     def matches(self, words: Sequence[str], i: int) -> list[tuple[int, tuple[Sense, ...]]]:
         """Return every phrase that starts at word i as (length, senses), longest first."""
-        if i >= len(words) or words[i] not in self._starts:
-            return []
+        longest = self._longest.get(words[i], 0) if i < len(words) else 0
         found = []
-        for length in range(min(self.longest, len(words) - i), 0, -1):
+        for length in range(min(longest, len(words) - i), 0, -1):
             senses = self.senses(tuple(words[i : i + length]))
             if senses:
                 found.append((length, senses))

@@ -242,7 +242,10 @@ def _clefts(atoms: list[Atom], prompt: str) -> list[Atom]:
     written: list[Atom] = []
     i = 0
     while i < len(atoms):
-        it = text_of(atoms[i], prompt) in ('it', "it's")
+        if text_of(atoms[i], prompt) not in ('it', "it's"):
+            written.append(atoms[i])
+            i += 1
+            continue
         opens = not written or written[-1].kind in _PAUSES
         k = i + 1
         while k < len(atoms) and atoms[k].kind in _SMALL:
@@ -264,7 +267,7 @@ def _clefts(atoms: list[Atom], prompt: str) -> list[Atom]:
             AtomKind.AUXILIARY,
         )
         named = not timed and who < len(atoms) and atoms[who].is_actor and verbal
-        if it and opens and is_that and (timed or named) and (be or k > i + 1):
+        if opens and is_that and (timed or named) and (be or k > i + 1):
             written += atoms[begin:that]
             i = that + 1
             continue

@@ -108,10 +108,11 @@ def _is_agent(atom: Atom) -> bool:
 def _targets(atoms: list[Atom], prompt: str) -> list[Atom]:
     """`the target is a van parked at the market`: the van is there, and it is the target."""
     for i in range(2, len(atoms)):
+        if atoms[i].noun is None or atoms[i].key != 'target' or atoms[i - 1].key != 'be':
+            continue
         first, last = _sentence(atoms, i)
-        closes = atoms[i].noun is not None and atoms[i].key == 'target' and i + 1 == last
         agents = [k for k in range(first, i) if _is_agent(atoms[k])]
-        if closes and atoms[i - 1].key == 'be' and len(agents) == 1:  # `the bus is the target`
+        if i + 1 == last and len(agents) == 1:  # `the bus is the target`
             noun = atoms[agents[0]].noun
             assert noun is not None
             atoms[agents[0]] = replace(atoms[agents[0]], noun=replace(noun, target=True))

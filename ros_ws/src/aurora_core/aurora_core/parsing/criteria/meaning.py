@@ -25,6 +25,9 @@ _BETWEEN = re.compile(
     r'\b(?:(?:from|of|to) (?:(?:it|they|any|each|every|other|no) )*N\d|between|apart|closer|'
     r'nearer|away|distance|gap|spacing|clearance|separation|headway|near|together|leave)'
 )
+_NEITHER = re.compile(r' (?:(?:and|but) )?(?:neither|none)\b')
+_LISTED = re.compile(r'N0(?: ?,)*(?: (?:and|,)+ N\d+)+')
+_ONE = ('it', 'person')
 _FRACTIONS = ('visible_fraction', 'tracked_fraction', 'delivery_ratio')
 _VALUE = {'L': 'condition_distance', 'V': 'condition_speed', 'T': 'condition_time'}
 
@@ -74,9 +77,15 @@ class Meaning:
     # --- values at every moment ---------------------------------------------------------------
 
     def _movers(self) -> list[Entity]:
-        named = self._who.actors() or self._who.several()
+        named = self._who.actors()
         if named:
-            return list(named[:1]) if self._who.actors() else list(named)
+            listed = _LISTED.search(self._told.words)
+            return named[: listed[0].count('N')] if listed else named[:1]
+        group = self._who.several()
+        if group:
+            return group
+        if _NEITHER.match(self._told.words):
+            return self._who.pair()
         one = self._who.it()
         return [one] if one is not None else []
 
@@ -92,12 +101,22 @@ class Meaning:
             return self._apart(self._who.kin())
         named = self._who.named()
         group = self._who.several()
+        if group is None and _NEITHER.match(told.words):
+            group = self._who.pair()
+            if any(n.key == 'other' for n in told.nouns):
+                return self._apart(group)
+        up = 'altitude' in told.topics and not _BETWEEN.search(told.words)
+        if up and group and not named and all(e.is_uav for e in group):
+            return self._each('altitude', group)
         flying = [e for e in named if isinstance(e, Entity) and e.is_uav]
         if 'drift' in told.topics and len(named) - len(flying) == 0 and group is None:
             flyers = self._who.flyers()
             return self._each('hover_drift', flyers[:1])
         if _OF_HEIGHT.search(told.words) or not (named or group or _BETWEEN.search(told.words)):
             return self._each('altitude', self._who.flyers())
+        if group and not named and any(n.key in _ONE for n in told.nouns):
+            other = self._who.it(avoid=group)  # `none of them gets closer than 10 m to it`
+            return other is not None and self._between([other, *group])
         if told.others and group is not None and 'pairs' not in told.topics:
             first = self._who.it()
             named = [first] if first is not None else []

@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from aurora_core.parsing.atom_runs import skip
 from aurora_core.parsing.atoms import Atom, AtomKind
 from aurora_core.parsing.criteria.criterion import Criterion
 from aurora_core.parsing.criteria.moments import Sequel, sequel
@@ -41,7 +42,7 @@ def stretches(atoms: Sequence[Atom]) -> list[Stretch]:
             told = criterion(atoms[start:stop])
             if told is None:
                 made = sequel(atoms[start:stop]) if atoms[start].words != 'with' else None
-            elif not _is_detail(atoms[start], told):
+            elif not _is_detail(atoms[start], told) and not _joins(atoms, start, stop):
                 stop, made = _first(atoms, start, stop) or (stop, told)
             if made is not None:
                 found += _rest(atoms[done:start], opens=done > 0)
@@ -60,6 +61,19 @@ def _first(atoms: Sequence[Atom], start: int, stop: int) -> tuple[int, Criterion
         if first is not None and criterion(atoms[rest:stop]) is not None:
             return pause, first
     return None
+
+
+def _joins(atoms: Sequence[Atom], start: int, stop: int) -> bool:
+    """`one at 25 m, and the gap between them must stay above 5 m`: the second alone is one."""
+    for pause in _stops(atoms[:stop], start)[1:]:
+        rest = skip(atoms, pause, (*_PAUSES, AtomKind.FILL))
+        told = rest < stop and (atoms[rest].noun is not None or atoms[rest].kind is AtomKind.THING)
+        values = any(a.measure is not None for a in atoms[start:pause])
+        if told and values and criterion(atoms[start:pause]) is None:
+            alone = criterion(atoms[rest:stop])
+            if alone is not None and alone.nouns and alone.limits:
+                return True
+    return False
 
 
 def _asks(atoms: Sequence[Atom]) -> bool:
