@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
 
-from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
+from aurora_core.parsing.adjuncts import MUTUAL, Adjunct, AdjunctKind
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind, NounPhrase
 from aurora_core.parsing.measures import ANGLE, COUNT, LENGTH, RATIO, SPEED, TIME, Measure
 
@@ -397,7 +397,9 @@ class AdjunctReader:
             j += 1
         noun = self._at(j)
         nouns: tuple[NounPhrase, ...] = ()
-        if noun is not None and noun.noun is not None:
+        parted = noun is not None and noun.start in self._parted
+        mutual = parted and self._atoms[i].words.replace('-', ' ').endswith(MUTUAL)
+        if noun is not None and noun.noun is not None and not mutual:
             nouns, j = self._nouns(j)
         else:
             j = i + 1

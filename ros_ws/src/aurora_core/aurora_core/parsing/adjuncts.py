@@ -11,6 +11,12 @@ from aurora_core.parsing.atoms import NounPhrase
 from aurora_core.parsing.measures import Measure
 from aurora_core.spec.parameter import Span
 
+# Relations of several to one of themselves, by the end of their words.
+MUTUAL = (
+    *('each other', 'one another', 'side by side', 'abreast', 'neck and neck'),
+    'shoulder to shoulder',
+)
+
 
 class AdjunctKind(StrEnum):
     ATTRIBUTE = 'attribute'  # a measure with the name of what it measures

@@ -11,12 +11,15 @@ def landmark_words(name: str) -> tuple[str, ...]:
 
 
 def landmark_phrases(names: tuple[str, ...]) -> dict[tuple[str, ...], str]:
-    """Full names, and their last word where only one landmark has it (`the tower`)."""
+    """Full names, and their last words where only one landmark has them (`the fire station`)."""
     full = {landmark_words(name): name for name in names if landmark_words(name)}
-    by_last: dict[str, list[str]] = {}
+    by_end: dict[tuple[str, ...], list[str]] = {}
     for words, name in full.items():
-        by_last.setdefault(words[-1], []).append(name)
+        for i in range(len(words)):
+            by_end.setdefault(words[i:], []).append(name)
     short = {
-        (last,): found[0] for last, found in by_last.items() if len(found) == 1 and len(last) > 2
+        end: found[0]
+        for end, found in by_end.items()
+        if len(found) == 1 and (len(end) > 1 or len(end[0]) > 2)
     }
     return short | full

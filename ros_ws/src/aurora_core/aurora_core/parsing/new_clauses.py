@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind
 from aurora_core.parsing.gaps import opens_gap
-from aurora_core.parsing.measures import RATIO
+from aurora_core.parsing.measures import RATIO, SPEED
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.pieces import (
     MARKERS,
@@ -42,7 +42,7 @@ def opened_clause(
     relative = any(m.kind is AtomKind.RELATIVE for m in markers)
     if relative:
         head = next((a for a in reversed(current) if a.is_actor), None)
-        alone = sum(a.kind is AtomKind.VERB for a in ahead) == 1 and _is_placed(current)
+        alone = sum(a.kind is AtomKind.VERB for a in ahead) == 1 and is_placed(current)
         listed = any(m.kind is AtomKind.CONJUNCTION for m in markers) and has_verb(current)
         if listed and has_verb(ahead) and solid.noun is not None and markers[-1].key == 'that':
             return Piece(atoms=())  # `make sure that … and that no bus comes`
@@ -68,14 +68,18 @@ def opened_clause(
     anchored = refers or _hangs(ahead)
     if _shares_place(current, ahead) and not comma and not anchored:
         return None
-    if solid.is_actor and _is_placed(ahead) and (not actor_list or (comma and anchored)):
+    if solid.is_actor and is_placed(ahead) and (not actor_list or (comma and anchored)):
         return Piece(atoms=())
+    if comma and solid.kind is AtomKind.UNKNOWN and is_placed(ahead) and is_placed(current):
+        return Piece(atoms=())  # whoever that is, it is nobody named before
+    if comma and not actor_list and _has_speed(ahead):
+        return Piece(atoms=())  # `…, truck 12 m/s`
     aerial = solid.noun is not None and solid.noun.kind is NounKind.UAV
     if aerial and comma and has_verb(current) and not _only_actors(ahead):
         return Piece(atoms=())  # `…, drone overhead at 30 m`
     if solid.is_actor and comma and not actor_list and _only_actors(ahead):
         last = next((a for a in reversed(current) if a.kind not in TRANSPARENT), None)
-        if _is_placed(current) or (last is not None and not last.is_actor):
+        if is_placed(current) or (last is not None and not last.is_actor):
             return Piece(atoms=())  # `…, two background cars`
     return None
 
@@ -101,7 +105,7 @@ def _opened_predicate(
     beside = any(m.key == 'with' for m in markers)  # `a bus with a van following it`
     if not has_verb(current) and conjunction and solid.is_actor and not beside:
         last = next((a for a in reversed(current) if a.kind not in TRANSPARENT), None)
-        placed = _is_placed(current) and not any(a.kind is AtomKind.THING for a in current)
+        placed = is_placed(current) and not any(a.kind is AtomKind.THING for a in current)
         noun = solid.noun
         everyone = noun is not None and noun.kind is NounKind.PRONOUN and noun.key == 'both'
         if everyone and any(m.kind is AtomKind.COMMA for m in markers):
@@ -118,15 +122,24 @@ def _only_actors(atoms: Sequence[Atom]) -> bool:
     )
 
 
-def _is_placed(atoms: Sequence[Atom]) -> bool:
+def is_placed(atoms: Sequence[Atom]) -> bool:
     """`an ambulance behind it`, `a drone above the bus`: an actor with a place."""
     solid = [a for a in atoms if a.kind not in TRANSPARENT]
-    if len(solid) < 2 or not solid[0].is_actor:
+    if len(solid) < 2 or not (solid[0].is_actor or solid[0].kind is AtomKind.UNKNOWN):
         return False
-    place_words = (AtomKind.RELATION, AtomKind.PREPOSITION, AtomKind.SIREN)
+    place_words = (AtomKind.RELATION, AtomKind.PREPOSITION, AtomKind.SIREN, AtomKind.STATE)
     return solid[1].kind in place_words or (
         solid[1].kind is AtomKind.MEASURE and len(solid) > 2 and solid[2].kind in place_words
     )
+
+
+def _has_speed(atoms: Sequence[Atom]) -> bool:
+    solid = [a for a in atoms if a.kind not in TRANSPARENT]
+    agent = bool(solid) and solid[0].noun is not None and solid[0].noun.kind in _GROUND
+    return agent and len(solid) > 1 and solid[1].measure is not None and solid[1].key == SPEED
+
+
+_GROUND = (NounKind.AGENT, NounKind.VEHICLE, NounKind.EGO)
 
 
 def _shares_place(current: Sequence[Atom], ahead: Sequence[Atom]) -> bool:

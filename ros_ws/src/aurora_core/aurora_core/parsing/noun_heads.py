@@ -116,8 +116,8 @@ class HeadReader:
         ):
             j += 1
         part = self._said.longest(j, Tag.PLACE_PART)
-        if part is None:
-            return None
+        if part is None or (j == i and self._said.is_predicate(j)):
+            return None  # `a child stands at the crosswalk`
         j += part[0]
         if j >= len(self._said.words) or self._said.words[j] not in ('of', 'at', 'on', 'in'):
             return None

@@ -153,6 +153,8 @@ class NounReader:
         """`tracking bus`: without an article the participle is a verb."""
         if is_first or not states or determiner is not Determiner.BARE:
             return False
+        if kind in (NounKind.PLACE, NounKind.LANDMARK):
+            return True  # `trucks parked roadside`
         allowed = _UAV_PARTICIPLES if kind is NounKind.UAV else _BARE_PARTICIPLES
         return not all(s in allowed or s == 'oncoming' for s in states)
 

@@ -21,6 +21,7 @@ from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.nominal import predicates
 from aurora_core.parsing.nominal_causes import verbal
 from aurora_core.parsing.pieces import MOST_ATOMS, TRANSPARENT
+from aurora_core.parsing.placing_words import placing_words, told_of_us
 from aurora_core.parsing.radio import radio
 from aurora_core.parsing.roles import cast
 from aurora_core.parsing.statements import value_statements
@@ -54,10 +55,13 @@ def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
     """Return the atoms with shorthand written out and retracted numbers left out."""
     if longest_sentence(atoms) > MOST_ATOMS:
         return Rewritten(atoms=tuple(atoms))
-    told, background = unwrap(cast(atoms, prompt), prompt)
+    told, background = unwrap(cast(told_of_us(atoms), prompt), prompt)
     told = dated(verbal(radio(told, prompt), prompt), prompt)
     told = value_statements(
-        predicates(plain_order(_places(_shares(_scenes(told, prompt)), prompt), prompt), prompt),
+        predicates(
+            plain_order(_places(_shares(_scenes(placing_words(told), prompt)), prompt), prompt),
+            prompt,
+        ),
         prompt,
     )
     kept, spans = _take_back(straighten(told, prompt))

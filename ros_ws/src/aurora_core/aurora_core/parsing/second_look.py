@@ -17,6 +17,7 @@ from dataclasses import dataclass, replace
 from aurora_core.parsing.atom_runs import runs
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
 from aurora_core.parsing.attempt import Attempt, attempt
+from aurora_core.parsing.new_clauses import is_placed
 from aurora_core.parsing.scene import ClauseDraft
 from aurora_core.spec.parameter import Span
 from aurora_core.spec.vocabulary import ClauseStatus
@@ -164,6 +165,12 @@ def _binds(sentence: Sequence[Atom], i: int) -> bool:
     """Return whether the sentence would say something else without this word."""
     atom = sentence[i]
     if atom.words in _TURNS_ROUND:
+        return True
+    behind = sentence[min(len(sentence) - 1, i + 1)]
+    if atom.kind is AtomKind.COMMA and behind.kind is AtomKind.UNKNOWN:
+        return True  # what is said of somebody unknown is said of nobody else
+    opens = i == 0 or sentence[i - 1].kind is AtomKind.COMMA
+    if atom.kind is AtomKind.UNKNOWN and opens and is_placed(sentence[i:]):
         return True
     beside = sentence[max(0, i - 1)], sentence[min(len(sentence) - 1, i + 1)]
     return atom.kind is AtomKind.CONJUNCTION and all(b.is_actor for b in beside)

@@ -35,6 +35,7 @@ _EGO_ACTS = frozenset(
     }
 )
 _BY_HEIGHT = frozenset({'lowest', 'lower', 'bottom', 'middle', 'highest', 'upper', 'top'})
+_OWN = (['is'], ['being'], ['be'], ['was'])
 _I_AM = (('i', 'am'), ('we', 'are'))
 
 
@@ -68,6 +69,8 @@ class StandInReader:
         acts = i + 2 if aside in ('then', 'now', 'also', 'only', 'just') else i + 1
         if self._said.words[i] == 'i' and not self._acts(acts):
             return None  # `I think that …`
+        if self._said.words[i] in ('ours', 'mine') and self._said.words[i - 1 : i] not in _OWN:
+            return None  # `a colleague of ours`
         if self._said.words[i] == 'its' and self._said.longest(i + 1, Tag.MESSAGE, Tag.LINK):
             return None  # `of its messages`
         by_height = _BY_HEIGHT.intersection(self._said.words[i : i + length])

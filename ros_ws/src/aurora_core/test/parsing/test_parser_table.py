@@ -31,6 +31,7 @@ _TABLES = [
         'wrapped.yaml',
         'criteria.yaml',
         'events.yaml',
+        'scenes.yaml',
     )
 ]
 _MARK = {Provenance.EXPLICIT: '', Provenance.INFERRED: 'i', Provenance.DEFAULT: 'd'}

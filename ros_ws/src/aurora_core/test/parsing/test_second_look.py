@@ -43,14 +43,14 @@ def test_a_clause_is_read_without_the_word_in_its_way() -> None:
 
 def test_a_word_left_out_that_means_something_is_admitted() -> None:
     prompt = (
-        'A motorcycle overtakes a truck that trundles along at 6 m/s, with the motorcycle itself '
+        'A motorcycle overtakes a truck that trundles along at 6 m/s, around the motorcycle '
         'doing 12 m/s.'
     )
     spec = parse_offline(prompt, CONTEXT).spec
     assert spec is not None
     speeds = {b.speed_mps.value for a in spec.agents for b in a.behaviors if b.speed_mps}
     assert speeds == {6.0, 12.0}
-    assert unread(prompt) == ['with']
+    assert unread(prompt) == ['around']
 
 
 @pytest.mark.parametrize(

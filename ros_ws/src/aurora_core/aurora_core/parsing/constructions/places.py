@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from aurora_core.parsing import values
-from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
+from aurora_core.parsing.adjuncts import MUTUAL, Adjunct, AdjunctKind
 from aurora_core.parsing.atoms import ACTORS, NounKind, NounPhrase
 from aurora_core.parsing.criteria.placed import Placed
 from aurora_core.parsing.frames import Frame
@@ -94,9 +94,16 @@ def named_reference(frame: Frame, adjunct: Adjunct) -> str | None:
     if not actors:
         return None
     found = frame.objects(actors, ground)
-    if len(found) > 1:
+    if len(found) > 1 and not _abreast(found):
         frame.flag(adjunct.start, adjunct.end)
     return found[0].id if found else None
+
+
+def _abreast(group: tuple[Entity, ...]) -> bool:
+    """Return whether what is ahead of one of them is ahead of all."""
+    ids = {e.id for e in group}
+    told = [p for e in group for p in e.placements if p.of in ids]
+    return len(told) == len(group) - 1 and all(p.relation is Relation.BESIDE for p in told)
 
 
 def place_of(frame: Frame, adjunct: Adjunct) -> str | None:
@@ -129,6 +136,8 @@ def placements_of(
     for adjunct in frame.free(AdjunctKind.PLACE):
         if frame.key == 'overtake' and adjunct.key in ('left', 'right') and not adjunct.nouns:
             continue  # the side of an overtaking is not part of the vocabulary
+        if frame.key == 'change_lane' and adjunct.key in ('left', 'right') and not adjunct.nouns:
+            continue  # nor is that of a change of lane: it is not where it begins
         if frame.key == 'stop' and adjunct.key == 'before':
             continue  # where it will stop is not where it is at the start
         if _of_the_object(frame, adjunct):
@@ -234,7 +243,13 @@ def _relation(
     if adjunct.key == 'compass':
         return _compass(frame, adjunct)
     relation = Relation(adjunct.key)
-    of = _anchor(frame, adjunct, subjects) if owner is None else _beside(frame, adjunct, owner)
+    if owner is None:
+        each = _each_other(frame, adjunct, subjects)
+        of = each if each is not None else _anchor(frame, adjunct, subjects)
+    else:
+        of = _beside(frame, adjunct, owner)
+    if relation is Relation.ONCOMING and of is not None and frame.scene.by_id(of) is None:
+        relation = Relation.NEAR  # `opposite the school`
     distance = default_distance(relation)
     loose = None if adjunct.measure is not None else gap(frame)
     if adjunct.measure is not None:
@@ -278,6 +293,13 @@ def _anchor(frame: Frame, adjunct: Adjunct, subjects: tuple[Entity, ...]) -> str
                 return first[0].id
     others = [e for e in frame.scene.agents if e not in subjects]
     return max(others, key=lambda e: e.seen).id if others else None
+
+
+def _each_other(frame: Frame, adjunct: Adjunct, subjects: tuple[Entity, ...]) -> str | None:
+    """`two vans side by side`, `a bus and a car next to each other`: of one of themselves."""
+    words = frame.scene.prompt[adjunct.start : adjunct.end].lower().replace('-', ' ')
+    mutual = adjunct.key == Relation.BESIDE and words.endswith(MUTUAL)
+    return subjects[1].id if mutual and not adjunct.nouns and len(subjects) > 1 else None
 
 
 def _beside(frame: Frame, adjunct: Adjunct, owner: Entity) -> str | None:

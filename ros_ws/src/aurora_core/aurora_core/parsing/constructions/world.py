@@ -114,7 +114,9 @@ def _alone(frame: Frame) -> bool:
     adjunct = frame.attribute('duration')
     if adjunct is None or frame.verb is not None or frame.subject_nouns:
         return False
-    return (told or not frame.scene.missions) and _take(frame, adjunct)
+    flown = frame.scene.missions
+    timed = all(m.duration is not None for m in flown)  # they have durations of their own
+    return (told or timed) and _take(frame, adjunct)
 
 
 def _take(frame: Frame, adjunct: Adjunct) -> bool:

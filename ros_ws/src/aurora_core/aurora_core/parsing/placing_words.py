@@ -1,0 +1,148 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Small words in what is said of places, written out before clauses are cut.
+
+`we drive 20 m behind a bus`, `the bus itself waits`, `parked roadside`, `starts 45 m back`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from aurora_core.parsing.atom_runs import HELPERS
+from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind, NounPhrase
+from aurora_core.parsing.measures import LENGTH, SPEED
+from aurora_core.parsing.morphology import VerbForm
+from aurora_core.parsing.pieces import MARKERS
+
+_WE = ('we', 'i')
+# What drivers say of themselves, beside a place or a speed.
+_DRIVEN = frozenset(
+    {'be', 'drive', 'follow', 'approach', 'overtake', 'tailgate', 'wait', 'stop', 'come', 'start'}
+    | {'keep', 'brake', 'slow', 'cross', 'park', 'change_lane', 'turn_left', 'turn_right', 'trace'}
+)
+_OF_OTHERS = frozenset({'follow', 'approach', 'overtake', 'tailgate'})
+_STANDING = frozenset({'park', 'wait', 'stop'})
+_ITSELF = ('itself', 'themselves', 'himself', 'herself')
+
+
+def told_of_us(atoms: Sequence[Atom]) -> list[Atom]:
+    """`we drive 20 m behind a bus`: who speaks sits in the ego vehicle."""
+    told: list[Atom] = []
+    for i, atom in enumerate(atoms):
+        if atom.kind is AtomKind.CONTEXT and atom.words.split()[0] in _WE:
+            be = Atom(
+                kind=AtomKind.VERB,
+                key='be',
+                start=atom.start + len(atom.words.split()[0]),
+                end=atom.end,
+                form=VerbForm.THIRD,
+            )
+            if _drives([be, *atoms[i + 1 :]], 0):
+                told += [_ego(atom, be.start), be]
+                continue
+        if atom.kind is AtomKind.UNKNOWN and atom.words in _WE:
+            verb = i + 1
+            while verb < len(atoms) and atoms[verb].kind in HELPERS:
+                verb += 1
+            if verb < len(atoms) and _drives(atoms, verb):
+                told.append(_ego(atom, atom.end))
+                continue
+        told.append(atom)
+    return told
+
+
+def _ego(atom: Atom, end: int) -> Atom:
+    noun = NounPhrase(kind=NounKind.EGO, key='i', start=atom.start, end=end, head_text='we')
+    return replace(atom, kind=AtomKind.NOUN, key='i', end=end, noun=noun, words='we')
+
+
+def _drives(atoms: Sequence[Atom], verb: int) -> bool:
+    """Return whether the clause says where or how fast somebody drives."""
+    act = atoms[verb]
+    if act.kind is not AtomKind.VERB or act.key not in _DRIVEN:
+        return False
+    for i in range(verb + 1, len(atoms)):
+        atom = atoms[i]
+        if atom.kind is AtomKind.STOP or atom.kind in MARKERS:
+            return False
+        if atom.kind in (AtomKind.VERB, AtomKind.UNKNOWN):
+            return False  # `we are working on a car`
+        if atom.key == SPEED and atom.measure is not None:
+            return True
+        ground = atom.is_actor and atom.noun is not None and atom.noun.kind is not NounKind.UAV
+        if ground and (atoms[i - 1].kind is AtomKind.RELATION or act.key in _OF_OTHERS):
+            return True
+    return False
+
+
+def placing_words(atoms: Sequence[Atom]) -> list[Atom]:
+    """Write out what is left unsaid of places."""
+    return _back(_bare_places(_themselves(atoms)))
+
+
+def _themselves(atoms: Sequence[Atom]) -> list[Atom]:
+    """`the bus itself waits`: nobody else."""
+    kept: list[Atom] = []
+    for atom in atoms:
+        before = kept[-1] if kept else None
+        again = atom.is_actor and atom.words in _ITSELF
+        if again and before is not None and before.is_actor:
+            kept.append(replace(atom, kind=AtomKind.FILL, noun=None))
+        else:
+            kept.append(atom)
+    return kept
+
+
+def _bare_places(atoms: Sequence[Atom]) -> list[Atom]:
+    """`two trucks parked roadside`: at the roadside."""
+    written: list[Atom] = []
+    for atom in atoms:
+        before = written[-1] if written else None
+        noun = atom.noun
+        bare = noun is not None and noun.kind is NounKind.PLACE and atom.words == noun.head_text
+        bare = bare and noun is not None and noun.determiner is Determiner.BARE
+        stands = before is not None and before.key in _STANDING
+        if bare and stands and before is not None and before.kind is AtomKind.VERB:
+            gap = {'start': before.end, 'end': atom.start}
+            written.append(Atom(kind=AtomKind.PREPOSITION, key='at', **gap))
+        written.append(atom)
+    return written
+
+
+def _back(atoms: Sequence[Atom]) -> list[Atom]:
+    """`starts 45 m back`: behind; `behind the van, some 45 m back`: so far behind it."""
+    written: list[Atom] = []
+    for i, atom in enumerate(atoms):
+        before = written[-1] if written else None
+        if (
+            atom.words not in ('back', 'further back', 'farther back')
+            or before is None
+            or before.measure is None
+            or before.key != LENGTH
+        ):
+            written.append(atom)
+            continue
+        behind = _behind_whom(written)
+        later = atoms[i + 1] if i + 1 < len(atoms) else None
+        if behind is not None:
+            far = written.pop()
+            while written[-1].kind is AtomKind.COMMA:
+                written.pop()
+            written.insert(behind, far)
+        elif later is None or later.kind not in (AtomKind.VERB, AtomKind.NOUN):
+            written.append(replace(atom, kind=AtomKind.RELATION, key='behind'))
+        else:
+            written.append(atom)
+    return written
+
+
+def _behind_whom(written: Sequence[Atom]) -> int | None:
+    """Return where the word is that the distance belongs to: `behind the van, 45 m`."""
+    k = len(written) - 2
+    while k > 1 and written[k].kind is AtomKind.COMMA:
+        k -= 1
+    told = k > 1 and written[k].is_actor and written[k - 1].key == 'behind'
+    bare = told and written[k - 1].kind is AtomKind.RELATION and written[k - 2].measure is None
+    return k - 1 if bare else None
