@@ -20,6 +20,7 @@ from aurora_core.parsing.moments import dated
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.nominal import predicates
 from aurora_core.parsing.nominal_causes import verbal
+from aurora_core.parsing.not_before import not_before
 from aurora_core.parsing.pieces import MOST_ATOMS, TRANSPARENT
 from aurora_core.parsing.placing_words import placing_words, told_of_us
 from aurora_core.parsing.radio import radio
@@ -56,6 +57,7 @@ def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
     if longest_sentence(atoms) > MOST_ATOMS:
         return Rewritten(atoms=tuple(atoms))
     told, background = unwrap(cast(told_of_us(atoms), prompt), prompt)
+    told = not_before(told)
     told = dated(verbal(radio(told, prompt), prompt), prompt)
     told = value_statements(
         predicates(

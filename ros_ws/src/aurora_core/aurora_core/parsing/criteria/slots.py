@@ -18,10 +18,15 @@ from aurora_core.parsing.measures import Measure
 from aurora_core.parsing.reactions import REACTIONS
 
 # `must not come within 10 m` keeps 10 m off.
+_FLIPS = ('<', '>')
 _FLIPPED: dict[Op, Op] = {'<': '>=', '<=': '>=', '>': '<=', '>=': '<', '==': '=='}
 _CLOCK = r'(?:(?:the|a|time|t|=|second|mark|at|first|that|point|moment|s|about|of) )*'
 _BARE = re.compile(r'\b[A-Z]\d+\b')
 _OWNED = whole(r'(?:its|their|his|her)')
+# At most a fifth out of sight is at least four fifths in sight.
+_MIRRORED: dict[Op, Op] = {'<': '>', '<=': '>=', '>': '<', '>=': '<=', '==': '=='}
+# `the test fails if …` asks for the contrary.
+_CONTRARY: dict[Op, Op] = {'<': '>=', '<=': '>', '>': '<=', '>=': '<', '==': '=='}
 # Words about something else make it another clause: `is followed, 35 m away`.
 _TOPICS_OF = {
     'L': frozenset({'drift', 'horizontal', 'altitude', 'distance', 'pairs'}),
@@ -33,6 +38,11 @@ _TOPICS_OF = {
 }
 # `should it slow below 3 m/s, …` is a cause.
 _INVERTED = re.compile(r' should (?:the |its |a |an )?\w* ?(?:N\d|speed|distance|gap|altitude)')
+# `must stay below 10 m/s until the bus stops` holds for a part of the run only.
+_PART = re.compile(
+    r'\b(?:before|until|till|once|after|unless|as soon as) (?:(?:the|a|an|it|they|its) )*N\d+ '
+    r'(?:is|are|was|has|have|had|reach|arriv|pass|start|stop|land|get|come|enter|leave)'
+)
 _AFTER = re.compile(r'\b(?:to|from|of) (?:either|any|both|them|all|each)?(?: of)? ?N\d')
 _HAPPENS = re.compile(
     r' (?:(?:and|but|the|its|their|so|please|make|sure|that|check|ensure|verify|N\d+|\'s) )*E0 '
@@ -76,17 +86,26 @@ class _Reading:
         self._text = line.text
         self._begin = line.text
         self._crosses = False
+        self._fails = False  # what is told must not be
+        self._unseen = False  # the share of the time out of sight
 
     def run(self, *, asked: bool = False) -> Criterion | None:
         words = self._words
         self._crosses = asked
-        if _INVERTED.match(self._text):
+        if _INVERTED.match(self._text) or _PART.search(self._text):
             return None
-        asked = asked or bool(words['demands'].search(self._text))
+        self._fails = self._cut(words['fails'])
+        asked = asked or self._fails or bool(words['demands'].search(self._text))
         if not asked and not self._is_bounded():
             return None
+        self._unseen = words['unseen'].search(self._text) is not None
         event = self._event()
         topics = frozenset(k for k, p in words.topics.items() if p.search(self._text))
+        if self._unseen:
+            self._cut(words['unseen'])
+            if words.topics['seen'].search(self._text):
+                return None  # `ought to see it, and should it be hidden, …`
+            topics |= {'seen'}
         if not asked and not self._is_bounded():
             return None
         waits = event is not None and re.search(r'\b(?:not|never) (?:\w+ )?before\b', self._text)
@@ -99,12 +118,24 @@ class _Reading:
         hold, unbroken = self._hold(topics)
         self._cut(words['altogether'])
         negated = self._negations()
+        if (self._fails or self._unseen) and (between or hold or (share and by)):
+            return None
+        if share is not None and negated and share.op in _FLIPS:
+            share, negated = replace(share, op=_FLIPPED[share.op]), False
         limits = between or self._limits(negated)
+        if share is not None and limits is not None:
+            if (negated and not limits) or (limits and (self._fails or self._unseen)):
+                return None
+            limits, share = self._meant(limits, share)
         if limits is None or len({limit.dimension for limit in limits}) > 1:
             return None
         if not limits and share is None and hold is None:
             plain = by is not None or words['musts'].search(self._begin)
-            if negated or not plain or not (topics & set(_YES_OR_NO) or (event and by)):
+            if (
+                negated is not self._fails
+                or not plain
+                or not (topics & set(_YES_OR_NO) or (event and by))
+            ):
                 return None
         if limits and (share or hold) and limits[0].name[0] not in 'LV':
             return None
@@ -227,21 +258,34 @@ class _Reading:
         """`for 80 % of the time`."""
         phases = self._words['phases'].pattern
         word = r'(?:for|during|in|over|on|throughout)?'
-        compared = self._words['more'].pattern
+        more, less = self._words['more'].pattern, self._words['less'].pattern
         told = self._take(
-            rf'{word} ?(?:(?:a|the|all|of|no|not|less|fewer|than) )*'
-            rf'(?P<cmp>{compared} (?:than )?)?'
-            rf'(?:at ?least )?(?P<p>P\d+)(?: at least| or (?:more|better|higher)| min)?'
+            rf'{word} ?(?:(?:a|the|all|of) )*'
+            rf'(?P<not>(?:no|not|never) (?:any )?)?(?P<cmp>(?:{more}|{less}) (?:than )?)?(?:of )?'
+            rf'(?:at ?least |at ?most )?(?P<p>P\d+)(?: at least| or (?:more|better|higher)| min)?'
             rf' ?(?:{phases})(?: at least| or (?:more|better|higher)| min(?:imum)?)?'
             rf'(?: at a minimum)?'
         )
         if told is None:
             return None
         name = told.group('p')
-        compared_too = told.group('cmp')
-        most = 'atmost' in told.group(0)
-        op: Op = '>' if compared_too else '<=' if most else '>='
+        op: Op = '<=' if 'atmost' in told.group(0) else '>='
+        if told.group('cmp'):
+            op = '<' if re.match(self._words['less'].pattern, told.group('cmp')) else '>'
+            op = _FLIPPED[op] if told.group('not') else op
         return Limit(op=op, measure=self._line.measures[name], name=name)
+
+    def _meant(self, limits: tuple[Limit, ...], share: Limit) -> tuple[tuple[Limit, ...], Limit]:
+        """`hidden for 20 % at most`, `over 15 m for 5 % at most`: the contrary for the rest."""
+        if self._fails:
+            share = replace(share, op=_CONTRARY[share.op])
+        rare = bool(limits) and share.op in ('<', '<=')
+        if rare:
+            limits = tuple(replace(one, op=_CONTRARY[one.op]) for one in limits)
+        if rare or self._unseen:
+            rest = replace(share.measure, value=round(1.0 - share.measure.value, 6))
+            share = replace(share, op=_MIRRORED[share.op], measure=rest)
+        return limits, share
 
     # --- numbers ------------------------------------------------------------------------------
 
@@ -288,6 +332,7 @@ class _Reading:
             op = self._compared(before, after, negated, last=k + 1 == len(names))
             if op is None:
                 return None
+            op = _CONTRARY[op] if self._fails else op
             found.append(
                 Limit(op=op, measure=self._line.measures[match.group(1)], name=match.group(1))
             )
