@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from itertools import pairwise
 
 from aurora_core.parsing.adjuncts import MUTUAL, Adjunct, AdjunctKind
@@ -296,7 +295,7 @@ class AdjunctReader:
             del self._atoms[i + 2]
 
     def _respective(self, i: int) -> tuple[tuple[Measure, ...], int]:
-        """Read `30, 45 and 60 m respectively`; the last one has the unit."""
+        """Read `30, 45 and 60 m respectively`."""
         found: list[Measure] = []
         j = i
         while True:
@@ -308,9 +307,9 @@ class AdjunctReader:
         plain = all(m.second is None and m.upper is None for m in found)
         if len(found) < 2 or not self._respectively or not plain:
             return (), i
-        if found[-1].dimension != LENGTH or any(m.dimension not in (LENGTH, COUNT) for m in found):
+        if any(m.dimension != LENGTH for m in found):
             return (), i
-        return tuple(replace(m, dimension=LENGTH) for m in found), j
+        return tuple(found), j
 
     def _has_its_own(self, i: int) -> bool:
         """`200 by 100 m, height 50`: behind a comma, a name in front of a number goes with it."""

@@ -105,8 +105,9 @@ def _bare_places(atoms: Sequence[Atom]) -> list[Atom]:
         bare = bare and noun is not None and noun.determiner is Determiner.BARE
         stands = before is not None and before.key in _STANDING
         if bare and stands and before is not None and before.kind is AtomKind.VERB:
-            gap = {'start': before.end, 'end': atom.start}
-            written.append(Atom(kind=AtomKind.PREPOSITION, key='at', **gap))
+            written.append(
+                Atom(kind=AtomKind.PREPOSITION, key='at', start=before.end, end=atom.start)
+            )
         written.append(atom)
     return written
 

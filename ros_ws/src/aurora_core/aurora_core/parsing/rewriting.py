@@ -25,12 +25,14 @@ from aurora_core.parsing.pieces import MOST_ATOMS, TRANSPARENT
 from aurora_core.parsing.placing_words import placing_words, told_of_us
 from aurora_core.parsing.radio import radio
 from aurora_core.parsing.roles import cast
+from aurora_core.parsing.shared_out import shared_out
 from aurora_core.parsing.statements import value_statements
 from aurora_core.parsing.wrapping import unwrap
 from aurora_core.spec.parameter import Bound, Span
 
 _BREAKS = (AtomKind.COMMA, AtomKind.STOP, AtomKind.THEN, AtomKind.CONJUNCTION)
 _PAUSES = (AtomKind.COMMA, AtomKind.STOP, AtomKind.FILL, AtomKind.UNKNOWN, AtomKind.THING)
+_SHARES = ('one', 'other', 'another')
 _MOST_BETWEEN = 9
 
 
@@ -57,7 +59,7 @@ def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
     if longest_sentence(atoms) > MOST_ATOMS:
         return Rewritten(atoms=tuple(atoms))
     told, background = unwrap(cast(told_of_us(atoms), prompt), prompt)
-    told = not_before(told)
+    told = shared_out(not_before(told), prompt)
     told = dated(verbal(radio(told, prompt), prompt), prompt)
     told = value_statements(
         predicates(
@@ -78,11 +80,16 @@ def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
 def _shares(atoms: Sequence[Atom]) -> list[Atom]:
     """`hover over it one at 30 m the other at 50 m`: each share is a clause of its own."""
     written: list[Atom] = []
+    acted = False
     for i, atom in enumerate(atoms):
         before = written[-1] if written else None
         behind = atoms[i + 1] if i + 1 < len(atoms) else None
+        acts = atom.kind is AtomKind.VERB or (atom.is_actor and atom.key in _SHARES)
+        acted = acts or (acted and atom.kind is not AtomKind.STOP)
+        if atom.kind is AtomKind.COMMA and acted and _of_both(atoms, i + 1):
+            atom = replace(atom, kind=AtomKind.STOP, key=';')
         member = atom.noun is not None and atom.noun.kind is NounKind.PRONOUN
-        named = atom.key in ('one', 'other', 'another') or atom.key.startswith('nth')
+        named = atom.key in _SHARES or atom.key.startswith('nth')
         placed = behind is not None and behind.kind in (AtomKind.PREPOSITION, AtomKind.RELATION)
         told = before is not None and (before.is_place or before.measure is not None)
         actor = before is not None and before.is_actor and atom.key == 'one'
@@ -97,6 +104,15 @@ def _shares(atoms: Sequence[Atom]) -> list[Atom]:
             written.append(Atom(kind=AtomKind.COMMA, key=',', start=before.end, end=atom.start))
         written.append(atom)
     return written
+
+
+def _of_both(atoms: Sequence[Atom], i: int) -> bool:
+    """`one over the school, one over the park, both at 45 m`: told of all of them."""
+    both = i < len(atoms) and atoms[i].noun is not None and atoms[i].key == 'both'
+    value = i + 1 if i + 1 < len(atoms) and atoms[i + 1].measure is not None else i + 2
+    stop = atoms[i + 1 : value]
+    valued = value < len(atoms) and atoms[value].measure is not None
+    return both and valued and all(a.kind is AtomKind.PREPOSITION for a in stop)
 
 
 def _take_back(atoms: list[Atom]) -> tuple[list[Atom], list[Span]]:

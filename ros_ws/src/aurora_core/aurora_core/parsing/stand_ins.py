@@ -35,6 +35,8 @@ _EGO_ACTS = frozenset(
     }
 )
 _BY_HEIGHT = frozenset({'lowest', 'lower', 'bottom', 'middle', 'highest', 'upper', 'top'})
+_FURTHER = ('second', 'third', 'fourth', 'fifth', 'further')
+_SPANS = ('for', 'after', 'within', 'in', 'every', 'by', 'of', 'half', 'than')
 _OWN = (['is'], ['being'], ['be'], ['was'])
 _I_AM = (('i', 'am'), ('we', 'are'))
 
@@ -59,8 +61,9 @@ class StandInReader:
             return self._phrase(i, i + 1, word)
         if word == 'one' and (self._at_its_height(i) or self._shares(i)):
             return self._phrase(i, i + 1, word)
-        if word == 'another' and self._placed(i + 1):
-            return self._phrase(i, i + 1, word)  # `one van near …, another at …`
+        more = self._one_more(i)
+        if more:  # `one van near …, another at …`, `a drone hovers, a second tracks it`
+            return self._phrase(i, more, 'another')
         found = self._said.longest(i, Tag.EGO_PRONOUN, Tag.PRONOUN)
         if found is None:
             return None
@@ -78,6 +81,20 @@ class StandInReader:
             return None  # `the lower one lands`: who that is, only their heights tell
         kind = NounKind.EGO if sense.tag is Tag.EGO_PRONOUN else NounKind.PRONOUN
         return self._phrase(i, i + length, sense.key, kind)
+
+    def _one_more(self, i: int) -> int:
+        """Return where `another`, `a second` ends that acts or has its place; 0 if it does not."""
+        words = self._said.words
+        if words[i] == 'another':
+            stop = i + 1
+        elif words[i] == 'a' and words[i + 1 : i + 2] and words[i + 1] in _FURTHER:
+            if i and words[i - 1] in _SPANS:
+                return 0  # `after a second over the park`
+            stop = i + 2
+        else:
+            return 0
+        acts = self._said.longest(stop, Tag.VERB) is not None
+        return stop if acts or self._placed(stop) else 0
 
     def _acts(self, j: int) -> bool:
         found = self._said.longest(j, Tag.VERB)

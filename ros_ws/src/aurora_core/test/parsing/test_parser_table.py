@@ -32,6 +32,7 @@ _TABLES = [
         'criteria.yaml',
         'events.yaml',
         'scenes.yaml',
+        'several.yaml',
     )
 ]
 _MARK = {Provenance.EXPLICIT: '', Provenance.INFERRED: 'i', Provenance.DEFAULT: 'd'}
