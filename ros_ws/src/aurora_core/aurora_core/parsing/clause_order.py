@@ -93,7 +93,7 @@ def attach_adjuncts(pieces: list[Piece]) -> list[Piece]:
     joined: list[Piece] = []
     waiting: tuple[Atom, ...] = ()
     for k, piece in enumerate(pieces):
-        atoms = waiting + piece.atoms
+        atoms = _paused(waiting, piece.atoms)
         waiting = ()
         alone = not has_verb(piece.atoms) and piece.link is Link.MAIN and _is_adjunct(piece.atoms)
         if alone and not piece.then:
@@ -111,6 +111,14 @@ def attach_adjuncts(pieces: list[Piece]) -> list[Piece]:
                 continue
         joined.append(replace(piece, atoms=atoms))
     return joined
+
+
+def _paused(waiting: tuple[Atom, ...], atoms: tuple[Atom, ...]) -> tuple[Atom, ...]:
+    """`next to it, in the next lane, a bus`: the comma tells that the bus is who is there."""
+    if not waiting or has_verb(atoms):
+        return waiting + atoms
+    comma = Atom(kind=AtomKind.COMMA, key=',', start=waiting[-1].end, end=atoms[0].start)
+    return (*waiting, comma, *atoms)
 
 
 def _is_adjunct(atoms: Sequence[Atom]) -> bool:

@@ -35,6 +35,9 @@ def settle_verbs(atoms: list[Atom]) -> list[Atom]:
                 settled[i] = _as(atom, AtomKind.VERB)
         if atom.kind is AtomKind.VERB and atom.key == 'hover' and _on_the_ground(settled, i):
             settled[i] = replace(settled[i], key='wait')
+        down = atom.kind is AtomKind.VERB and atom.key in ('descend', 'ascend')
+        if down and atom.words.split()[-1:] in (['down'], ['up']) and _on_the_ground(settled, i):
+            settled[i : i + 1] = _along(settled[i])  # `a car goes down the main road`
         to = _goes_off_to(settled, i) if atom.kind is AtomKind.VERB else None
         if to is not None:
             settled[i] = replace(settled[i], kind=AtomKind.AUXILIARY)
@@ -71,6 +74,15 @@ def _on_the_ground(atoms: list[Atom], i: int) -> bool:
 
 
 _BESIDE_SUBJECT = (*_SKIPPED, AtomKind.RELATIVE)
+
+
+def _along(atom: Atom) -> list[Atom]:
+    cut = atom.start + len(atom.words.split()[0])
+    drive = replace(atom, key='drive', end=cut, words=atom.words.split()[0])
+    return [
+        drive,
+        Atom(kind=AtomKind.PREPOSITION, key='along', start=cut, end=atom.end, words='down'),
+    ]
 
 
 # How one gets from lane to lane.

@@ -13,7 +13,7 @@ from aurora_core.parsing.constructions.ascent import ascent, landing
 from aurora_core.parsing.constructions.demands import demands, seen_for
 from aurora_core.parsing.constructions.flight_details import flight_details
 from aurora_core.parsing.constructions.flyers import asks_for_flight, keeps_it_up
-from aurora_core.parsing.constructions.identity import is_ego
+from aurora_core.parsing.constructions.identity import is_ego, is_of_type
 from aurora_core.parsing.constructions.states import predicate_adjectives
 from aurora_core.parsing.constructions.triggers import (
     time_adjunct,
@@ -133,6 +133,7 @@ def main_clause(frame: Frame) -> None:
     shared_words(frame)
     if _absent(frame) or none_such(frame) or is_ego(frame):
         return
+    is_of_type(frame)
     _in_brackets(frame)
     flies = _flies(frame)
     for construction in (_timed, _told, _about_air if flies else _about_ground):

@@ -98,18 +98,42 @@ def _themselves(atoms: Sequence[Atom]) -> list[Atom]:
 def _bare_places(atoms: Sequence[Atom]) -> list[Atom]:
     """`two trucks parked roadside`: at the roadside."""
     written: list[Atom] = []
-    for atom in atoms:
+    for i, atom in enumerate(atoms):
         before = written[-1] if written else None
         noun = atom.noun
         bare = noun is not None and noun.kind is NounKind.PLACE and atom.words == noun.head_text
         bare = bare and noun is not None and noun.determiner is Determiner.BARE
         stands = before is not None and before.key in _STANDING
-        if bare and stands and before is not None and before.kind is AtomKind.VERB:
+        stands = stands and before is not None and before.kind is AtomKind.VERB
+        if bare and before is not None and (stands or _in_notes(atoms, i)):
+            key = 'on' if atom.key in _ROADS else 'at'
             written.append(
-                Atom(kind=AtomKind.PREPOSITION, key='at', start=before.end, end=atom.start)
+                Atom(kind=AtomKind.PREPOSITION, key=key, start=before.end, end=atom.start)
             )
         written.append(atom)
     return written
+
+
+def _in_notes(atoms: Sequence[Atom], i: int) -> bool:
+    """`ego: 10 m/s, main road`: an item of what is listed of one ground agent."""
+    first = i
+    while first and (atoms[first - 1].kind is not AtomKind.STOP or atoms[first - 1].key == ':'):
+        first -= 1
+    last = i + 1
+    if last < len(atoms) and atoms[last].kind not in (AtomKind.COMMA, AtomKind.STOP):
+        return False
+    if atoms[i - 1].kind is not AtomKind.COMMA and atoms[i - 1].key != ':':
+        return False
+    told = [a for a in atoms[first:i] if a.is_actor]
+    verbal = any(a.kind in (AtomKind.VERB, AtomKind.PREPOSITION) for a in atoms[first:i])
+    opens = bool(told) and all(
+        a.kind is AtomKind.FILL for a in atoms[first : atoms.index(told[0])]
+    )
+    return opens and not verbal and told[0].noun is not None and told[0].noun.kind in _GROUND
+
+
+_GROUND = (NounKind.AGENT, NounKind.VEHICLE, NounKind.EGO)
+_ROADS = ('main_road', 'sidewalk')
 
 
 def _back(atoms: Sequence[Atom]) -> list[Atom]:

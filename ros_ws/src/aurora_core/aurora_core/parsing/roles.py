@@ -17,7 +17,8 @@ _SERVES = frozenset({'be', 'serve', 'trace', 'act', 'form', 'wait'})
 
 def cast(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
     """Return the atoms with roles noted at the nouns that have them."""
-    return _targets(_background(_own_types(_lets_pass(list(atoms))), prompt), prompt)
+    told = _apposed(_own_types(_lets_pass(list(atoms))))
+    return _targets(_background(told, prompt), prompt)
 
 
 def _own_types(atoms: list[Atom]) -> list[Atom]:
@@ -41,6 +42,43 @@ def _own_types(atoms: list[Atom]) -> list[Atom]:
                 atoms[i : i + 4 if apposed else i + 3] = [merged]
         i += 1
     return atoms
+
+
+def _apposed(atoms: list[Atom]) -> list[Atom]:
+    """`vehicle 1: truck, 10 m/s`, `the first vehicle, a truck, waits`: one of that type."""
+    i = 0
+    while i + 2 < len(atoms):
+        about, link, told = atoms[i : i + 3]
+        opens = i == 0 or atoms[i - 1].kind is AtomKind.STOP
+        apart = link.kind is AtomKind.COMMA or link.key in (':', '(', '=')
+        behind = atoms[i + 3] if i + 3 < len(atoms) else None
+        ends = behind is None or behind.kind in (AtomKind.COMMA, AtomKind.STOP, AtomKind.FILL)
+        whole = _with_type(about, told) if opens and apart and ends else None
+        if whole is not None:
+            closes = behind is not None and behind.key in (',', ')')
+            atoms[i : i + 4 if closes else i + 3] = [whole]
+        i += 1
+    return atoms
+
+
+def _with_type(about: Atom, told: Atom) -> Atom | None:
+    """Return `the first vehicle` as the truck that it is; None when it has no mark of its own."""
+    noun, kind = about.noun, told.noun
+    if noun is None or noun.kind is not NounKind.VEHICLE or noun.count > 1 or noun.plural:
+        return None
+    if kind is None or kind.kind is not NounKind.AGENT or kind.plural:
+        return None
+    new = kind.determiner in (Determiner.INDEFINITE, Determiner.ONE, Determiner.BARE)
+    if not new or not (noun.index or noun.labels):
+        return None
+    whole = replace(
+        kind,
+        start=about.start,
+        index=noun.index,
+        labels=noun.labels,
+        determiner=Determiner.INDEFINITE,
+    )
+    return replace(told, start=about.start, noun=whole)
 
 
 def _lets_pass(atoms: list[Atom]) -> list[Atom]:

@@ -20,6 +20,7 @@ from aurora_core.spec.vocabulary import (
     BehaviorKind,
     ClauseStatus,
     MissionMode,
+    Relation,
     Role,
 )
 
@@ -153,6 +154,11 @@ def _late_anchors(scene: Scene) -> None:
     if scene.ego is None:
         return
     for entity in scene.agents:
+        for i, placement in enumerate(entity.placements):
+            against = placement.relation is Relation.ONCOMING and placement.of is None
+            if against and entity is not scene.ego:
+                told = placement.model_dump() | {'of': scene.ego.id}
+                entity.placements[i] = Placement.model_validate(told)
         for i, behavior in enumerate(entity.behaviors):
             if behavior.kind in _TARGETED and behavior.target is None and entity is not scene.ego:
                 entity.behaviors[i] = Behavior.model_validate(

@@ -64,6 +64,8 @@ class StandInReader:
         more = self._one_more(i)
         if more:  # `one van near …, another at …`, `a drone hovers, a second tracks it`
             return self._phrase(i, more, 'another')
+        if word == 'another' and self._said.has(i + 1, Tag.DEFINITE, Tag.EGO_POSSESSIVE):
+            return self._phrase(i, i + 1, word)  # `one drone tracks the bus, another the van`
         found = self._said.longest(i, Tag.EGO_PRONOUN, Tag.PRONOUN)
         if found is None:
             return None
@@ -132,6 +134,7 @@ class StandInReader:
             self._said.words[i] == 'a'
             and not self._said.is_predicate(i + 1)
             and not self._helps(i + 1)
+            and not self._ends(i + 1)
         ):
             return None  # the article
         phrase, stop = self._phrase(i, i + 1, key, kind)
@@ -152,6 +155,9 @@ class StandInReader:
 
     def _helps(self, j: int) -> bool:
         return self._said.has(j, Tag.AUXILIARY)
+
+    def _ends(self, j: int) -> bool:
+        return j >= len(self._said.words) or self._said.words[j] in ('.', ',', ';', ')', '\n')
 
     def ordinal_alone(self, i: int) -> tuple[NounPhrase, int] | None:
         """`two drones: first hovers …, second tracks …`: told apart by number only."""

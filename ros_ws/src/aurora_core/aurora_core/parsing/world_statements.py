@@ -135,13 +135,18 @@ def _density() -> re.Pattern[str]:
         r'(?:\s*[:=]\s*|\s+(?:(?:is|are|be|being|stays?|remains?|should|must|shall|will|has to|'
         r'ought to|set|at|of|with|on the (?:roads?|streets?)|supposed|to|meant|a|of|kept)\s+)+)'
     )
+    hedge = (
+        r'(?:(?:\s+(?:around|about|nearby))?\s*,\s*(?:but\s+)?'
+        r'not\s+(?:too|very|so|that)\s+(?:much|heavy|dense|busy)(?:\s+of\s+it)?)?'
+    )
     patterns = []
     for level, words in data.items():
         any_of = '|'.join(re.escape(w) for w in words)
         patterns.append(
             rf'(?P<{level}>\b(?:(?:the|a|an)\s+)?(?:{any_of})[-\s]+(?:{amount}\s+)?(?:of\s+)?(?:the\s+)?'
-            rf'(?:{kind}\s+)*traffic\b(?:\s+{amount})?)'
+            rf'(?:{kind}\s+)*traffic\b(?:\s+{amount})?{hedge})'
         )
+        patterns.append(rf'(?P<{level}___>(?<=, )traffic\s+(?:{any_of})(?=\s*(?:[,;.]|$)))')
         patterns.append(
             rf'(?P<{level}_>\b(?:the\s+)?traffic(?:\s+{amount})?{where}{be}(?:{any_of})\b(?:[-\s]+{amount})?)'
         )

@@ -14,7 +14,7 @@ from aurora_core.parsing.resolver import Resolver
 from aurora_core.parsing.scene import Entity, Unanchored
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.scenario import Placement
-from aurora_core.spec.vocabulary import Relation
+from aurora_core.spec.vocabulary import Relation, Role
 
 _KEPT = frozenset(
     {
@@ -49,6 +49,7 @@ _PHRASE_RELATIONS = {
     'in': Relation.AT,
     'before': Relation.BEFORE,
     'along': Relation.ON,
+    'by': Relation.NEAR,
 }
 
 
@@ -94,6 +95,9 @@ def named_reference(frame: Frame, adjunct: Adjunct) -> str | None:
     if not actors:
         return None
     found = frame.objects(actors, ground)
+    egos = [e for e in found if e.role is Role.EGO]
+    if len(found) > 1 and adjunct.key == Relation.ONCOMING:
+        return (egos or found)[0].id  # they all go the same way
     if len(found) > 1 and not _abreast(found):
         frame.flag(adjunct.start, adjunct.end)
     return found[0].id if found else None
@@ -279,7 +283,8 @@ def _relation(
 def _anchor(frame: Frame, adjunct: Adjunct, subjects: tuple[Entity, ...]) -> str | None:
     """Return what a relation refers to: named, the ego, or the last one spoken of."""
     if adjunct.nouns:
-        return named_reference(frame, adjunct) if _is_one(adjunct.nouns) else None
+        one = _is_one(adjunct.nouns) or adjunct.key == Relation.ONCOMING
+        return named_reference(frame, adjunct) if one else None
     spoken_of = frame.scene.clause.objects
     if spoken_of:
         return spoken_of[0].id

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from aurora_core.parsing import values
 from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
-from aurora_core.parsing.atoms import AtomKind
+from aurora_core.parsing.atoms import ACTORS, AtomKind
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.measures import TIME
 from aurora_core.spec.parameter import Bound, Span
@@ -112,7 +112,10 @@ def _alone(frame: Frame) -> bool:
     """`duration 180 s` among words about the world, or before anything flies."""
     told = any(a.used and a.key == AtomKind.WORLD.value for a in frame.adjuncts)
     adjunct = frame.attribute('duration')
-    if adjunct is None or frame.verb is not None or frame.subject_nouns:
+    if adjunct is None and told and len(frame.free(AdjunctKind.MEASURE)) == 1:
+        adjunct = frame.time('')  # `rain, night, 90 s`
+    others = [n for n in frame.nouns() if n.kind in ACTORS]
+    if adjunct is None or frame.verb is not None or others:
         return False
     flown = frame.scene.missions
     timed = all(m.duration is not None for m in flown)  # they have durations of their own
