@@ -11,7 +11,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 
-from aurora_core.parsing.atom_runs import text_of
+from aurora_core.parsing.atom_runs import skip, text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
 from aurora_core.parsing.measures import COUNT, LENGTH, TIME
 from aurora_core.parsing.morphology import VerbForm
@@ -23,6 +23,8 @@ _MOVES = frozenset({'come', 'drive', 'approach', 'walk', 'follow', 'cross'})
 _DO = frozenset({'do', 'does', 'did'})
 _SUCCESS = re.compile(r'\b(?:success|succeed|pass|valid|accept|fulfil|satisf|good if|won\b)')
 _BEHIND_DO = 6
+# Between a colon and its number: `separation: never below 20 m`.
+_BEFORE_VALUE = (AtomKind.FILL, AtomKind.NEGATION, AtomKind.PREPOSITION, AtomKind.UNKNOWN)
 
 
 def straighten(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
@@ -38,7 +40,8 @@ def _named(atoms: list[Atom]) -> list[Atom]:
     for i in range(1, len(changed) - 1):
         begin = i if changed[i - 1].kind is AtomKind.STOP else begin
         named = changed[i - 1].kind is AtomKind.THING or _is_heading(changed[begin:i])
-        named = named and changed[i + 1].measure is not None
+        value = skip(changed, i + 1, _BEFORE_VALUE)
+        named = named and value < min(len(changed), i + 4) and changed[value].measure is not None
         if changed[i].kind is AtomKind.STOP and changed[i].key == ':' and named:
             changed[i] = replace(changed[i], kind=AtomKind.FILL)
     return changed

@@ -92,8 +92,10 @@ class HeadReader:
         return after in articles or before not in ('at', 'to', 'zebra', 'pedestrian', 'on', 'near')
 
     def agent_follows(self, j: int) -> bool:
-        """`ego bus`: the type is named behind the word `ego`."""
+        """`ego bus`: the type is named behind the word `ego`; `ego-bus` are two."""
         if self._said.words[j] != 'ego' or self._said.matches(j)[0][0] > 1:
+            return False
+        if j + 1 < len(self._said.tokens) and self._said.tokens[j + 1].glued:
             return False
         return self._said.has(j + 1, Tag.AGENT)
 

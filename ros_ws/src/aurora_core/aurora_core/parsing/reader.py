@@ -130,9 +130,15 @@ class Reader:
             if self._states(told, frame.span):
                 self._story.scene.understood.append(frame.span)
                 adjectives(frame)
+                self._left_out(told)
                 return
             self._story.scene.clauses.pop()
         self._read(clauses(piece.atoms, piece.sentence))
+
+    def _left_out(self, told: Criterion | Sequel) -> None:
+        for span in told.unread if isinstance(told, Criterion) else ():
+            note = 'the condition was read without this'
+            self._story.scene.clauses.append(ClauseDraft(span=span, notes=[note]))
 
     def _states(self, told: Criterion | Sequel, span: Span) -> bool:
         if isinstance(told, Sequel):

@@ -123,6 +123,8 @@ def _one_look(known: Attempt) -> tuple[Attempt, tuple[Span, ...]] | None:
         tried = attempt(prompt, context, change.apply(known.atoms))
         if tried.scene.refusals or tried.said < known.said:
             continue
+        if len(tried.scene.conditions) < len(known.scene.conditions):
+            continue  # a demand that was read is no description of what somebody does
         cost = tried.unread_words + change.cost(prompt, known.atoms)
         if cost < least:
             least, best = cost, (tried, change.admits(known.atoms))

@@ -122,7 +122,24 @@ _OPENS_OBJECT = frozenset({'the', 'my', 'our', 'ego', 'it'})
 
 # What stands behind a subject: the word in front of it is no command.
 _BEHIND_SUBJECT = frozenset(
-    {'must', 'may', 'should', 'shall', 'can', 'has', 'is', 'will', ':', '<', '≤', '=', 'stays'}
+    {
+        *(
+            'must',
+            'may',
+            'should',
+            'shall',
+            'can',
+            'has',
+            'is',
+            'will',
+            ':',
+            '<',
+            '≤',
+            '=',
+            'stays',
+        ),
+        *('tolerance', 'limit', 'threshold', 'error', 'budget', 'allowance', 'requirement'),
+    }
 )
 
 

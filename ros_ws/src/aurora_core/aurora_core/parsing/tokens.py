@@ -140,9 +140,12 @@ def _words(norm: str, start: int, end: int, glued: bool) -> list[Token]:
     ]
 
 
-# Words that are cut short with a dot in front of a number: `min. 10 s`.
+# Words that are cut short with a dot inside a sentence: `min. 10 s`, `max. distance`.
 _CUT_SHORT = frozenset(
-    ('min', 'max', 'approx', 'ca', 'alt', 'dist', 'spd', 'dur', 'lat', 'rad', 'vel', 'avg', 'alti')
+    (
+        *('min', 'max', 'approx', 'ca', 'alt', 'dist', 'spd', 'dur', 'lat', 'rad', 'vel', 'avg'),
+        *('alti', 'horiz', 'vert', 'incl', 'resp', 'perm', 'allow'),
+    )
 )
 
 
@@ -151,10 +154,14 @@ def _abbreviations(tokens: list[Token]) -> list[Token]:
     kept: list[Token] = []
     for i, token in enumerate(tokens):
         before = kept[-1] if kept else None
-        number = i + 1 < len(tokens) and tokens[i + 1].kind is TokenKind.NUMBER
+        behind = tokens[i + 1] if i + 1 < len(tokens) else None
+        goes_on = behind is not None and (
+            behind.kind is TokenKind.NUMBER
+            or (behind.kind is TokenKind.WORD and not behind.proper and not behind.capital)
+        )
         short = before is not None and before.norm in _CUT_SHORT and not before.glued
-        unit = len(kept) > 1 and kept[-2].kind is TokenKind.NUMBER
-        if token.norm == '.' and token.glued and number and short and not unit:
+        unit = any(t.kind is TokenKind.NUMBER for t in kept[-3:-1])
+        if token.norm == '.' and token.glued and goes_on and short and not unit:
             continue
         kept.append(token)
     return kept

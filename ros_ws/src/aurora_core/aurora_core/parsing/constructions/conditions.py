@@ -5,11 +5,13 @@
 from __future__ import annotations
 
 import re
+from itertools import takewhile
 from typing import Literal
 
 from aurora_core.parsing import values
 from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
 from aurora_core.parsing.atoms import ACTORS, AtomKind
+from aurora_core.parsing.criteria.parties import left_out_before
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.measures import LENGTH, RATIO
 from aurora_core.parsing.scene import Entity, LinkDraft
@@ -179,12 +181,24 @@ def _limit(frame: Frame) -> bool:
     speed = frame.attribute('speed')
     if speed is not None and speed.measure is not None:
         return _each(frame, 'speed', op, speed, 'condition_speed')
-    height = frame.attribute('altitude') or frame.length('', 'below', 'beyond', 'within', 'over')
+    height = frame.attribute('altitude')
+    if height is None and not _is_cut_off(frame):
+        height = frame.length('', 'below', 'beyond', 'within', 'over')
     if height is not None and height.measure is not None and not height.nouns:
         subjects = frame.subjects(lambda e: e.is_uav)
         if subjects:
             return _each(frame, 'altitude', op, height, 'condition_distance')
     return False
+
+
+def _is_cut_off(frame: Frame) -> bool:
+    """`its wobble, …, must not be more than 2 m`: what is compared stands in front of an aside."""
+    ahead = takewhile(lambda a: a.kind is not AtomKind.VERB, frame.piece.atoms)
+    if any(a.kind is AtomKind.UNKNOWN for a in ahead):
+        return True  # `its yaw must not exceed 2 m`
+    if any(n.head_text in ('its', 'their', 'his', 'her') for n in frame.subject_nouns):
+        return True
+    return not frame.subject_nouns and left_out_before(frame.scene.prompt, frame.piece.start)
 
 
 def _each(frame: Frame, quantity: str, op: Op, adjunct: Adjunct, name: str) -> bool:

@@ -11,6 +11,7 @@ from aurora_core.parsing.atoms import NounPhrase
 from aurora_core.parsing.criteria.moments import Moment
 from aurora_core.parsing.criteria.placed import Placed
 from aurora_core.parsing.measures import Measure
+from aurora_core.spec.parameter import Span
 
 Op = Literal['<=', '<', '>=', '>', '==']
 
@@ -44,6 +45,7 @@ class Criterion:
         owned: `its distance`: of somebody named before.
         others: The clause names only those whom somebody named before keeps off.
         placed: Where those are whom it names.
+        unread: Words that were left out because nobody knows them.
     """
 
     limits: tuple[Limit, ...]
@@ -57,4 +59,5 @@ class Criterion:
     owned: bool = False
     others: bool = False
     placed: tuple[Placed, ...] = ()
+    unread: tuple[Span, ...] = ()
     words: str = ''

@@ -11,8 +11,9 @@ from aurora_core.parsing import values
 from aurora_core.parsing.atoms import Determiner, NounKind, NounPhrase
 from aurora_core.parsing.criteria.criterion import Criterion, Limit, Op
 from aurora_core.parsing.criteria.moments import Moment
-from aurora_core.parsing.criteria.parties import Parties
+from aurora_core.parsing.criteria.parties import Parties, left_out_before
 from aurora_core.parsing.criteria.sequels import Sequels
+from aurora_core.parsing.criteria.words import criteria_words
 from aurora_core.parsing.measures import Measure
 from aurora_core.parsing.pronouns import airborne, ground
 from aurora_core.parsing.resolver import Resolver
@@ -63,6 +64,8 @@ class Meaning:
     def _moment(self, told: Moment) -> bool:
         """When an event happens; the deadline of one is its latest moment."""
         event = Sequels(self._scene, self._span, self._who.actors()).event(told, new=True)
+        if event is None and told.key == 'land' and self._told.by is not None:
+            return self._done()
         if event is None:
             return False
         for limit in self._told.limits:
@@ -112,7 +115,11 @@ class Meaning:
         if 'drift' in told.topics and len(named) - len(flying) == 0 and group is None:
             flyers = self._who.flyers()
             return self._each('hover_drift', flyers[:1])
-        if _OF_HEIGHT.search(told.words) or not (named or group or _BETWEEN.search(told.words)):
+        flat = 'horizontal' in told.topics
+        if not named and not group and self._is_cut_off():
+            return False
+        placeless = not (named or group or flat or _BETWEEN.search(told.words))
+        if _OF_HEIGHT.search(told.words) or placeless:
             return self._each('altitude', self._who.flyers())
         if group and not named and any(n.key in _ONE for n in told.nouns):
             other = self._who.it(avoid=group)  # `none of them gets closer than 10 m to it`
@@ -131,10 +138,18 @@ class Meaning:
         if group is not None:  # `never nearer than 20 m to either`
             named += [e for e in self._who.several(avoid=named) or () if e not in named]
         if not named:
-            if 'distance' not in told.topics:
+            if 'distance' not in told.topics and not flat:
                 return self._each('altitude', self._who.flyers())
             return self._apart(self._who.pair())
         return self._between(named)
+
+    def _is_cut_off(self) -> bool:
+        """`its yaw must not exceed 2 m`: of what, no known word says."""
+        told = self._told
+        if told.topics or (told.nouns and not told.owned):
+            return False
+        asked = criteria_words()['musts'].match(told.words.lstrip()) is not None
+        return told.owned or (asked and left_out_before(self._scene.prompt, self._span.start))
 
     def _is_kin(self, noun: NounPhrase) -> bool:
         """`drone separation`, `distance between drones`: of all UAVs from each other."""
@@ -301,9 +316,10 @@ class Meaning:
         """`must have landed by 60 s`, `the alert must arrive`."""
         told = self._told
         yes = values.inferred('condition_ratio', 1.0)
-        if 'landed' in told.topics or 'completed' in told.topics:
+        lands = told.event is not None and told.event.key == 'land'
+        if lands or 'landed' in told.topics or 'completed' in told.topics:
             ended = not re.search(r'\b(?:land|ground|down|back|home|return)', told.words)
-            quantity = 'mission_completed' if ended else 'landed'
+            quantity = 'mission_completed' if ended and not lands else 'landed'
             flyers = self._who.flyers()
             for flyer in flyers:
                 self._add(quantity, (flyer.id,), '==', yes)

@@ -56,6 +56,10 @@ def sequel(atoms: Sequence[Atom]) -> Sequel | None:
         return None
     text, moments = with_events(line.text)
     limit = _limit(text)
+    behind = text[limit.end() :] if limit is not None else ''
+    start = words['from_start'].match(behind, 1)
+    if start is not None and not re.match(r' of (?:the )?N\d', behind[start.end() :]):
+        return None  # `within 30 s of the start` counts from no event
     refers = _REFERS.match(text) is not None and len(moments) == 1
     if limit is None and len(moments) < 2 and not (refers and _EARLIER.search(text)):
         return None

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 from aurora_core.parsing.atoms import Determiner, NounKind, NounPhrase
@@ -123,3 +124,10 @@ class Parties:
             if len(named) > 1:
                 return list(named)
         return list(scene.entities) if len(scene.entities) == 2 else []
+
+
+def left_out_before(prompt: str, start: int) -> bool:
+    """`its sway, …, must not exceed 2 m`: what a clause compares stands in front of it, unread."""
+    before = prompt[:start].rstrip()
+    joined = re.search(r'\b(?:and|but|or|also|then|please)$', before.lower()) is not None
+    return before.endswith((',', ')')) or (before[-1:].isalnum() and not joined)

@@ -51,7 +51,7 @@ class Sequels:
 
     def state(self, told: Sequel) -> bool:
         """Return whether the order could be written into the scene."""
-        then = self.event(told.then) if told.then is not None else self._last(told.first)
+        then = self._then(told)
         if then is None:
             return self._phases(told)
         limit = self._limit(told)
@@ -65,6 +65,16 @@ class Sequels:
         then.delay = limit or then.delay
         self._scene.became(then.id)
         return True
+
+    def _then(self, told: Sequel) -> EventDraft | None:
+        if told.then is None:
+            return self._last(told.first)
+        # `the ego shall brake within 2 s of the warning`: told here for the first time
+        known = told.first is not None and self._told(told.first)
+        return self.event(told.then, new=known)
+
+    def _told(self, moment: Moment) -> bool:
+        return any(self._is(e, moment.key) for e in self._scene.events)
 
     def chain(self, first: EventDraft, then: EventDraft) -> None:
         """Let one event wait for another; what is set otherwise stays, with the order stated."""
@@ -166,7 +176,9 @@ class Sequels:
 
     def _first(self, moment: Moment | None, then: EventDraft) -> EventDraft | None:
         if moment is not None and moment.key not in _WAITS_FOR:
-            found = self.event(moment)
+            # `the car shall stop within 4 s of the braking`: that of somebody else
+            others = [e for e in self._scene.events if self._is(e, moment.key)]
+            found = self.event(moment) or (others[-1] if others else None)
             return found if found is not then else None
         trigger = then.trigger
         if isinstance(trigger, EventDoneTrigger):

@@ -57,6 +57,14 @@ _HAPPENED = re.compile(
     r'(?:(?:started|begun|finished|completed|done|made|start|begin)(?: to| its| the| a| with)* )?'
     r'(?:come to a )?E0 '
 )
+# `the alert must have been sent by t = 30 s`, not `within 30 s`: that counts from its cause.
+_SENT = re.compile(
+    r' (?:(?:and|but|that|the|its|this|any) )*E0 (?:(?:from|to|of|by) N\d+ )*'
+    r'(?:must|should|shall|has to|have to|needs to|need to|ought to|is to|are to) '
+    r'(?:(?:have|be|been|already|also|go|gone) )*'
+    r'(?:sent|issued|raised|given|emitted|transmitted|broadcast|dispatched|released|triggered|'
+    r'fired|made|out|on its way)(?: (?:out|off))?(?: (?:from|to|by) N\d+)* '
+)
 _BOUNDED = re.compile(r'\b(?:atleast|atmost|nolater)\b')
 _LATEST = re.compile(r'\b(?:by|before|nolater|latest)\b')
 _YES_OR_NO = ('landed', 'completed', 'delivered')
@@ -106,7 +114,8 @@ class _Reading:
             if words.topics['seen'].search(self._text):
                 return None  # `ought to see it, and should it be hidden, …`
             topics |= {'seen'}
-        if not asked and not self._is_bounded():
+        named = self._line.plain and words['names_measured'].search(self._text) is not None
+        if not asked and not named and not self._is_bounded():
             return None
         waits = event is not None and re.search(r'\b(?:not|never) (?:\w+ )?before\b', self._text)
         by = None if waits else self._deadline(topics)
@@ -178,10 +187,20 @@ class _Reading:
         done = happened is not None and (happened['done'] or _LATEST.search(text))
         if done and moments[0].key in REACTIONS:  # `must have landed` is a state
             heads = happened
+        sent = _SENT.match(text)
+        if sent is not None and len(moments) == 1 and moments[0].key == 'send':
+            self._text = f' {text[sent.end() :]}'
+            return moments[0] if self._from_start() else None
         if heads is None or len(moments) != 1 or moments[0].key in ('mission', 'send', 'receive'):
             return None
         self._text = self._text.replace(moments[0].words, ' ', 1)
         return moments[0]
+
+    def _from_start(self) -> bool:
+        told = re.search(
+            r'\b(?:before|until|nolater|latest|by (?:t |the |= |time )*T\d)', self._text
+        )
+        return told is not None or self._words['from_start'].search(self._text) is not None
 
     def _is_of_others(self, limits: tuple[Limit, ...]) -> bool:
         """`…, never nearer than 20 m to either`: who acts was told before."""
@@ -232,7 +251,8 @@ class _Reading:
         unbroken = bool(self._words['unbroken'].search(self._text))
         told = self._take(
             rf'(?:for|during|over|lasting|a (?:total|period|stretch|minimum) of) '
-            rf'(?:(?:a|the|period|stretch|of|total|minimum|time|interval|no|not) )*'
+            rf'(?:(?:an?|the|one|single|{self._words["unbroken"].pattern}|period|stretch|of|total|minimum|time|'
+            rf'interval|no|not) )*'
             rf'(?P<cmp>(?:{more}|{less}|at ?least|at ?most) (?:than )?)?(?P<t>T\d+)'
             rf'(?P<or>(?: or (?:more|longer))| at least| min(?:imum)?)?'
         )

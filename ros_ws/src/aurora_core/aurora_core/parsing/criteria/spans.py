@@ -4,12 +4,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from aurora_core.parsing.atom_runs import skip
 from aurora_core.parsing.atoms import Atom, AtomKind
 from aurora_core.parsing.criteria.criterion import Criterion
+from aurora_core.parsing.criteria.loose import loosely, without_aside
 from aurora_core.parsing.criteria.moments import Sequel, sequel
 from aurora_core.parsing.criteria.slots import criterion
 from aurora_core.parsing.pieces import MOST_ATOMS
@@ -31,19 +32,33 @@ def stretches(atoms: Sequence[Atom]) -> list[Stretch]:
     may_ask = any(a.measure is not None for a in atoms) or _asks(atoms)
     if not may_ask or len(atoms) > MOST_ATOMS:
         return [Stretch(atoms=tuple(atoms))]
+    strict = _cut(atoms, _stated)
+    return [part for one in strict for part in ([one] if one.criterion else _loose(one.atoms))]
+
+
+def _loose(atoms: Sequence[Atom]) -> list[Stretch]:
+    """What is left of a sentence, with the conditions in it that have unknown words."""
+    if not any(a.measure is not None for a in atoms):
+        return [Stretch(atoms=tuple(atoms))]
+    return _cut(atoms, lambda all_of, start, stop: (stop, loosely(all_of[start:stop])))
+
+
+_Made = Criterion | Sequel | None
+
+
+def _cut(
+    atoms: Sequence[Atom],
+    state: Callable[[Sequence[Atom], int, int], tuple[int, _Made]],
+) -> list[Stretch]:
+    """Take out the longest stretches in which `state` finds a condition."""
     starts = [i for i in range(len(atoms)) if i == 0 or _begins(atoms, i)]
     found: list[Stretch] = []
     done = 0
     for start in starts:
         if start < done:
             continue
-        for stop in _stops(atoms, start):
-            made: Criterion | Sequel | None = None
-            told = criterion(atoms[start:stop])
-            if told is None:
-                made = sequel(atoms[start:stop]) if atoms[start].words != 'with' else None
-            elif not _is_detail(atoms[start], told) and not _joins(atoms, start, stop):
-                stop, made = _first(atoms, start, stop) or (stop, told)
+        for longest in _stops(atoms, start):
+            stop, made = state(atoms, start, longest)
             if made is not None:
                 found += _rest(atoms[done:start], opens=done > 0)
                 found.append(Stretch(atoms=tuple(atoms[start:stop]), criterion=made))
@@ -51,6 +66,16 @@ def stretches(atoms: Sequence[Atom]) -> list[Stretch]:
                 break
     found += _rest(atoms[done:], opens=done > 0)
     return found
+
+
+def _stated(atoms: Sequence[Atom], start: int, stop: int) -> tuple[int, _Made]:
+    """Return where the condition or order ends that begins here, and what it is."""
+    told = criterion(atoms[start:stop]) or without_aside(atoms[start:stop])
+    if told is None:
+        return stop, sequel(atoms[start:stop]) if atoms[start].words != 'with' else None
+    if _is_detail(atoms[start], told) or _joins(atoms, start, stop):
+        return stop, None
+    return _first(atoms, start, stop) or (stop, told)
 
 
 def _first(atoms: Sequence[Atom], start: int, stop: int) -> tuple[int, Criterion] | None:
@@ -82,6 +107,8 @@ def _asks(atoms: Sequence[Atom]) -> bool:
 
 def _begins(atoms: Sequence[Atom], i: int) -> bool:
     pause = atoms[i - 1].kind in _PAUSES and atoms[i].kind not in _PAUSES
+    then = atoms[i - 1].kind is AtomKind.THEN
+    pause = pause and not (then and i > 1 and atoms[i - 2].kind is AtomKind.SUBORDINATOR)
     pause = pause or _is_wish(atoms[i])
     return pause or atoms[i].words in (*_LEADS, 'with') or _is_own(atoms, i)
 

@@ -8,6 +8,7 @@ count. What a number's qualifier says stands in front of it: `atleast`, `atmost`
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -29,16 +30,20 @@ _NAMES = frozenset(
 )
 _LATE = ('late', 'soon')
 # What a qualifier says of the quantity: `no nearer than 15 m` is about a distance.
-_SAYS = {'near': 'apart', 'clos': 'apart', 'far': 'apart', 'low': 'altitude', 'high': 'altitude'}
+_SAYS = {
+    r'\b(?:near|clos|far)': 'apart',
+    r'\b(?:low|high)': 'altitude',
+}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Told:
-    """The line, and what its letters stand for."""
+    """The line, what its letters stand for, and whether it is without a verb."""
 
     text: str
     nouns: dict[str, NounPhrase]
     measures: dict[str, Measure]
+    plain: bool = False
 
 
 def told(atoms: Sequence[Atom]) -> Told:
@@ -67,7 +72,8 @@ def told(atoms: Sequence[Atom]) -> Told:
         else:
             words.append(atom.words)
     text = ' '.join(words).replace('( )', '')
-    return Told(text=f' {" ".join(text.split())} ', nouns=nouns, measures=measures)
+    plain = not any(a.kind in (AtomKind.VERB, AtomKind.SUBORDINATOR) for a in atoms)
+    return Told(text=f' {" ".join(text.split())} ', nouns=nouns, measures=measures, plain=plain)
 
 
 def _is_name(atom: Atom, atoms: Sequence[Atom], i: int) -> bool:
@@ -104,7 +110,7 @@ def _members(atom: Atom) -> list[str]:
 
 def _qualifier(atom: Atom) -> list[str]:
     assert atom.measure is not None
-    said = [meant for word, meant in _SAYS.items() if word in atom.words][:1]
+    said = [meant for words, meant in _SAYS.items() if re.search(words, atom.words)][:1]
     if atom.measure.bound is Bound.AT_LEAST:
         return [*said, 'atleast']
     if atom.measure.bound is Bound.AT_MOST:
