@@ -17,6 +17,7 @@ from aurora_core.parsing.atom_runs import LOOSE, skip, text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
 from aurora_core.parsing.lexicon import shipped_lexicon
 from aurora_core.parsing.measures import LENGTH, SPEED, TIME
+from aurora_core.parsing.message_causes import heard
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.phases import PHASES
 from aurora_core.parsing.pieces import TRANSPARENT
@@ -33,7 +34,7 @@ _ENDS = (AtomKind.STOP, AtomKind.COMMA, AtomKind.THEN, AtomKind.CONJUNCTION)
 
 def verbal(atoms: list[Atom], prompt: str) -> list[Atom]:
     """Return the atoms with events that are told as nouns written out as clauses."""
-    atoms = _interrupted(_verbless(atoms, prompt))
+    atoms = _interrupted(_verbless(heard(atoms, prompt), prompt))
     written = _participles(_nominal(_made_to(_done(atoms, prompt), prompt), prompt), prompt)
     return [
         replace(a, kind=AtomKind.UNKNOWN)

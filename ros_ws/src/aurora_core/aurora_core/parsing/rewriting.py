@@ -71,7 +71,7 @@ def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
     kept, spans = _take_back(straighten(told, prompt))
     told = _fronted(_labels(_asides(_contrasts(kept))))
     return Rewritten(
-        atoms=tuple(_relatives(_climbs(_small_words(told, prompt), prompt))),
+        atoms=tuple(_relatives(_climbs(_small_words(told), prompt))),
         taken_back=tuple(spans),
         background=tuple(background),
     )
@@ -328,8 +328,8 @@ def _fronted(atoms: list[Atom]) -> list[Atom]:
     return moved
 
 
-def _small_words(atoms: list[Atom], prompt: str) -> list[Atom]:
-    """`hears from it`, `20 m off the van`, `on receipt the drone climbs`."""
+def _small_words(atoms: list[Atom]) -> list[Atom]:
+    """`hears from it`, `20 m off the van`."""
     written: list[Atom] = []
     told = ''  # the last predicate of the sentence
     for i, atom in enumerate(atoms):
@@ -352,17 +352,6 @@ def _small_words(atoms: list[Atom], prompt: str) -> list[Atom]:
         away = atom.key == 'off' and length is not None and length.key == LENGTH
         if away and behind is not None and _stands(atoms, i + 1):
             atom = replace(atom, kind=AtomKind.PREPOSITION, key='from')
-        if _is_receipt(written, atom, prompt):
-            opening = written.pop()
-            if written and written[-1].kind is AtomKind.COMMA:  # the effect comes behind
-                written[-1] = replace(written[-1], kind=AtomKind.CONJUNCTION, key='and')
-            written += [
-                replace(opening, kind=AtomKind.SUBORDINATOR, key='when'),
-                replace(atom, kind=AtomKind.VERB, key='receive', form=VerbForm.ING),
-            ]
-            if behind is not None and behind.is_actor:
-                written.append(replace(atom, kind=AtomKind.COMMA, key=','))
-            continue
         written.append(atom)
     return written
 
@@ -370,14 +359,6 @@ def _small_words(atoms: list[Atom], prompt: str) -> list[Atom]:
 def _stands(atoms: Sequence[Atom], i: int) -> bool:
     solid = next((a for a in atoms[i:] if a.kind is not AtomKind.FILL), None)
     return solid is not None and (solid.is_actor or solid.is_place)
-
-
-def _is_receipt(written: Sequence[Atom], atom: Atom, prompt: str) -> bool:
-    words = text_of(atom, prompt)
-    if atom.kind is not AtomKind.MESSAGE or words not in ('receipt', 'delivery'):
-        return False
-    before = written[-1] if written else None
-    return before is not None and text_of(before, prompt) in ('on', 'upon')
 
 
 def _climbs(atoms: list[Atom], prompt: str) -> list[Atom]:
