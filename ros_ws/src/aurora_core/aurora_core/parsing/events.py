@@ -16,6 +16,7 @@ from aurora_core.spec.scenario import (
     DistanceTrigger,
     EventAction,
     EventDoneTrigger,
+    MessageTrigger,
     SendMessage,
     Trigger,
     UavAction,
@@ -33,7 +34,7 @@ def complete_event(
             clause.ids[str(action.mission)] = None
             clause.status = ClauseStatus.ENCODED
         return None
-    trigger = settled(scene, found, action)
+    trigger = _heard(scene, settled(scene, found, action), action)
     # `after the car brakes … The car brakes at 25 s`: one event, told in two places.
     known = [e for e in scene.events if e.trigger is None and e.action == action]
     told = [e for e in scene.events if e.trigger == trigger and e.action == action]
@@ -50,6 +51,17 @@ def complete_event(
         clause.ids[event.id] = None
         clause.status = ClauseStatus.ENCODED
     return event
+
+
+def _heard(scene: Scene, trigger: Trigger | None, action: EventAction) -> Trigger | None:
+    """`when the drone warns the car, the car brakes`: whoever is told acts on the message."""
+    if not isinstance(trigger, EventDoneTrigger) or trigger.after_s is not None:
+        return trigger
+    told = next((e.action for e in scene.events if e.id == trigger.event), None)
+    acting = (getattr(action, name, None) for name in ('agent', 'uav', 'sender'))
+    if not isinstance(told, SendMessage) or told.receiver not in acting:
+        return trigger
+    return MessageTrigger(on='message_received', by=told.receiver, sender=told.sender)
 
 
 def _waits_for(trigger: Trigger | None, events: Sequence[EventDraft]) -> bool:

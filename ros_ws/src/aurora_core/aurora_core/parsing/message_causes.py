@@ -130,9 +130,7 @@ def _clause(
     return [when, *([] if receiver is None else [receiver]), verb, *source], stop
 
 
-def _warned(
-    atoms: Sequence[Atom], i: int, prompt: str
-) -> tuple[Atom, Atom | None, int] | None:
+def _warned(atoms: Sequence[Atom], i: int, prompt: str) -> tuple[Atom, Atom | None, int] | None:
     """`upon being warned by the drone`, `once notified, …`."""
     k = skip(atoms, i, (*LOOSE, AtomKind.AUXILIARY))
     if k >= len(atoms) or atoms[k].kind is not AtomKind.VERB or atoms[k].key != 'alert':

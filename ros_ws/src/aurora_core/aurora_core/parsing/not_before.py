@@ -18,7 +18,7 @@ from aurora_core.parsing.phases import FLOWN
 from aurora_core.parsing.pieces import has_verb
 from aurora_core.parsing.reactions import REACTIONS
 
-_WAITS = ('before', 'until')
+_WAITS = ('before', 'until', 'unless')
 _CAUSES = ('when', 'after')
 _BEGINS = frozenset({*REACTIONS, *FLOWN, 'drive', 'walk', 'land', 'ascend', 'send', 'alert'})
 _PAUSES = (AtomKind.COMMA, AtomKind.CONJUNCTION, AtomKind.RELATIVE)

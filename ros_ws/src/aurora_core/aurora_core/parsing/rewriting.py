@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from aurora_core.parsing.atom_runs import text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind, NounPhrase
 from aurora_core.parsing.clefts import plain_order
+from aurora_core.parsing.conjunctions import joined
 from aurora_core.parsing.inversions import straighten
 from aurora_core.parsing.lexicon import shipped_lexicon
 from aurora_core.parsing.measures import LENGTH, TIME
@@ -58,7 +59,7 @@ def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
     """Return the atoms with shorthand written out and retracted numbers left out."""
     if longest_sentence(atoms) > MOST_ATOMS:
         return Rewritten(atoms=tuple(atoms))
-    told, background = unwrap(cast(told_of_us(atoms), prompt), prompt)
+    told, background = unwrap(joined(cast(told_of_us(atoms), prompt), prompt), prompt)
     told = shared_out(not_before(told), prompt)
     told = dated(verbal(radio(told, prompt), prompt), prompt)
     told = value_statements(

@@ -9,6 +9,7 @@ from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
 from aurora_core.parsing.atoms import ACTORS, AtomKind, NounKind
 from aurora_core.parsing.constructions.actions import agent_action
 from aurora_core.parsing.constructions.distances import DistanceCause, distance_cause, reference
+from aurora_core.parsing.constructions.messages import TELLING, message
 from aurora_core.parsing.constructions.missions import mission
 from aurora_core.parsing.constructions.noun_places import noun_places
 from aurora_core.parsing.criteria.causes import told_cause
@@ -298,14 +299,8 @@ def _elapsed(frame: Frame) -> TimeTrigger | None:
 def _behavior(frame: Frame) -> EventDoneTrigger | None:
     """`when the bus brakes`: an event of its own, whose cause the prompt does not state."""
     scene = frame.scene
-    if frame.key == 'alert':
-        who = frame.subjects()
-        for event in scene.events:
-            if isinstance(event.action, SendMessage) and who and event.action.sender == who[0].id:
-                for adjunct in frame.free(AdjunctKind.OBJECT):
-                    adjunct.used = bool(frame.objects(adjunct.nouns))
-                return EventDoneTrigger(on='event_done', event=event.id)
-        return None
+    if frame.key in TELLING:
+        return _telling(frame)
     action = agent_action(frame)
     if action is None:
         return None
@@ -313,6 +308,25 @@ def _behavior(frame: Frame) -> EventDoneTrigger | None:
         if event.action == action:
             return EventDoneTrigger(on='event_done', event=event.id)
     made = scene.add_event(action, frame.span)
+    made.clauses.append(scene.clause_number)
+    scene.became(made.id)
+    return EventDoneTrigger(on='event_done', event=made.id)
+
+
+def _telling(frame: Frame) -> EventDoneTrigger | None:
+    """`once the drone has warned the ego`: told before, or a message whose cause stays open."""
+    scene = frame.scene
+    who = frame.subjects()
+    for event in scene.events:
+        if isinstance(event.action, SendMessage) and who and event.action.sender == who[0].id:
+            for adjunct in frame.free(AdjunctKind.OBJECT) + frame.free(AdjunctKind.PHRASE, 'to'):
+                adjunct.used = bool(frame.objects(adjunct.nouns))
+            frame.mark(AtomKind.MESSAGE.value)
+            return EventDoneTrigger(on='event_done', event=event.id)
+    sent = message(frame) if frame.subject_nouns else None
+    if sent is None:
+        return None
+    made = scene.add_event(sent, frame.span)
     made.clauses.append(scene.clause_number)
     scene.became(made.id)
     return EventDoneTrigger(on='event_done', event=made.id)
