@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
+from aurora_core.parsing.criteria.causes import is_flight
 from aurora_core.parsing.measures import TIME
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.pieces import MARKERS, TRANSPARENT, first_solid, has_verb
@@ -32,7 +33,7 @@ def plain_prepositions(atoms: list[Atom]) -> list[Atom]:
         ahead = _until_marker(atoms, i + 1)
         first = first_solid(ahead)
         timed = first is not None and first.key == TIME and atom.key in _MAYBE_PREPOSITION
-        if has_verb(ahead) and not timed:
+        if (has_verb(ahead) and not timed) or is_flight(ahead, atom.key):
             continue
         if atom.key == 'when' and _is_count(ahead) and not _opens_sentence(atoms, i):
             changed[i] = replace(atom, kind=AtomKind.FILL)
@@ -100,12 +101,21 @@ def end_causes(atoms: list[Atom]) -> list[Atom]:
                 if atom.kind in MARKERS and atom.kind is not AtomKind.RELATIVE:
                     break
                 run.append(atom)
-            cut = _missing_comma(run)
+            cut = _behind_a_flight(run, ended[i].key)
+            cut = _missing_comma(run) if cut is None else cut
             if cut is not None:
                 at = run[cut].start
                 ended.insert(i + 1 + cut, Atom(kind=AtomKind.COMMA, key=',', start=at, end=at))
         i += 1
     return ended
+
+
+def _behind_a_flight(atoms: Sequence[Atom], link: str) -> int | None:
+    """`after its patrol the drone lands`: return where the effect begins."""
+    for i in range(1, len(atoms)):
+        if atoms[i].is_actor and has_verb(atoms[i:]) and is_flight(atoms[:i], link):
+            return i
+    return None
 
 
 def _missing_comma(atoms: Sequence[Atom]) -> int | None:

@@ -57,7 +57,9 @@ def causes_of_next(pieces: list[Piece]) -> list[Piece]:
     marked = list(pieces)
     for k in range(1, len(pieces) - 1):
         cause, behind = pieces[k], pieces[k + 1]
-        if cause.link is not Link.WHEN or behind.link is not Link.MAIN or behind.opens:
+        if cause.link not in (Link.WHEN, Link.AFTER) or behind.link is not Link.MAIN:
+            continue
+        if behind.opens:
             continue
         told, first = first_solid(pieces[k - 1].atoms), first_solid(behind.atoms)
         if told is None or first is None or not told.is_actor:

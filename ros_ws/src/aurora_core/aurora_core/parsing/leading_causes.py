@@ -8,8 +8,10 @@ from collections.abc import Sequence
 
 from aurora_core.parsing.atoms import AtomKind, NounKind, NounPhrase
 from aurora_core.parsing.cause_parts import again, delay_of
+from aurora_core.parsing.constructions.messages import TELLING
 from aurora_core.parsing.constructions.triggers import cause
 from aurora_core.parsing.constructions.world import world_words
+from aurora_core.parsing.criteria.causes import is_flight
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.main_clause import main_clause
 from aurora_core.parsing.morphology import VerbForm
@@ -25,13 +27,15 @@ def leading(story: Story, piece: Piece, following: Piece) -> None:
     """`When the van comes within 20 m, …`: the effect comes next."""
     frame = story.open(piece)
     gerund = frame.verb is not None and frame.verb.form is VerbForm.ING and not frame.subject_nouns
+    gerund = gerund and not is_flight(piece.atoms, piece.link)
     if frame.key == 'finish' and not frame.subject_nouns:
         actors = Frame(following, story.scene, story.resolver).subject_nouns
         frame.subject_nouns = () if _on_ground(actors) else actors
         gerund = False
     if gerund and piece.link is not Link.UNTIL:
         actors = Frame(following, story.scene, story.resolver).subject_nouns
-        if frame.key in HAPPENS or piece.link is Link.WHEN or _on_ground(actors):
+        sent = frame.key in TELLING and bool(story.scene.events)
+        if frame.key in HAPPENS or sent or piece.link is Link.WHEN or _on_ground(actors):
             frame.subject_nouns = actors
             gerund = False
     if gerund or piece.link is Link.UNTIL:

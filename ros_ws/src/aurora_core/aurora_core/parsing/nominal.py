@@ -180,7 +180,8 @@ def _done_by(atoms: list[Atom], prompt: str) -> list[Atom]:
 
 
 @lru_cache(maxsize=1)
-def _act_nouns() -> dict[str, str]:
+def act_nouns() -> dict[str, str]:
+    """Return the key of the verb of every act that is told with a noun."""
     listed = read_data('lexicon.yaml')['act_nouns']
     return {word: key for key, words in listed.items() for word in words}
 
@@ -190,7 +191,7 @@ def _acts(atoms: list[Atom], prompt: str) -> list[Atom]:
     changed = list(atoms)
     for i in range(len(changed) - 2):
         words = re.sub(r'^(?:the|a|an|its)\s+', '', text_of(changed[i], prompt))
-        key = _act_nouns().get(words)
+        key = act_nouns().get(words)
         about = changed[i + 2].is_actor or changed[i + 2].is_place
         if key is not None and changed[i + 1].key == 'of' and about:
             changed[i] = replace(

@@ -15,6 +15,7 @@ from itertools import pairwise
 
 from aurora_core.parsing.atom_runs import LOOSE, skip, text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
+from aurora_core.parsing.flight_nouns import flight_end
 from aurora_core.parsing.lexicon import shipped_lexicon
 from aurora_core.parsing.measures import LENGTH, SPEED, TIME
 from aurora_core.parsing.message_causes import heard
@@ -288,6 +289,8 @@ def _event(
     if first.kind is AtomKind.VERB and not gerund and not articled:
         return None
     k = i + 1
+    if named.key == 'finish' and k < len(atoms) and atoms[k].key == 'of':
+        k = flight_end(atoms, k + 1) or k  # `on completion of the patrol by drone A`
     of = k < len(atoms) and atoms[k].kind is AtomKind.PREPOSITION and atoms[k].key in ('of', 'by')
     who = skip(atoms, k + 1) if of else k
     if of and who < len(atoms) and (atoms[who].noun is not None) and not own:

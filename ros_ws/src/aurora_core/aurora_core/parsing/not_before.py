@@ -28,7 +28,7 @@ def not_before(atoms: Sequence[Atom]) -> list[Atom]:
     """Return the atoms with every denied beginning as one that waits for its cause."""
     written: list[Atom] = []
     for sentence, stop in runs(atoms, AtomKind.STOP):
-        written += _behind(_in_front(sentence))
+        written += _added(_behind(_in_front(sentence)))
         if stop is not None:
             written.append(stop)
     return written
@@ -47,6 +47,24 @@ def _behind(atoms: list[Atom]) -> list[Atom]:
             when = replace(atom, kind=AtomKind.SUBORDINATOR, key='when')
             rest = [*atoms[begin : begin + no], *atoms[begin + no + 1 : at]]
             return [*atoms[:begin], *rest, when, *_behind(atoms[at + 1 :])]
+    return atoms
+
+
+def _added(atoms: list[Atom]) -> list[Atom]:
+    """`it tracks the bus, but not before drone A is done`: what waits is told in front."""
+    for at, atom in enumerate(atoms):
+        no = at - 1
+        while no > 0 and atoms[no].kind in LOOSE:
+            no -= 1
+        if no <= 0 or not _waits(atom) or atoms[no].kind is not AtomKind.NEGATION:
+            continue
+        begin = no
+        while begin and atoms[begin - 1].kind in (*_PAUSES, *LOOSE):
+            begin -= 1
+        ends = not any(a.kind is AtomKind.COMMA for a in atoms[at:])
+        if ends and has_verb(atoms[:begin]) and _tells(atoms, at + 1):
+            after = replace(atom, kind=AtomKind.SUBORDINATOR, key='after')
+            return [*atoms[:begin], after, *atoms[at + 1 :]]
     return atoms
 
 

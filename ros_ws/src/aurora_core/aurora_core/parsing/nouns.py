@@ -163,7 +163,7 @@ class NounReader:
         if kind not in (NounKind.UAV, NounKind.AGENT, NounKind.VEHICLE):
             return 0, stop
         if stop < len(self._said.tokens) and self._said.tokens[stop].capital:
-            letter = ord(self._said.words[stop]) - ord('a') + 1
+            letter = ord(self._said.words[stop].lower()) - ord('a') + 1
             if 1 <= letter <= 8:
                 return letter, stop + 1  # `drone B`
         spelled = self._said.longest(stop, Tag.NUMBER)

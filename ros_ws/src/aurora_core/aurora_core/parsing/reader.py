@@ -32,6 +32,7 @@ from aurora_core.parsing.resolver import Resolver
 from aurora_core.parsing.scene import ClauseDraft, Scene
 from aurora_core.parsing.segments import clauses
 from aurora_core.parsing.sequence import (
+    after_others,
     after_sight,
     after_told,
     before_told,
@@ -52,6 +53,17 @@ from aurora_core.spec.parameter import Span
 from aurora_core.spec.vocabulary import ClauseStatus
 
 _CAUSES = (Link.WHEN, Link.AFTER, Link.UNTIL)
+
+
+def _only_then(pieces: Sequence[Piece], i: int, prompt: str) -> bool:
+    """`…, but only after drone A is done.`: no other clause follows that it could govern."""
+    sentence = [p for p in pieces if p.sentence == pieces[i].sentence]
+    caused = any(p.link in _CAUSES for p in sentence[:-1])
+    return (
+        pieces[i] is sentence[-1]
+        and not caused
+        and prompt[pieces[i].start :].lower().startswith('only ')
+    )
 
 
 class Reader:
@@ -111,7 +123,7 @@ class Reader:
                 and same
                 and nxt is not None
                 and nxt.link in _CAUSES
-                and not nxt.opens
+                and (not nxt.opens or _only_then(pieces, i + 1, self._story.scene.prompt))
             ):
                 effect_then_cause(self._story, piece, nxt)
                 i += 1
@@ -186,6 +198,7 @@ class Reader:
                 main_clause(frame)
             note_fronted_time(self._story, frame, before)
             in_sequence(frame, before)
+            after_others(frame, flown)
             earlier_phase(frame, flown)
             soon(frame, before)
             after_sight(self._story.scene, before, self._story.seen)

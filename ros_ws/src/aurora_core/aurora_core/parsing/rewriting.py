@@ -14,6 +14,7 @@ from aurora_core.parsing.atom_runs import text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind, NounPhrase
 from aurora_core.parsing.clefts import plain_order
 from aurora_core.parsing.conjunctions import joined
+from aurora_core.parsing.flight_nouns import flights
 from aurora_core.parsing.inversions import straighten
 from aurora_core.parsing.lexicon import shipped_lexicon
 from aurora_core.parsing.measures import LENGTH, TIME
@@ -59,7 +60,8 @@ def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
     """Return the atoms with shorthand written out and retracted numbers left out."""
     if longest_sentence(atoms) > MOST_ATOMS:
         return Rewritten(atoms=tuple(atoms))
-    told, background = unwrap(joined(cast(told_of_us(atoms), prompt), prompt), prompt)
+    who = flights(cast(told_of_us(atoms), prompt))
+    told, background = unwrap(joined(who, prompt), prompt)
     told = shared_out(not_before(told), prompt)
     told = dated(verbal(radio(told, prompt), prompt), prompt)
     told = value_statements(

@@ -5,11 +5,12 @@
 from __future__ import annotations
 
 from aurora_core.parsing.constructions.places import add_placement
-from aurora_core.parsing.scene import Entity, LinkDraft, MissionDraft, Scene
+from aurora_core.parsing.scene import Doubt, Entity, LinkDraft, MissionDraft, Scene
 from aurora_core.spec.scenario import (
     Behavior,
     DistanceTrigger,
     MessageTrigger,
+    MissionDoneTrigger,
     Placement,
     SendMessage,
     UavAction,
@@ -71,8 +72,33 @@ def settle(scene: Scene) -> None:
     for draft in tuple(scene.missions):
         if draft.needs_target and draft.target is None:
             _infer_target(scene, draft)
+    _own_sequence(scene)
+    for event in scene.events:  # nothing waits for itself
+        if getattr(event.trigger, 'event', None) == event.id:
+            event.trigger = None
+            scene.doubts.append(Doubt(span=event.span, question='What should this wait for?'))
     _general_links(scene)
     _senders(scene)
+
+
+def _own_sequence(scene: Scene) -> None:
+    """`when its hover is over, it orbits the park`: the sequence that every UAV's phases have."""
+    for event in tuple(scene.events):
+        over, action = event.trigger, event.action
+        if not isinstance(over, MissionDoneTrigger) or not isinstance(action, UavAction):
+            continue
+        if event.delay is not None or action.do != 'change_mission' or over.uav != action.uav:
+            continue
+        phases = [m.id for m in scene.missions if m.uav.id == action.uav]
+        waits = any(getattr(e.trigger, 'event', None) == event.id for e in scene.events)
+        ordered = any(event.id in (o.first, o.then) for o in scene.orders)
+        if action.mission not in phases[1:] or waits or ordered:
+            continue
+        scene.events.remove(event)
+        for clause in scene.clauses:
+            if event.id in clause.ids:
+                del clause.ids[event.id]
+                clause.ids[action.mission] = None
 
 
 def _shared_speeds(scene: Scene) -> None:

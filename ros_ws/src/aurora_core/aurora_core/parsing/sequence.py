@@ -33,9 +33,11 @@ from aurora_core.spec.scenario import (
     MessageTrigger,
     MissionDoneTrigger,
     SendMessage,
+    UavAction,
     VisibilityTrigger,
 )
 
+_BESIDE = 24  # characters around a clause, where its word of sequence stands
 _MOMENTS = (EventDoneTrigger, MessageTrigger, AltitudeTrigger, ArrivalTrigger, VisibilityTrigger)
 _GROUND = (NounKind.AGENT, NounKind.VEHICLE, NounKind.EGO)
 
@@ -229,6 +231,38 @@ def in_sequence(frame: Frame, before: int) -> None:
         _after_its_phase(frame, events[-1])
 
 
+def after_others(frame: Frame, flown: int) -> None:
+    """`drone A hovers there. Then drone B tracks the bus`: when the phase of the other is over.
+
+    Args:
+        frame: The clause.
+        flown: Number of missions that were told before the clause.
+    """
+    scene = frame.scene
+    made = scene.missions[flown:]
+    if len(made) != 1 or not flown or not frame.piece.then or not _goes_on(frame):
+        return
+    before, new = scene.missions[flown - 1], made[0]
+    caused = any(
+        isinstance(e.action, UavAction) and e.action.mission == new.id for e in scene.events
+    )
+    if before.uav is new.uav or caused or scene.missions_of(new.uav) != [new]:
+        return
+    change = UavAction(do='change_mission', uav=new.uav.id, mission=new.id)
+    over = MissionDoneTrigger(on='mission_done', uav=before.uav.id)
+    complete_event(scene, over, change, frame.span, ())
+
+
+def _goes_on(frame: Frame) -> bool:
+    """`then`, `afterwards`; `next` and `finally` may just go on with a list."""
+    words = shipped_lexicon().turns['goes_on']
+    begin, end = frame.piece.start, frame.piece.end
+    prompt = frame.scene.prompt.lower()
+    behind = re.split(r'[.;!?]', prompt[end : end + _BESIDE])[0]
+    told = prompt[max(0, begin - _BESIDE) : end] + behind
+    return any(re.search(rf'\b{word}\b', told) for word in words)
+
+
 def _after_its_phase(frame: Frame, event: EventDraft) -> None:
     """`hovers there for 30 s and only then warns the ego`: when its phase is over."""
     action = event.action
@@ -307,7 +341,7 @@ def got_message(piece: Piece) -> bool:
     verb = next((a for a in piece.atoms if a.kind is AtomKind.VERB), None)
     got = verb is not None and verb.key in ('receive', 'come', 'contain')
     message = any(a.kind is AtomKind.MESSAGE for a in piece.atoms) or (
-        verb is not None and verb.key == 'receive'
+        verb is not None and (verb.key == 'receive' or piece.atoms[-1].words == 'it')
     )
     named = any(a.is_actor for a in piece.atoms)
     source = any(a.kind is AtomKind.PREPOSITION for a in piece.atoms)

@@ -127,9 +127,10 @@ class StandInReader:
 
     def letter(self, i: int) -> tuple[NounPhrase, int] | None:
         """`drone A …, and B passes it on`: the letter alone, once it was given to somebody."""
-        if not self._said.tokens[i].capital or self._said.words[i] not in self._named_letters():
+        name = self._said.words[i].lower()
+        if not self._said.tokens[i].capital or name not in self._named_letters():
             return None
-        kind, key = self._named_letters()[self._said.words[i]]
+        kind, key = self._named_letters()[name]
         if (
             self._said.words[i] == 'a'
             and not self._said.is_predicate(i + 1)
@@ -138,7 +139,7 @@ class StandInReader:
         ):
             return None  # the article
         phrase, stop = self._phrase(i, i + 1, key, kind)
-        number = ord(self._said.words[i]) - ord('a') + 1
+        number = ord(name) - ord('a') + 1
         return replace(phrase, index=number, determiner=Determiner.DEFINITE), stop
 
     def _named_letters(self) -> dict[str, tuple[NounKind, str]]:
@@ -150,8 +151,20 @@ class StandInReader:
                 for _, senses in self._said.matches(j - 1):
                     for sense in senses:
                         if sense.tag in (Tag.UAV, Tag.AGENT, Tag.VEHICLE):
-                            self._letters[self._said.words[j]] = (NOUN_KINDS[sense.tag], sense.key)
+                            name = self._said.words[j].lower()
+                            self._letters[name] = (NOUN_KINDS[sense.tag], sense.key)
+            self._letters = self._letters or self._listed_letters()
         return self._letters
+
+    def _listed_letters(self) -> dict[str, tuple[NounKind, str]]:
+        """`3 uavs: A hover … / B patrol … / C track …`: letters in order, and only UAVs about."""
+        said = self._said
+        letters = [w.lower() for w, t in zip(said.words, said.tokens, strict=True) if t.capital]
+        named = sorted(set(letters) - {'i'})
+        flying = any(said.has(j, Tag.UAV) for j in range(len(said.words)))
+        if len(named) < 2 or not flying or named != [chr(ord('a') + n) for n in range(len(named))]:
+            return {}
+        return dict.fromkeys(named, (NounKind.UAV, 'drone'))
 
     def _helps(self, j: int) -> bool:
         return self._said.has(j, Tag.AUXILIARY)

@@ -178,8 +178,21 @@ def tag(
                 corrections.append((token.start, token.end, meant))
                 word = meant
         words.append(word)
+    for i, token in enumerate(tokens):
+        if token.capital and words[i] == 'a' and _is_name(tokens, words, i, known):
+            words[i] = 'A'
     tagger = _Tagger(tokens, words, known, landmarks)
     return Tagged(atoms=tagger.run(), corrections=tuple(corrections))
+
+
+def _is_name(tokens: Sequence[Token], words: Sequence[str], i: int, lexicon: Lexicon) -> bool:
+    """`drone A patrols the park`, `A lands before B does`: the letter is no article."""
+    if i and lexicon.longest_of(words[i - 1 : i], 0, (Tag.UAV,)) is not None:
+        return True
+    others = any(t.capital and t.norm == 'b' for t in tokens)
+    acting = lexicon.longest_of(words, i + 1, (Tag.VERB, Tag.AUXILIARY))
+    finite = acting is not None and acting[1].form in (VerbForm.THIRD, VerbForm.BASE)
+    return others and finite
 
 
 class _Tagger:
@@ -223,7 +236,7 @@ class _Tagger:
             '≤',
             '+',
         ):
-            if token.norm in _STOPS:
+            if token.norm in _STOPS or self._parts(i):
                 self._add(AtomKind.STOP, token.norm, i, i + 1)
             elif token.norm == '→':
                 self._add(AtomKind.THEN, token.norm, i, i + 1)
@@ -276,6 +289,13 @@ class _Tagger:
                 return i + length
         self._add(AtomKind.UNKNOWN, self._words[i], i, i + 1)
         return i + 1
+
+    def _parts(self, i: int) -> bool:
+        """`A hovers / B lands`: a stroke with blanks around it parts sentences."""
+        if self._tokens[i].norm != '/' or not 0 < i < len(self._tokens) - 1:
+            return False
+        before, here, behind = self._tokens[i - 1 : i + 2]
+        return before.end < here.start and here.end < behind.start
 
     def _prelude(self, i: int) -> int | None:
         """`what matters to us is that`: words around a request, where a clause may begin."""

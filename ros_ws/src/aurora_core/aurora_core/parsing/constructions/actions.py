@@ -13,7 +13,7 @@ from aurora_core.parsing.constructions.flyers import flyers
 from aurora_core.parsing.constructions.messages import message
 from aurora_core.parsing.constructions.places import add_placement, place_of, placements_of
 from aurora_core.parsing.frames import Frame
-from aurora_core.parsing.pronouns import mobile
+from aurora_core.parsing.pronouns import airborne, mobile
 from aurora_core.parsing.reactions import REACTIONS
 from aurora_core.parsing.scene import Entity, Scene
 from aurora_core.spec.events import AgentDo
@@ -35,7 +35,29 @@ _ONLY_TRIGGERED = frozenset({'wait', 'drive', 'walk'})
 
 def action(frame: Frame) -> EventAction | None:
     """Read the effect of an event."""
-    return message(frame) or agent_action(frame, triggered=True) or _uav_action(frame)
+    return (
+        message(frame)
+        or _sets_to_work(frame)
+        or agent_action(frame, triggered=True)
+        or _uav_action(frame)
+    )
+
+
+def _sets_to_work(frame: Frame) -> UavAction | None:
+    """`drone B tracks a bus. It may only start when drone A is done`: its flight, told before."""
+    if frame.negated or frame.key not in ('start', 'ascend') or frame.free(AdjunctKind.MEASURE):
+        return None
+    if any(a.measure is not None for a in frame.adjuncts):
+        return None
+    acting = frame.subjects(airborne) if frame.subject_nouns else frame.inherited()
+    if len(acting) != 1 or not acting[0].is_uav:
+        return None
+    told = frame.scene.missions_of(acting[0])
+    caused = [e.action.mission for e in frame.scene.events if isinstance(e.action, UavAction)]
+    if not told or told[0].id in caused:
+        return None
+    frame.scene.became(told[0].id)
+    return UavAction(do='change_mission', uav=acting[0].id, mission=told[0].id)
 
 
 def together(frame: Frame) -> tuple[EventAction, ...]:

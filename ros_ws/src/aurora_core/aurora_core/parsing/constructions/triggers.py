@@ -12,7 +12,7 @@ from aurora_core.parsing.constructions.distances import DistanceCause, distance_
 from aurora_core.parsing.constructions.messages import TELLING, message
 from aurora_core.parsing.constructions.missions import mission
 from aurora_core.parsing.constructions.noun_places import noun_places
-from aurora_core.parsing.criteria.causes import told_cause
+from aurora_core.parsing.criteria.causes import told_cause, who_flew
 from aurora_core.parsing.criteria.thresholds import threshold
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.morphology import VerbForm
@@ -248,11 +248,15 @@ def _done(frame: Frame) -> MissionDoneTrigger | None:
         uavs = tuple(frame.scene.uavs)  # `message the bus when done`
     if len(uavs) != 1:
         return None
-    if frame.key == 'finish' and frame.verb is not None and _tells_more(frame):
-        mission(frame)  # `when finished with its orbit of the market`
+    if frame.verb is not None and _tells_more(frame):
+        over = told_cause(frame)
+        if isinstance(over, MissionDoneTrigger):
+            return over  # `has finished its pattern`: the flight that was told before
+        if frame.key == 'finish' or completes:
+            mission(frame)  # `when finished with its orbit of the market`
     for mark in frame.free(AdjunctKind.MARK, AtomKind.ROUTE.value, AtomKind.PATTERN.value):
         mark.used = True
-    return MissionDoneTrigger(on='mission_done', uav=uavs[0].id)
+    return MissionDoneTrigger(on='mission_done', uav=who_flew(frame.scene, uavs[0]).id)
 
 
 def _did_so(frame: Frame) -> EventDoneTrigger | None:
@@ -317,7 +321,7 @@ def _telling(frame: Frame) -> EventDoneTrigger | None:
     """`once the drone has warned the ego`: told before, or a message whose cause stays open."""
     scene = frame.scene
     who = frame.subjects()
-    for event in scene.events:
+    for event in reversed(scene.events):
         if isinstance(event.action, SendMessage) and who and event.action.sender == who[0].id:
             for adjunct in frame.free(AdjunctKind.OBJECT) + frame.free(AdjunctKind.PHRASE, 'to'):
                 adjunct.used = bool(frame.objects(adjunct.nouns))

@@ -19,7 +19,8 @@ from aurora_core.parsing.criteria.slots import criterion
 from aurora_core.parsing.criteria.told import Told, told
 from aurora_core.parsing.criteria.words import cause_words
 from aurora_core.parsing.frames import Frame
-from aurora_core.parsing.scene import Entity
+from aurora_core.parsing.morphology import VerbForm
+from aurora_core.parsing.scene import Entity, Scene
 from aurora_core.spec.scenario import (
     ArrivalTrigger,
     MessageTrigger,
@@ -41,13 +42,26 @@ def told_cause(frame: Frame) -> Trigger | None:
     """Return what the clause waits for when every word of it is one of one kind of cause."""
     line = told(frame.piece.atoms)
     for name, meaning in _MEANINGS.items():
-        if not _is_all(line, name):
+        named = name == 'over' and is_flight(frame.piece.atoms, frame.piece.link)
+        if not named and not _is_all(line, name):
             continue
         found = meaning(frame, line)
         if found is not None:
             frame.taken()
             return found
     return None
+
+
+def is_flight(atoms: Sequence[Atom], link: str) -> bool:
+    """`after the patrol of drone A`: a flight alone, behind `after`, is one that is over."""
+    first = next((a for a in atoms if a.kind is not AtomKind.FILL), None)
+    gerund = first is not None and first.form is VerbForm.ING and first is atoms[0]
+    if link != 'after' or gerund:
+        return False  # `after hovering`: told second, flown first
+    line = told(atoms)
+    grounded = any(n.kind in (NounKind.AGENT, NounKind.EGO) for n in line.nouns.values())
+    left, flown = cause_words()['over_also'].subn(' ', line.text)
+    return bool(flown) and not grounded and not line.measures and _says_no_more(left)
 
 
 def cause_end(atoms: Sequence[Atom]) -> int:
@@ -91,9 +105,14 @@ def _is_all(line: Told, name: str) -> bool:
     left, weak = words[f'{name}_weak'].subn(' ', left)
     left, also = words[f'{name}_also'].subn(' ', left)
     left = words[f'{name}_beside'].sub(' ', left)
-    left = words['fill'].sub(' ', _LETTER.sub(' ', left))
     tells = strong or (weak and also)
-    return bool(tells) and not left.strip(' ,.;:\'"()-=')
+    return bool(tells) and _says_no_more(left)
+
+
+def _says_no_more(left: str) -> bool:
+    """Return whether what is left of a line are small words and names."""
+    rest = cause_words()['fill'].sub(' ', _LETTER.sub(' ', left))
+    return not rest.strip(' ,.;:\'"()-=')
 
 
 def _elapsed(frame: Frame, line: Told) -> Trigger | None:
@@ -167,10 +186,18 @@ def _over(frame: Frame, line: Told) -> Trigger | None:
     flying = [e for e in _parties(frame, line).actors() if e.is_uav]
     if not flying and len(frame.scene.uavs) == 1:
         flying = frame.scene.uavs
+    if not flying and frame.scene.missions:
+        flying = [frame.scene.missions[-1].uav]  # `once the patrol is over`: the last one told
     named = [n for n in line.nouns.values() if n.kind in _PLACES]
     if len(flying) != 1 or named:
         return None
-    return MissionDoneTrigger(on='mission_done', uav=flying[0].id)
+    return MissionDoneTrigger(on='mission_done', uav=who_flew(frame.scene, flying[0]).id)
+
+
+def who_flew(scene: Scene, meant: Entity) -> Entity:
+    """`after the patrol drone B lands`: whoever has flown nothing yet is not meant."""
+    flown = scene.missions[-1].uav if scene.missions else meant
+    return meant if scene.missions_of(meant) else flown
 
 
 def _parties(frame: Frame, line: Told) -> Parties:

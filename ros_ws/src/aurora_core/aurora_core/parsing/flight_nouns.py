@@ -1,0 +1,141 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Flights told with nouns: `the patrol is over`, `it gives up the pursuit and tracks the bus`."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from aurora_core.parsing.atom_runs import HELPERS, LOOSE, skip
+from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind
+from aurora_core.parsing.morphology import VerbForm
+from aurora_core.parsing.nominal import act_nouns
+from aurora_core.parsing.phases import FLOWN, PHASES
+
+_FLIGHTS = PHASES | {'navigate', 'orbit'}
+_PAUSES = (AtomKind.COMMA, AtomKind.CONJUNCTION)
+# `patrol` is a police car only where it is watched or acts by itself.
+_WATCHES = FLOWN | {'see', 'overtake', 'approach', 'tailgate', 'trail', 'alert', 'send', 'lose'}
+_OF_A_FLIGHT = frozenset({'finish', 'be', 'last', 'start', 'stop', 'break_off', 'trace', 'take'})
+_BREAKS_OFF = frozenset({'break_off', 'stop', 'finish', 'keep'})
+
+
+def flights(atoms: Sequence[Atom]) -> list[Atom]:
+    """Return the atoms with flights as such, and without the end that the next one implies."""
+    return _broken_off(_after_that(_patrols(_owned(list(atoms)))))
+
+
+def _owned(atoms: list[Atom]) -> list[Atom]:
+    """`through with its scan`: no predicate stands behind whose it is."""
+    for i in range(1, len(atoms)):
+        flown = atoms[i].kind is AtomKind.VERB and atoms[i].key in _FLIGHTS
+        if flown and atoms[i].form is VerbForm.BASE and atoms[i - 1].words in ('its', 'their'):
+            atoms[i] = replace(atoms[i], kind=AtomKind.ROUTE)
+    return atoms
+
+
+def _patrols(atoms: list[Atom]) -> list[Atom]:
+    """`after the patrol`, `the patrol is finished`: what a UAV flies, not who drives."""
+    if not any(a.noun is not None and a.noun.kind is NounKind.UAV for a in atoms):
+        return atoms
+    for i, atom in enumerate(atoms):
+        noun = atom.noun
+        if noun is None or noun.head_text != 'patrol' or noun.plural or noun.count > 1:
+            continue
+        before = atoms[i - 1] if i else None
+        behind = skip(atoms, i + 1, HELPERS)
+        acts = behind < len(atoms) and atoms[behind].kind is AtomKind.VERB
+        watched = before is not None and (
+            before.key in _WATCHES or before.kind is AtomKind.RELATION
+        )
+        if watched or (acts and atoms[behind].key not in _OF_A_FLIGHT):
+            continue
+        if noun.determiner in (Determiner.DEFINITE, Determiner.BARE):
+            atoms[i] = replace(atom, kind=AtomKind.ROUTE, key='patrol', noun=None)
+    return atoms
+
+
+def _after_that(atoms: list[Atom]) -> list[Atom]:
+    """`after that patrol, …`: when the patrol is over."""
+    for i, atom in enumerate(atoms):
+        if atom.kind is not AtomKind.THEN or atom.words not in ('after that', 'after this'):
+            continue
+        stop = flight_end(atoms, i + 1)
+        ends = stop is not None and stop < len(atoms)
+        if stop is not None and ends and (atoms[stop].is_actor or atoms[stop].kind in _PAUSES):
+            that = replace(atom, kind=AtomKind.FILL, words='that', start=atom.end - len('that'))
+            atoms[i] = replace(atom, kind=AtomKind.SUBORDINATOR, key='after')
+            atoms.insert(i + 1, that)
+    return atoms
+
+
+def _broken_off(atoms: list[Atom]) -> list[Atom]:
+    """`gives up the patrol and tracks it`, `the patrol is aborted and …`: the change says it."""
+    i = 0
+    while i < len(atoms):
+        stop = _given_up(atoms, i) or _is_given_up(atoms, i)
+        if stop is not None:
+            said = replace(atoms[i], kind=AtomKind.FILL, end=atoms[stop - 1].end, noun=None)
+            atoms[i:stop] = [said]
+        i += 1
+    return atoms
+
+
+def _given_up(atoms: Sequence[Atom], i: int) -> int | None:
+    """Return where the next act begins behind `gives up the patrol and`."""
+    if atoms[i].kind is not AtomKind.VERB or atoms[i].key not in _BREAKS_OFF:
+        return None
+    given_up = atoms[i].key == 'break_off'
+    stop = flight_end(atoms, i + 1, named=given_up) or (i + 1 if given_up else None)
+    if stop is None or stop >= len(atoms) or atoms[stop].kind not in _PAUSES:
+        return None
+    behind = skip(atoms, stop + 1, (*LOOSE, AtomKind.CONJUNCTION, AtomKind.THEN))
+    acts = behind < len(atoms) and atoms[behind].kind in (AtomKind.VERB, AtomKind.AUXILIARY)
+    return behind if acts else None
+
+
+def _is_given_up(atoms: Sequence[Atom], i: int) -> int | None:
+    """Return where the next sentence begins behind `the patrol is given up and`."""
+    stop = flight_end(atoms, i)
+    if stop is None or (i and atoms[i - 1].kind in (AtomKind.VERB, AtomKind.PREPOSITION)):
+        return None
+    verb = skip(atoms, stop, HELPERS)
+    if verb == stop or verb >= len(atoms) or atoms[verb].key != 'break_off':
+        return None
+    behind = skip(atoms, verb + 1, (*LOOSE, *_PAUSES, AtomKind.THEN))
+    paused = verb + 1 < len(atoms) and atoms[verb + 1].kind in _PAUSES
+    return behind if paused and behind < len(atoms) and atoms[behind].is_actor else None
+
+
+def flight_end(atoms: Sequence[Atom], i: int, *, named: bool = False) -> int | None:
+    """Return where the words of a flight end that begin at i: `its tracking of the bus`.
+
+    Args:
+        atoms: The prompt.
+        i: Where a flight may begin.
+        named: Whether whom or what a patrol is about belongs to it.
+    """
+    first = i
+    before = atoms[i - 1] if i else None
+    noun = before is not None and (before.key in _BREAKS_OFF or before.kind is AtomKind.THEN)
+    i = skip(atoms, i)
+    if i < len(atoms) and atoms[i].words in ('its', 'their'):
+        i = skip(atoms, i + 1)
+    nouns = i
+    while i < len(atoms) and _is_flight(atoms[i], article=i > first or noun):
+        i += 1
+    if i == nouns:
+        return None
+    of = i < len(atoms) and atoms[i].key in ('of', 'over', 'around', 'along')
+    k = i + 1 if of else i
+    about = k < len(atoms) and (atoms[k].is_actor or atoms[k].is_place)
+    gerund = atoms[i - 1].form is VerbForm.ING and atoms[i - 1].kind is AtomKind.VERB
+    return k + 1 if about and (gerund or (of and named)) else i
+
+
+def _is_flight(atom: Atom, *, article: bool) -> bool:
+    if atom.kind in (AtomKind.ROUTE, AtomKind.PATTERN) or act_nouns().get(atom.words) in FLOWN:
+        return True
+    flown = atom.kind is AtomKind.VERB and atom.key in _FLIGHTS
+    return flown and (atom.form is VerbForm.ING or (article and atom.form is VerbForm.BASE))
