@@ -23,7 +23,39 @@ _BREAKS_OFF = frozenset({'break_off', 'stop', 'finish', 'keep'})
 
 def flights(atoms: Sequence[Atom]) -> list[Atom]:
     """Return the atoms with flights as such, and without the end that the next one implies."""
-    return _broken_off(_after_that(_patrols(_owned(list(atoms)))))
+    return _broken_off(_after_that(_patrols(_owned(_on_the_way(list(atoms))))))
+
+
+def _on_the_way(atoms: list[Atom]) -> list[Atom]:
+    """`goes over to the park and hovers there`: it flies there."""
+    for i, atom in enumerate(atoms):
+        to = skip(atoms, i + 1)
+        place = skip(atoms, to + 1)
+        if place >= len(atoms) or atoms[to].key != 'to' or not atoms[place].is_place:
+            continue
+        over = atom.kind is AtomKind.VERB and atom.words.endswith(' over')
+        if over:  # elsewhere `goes over` is a limit, `moves over` a change of lanes
+            atoms[i] = atom = replace(atom, key='drive')
+        if atom.kind is not AtomKind.VERB or atom.key != 'drive' or _on_wheels(atoms, i):
+            continue
+        behind = place + 1
+        while behind < len(atoms) and (
+            atoms[behind].kind in _BETWEEN or atoms[behind].words == 'it'
+        ):
+            behind += 1
+        if behind < len(atoms) and atoms[behind].key in _STAYS:
+            atoms[i] = replace(atom, key='fly')
+    return atoms
+
+
+_BETWEEN = (*HELPERS, AtomKind.COMMA, AtomKind.CONJUNCTION, AtomKind.THEN, AtomKind.RELATIVE)
+_STAYS = ('hover', 'orbit', 'navigate', 'fly')
+
+
+def _on_wheels(atoms: Sequence[Atom], i: int) -> bool:
+    before = next((a for a in reversed(atoms[:i]) if a.kind not in HELPERS), None)
+    noun = before.noun if before is not None else None
+    return noun is not None and noun.kind not in (NounKind.UAV, NounKind.PRONOUN)
 
 
 def _owned(atoms: list[Atom]) -> list[Atom]:

@@ -59,7 +59,11 @@ class Entity:
 
 @dataclass(slots=True, kw_only=True, eq=False)
 class MissionDraft:
-    """A mission phase; None means that the prompt left it unsaid."""
+    """A mission phase; None means that the prompt left it unsaid.
+
+    Attributes:
+        on_the_way: Only where to is said: `flies to the park`.
+    """
 
     id: str
     uav: Entity
@@ -81,6 +85,7 @@ class MissionDraft:
     speed: Parameter | None = None
     over_streets: bool = False
     ends_in_flight: bool = False
+    on_the_way: bool = False
     span: Span
 
 

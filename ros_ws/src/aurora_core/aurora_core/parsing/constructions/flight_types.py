@@ -13,6 +13,7 @@ from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.measures import COUNT, LENGTH, Measure
 from aurora_core.parsing.scene import MissionDraft
 from aurora_core.spec.parameter import Bound, Parameter
+from aurora_core.spec.scenario import StatedCondition
 
 _FIELDS = (
     'altitude',
@@ -127,3 +128,22 @@ def noun_target(frame: Frame, adjunct: Adjunct) -> str | None:
         if actors:
             return actors[0].id
     return None
+
+
+def state_ranges(frame: Frame, draft: MissionDraft, found: FlightValues) -> None:
+    """State a range as two conditions."""
+    for quantity, of, measure in found.conditions(draft):
+        low, high = values.range_ends('condition_distance', measure)
+        for op, bound in (('>=', low), ('<=', high)):
+            made = StatedCondition.model_validate(
+                {
+                    'id': frame.scene.new_id('c'),
+                    'quantity': quantity,
+                    'of': of,
+                    'op': op,
+                    'value': bound,
+                    'span': frame.span,
+                }
+            )
+            frame.scene.conditions.append(made)
+            frame.scene.clause.ids[made.id] = None

@@ -7,15 +7,16 @@ from __future__ import annotations
 from aurora_core.parsing import values
 from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
 from aurora_core.parsing.atoms import ACTORS, AtomKind, NounKind, NounPhrase
-from aurora_core.parsing.constructions.flight_types import FlightValues
+from aurora_core.parsing.constructions.flight_types import FlightValues, state_ranges
 from aurora_core.parsing.constructions.flight_values import take_flight_values
 from aurora_core.parsing.constructions.flyers import flyers
+from aurora_core.parsing.constructions.transits import arrive, goes_on_there, is_transit, just_sent
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.pieces import Link
 from aurora_core.parsing.pronouns import ground
 from aurora_core.parsing.scene import Entity, MissionDraft
 from aurora_core.spec.parameter import Parameter
-from aurora_core.spec.scenario import StatedCondition, UavAction
+from aurora_core.spec.scenario import UavAction
 from aurora_core.spec.vocabulary import MissionMode, Pattern, Place
 
 FLYING = frozenset(
@@ -229,7 +230,9 @@ def _reference(frame: Frame, adjunct: Adjunct, flying: tuple[Entity, ...]) -> st
 
 def _is_place_again(frame: Frame, noun: NounPhrase, adjunct: Adjunct) -> bool:
     """`keeps the stadium in view, hovering over it`: with nobody else about, `it` is the place."""
-    if noun.kind is not NounKind.PRONOUN or noun.key != 'it' or frame.scene.agents:
+    if noun.kind is not NounKind.PRONOUN or noun.key != 'it':
+        return False
+    if frame.scene.agents and not just_sent(frame.scene):
         return False
     about = adjunct.key in ('over', 'around', 'at') or (
         not adjunct.key and frame.key in ('orbit', 'observe', 'navigate')
@@ -339,7 +342,10 @@ def _one(
         place = scene.pending_place.pop(uav.id, None)
         draft.target = place if mode is MissionMode.HOVER and target is None else None
         scene.missions.append(draft)
+    elif draft.on_the_way:
+        arrive(draft, mode)
     draft.target = draft.target or target
+    draft.on_the_way = is_transit(frame, draft, pattern, found)
     draft.needs_target = draft.mode is MissionMode.TRACK and draft.target is None
     if draft.pattern is None or (draft.pattern_assumed and pattern is not None):
         draft.pattern = pattern
@@ -347,7 +353,7 @@ def _one(
     if pattern is Pattern.WAYPOINTS and target is not None and found.waypoint_count is None:
         draft.waypoint_count = draft.waypoint_count or values.inferred('waypoint_count', 1)
     found.apply(draft)
-    _state_ranges(frame, draft, found)
+    state_ranges(frame, draft, found)
     return draft.id
 
 
@@ -389,7 +395,9 @@ def _continues(
     found: FlightValues,
 ) -> bool:
     """Return whether a clause says more about the last phase instead of opening another."""
-    if _goes_on_watching(frame, last, target, found):
+    if _goes_on_watching(frame, last, target, found) or (
+        goes_on_there(last, mode, target, found) and pattern is not Pattern.WAYPOINTS
+    ):
         return True
     if frame.piece.then or last.mode is not mode:
         return False
@@ -420,7 +428,7 @@ def _plain_flight(frame: Frame, flying: tuple[Entity, ...], found: FlightValues)
         attach = known and not frame.piece.then and not found.clashes(known[-1])
         if attach:
             found.apply(known[-1])
-            _state_ranges(frame, known[-1], found)
+            state_ranges(frame, known[-1], found)
             scene.became(known[-1].id)
         elif (
             found.only_pending
@@ -436,22 +444,3 @@ def _plain_flight(frame: Frame, flying: tuple[Entity, ...], found: FlightValues)
             found.release()
             return False
     return True
-
-
-def _state_ranges(frame: Frame, draft: MissionDraft, found: FlightValues) -> None:
-    """A stated range is two conditions."""
-    for quantity, of, measure in found.conditions(draft):
-        low, high = values.range_ends('condition_distance', measure)
-        for op, bound in (('>=', low), ('<=', high)):
-            made = StatedCondition.model_validate(
-                {
-                    'id': frame.scene.new_id('c'),
-                    'quantity': quantity,
-                    'of': of,
-                    'op': op,
-                    'value': bound,
-                    'span': frame.span,
-                }
-            )
-            frame.scene.conditions.append(made)
-            frame.scene.clause.ids[made.id] = None

@@ -1,0 +1,45 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Flights to where something happens: `flies to the park and hovers there` is one phase."""
+
+from __future__ import annotations
+
+from aurora_core.parsing.constructions.flight_types import FlightValues
+from aurora_core.parsing.frames import Frame
+from aurora_core.parsing.scene import MissionDraft, Scene
+from aurora_core.spec.vocabulary import MissionMode, Pattern
+
+
+def is_transit(
+    frame: Frame, draft: MissionDraft, pattern: Pattern | None, found: FlightValues
+) -> bool:
+    """`flies to the park`, `heads for the park`: no more than where to, and how high."""
+    actor = draft.target is not None and frame.scene.by_id(draft.target) is not None
+    if draft.target is None or actor or found.speed is not None:
+        return False
+    goes = pattern is Pattern.WAYPOINTS and found.waypoint_count is None
+    heads = frame.key == 'approach' and draft.mode is MissionMode.HOVER
+    return (goes or heads) and draft.duration is None and frame.key != 'visit'
+
+
+def arrive(draft: MissionDraft, mode: MissionMode) -> None:
+    """`flies to the park and hovers there`: one phase, for which the UAV has to get there."""
+    draft.mode = mode
+    draft.pattern = None
+    draft.waypoint_count = None
+
+
+def goes_on_there(
+    last: MissionDraft, mode: MissionMode, target: str | None, found: FlightValues
+) -> bool:
+    """Return whether a phase is flown where the UAV has just been sent to."""
+    if not last.on_the_way or mode is MissionMode.TRACK or target not in (None, last.target):
+        return False
+    return last.altitude is None or found.altitude is None
+
+
+def just_sent(scene: Scene) -> bool:
+    """Return whether the clause before sent a UAV to a place: `it` is the place, then."""
+    return any(
+        m.on_the_way and m.id in c.ids for m in scene.missions[-1:] for c in scene.clauses[-2:-1]
+    )
