@@ -109,7 +109,7 @@ def _otherwise(atoms: list[Atom], prompt: str) -> list[Atom]:
 
 
 def _at_once(atoms: list[Atom], prompt: str) -> list[Atom]:
-    """`no sooner has the bus stopped than it lands`, `hardly has it landed when the bus starts`."""
+    """`no sooner has the bus stopped than it lands`, `hardly has it landed when it starts`."""
     scarcely = shipped_lexicon().turns['scarcely']
     for i, atom in enumerate(atoms):
         opens = i == 0 or atoms[i - 1].kind in _PAUSES

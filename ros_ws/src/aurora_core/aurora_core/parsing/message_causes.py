@@ -38,9 +38,9 @@ def heard(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
             i += 1
             continue
         clause, stop = told
-        if written and written[-1].kind is AtomKind.COMMA and not _interrupts(written):
-            if _effect_behind(atoms, stop):
-                written[-1] = replace(written[-1], kind=AtomKind.CONJUNCTION, key='and')
+        pause = bool(written) and written[-1].kind is AtomKind.COMMA
+        if pause and not _interrupts(written) and _effect_behind(atoms, stop):
+            written[-1] = replace(written[-1], kind=AtomKind.CONJUNCTION, key='and')
         written += clause
         if stop < len(atoms) and atoms[stop].is_actor:
             written.append(replace(clause[0], kind=AtomKind.COMMA, key=','))

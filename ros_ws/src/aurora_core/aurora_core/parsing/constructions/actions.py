@@ -13,7 +13,7 @@ from aurora_core.parsing.constructions.flyers import flyers
 from aurora_core.parsing.constructions.messages import message
 from aurora_core.parsing.constructions.places import add_placement, place_of, placements_of
 from aurora_core.parsing.frames import Frame
-from aurora_core.parsing.pronouns import airborne, mobile
+from aurora_core.parsing.pronouns import mobile
 from aurora_core.parsing.reactions import REACTIONS
 from aurora_core.parsing.scene import Entity, Scene
 from aurora_core.spec.events import AgentDo
@@ -49,7 +49,9 @@ def _sets_to_work(frame: Frame) -> UavAction | None:
         return None
     if any(a.measure is not None for a in frame.adjuncts):
         return None
-    acting = frame.subjects(airborne) if frame.subject_nouns else frame.inherited()
+    if not frame.scene.missions:
+        return None
+    acting = frame.subjects() if frame.subject_nouns else frame.inherited()
     if len(acting) != 1 or not acting[0].is_uav:
         return None
     told = frame.scene.missions_of(acting[0])

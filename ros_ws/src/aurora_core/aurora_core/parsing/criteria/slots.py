@@ -104,7 +104,8 @@ class _Reading:
             return None
         self._fails = self._cut(words['fails'])
         asked = asked or self._fails or bool(words['demands'].search(self._text))
-        if not asked and not self._is_bounded():
+        named = self._line.plain and words['names_measured'].search(self._text) is not None
+        if not asked and not named and not self._is_bounded():
             return None
         self._unseen = words['unseen'].search(self._text) is not None
         event = self._event()
