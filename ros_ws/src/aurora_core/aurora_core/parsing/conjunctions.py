@@ -14,6 +14,7 @@ from dataclasses import replace
 from aurora_core.parsing.atom_runs import LOOSE, skip, text_of
 from aurora_core.parsing.atoms import Atom, AtomKind
 from aurora_core.parsing.lexicon import shipped_lexicon
+from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.pieces import TRANSPARENT
 from aurora_core.parsing.reactions import REACTIONS
 
@@ -32,7 +33,8 @@ _HAPPENS = frozenset(
 
 def joined(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
     """Return the atoms with these causes behind `when`."""
-    return _at_once(_otherwise(_because(list(atoms), prompt), prompt), prompt)
+    told = _at_once(_otherwise(_because(list(atoms), prompt), prompt), prompt)
+    return _alike(told)
 
 
 def _when(atom: Atom) -> Atom:
@@ -135,3 +137,25 @@ def _at_once(atoms: list[Atom], prompt: str) -> list[Atom]:
         cause = [_when(atom), *atoms[who:than], comma]
         return [*atoms[:i], *cause, *_at_once(atoms[than + 1 :], prompt)]
     return atoms
+
+
+def _alike(atoms: list[Atom]) -> list[Atom]:
+    """`the second truck starts 5 s after the first one`: after the first one starts."""
+    written: list[Atom] = []
+    verb: Atom | None = None
+    for i, atom in enumerate(atoms):
+        written.append(atom)
+        if atom.kind is AtomKind.VERB:
+            verb = atom
+        elif atom.kind in (AtomKind.STOP, AtomKind.COMMA, AtomKind.CONJUNCTION):
+            verb = None
+        before = atoms[i - 1] if i else None
+        ends = i + 1 == len(atoms) or atoms[i + 1].kind in _PAUSES
+        named = atom.is_actor and atom.key not in ('it', 'they', 'person')
+        behind = before is not None and before.key == 'after' and named and ends
+        if behind and verb is not None and verb.key in REACTIONS:
+            assert before is not None
+            written[-2] = replace(before, kind=AtomKind.SUBORDINATOR)
+            written.append(replace(verb, start=atom.start, end=atom.end, form=VerbForm.THIRD))
+            verb = None
+    return written

@@ -246,7 +246,7 @@ class Lexicon:
             (Tag.AUXILIARY, data['auxiliaries']),
             (Tag.CAUSING, data['causing']),
         ):
-            for phrase in phrases:
+            for phrase in expanded(phrases):
                 for form, kind in verb_forms(phrase, irregular):
                     self._add(form, Sense(tag=tag, key=phrase, form=kind))
         for key, unit in data['units'].items():

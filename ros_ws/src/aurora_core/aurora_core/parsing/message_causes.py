@@ -30,6 +30,7 @@ def _hearing() -> dict[str, list[str]]:
 def heard(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
     """Return the atoms with every message that is a cause as a clause behind `when`."""
     written: list[Atom] = []
+    atoms = _owned(atoms, prompt)
     i = 0
     while i < len(atoms):
         told = _cause(atoms, i, prompt)
@@ -46,6 +47,24 @@ def heard(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
             written.append(replace(clause[0], kind=AtomKind.COMMA, key=','))
         i = stop
     return written
+
+
+def _owned(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
+    """`it has got the drone's warning`, `once the drone's warning arrives`: a warning from it."""
+    told = list(atoms)
+    for i in range(1, len(told) - 2):
+        owner, message = told[i], told[i + 2]
+        if not owner.is_actor or text_of(told[i + 1], prompt) != "'s":
+            continue
+        if not _is_message(message, prompt, _hearing()['nouns']):
+            continue
+        behind = skip(told, i + 3, (*LOOSE, AtomKind.AUXILIARY))
+        arrives = behind < len(told) and told[behind].key in ('reach', 'come')
+        gets = told[i - 1].kind is AtomKind.VERB and told[i - 1].key in ('receive', 'come')
+        if gets or (arrives and told[i - 1].kind is AtomKind.SUBORDINATOR):
+            source = replace(told[i + 1], kind=AtomKind.PREPOSITION, key='from')
+            told[i : i + 3] = [replace(message, kind=AtomKind.MESSAGE), source, owner]
+    return told
 
 
 def _interrupts(written: Sequence[Atom]) -> bool:

@@ -29,6 +29,7 @@ from aurora_core.parsing.radio import radio
 from aurora_core.parsing.roles import cast
 from aurora_core.parsing.shared_out import shared_out
 from aurora_core.parsing.statements import value_statements
+from aurora_core.parsing.telling import messages_told
 from aurora_core.parsing.wrapping import unwrap
 from aurora_core.spec.parameter import Bound, Span
 
@@ -60,8 +61,7 @@ def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
     """Return the atoms with shorthand written out and retracted numbers left out."""
     if longest_sentence(atoms) > MOST_ATOMS:
         return Rewritten(atoms=tuple(atoms))
-    who = flights(cast(told_of_us(atoms), prompt))
-    told, background = unwrap(joined(who, prompt), prompt)
+    told, background = unwrap(joined(_cast(atoms, prompt), prompt), prompt)
     told = shared_out(not_before(told), prompt)
     told = dated(verbal(radio(told, prompt), prompt), prompt)
     told = value_statements(
@@ -78,6 +78,11 @@ def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
         taken_back=tuple(spans),
         background=tuple(background),
     )
+
+
+def _cast(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
+    """Return the atoms with words for actors and messages as such."""
+    return messages_told(flights(cast(told_of_us(atoms), prompt)), prompt)
 
 
 def _shares(atoms: Sequence[Atom]) -> list[Atom]:

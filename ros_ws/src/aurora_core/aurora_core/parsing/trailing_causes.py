@@ -92,10 +92,18 @@ def _about_the_told(
     if not isinstance(found, DistanceCause) or not isinstance(action, SendMessage):
         return found
     told = story.scene.by_id(action.receiver)
+    reported = story.scene.reported.get(action.sender)
+    if found.b == action.sender and reported not in (None, found.a.id) and _of_it(frame):
+        return replace(found, b=reported)  # `warns it of a truck when it is 80 m away from it`
     pronoun = all(n.kind is NounKind.PRONOUN for n in frame.subject_nouns)
     if told is None or told.is_uav or not found.a.is_uav or not pronoun:
         return found
     return found if found.b in (None, told.id) else replace(found, a=told)
+
+
+def _of_it(frame: Frame) -> bool:
+    nouns = [n for a in frame.adjuncts for n in a.nouns]
+    return bool(nouns) and all(n.kind is NounKind.PRONOUN for n in nouns)
 
 
 def _shared_cause(story: Story, event: EventDraft, clause: ClauseDraft) -> None:
