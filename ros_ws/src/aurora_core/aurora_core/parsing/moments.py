@@ -50,7 +50,9 @@ def _into_it(atoms: list[Atom]) -> list[Atom]:
     changed = list(atoms)
     for i in range(1, len(changed)):
         inside = changed[i].kind is AtomKind.PREPOSITION and changed[i].key == 'in'
-        if inside and _is_time(changed, i - 1) and _ends(changed, i + 1):
+        acts = i + 2 < len(changed) and changed[i + 1].is_actor
+        acts = acts and changed[i + 2].kind is AtomKind.VERB  # `8 s in it stops`
+        if inside and _is_time(changed, i - 1) and (acts or _ends(changed, i + 1)):
             changed[i] = replace(changed[i], kind=AtomKind.FROM_START)
     return changed
 

@@ -72,7 +72,7 @@ class NounReader:
                     continue
                 if loose and kind is NounKind.UNKNOWN:
                     return None
-                if self._refuses(kind, states, determiner, i == j):
+                if self._refuses(kind, states, determiner, i, is_first=i == j):
                     return None
                 proper = [k for k in loose if self._said.tokens[k].proper]
                 if kind is NounKind.LANDMARK and proper and stop - j < len(landmark_words(key)):
@@ -148,15 +148,23 @@ class NounReader:
         return self._said.has(j, Tag.EGO_POSSESSIVE)
 
     def _refuses(
-        self, kind: NounKind, states: list[str], determiner: Determiner, is_first: bool
+        self, kind: NounKind, states: list[str], determiner: Determiner, i: int, *, is_first: bool
     ) -> bool:
         """`tracking bus`: without an article the participle is a verb."""
-        if is_first or not states or determiner is not Determiner.BARE:
+        if determiner is not Determiner.BARE:
+            return False
+        if is_first and kind is NounKind.UNSUPPORTED:
+            return self._is_verb(i)  # `to train the crew`
+        if is_first or not states:
             return False
         if kind in (NounKind.PLACE, NounKind.LANDMARK):
             return True  # `trucks parked roadside`
         allowed = _UAV_PARTICIPLES if kind is NounKind.UAV else _BARE_PARTICIPLES
         return not all(s in allowed or s == 'oncoming' for s in states)
+
+    def _is_verb(self, i: int) -> bool:
+        before = self._said.words[i - 1] if i else ''
+        return before in ('to', 'we', 'i', 'they', 'you', 'will', 'can', 'could', 'must', 'please')
 
     def _index(self, kind: NounKind, stop: int) -> tuple[int, int]:
         """`drone 2`, `uav1`: a whole number without a unit behind the head."""

@@ -328,12 +328,19 @@ def _fronted(atoms: list[Atom]) -> list[Atom]:
             while begin and moved[begin - 1].kind not in _BREAKS:
                 begin -= 1
             moved.insert(begin, moved.pop(i))  # `the car brakes in response`
+    for i in range(2, len(moved) - 1):
+        reacts = moved[i].kind is AtomKind.THEN and moved[i - 1].kind is AtomKind.VERB
+        if reacts and moved[i - 2].is_actor and moved[i].key in _REACTING:
+            moved.insert(i - 2, moved.pop(i))  # `the drone informs thereupon the police`
     for i in range(1, len(moved) - 1):
         verbal = moved[i + 1].kind in (AtomKind.VERB, AtomKind.AUXILIARY)
         worded = moved[i].kind is AtomKind.THEN and moved[i].key != '→'
         if worded and moved[i - 1].is_actor and verbal:
             moved[i - 1], moved[i] = moved[i], moved[i - 1]
     return moved
+
+
+_REACTING = ('thereupon', 'consequently', 'accordingly', 'subsequently', 'thereafter')
 
 
 def _small_words(atoms: list[Atom]) -> list[Atom]:

@@ -9,6 +9,7 @@ from dataclasses import replace
 
 from aurora_core.parsing.atom_runs import text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind
+from aurora_core.parsing.drivers import drivers
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.pieces import TRANSPARENT
 
@@ -17,7 +18,7 @@ _SERVES = frozenset({'be', 'serve', 'trace', 'act', 'form', 'wait'})
 
 def cast(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
     """Return the atoms with roles noted at the nouns that have them."""
-    told = _apposed(_own_types(_lets_pass(list(atoms))))
+    told = _apposed(_own_types(_lets_pass(drivers(atoms, prompt))))
     return _targets(_background(told, prompt), prompt)
 
 

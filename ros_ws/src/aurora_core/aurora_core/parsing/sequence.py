@@ -382,7 +382,7 @@ def is_earlier(piece: Piece) -> bool:
 
 
 # `after seeing a bus`: what one waits for, not what one does first.
-HAPPENS = ('see', 'lose', 'receive')
+HAPPENS = ('see', 'lose', 'receive', 'alert', 'send', 'report')
 
 
 def is_ellipsis(piece: Piece) -> bool:

@@ -166,8 +166,17 @@ def tag(
     landmark_vocabulary = {word for words in landmarks for word in words}
     words: list[str] = []
     corrections: list[tuple[int, int, str]] = []
-    for token in tokens:
+    flown = any(
+        s.tag is Tag.UAV
+        for t in tokens
+        for _, senses in known.matches([t.norm], 0)
+        for s in senses
+    )
+    for i, token in enumerate(tokens):
         word = token.norm
+        if flown and _is_short_uav(tokens, i):
+            words.append('drone')  # `two drones: d1 hovers, d2 …`
+            continue
         if (
             token.kind is TokenKind.WORD
             and word not in known.words
@@ -193,6 +202,15 @@ def _is_name(tokens: Sequence[Token], words: Sequence[str], i: int, lexicon: Lex
     acting = lexicon.longest_of(words, i + 1, (Tag.VERB, Tag.AUXILIARY))
     finite = acting is not None and acting[1].form in (VerbForm.THIRD, VerbForm.BASE)
     return others and finite
+
+
+def _is_short_uav(tokens: Sequence[Token], i: int) -> bool:
+    """`d1`, `u2`: a letter with a small number glued to it, and no quantity `d1 = 30 m`."""
+    behind = tokens[i + 1 : i + 3]
+    if tokens[i].norm not in ('d', 'u', 'uv', 'dr') or not behind or not behind[0].glued:
+        return False
+    small = behind[0].kind is TokenKind.NUMBER and behind[0].value in range(1, 10)
+    return small and (len(behind) < 2 or behind[1].norm not in ('=', 'm', '%'))
 
 
 class _Tagger:

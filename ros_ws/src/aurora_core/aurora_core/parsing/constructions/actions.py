@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from aurora_core.parsing import values
-from aurora_core.parsing.adjuncts import AdjunctKind
+from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
 from aurora_core.parsing.atoms import ACTORS, NounKind
 from aurora_core.parsing.constructions import missions
 from aurora_core.parsing.constructions.flight_values import take_flight_values
@@ -106,6 +106,10 @@ def agent_action(frame: Frame, *, triggered: bool = False) -> AgentAction | None
             return None
         adjunct.used = True
         speed = values.explicit('ground_speed', adjunct.measure)
+        if _in_brackets(frame, adjunct):  # `the car (40 km/h) brakes`: it drives at that speed
+            drive = Behavior(kind=BehaviorKind.DRIVE, speed_mps=speed, span=frame.span)
+            who[0].behaviors.append(drive)
+            speed = None
     if frame.key in ('yield', 'change_lane'):
         for other in frame.free(AdjunctKind.PHRASE, 'to') + frame.free(AdjunctKind.OBJECT):
             # whom it yields to has no place in an action, nor whose lane it takes
@@ -122,6 +126,11 @@ def agent_action(frame: Frame, *, triggered: bool = False) -> AgentAction | None
             add_placement(who[0], placement)
     frame.scene.became(who[0].id)
     return AgentAction(do=_AGENT_DO[frame.key], agent=who[0].id, value_mps=speed)
+
+
+def _in_brackets(frame: Frame, adjunct: Adjunct) -> bool:
+    told = frame.scene.prompt[: adjunct.start].rstrip()
+    return told.endswith('(') and frame.verb is not None and adjunct.end <= frame.verb.start
 
 
 # What nobody on foot does: in `when a boy crosses it brakes` the boy is not `it`.
