@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -116,13 +117,37 @@ def _broken_off(atoms: list[Atom]) -> list[Atom]:
 
 def _given_up(atoms: Sequence[Atom], i: int) -> int | None:
     """Return where the next act begins behind `gives up the patrol and`."""
+    if atoms[i].kind is AtomKind.NEGATION:
+        return _no_more(atoms, i)
     if atoms[i].kind is not AtomKind.VERB or atoms[i].key not in _BREAKS_OFF:
         return None
     given_up = atoms[i].key == 'break_off'
     stop = flight_end(atoms, i + 1, named=given_up) or (i + 1 if given_up else None)
-    if stop is None or stop >= len(atoms) or atoms[stop].kind not in _PAUSES:
+    return _next_act(atoms, stop) if stop is not None else None
+
+
+def _no_more(atoms: Sequence[Atom], i: int) -> int | None:
+    """`no longer tracks the car but`, `does not follow it any more and`."""
+    verb = skip(atoms, i + 1, HELPERS)
+    if verb >= len(atoms) or atoms[verb].key not in _FLIGHTS:
+        return None
+    stop = skip(atoms, verb + 1)
+    if stop < len(atoms) and (atoms[stop].is_actor or atoms[stop].is_place):
+        stop += 1
+    said = ' '.join(a.words for a in atoms[i:])
+    return _next_act(atoms, skip(atoms, stop)) if _NO_LONGER.search(said) else None
+
+
+_NO_LONGER = re.compile(r'no longer|no more|any ?more|any longer')
+
+
+def _next_act(atoms: Sequence[Atom], stop: int) -> int | None:
+    """Return where the predicate of the same UAV begins behind a pause."""
+    if stop >= len(atoms) or not (atoms[stop].kind in _PAUSES or atoms[stop].key == ':'):
         return None
     behind = skip(atoms, stop + 1, (*LOOSE, AtomKind.CONJUNCTION, AtomKind.THEN))
+    if behind < len(atoms) and atoms[behind].words == 'it':
+        behind = skip(atoms, behind + 1)
     acts = behind < len(atoms) and atoms[behind].kind in (AtomKind.VERB, AtomKind.AUXILIARY)
     return behind if acts else None
 

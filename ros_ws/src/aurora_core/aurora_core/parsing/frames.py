@@ -9,7 +9,7 @@ from itertools import pairwise
 
 from aurora_core.parsing.adjunct_reader import AdjunctReader, fits
 from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
-from aurora_core.parsing.atoms import ACTORS, Atom, AtomKind, NounKind, NounPhrase
+from aurora_core.parsing.atoms import ACTORS, Atom, AtomKind, Determiner, NounKind, NounPhrase
 from aurora_core.parsing.measures import LENGTH, TIME
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.pieces import Piece
@@ -46,6 +46,8 @@ _TRANSITIVE = frozenset(
         'fly',
     }
 )
+# What is done to others only.
+_OF_OTHERS = frozenset({'follow', 'track', 'tailgate', 'overtake', 'trail', 'observe', 'approach'})
 # Marks and nouns that add nothing when no construction takes them.
 _NEUTRAL_MARKS = frozenset({'scenario', 'world_noun', 'route', 'frame', 'from_start'})
 _NEUTRAL_NOUNS = frozenset({NounKind.SURROUNDINGS, NounKind.STREET})
@@ -83,6 +85,7 @@ class Frame:
         self._reorder()
         self._later_verbs(after)
         self._theme()
+        self.avoid = self._itself()
 
     @property
     def key(self) -> str:
@@ -223,6 +226,19 @@ class Frame:
                     nouns=(noun,),
                 ),
             )
+
+    def _itself(self) -> tuple[Entity, ...]:
+        """`until a bus comes, then it follows the bus`: nobody follows himself."""
+        pronoun = any(n.kind is NounKind.PRONOUN and n.key == 'it' for n in self.subject_nouns)
+        if not pronoun or self.key not in _OF_OTHERS:
+            return ()
+        named = [n for a in self.free(AdjunctKind.OBJECT) for n in a.nouns]
+        return tuple(
+            e
+            for e in self.scene.agents
+            for n in named
+            if n.key == e.type.value and n.determiner is Determiner.DEFINITE and not n.plural
+        )
 
     def _later_verbs(self, after: Sequence[Atom]) -> None:
         """`stops moving`: a second predicate that was not cut off says nothing new or is loose."""

@@ -238,7 +238,7 @@ class MeasureReader:
             and self._number(k + 1) is not None
             and self._word(k + 2) != 'another'
         )
-        joins_size = link in ('x', 'by') and self._number(k + 1) is not None
+        joins_size = link in ('x', 'by', 'times') and self._number(k + 1) is not None
         if joins_range or joins_size:
             other = self._number(k + 1)
             if other is not None:

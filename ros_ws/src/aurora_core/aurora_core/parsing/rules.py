@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 from aurora_core.parsing.constructions.places import add_placement
 from aurora_core.parsing.scene import Doubt, Entity, LinkDraft, MissionDraft, Scene
 from aurora_core.spec.scenario import (
@@ -73,6 +75,7 @@ def settle(scene: Scene) -> None:
         if draft.needs_target and draft.target is None:
             _infer_target(scene, draft)
     _own_sequence(scene)
+    _stays_there(scene)
     for event in scene.events:  # nothing waits for itself
         if getattr(event.trigger, 'event', None) == event.id:
             event.trigger = None
@@ -81,24 +84,35 @@ def settle(scene: Scene) -> None:
     _senders(scene)
 
 
+def _stays_there(scene: Scene) -> None:
+    """`hovers over the park at 15 m, climbs and hovers at 45 m`: still over the park."""
+    for uav in scene.uavs:
+        for before, after in pairwise(scene.missions_of(uav)):
+            both = before.mode is MissionMode.HOVER and after.mode is MissionMode.HOVER
+            place = before.target is not None and scene.by_id(before.target) is None
+            if both and place and after.target is None:
+                after.target, after.target_inferred = before.target, True
+
+
 def _own_sequence(scene: Scene) -> None:
     """`when its hover is over, it orbits the park`: the sequence that every UAV's phases have."""
     for event in tuple(scene.events):
         over, action = event.trigger, event.action
         if not isinstance(over, MissionDoneTrigger) or not isinstance(action, UavAction):
             continue
-        if event.delay is not None or action.do != 'change_mission' or over.uav != action.uav:
+        if event.delay is not None or action.do == 'ascend' or over.uav != action.uav:
             continue
         phases = [m.id for m in scene.missions if m.uav.id == action.uav]
         waits = any(getattr(e.trigger, 'event', None) == event.id for e in scene.events)
         ordered = any(event.id in (o.first, o.then) for o in scene.orders)
-        if action.mission not in phases[1:] or waits or ordered:
+        follows = action.mission in phases[1:] if action.do == 'change_mission' else phases
+        if not follows or waits or ordered:
             continue
         scene.events.remove(event)
         for clause in scene.clauses:
             if event.id in clause.ids:
                 del clause.ids[event.id]
-                clause.ids[action.mission] = None
+                clause.ids[action.mission or phases[-1]] = None
 
 
 def _shared_speeds(scene: Scene) -> None:

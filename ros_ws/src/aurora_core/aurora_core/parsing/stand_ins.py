@@ -51,6 +51,8 @@ class StandInReader:
     def pronoun(self, i: int) -> tuple[NounPhrase, int] | None:
         """`it`, `I am`, `one near the park`: the phrase and the next index."""
         word = self._said.words[i]
+        if word == '#':
+            return self._numbered(i)
         moving = i + 1 if word in ("i'm", 'im', "we're") else i + 2
         told = word in ("i'm", 'im', "we're") or tuple(self._said.words[i : i + 2]) in _I_AM
         if told and self._acts(moving):  # `I am driving at 10 m/s`
@@ -97,6 +99,13 @@ class StandInReader:
             return 0
         acts = self._said.longest(stop, Tag.VERB) is not None
         return stop if acts or self._placed(stop) else 0
+
+    def _numbered(self, i: int) -> tuple[NounPhrase, int] | None:
+        """`two drones: #1 hovers …, #2 tracks …`: told apart by number only."""
+        number = self._said.tokens[i + 1].norm if i + 1 < len(self._said.tokens) else ''
+        acts = self._said.longest(i + 2, Tag.VERB, Tag.AUXILIARY) is not None
+        told = number in ('1', '2', '3') and acts
+        return self._phrase(i, i + 2, f'nth{number}') if told else None
 
     def _acts(self, j: int) -> bool:
         found = self._said.longest(j, Tag.VERB)

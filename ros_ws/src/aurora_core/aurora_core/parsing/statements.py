@@ -15,6 +15,7 @@ from dataclasses import replace
 from aurora_core.parsing.adjunct_reader import fits
 from aurora_core.parsing.atom_runs import HELPERS, LOOSE, skip, text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
+from aurora_core.parsing.lexicon import shipped_lexicon
 from aurora_core.parsing.measures import COUNT, LENGTH, SPEED, TIME
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.world_statements import horizon, traffic
@@ -28,11 +29,14 @@ _SO = re.compile(
     r'|(?:do|does|doing|done|did) (?:so|this|that)|this|that|all this|all of this|both)\b'
 )
 
+_PAUSES = (AtomKind.STOP, AtomKind.COMMA, AtomKind.CONJUNCTION)
+
 
 def value_statements(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
     """Return the atoms with every stated value behind its name."""
     written = traffic(list(atoms), prompt)
     for turn in (
+        _sufficient,
         _repeated,
         _between,
         _delayed,
@@ -46,6 +50,27 @@ def value_statements(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
     ):
         written = turn(written, prompt)
     return horizon(_so(_going(written, prompt), prompt))
+
+
+def _sufficient(atoms: list[Atom], prompt: str) -> list[Atom]:
+    """`forty seconds are enough`: the duration of what was told last."""
+    enough = shipped_lexicon().turns['enough']
+    written: list[Atom] = []
+    i = 0
+    while i < len(atoms):
+        atom, link, told = atoms[i], _at(atoms, i + 1), _at(atoms, i + 2)
+        ends = _at(atoms, i + 3)
+        opens = not written or written[-1].kind in _PAUSES
+        opens = opens and (ends is None or ends.kind in _PAUSES)
+        said = told is not None and _is_be(link) and text_of(told, prompt) in enough
+        if opens and atom.key == TIME and said and told is not None:
+            name = Atom(kind=AtomKind.THING, key='duration', start=told.start, end=told.end)
+            written += [name, _copula(told), atom]
+            i += 3
+            continue
+        written.append(atom)
+        i += 1
+    return written
 
 
 def _at(atoms: Sequence[Atom], i: int) -> Atom | None:

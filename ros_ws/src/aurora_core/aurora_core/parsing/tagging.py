@@ -242,17 +242,22 @@ class _Tagger:
 
     def _step(self, i: int) -> int:
         token = self._tokens[i]
-        if token.kind is TokenKind.MARK and token.norm not in (
-            '%',
-            '°',
-            '@',
-            '~',
-            '&',
-            '<',
-            '>',
-            '≥',
-            '≤',
-            '+',
+        if (
+            token.kind is TokenKind.MARK
+            and not self._numbers(i)
+            and token.norm
+            not in (
+                '%',
+                '°',
+                '@',
+                '~',
+                '&',
+                '<',
+                '>',
+                '≥',
+                '≤',
+                '+',
+            )
         ):
             if token.norm in _STOPS or self._parts(i):
                 self._add(AtomKind.STOP, token.norm, i, i + 1)
@@ -305,8 +310,14 @@ class _Tagger:
                 continue  # `an orbit around …`
             if self._take(i, length, senses):
                 return i + length
-        self._add(AtomKind.UNKNOWN, self._words[i], i, i + 1)
+        unknown = AtomKind.FILL if token.norm in _HARMLESS else AtomKind.UNKNOWN
+        self._add(unknown, self._words[i], i, i + 1)
         return i + 1
+
+    def _numbers(self, i: int) -> bool:
+        """`#1 hovers`."""
+        behind = self._tokens[i + 1].kind if i + 1 < len(self._tokens) else None
+        return self._tokens[i].norm == '#' and behind is TokenKind.NUMBER
 
     def _parts(self, i: int) -> bool:
         """`A hovers / B lands`: a stroke with blanks around it parts sentences."""

@@ -151,9 +151,11 @@ def _asks(atoms: Sequence[Atom], prompt: str, *, before_wish: bool) -> bool:
         if digits or (measure is not None and measure.dimension != COUNT):
             return True
         noun = atom.noun
-        if noun is None or (noun.plural and noun.determiner is Determiner.BARE):
+        if noun is None:
             continue
         counted = noun.count > 1 and noun.kind in _NAMED
+        if noun.plural and noun.determiner is Determiner.BARE and not counted:
+            continue
         if counted or (noun.kind in _WHERE and not before_wish):
             return True
         if noun.kind is NounKind.LANDMARK or _meets_ego(atoms, i):

@@ -165,6 +165,8 @@ def _over_streets(frame: Frame) -> bool:
 
 def _target(frame: Frame, flying: tuple[Entity, ...]) -> tuple[str | None, str]:
     """Return what the flight is about and the preposition in front of it."""
+    if frame.key == 'wait':
+        _waits_for(frame)
     candidates = frame.free(AdjunctKind.OBJECT) + frame.free(
         AdjunctKind.PHRASE,
         'over',
@@ -201,6 +203,14 @@ def _target(frame: Frame, flying: tuple[Entity, ...]) -> tuple[str | None, str]:
     if len(patients) == 1:  # `the bus drives on and is tracked by a drone`
         return patients[0].id, ''
     return None, ''
+
+
+def _waits_for(frame: Frame) -> None:
+    """`it waits for the bus`: whom a UAV waits for is not where it waits."""
+    for adjunct in frame.free(AdjunctKind.PHRASE, 'for') + frame.free(AdjunctKind.OBJECT):
+        named = [n for n in adjunct.nouns if n.kind in ACTORS]
+        if named and len(named) == len(adjunct.nouns):
+            adjunct.used = bool(frame.objects(named))
 
 
 def _reference(frame: Frame, adjunct: Adjunct, flying: tuple[Entity, ...]) -> str | None:
@@ -403,6 +413,8 @@ def _continues(
         return False
     if target is not None and last.target is not None and last.target != target:
         return False
+    if target is not None and pattern is Pattern.WAYPOINTS and last.waypoint_count is not None:
+        return False  # `visits 6 waypoints; it then flies to the park`
     stated = last.pattern is not None and not last.pattern_assumed
     if pattern is not None and stated and last.pattern is not pattern:
         return False

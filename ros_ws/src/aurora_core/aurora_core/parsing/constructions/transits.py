@@ -17,7 +17,9 @@ def is_transit(
     actor = draft.target is not None and frame.scene.by_id(draft.target) is not None
     if draft.target is None or actor or found.speed is not None:
         return False
-    goes = pattern is Pattern.WAYPOINTS and found.waypoint_count is None
+    count = draft.waypoint_count
+    counted = found.waypoint_count is not None or (count is not None and count.span is not None)
+    goes = pattern is Pattern.WAYPOINTS and not counted
     heads = frame.key == 'approach' and draft.mode is MissionMode.HOVER
     return (goes or heads) and draft.duration is None and frame.key != 'visit'
 
