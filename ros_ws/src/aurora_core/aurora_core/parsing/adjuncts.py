@@ -18,6 +18,15 @@ MUTUAL = (
 )
 
 
+# The same of those who stand one behind the other.
+IN_A_ROW = (
+    *('behind the other', 'behind each other', 'behind one another', 'after the other'),
+    *('after another', 'in single file', 'in a column', 'in a queue', 'in a convoy', 'in convoy'),
+    *('nose to tail', 'in a row', 'the one before', 'the one in front', 'the one ahead'),
+    *('the previous one', 'the preceding one', 'from front to back'),
+)
+
+
 class AdjunctKind(StrEnum):
     ATTRIBUTE = 'attribute'  # a measure with the name of what it measures
     MEASURE = 'measure'  # a measure with or without a preposition

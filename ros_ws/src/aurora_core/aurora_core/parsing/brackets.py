@@ -7,7 +7,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from aurora_core.parsing.atoms import Atom, AtomKind
+from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
+from aurora_core.parsing.measures import SPEED
 from aurora_core.parsing.pieces import TRANSPARENT, has_verb
 
 _OPENING, _CLOSING = '(', ')'
@@ -41,7 +42,7 @@ def take_out(atoms: Sequence[Atom]) -> tuple[list[Atom], list[Aside]]:
             continue
         inner = tuple(atoms[i + 1 : stop])
         head = next((a for a in reversed(kept) if a.kind not in TRANSPARENT), None)
-        if head is not None and head.is_actor and _says_more(inner):
+        if head is not None and head.is_actor and (_says_more(inner) or _speed_of(head, inner)):
             asides.append(Aside(atoms=inner, head=head))
         else:  # a comma between two values cuts no clause
             kept += [
@@ -77,3 +78,10 @@ def _says_more(inner: Sequence[Atom]) -> bool:
     """A predicate or a place; an actor of its own is told inside the sentence."""
     told = has_verb(inner) or any(a.kind is AtomKind.RELATION for a in inner)
     return told and not any(a.is_actor for a in inner[:1])
+
+
+def _speed_of(head: Atom, inner: Sequence[Atom]) -> bool:
+    """`a bus (8 m/s) and a pedestrian`: how fast the bus is."""
+    ground = head.noun is not None and head.noun.kind in (NounKind.AGENT, NounKind.EGO)
+    told = [a for a in inner if a.kind not in TRANSPARENT and a.kind is not AtomKind.PREPOSITION]
+    return ground and len(told) == 1 and told[0].measure is not None and told[0].key == SPEED

@@ -15,7 +15,7 @@ from aurora_core.parsing.pieces import MARKERS, TRANSPARENT, first_solid, has_ve
 
 _MAYBE_PREPOSITION = ('after', 'before', 'until')
 # Predicates that need nothing behind them.
-_ALONE = frozenset(
+ALONE = frozenset(
     {'brake', 'stop', 'start', 'slow', 'accelerate', 'change_lane', 'yield', 'appear', 'vanish'}
 )
 
@@ -76,6 +76,8 @@ def _absolute(atoms: Sequence[Atom], i: int) -> bool:
     if beside is None:
         return False
     behind = solid[solid.index(beside) + 1 :]  # `with a truck beside it`
+    if behind and behind[0].kind is AtomKind.CONJUNCTION:
+        return True  # `with a bus in front and a van behind`
     return not behind or (behind[0].noun is not None and behind[0].noun.kind is NounKind.PRONOUN)
 
 
@@ -131,7 +133,7 @@ def _missing_comma(atoms: Sequence[Atom]) -> int | None:
             before.kind is AtomKind.MEASURE or before.is_place or before.kind is AtomKind.IN_VIEW
         )
         full = full or (before.is_actor and before.noun is not atoms[i].noun)
-        full = full or (i - 1 == verbs[0] and before.key in _ALONE)
+        full = full or (i - 1 == verbs[0] and before.key in ALONE)
         behind = [k for k in verbs if k > i]
         if not full or not behind or any(a.kind is AtomKind.VERB for a in atoms[verbs[0] + 1 : i]):
             continue

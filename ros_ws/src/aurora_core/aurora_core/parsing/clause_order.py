@@ -10,7 +10,7 @@ from dataclasses import replace
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
 from aurora_core.parsing.measures import RATIO, TIME
 from aurora_core.parsing.morphology import VerbForm
-from aurora_core.parsing.new_clauses import is_placed
+from aurora_core.parsing.new_clauses import is_inverted, is_placed
 from aurora_core.parsing.pieces import Link, Piece, first_solid, flies, has_verb
 
 # What only flights have.
@@ -127,6 +127,8 @@ def _is_adjunct(atoms: Sequence[Atom]) -> bool:
     """A phrase that needs a clause: a measure or place that no actor or world word leads."""
     solid = first_solid(atoms)
     if solid is None or solid.is_actor or (solid.kind is AtomKind.UNKNOWN and is_placed(atoms)):
+        return False
+    if is_inverted(atoms):
         return False
     if any(a.kind in (AtomKind.WORLD, AtomKind.NO_TRAFFIC, AtomKind.SCENARIO) for a in atoms):
         return False

@@ -290,10 +290,12 @@ class Frame:
                 return fitting
         return ()
 
-    def objects(self, nouns: Sequence[NounPhrase], accept: Fits = anything) -> tuple[Entity, ...]:
+    def objects(
+        self, nouns: Sequence[NounPhrase], accept: Fits = anything, *, fronted: bool = False
+    ) -> tuple[Entity, ...]:
         """Return actors named as objects and remember them for pronouns."""
         found = self.resolver.actors(
-            nouns, accept=accept, exclude=self.scene.clause.subjects, as_object=True
+            nouns, accept=accept, exclude=self.scene.clause.subjects, as_object=not fronted
         )
         known = self.scene.clause.objects
         self.scene.clause.objects = known + tuple(e for e in found if e not in known)

@@ -19,6 +19,7 @@ from aurora_core.parsing.pieces import (
     flies,
     has_verb,
 )
+from aurora_core.parsing.subjects import COMPLETE
 
 # What a UAV does next: `orbits it before it hovers over the park`.
 _PHASES = frozenset({'hover', 'track', 'orbit', 'navigate', 'land'})
@@ -58,7 +59,7 @@ def opened_clause(
         return None
     if verb:
         return _opened_predicate(current, markers, ahead, solid)
-    if opens_gap(current, ahead) or _is_share(ahead) or _is_inverted(ahead):
+    if opens_gap(current, ahead) or _is_share(ahead) or is_inverted(ahead):
         return Piece(atoms=())
     if _is_ratio_of_sight(ahead) and any(a.key == RATIO for a in current):
         return Piece(atoms=())
@@ -159,17 +160,28 @@ def _hangs(atoms: Sequence[Atom]) -> bool:
     return solid[-1].kind is AtomKind.RELATION
 
 
-def _is_inverted(ahead: Sequence[Atom]) -> bool:
+def is_inverted(ahead: Sequence[Atom]) -> bool:
     """`…, and 15 m behind the van a car`: whoever is new is placed by whoever is known."""
     solid = [a for a in ahead if a.kind not in TRANSPARENT]
     solid = solid[1:] if solid and solid[0].measure is not None else solid
+    if len(solid) > 2 and solid[2].measure is not None and solid[1].key == 'at':
+        solid = [solid[0], *solid[3:]]  # `behind it at 18 m a motorcycle`
+    if len(solid) > 3 and solid[3].measure is not None and solid[2].key == 'at':
+        solid = [*solid[:2], *solid[4:]]
+    if len(solid) == 2 and solid[0].kind is AtomKind.RELATION and solid[1].is_actor:
+        return solid[0].words in COMPLETE and _is_new(solid[1])  # `…, to the right a van`
     if len(solid) != 3 or solid[0].kind is not AtomKind.RELATION:
         return False
-    known, new = solid[1].noun, solid[2].noun
-    if known is None or new is None or not solid[1].is_actor or not solid[2].is_actor:
+    known = solid[1].noun
+    if known is None or not solid[1].is_actor or not solid[2].is_actor:
         return False
     told = known.determiner is Determiner.DEFINITE or known.kind is NounKind.PRONOUN
-    return told and (new.determiner is Determiner.INDEFINITE or new.count > 0)
+    return told and _is_new(solid[2])
+
+
+def _is_new(atom: Atom) -> bool:
+    noun = atom.noun
+    return noun is not None and (noun.determiner is Determiner.INDEFINITE or noun.count > 0)
 
 
 def _is_share(ahead: Sequence[Atom]) -> bool:

@@ -10,9 +10,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from aurora_core.parsing.atom_runs import HELPERS
+from aurora_core.parsing.atom_runs import HELPERS, runs
 from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind, NounPhrase
-from aurora_core.parsing.measures import LENGTH, SPEED
+from aurora_core.parsing.measures import COUNT, LENGTH, SPEED
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.pieces import MARKERS
 
@@ -79,7 +79,7 @@ def _drives(atoms: Sequence[Atom], verb: int) -> bool:
 
 def placing_words(atoms: Sequence[Atom]) -> list[Atom]:
     """Write out what is left unsaid of places."""
-    return _back(_bare_places(_themselves(atoms)))
+    return _back(_bare_places(_lane_numbers(_in_between(_themselves(atoms)))))
 
 
 def _themselves(atoms: Sequence[Atom]) -> list[Atom]:
@@ -93,6 +93,37 @@ def _themselves(atoms: Sequence[Atom]) -> list[Atom]:
         else:
             kept.append(atom)
     return kept
+
+
+def _in_between(atoms: Sequence[Atom]) -> list[Atom]:
+    """`the ego, with a bus in front, drives at 9 m/s`: who else is there is told behind."""
+    written: list[Atom] = []
+    for sentence, stop in runs(atoms, AtomKind.STOP):
+        commas = [i for i, a in enumerate(sentence) if a.kind is AtomKind.COMMA]
+        opens = len(commas) > 1 and sentence[commas[0] + 1].key == 'with'
+        opens = opens and commas[0] > 0 and sentence[commas[0] - 1].is_actor
+        closes = commas[1] if opens else 0
+        apart = sentence[commas[0] : closes] if opens else []
+        rest = sentence[closes + 1 :]
+        verbless = not any(a.kind is AtomKind.VERB for a in (*sentence[: closes + 1],))
+        acts = bool(rest) and rest[0].kind in (AtomKind.VERB, AtomKind.AUXILIARY)
+        if apart and verbless and acts and any(a.is_actor for a in apart):
+            sentence = [*sentence[: commas[0]], *rest, *apart]
+        written += sentence
+        if stop is not None:
+            written.append(stop)
+    return written
+
+
+def _lane_numbers(atoms: Sequence[Atom]) -> list[Atom]:
+    """`in lane 2 right beside it`: the number names a lane, it is no distance."""
+    told = list(atoms)
+    for i in range(1, len(told)):
+        noun = told[i - 1].noun
+        lane = noun is not None and noun.kind is NounKind.STREET and noun.key == 'lane'
+        if lane and told[i].key == COUNT and told[i].measure is not None:
+            told[i] = replace(told[i], kind=AtomKind.UNKNOWN, key=told[i].words, measure=None)
+    return told
 
 
 def _bare_places(atoms: Sequence[Atom]) -> list[Atom]:

@@ -297,6 +297,8 @@ class Resolver:
                     entity.assigned = True
                 return tuple(chosen_rest)
             return self._new(noun)
+        if not known and noun.determiner is Determiner.ALL and noun.kind is NounKind.VEHICLE:
+            return ()  # `all vehicles drive at 9 m/s`, before any is named
         if not known:
             return self._shorter(noun, exclude) or self._new(noun)
         return self._again(noun, known, exclude)

@@ -12,8 +12,10 @@ from dataclasses import dataclass, replace
 
 from aurora_core.parsing.atom_runs import text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind, NounPhrase
+from aurora_core.parsing.clause_openings import ALONE
 from aurora_core.parsing.clefts import plain_order
 from aurora_core.parsing.conjunctions import joined
+from aurora_core.parsing.enumerations import told_once
 from aurora_core.parsing.flight_nouns import flights
 from aurora_core.parsing.inversions import straighten
 from aurora_core.parsing.lexicon import shipped_lexicon
@@ -82,7 +84,7 @@ def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
 
 def _cast(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
     """Return the atoms with words for actors and messages as such."""
-    return messages_told(flights(cast(told_of_us(atoms), prompt)), prompt)
+    return messages_told(flights(cast(told_once(told_of_us(atoms)), prompt)), prompt)
 
 
 def _shares(atoms: Sequence[Atom]) -> list[Atom]:
@@ -335,9 +337,24 @@ def _fronted(atoms: list[Atom]) -> list[Atom]:
     for i in range(1, len(moved) - 1):
         verbal = moved[i + 1].kind in (AtomKind.VERB, AtomKind.AUXILIARY)
         worded = moved[i].kind is AtomKind.THEN and moved[i].key != '→'
-        if worded and moved[i - 1].is_actor and verbal:
+        if worded and moved[i - 1].is_actor and verbal and _acts_anew(moved, i - 1):
             moved[i - 1], moved[i] = moved[i], moved[i - 1]
     return moved
+
+
+def _acts_anew(atoms: Sequence[Atom], i: int) -> bool:
+    """Return whether the actor opens a clause; in `passes the bus and then brakes` it ends one."""
+    before = i - 1
+    while before >= 0 and atoms[before].kind is AtomKind.FILL:
+        before -= 1
+    if before < 0 or atoms[before].kind in _OPENS_CLAUSE:
+        return True
+    full = atoms[before].measure is not None or atoms[before].is_place
+    full = full or (atoms[before].kind is AtomKind.VERB and atoms[before].key in ALONE)
+    return full and atoms[i + 1].words == 'then'  # `when the bus stops the ego then brakes`
+
+
+_OPENS_CLAUSE = (*_BREAKS, AtomKind.SUBORDINATOR, AtomKind.FRAME, AtomKind.RELATIVE)
 
 
 _REACTING = ('thereupon', 'consequently', 'accordingly', 'subsequently', 'thereafter')

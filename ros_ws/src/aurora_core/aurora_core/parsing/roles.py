@@ -35,6 +35,8 @@ def _own_types(atoms: list[Atom]) -> list[Atom]:
             ends = behind is None or behind.kind is AtomKind.STOP
             apposed = link.kind is AtomKind.COMMA and not ends
             apposed = apposed and behind is not None and behind.kind is AtomKind.COMMA
+            goes_on = atoms[i + 4] if i + 4 < len(atoms) else None
+            apposed = apposed and (goes_on is None or goes_on.noun is None)
             if new and noun.key != 'pedestrian' and (apposed or (link.key == 'be' and ends)):
                 whole = replace(
                     noun, start=ego.start, end=told.end, determiner=Determiner.MY, count=0

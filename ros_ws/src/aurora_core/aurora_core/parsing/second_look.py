@@ -51,7 +51,18 @@ _IN_THE_WAY: dict[AtomKind | NounKind, int] = {
 }
 _TURNS_ROUND = frozenset(
     {
-        *('before', 'after', 'until', 'within', 'than', 'at least', 'at most', 'by', 'from'),
+        *(
+            'past',
+            'before',
+            'after',
+            'until',
+            'within',
+            'than',
+            'at least',
+            'at most',
+            'by',
+            'from',
+        ),
         *('between', 'or', 'but'),
     }
 )

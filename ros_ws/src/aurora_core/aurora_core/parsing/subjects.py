@@ -12,7 +12,7 @@ from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind, Noun
 _SILENT = (AtomKind.FILL, AtomKind.AUXILIARY, AtomKind.CONJUNCTION, AtomKind.FRAME)
 _GOVERNORS = (AtomKind.PREPOSITION, AtomKind.RELATION, AtomKind.COMPASS)
 # Relations that take no noun of their own: `30 m ahead a van is parked`.
-_COMPLETE = frozenset(
+COMPLETE = frozenset(
     {
         'ahead',
         'up ahead',
@@ -91,7 +91,7 @@ def _before_relative(rest: list[Atom]) -> tuple[list[NounPhrase], list[Atom]]:
 def _is_complete(before: Sequence[Atom], i: int, prompt: str) -> bool:
     """`to the rear there is`, `ahead a police car is`: who is new cannot be what it relates to."""
     word = before[i]
-    if text_of(word, prompt) not in _COMPLETE:
+    if text_of(word, prompt) not in COMPLETE:
         return False
     noun = next((a.noun for a in before[i + 1 :] if a.kind not in _SILENT), None)
     new = (Determiner.INDEFINITE, Determiner.ONE)

@@ -14,6 +14,7 @@ from aurora_core.parsing.constructions.places import (
     place_of,
     placements_of,
 )
+from aurora_core.parsing.constructions.spacing import column
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.pronouns import ground
@@ -355,6 +356,7 @@ def _placements(
     frame: Frame, subjects: tuple[Entity, ...], target: str | None, closing: Parameter | None
 ) -> tuple[Placement, ...]:
     kept = frame.key in _MOVING
+    column(frame, subjects, kept=kept)
     made = list(placements_of(frame, subjects, kept=kept))
     wanted = None
     if target is not None and not made and ':' not in target:
@@ -404,7 +406,8 @@ def placing(frame: Frame) -> bool:
         if lead is not None:
             lead.used = True
             nouns = lead.nouns
-            if frame.key in ('put', 'contain', 'exist', '') and not frame.free(AdjunctKind.PLACE):
+            there = frame.key in ('put', 'contain', 'exist', 'be', '')
+            if there and not frame.free(AdjunctKind.PLACE):
                 nouns += _listed(frame, lead)
     elif frame.key == 'contain':
         return _having(frame)
@@ -418,6 +421,7 @@ def placing(frame: Frame) -> bool:
     if not subjects or any(e.is_uav for e in subjects):
         return False
     frame.scene.clause.subjects = subjects
+    column(frame, subjects, kept=False)
     placements = placements_of(frame, subjects, kept=False)
     speed = _speed(frame)
     _on_one_road(frame, placements)
@@ -426,9 +430,8 @@ def placing(frame: Frame) -> bool:
             if placement.of != entity.id:
                 add_placement(entity, placement)
         if speed is not None:
-            entity.behaviors.append(
-                Behavior(kind=BehaviorKind.DRIVE, speed_mps=speed, span=frame.span)
-            )
+            made = Behavior(kind=BehaviorKind.DRIVE, speed_mps=speed, span=frame.span)
+            _add(entity, made, ())
     if frame.key == 'keep' and not placements and speed is None:
         return False
     if frame.has_mark(AtomKind.UNKNOWN.value) and not placements and frame.verb is not None:
@@ -454,7 +457,7 @@ def _listed(frame: Frame, lead: Adjunct) -> tuple[NounPhrase, ...]:
     nouns: list[NounPhrase] = []
     for adjunct in frame.free(AdjunctKind.OBJECT) + frame.free(AdjunctKind.PHRASE, 'with'):
         if adjunct is not lead and all(
-            n.kind in (NounKind.AGENT, NounKind.VEHICLE) for n in adjunct.nouns
+            n.kind in (NounKind.AGENT, NounKind.VEHICLE, NounKind.EGO) for n in adjunct.nouns
         ):
             adjunct.used = True
             nouns += adjunct.nouns

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
-from aurora_core.parsing.atoms import Determiner, NounKind
+from aurora_core.parsing.atoms import AtomKind, Determiner, NounKind, NounPhrase
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.pronouns import ground
 from aurora_core.spec.vocabulary import AgentType, Role
@@ -26,6 +26,8 @@ def is_ego(frame: Frame) -> bool:
     ):
         return False
     ego = named[0].nouns
+    if len(frame.free(AdjunctKind.MARK, AtomKind.UNKNOWN.value)) or _owns(frame, ego[-1]):
+        return False
     if len(ego) != 1 or not frame.resolver.names_ego(ego[0]) or frame.scene.ego is not None:
         return False
     found = frame.subjects(ground)
@@ -36,6 +38,11 @@ def is_ego(frame: Frame) -> bool:
     frame.resolver.note(ego[0], found)
     frame.scene.became(found[0].id)
     return True
+
+
+def _owns(frame: Frame, noun: NounPhrase) -> bool:
+    """`the ego's right side` is not the ego."""
+    return frame.scene.prompt[noun.end : noun.end + 2].lower().replace('’', "'") == "'s"
 
 
 def is_of_type(frame: Frame) -> None:

@@ -4,11 +4,14 @@
 
 from __future__ import annotations
 
+import re
+
 from aurora_core.parsing import values
 from aurora_core.parsing.adjuncts import MUTUAL, Adjunct, AdjunctKind
 from aurora_core.parsing.atoms import ACTORS, NounKind, NounPhrase
 from aurora_core.parsing.criteria.placed import Placed
 from aurora_core.parsing.frames import Frame
+from aurora_core.parsing.measures import LENGTH
 from aurora_core.parsing.pronouns import ground
 from aurora_core.parsing.resolver import Resolver
 from aurora_core.parsing.scene import Entity, Unanchored
@@ -30,7 +33,7 @@ _KEPT = frozenset(
 
 
 # Relations that mean a distance; the others touch.
-_DISTANT = frozenset(
+DISTANT = frozenset(
     {
         Relation.AHEAD,
         Relation.BEHIND,
@@ -94,13 +97,22 @@ def named_reference(frame: Frame, adjunct: Adjunct) -> str | None:
     actors = [n for n in adjunct.nouns if n.kind in ACTORS or n.kind is NounKind.UNKNOWN]
     if not actors:
         return None
-    found = frame.objects(actors, ground)
+    found = frame.objects(actors, ground, fronted=_fronted(frame, adjunct))
     egos = [e for e in found if e.role is Role.EGO]
     if len(found) > 1 and adjunct.key == Relation.ONCOMING:
         return (egos or found)[0].id  # they all go the same way
     if len(found) > 1 and not _abreast(found):
         frame.flag(adjunct.start, adjunct.end)
     return found[0].id if found else None
+
+
+def _fronted(frame: Frame, adjunct: Adjunct) -> bool:
+    """`behind the ego is a van, and behind it a bus`: behind whom the clause before is about."""
+    new = frame.subject_nouns
+    if not new or adjunct.start > new[0].start or len(frame.scene.clauses) < 2:
+        return False
+    told = frame.scene.clauses[-2].span  # `in front of it is a bus; behind it a van`: of the same
+    return 'it' not in re.findall('[a-z]+', frame.scene.prompt[told.start : told.end].lower())
 
 
 def _abreast(group: tuple[Entity, ...]) -> bool:
@@ -165,6 +177,7 @@ def placements_of(
                     span=adjunct.span,
                 )
             )
+    made += _far_from_place(frame)
     away = frame.attribute('away')
     if away is not None and away.nouns and away.measure is not None and away.prep in ('', 'at'):
         others = frame.objects(away.nouns, ground)
@@ -179,6 +192,30 @@ def placements_of(
                 )
             )
     return tuple(made)
+
+
+def _far_from_place(frame: Frame) -> tuple[Placement, ...]:
+    """`stands 30 m from the crosswalk`, `is 30 m away from it`."""
+    for adjunct in frame.free(AdjunctKind.PHRASE, 'from'):
+        before = frame.scene.prompt[: adjunct.start].rstrip().removesuffix('away').rstrip()
+        far = next((a for a in _lengths(frame) if a.end == len(before)), None)
+        if far is None or far.measure is None:
+            continue
+        place = place_of(frame, adjunct)
+        if place is not None and values.accepts('placement_distance', far.measure):
+            adjunct.used = far.used = True
+            distance = values.explicit('placement_distance', far.measure)
+            span = adjunct.span
+            made = Placement(relation=Relation.NEAR, of=place, distance_m=distance, span=span)
+            return (made,)
+    return ()
+
+
+def _lengths(frame: Frame) -> list[Adjunct]:
+    return [
+        *frame.free(AdjunctKind.MEASURE, LENGTH),
+        *frame.free(AdjunctKind.ATTRIBUTE, 'away', 'standoff'),
+    ]
 
 
 def _of_the_object(frame: Frame, adjunct: Adjunct) -> bool:
@@ -234,7 +271,7 @@ def place_party(resolver: Resolver, told: Placed) -> None:
 
 def default_distance(relation: Relation) -> Parameter | None:
     """Return the distance of a relation that means one, None for those that touch."""
-    return values.default('placement_distance') if relation in _DISTANT else None
+    return values.default('placement_distance') if relation in DISTANT else None
 
 
 def _relation(
