@@ -61,6 +61,8 @@ class PronounResolver:
             everyone = self._everyone(accept)
             if everyone:
                 return everyone
+        if noun.key == 'rest':
+            return self._rest(accept) or self._ask(noun)
         if noun.key == 'both':
             group = self._last_group(accept) or self._plural(accept, exclude, as_object)
             return group or self._ask(noun)
@@ -131,6 +133,14 @@ class PronounResolver:
             if fitting:
                 return ()
         return ()
+
+    def _rest(self, accept: Fits) -> tuple[Entity, ...]:
+        """`the fire engine turns left and everyone else waits`: who was not spoken of last."""
+        told = next((c.subjects for c in reversed(self._scene.clauses[:-1]) if c.subjects), ())
+        flying = bool(told) and all(e.is_uav for e in told)
+        kin = self._scene.uavs if flying else self._scene.agents
+        others = [e for e in kin if e not in told and e.type is not AgentType.RSU]
+        return tuple(e for e in others if accept(e))
 
     def _last_group(self, accept: Fits) -> tuple[Entity, ...]:
         members = [e for e in self._scene.entities if e.group is not None and accept(e)]

@@ -69,6 +69,8 @@ _TURNS_ROUND = frozenset(
 # Without them a sentence may still be read, but as one that says something else.
 _WEIGHTY = (AtomKind.VERB, AtomKind.PATTERN, AtomKind.STATE)
 _WEIGHT = 3  # words that leaving out one of them must open beside those that any word must
+# Pronouns for others than who was spoken of last.
+_OTHERS = ('rest', 'other', 'another', 'both')
 # Verbs that say little: what stands beside them is the predicate.
 _LIGHT = frozenset({'be', 'keep', 'put', 'come', 'exist', 'contain', ''})
 # Left out without a word about it.
@@ -185,8 +187,18 @@ def _binds(sentence: Sequence[Atom], i: int) -> bool:
     opens = i == 0 or sentence[i - 1].kind is AtomKind.COMMA
     if atom.kind is AtomKind.UNKNOWN and opens and is_placed(sentence[i:]):
         return True
+    if _acts(sentence, i):
+        return True
     beside = sentence[max(0, i - 1)], sentence[min(len(sentence) - 1, i + 1)]
     return atom.kind is AtomKind.CONJUNCTION and all(b.is_actor for b in beside)
+
+
+def _acts(sentence: Sequence[Atom], i: int) -> bool:
+    """`the others hover`: without the words for them, somebody else would do it."""
+    noun = sentence[i].noun
+    if noun is None or noun.key not in _OTHERS or i + 1 == len(sentence):
+        return False
+    return sentence[i + 1].kind in (AtomKind.VERB, AtomKind.AUXILIARY)
 
 
 def _may_end(sentence: Sequence[Atom], i: int) -> bool:

@@ -12,7 +12,10 @@ from aurora_core.parsing.atoms import ACTORS, NounPhrase
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.scene import Entity
 from aurora_core.spec.parameter import Parameter
+from aurora_core.spec.scenario import Placement
+from aurora_core.spec.vocabulary import Relation
 
+_SIDES = ('ahead', 'behind')
 _NEARING = frozenset(
     {'come', 'approach', 'be', 'keep', 'drive', 'fall_below', 'reach', 'walk', 'fly'}
 )
@@ -56,6 +59,8 @@ def distance_cause(frame: Frame) -> DistanceCause | None:
     if other == subjects[0].id:
         return None
     adjunct.used = True
+    if adjunct.kind is AdjunctKind.PLACE:
+        _on_that_side(frame, subjects[0], adjunct, other)
     return DistanceCause(
         below=below,
         a=subjects[0],
@@ -64,12 +69,27 @@ def distance_cause(frame: Frame) -> DistanceCause | None:
     )
 
 
+def _on_that_side(frame: Frame, subject: Entity, adjunct: Adjunct, other: str | None) -> None:
+    """`when a truck is less than 30 m behind me`: it is behind; a distance has no side."""
+    if subject.is_uav or other is None or frame.scene.by_id(other) is None:
+        frame.flag(adjunct.start, adjunct.end)
+        return
+    here = [p.relation for p in subject.placements if p.of == other]
+    if not subject.placements:
+        subject.placements.append(Placement(relation=Relation(adjunct.key), of=other))
+    elif Relation(adjunct.key) not in here:
+        frame.flag(adjunct.start, adjunct.end)
+
+
 def _threshold(frame: Frame) -> tuple[Adjunct, bool] | None:
     for adjunct in frame.free(AdjunctKind.ATTRIBUTE, 'away', 'gap', 'standoff'):
         near = adjunct.prep in ('within', 'below', 'to')
         far = adjunct.prep == 'beyond' or (frame.key in ('exceed', 'come', 'drive') and not near)
         if near or far or frame.key in ('be', 'fall_below', 'approach', 'reach'):
             return adjunct, not far
+    for place in frame.free(AdjunctKind.PLACE):
+        if place.key in _SIDES and place.prep in ('within', 'below', 'beyond'):
+            return place, place.prep != 'beyond'
     for prep, below in (('within', True), ('below', True), ('beyond', False)):
         length = frame.length(prep)
         if length is not None:

@@ -69,6 +69,7 @@ _MOVING = frozenset(
 )
 
 
+_EMERGENCY = (AgentType.POLICE, AgentType.AMBULANCE, AgentType.FIRETRUCK)
 _GOALS = (NounKind.PLACE, NounKind.LANDMARK, NounKind.MISSING_LANDMARK)
 
 
@@ -104,6 +105,8 @@ def behavior(frame: Frame) -> bool:
         kind = BehaviorKind.DRIVE  # `the bus, which comes at 8 m/s`
     if frame.key == 'trace' and all(e.type is AgentType.PEDESTRIAN for e in subjects):
         kind = BehaviorKind.WALK
+    if kind is BehaviorKind.EMERGENCY_RUN and _only_fast(frame, subjects):
+        kind = BehaviorKind.DRIVE
     target = _target(frame, subjects)
     _tracked_for(frame, subjects)
     speed = _speed(frame)
@@ -125,6 +128,13 @@ def _overtakes(frame: Frame, target: str | None) -> bool:
     named = any(_names_actor(a) for a in frame.adjuncts) or frame.passive
     place = target is not None and frame.scene.by_id(target) is None
     return named or (target is not None and not place) or frame.attribute('speed') is None
+
+
+def _only_fast(frame: Frame, subjects: tuple[Entity, ...]) -> bool:
+    """`two motorcycles race along`: nobody of them is on an emergency run."""
+    plain = frame.verb is not None and ' ' not in frame.verb.words
+    siren = frame.has_mark(AtomKind.SIREN.value)
+    return plain and not siren and not any(e.type in _EMERGENCY for e in subjects)
 
 
 def _departure(frame: Frame) -> tuple[Placement, ...]:
