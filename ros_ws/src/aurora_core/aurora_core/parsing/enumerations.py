@@ -121,7 +121,9 @@ def _closes(atoms: Sequence[Atom], i: int) -> bool:
 
 def _ego_of_type(ego: Atom, told: Atom) -> Atom | None:
     noun = told.noun
-    own = ego.noun is not None and ego.noun.kind is NounKind.EGO and ego.key != 'i'
+    own = ego.noun is not None and ego.key != 'i'
+    mine = own and ego.noun is not None and ego.noun.determiner is Determiner.MY
+    own = mine or (own and ego.noun is not None and ego.noun.kind is NounKind.EGO)
     if not own or noun is None or noun.kind is not NounKind.AGENT or noun.plural:
         return None
     if noun.key in ('pedestrian', 'rsu') or noun.count > 1 or noun.determiner not in _NEW:

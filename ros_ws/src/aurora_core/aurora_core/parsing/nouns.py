@@ -110,6 +110,8 @@ class NounReader:
                 loose = []  # `the surveyor's drone`: whose it is says nothing
                 j += 1
                 continue
+            if labels and determiner is Determiner.DEFINITE and self._said.words[j] == 'one':
+                return self._one_of_them(i, j, frozenset(labels)), j + 1  # `the red one`
             step = prefix(self._said, j, determiner)
             if step is None:
                 if j == i or (determiner is Determiner.BARE and not count):
@@ -140,6 +142,17 @@ class NounReader:
             elif sense_key:
                 labels.append(sense_key)
         return self._stand_ins.pronoun(i) or self._unknown(i)
+
+    def _one_of_them(self, i: int, j: int, labels: frozenset[str]) -> NounPhrase:
+        return NounPhrase(
+            kind=NounKind.VEHICLE,
+            key='vehicle',
+            start=self._said.tokens[i].start,
+            end=self._said.tokens[j].end,
+            head_text='one',
+            determiner=Determiner.DEFINITE,
+            labels=labels,
+        )
 
     def _agent_at(self, j: int) -> bool:
         return self._said.has(j, Tag.AGENT)

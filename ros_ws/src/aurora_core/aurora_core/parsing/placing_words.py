@@ -79,7 +79,7 @@ def _drives(atoms: Sequence[Atom], verb: int) -> bool:
 
 def placing_words(atoms: Sequence[Atom]) -> list[Atom]:
     """Write out what is left unsaid of places."""
-    return _back(_bare_places(_lane_numbers(_in_between(_themselves(atoms)))))
+    return _back(_bare_places(_lane_numbers(_in_between(_headed(_themselves(atoms))))))
 
 
 def _themselves(atoms: Sequence[Atom]) -> list[Atom]:
@@ -93,6 +93,24 @@ def _themselves(atoms: Sequence[Atom]) -> list[Atom]:
         else:
             kept.append(atom)
     return kept
+
+
+def _headed(atoms: Sequence[Atom]) -> list[Atom]:
+    """`25 m ahead: a bus`, `behind the ego: a van`: where, and then who."""
+    told = list(atoms)
+    begin = 0
+    for i, atom in enumerate(atoms[:-1]):
+        if atom.kind is not AtomKind.STOP:
+            continue
+        head = [a for a in atoms[begin:i] if a.kind is not AtomKind.FILL]
+        where = bool(head) and all(
+            a.kind is AtomKind.RELATION or a.noun is not None or a.key == LENGTH for a in head
+        )
+        where = where and any(a.kind is AtomKind.RELATION for a in head[:2])
+        if atom.key == ':' and where and atoms[i + 1].is_actor:
+            told[i] = replace(atom, kind=AtomKind.COMMA, key=',')
+        begin = i + 1
+    return told
 
 
 def _in_between(atoms: Sequence[Atom]) -> list[Atom]:

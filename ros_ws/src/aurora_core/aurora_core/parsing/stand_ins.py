@@ -68,6 +68,9 @@ class StandInReader:
             return self._phrase(i, more, 'another')
         if word == 'another' and self._said.has(i + 1, Tag.DEFINITE, Tag.EGO_POSSESSIVE):
             return self._phrase(i, i + 1, word)  # `one drone tracks the bus, another the van`
+        second = tuple(self._said.words[i : i + 2]) == ('a', 'second')
+        if second and self._said.has(i + 2, Tag.VERB, Tag.AUXILIARY):
+            return self._phrase(i, i + 2, 'another')  # `one UAV …, and a second should …`
         found = self._said.longest(i, Tag.EGO_PRONOUN, Tag.PRONOUN)
         if found is None:
             return None

@@ -36,6 +36,7 @@ COMPLETE = frozenset(
         'in the next lane',
         'in the adjacent lane',
         'nearby',
+        'from behind',
     }
 )
 

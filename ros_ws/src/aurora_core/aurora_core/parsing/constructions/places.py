@@ -284,15 +284,15 @@ def _relation(
     if adjunct.key == 'compass':
         return _compass(frame, adjunct)
     relation = Relation(adjunct.key)
+    each = None if owner is not None else _each_other(frame, adjunct, subjects)
     if owner is None:
-        each = _each_other(frame, adjunct, subjects)
         of = each if each is not None else _anchor(frame, adjunct, subjects)
     else:
         of = _beside(frame, adjunct, owner)
     if relation is Relation.ONCOMING and of is not None and frame.scene.by_id(of) is None:
         relation = Relation.NEAR  # `opposite the school`
     distance = default_distance(relation)
-    loose = None if adjunct.measure is not None else gap(frame)
+    loose = None if adjunct.measure is not None or each is not None else gap(frame)
     if adjunct.measure is not None:
         if not values.accepts('placement_distance', adjunct.measure):
             return None
@@ -328,6 +328,9 @@ def _anchor(frame: Frame, adjunct: Adjunct, subjects: tuple[Entity, ...]) -> str
     ego = frame.scene.ego
     if ego is not None and ego not in subjects:
         return ego.id
+    alike = [u for u in frame.scene.unanchored if u.clause.sentence == frame.piece.sentence]
+    if frame.verb is None and alike:
+        return None  # `a bus is on the left, a van on the right`: of the same, told later
     if frame.verb is None:  # `a taxi, a bus 20 m ahead, a cyclist 15 m behind`: of the first one
         for clause in frame.scene.clauses[:-1]:
             first = [e for e in clause.subjects if not e.is_uav and e not in subjects]
