@@ -15,6 +15,7 @@ from aurora_core.parsing.atom_runs import skip, text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
 from aurora_core.parsing.measures import COUNT, LENGTH, TIME
 from aurora_core.parsing.morphology import VerbForm
+from aurora_core.parsing.nominal import act_nouns
 from aurora_core.parsing.phases import FLOWN
 from aurora_core.parsing.pieces import TRANSPARENT
 
@@ -145,7 +146,7 @@ def _phases(atoms: list[Atom]) -> list[Atom]:
         last = written[k]
         while k and written[k - 1].kind in (*TRANSPARENT, AtomKind.ROUTE):
             k -= 1
-        flown = k and written[k - 1].kind is AtomKind.VERB and written[k - 1].key in FLOWN
+        flown = k and _is_flown(written[k - 1])
         opens = k < 2 or written[k - 2].kind in (AtomKind.FILL, AtomKind.STOP, AtomKind.COMMA)
         if flown and opens:
             word = Atom(
@@ -153,6 +154,14 @@ def _phases(atoms: list[Atom]) -> list[Atom]:
             )
             written[k - 1 :] = [word, atom]
     return written
+
+
+def _is_flown(atom: Atom) -> bool:
+    """`the hover`, `the pursuit`: a phase, as a noun."""
+    if atom.kind is AtomKind.VERB:
+        return atom.key in FLOWN
+    unknown = atom.noun is not None and atom.noun.kind is NounKind.UNKNOWN
+    return unknown and act_nouns().get(atom.noun.head_text if atom.noun else '') in FLOWN
 
 
 def _sides(atoms: list[Atom]) -> list[Atom]:

@@ -24,6 +24,7 @@ _AT = frozenset({'at', '@', 'until', 'till', 'from', 'by', 'on', 'around', 'abou
 _EMPHASIS = frozenset(
     {'full', 'whole', 'good', 'solid', 'entire', 'complete', 'round', 'mere', 'further', 'total'}
 )
+_WHOLE = frozenset({'full', 'whole', 'entire', 'complete', 'solid'})
 _CLOCK = re.compile(r'(0?[0-5]):([0-5]\d)')
 
 
@@ -360,7 +361,7 @@ class MeasureReader:
     def _is_stressed(self, j: int) -> bool:
         """`a full minute`, `another good 40 m`."""
         if (
-            self._word(j) not in ('a', 'an', 'another', 'the')
+            self._word(j) not in ('a', 'an', 'one', 'another', 'the')
             or self._word(j + 1) not in _EMPHASIS
         ):
             return False
@@ -368,6 +369,8 @@ class MeasureReader:
         return self._unit(number.stop if number is not None else j + 2)[0] is not None
 
     def _unit(self, i: int) -> tuple[str | None, int]:
+        if self._word(i) in _WHOLE:
+            i += 1  # `two full minutes`
         found = self._lexicon.longest_of(self._words, i, (Tag.UNIT,))
         if found is None:
             return None, i

@@ -21,6 +21,7 @@ from aurora_core.parsing.reactions import REACTIONS
 _WAITS = ('before', 'until', 'unless')
 _CAUSES = ('when', 'after')
 _BEGINS = frozenset({*REACTIONS, *FLOWN, 'drive', 'walk', 'land', 'ascend', 'send', 'alert'})
+_EARLIER = ('before', 'earlier', 'sooner', 'before that', 'any earlier', 'any sooner', 'b4')
 _PAUSES = (AtomKind.COMMA, AtomKind.CONJUNCTION, AtomKind.RELATIVE)
 
 
@@ -28,10 +29,23 @@ def not_before(atoms: Sequence[Atom]) -> list[Atom]:
     """Return the atoms with every denied beginning as one that waits for its cause."""
     written: list[Atom] = []
     for sentence, stop in runs(atoms, AtomKind.STOP):
-        written += _added(_behind(_in_front(sentence)))
+        written += _added(_behind(_in_front(_repeated(sentence))))
         if stop is not None:
             written.append(stop)
     return written
+
+
+def _repeated(atoms: list[Atom]) -> list[Atom]:
+    """`brakes when it has the message, never before`: says the same once more."""
+    kept: list[Atom] = []
+    for i, atom in enumerate(atoms):
+        ends = i + 1 == len(atoms) or atoms[i + 1].kind in _PAUSES
+        denied = bool(kept) and kept[-1].kind is AtomKind.NEGATION
+        if denied and ends and atom.words in _EARLIER:
+            kept[-1] = replace(kept[-1], kind=AtomKind.FILL)
+            atom = replace(atom, kind=AtomKind.FILL)
+        kept.append(atom)
+    return kept
 
 
 def _behind(atoms: list[Atom]) -> list[Atom]:

@@ -32,6 +32,7 @@ from aurora_core.parsing.roles import cast
 from aurora_core.parsing.shared_out import shared_out
 from aurora_core.parsing.statements import value_statements
 from aurora_core.parsing.telling import messages_told
+from aurora_core.parsing.ways import ways
 from aurora_core.parsing.wrapping import unwrap
 from aurora_core.spec.parameter import Bound, Span
 
@@ -76,7 +77,7 @@ def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
     kept, spans = _take_back(straighten(told, prompt))
     told = _fronted(_labels(_asides(_contrasts(kept))))
     return Rewritten(
-        atoms=tuple(_relatives(_climbs(_small_words(told), prompt))),
+        atoms=tuple(_relatives(_climbs(_small_words(ways(told, prompt)), prompt))),
         taken_back=tuple(spans),
         background=tuple(background),
     )

@@ -259,7 +259,8 @@ def _onlookers(scene: Scene) -> None:
 
 
 def _seen_by(scene: Scene, uav: Entity) -> str | None:
-    watched = [c.of[1] for c in scene.conditions if len(c.of) > 1 and c.of[0] == uav.id]
+    told = [c for c in scene.conditions if len(c.of) > 1 and c.of[0] == uav.id]
+    watched = [c.of[1] for c in told if not c.quantity.startswith('deliver')]
     watched += [
         e.trigger.target
         for e in scene.events

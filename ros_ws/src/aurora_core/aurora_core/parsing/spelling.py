@@ -8,6 +8,7 @@ from collections.abc import Iterable
 
 _SHORTEST = 5
 _VOWELS = 'aeiou'
+_SHORT = 6  # a word cut short that is shorter has no vowel left: `hvr`, `drn`
 # English words that only look like a slip (`in the form of`).
 _REAL = frozenset(
     {'form', 'trial', 'angel', 'quite', 'dose', 'causal', 'martial', 'clam', 'sliver'}
@@ -31,7 +32,10 @@ class Speller:
                     slip = word[:i] + word[i + 1] + word[i] + word[i + 2 :]
                     self._swapped.setdefault(slip, set()).add(word)
         self._by_deletion: dict[str, list[str]] = {}
+        self._by_consonants: dict[str, list[str]] = {}
         for word in sorted(words):
+            if len(word) >= _SHORTEST - 1 and word.isalpha():
+                self._by_consonants.setdefault(_consonants(word), []).append(word)
             if len(word) >= _SHORTEST and word.isalpha():
                 for key in _deletions(word):
                     self._by_deletion.setdefault(key, []).append(word)
@@ -47,8 +51,30 @@ class Speller:
             if _alike(word, known) and _one_slip(word, known)
         }
         if not candidates and word not in _REAL:
-            candidates = set(self._swapped.get(word, ()))
+            candidates = set(self._swapped.get(word, ())) or self._written_out(word)
         return candidates.pop() if len(candidates) == 1 else None
+
+    def _written_out(self, word: str) -> set[str]:
+        """`hvr`, `intersctn`: words whose consonants these are, with fewer vowels."""
+        vowels = sum(c in _VOWELS for c in word)
+        if len(word) < _SHORT and vowels:
+            return set()
+        fitting = self._by_consonants.get(_consonants(word), ())
+        found = [
+            k for k in fitting if k[0] == word[0] and _is_part(word, k) and len(k) > len(word)
+        ]
+        shortest = min((len(k) for k in found), default=0)
+        return {k for k in found if len(k) == shortest}
+
+
+def _consonants(word: str) -> str:
+    return ''.join(c for c in word if c not in _VOWELS)
+
+
+def _is_part(short: str, long: str) -> bool:
+    """Return whether the letters of one word stand in the other in the same order."""
+    letters = iter(long)
+    return all(c in letters for c in short)
 
 
 def _alike(word: str, known: str) -> bool:

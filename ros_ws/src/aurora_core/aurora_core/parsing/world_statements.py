@@ -54,6 +54,12 @@ _OF_SOMETHING_ELSE = (AtomKind.WORLD, AtomKind.NEGATION, AtomKind.THEN, AtomKind
 _ENDINGS = ('finish', 'be', 'last', 'trace', 'keep', 'come', 'stop')
 
 
+_OVER = re.compile(
+    r'\b(?:over|finished|done|completed?|ended|through|terminated|concluded|at an end)'
+    r'(?: (?:after|by|at|within|in|no later than|t|=))*$'
+)
+
+
 def _clauses(atoms: list[Atom]) -> list[Atom]:
     """Rewrite the stretch between two commas that tells how long the scenario takes."""
     named = next((i for i, a in enumerate(atoms) if _is_scenario(a, atoms)), None)
@@ -69,8 +75,13 @@ def _clauses(atoms: list[Atom]) -> list[Atom]:
     if which and atoms[begin - 2].key == TIME and begin <= _OPENING:
         begin, told = 0, atoms[:end]
     times = [a for a in atoms[begin:named] if a.key == TIME and a.measure is not None]
-    if any(a.key == TIME for a in atoms[named:end]):
-        return atoms
+    behind = [i for i in range(named, end) if atoms[i].key == TIME and atoms[i].measure]
+    if behind:  # `the whole run is over after 90 s`
+        words = ' '.join(a.words for a in atoms[named + 1 : behind[0]])
+        if times or len(behind) > 1 or _OVER.search(words) is None:
+            return atoms
+        times = [atoms[behind[0]]]
+        told = [a for a in told if a.kind is not AtomKind.VERB or a.key not in ('exceed', 'start')]
     verbs = [a for a in told if a.kind is AtomKind.VERB]
     others = any(a.noun is not None and (a.is_actor or a.is_place) for a in told)
     if len(times) != 1 or others or any(v.key not in _ENDINGS for v in verbs):

@@ -127,7 +127,9 @@ def behavior(frame: Frame) -> bool:
 def _overtakes(frame: Frame, target: str | None) -> bool:
     named = any(_names_actor(a) for a in frame.adjuncts) or frame.passive
     place = target is not None and frame.scene.by_id(target) is None
-    return named or (target is not None and not place) or frame.attribute('speed') is None
+    if place:  # `must have passed the crosswalk`
+        return named
+    return named or target is not None or frame.attribute('speed') is None
 
 
 def _only_fast(frame: Frame, subjects: tuple[Entity, ...]) -> bool:

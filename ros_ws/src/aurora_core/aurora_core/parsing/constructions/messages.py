@@ -5,10 +5,12 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
+from dataclasses import replace
 
 from aurora_core.parsing import values
 from aurora_core.parsing.adjuncts import AdjunctKind
-from aurora_core.parsing.atoms import ACTORS, AtomKind, NounKind, NounPhrase
+from aurora_core.parsing.atoms import ACTORS, AtomKind, Determiner, NounKind, NounPhrase
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.measures import RATIO
 from aurora_core.parsing.morphology import VerbForm
@@ -249,7 +251,7 @@ def _named_ends(frame: Frame) -> tuple[Entity, Entity] | None:
     """`the link between the drone and the ego`, `the link from the drone to the ego`."""
     between = frame.free(AdjunctKind.PHRASE, 'between')
     if between and len(between[0].nouns) == 2:
-        ends = frame.objects(between[0].nouns)
+        ends = frame.objects(_known(frame, between[0].nouns))
         if len(ends) == 2:
             between[0].used = True
             first, second = ends
@@ -260,9 +262,22 @@ def _named_ends(frame: Frame) -> tuple[Entity, Entity] | None:
     to_whom = frame.free(AdjunctKind.PHRASE, 'to')
     if to_whom and (from_whom or frame.subject_nouns):
         senders = frame.objects(from_whom[0].nouns) if from_whom else frame.subjects()
-        receivers = frame.objects([n for n in to_whom[0].nouns if n.kind in ACTORS])
+        receivers = frame.objects(_known(frame, [n for n in to_whom[0].nouns if n.kind in ACTORS]))
         if len(senders) == len(receivers) == 1 and senders != receivers:
             for taken in (*from_whom[:1], to_whom[0]):
                 taken.used = True
             return senders[0], receivers[0]
     return None
+
+
+def _known(frame: Frame, nouns: Sequence[NounPhrase]) -> list[NounPhrase]:
+    """`the radio from drone to car`: ends without an article are those who talk already."""
+    talking = [frame.scene.by_id(one) for k in frame.scene.links for one in (k.sender, k.receiver)]
+    types = {e.type.value for e in talking if e is not None and e.type is not None}
+    bare = Determiner.BARE
+    return [
+        replace(n, determiner=Determiner.DEFINITE)
+        if n.determiner is bare and n.key in types and not n.plural
+        else n
+        for n in nouns
+    ]

@@ -258,6 +258,12 @@ def place_party(resolver: Resolver, told: Placed) -> None:
     """Place whom a condition names: `the gap between the ego and the van behind it`."""
     known = resolver.known(told.owner)
     owner = known[0] if len(known) == 1 and not known[0].is_uav else None
+    if told.at_place:
+        place = resolver.place(told.of)
+        if owner is not None and place is not None:
+            made = Placement(relation=told.relation, of=place, span=told.span)
+            add_placement(owner, made)
+        return
     others = resolver.actors((told.of,), accept=ground, exclude=known) if owner else ()
     if owner is not None and len(others) == 1 and others[0] is not owner:
         placement = Placement(

@@ -81,17 +81,19 @@ def _duration(frame: Frame) -> bool:
         return False  # `visible for 15 s in total`
     if not frame.has_mark(AtomKind.SCENARIO.value) or frame.key not in _LASTING:
         return False
-    if frame.subject_nouns or frame.negated:
+    longest = frame.negated and frame.key == 'last'  # `must not last longer than 120 s`
+    if frame.subject_nouns or (frame.negated and not longest):
         return False
     for adjunct in frame.free(AdjunctKind.MEASURE, TIME) + frame.free(
         AdjunctKind.ATTRIBUTE, 'duration'
     ):
         measure = adjunct.measure
         allowed = adjunct.prep in ('', 'for', 'of', 'with', 'below', 'within')
+        allowed = adjunct.prep == 'beyond' if longest else allowed
         if measure is not None and allowed and values.accepts('scenario_duration', measure):
             adjunct.used = True
             duration = values.explicit('scenario_duration', measure)
-            if adjunct.prep in ('below', 'within'):
+            if adjunct.prep in ('below', 'within') or longest:
                 duration = values.rebound(duration, Bound.AT_MOST)
             frame.scene.world.duration = duration
             return True

@@ -44,7 +44,7 @@ class Meaning:
 
     def state(self) -> bool:
         """Return whether the conditions could be stated."""
-        if re.search(r'\bwhile\b', self._told.words) and not self._scene.missions:
+        if re.search(r'\bwhile (?!this|that|all)', self._told.words) and not self._scene.missions:
             return False  # what is done the while is not told elsewhere
         dimension = self._told.limits[0].dimension if self._told.limits else ''
         if self._told.event is not None and dimension in ('', 'T'):
@@ -63,16 +63,16 @@ class Meaning:
 
     def _moment(self, told: Moment) -> bool:
         """When an event happens; the deadline of one is its latest moment."""
-        event = Sequels(self._scene, self._span, self._who.actors()).event(told, new=True)
-        if event is None and told.key == 'land' and self._told.by is not None:
+        if told.key == 'land' and self._told.by is not None:
             return self._done()
+        event = Sequels(self._scene, self._span, self._who.actors()).event(told, new=True)
         if event is None:
             return False
         for limit in self._told.limits:
             value = values.explicit('condition_time', limit.measure)
-            self._add('event_time', (event.id,), limit.op, value)
+            self._add('event_time', (event.id,), limit.op, value, deadline=False)
         by = self._told.by
-        if not self._told.limits and by is not None:
+        if by is not None:
             value = values.explicit('condition_time', by)
             self._add('event_time', (event.id,), '<=', value, deadline=False)
         return bool(self._told.limits or by)

@@ -65,6 +65,8 @@ _SENT = re.compile(
     r'(?:sent|issued|raised|given|emitted|transmitted|broadcast|dispatched|released|triggered|'
     r'fired|made|out|on its way)(?: (?:out|off))?(?: (?:from|to|by) N\d+)* '
 )
+# `must not cross 40 km/h`: a limit, no street.
+_CROSSING = re.compile(r'\bcross(?:es|ed|ing)? (?=[LV]\d)')
 _BOUNDED = re.compile(r'\b(?:atleast|atmost|nolater)\b')
 _LATEST = re.compile(r'\b(?:by|before|nolater|latest)\b')
 _YES_OR_NO = ('landed', 'completed', 'delivered')
@@ -77,11 +79,16 @@ def criterion(atoms: Sequence[Atom], *, asked: bool = False) -> Criterion | None
         atoms: Of the clause.
         asked: It needs no word that asks for something: it stands behind `when`.
     """
-    found = _Reading(told(atoms), criteria_words()).run(asked=asked)
-    if found is not None:
-        return found
     rest, placed = take_places(atoms)
-    found = _Reading(told(rest), criteria_words()).run(asked=asked) if placed else None
+    if any(one.at_place for one in placed):  # `a van on the main road must not exceed 40 km/h`
+        found = _Reading(told(rest), criteria_words()).run(asked=asked)
+        kind = found.limits[0].dimension if found is not None and found.limits else ''
+        if found is not None and (kind == 'V' or (kind == 'L' and len(found.nouns) > 1)):
+            return replace(found, placed=placed)
+    found = _Reading(told(atoms), criteria_words()).run(asked=asked)
+    if found is not None or not placed:
+        return found
+    found = _Reading(told(rest), criteria_words()).run(asked=asked)
     return replace(found, placed=placed) if found is not None else None
 
 
@@ -102,6 +109,7 @@ class _Reading:
         self._crosses = asked
         if _INVERTED.match(self._text) or _PART.search(self._text):
             return None
+        self._text = _CROSSING.sub('exceed ', self._text)
         self._fails = self._cut(words['fails'])
         asked = asked or self._fails or bool(words['demands'].search(self._text))
         named = self._line.plain and words['names_measured'].search(self._text) is not None
@@ -115,9 +123,6 @@ class _Reading:
             if words.topics['seen'].search(self._text):
                 return None  # `ought to see it, and should it be hidden, …`
             topics |= {'seen'}
-        named = self._line.plain and words['names_measured'].search(self._text) is not None
-        if not asked and not named and not self._is_bounded():
-            return None
         waits = event is not None and re.search(r'\b(?:not|never) (?:\w+ )?before\b', self._text)
         by = None if waits else self._deadline(topics)
         between = self._between()
