@@ -119,10 +119,11 @@ def _given_up(atoms: Sequence[Atom], i: int) -> int | None:
     """Return where the next act begins behind `gives up the patrol and`."""
     if atoms[i].kind is AtomKind.NEGATION:
         return _no_more(atoms, i)
-    if atoms[i].kind is not AtomKind.VERB or atoms[i].key not in _BREAKS_OFF:
+    leaves = atoms[i].key == 'start' and atoms[i].words in ('leaves', 'leave', 'left')
+    if atoms[i].kind is not AtomKind.VERB or not (leaves or atoms[i].key in _BREAKS_OFF):
         return None
     given_up = atoms[i].key == 'break_off'
-    stop = flight_end(atoms, i + 1, named=given_up) or (i + 1 if given_up else None)
+    stop = flight_end(atoms, i + 1, named=given_up or leaves) or (i + 1 if given_up else None)
     return _next_act(atoms, stop) if stop is not None else None
 
 

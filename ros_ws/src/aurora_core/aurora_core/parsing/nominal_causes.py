@@ -412,7 +412,7 @@ def _made_to(atoms: list[Atom], prompt: str) -> list[Atom]:
             changed[begin : verb + 1] = [then, *acts]
             i = begin
             continue
-        clause = _told_event(cause, prompt)
+        clause = told_event(cause, prompt)
         if clause is not None:
             comma = replace(changed[i], kind=AtomKind.COMMA, key=',')
             changed[begin : verb + 1] = [*clause, comma, *acts]
@@ -453,7 +453,7 @@ def _clause_start(atoms: Sequence[Atom], i: int) -> int:
     return k
 
 
-def _told_event(cause: Sequence[Atom], prompt: str) -> list[Atom] | None:
+def told_event(cause: Sequence[Atom], prompt: str) -> list[Atom] | None:
     """`the arrival of the bus`, `a bus arriving at the park`: as a clause behind `when`."""
     if not cause:
         return None

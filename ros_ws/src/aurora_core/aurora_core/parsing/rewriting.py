@@ -27,6 +27,7 @@ from aurora_core.parsing.nominal_causes import verbal
 from aurora_core.parsing.not_before import not_before
 from aurora_core.parsing.pieces import MOST_ATOMS, TRANSPARENT
 from aurora_core.parsing.placing_words import placing_words, told_of_us
+from aurora_core.parsing.prompted import prompted
 from aurora_core.parsing.radio import radio
 from aurora_core.parsing.roles import cast
 from aurora_core.parsing.shared_out import shared_out
@@ -66,7 +67,7 @@ def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
         return Rewritten(atoms=tuple(atoms))
     told, background = unwrap(joined(_cast(atoms, prompt), prompt), prompt)
     told = shared_out(not_before(told), prompt)
-    told = dated(verbal(radio(told, prompt), prompt), prompt)
+    told = dated(verbal(prompted(radio(told, prompt), prompt), prompt), prompt)
     told = value_statements(
         predicates(
             plain_order(_places(_shares(_scenes(placing_words(told), prompt)), prompt), prompt),
