@@ -70,7 +70,7 @@ def _vehicle_of(atoms: Sequence[Atom], i: int, prompt: str) -> int | None:
     words = shipped_lexicon().turns['rides']
     rides = False
     while k < len(atoms) and k < i + 5 and atoms[k].noun is None:
-        rides = rides or text_of(atoms[k], prompt) in words
+        rides = rides or text_of(atoms[k], prompt) in words or _is_on(atoms, k)
         if atoms[k].kind not in (*TRANSPARENT, AtomKind.VERB, AtomKind.PREPOSITION):
             return None
         k += 1
@@ -80,6 +80,12 @@ def _vehicle_of(atoms: Sequence[Atom], i: int, prompt: str) -> int | None:
     new = told is not None and told.determiner in (Determiner.INDEFINITE, Determiner.BARE)
     driven = told is not None and told.kind is NounKind.AGENT and told.key not in _NOT_DRIVEN
     return k if new and driven else None
+
+
+def _is_on(atoms: Sequence[Atom], i: int) -> bool:
+    """`the suspect is on a motorcycle`."""
+    on = atoms[i].kind is AtomKind.PREPOSITION and atoms[i].key == 'on'
+    return on and i + 1 < len(atoms) and atoms[i + 1].key in ('motorcycle', 'bicycle')
 
 
 _NOT_DRIVEN = ('pedestrian', 'rsu')

@@ -154,6 +154,7 @@ def _when_told(story: Story, frame: Frame, action: EventAction) -> EventDraft | 
     """`…, the drone warns the car and the car brakes`: once it has the message."""
     before = story.last[0].action if story.last is not None else None
     who = action.agent if isinstance(action, AgentAction) else None
+    who = action.sender if isinstance(action, SendMessage) else who  # it passes it on
     if not isinstance(before, SendMessage) or before.receiver != who:
         return None
     heard = MessageTrigger(on='message_received', by=before.receiver, sender=before.sender)

@@ -334,8 +334,8 @@ def _fronted(atoms: list[Atom]) -> list[Atom]:
             moved.insert(begin, moved.pop(i))  # `the car brakes in response`
     for i in range(2, len(moved) - 1):
         reacts = moved[i].kind is AtomKind.THEN and moved[i - 1].kind is AtomKind.VERB
-        if reacts and moved[i - 2].is_actor and moved[i].key in _REACTING:
-            moved.insert(i - 2, moved.pop(i))  # `the drone informs thereupon the police`
+        if reacts and moved[i].key in _REACTING:  # `the drone informs thereupon the police`
+            moved.insert(i - 2 if moved[i - 2].is_actor else i - 1, moved.pop(i))
     for i in range(1, len(moved) - 1):
         verbal = moved[i + 1].kind in (AtomKind.VERB, AtomKind.AUXILIARY)
         worded = moved[i].kind is AtomKind.THEN and moved[i].key != '→'

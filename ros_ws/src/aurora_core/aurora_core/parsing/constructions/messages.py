@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from aurora_core.parsing import values
-from aurora_core.parsing.adjuncts import AdjunctKind
+from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
 from aurora_core.parsing.atoms import ACTORS, AtomKind, Determiner, NounKind, NounPhrase
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.measures import RATIO
@@ -185,7 +185,14 @@ def link_values(frame: Frame) -> bool:
     if not found:
         return False
     draft = _link_of_clause(frame)
+    others = {a.key: a for a in _told_between(frame)[1:]}
     for name, parameter in found.items():
+        if name in others:  # `the loss between A and B is 10 %, the latency between B and C 1 s`
+            ends = _in_order(frame.objects(others[name].nouns))
+            other = link_between(frame, *ends) if ends is not None else draft
+            setattr(other, {'radio_range': 'range'}.get(name, name), parameter)
+            frame.scene.became(other.id)
+            continue
         field = {'radio_range': 'range'}.get(name, name)
         setattr(draft, field, parameter)
     for mark in frame.free(AdjunctKind.MARK, AtomKind.LINK.value, AtomKind.MESSAGE.value):
@@ -249,13 +256,12 @@ def _link_of_clause(frame: Frame) -> LinkDraft:
 
 def _named_ends(frame: Frame) -> tuple[Entity, Entity] | None:
     """`the link between the drone and the ego`, `the link from the drone to the ego`."""
-    between = frame.free(AdjunctKind.PHRASE, 'between')
+    between = frame.free(AdjunctKind.PHRASE, 'between') or _told_between(frame)
     if between and len(between[0].nouns) == 2:
-        ends = frame.objects(_known(frame, between[0].nouns))
-        if len(ends) == 2:
+        ends = _in_order(frame.objects(_known(frame, between[0].nouns)))
+        if ends is not None:
             between[0].used = True
-            first, second = ends
-            return (second, first) if airborne(second) and not airborne(first) else (first, second)
+            return ends
     from_whom = frame.free(AdjunctKind.PHRASE, 'from') or [
         a for a in frame.adjuncts if a.kind is AdjunctKind.ATTRIBUTE and a.nouns and a.used
     ]
@@ -281,3 +287,17 @@ def _known(frame: Frame, nouns: Sequence[NounPhrase]) -> list[NounPhrase]:
         else n
         for n in nouns
     ]
+
+
+def _told_between(frame: Frame) -> list[Adjunct]:
+    """Return the values of `the latency between the drone and the ego`."""
+    told = [a for a in frame.adjuncts if a.kind is AdjunctKind.ATTRIBUTE and len(a.nouns) == 2]
+    return [a for a in told if a.key in _LINK_FIELDS]
+
+
+def _in_order(ends: tuple[Entity, ...]) -> tuple[Entity, Entity] | None:
+    """Return sender and receiver: a UAV tells those on the ground."""
+    if len(ends) != 2:
+        return None
+    first, second = ends
+    return (second, first) if airborne(second) and not airborne(first) else (first, second)
