@@ -8,13 +8,14 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 
-from aurora_core.parsing.atom_runs import HELPERS, LOOSE, skip
+from aurora_core.parsing.atom_runs import HELPERS, LOOSE, runs, skip
 from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.nominal import act_nouns
 from aurora_core.parsing.phases import FLOWN, PHASES
 
 _FLIGHTS = PHASES | {'navigate', 'orbit'}
+_NEXT = _FLIGHTS | {'land', 'ascend', 'descend'}
 _PAUSES = (AtomKind.COMMA, AtomKind.CONJUNCTION)
 # `patrol` is a police car only where it is watched or acts by itself.
 _WATCHES = FLOWN | {'see', 'overtake', 'approach', 'tailgate', 'trail', 'alert', 'send', 'lose'}
@@ -24,7 +25,26 @@ _BREAKS_OFF = frozenset({'break_off', 'stop', 'finish', 'keep'})
 
 def flights(atoms: Sequence[Atom]) -> list[Atom]:
     """Return the atoms with flights as such, and without the end that the next one implies."""
-    return _broken_off(_after_that(_patrols(_owned(_on_the_way(list(atoms))))))
+    ordered = [a for told, stop in runs(atoms, AtomKind.STOP) for a in _ordered(told, stop)]
+    return _broken_off(_after_that(_patrols(_owned(_on_the_way(ordered)))))
+
+
+def _ordered(atoms: list[Atom], stop: Atom | None) -> list[Atom]:
+    """`before tracking the van, the drone hovers`: it hovers, then it tracks the van."""
+    end = [stop] if stop is not None else []
+    first = skip(atoms, 0)
+    verb = skip(atoms, first + 1)
+    opens = first < len(atoms) and atoms[first].words == 'before' and verb < len(atoms)
+    if not opens or atoms[verb].form is not VerbForm.ING or atoms[verb].key not in _NEXT:
+        return [*atoms, *end]
+    pause = next((i for i, a in enumerate(atoms) if a.kind is AtomKind.COMMA), None)
+    named = skip(atoms, pause + 1) if pause is not None else len(atoms)
+    noun = atoms[named].noun if named < len(atoms) else None
+    if pause is None or noun is None or noun.kind not in (NounKind.UAV, NounKind.PRONOUN):
+        return [*atoms, *end]
+    then = replace(atoms[first], kind=AtomKind.THEN, key='then')
+    later = [replace(atoms[verb], form=VerbForm.THIRD), *atoms[verb + 1 : pause]]
+    return [*atoms[:first], *atoms[pause + 1 :], atoms[pause], then, *later, *end]
 
 
 def _on_the_way(atoms: list[Atom]) -> list[Atom]:
@@ -119,8 +139,8 @@ def _given_up(atoms: Sequence[Atom], i: int) -> int | None:
     """Return where the next act begins behind `gives up the patrol and`."""
     if atoms[i].kind is AtomKind.NEGATION:
         return _no_more(atoms, i)
-    leaves = atoms[i].key == 'start' and atoms[i].words in ('leaves', 'leave', 'left')
-    if atoms[i].kind is not AtomKind.VERB or not (leaves or atoms[i].key in _BREAKS_OFF):
+    leaves = atoms[i].key == 'start' and atoms[i].words.startswith(('leav', 'left'))
+    if atoms[i].kind is not AtomKind.VERB or not (atoms[i].key in _BREAKS_OFF or leaves):
         return None
     given_up = atoms[i].key == 'break_off'
     stop = flight_end(atoms, i + 1, named=given_up or leaves) or (i + 1 if given_up else None)

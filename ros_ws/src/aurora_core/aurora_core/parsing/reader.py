@@ -103,6 +103,7 @@ class Reader:
                 and piece.opens
             ):  # `when it has hovered there for 60 s, it lands`
                 self._plain(replace(piece, link=Link.MAIN), following=nxt)
+                self._story.before = piece
                 self._plain(replace(nxt, then=True))
                 i += 1
             elif piece.link in _CAUSES and piece.opens and same and nxt is not None:
@@ -198,7 +199,7 @@ class Reader:
                 main_clause(frame)
             note_fronted_time(self._story, frame, before)
             in_sequence(frame, before)
-            after_others(frame, flown)
+            after_others(frame, flown, self._story.before)
             earlier_phase(frame, flown)
             soon(frame, before)
             after_sight(self._story.scene, before, self._story.seen)

@@ -165,7 +165,9 @@ class Resolver:
             noun.key in ('one', 'other') or noun.key.startswith('nth')
         ):  # each mention picks a member once
             if not self.known(noun):
-                picked = self._pronouns.resolve(noun, accept, exclude, as_object)
+                picked = self._next_in_line(noun) or self._pronouns.resolve(
+                    noun, accept, exclude, as_object
+                )
                 if not picked and noun.head_text.startswith('the other'):
                     picked = self._beside_one(noun)
                 self._read[noun.start, noun.end] = picked
@@ -205,6 +207,20 @@ class Resolver:
             if words[0] in ('one', '1') and alone == 1
             else ()
         )
+
+    def _next_in_line(self, noun: NounPhrase) -> tuple[Entity, ...]:
+        """`the first UAV hovers, the second one lands; the second one …`: counted as they come."""
+        if not noun.key.startswith('nth') or noun.head_text in ('the former', 'the latter'):
+            return ()
+        number = int(noun.key[3:])
+        numbered = [e for e in self._scene.entities if e.index and e.group is None]
+        again = [e for e in numbered if e.index == number]
+        before = [e for e in numbered if e.index == number - 1]
+        if again or not before:
+            return tuple(again[-1:])
+        made = self._like(before[-1], Span(start=noun.start, end=noun.end))
+        made[0].index = number
+        return made
 
     def _one_more(self, noun: NounPhrase) -> tuple[Entity, ...]:
         """`one drone …, another one …`: of the kind that acted last."""

@@ -231,16 +231,18 @@ def in_sequence(frame: Frame, before: int) -> None:
         _after_its_phase(frame, events[-1])
 
 
-def after_others(frame: Frame, flown: int) -> None:
+def after_others(frame: Frame, flown: int, told: Piece | None) -> None:
     """`drone A hovers there. Then drone B tracks the bus`: when the phase of the other is over.
 
     Args:
         frame: The clause.
         flown: Number of missions that were told before the clause.
+        told: The clause before: `when drone A has hovered for 20 s, drone B …`.
     """
     scene = frame.scene
     made = scene.missions[flown:]
-    if len(made) != 1 or not flown or not frame.piece.then or not _goes_on(frame):
+    phase = told is not None and told.link in (Link.WHEN, Link.AFTER) and is_phase(told)
+    if len(made) != 1 or not flown or not frame.piece.then or not (phase or _goes_on(frame)):
         return
     before, new = scene.missions[flown - 1], made[0]
     caused = any(

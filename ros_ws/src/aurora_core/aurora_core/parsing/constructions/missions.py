@@ -11,9 +11,10 @@ from aurora_core.parsing.constructions.flight_types import FlightValues, state_r
 from aurora_core.parsing.constructions.flight_values import take_flight_values
 from aurora_core.parsing.constructions.flyers import flyers
 from aurora_core.parsing.constructions.transits import arrive, goes_on_there, is_transit, just_sent
+from aurora_core.parsing.constructions.waiting import waits_aloft, waits_for
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.pieces import Link
-from aurora_core.parsing.pronouns import ground
+from aurora_core.parsing.pronouns import anything, ground
 from aurora_core.parsing.scene import Entity, MissionDraft
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.scenario import UavAction
@@ -93,7 +94,7 @@ def mission(frame: Frame) -> bool:
             mode = _mode(frame, target, 'over')
     if mode is None and target is not None and (found.standoff or found.bearing):
         mode = MissionMode.TRACK if _is_actor(frame, target) else MissionMode.HOVER
-    if mode is None and _waits_aloft(frame, flying, found):
+    if mode is None and waits_aloft(frame, flying, found):
         mode = MissionMode.HOVER
     if mode is None:
         return _plain_flight(frame, flying, found)
@@ -149,9 +150,13 @@ def _is_actor(frame: Frame, reference: str) -> bool:
 def _is_route(frame: Frame) -> bool:
     return (
         frame.has_mark(AtomKind.PATTERN.value)
-        or frame.has_mark(AtomKind.ROUTE.value)
+        or any(a.key == AtomKind.ROUTE.value and a.value not in _VAGUE for a in frame.adjuncts)
         or frame.attribute('waypoint') is not None
     )
+
+
+# `does two jobs`: of what kind they are is said elsewhere.
+_VAGUE = frozenset({'job', 'phase', 'stage', 'part', 'segment'})
 
 
 def _over_streets(frame: Frame) -> bool:
@@ -166,7 +171,7 @@ def _over_streets(frame: Frame) -> bool:
 def _target(frame: Frame, flying: tuple[Entity, ...]) -> tuple[str | None, str]:
     """Return what the flight is about and the preposition in front of it."""
     if frame.key == 'wait':
-        _waits_for(frame)
+        waits_for(frame)
     candidates = frame.free(AdjunctKind.OBJECT) + frame.free(
         AdjunctKind.PHRASE,
         'over',
@@ -205,14 +210,6 @@ def _target(frame: Frame, flying: tuple[Entity, ...]) -> tuple[str | None, str]:
     return None, ''
 
 
-def _waits_for(frame: Frame) -> None:
-    """`it waits for the bus`: whom a UAV waits for is not where it waits."""
-    for adjunct in frame.free(AdjunctKind.PHRASE, 'for') + frame.free(AdjunctKind.OBJECT):
-        named = [n for n in adjunct.nouns if n.kind in ACTORS]
-        if named and len(named) == len(adjunct.nouns):
-            adjunct.used = bool(frame.objects(named))
-
-
 def _reference(frame: Frame, adjunct: Adjunct, flying: tuple[Entity, ...]) -> str | None:
     chosen: list[str] = []
     for noun in adjunct.nouns:
@@ -230,7 +227,9 @@ def _reference(frame: Frame, adjunct: Adjunct, flying: tuple[Entity, ...]) -> st
         elif _is_place_again(frame, noun, adjunct):
             chosen.append(next(c.places[0] for c in reversed(frame.scene.clauses) if c.places))
         elif noun.kind in ACTORS:
-            found = [e for e in frame.objects((noun,)) if e not in flying]
+            pronoun = noun.kind is NounKind.PRONOUN and frame.key in _TRACKING
+            seen = frame.objects((noun,), ground if pronoun else anything)
+            found = [e for e in seen if e not in flying]
             chosen += [e.id for e in found]
     if len(chosen) > 1:
         frame.flag(adjunct.start, adjunct.end)
@@ -419,12 +418,6 @@ def _continues(
     if pattern is not None and stated and last.pattern is not pattern:
         return False
     return not found.clashes(last)
-
-
-def _waits_aloft(frame: Frame, flying: tuple[Entity, ...], found: FlightValues) -> bool:
-    """`has to stay in the air for half an hour`: nothing but how long is said."""
-    told = found.duration is not None and frame.key in ('fly', 'keep', 'be', '')
-    return told and not any(frame.scene.missions_of(uav) for uav in flying)
 
 
 def _plain_flight(frame: Frame, flying: tuple[Entity, ...], found: FlightValues) -> bool:
