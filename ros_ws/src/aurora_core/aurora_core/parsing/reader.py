@@ -45,6 +45,7 @@ from aurora_core.parsing.sequence import (
     leads_to,
     sight,
     soon,
+    was_doing,
     who_was_told,
 )
 from aurora_core.parsing.story import Story
@@ -53,6 +54,12 @@ from aurora_core.spec.parameter import Span
 from aurora_core.spec.vocabulary import ClauseStatus
 
 _CAUSES = (Link.WHEN, Link.AFTER, Link.UNTIL)
+
+
+def _goes_on(pieces: Sequence[Piece], i: int) -> bool:
+    """`it is hovering there when a bus stops; then it tracks the bus`: the effect comes last."""
+    effect = pieces[i + 2] if i + 2 < len(pieces) else None
+    return was_doing(pieces[i]) and effect is not None and effect.then
 
 
 def _only_then(pieces: Sequence[Piece], i: int, prompt: str) -> bool:
@@ -118,6 +125,11 @@ class Reader:
             elif same and nxt is not None and is_earlier(nxt) and piece.link is Link.MAIN:
                 leading(self._story, replace(nxt, opens=True), piece)
                 self._plain(replace(piece, then=True))
+                i += 1
+            elif same and nxt is not None and nxt.link is Link.WHEN and _goes_on(pieces, i):
+                self._plain(piece)
+                then = pieces[i + 2]
+                leading(self._story, replace(nxt, opens=True, sentence=then.sentence), then)
                 i += 1
             elif (
                 piece.link in (Link.MAIN, Link.INFINITIVE, Link.PARTICIPLE)

@@ -36,6 +36,7 @@ from aurora_core.spec.scenario import (
     UavAction,
     VisibilityTrigger,
 )
+from aurora_core.spec.vocabulary import MissionMode
 
 _BESIDE = 24  # characters around a clause, where its word of sequence stands
 _MOMENTS = (EventDoneTrigger, MessageTrigger, AltitudeTrigger, ArrivalTrigger, VisibilityTrigger)
@@ -46,14 +47,18 @@ def later(frame: Frame) -> bool:
     """`…; ten seconds later, the bus starts`: so long after the last event."""
     scene = frame.scene
     adjunct = _lag(frame)
-    if adjunct is None or adjunct.measure is None or not _known_event(frame):
+    if adjunct is None or adjunct.measure is None:
+        return False
+    if not _known_event(frame):
+        _ends_phase(frame, adjunct)
         return False
     if not values.accepts('delay', adjunct.measure):
         return False
+    adjunct.used = True  # no duration of what begins then
     action = actions.action(frame)
+    adjunct.used = action is not None
     if action is None:
         return False
-    adjunct.used = True
     lag = values.explicit('delay', adjunct.measure)
     if adjunct.prep == 'within':
         lag = values.rebound(lag, Bound.AT_MOST)
@@ -68,6 +73,24 @@ def later(frame: Frame) -> bool:
         (),
     )
     return True
+
+
+def _ends_phase(frame: Frame, adjunct: Adjunct) -> None:
+    """`it tracks a bus; 30 s later it hovers`: so long it has tracked the bus."""
+    measure = adjunct.measure
+    acting = frame.subjects() if frame.subject_nouns else frame.inherited()
+    phases = frame.scene.missions_of(acting[0]) if len(acting) == 1 else []
+    behind = frame.scene.prompt[adjunct.end :].lstrip(' ,').lower()
+    last = behind.startswith(tuple(shipped_lexicon().turns['from_the_last']))
+    begins = frame.key in PHASES | {'navigate', 'land'}
+    if not phases or measure is None or not begins or not last:
+        return
+    adjunct.used = True  # how long the next phase takes it does not say
+    stays = phases[-1].mode is not MissionMode.NAVIGATE and phases[-1].duration is None
+    if stays and values.accepts('mission_duration', measure):
+        phases[-1].duration = values.explicit('mission_duration', measure)
+    else:
+        frame.flag(adjunct.start, adjunct.end)
 
 
 def _lag(frame: Frame) -> Adjunct | None:
@@ -370,6 +393,15 @@ def is_phase(piece: Piece) -> bool:
         return False
     there = any(a.noun is not None and a.noun.key == 'there' for a in piece.atoms)
     return verb.key in PHASES or (verb.key == 'be' and there)
+
+
+def was_doing(piece: Piece) -> bool:
+    """`the drone is hovering there when a bus stops`: what it does when something happens."""
+    verb = next((i for i, a in enumerate(piece.atoms) if a.kind is AtomKind.VERB), None)
+    if verb is None or piece.link is not Link.MAIN or piece.atoms[verb].form.value != 'ing':
+        return False
+    helped = any(a.kind is AtomKind.AUXILIARY and a.key == 'be' for a in piece.atoms[:verb])
+    return helped and piece.atoms[verb].key in PHASES | {'drive', 'navigate'}
 
 
 def is_earlier(piece: Piece) -> bool:
