@@ -278,9 +278,8 @@ def _named_ends(frame: Frame) -> tuple[Entity, Entity] | None:
 
 def _known(frame: Frame, nouns: Sequence[NounPhrase]) -> list[NounPhrase]:
     """`the radio from drone to car`: ends without an article are those who talk already."""
-    talking = [
-        frame.scene.by_id(one) for k in frame.scene.links for one in (k.sender, k.receiver) if one
-    ]
+    ends = (one for k in frame.scene.links for one in (k.sender, k.receiver))
+    talking = [frame.scene.by_id(one) for one in ends if one is not None]
     types = {e.type.value for e in talking if e is not None and e.type is not None}
     bare = Determiner.BARE
     return [

@@ -29,6 +29,8 @@ _BETWEEN = re.compile(
 _NEITHER = re.compile(r' (?:(?:and|but) )?(?:neither|none)\b')
 _LISTED = re.compile(r'N0(?: ?,)*(?: (?:and|,)+ N\d+)+')
 _ONE = ('it', 'person')
+# `no car shall exceed 50 km/h`
+_EVERYONE = re.compile(r'\b(?:no|none of|each|every|any|all)(?: of)?(?: the)? N0\b')
 _FRACTIONS = ('visible_fraction', 'tracked_fraction', 'delivery_ratio')
 _VALUE = {'L': 'condition_distance', 'V': 'condition_speed', 'T': 'condition_time'}
 
@@ -80,6 +82,10 @@ class Meaning:
     # --- values at every moment ---------------------------------------------------------------
 
     def _movers(self) -> list[Entity]:
+        if self._told.nouns and _EVERYONE.search(self._told.words):
+            kin = self._who.kin()
+            if len(kin) > 1:
+                return kin
         named = self._who.actors()
         if named:
             listed = _LISTED.search(self._told.words)

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind, NounPhrase
 from aurora_core.parsing.measures import COUNT, LENGTH, RATIO, SPEED, TIME, Measure
+from aurora_core.parsing.morphology import VerbForm
 from aurora_core.spec.parameter import Bound
 
 _LETTERS = {LENGTH: 'L', TIME: 'T', SPEED: 'V', RATIO: 'P', COUNT: 'C'}
@@ -58,8 +59,8 @@ def told(atoms: Sequence[Atom]) -> Told:
             name = f'N{len(nouns)}'
             nouns[name] = atom.noun
             words += [*_members(atom), name]
-        elif _is_repeated(atom, measures):
-            continue  # `two minutes (120 s)`
+        elif _describes(atoms, i) or _is_repeated(atom, measures):
+            continue  # `the tracked bus`, `two minutes (120 s)`
         elif atom.measure is not None and atom.measure.dimension in _LETTERS:
             if atom.measure.dimension == COUNT and atom.words == 'two':
                 words.append('two')
@@ -83,6 +84,13 @@ def _is_name(atom: Atom, atoms: Sequence[Atom], i: int) -> bool:
     # `the crossing should not begin before 20 s`: what happens, not where
     governed = i > 0 and atoms[i - 1].kind in (AtomKind.PREPOSITION, AtomKind.RELATION)
     return governed or atom.noun.head_text != 'crossing'
+
+
+def _describes(atoms: Sequence[Atom], i: int) -> bool:
+    """`from the tracked bus`: which one, not what is done."""
+    told = atoms[i].kind is AtomKind.VERB and atoms[i].key in ('track', 'follow', 'observe')
+    which = told and atoms[i].form is VerbForm.PAST and i > 0 and atoms[i - 1].words == 'the'
+    return which and i + 1 < len(atoms) and atoms[i + 1].is_actor
 
 
 def _is_repeated(atom: Atom, before: dict[str, Measure]) -> bool:
