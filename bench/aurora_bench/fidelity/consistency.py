@@ -102,6 +102,8 @@ def _plain(value: Any, labels: Mapping[str, str]) -> Any:
     if isinstance(value, dict):
         if 'provenance' in value and 'value' in value:
             return f'{value["value"]:.2g}'
+        if 'a' in value and 'b' in value:  # a distance has no direction
+            value = {**value, 'a': '', 'b': [value['a'], value['b']]}
         return {k: _plain(v, labels) for k, v in _told(value)}
     if isinstance(value, list):
         return sorted((_plain(v, labels) for v in value), key=json.dumps)

@@ -85,6 +85,7 @@ class MissionDraft:
     speed: Parameter | None = None
     over_streets: bool = False
     ends_in_flight: bool = False
+    watching: bool = False  # told with `watches`, `sees`
     on_the_way: bool = False
     span: Span
 

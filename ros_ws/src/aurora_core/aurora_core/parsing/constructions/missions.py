@@ -10,7 +10,13 @@ from aurora_core.parsing.atoms import ACTORS, AtomKind, NounKind, NounPhrase
 from aurora_core.parsing.constructions.flight_types import FlightValues, state_ranges
 from aurora_core.parsing.constructions.flight_values import take_flight_values
 from aurora_core.parsing.constructions.flyers import flyers
-from aurora_core.parsing.constructions.transits import arrive, goes_on_there, is_transit, just_sent
+from aurora_core.parsing.constructions.transits import (
+    arrive,
+    goes_on_there,
+    is_transit,
+    just_sent,
+    watches_from,
+)
 from aurora_core.parsing.constructions.waiting import waits_aloft, waits_for
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.pieces import Link
@@ -346,6 +352,7 @@ def _one(
             clause=scene.clause_number,
             span=frame.span,
         )
+        draft.watching = frame.key in ('observe', 'see')
         draft.altitude = scene.pending_altitude.pop(uav.id, None) or _climbed_to(frame, uav)
         draft.speed = scene.pending_speed.pop(uav.id, None)
         place = scene.pending_place.pop(uav.id, None)
@@ -353,6 +360,8 @@ def _one(
         scene.missions.append(draft)
     elif draft.on_the_way:
         arrive(draft, mode)
+    elif watches_from(frame, draft, mode, target):
+        draft.mode, draft.target = mode, target or draft.target
     draft.target = draft.target or target
     draft.on_the_way = is_transit(frame, draft, pattern, found)
     draft.needs_target = draft.mode is MissionMode.TRACK and draft.target is None
@@ -404,9 +413,9 @@ def _continues(
     found: FlightValues,
 ) -> bool:
     """Return whether a clause says more about the last phase instead of opening another."""
-    if _goes_on_watching(frame, last, target, found) or (
-        goes_on_there(last, mode, target, found) and pattern is not Pattern.WAYPOINTS
-    ):
+    if watches_from(frame, last, mode, target) or _goes_on_watching(frame, last, target, found):
+        return True
+    if goes_on_there(last, mode, target, found) and pattern is not Pattern.WAYPOINTS:
         return True
     if frame.piece.then or last.mode is not mode:
         return False

@@ -6,7 +6,8 @@ from __future__ import annotations
 
 from aurora_core.parsing.constructions.flight_types import FlightValues
 from aurora_core.parsing.frames import Frame
-from aurora_core.parsing.scene import MissionDraft, Scene
+from aurora_core.parsing.pieces import Link
+from aurora_core.parsing.scene import Entity, MissionDraft, Scene
 from aurora_core.spec.vocabulary import MissionMode, Pattern
 
 
@@ -45,3 +46,19 @@ def just_sent(scene: Scene) -> bool:
     return any(
         m.on_the_way and m.id in c.ids for m in scene.missions[-1:] for c in scene.clauses[-2:-1]
     )
+
+
+def watches_from(frame: Frame, last: MissionDraft, mode: MissionMode, target: str | None) -> bool:
+    """`watched by a drone hovering there`: what it flies, not what it does first."""
+    described = frame.piece.link is Link.RELATIVE and not frame.piece.then
+    described = described and mode is not MissionMode.TRACK
+    watched = frame.scene.by_id(last.target or '')
+    if watched is None or target not in (None, watched.id, *_places_of(watched)):
+        return False
+    told = (last.altitude, last.standoff, last.bearing, last.duration, last.speed)
+    bare = last.watching and last.mode is MissionMode.TRACK and not any(told)
+    return described and bare and last.clause == frame.scene.clause_number - 1
+
+
+def _places_of(entity: Entity) -> list[str | None]:
+    return [p.of for p in entity.placements] + [b.target for b in entity.behaviors]
