@@ -12,7 +12,6 @@ from dataclasses import dataclass, replace
 
 from aurora_core.parsing.atom_runs import text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind, NounPhrase
-from aurora_core.parsing.clause_openings import ALONE
 from aurora_core.parsing.clefts import plain_order
 from aurora_core.parsing.conjunctions import joined
 from aurora_core.parsing.enumerations import told_once
@@ -30,16 +29,16 @@ from aurora_core.parsing.placing_words import placing_words, told_of_us
 from aurora_core.parsing.prompted import prompted
 from aurora_core.parsing.radio import radio
 from aurora_core.parsing.roles import cast
-from aurora_core.parsing.shared_out import shared_out
+from aurora_core.parsing.shared_out import shared_out, shares
 from aurora_core.parsing.statements import value_statements
 from aurora_core.parsing.telling import messages_told
+from aurora_core.parsing.then_words import in_front
 from aurora_core.parsing.ways import ways
 from aurora_core.parsing.wrapping import unwrap
 from aurora_core.spec.parameter import Bound, Span
 
 _BREAKS = (AtomKind.COMMA, AtomKind.STOP, AtomKind.THEN, AtomKind.CONJUNCTION)
 _PAUSES = (AtomKind.COMMA, AtomKind.STOP, AtomKind.FILL, AtomKind.UNKNOWN, AtomKind.THING)
-_SHARES = ('one', 'other', 'another')
 _MOST_BETWEEN = 9
 
 
@@ -70,13 +69,13 @@ def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
     told = dated(verbal(prompted(radio(told, prompt), prompt), prompt), prompt)
     told = value_statements(
         predicates(
-            plain_order(_places(_shares(_scenes(placing_words(told), prompt)), prompt), prompt),
+            plain_order(_places(shares(_scenes(placing_words(told), prompt)), prompt), prompt),
             prompt,
         ),
         prompt,
     )
     kept, spans = _take_back(straighten(told, prompt))
-    told = _fronted(_labels(_asides(_contrasts(kept))))
+    told = in_front(_labels(_asides(_contrasts(kept))))
     return Rewritten(
         atoms=tuple(_relatives(_climbs(_small_words(ways(told, prompt)), prompt))),
         taken_back=tuple(spans),
@@ -87,44 +86,6 @@ def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
 def _cast(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
     """Return the atoms with words for actors and messages as such."""
     return messages_told(flights(cast(told_once(told_of_us(atoms)), prompt)), prompt)
-
-
-def _shares(atoms: Sequence[Atom]) -> list[Atom]:
-    """`hover over it one at 30 m the other at 50 m`: each share is a clause of its own."""
-    written: list[Atom] = []
-    acted = False
-    for i, atom in enumerate(atoms):
-        before = written[-1] if written else None
-        behind = atoms[i + 1] if i + 1 < len(atoms) else None
-        acts = atom.kind is AtomKind.VERB or (atom.is_actor and atom.key in _SHARES)
-        acted = acts or (acted and atom.kind is not AtomKind.STOP)
-        if atom.kind is AtomKind.COMMA and acted and _of_both(atoms, i + 1):
-            atom = replace(atom, kind=AtomKind.STOP, key=';')
-        member = atom.noun is not None and atom.noun.kind is NounKind.PRONOUN
-        named = atom.key in _SHARES or atom.key.startswith('nth')
-        placed = behind is not None and behind.kind in (AtomKind.PREPOSITION, AtomKind.RELATION)
-        told = before is not None and (before.is_place or before.measure is not None)
-        actor = before is not None and before.is_actor and atom.key == 'one'
-        if (
-            member
-            and named
-            and placed
-            and before is not None
-            and (told or actor)
-            and before.end < atom.start
-        ):
-            written.append(Atom(kind=AtomKind.COMMA, key=',', start=before.end, end=atom.start))
-        written.append(atom)
-    return written
-
-
-def _of_both(atoms: Sequence[Atom], i: int) -> bool:
-    """`one over the school, one over the park, both at 45 m`: told of all of them."""
-    both = i < len(atoms) and atoms[i].noun is not None and atoms[i].key == 'both'
-    value = i + 1 if i + 1 < len(atoms) and atoms[i + 1].measure is not None else i + 2
-    stop = atoms[i + 1 : value]
-    valued = value < len(atoms) and atoms[value].measure is not None
-    return both and valued and all(a.kind is AtomKind.PREPOSITION for a in stop)
 
 
 def _take_back(atoms: list[Atom]) -> tuple[list[Atom], list[Span]]:
@@ -316,50 +277,6 @@ def _commands(atoms: Sequence[Atom], i: int) -> bool:
     """`two drones: climb to 50 m`: what all of them are told to do."""
     behind = next((a for a in atoms[i + 1 :] if a.kind is not AtomKind.FILL), None)
     return behind is not None and behind.kind is AtomKind.VERB and behind.form is VerbForm.BASE
-
-
-def _fronted(atoms: list[Atom]) -> list[Atom]:
-    """`and the ego then stops`: in sequence, wherever the word stands."""
-    moved = list(atoms)
-    for i in range(1, len(moved)):
-        last = i + 1 == len(moved) or moved[i + 1].kind is AtomKind.STOP
-        if (
-            last
-            and moved[i].kind is AtomKind.THEN
-            and moved[i].key in shipped_lexicon().turns['at_the_end']
-        ):
-            begin = i
-            while begin and moved[begin - 1].kind not in _BREAKS:
-                begin -= 1
-            moved.insert(begin, moved.pop(i))  # `the car brakes in response`
-    for i in range(2, len(moved) - 1):
-        reacts = moved[i].kind is AtomKind.THEN and moved[i - 1].kind is AtomKind.VERB
-        if reacts and moved[i].key in _REACTING:  # `the drone informs thereupon the police`
-            moved.insert(i - 2 if moved[i - 2].is_actor else i - 1, moved.pop(i))
-    for i in range(1, len(moved) - 1):
-        verbal = moved[i + 1].kind in (AtomKind.VERB, AtomKind.AUXILIARY)
-        worded = moved[i].kind is AtomKind.THEN and moved[i].key != '→'
-        if worded and moved[i - 1].is_actor and verbal and _acts_anew(moved, i - 1):
-            moved[i - 1], moved[i] = moved[i], moved[i - 1]
-    return moved
-
-
-def _acts_anew(atoms: Sequence[Atom], i: int) -> bool:
-    """Return whether the actor opens a clause; in `passes the bus and then brakes` it ends one."""
-    before = i - 1
-    while before >= 0 and atoms[before].kind is AtomKind.FILL:
-        before -= 1
-    if before < 0 or atoms[before].kind in _OPENS_CLAUSE:
-        return True
-    full = atoms[before].measure is not None or atoms[before].is_place
-    full = full or (atoms[before].kind is AtomKind.VERB and atoms[before].key in ALONE)
-    return full and atoms[i + 1].words == 'then'  # `when the bus stops the ego then brakes`
-
-
-_OPENS_CLAUSE = (*_BREAKS, AtomKind.SUBORDINATOR, AtomKind.FRAME, AtomKind.RELATIVE)
-
-
-_REACTING = ('thereupon', 'consequently', 'accordingly', 'subsequently', 'thereafter')
 
 
 def _small_words(atoms: list[Atom]) -> list[Atom]:

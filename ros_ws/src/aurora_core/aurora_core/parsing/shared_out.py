@@ -24,6 +24,7 @@ _STAYING = ('hover', 'keep', 'wait', 'orbit')
 _OTHER_CLAUSE = (AtomKind.SUBORDINATOR, AtomKind.RELATIVE, AtomKind.THEN)
 _NUMBER = re.compile(r'\d+(?:\.\d+)?')
 _MOST = 6
+_SHARES = ('one', 'other', 'another')
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -48,6 +49,44 @@ def shared_out(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
         if stop is not None:
             written.append(stop)
     return written
+
+
+def shares(atoms: Sequence[Atom]) -> list[Atom]:
+    """`hover over it one at 30 m the other at 50 m`: each share is a clause of its own."""
+    written: list[Atom] = []
+    acted = False
+    for i, atom in enumerate(atoms):
+        before = written[-1] if written else None
+        behind = atoms[i + 1] if i + 1 < len(atoms) else None
+        acts = atom.kind is AtomKind.VERB or (atom.is_actor and atom.key in _SHARES)
+        acted = acts or (acted and atom.kind is not AtomKind.STOP)
+        if atom.kind is AtomKind.COMMA and acted and _of_both(atoms, i + 1):
+            atom = replace(atom, kind=AtomKind.STOP, key=';')
+        member = atom.noun is not None and atom.noun.kind is NounKind.PRONOUN
+        named = atom.key in _SHARES or atom.key.startswith('nth')
+        placed = behind is not None and behind.kind in (AtomKind.PREPOSITION, AtomKind.RELATION)
+        told = before is not None and (before.is_place or before.measure is not None)
+        actor = before is not None and before.is_actor and atom.key == 'one'
+        if (
+            member
+            and named
+            and placed
+            and before is not None
+            and (told or actor)
+            and before.end < atom.start
+        ):
+            written.append(Atom(kind=AtomKind.COMMA, key=',', start=before.end, end=atom.start))
+        written.append(atom)
+    return written
+
+
+def _of_both(atoms: Sequence[Atom], i: int) -> bool:
+    """`one over the school, one over the park, both at 45 m`: told of all of them."""
+    both = i < len(atoms) and atoms[i].noun is not None and atoms[i].key == 'both'
+    value = i + 1 if i + 1 < len(atoms) and atoms[i + 1].measure is not None else i + 2
+    stop = atoms[i + 1 : value]
+    valued = value < len(atoms) and atoms[value].measure is not None
+    return both and valued and all(a.kind is AtomKind.PREPOSITION for a in stop)
 
 
 def _sentence(atoms: list[Atom], prompt: str) -> list[Atom]:

@@ -1,0 +1,53 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Words of sequence, moved to the front of the clause that they open."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from aurora_core.parsing.atoms import Atom, AtomKind
+from aurora_core.parsing.clause_openings import ALONE
+from aurora_core.parsing.lexicon import shipped_lexicon
+
+_BREAKS = (AtomKind.COMMA, AtomKind.STOP, AtomKind.THEN, AtomKind.CONJUNCTION)
+_OPENS_CLAUSE = (*_BREAKS, AtomKind.SUBORDINATOR, AtomKind.FRAME, AtomKind.RELATIVE)
+_REACTING = ('thereupon', 'consequently', 'accordingly', 'subsequently', 'thereafter')
+
+
+def in_front(atoms: list[Atom]) -> list[Atom]:
+    """`and the ego then stops`: in sequence, wherever the word stands."""
+    moved = list(atoms)
+    for i in range(1, len(moved)):
+        last = i + 1 == len(moved) or moved[i + 1].kind is AtomKind.STOP
+        if (
+            last
+            and moved[i].kind is AtomKind.THEN
+            and moved[i].key in shipped_lexicon().turns['at_the_end']
+        ):
+            begin = i
+            while begin and moved[begin - 1].kind not in _BREAKS:
+                begin -= 1
+            moved.insert(begin, moved.pop(i))  # `the car brakes in response`
+    for i in range(2, len(moved) - 1):
+        reacts = moved[i].kind is AtomKind.THEN and moved[i - 1].kind is AtomKind.VERB
+        if reacts and moved[i].key in _REACTING:  # `the drone informs thereupon the police`
+            moved.insert(i - 2 if moved[i - 2].is_actor else i - 1, moved.pop(i))
+    for i in range(1, len(moved) - 1):
+        verbal = moved[i + 1].kind in (AtomKind.VERB, AtomKind.AUXILIARY)
+        worded = moved[i].kind is AtomKind.THEN and moved[i].key != '→'
+        if worded and moved[i - 1].is_actor and verbal and _acts_anew(moved, i - 1):
+            moved[i - 1], moved[i] = moved[i], moved[i - 1]
+    return moved
+
+
+def _acts_anew(atoms: Sequence[Atom], i: int) -> bool:
+    """Return whether the actor opens a clause; in `passes the bus and then brakes` it ends one."""
+    before = i - 1
+    while before >= 0 and atoms[before].kind is AtomKind.FILL:
+        before -= 1
+    if before < 0 or atoms[before].kind in _OPENS_CLAUSE:
+        return True
+    full = atoms[before].measure is not None or atoms[before].is_place
+    full = full or (atoms[before].kind is AtomKind.VERB and atoms[before].key in ALONE)
+    return full and atoms[i + 1].words == 'then'  # `when the bus stops the ego then brakes`
