@@ -14,6 +14,7 @@ from aurora_core.parsing.constructions.demands import demands, seen_for
 from aurora_core.parsing.constructions.flight_details import flight_details
 from aurora_core.parsing.constructions.flyers import asks_for_flight, keeps_it_up
 from aurora_core.parsing.constructions.identity import is_ego, is_of_type
+from aurora_core.parsing.constructions.placing import placing
 from aurora_core.parsing.constructions.spacing import told_distance
 from aurora_core.parsing.constructions.states import predicate_adjectives
 from aurora_core.parsing.constructions.triggers import (
@@ -301,9 +302,9 @@ def _about_ground(frame: Frame) -> bool:
         return True
     if conditions.condition(frame):
         if frame.key == 'be':
-            ground.placing(frame)  # `is on the sidewalk within 9 m of it`
+            placing(frame)  # `is on the sidewalk within 9 m of it`
         return True
-    return ground.behavior(frame) or ground.placing(frame)
+    return ground.behavior(frame) or placing(frame)
 
 
 def _goes_on_flying(frame: Frame) -> bool:

@@ -21,7 +21,7 @@ from aurora_core.parsing.pronouns import ground
 from aurora_core.parsing.scene import Entity
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.scenario import Behavior, Placement
-from aurora_core.spec.vocabulary import AgentType, BehaviorKind, MissionMode, Place, Relation
+from aurora_core.spec.vocabulary import AgentType, BehaviorKind, MissionMode, Relation
 
 # Predicates that name a behaviour in other words.
 BEHAVIORS = {kind.value: kind for kind in BehaviorKind} | {
@@ -36,9 +36,6 @@ BEHAVIORS = {kind.value: kind for kind in BehaviorKind} | {
     'orbit': BehaviorKind.CIRCULATE,
     'trace': BehaviorKind.DRIVE,
 }
-
-
-PLACING = frozenset({'be', 'put', 'exist', 'contain', 'appear', 'keep', 'start', ''})
 
 
 _TARGETED = frozenset(
@@ -109,7 +106,7 @@ def behavior(frame: Frame) -> bool:
         kind = BehaviorKind.DRIVE
     target = _target(frame, subjects)
     _tracked_for(frame, subjects)
-    speed = _speed(frame)
+    speed = speed_of(frame)
     closing = _closing_distance(frame) if frame.key in ('tailgate', 'approach', 'come') else None
     if kind is BehaviorKind.OVERTAKE and not _overtakes(frame, target):
         kind = BehaviorKind.DRIVE  # `a bus goes past at 20 km/h`
@@ -119,13 +116,13 @@ def behavior(frame: Frame) -> bool:
     )
     for entity in subjects:
         own = tuple(p for p in placements if p.of != entity.id)
-        _add(entity, made, own)
+        add_behavior(entity, made, own)
     frame.scene.became(*(e.id for e in subjects))
     return True
 
 
 def _overtakes(frame: Frame, target: str | None) -> bool:
-    named = any(_names_actor(a) for a in frame.adjuncts) or frame.passive
+    named = any(names_actor(a) for a in frame.adjuncts) or frame.passive
     place = target is not None and frame.scene.by_id(target) is None
     if place:  # `must have passed the crosswalk`
         return named
@@ -194,13 +191,13 @@ def _commanded(frame: Frame) -> None:
     if frame.verb.form is not VerbForm.BASE or frame.piece.head is not None:
         return
     for adjunct in frame.free(AdjunctKind.OBJECT):
-        if _names_actor(adjunct):
+        if names_actor(adjunct):
             adjunct.used = True
             frame.subject_nouns = adjunct.nouns
             return
 
 
-def _add(entity: Entity, made: Behavior, placements: tuple[Placement, ...]) -> None:
+def add_behavior(entity: Entity, made: Behavior, placements: tuple[Placement, ...]) -> None:
     for i, known in enumerate(entity.behaviors):
         same = known.kind is made.kind and (known.target == made.target or made.target is None)
         if same and (known.speed_mps is None or made.speed_mps is None):
@@ -289,7 +286,7 @@ def _place_again(frame: Frame, nouns: list[NounPhrase]) -> str | None:
     return places[-1] if before.subjects and people and places else None
 
 
-def _speed(frame: Frame) -> Parameter | None:
+def speed_of(frame: Frame) -> Parameter | None:
     adjunct = frame.attribute('speed')
     if adjunct is None or adjunct.measure is None:
         return None
@@ -407,102 +404,6 @@ def _placements(
     return tuple(made)
 
 
-def placing(frame: Frame) -> bool:
-    """`a bus is 20 m ahead of the ego`, `put a van behind it`, `an ambulance behind it`."""
-    if frame.negated or frame.key not in PLACING:
-        return False
-    nouns = frame.subject_nouns
-    if not nouns or all(n.kind is NounKind.PRONOUN and n.key == 'there' for n in nouns):
-        lead = next((a for a in frame.free(AdjunctKind.OBJECT) if _names_actor(a)), None)
-        lead = _populated(frame) or lead
-        if lead is not None:
-            lead.used = True
-            nouns = lead.nouns
-            there = frame.key in ('put', 'contain', 'exist', 'be', '')
-            if there and not frame.free(AdjunctKind.PLACE):
-                nouns += _listed(frame, lead)
-    elif frame.key == 'contain':
-        return _having(frame)
-    if not nouns and frame.piece.head is not None and frame.piece.head.noun is not None:
-        nouns = (frame.piece.head.noun,)
-    nouns = tuple(n for n in nouns if n.kind in ACTORS)
-    if nouns:
-        subjects = frame.resolver.actors(nouns, accept=ground)
-    else:
-        subjects = frame.inherited(ground) if frame.verb is not None else ()
-    if not subjects or any(e.is_uav for e in subjects):
-        return False
-    frame.scene.clause.subjects = subjects
-    column(frame, subjects, kept=False)
-    placements = placements_of(frame, subjects, kept=False)
-    speed = _speed(frame)
-    _on_one_road(frame, placements)
-    for entity in subjects:
-        for placement in placements:
-            if placement.of != entity.id:
-                add_placement(entity, placement)
-        if speed is not None:
-            made = Behavior(kind=BehaviorKind.DRIVE, speed_mps=speed, span=frame.span)
-            _add(entity, made, ())
-    if frame.key == 'keep' and not placements and speed is None:
-        return False
-    if frame.has_mark(AtomKind.UNKNOWN.value) and not placements and frame.verb is not None:
-        return False
-    frame.scene.became(*(e.id for e in subjects))
-    return True
-
-
-def _on_one_road(frame: Frame, placements: tuple[Placement, ...]) -> None:
-    """`A is 35 m ahead of B on the main road`: then B is on it as well."""
-    roads = [p for p in placements if p.relation is Relation.ON and p.of == Place.MAIN_ROAD]
-    for placement in placements:
-        other = frame.scene.by_id(placement.of or '')
-        if roads and other is not None and placement.relation in _IN_LINE:
-            add_placement(other, roads[0])
-
-
-_IN_LINE = (Relation.AHEAD, Relation.BEHIND, Relation.SAME_LANE, Relation.ADJACENT_LANE)
-
-
-def _listed(frame: Frame, lead: Adjunct) -> tuple[NounPhrase, ...]:
-    """`fill the scene with twelve cars, two trucks and a bus`: all of them."""
-    nouns: list[NounPhrase] = []
-    for adjunct in frame.free(AdjunctKind.OBJECT) + frame.free(AdjunctKind.PHRASE, 'with'):
-        if adjunct is not lead and all(
-            n.kind in (NounKind.AGENT, NounKind.VEHICLE, NounKind.EGO) for n in adjunct.nouns
-        ):
-            adjunct.used = True
-            nouns += adjunct.nouns
-    return tuple(nouns)
-
-
-def _populated(frame: Frame) -> Adjunct | None:
-    """`a scenario with one parked van`, `fill the scene with twelve cars`."""
-    scene = frame.key in ('put', 'contain') or frame.has_mark(AtomKind.SCENARIO.value)
-    found = [a for a in frame.free(AdjunctKind.PHRASE, 'with') if _names_actor(a)]
-    return found[0] if scene and found else None
-
-
-def _names_actor(adjunct: Adjunct) -> bool:
+def names_actor(adjunct: Adjunct) -> bool:
+    """Return whether an adjunct is somebody."""
     return any(n.kind in ACTORS for n in adjunct.nouns)
-
-
-def _having(frame: Frame) -> bool:
-    """`the ego car has a bus ahead of it`: the owner is named, the object is placed."""
-    if any(n.kind is NounKind.UNKNOWN for n in frame.subject_nouns):
-        return False  # `the authority has granted us 120 m`
-    owners = frame.resolver.actors(frame.subject_nouns, accept=ground)
-    lead = next((a for a in frame.free(AdjunctKind.OBJECT) if _names_actor(a)), None)
-    if not owners or lead is None:
-        return False
-    lead.used = True
-    subjects = frame.resolver.actors(lead.nouns, accept=ground)
-    if not subjects or any(e.is_uav for e in subjects):
-        return False
-    frame.scene.clause.subjects = subjects
-    frame.scene.clause.objects = owners
-    for placement in placements_of(frame, subjects, kept=False):
-        for entity in subjects:
-            add_placement(entity, placement)
-    frame.scene.became(*(e.id for e in subjects))
-    return True
