@@ -11,7 +11,7 @@ from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
 from aurora_core.parsing.outcome import ParseContext
 from aurora_core.parsing.reader import Reader
 from aurora_core.parsing.resolver import Resolver
-from aurora_core.parsing.rewriting import Rewritten, rewrite
+from aurora_core.parsing.rewriting.rewrite import Rewritten, rewrite
 from aurora_core.parsing.rules import settle
 from aurora_core.parsing.scene import ClauseDraft, Scene
 from aurora_core.parsing.segments import segment

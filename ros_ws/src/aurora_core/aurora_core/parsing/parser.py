@@ -4,12 +4,13 @@
 
 It is a grammar and a lexicon: deterministic, without a network, a few milliseconds a prompt. The
 stages, one module each: `text` (is it a prompt at all), `tokens`, `tagging` (atoms, with
-`measures`, `nouns`, `spelling`, `disambiguation`), `segments` (clauses as `pieces`, with
-`clause_openings`, `clause_cuts`, `predicates`, `clause_order`), `frames` (predicate, subject,
-`adjuncts`), `reader` (clauses in order) with `leading_causes`, `trailing_causes` and `effects`
-(cause and effect, remembered in the `story`), `main_clause` and `constructions/` (what clauses
-mean, written into `scene` through `resolver`), `rules` (what is implied, what stays open),
-`assemble` (the specification). One reading of them is an `attempt`; what it left unread gets a
+`measures`, `nouns`, `spelling`, `disambiguation`), `rewriting/` (wordings put into plain order),
+`segments` (clauses as `pieces`, with `clause_openings`, `clause_cuts`, `predicates`,
+`clause_order`; `criteria/` finds conditions), `frames` (predicate, subject, `adjuncts`), `reader`
+(clauses in order) with `leading_causes`, `trailing_causes` and `effects` (cause and effect,
+remembered in the `story`), `main_clause` and `constructions/` (what clauses mean, written into
+`scene` through `resolver`), `rules` (what is implied, what stays open), `assemble` (the
+specification). One reading of them is an `attempt`; what it left unread gets a
 `second_look`.
 
 Nothing is dropped in silence. A construction marks every adjunct that it understood as used; what

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import pytest
 
-from aurora_core.parsing.inversions import straighten
+from aurora_core.parsing.rewriting.inversions import straighten
 from aurora_core.parsing.tagging import tag
 from aurora_core.parsing.tokens import tokenize
 

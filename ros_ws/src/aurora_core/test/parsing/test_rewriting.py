@@ -9,7 +9,7 @@ import pytest
 from aurora_core.parsing.outcome import ParseContext
 from aurora_core.parsing.parser import parse_offline
 from aurora_core.parsing.pieces import MOST_ATOMS
-from aurora_core.parsing.rewriting import longest_sentence, rewrite
+from aurora_core.parsing.rewriting.rewrite import longest_sentence, rewrite
 from aurora_core.parsing.tagging import tag
 from aurora_core.parsing.tokens import tokenize
 from aurora_core.spec.vocabulary import ClauseStatus

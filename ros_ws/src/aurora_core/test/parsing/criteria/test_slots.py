@@ -8,7 +8,7 @@ import pytest
 
 from aurora_core.parsing.atoms import Atom, AtomKind
 from aurora_core.parsing.criteria.slots import criterion
-from aurora_core.parsing.rewriting import rewrite
+from aurora_core.parsing.rewriting.rewrite import rewrite
 from aurora_core.parsing.tagging import tag
 from aurora_core.parsing.tokens import tokenize
 

@@ -14,7 +14,7 @@ from dataclasses import replace
 from aurora_core.parsing.atom_runs import HELPERS, LOOSE, runs, skip, text_of
 from aurora_core.parsing.atoms import Atom, AtomKind
 from aurora_core.parsing.morphology import VerbForm
-from aurora_core.parsing.nominal_causes import told_event
+from aurora_core.parsing.rewriting.nominal_causes import told_event
 
 _SIGHT = ('see', 'lose')
 

@@ -9,9 +9,9 @@ from dataclasses import replace
 
 from aurora_core.parsing.atom_runs import text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind
-from aurora_core.parsing.drivers import drivers
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.pieces import TRANSPARENT
+from aurora_core.parsing.rewriting.drivers import drivers
 
 _SERVES = frozenset({'be', 'serve', 'trace', 'act', 'form', 'wait'})
 

@@ -12,29 +12,29 @@ from dataclasses import dataclass, replace
 
 from aurora_core.parsing.atom_runs import text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind, NounPhrase
-from aurora_core.parsing.clefts import plain_order
-from aurora_core.parsing.conjunctions import joined
-from aurora_core.parsing.enumerations import told_once
-from aurora_core.parsing.flight_nouns import flights
-from aurora_core.parsing.inversions import straighten
 from aurora_core.parsing.lexicon import shipped_lexicon
 from aurora_core.parsing.measures import LENGTH, TIME
-from aurora_core.parsing.moments import dated
 from aurora_core.parsing.morphology import VerbForm
-from aurora_core.parsing.nominal import predicates
-from aurora_core.parsing.nominal_causes import verbal
-from aurora_core.parsing.not_before import not_before
 from aurora_core.parsing.pieces import MOST_ATOMS, TRANSPARENT
-from aurora_core.parsing.placing_words import placing_words, told_of_us
-from aurora_core.parsing.prompted import prompted
-from aurora_core.parsing.radio import radio
-from aurora_core.parsing.roles import cast
-from aurora_core.parsing.shared_out import shared_out, shares
-from aurora_core.parsing.statements import value_statements
-from aurora_core.parsing.telling import messages_told
-from aurora_core.parsing.then_words import in_front
-from aurora_core.parsing.ways import ways
-from aurora_core.parsing.wrapping import unwrap
+from aurora_core.parsing.rewriting.clefts import plain_order
+from aurora_core.parsing.rewriting.conjunctions import joined
+from aurora_core.parsing.rewriting.enumerations import told_once
+from aurora_core.parsing.rewriting.flight_nouns import flights
+from aurora_core.parsing.rewriting.inversions import straighten
+from aurora_core.parsing.rewriting.moments import dated
+from aurora_core.parsing.rewriting.nominal import predicates
+from aurora_core.parsing.rewriting.nominal_causes import verbal
+from aurora_core.parsing.rewriting.not_before import not_before
+from aurora_core.parsing.rewriting.placing_words import placing_words, told_of_us
+from aurora_core.parsing.rewriting.prompted import prompted
+from aurora_core.parsing.rewriting.radio import radio
+from aurora_core.parsing.rewriting.roles import cast
+from aurora_core.parsing.rewriting.shared_out import shared_out, shares
+from aurora_core.parsing.rewriting.statements import value_statements
+from aurora_core.parsing.rewriting.telling import messages_told
+from aurora_core.parsing.rewriting.then_words import in_front
+from aurora_core.parsing.rewriting.ways import ways
+from aurora_core.parsing.rewriting.wrapping import unwrap
 from aurora_core.spec.parameter import Bound, Span
 
 _BREAKS = (AtomKind.COMMA, AtomKind.STOP, AtomKind.THEN, AtomKind.CONJUNCTION)

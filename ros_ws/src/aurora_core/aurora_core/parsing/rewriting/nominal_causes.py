@@ -15,13 +15,13 @@ from itertools import pairwise
 
 from aurora_core.parsing.atom_runs import LOOSE, skip, text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
-from aurora_core.parsing.flight_nouns import flight_end
 from aurora_core.parsing.lexicon import shipped_lexicon
 from aurora_core.parsing.measures import LENGTH, SPEED, TIME
-from aurora_core.parsing.message_causes import heard
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.phases import PHASES
 from aurora_core.parsing.pieces import TRANSPARENT
+from aurora_core.parsing.rewriting.flight_nouns import flight_end
+from aurora_core.parsing.rewriting.message_causes import heard
 from aurora_core.spec.parameter import Bound
 
 _OPENERS = frozenset({'on', 'upon', 'at', 'with', 'after', 'following', 'by'})

@@ -18,7 +18,7 @@ from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
 from aurora_core.parsing.lexicon import shipped_lexicon
 from aurora_core.parsing.measures import COUNT, LENGTH, SPEED, TIME
 from aurora_core.parsing.morphology import VerbForm
-from aurora_core.parsing.world_statements import horizon, traffic
+from aurora_core.parsing.rewriting.world_statements import horizon, traffic
 
 _BREAKS = (AtomKind.COMMA, AtomKind.CONJUNCTION)
 _GROUND = (NounKind.AGENT, NounKind.EGO, NounKind.VEHICLE)

@@ -15,9 +15,9 @@ from functools import lru_cache
 
 from aurora_core.parsing.atom_runs import HELPERS, LOOSE, runs, skip, text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind
-from aurora_core.parsing.counts import counted, said_twice
 from aurora_core.parsing.lexicon import read_data
 from aurora_core.parsing.morphology import VerbForm
+from aurora_core.parsing.rewriting.counts import counted, said_twice
 
 _BREAKS = (AtomKind.COMMA, AtomKind.CONJUNCTION)
 _WITHOUT_OBJECT = frozenset({'land', 'hover', 'ascend', 'descend', 'start', 'stop', 'brake'})
