@@ -48,7 +48,7 @@ class PronounResolver:
         if noun.key == 'one':
             return self._member(accept, first=True)
         if noun.key == 'other':
-            return self._member(accept, first=False)
+            return self._member(accept, first=False) or self._left(accept, exclude)
         if noun.key.startswith('nth'):
             return self._nth(noun, accept, exclude, int(noun.key[3:])) or self._ask(noun)
         if noun.key == 'target':
@@ -156,6 +156,12 @@ class PronounResolver:
         chosen = members[0] if first else members[-1]
         chosen.assigned = True
         return (chosen,)
+
+    def _left(self, accept: Fits, exclude: Sequence[Entity]) -> tuple[Entity, ...]:
+        """`it messages the other`, both having their tasks: of two, who is not acting."""
+        pair = self._last_group(accept)
+        rest = tuple(e for e in pair if e not in exclude)
+        return rest if len(pair) == 2 and len(rest) == 1 else ()
 
     def _nth(
         self, noun: NounPhrase, accept: Fits, exclude: Sequence[Entity], number: int
