@@ -22,7 +22,9 @@ _SHARED = (LENGTH, SPEED, TIME)
 _RANGES = ('between', 'from')
 _STAYING = ('hover', 'keep', 'wait', 'orbit')
 _OTHER_CLAUSE = (AtomKind.SUBORDINATOR, AtomKind.RELATIVE, AtomKind.THEN)
-_NUMBER = re.compile(r'\d+(?:\.\d+)?')
+# Written so that nothing of it can be read otherwise: `1,000` may be one or a thousand.
+# One word for the unit: `1 min 30 s` has two.
+_NUMBER = re.compile(r'(\d+(?:\.\d+)?(?:e[+-]?\d+)?)\s*(?![\d.,])[^\s\d]+', re.IGNORECASE)
 _MOST = 6
 _SHARES = ('one', 'other', 'another')
 
@@ -205,14 +207,14 @@ def _with_units(found: _List, prompt: str) -> _List | None:
         return found
     if last.dimension not in _SHARED:
         return None
-    number = _NUMBER.search(prompt[last.start : last.end])
+    number = _NUMBER.fullmatch(prompt[last.start : last.end])
     items = []
     alone = [a for a in found.items[:-1] if a.key == COUNT]
     for atom in found.items:
         told = atom.measure
         assert told is not None
-        if told.dimension == COUNT and number is not None and float(number[0]):
-            value = told.value * last.value / float(number[0])
+        if told.dimension == COUNT and number is not None and float(number[1]):
+            value = told.value * last.value / float(number[1])
             told = replace(told, dimension=last.dimension, value=value)
             atom = replace(atom, key=last.dimension, measure=told)
         if told.dimension != last.dimension:
