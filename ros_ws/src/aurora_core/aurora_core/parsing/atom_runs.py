@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 from aurora_core.parsing.atoms import Atom, AtomKind
 
@@ -34,3 +34,18 @@ def runs(atoms: Sequence[Atom], *ends: AtomKind) -> Iterator[tuple[list[Atom], A
         else:
             run.append(atom)
     yield run, None
+
+
+def by_sentence(atoms: Sequence[Atom], turn: Callable[[list[Atom]], Sequence[Atom]]) -> list[Atom]:
+    """Return the atoms with every sentence turned; the marks between them stay."""
+    written: list[Atom] = []
+    for sentence, stop in runs(atoms, AtomKind.STOP):
+        written += turn(sentence)
+        if stop is not None:
+            written.append(stop)
+    return written
+
+
+def stop_at(atom: Atom) -> Atom:
+    """Return the end of a sentence that takes the characters of an atom."""
+    return Atom(kind=AtomKind.STOP, key=';', start=atom.start, end=atom.end)

@@ -13,7 +13,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import lru_cache
 
-from aurora_core.parsing.atom_runs import HELPERS, LOOSE, runs, skip, text_of
+from aurora_core.parsing.atom_runs import HELPERS, LOOSE, by_sentence, skip, stop_at, text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
 from aurora_core.parsing.lexicon import read_data
 from aurora_core.parsing.morphology import VerbForm
@@ -27,12 +27,7 @@ _GOVERNING = (AtomKind.PREPOSITION, AtomKind.RELATION)
 
 def plain_order(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
     """Return the atoms with every sentence in the order subject, predicate, rest."""
-    written: list[Atom] = []
-    for sentence, stop in runs(atoms, AtomKind.STOP):
-        written += _sentence(tuple(sentence), prompt)
-        if stop is not None:
-            written.append(stop)
-    return written
+    return by_sentence(atoms, lambda sentence: _sentence(tuple(sentence), prompt))
 
 
 # A second look reads the other sentences of a prompt again and again.
@@ -51,10 +46,6 @@ def _is_be(atoms: Sequence[Atom], i: int) -> bool:
 
 def _named(atoms: Sequence[Atom], i: int) -> bool:
     return i < len(atoms) and (atoms[i].is_actor or atoms[i].is_place)
-
-
-def _stop(at: Atom) -> Atom:
-    return Atom(kind=AtomKind.STOP, key=';', start=at.start, end=at.end)
 
 
 def _cleft(atoms: list[Atom], prompt: str) -> list[Atom]:
@@ -224,7 +215,7 @@ def _rest_about(subject: Atom, rest: list[Atom]) -> list[Atom]:
     while i < len(rest) and rest[i].kind is AtomKind.COMMA:
         i += 1
     if i < len(rest) and rest[i].kind is AtomKind.RELATIVE:
-        return [_stop(rest[i]), subject, *rest[i + 1 :]]
+        return [stop_at(rest[i]), subject, *rest[i + 1 :]]
     return rest
 
 
@@ -251,7 +242,7 @@ def _participle(atoms: list[Atom], prompt: str) -> list[Atom]:
         if not finite or noun.kind is NounKind.UAV or noun.kind is NounKind.PRONOUN:
             return atoms
         be = Atom(kind=AtomKind.AUXILIARY, key='be', start=lead.start, end=lead.end)
-        return [*atoms[:first], subject, be, *atoms[first:k], _stop(atoms[k]), *atoms[k + 1 :]]
+        return [*atoms[:first], subject, be, *atoms[first:k], stop_at(atoms[k]), *atoms[k + 1 :]]
     return atoms
 
 
@@ -314,10 +305,10 @@ def _relative_object(atoms: list[Atom], prompt: str) -> list[Atom]:
         conjoined = any(a.kind is AtomKind.CONJUNCTION for a in rest[: goes_on + 1])
         if main and alone and not conjoined:
             kept = atoms[: about + 1] + [a for a in rest if a is not rest[0] or rest[0].key != ',']
-            return [*kept, _stop(atoms[i]), *told]
+            return [*kept, stop_at(atoms[i]), *told]
         if main and not conjoined:
             continue
-        return [*atoms[: about + 1], _stop(atoms[i]), *told, *rest]
+        return [*atoms[: about + 1], stop_at(atoms[i]), *told, *rest]
     return atoms
 
 

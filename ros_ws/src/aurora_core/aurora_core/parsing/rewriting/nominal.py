@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
 
-from aurora_core.parsing.atom_runs import HELPERS, LOOSE, runs, skip, text_of
+from aurora_core.parsing.atom_runs import HELPERS, LOOSE, by_sentence, skip, stop_at, text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind
 from aurora_core.parsing.lexicon import read_data
 from aurora_core.parsing.morphology import VerbForm
@@ -26,14 +26,12 @@ _WITH_OBJECT = frozenset({'track', 'follow', 'observe', 'orbit', 'navigate', 'ov
 
 def predicates(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
     """Return the atoms with acts that are nouns as verbs."""
-    written: list[Atom] = []
-    for sentence, stop in runs(counted(_steps(atoms, prompt), prompt), AtomKind.STOP):
-        sentence = _front_siren(_kept(_message(sentence)))
-        told = _done_by(_target(_acts(said_twice(sentence, prompt), prompt), prompt), prompt)
-        written += _verbless(_of_whom(told))
-        if stop is not None:
-            written.append(stop)
-    return written
+
+    def told(sentence: list[Atom]) -> list[Atom]:
+        acts = _acts(said_twice(_front_siren(_kept(_message(sentence))), prompt), prompt)
+        return _verbless(_of_whom(_done_by(_target(acts, prompt), prompt)))
+
+    return by_sentence(counted(_steps(atoms, prompt), prompt), told)
 
 
 def _message(atoms: list[Atom]) -> list[Atom]:
@@ -221,7 +219,7 @@ def _target(atoms: list[Atom], prompt: str) -> list[Atom]:
         )
         if act is None or (atoms[act + 1].is_actor or atoms[act + 1].key == 'of'):
             continue
-        stop = Atom(kind=AtomKind.STOP, key=';', start=atoms[i].start, end=atoms[i].end)
+        stop = stop_at(atoms[i])
         before = atoms[act + 1 : i]
         while before and before[-1].kind in _BREAKS:
             before.pop()
@@ -271,7 +269,7 @@ def _verbless(atoms: list[Atom]) -> list[Atom]:
         be = Atom(
             kind=AtomKind.VERB, key='be', start=word.start, end=word.end, form=VerbForm.THIRD
         )
-        stop = [Atom(kind=AtomKind.STOP, key=';', start=word.start, end=word.end)] if i else []
+        stop = [stop_at(word)] if i else []
         begin = i - 1 if i else i
         return [*changed[:begin], *stop, new, be, *changed[i : near + 2], *changed[near + 3 :]]
     return changed

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from aurora_core.parsing.atom_runs import LOOSE, runs, skip
+from aurora_core.parsing.atom_runs import LOOSE, by_sentence, runs, skip
 from aurora_core.parsing.atoms import Atom, AtomKind
 from aurora_core.parsing.measures import TIME
 from aurora_core.parsing.phases import FLOWN
@@ -27,12 +27,7 @@ _PAUSES = (AtomKind.COMMA, AtomKind.CONJUNCTION, AtomKind.RELATIVE)
 
 def not_before(atoms: Sequence[Atom]) -> list[Atom]:
     """Return the atoms with every denied beginning as one that waits for its cause."""
-    written: list[Atom] = []
-    for sentence, stop in runs(atoms, AtomKind.STOP):
-        written += _added(_behind(_in_front(_repeated(sentence))))
-        if stop is not None:
-            written.append(stop)
-    return written
+    return by_sentence(atoms, lambda told: _added(_behind(_in_front(_repeated(told)))))
 
 
 def _repeated(atoms: list[Atom]) -> list[Atom]:

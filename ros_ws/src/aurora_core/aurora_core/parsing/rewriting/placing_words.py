@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from aurora_core.parsing.atom_runs import HELPERS, runs
+from aurora_core.parsing.atom_runs import HELPERS, by_sentence
 from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind, NounPhrase
 from aurora_core.parsing.measures import COUNT, LENGTH, SPEED
 from aurora_core.parsing.morphology import VerbForm
@@ -115,8 +115,8 @@ def _headed(atoms: Sequence[Atom]) -> list[Atom]:
 
 def _in_between(atoms: Sequence[Atom]) -> list[Atom]:
     """`the ego, with a bus in front, drives at 9 m/s`: who else is there is told behind."""
-    written: list[Atom] = []
-    for sentence, stop in runs(atoms, AtomKind.STOP):
+
+    def told(sentence: list[Atom]) -> list[Atom]:
         commas = [i for i, a in enumerate(sentence) if a.kind is AtomKind.COMMA]
         opens = len(commas) > 1 and sentence[commas[0] + 1].key == 'with'
         opens = opens and commas[0] > 0 and sentence[commas[0] - 1].is_actor
@@ -126,11 +126,10 @@ def _in_between(atoms: Sequence[Atom]) -> list[Atom]:
         verbless = not any(a.kind is AtomKind.VERB for a in (*sentence[: closes + 1],))
         acts = bool(rest) and rest[0].kind in (AtomKind.VERB, AtomKind.AUXILIARY)
         if apart and verbless and acts and any(a.is_actor for a in apart):
-            sentence = [*sentence[: commas[0]], *rest, *apart]
-        written += sentence
-        if stop is not None:
-            written.append(stop)
-    return written
+            return [*sentence[: commas[0]], *rest, *apart]
+        return sentence
+
+    return by_sentence(atoms, told)
 
 
 def _lane_numbers(atoms: Sequence[Atom]) -> list[Atom]:

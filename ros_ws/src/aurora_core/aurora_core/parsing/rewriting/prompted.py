@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from aurora_core.parsing.atom_runs import HELPERS, LOOSE, runs, skip, text_of
+from aurora_core.parsing.atom_runs import HELPERS, LOOSE, by_sentence, skip, text_of
 from aurora_core.parsing.atoms import Atom, AtomKind
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.rewriting.nominal_causes import told_event
@@ -21,13 +21,10 @@ _SIGHT = ('see', 'lose')
 
 def prompted(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
     """Return the atoms with such sentences as `when …, …`."""
-    written: list[Atom] = []
-    for sentence, stop in runs(_seen_by(list(atoms)), AtomKind.STOP):
-        told = _what_makes(sentence, prompt) or _message(sentence, prompt)
-        written += sentence if told is None else told
-        if stop is not None:
-            written.append(stop)
-    return written
+    return by_sentence(
+        _seen_by(list(atoms)),
+        lambda told: _what_makes(told, prompt) or _message(told, prompt) or told,
+    )
 
 
 def _seen_by(atoms: list[Atom]) -> list[Atom]:

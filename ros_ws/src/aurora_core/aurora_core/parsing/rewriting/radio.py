@@ -14,7 +14,7 @@ from dataclasses import replace
 from functools import lru_cache
 from itertools import pairwise
 
-from aurora_core.parsing.atom_runs import runs, text_of
+from aurora_core.parsing.atom_runs import by_sentence, runs, text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
 from aurora_core.parsing.lexicon import read_data
 from aurora_core.parsing.measures import COUNT, LENGTH, RATIO, TIME, Measure
@@ -50,12 +50,7 @@ def _shares() -> tuple[dict[str, int], tuple[re.Pattern[str], ...]]:
 
 def radio(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
     """Return the atoms with what is said of messages as named values of the link."""
-    written: list[Atom] = []
-    for sentence, stop in runs(atoms, AtomKind.STOP):
-        written += _sentence(sentence, prompt)
-        if stop is not None:
-            written.append(stop)
-    return written
+    return by_sentence(atoms, lambda sentence: _sentence(sentence, prompt))
 
 
 def _sentence(atoms: list[Atom], prompt: str) -> list[Atom]:

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from aurora_core.parsing.atom_runs import text_of
+from aurora_core.parsing.atom_runs import stop_at, text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind, NounPhrase
 from aurora_core.parsing.lexicon import shipped_lexicon
 from aurora_core.parsing.measures import LENGTH, TIME
@@ -366,7 +366,7 @@ def _relatives(atoms: list[Atom]) -> list[Atom]:
             about = next((a for a in reversed(written) if a.is_actor or a.is_place), None)
             if about is not None:
                 word = written.pop()
-                stop = Atom(kind=AtomKind.STOP, key=';', start=word.start, end=word.end)
+                stop = stop_at(word)
                 if written and written[-1].kind is AtomKind.COMMA:
                     written.pop()
                 written += [stop, word, replace(about, start=atom.start, end=atom.end)]

@@ -12,7 +12,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from aurora_core.parsing.atom_runs import runs
+from aurora_core.parsing.atom_runs import by_sentence, stop_at
 from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind, NounPhrase
 from aurora_core.parsing.measures import COUNT, LENGTH, SPEED, TIME
 
@@ -45,12 +45,7 @@ class _List:
 
 def shared_out(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
     """Return the atoms with a sentence of its own for each of several that share a predicate."""
-    written: list[Atom] = []
-    for sentence, stop in runs(atoms, AtomKind.STOP):
-        written += _sentence(sentence, prompt)
-        if stop is not None:
-            written.append(stop)
-    return written
+    return by_sentence(atoms, lambda sentence: _sentence(sentence, prompt))
 
 
 def shares(atoms: Sequence[Atom]) -> list[Atom]:
@@ -228,11 +223,11 @@ def _written(atoms: Sequence[Atom], who: _List, lists: Sequence[_List]) -> list[
     written: list[Atom] = list(atoms[: who.begin])
     if who.items[0].noun is not None and who.items[0].noun.key.startswith('nth'):
         group = atoms[who.begin]
-        written += [group, _stop(group)]
+        written += [group, stop_at(group)]
     starts = {one.begin: one for one in lists}
     for number, member in enumerate(who.items):
         if number:
-            written.append(_stop(written[-1]))
+            written.append(stop_at(written[-1]))
         written.append(member)
         i = who.stop
         while i < len(atoms):
@@ -250,7 +245,3 @@ def _beside(atoms: Sequence[Atom], i: int) -> bool:
     """The commas around `respectively` go with it."""
     beside = (*atoms[max(0, i - 1) : i], *atoms[i + 1 : i + 2])
     return atoms[i].kind is AtomKind.COMMA and any(a.key == _SAYS_SO for a in beside)
-
-
-def _stop(at: Atom) -> Atom:
-    return Atom(kind=AtomKind.STOP, key=';', start=at.start, end=at.end)

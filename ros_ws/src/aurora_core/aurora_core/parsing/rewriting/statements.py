@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from aurora_core.parsing.adjunct_reader import fits
-from aurora_core.parsing.atom_runs import HELPERS, LOOSE, skip, text_of
+from aurora_core.parsing.atom_runs import HELPERS, LOOSE, skip, stop_at, text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
 from aurora_core.parsing.lexicon import shipped_lexicon
 from aurora_core.parsing.measures import COUNT, LENGTH, SPEED, TIME
@@ -216,7 +216,7 @@ def _of_ground(atoms: list[Atom], prompt: str) -> list[Atom]:
             continue
         name, value = span
         of = Atom(kind=AtomKind.PREPOSITION, key='of', start=atom.start, end=atom.end)
-        stop = Atom(kind=AtomKind.STOP, key=';', start=atom.start, end=atom.end)
+        stop = stop_at(atom)
         later += [stop, atoms[name], of, owner, _copula(atom), atoms[value]]
         while written and written[-1].kind in _BREAKS:
             written.pop()

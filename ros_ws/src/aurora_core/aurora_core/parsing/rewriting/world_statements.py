@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
 
+from aurora_core.parsing.atom_runs import stop_at
 from aurora_core.parsing.atoms import Atom, AtomKind
 from aurora_core.parsing.lexicon import read_data
 from aurora_core.parsing.measures import TIME
@@ -97,7 +98,7 @@ def _clauses(atoms: list[Atom]) -> list[Atom]:
         end=atoms[named].end,
         form=VerbForm.THIRD,
     )
-    stop = Atom(kind=AtomKind.STOP, key=';', start=atoms[named].start, end=atoms[named].end)
+    stop = stop_at(atoms[named])
     sentence = [replace(atoms[named], kind=AtomKind.SCENARIO), verb, times[0]]
     before, after = atoms[:begin], atoms[end:]
     while before and before[-1].kind in _BREAKS:
