@@ -2,20 +2,26 @@
 # SPDX-License-Identifier: Apache-2.0
 """Which clause of a prompt a requirement comes from.
 
-Annotations name no spans, so the clause is the one that holds most of the requirement's numbers
-and of the words people use for its values.
+Annotations name no spans, so the clause is the one that holds most of the numbers of the fields in
+question and of the words people use for their values, then of the other fields of the requirement.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 
-from aurora_bench.prompts.format import AnnotatedPrompt, AnyOfRequirement, Requirement
+from aurora_bench.prompts.format import (
+    AgentRequirement,
+    AnnotatedPrompt,
+    AnyOfRequirement,
+    Requirement,
+    UavRequirement,
+)
 from aurora_bench.prompts.numerals import Dimension, stated_numbers
-from aurora_core.spec.parameter import Document
 from aurora_core.spec.scenario import Clause
 
+_UAV = 'uav'
 # Beginnings of words, by annotated value. A number weighs more than a word: it is rarer.
 _WORDS: dict[str, str] = {
     'car': r'car|ego|vehicle|auto|(?:we|us|my)\b', 'truck': 'truck|lorry',
@@ -23,6 +29,7 @@ _WORDS: dict[str, str] = {
     'motorcycle': 'moto|bike', 'bicycle': 'bicycl|cycl|bike',
     'pedestrian': r'ped|walker|person|people|jogger|someone|(?:he|him)\b',
     'police': 'police|cop|officer',
+    _UAV: 'uav|drone|quad|copter|multirotor|aircraft',
     'ambulance': 'ambulance', 'firetruck': 'fire ?truck|fire engine', 'rsu': 'rsu|roadside unit',
     'rain': 'rain|wet', 'heavy_rain': 'heavy rain|pour|downpour', 'snow': 'snow', 'fog': 'fog',
     'cloudy': 'cloud|overcast', 'clear': 'clear', 'dawn': 'dawn', 'dusk': 'dusk|twilight',
@@ -63,34 +70,51 @@ _WORDS: dict[str, str] = {
 _NUMBER_WEIGHT = 3
 
 
-class Evidence(Document):
-    """The clauses that speak most of a requirement; none when no word of it is found."""
-
-    clauses: tuple[Clause, ...]
-
-
 def evidence(
-    prompt: AnnotatedPrompt, requirement: Requirement, clauses: Sequence[Clause]
-) -> Evidence:
-    """Return the clauses from which a requirement most likely comes."""
-    weights = [_weight(requirement, clause.text) for clause in clauses]
-    most = max(weights, default=0)
-    if most == 0:
-        return Evidence(clauses=())
-    return Evidence(clauses=tuple(c for c, w in zip(clauses, weights, strict=True) if w == most))
+    prompt: AnnotatedPrompt,
+    requirement: Requirement,
+    fields: Collection[str],
+    clauses: Sequence[Clause],
+) -> tuple[Clause, ...]:
+    """Return the clauses that speak most of some fields of a requirement; none if none does.
+
+    Args:
+        prompt: That the requirement belongs to.
+        requirement: One of the prompt.
+        fields: Names as `RequirementScore.fields` has them.
+        clauses: Of the answer.
+    """
+    kinds = _kinds(prompt)
+    asked = set(_values(requirement, kinds, fields))
+    every = set(_values(requirement, kinds))
+    weights = [(_weight(asked, c.text), _weight(every, c.text)) for c in clauses]
+    most = max(weights, default=(0, 0))
+    return tuple(c for c, w in zip(clauses, weights, strict=True) if w == most and any(w))
 
 
-def speaks_of(requirement: Requirement, text: str) -> bool:
+def speaks_of(prompt: AnnotatedPrompt, requirement: Requirement, text: str) -> bool:
     """Tell whether a text holds a number or a word of a requirement."""
-    return _weight(requirement, text) > 0
+    return _weight(set(_values(requirement, _kinds(prompt))), text) > 0
 
 
-def _weight(requirement: Requirement, text: str) -> int:
+def _kinds(prompt: AnnotatedPrompt) -> dict[str, str]:
+    """Return what stands behind every name of the annotation."""
+    kinds: dict[str, str] = {}
+    for r in prompt.requirements:
+        for told in r.any_of if isinstance(r, AnyOfRequirement) else (r,):
+            if isinstance(told, AgentRequirement):
+                kinds[told.ref] = told.type
+            elif isinstance(told, UavRequirement):
+                kinds[told.ref] = _UAV
+    return kinds
+
+
+def _weight(values: Collection[str | float], text: str) -> int:
     numbers = {
         round(n.value, 3) for n in stated_numbers(text) if n.dimension is not Dimension.ANGLE
     }
     weight = 0
-    for value in set(_values(requirement)):
+    for value in values:
         if isinstance(value, float):
             is_there = any(abs(n - value) <= 0.005 * abs(value) for n in numbers)
             weight += _NUMBER_WEIGHT * is_there
@@ -100,25 +124,33 @@ def _weight(requirement: Requirement, text: str) -> int:
     return weight
 
 
-def _values(requirement: Requirement) -> Iterator[str | float]:
+def _values(
+    requirement: Requirement, kinds: dict[str, str], fields: Collection[str] | None = None
+) -> Iterator[str | float]:
     if isinstance(requirement, AnyOfRequirement):
         for reading in requirement.any_of:
-            yield from _values(reading)
+            yield from _values(reading, kinds, fields)
         return
     body = requirement.model_dump(
-        mode='json', exclude_none=True, exclude={'id', 'kind', 'tol', 'negate', 'ref'}
+        mode='json',
+        exclude_none=True,
+        by_alias=True,
+        exclude={'id', 'kind', 'tol', 'negate', 'ref'},
     )
-    yield from _leaves(body)
+    for path, value in _leaves(body):
+        if fields is not None and path not in fields:
+            continue
+        yield kinds.get(value, value) if isinstance(value, str) else value
 
 
-def _leaves(value: object) -> Iterator[str | float]:
+def _leaves(value: object, path: str = '') -> Iterator[tuple[str, str | float]]:
     if isinstance(value, dict):
-        for item in value.values():
-            yield from _leaves(item)
+        for name, item in value.items():
+            yield from _leaves(item, f'{path}.{name}' if path else name)
     elif isinstance(value, list):
         for item in value:
-            yield from _leaves(item)
+            yield from _leaves(item, path)
     elif isinstance(value, str):
-        yield value if value in _WORDS else re.sub(r'\d+$', '', value)
+        yield path, value
     elif isinstance(value, int | float) and not isinstance(value, bool):
-        yield float(value)
+        yield path, float(value)

@@ -53,12 +53,13 @@ def misses(prompt: AnnotatedPrompt, answer: Answer, score: PromptScore) -> Itera
     for requirement, result in zip(prompt.requirements, score.requirements, strict=True):
         if result.is_met:
             continue
-        clauses = evidence(prompt, requirement, answer.clauses).clauses
+        lost = tuple(name for name, held in result.fields.items() if not held)
+        clauses = evidence(prompt, requirement, lost, answer.clauses)
         told_of = [
             c
             for c in answer.clauses
             if c in clauses
-            or (any(_holds(own, c) for own in clauses) and speaks_of(requirement, c.text))
+            or (any(_holds(own, c) for own in clauses) and speaks_of(prompt, requirement, c.text))
         ]
         statuses = {clause.status for clause in told_of}
         if answer.error:
@@ -77,7 +78,7 @@ def misses(prompt: AnnotatedPrompt, answer: Answer, score: PromptScore) -> Itera
             prompt_id=prompt.id,
             requirement_id=requirement.id,
             kind=result.kind,
-            fields=tuple(name for name, held in result.fields.items() if not held),
+            fields=lost,
             told=told,
             clause=clauses[0].text if clauses else '',
         )
