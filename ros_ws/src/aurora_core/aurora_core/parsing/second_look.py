@@ -24,31 +24,34 @@ from aurora_core.spec.vocabulary import ClauseStatus
 
 # Readings tried in one look, and looks in a row. Reading takes time with the square of the words:
 # tries times words times words is bounded, too.
-_MOST_TRIES = 10
-_MOST_WORK = 120_000
+_MOST_TRIES = 8
+_MOST_WORK = 50_000
 _MOST_LOOKS = 2
 
 # Clauses that make a request which a question about another clause need not hold up.
 _ENOUGH = 2
 
-# What may be left out, what is most often in the way first.
+# What may be left out, what is most often in the way first (counted over the prompts to tune on).
 _IN_THE_WAY: dict[AtomKind | NounKind, int] = {
-    AtomKind.COMMA: 0,
-    AtomKind.RELATIVE: 0,
+    AtomKind.RELATIVE: 1,
+    AtomKind.VERB: 0,
+    AtomKind.LINK: 0,
+    AtomKind.THING: 0,
+    NounKind.PRONOUN: 0,
+    AtomKind.PREPOSITION: 1,
+    AtomKind.COMMA: 1,
     AtomKind.AUXILIARY: 1,
-    AtomKind.VERB: 1,
-    AtomKind.CONJUNCTION: 1,
-    AtomKind.PREPOSITION: 2,
-    AtomKind.LINK: 2,
-    AtomKind.THING: 3,
+    AtomKind.CONJUNCTION: 2,
+    NounKind.UNKNOWN: 2,
     AtomKind.THEN: 3,
     AtomKind.STATE: 3,
     AtomKind.ROUTE: 3,
     AtomKind.PATTERN: 3,
-    NounKind.PRONOUN: 1,
-    NounKind.UNKNOWN: 1,
     NounKind.PLACE: 3,
 }
+_PAUSE = 1  # the same of a sentence that is cut
+# What may be left out of a sentence whose unread clause is another one.
+_FAR = (AtomKind.RELATIVE, AtomKind.VERB, AtomKind.COMMA, AtomKind.AUXILIARY)
 _TURNS_ROUND = frozenset(
     {
         *(
@@ -169,11 +172,13 @@ def _changes(known: Attempt) -> Iterator[_Change]:
             rank = _IN_THE_WAY.get(kind)
             if worth_asking and (weighty or kind is NounKind.PRONOUN):
                 rank = None
+            if far and kind not in _FAR:
+                rank = None
             if rank is not None and not _binds(sentence, i):
                 weight = _WEIGHT if weighty else 0
                 yield _Change(at=begin + i, stop=False, weight=weight, rank=(far > 0, rank, far))
             if _may_end(sentence, i):
-                yield _Change(at=begin + i, stop=True, weight=0, rank=(far > 0, 1, far))
+                yield _Change(at=begin + i, stop=True, weight=0, rank=(far > 0, _PAUSE, far))
 
 
 def _binds(sentence: Sequence[Atom], i: int) -> bool:

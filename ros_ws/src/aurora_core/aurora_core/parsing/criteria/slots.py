@@ -7,6 +7,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import lru_cache
 
 from aurora_core.parsing.atoms import Atom
 from aurora_core.parsing.criteria.criterion import Criterion, Limit, Op
@@ -79,6 +80,12 @@ def criterion(atoms: Sequence[Atom], *, asked: bool = False) -> Criterion | None
         atoms: Of the clause.
         asked: It needs no word that asks for something: it stands behind `when`.
     """
+    return _criterion(tuple(atoms), asked)
+
+
+# Cuts of one sentence, and readings of it without a word, ask for the same stretches again.
+@lru_cache(maxsize=1024)
+def _criterion(atoms: tuple[Atom, ...], asked: bool) -> Criterion | None:
     rest, placed = take_places(atoms)
     if any(one.at_place for one in placed):  # `a van on the main road must not exceed 40 km/h`
         found = _Reading(told(rest), criteria_words()).run(asked=asked)
