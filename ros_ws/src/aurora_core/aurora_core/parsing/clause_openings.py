@@ -18,6 +18,13 @@ _MAYBE_PREPOSITION = ('after', 'before', 'until')
 ALONE = frozenset(
     {'brake', 'stop', 'start', 'slow', 'accelerate', 'change_lane', 'yield', 'appear', 'vanish'}
 )
+# What is over in a moment.
+_MOMENTARY = frozenset(
+    {
+        *('reach', 'stop', 'brake', 'see', 'lose', 'appear', 'vanish', 'receive', 'step_onto'),
+        *('start', 'exceed', 'fall_below', 'land', 'finish', 'alert'),
+    }
+)
 
 
 def plain_prepositions(atoms: list[Atom]) -> list[Atom]:
@@ -31,6 +38,8 @@ def plain_prepositions(atoms: list[Atom]) -> list[Atom]:
         if atom.kind is not AtomKind.SUBORDINATOR:
             continue
         ahead = _until_marker(atoms, i + 1)
+        if atom.words == 'as' and _opens_sentence(atoms, i) and _at_once(ahead):
+            changed[i] = atom = replace(atom, key='when')
         first = first_solid(ahead)
         timed = first is not None and first.key == TIME and atom.key in _MAYBE_PREPOSITION
         if (has_verb(ahead) and not timed) or is_flight(ahead, atom.key):
@@ -43,6 +52,13 @@ def plain_prepositions(atoms: list[Atom]) -> list[Atom]:
         elif atom.key == 'while' and not any(a.is_actor for a in ahead):
             changed[i] = replace(atom, kind=AtomKind.FILL)
     return changed
+
+
+def _at_once(ahead: Sequence[Atom]) -> bool:
+    """`as the car arrives, …`: what is over in a moment is no background of the effect."""
+    verb = next((a for a in ahead if a.kind is AtomKind.VERB), None)
+    told = verb is not None and verb.key in _MOMENTARY and verb.form is not VerbForm.ING
+    return told and any(a.is_actor for a in ahead)
 
 
 def _is_count(ahead: Sequence[Atom]) -> bool:

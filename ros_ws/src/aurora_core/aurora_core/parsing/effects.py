@@ -9,6 +9,7 @@ import re
 from aurora_core.parsing.atoms import AtomKind
 from aurora_core.parsing.constructions import actions, messages
 from aurora_core.parsing.constructions.demands import demands
+from aurora_core.parsing.constructions.triggers import time_adjunct
 from aurora_core.parsing.events import complete_event, same_cause
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.main_clause import main_clause, shared_words
@@ -22,12 +23,15 @@ from aurora_core.spec.scenario import (
     MessageTrigger,
     SendMessage,
     TimeTrigger,
+    UavAction,
 )
 from aurora_core.spec.vocabulary import ClauseStatus
 
 _UNTIL_THEN = re.compile(
     r'(?:and |but )?(?:(?:up )?until then|till then|before that|before then)\b'
 )
+# What a relative clause tells of somebody who is told something: where he is, no reaction.
+_STAYING = frozenset({'wait', 'park', 'be'})
 _WAS_DOING = re.compile(r'\b(?:was|were|had been|has been|have been)\s+\w+ing\b')
 
 
@@ -75,7 +79,9 @@ def without_cause(story: Story, frame: Frame) -> None:
         story.scene.clause.status = ClauseStatus.NOT_ENCODED
         frame.subjects()
         return
-    story.scene.became(story.scene.add_event(action, frame.span).id)
+    found = time_adjunct(frame)  # `unless it has stopped, it is warned at 25 s`
+    trigger = found[0] if found is not None else None
+    story.scene.became(story.scene.add_event(action, frame.span, trigger).id)
 
 
 def note_fronted_time(story: Story, frame: Frame, before: int) -> None:
@@ -146,6 +152,8 @@ def _told_head(story: Story, frame: Frame) -> bool:
     head = frame.piece.head
     if frame.piece.link is not Link.RELATIVE or head is None or head.noun is None:
         return False
+    if frame.key in _STAYING and not frame.piece.then:
+        return False  # `…, it messages the van, which is waiting there`
     known = [e.id for e in story.resolver.known(head.noun)]
     return isinstance(before, SendMessage) and known == [before.receiver]
 
@@ -155,6 +163,7 @@ def _when_told(story: Story, frame: Frame, action: EventAction) -> EventDraft | 
     before = story.last[0].action if story.last is not None else None
     who = action.agent if isinstance(action, AgentAction) else None
     who = action.sender if isinstance(action, SendMessage) else who  # it passes it on
+    who = action.uav if isinstance(action, UavAction) else who
     if not isinstance(before, SendMessage) or before.receiver != who:
         return None
     heard = MessageTrigger(on='message_received', by=before.receiver, sender=before.sender)

@@ -221,6 +221,8 @@ class Lexicon:
         self.ambiguous_agents: dict[str, list[str]] = dict(data['ambiguous_agents'])
         self.fractions = {word: int(part) for word, part in data['fractions'].items()}
         self.turns = {name: frozenset(words) for name, words in data['turns'].items()}
+        self.callsigns: dict[str, str] = dict(data['callsigns'])
+        self.it_is = frozenset(data['it_is'])
         irregular = data['irregular_verbs']
         for section, tag, plurals in _KEYED:
             for key, phrases in data[section].items():

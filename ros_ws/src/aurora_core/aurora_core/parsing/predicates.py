@@ -87,7 +87,8 @@ def _cut_before(atoms: tuple[Atom, ...], begin: int, previous: int, i: int) -> t
     described = _described(atoms, begin, previous) if finite else None
     if described is not None:  # `a drone that is hovering there | can see the bus`
         return j, Piece(atoms=(), head=described)
-    if helped and atoms[previous].form is VerbForm.ING and _no_auxiliary(atoms, begin, previous):
+    participle = atoms[previous].form in (VerbForm.ING, VerbForm.PAST)
+    if finite and participle and _no_auxiliary(atoms, begin, previous):
         # `the drone watching the market from 70 m | has been there`
         head = next((a for a in atoms[begin:previous] if a.is_actor), None)
         return j, Piece(atoms=(), head=head)

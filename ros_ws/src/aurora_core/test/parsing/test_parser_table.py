@@ -31,6 +31,7 @@ _TABLES = [
         'wrapped.yaml',
         'criteria.yaml',
         'events.yaml',
+        'reactions.yaml',
         'flights.yaml',
         'scenes.yaml',
         'several.yaml',

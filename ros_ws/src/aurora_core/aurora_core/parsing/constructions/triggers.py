@@ -19,8 +19,10 @@ from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.pronouns import anything
 from aurora_core.parsing.scene import Entity
 from aurora_core.spec.scenario import (
+    AgentAction,
     AltitudeTrigger,
     ArrivalTrigger,
+    EventAction,
     EventDoneTrigger,
     MessageTrigger,
     MissionDoneTrigger,
@@ -309,12 +311,19 @@ def _behavior(frame: Frame) -> EventDoneTrigger | None:
     if action is None:
         return None
     for event in scene.events:
-        if event.action == action:
+        if event.action == action or _is_same_act(event.action, action):
             return EventDoneTrigger(on='event_done', event=event.id)
     made = scene.add_event(action, frame.span)
     made.clauses.append(scene.clause_number)
     scene.became(made.id)
     return EventDoneTrigger(on='event_done', event=made.id)
+
+
+def _is_same_act(told: EventAction | None, again: AgentAction) -> bool:
+    """`it slows to 5 m/s. Once it has slowed, …`: to what speed is told once."""
+    if not isinstance(told, AgentAction) or again.value_mps is not None:
+        return False
+    return (told.do, told.agent) == (again.do, again.agent)
 
 
 def _telling(frame: Frame) -> EventDoneTrigger | None:

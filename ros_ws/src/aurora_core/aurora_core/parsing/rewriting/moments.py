@@ -186,7 +186,7 @@ def _that_case(atoms: Sequence[Atom], i: int, prompt: str) -> int | None:
     if atoms[i].kind is not AtomKind.SUBORDINATOR or atoms[i].key not in ('when', 'after'):
         return None
     k = i + 1
-    referred = False
+    referred = text_of(atoms[i], prompt).endswith(' that')  # `the moment that happens`
     while k < len(atoms) and (
         atoms[k].kind in (*_SMALL, AtomKind.RELATIVE) or _is_pronoun(atoms[k])
     ):
@@ -196,7 +196,8 @@ def _that_case(atoms: Sequence[Atom], i: int, prompt: str) -> int | None:
     happens = k < len(atoms) and atoms[k].kind is AtomKind.VERB and atoms[k].key == 'happen'
     end = k + 1 if happens else k
     so = text_of(atoms[k - 1], prompt) == 'so'
-    return end if referred and (happens or so) and _ends(atoms, end) else None
+    acts = happens and end < len(atoms) and atoms[end].is_actor  # `once that happens it lands`
+    return end if referred and (happens or so) and (acts or _ends(atoms, end)) else None
 
 
 def _dating(atoms: Sequence[Atom], i: int, prompt: str) -> int | None:

@@ -57,11 +57,23 @@ def _apposed(atoms: list[Atom]) -> list[Atom]:
         behind = atoms[i + 3] if i + 3 < len(atoms) else None
         ends = behind is None or behind.kind in (AtomKind.COMMA, AtomKind.STOP, AtomKind.FILL)
         whole = _with_type(about, told) if opens and apart and ends else None
+        if apart and behind is not None and behind.kind is AtomKind.COMMA and _same(about, told):
+            whole = about  # `drone B, the second one, hovers`
         if whole is not None:
             closes = behind is not None and behind.key in (',', ')')
             atoms[i : i + 4 if closes else i + 3] = [whole]
         i += 1
     return atoms
+
+
+def _same(about: Atom, told: Atom) -> bool:
+    """Return whether the second noun only says how the named one is counted."""
+    name, number = about.noun, told.noun
+    if name is None or number is None or not name.index or name.plural or number.plural:
+        return False
+    counted = number.kind is name.kind and number.index in (0, name.index) and not number.labels
+    again = number.kind is NounKind.PRONOUN and number.key == f'nth{name.index}'
+    return again or (counted and number.determiner is not Determiner.ANOTHER and not number.count)
 
 
 def _with_type(about: Atom, told: Atom) -> Atom | None:
