@@ -29,10 +29,13 @@ def delays_to_causes(pieces: list[Piece]) -> list[Piece]:
             continue
         if len(atoms) > 1 and atoms[-2].kind is AtomKind.PREPOSITION:
             continue
-        moved[k + 1] = replace(
-            behind, atoms=(atoms[-1], *behind.atoms), opens=behind.opens or len(atoms) == 1
-        )
-        moved[k] = replace(moved[k], atoms=tuple(atoms[:-1]))
+        time = atoms.pop()
+        # `…, 20 s after the climb it lands`: of what follows
+        next_one = k + 2 < len(moved) and moved[k + 2].link is Link.MAIN and not moved[k + 2].opens
+        of_next = next_one and bool(atoms) and atoms[-1].kind is AtomKind.COMMA
+        opens = behind.opens or not atoms or of_next
+        moved[k + 1] = replace(behind, atoms=(time, *behind.atoms), opens=opens)
+        moved[k] = replace(moved[k], atoms=tuple(atoms))
     return [p for p in moved if p.atoms]
 
 

@@ -14,9 +14,10 @@ from aurora_core.parsing.constructions.world import world_words
 from aurora_core.parsing.criteria.causes import is_flight
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.main_clause import main_clause
+from aurora_core.parsing.measures import TIME
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.named_later import named_later
-from aurora_core.parsing.phases import FLOWN
+from aurora_core.parsing.phases import FLOWN, PHASES
 from aurora_core.parsing.pieces import Link, Piece
 from aurora_core.parsing.sequence import HAPPENS
 from aurora_core.parsing.story import HeldCause, Story
@@ -35,7 +36,8 @@ def leading(story: Story, piece: Piece, following: Piece) -> None:
     if gerund and piece.link is not Link.UNTIL:
         actors = Frame(following, story.scene, story.resolver).subject_nouns
         sent = frame.key in TELLING and bool(story.scene.events)
-        if frame.key in HAPPENS or sent or piece.link is Link.WHEN or _on_ground(actors):
+        known = frame.key in HAPPENS or sent or (_dated(piece) and frame.key not in PHASES)
+        if known or piece.link is Link.WHEN or _on_ground(actors):
             frame.subject_nouns = actors
             gerund = False
     if gerund or piece.link is Link.UNTIL:
@@ -68,6 +70,11 @@ def leading(story: Story, piece: Piece, following: Piece) -> None:
     else:
         story.unknown_cause = piece.sentence
     story.close(frame)
+
+
+def _dated(piece: Piece) -> bool:
+    """`5 s after braking, it …`: what the time counts from has happened."""
+    return piece.atoms[0].measure is not None and piece.atoms[0].key == TIME
 
 
 def _on_ground(nouns: Sequence[NounPhrase]) -> bool:

@@ -24,6 +24,7 @@ from aurora_core.parsing.effects import (
     told_to,
     without_cause,
 )
+from aurora_core.parsing.joint_causes import joint_causes, second_cause
 from aurora_core.parsing.leading_causes import leading
 from aurora_core.parsing.main_clause import main_clause
 from aurora_core.parsing.named_later import acts_later, named_later
@@ -114,7 +115,11 @@ class Reader:
                 self._plain(replace(nxt, then=True))
                 i += 1
             elif piece.link in _CAUSES and piece.opens and same and nxt is not None:
-                leading(self._story, piece, nxt)
+                joint = joint_causes(pieces, i)
+                leading(self._story, piece, pieces[i + joint + 1])
+                for second in pieces[i + 1 : i + joint + 1]:
+                    second_cause(self._story, second)
+                i += joint
             elif (
                 nxt is not None
                 and same

@@ -17,6 +17,7 @@ from dataclasses import dataclass, replace
 from aurora_core.parsing.atom_runs import runs
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
 from aurora_core.parsing.attempt import Attempt, attempt
+from aurora_core.parsing.joint_causes import is_joint_word
 from aurora_core.parsing.new_clauses import is_placed
 from aurora_core.parsing.scene import ClauseDraft
 from aurora_core.spec.parameter import Span
@@ -193,6 +194,8 @@ def _binds(sentence: Sequence[Atom], i: int) -> bool:
     if atom.kind is AtomKind.UNKNOWN and opens and is_placed(sentence[i:]):
         return True
     if _acts(sentence, i):
+        return True
+    if atom.kind is AtomKind.CONJUNCTION and is_joint_word(sentence, i):
         return True
     beside = sentence[max(0, i - 1)], sentence[min(len(sentence) - 1, i + 1)]
     return atom.kind is AtomKind.CONJUNCTION and all(b.is_actor for b in beside)

@@ -30,6 +30,7 @@ from aurora_core.spec.scenario import (
     SpeedTrigger,
     TimeTrigger,
     Trigger,
+    UavAction,
     VisibilityTrigger,
 )
 
@@ -51,6 +52,7 @@ def cause(frame: Frame) -> Cause | None:
         or _arrival(frame)
         or _done(frame)
         or _did_so(frame)
+        or _climbed(frame)
         or _elapsed(frame)
     )
     if found is not None:
@@ -269,6 +271,18 @@ def _did_so(frame: Frame) -> EventDoneTrigger | None:
     for event in reversed(frame.scene.events):
         actor = getattr(event.action, 'agent', None) or getattr(event.action, 'uav', None)
         if len(who) == 1 and actor == who[0].id:
+            return EventDoneTrigger(on='event_done', event=event.id)
+    return None
+
+
+def _climbed(frame: Frame) -> EventDoneTrigger | None:
+    """`20 s after the climb`: the last one that was told; how high it went was told there."""
+    if frame.key != 'ascend' or frame.length() is not None:
+        return None
+    who = [e.id for e in frame.subjects(lambda e: e.is_uav)]
+    for event in reversed(frame.scene.events):
+        climb = event.action
+        if isinstance(climb, UavAction) and climb.do == 'ascend' and climb.uav in who:
             return EventDoneTrigger(on='event_done', event=event.id)
     return None
 

@@ -13,6 +13,7 @@ from collections.abc import Callable, Sequence
 from typing import Literal
 
 from aurora_core.parsing import values
+from aurora_core.parsing.atom_runs import LOOSE
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind, NounPhrase
 from aurora_core.parsing.criteria.parties import Parties
 from aurora_core.parsing.criteria.slots import criterion
@@ -71,7 +72,7 @@ def cause_end(atoms: Sequence[Atom]) -> int:
         line = told(atoms[:end])
         if any(_is_all(line, name) for name in _MEANINGS):
             return end
-        if _compares(atoms[:end]):
+        if _compares(atoms[:end]) and not _holds_effect(atoms[:end]):
             return end
     return 0
 
@@ -86,6 +87,19 @@ def _compares(atoms: Sequence[Atom]) -> bool:
         and len(compared.limits) == 1
         and compared.limits[0].dimension in ('L', 'V')
     )
+
+
+def _holds_effect(atoms: Sequence[Atom]) -> bool:
+    """`the van is hidden, the drone climbs to 70 m`: the number is what happens then."""
+    for i, atom in enumerate(atoms):
+        if atom.kind is not AtomKind.COMMA or _goes_on(atoms, i):
+            continue
+        who = next((k for k in range(i + 1, len(atoms)) if atoms[k].kind not in LOOSE), len(atoms))
+        acts = who + 1 < len(atoms) and atoms[who].is_actor
+        told = any(a.kind is AtomKind.VERB for a in atoms[:i])
+        if acts and told and atoms[who + 1].kind is AtomKind.VERB:
+            return True
+    return False
 
 
 def _goes_on(atoms: Sequence[Atom], pause: int) -> bool:
