@@ -65,13 +65,10 @@ def later(frame: Frame) -> bool:
     first = scene.events[-1]
     if isinstance(action, AgentAction) and first.action == action and len(scene.events) > 1:
         first = scene.events[-2]
-    complete_event(
-        scene,
-        EventDoneTrigger(on='event_done', event=first.id, after_s=lag),
-        action,
-        frame.span,
-        (),
-    )
+    done = EventDoneTrigger(on='event_done', event=first.id)
+    event = complete_event(scene, done, action, frame.span, ())
+    if event is not None:
+        event.delay = lag
     return True
 
 
