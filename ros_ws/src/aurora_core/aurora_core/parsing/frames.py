@@ -189,7 +189,11 @@ class Frame:
                     ),
                 )
             return
-        fronted = any(a.kind in (AdjunctKind.PLACE, AdjunctKind.PHRASE) for a in self.adjuncts)
+        verb = self.verb
+        fronted = verb is not None and any(
+            a.kind in (AdjunctKind.PLACE, AdjunctKind.PHRASE) and a.end <= verb.start
+            for a in self.adjuncts
+        )
         if (
             not self.subject_nouns
             and fronted

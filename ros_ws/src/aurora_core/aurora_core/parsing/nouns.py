@@ -22,6 +22,10 @@ _UAV_PARTICIPLES = frozenset({'track', 'hover', 'observe', 'navigate', 'orbit', 
 _MOST_UNKNOWN = 2
 
 
+# Of two, which one is meant by where it is.
+_SIDES = {'ahead': 'front', 'behind': 'rear'}
+
+
 class NounReader:
     """Reads noun phrases from a token list."""
 
@@ -110,8 +114,11 @@ class NounReader:
                 loose = []  # `the surveyor's drone`: whose it is says nothing
                 j += 1
                 continue
-            if labels and determiner is Determiner.DEFINITE and self._said.words[j] == 'one':
-                return self._one_of_them(i, j, frozenset(labels)), j + 1  # `the red one`
+            one = determiner is Determiner.DEFINITE and self._said.words[j] == 'one' and not count
+            placed = self._said.has(j + 1, Tag.RELATION) and not self._said.has(i, Tag.PRONOUN)
+            if one and (labels or placed):
+                # `the red one`, `the one behind it`
+                return self._one_of_them(i, j, frozenset(labels))
             step = prefix(self._said, j, determiner)
             if step is None:
                 if j == i or (determiner is Determiner.BARE and not count):
@@ -143,16 +150,23 @@ class NounReader:
                 labels.append(sense_key)
         return self._stand_ins.pronoun(i) or self._unknown(i)
 
-    def _one_of_them(self, i: int, j: int, labels: frozenset[str]) -> NounPhrase:
-        return NounPhrase(
+    def _one_of_them(self, i: int, j: int, labels: frozenset[str]) -> tuple[NounPhrase, int]:
+        stop = j + 1
+        where = self._said.longest(stop, Tag.RELATION)
+        side = _SIDES.get(where[1].key) if where is not None else None
+        if where is not None and side and self._said.is_predicate(stop + where[0]):
+            stop += where[0]  # `the one in front brakes`
+            labels |= {side}
+        noun = NounPhrase(
             kind=NounKind.VEHICLE,
             key='vehicle',
             start=self._said.tokens[i].start,
-            end=self._said.tokens[j].end,
+            end=self._said.tokens[stop - 1].end,
             head_text='one',
             determiner=Determiner.DEFINITE,
             labels=labels,
         )
+        return noun, stop
 
     def _agent_at(self, j: int) -> bool:
         return self._said.has(j, Tag.AGENT)

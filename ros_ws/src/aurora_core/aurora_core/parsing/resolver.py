@@ -7,19 +7,17 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from aurora_core.parsing.atoms import Determiner, NounKind, NounPhrase
+from aurora_core.parsing.in_line import SIDES, front_or_rear
 from aurora_core.parsing.landmarks import landmark_words
 from aurora_core.parsing.lexicon import Lexicon, shipped_lexicon
 from aurora_core.parsing.outcome import Refusal, RefusalKind
 from aurora_core.parsing.pronouns import Fits, PronounResolver, anything
 from aurora_core.parsing.scene import Entity, Scene
 from aurora_core.spec.parameter import Span
-from aurora_core.spec.scenario import Placement
-from aurora_core.spec.vocabulary import AgentType, Relation, Role
+from aurora_core.spec.vocabulary import AgentType, Role
 
 _VEHICLES = frozenset(set(AgentType) - {AgentType.PEDESTRIAN, AgentType.RSU})
 MOST_AGENTS = 200
-_FRONT = frozenset({'front', 'leading', 'lead', 'preceding'})
-_REAR = frozenset({'rear', 'trailing', 'back', 'following'})
 
 
 def _last_words(name: str) -> tuple[str, ...]:
@@ -369,14 +367,14 @@ class Resolver:
         if len(plain) > 1:
             not_background = [e for e in plain if e.role is not Role.BACKGROUND]
             plain = not_background or plain
+        pair = front_or_rear(noun, plain)
+        if pair is not None:
+            return (pair,)
         if len(plain) > 1 and noun.kind is NounKind.VEHICLE:
             latest = max(e.seen for e in plain)
             plain = [e for e in plain if e.seen == latest]
         told = [e for e in plain if self._scene.speaks_of(e)]
         plain = told if len(told) == 1 else plain  # a scene is about whom something is said of
-        pair = self._front_or_rear(noun, plain)
-        if pair is not None:
-            return (pair,)
         if len(plain) > 1:
             self._scene.questions.append(
                 f'Which one do you mean by {self._quote(noun)}: '
@@ -385,22 +383,10 @@ class Resolver:
         chosen = plain[-1]
         only_ego = chosen.role is Role.EGO and noun.kind in (NounKind.AGENT, NounKind.VEHICLE)
         bare = noun.determiner is Determiner.BARE and noun.kind is NounKind.AGENT
-        told_apart = chosen in exclude or noun.labels & (_FRONT | _REAR)  # `the lead car`
+        told_apart = chosen in exclude or noun.labels & SIDES  # `the lead car`
         if only_ego and (bare or told_apart):
             return self._new(noun)
         return (chosen,)
-
-    @staticmethod
-    def _front_or_rear(noun: NounPhrase, known: Sequence[Entity]) -> Entity | None:
-        """`two cars …; the front car …, the rear car …`: the first drives ahead of the second."""
-        if len(known) != 2 or any(e.is_uav for e in known):
-            return None
-        front, rear = known
-        if not noun.labels & (_FRONT | _REAR) or front.group is None:
-            return None
-        if not front.placements:
-            front.placements.append(Placement(relation=Relation.AHEAD, of=rear.id))
-        return front if noun.labels & _FRONT else rear
 
     @staticmethod
     def _same_kind(entity: Entity, noun: NounPhrase) -> bool:

@@ -198,7 +198,8 @@ def _binds(sentence: Sequence[Atom], i: int) -> bool:
     if atom.kind is AtomKind.CONJUNCTION and is_joint_word(sentence, i):
         return True
     beside = sentence[max(0, i - 1)], sentence[min(len(sentence) - 1, i + 1)]
-    return atom.kind is AtomKind.CONJUNCTION and all(b.is_actor for b in beside)
+    joins = beside[0].is_actor and (beside[1].is_actor or beside[1].kind is AtomKind.VERB)
+    return atom.kind is AtomKind.CONJUNCTION and joins  # `behind the vans and drives`
 
 
 def _acts(sentence: Sequence[Atom], i: int) -> bool:

@@ -54,6 +54,11 @@ def is_of_type(frame: Frame) -> None:
     told = next((a for a in frame.free(AdjunctKind.OBJECT) if _names_type(a)), None)
     if told is None or about.plural or about.count > 1:
         return
+    if about.kind in (NounKind.VEHICLE, NounKind.AGENT) and _told_by_place(frame, about):
+        told.used = True
+        frame.subject_nouns = told.nouns
+        frame.resolver.note(about, frame.resolver.actors(told.nouns, accept=ground))
+        return
     if about.kind is not NounKind.VEHICLE:
         return
     known = len(frame.scene.entities)
@@ -69,6 +74,17 @@ def is_of_type(frame: Frame) -> None:
     if new and kind is not AgentType.CAR:
         entity.id = frame.scene.new_id(kind.value)
     frame.resolver.note(told.nouns[0], found)
+
+
+def _told_by_place(frame: Frame, about: NounPhrase) -> bool:
+    """`the vehicle ahead of the ego is a bus`: where tells who, and it is nobody named before."""
+    verb = frame.verb
+    if verb is None or about.determiner is not Determiner.DEFINITE or about.index:
+        return False
+    return any(
+        about.end <= a.start < verb.start and not frame.scene.prompt[about.end : a.start].strip()
+        for a in frame.free(AdjunctKind.PLACE)
+    )
 
 
 def _names_type(adjunct: Adjunct) -> bool:

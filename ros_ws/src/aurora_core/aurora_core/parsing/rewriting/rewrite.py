@@ -16,6 +16,7 @@ from aurora_core.parsing.lexicon import shipped_lexicon
 from aurora_core.parsing.measures import LENGTH, TIME
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.pieces import MOST_ATOMS, TRANSPARENT
+from aurora_core.parsing.rewriting.alike import alike, as_fast
 from aurora_core.parsing.rewriting.clefts import plain_order
 from aurora_core.parsing.rewriting.conjunctions import joined
 from aurora_core.parsing.rewriting.enumerations import told_once
@@ -65,7 +66,7 @@ def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
     if longest_sentence(atoms) > MOST_ATOMS:
         return Rewritten(atoms=tuple(atoms))
     told, background = unwrap(joined(_cast(atoms, prompt), prompt), prompt)
-    told = shared_out(not_before(told), prompt)
+    told = shared_out(not_before(alike(as_fast(told, prompt), prompt)), prompt)
     told = dated(verbal(prompted(radio(told, prompt), prompt), prompt), prompt)
     told = value_statements(
         predicates(

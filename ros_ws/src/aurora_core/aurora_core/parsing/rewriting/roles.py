@@ -28,7 +28,9 @@ def _own_types(atoms: list[Atom]) -> list[Atom]:
     while i + 2 < len(atoms):
         ego, link, told = atoms[i : i + 3]
         noun = told.noun
+        governed = i > 0 and atoms[i - 1].kind in (AtomKind.RELATION, AtomKind.PREPOSITION)
         own = ego.noun is not None and ego.noun.kind is NounKind.EGO and noun is not None
+        own = own and not governed  # `the vehicle ahead of the ego is a bus`
         if own and noun is not None and noun.kind is NounKind.AGENT and not noun.plural:
             new = noun.determiner in (Determiner.INDEFINITE, Determiner.ONE)
             behind = atoms[i + 3] if i + 3 < len(atoms) else None
