@@ -9,6 +9,7 @@ from aurora_core.parsing.adjuncts import AdjunctKind
 from aurora_core.parsing.atoms import AtomKind, Determiner, NounKind, NounPhrase
 from aurora_core.parsing.constructions import actions, conditions, ground, messages, missions
 from aurora_core.parsing.constructions.absence import none_such
+from aurora_core.parsing.constructions.arrivals import arrival
 from aurora_core.parsing.constructions.ascent import ascent, landing
 from aurora_core.parsing.constructions.demands import demands, seen_for
 from aurora_core.parsing.constructions.flight_details import flight_details
@@ -304,7 +305,7 @@ def _about_ground(frame: Frame) -> bool:
         if frame.key == 'be':
             placing(frame)  # `is on the sidewalk within 9 m of it`
         return True
-    return ground.behavior(frame) or placing(frame)
+    return arrival(frame) or ground.behavior(frame) or placing(frame)
 
 
 def _goes_on_flying(frame: Frame) -> bool:

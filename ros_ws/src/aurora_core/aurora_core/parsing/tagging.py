@@ -15,6 +15,7 @@ from aurora_core.parsing.lexicon import Lexicon, Sense, Tag, shipped_lexicon
 from aurora_core.parsing.measures import MeasureReader
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.nouns import NounReader
+from aurora_core.parsing.part_labels import part_labels
 from aurora_core.parsing.shorthand import written_out
 from aurora_core.parsing.spelling import Speller
 from aurora_core.parsing.tokens import Token, TokenKind
@@ -164,7 +165,7 @@ def tag(
 ) -> Tagged:
     """Return the atoms of a token list."""
     known = lexicon if lexicon is not None else shipped_lexicon()
-    tokens = written_out(tokens, known)
+    tokens = written_out(part_labels(tokens, known), known)
     landmark_vocabulary = {word for words in landmarks for word in words}
     words: list[str] = []
     corrections: list[tuple[int, int, str]] = []

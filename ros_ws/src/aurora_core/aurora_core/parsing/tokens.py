@@ -28,6 +28,7 @@ class Token:
         glued: No blank between this token and the one before.
         capital: A single capital letter (`drone B`).
         proper: Begins with a capital letter, as names do.
+        upper: Written in capitals alone, as abbreviations are.
     """
 
     kind: TokenKind
@@ -38,6 +39,7 @@ class Token:
     glued: bool = False
     capital: bool = False
     proper: bool = False
+    upper: bool = False
 
 
 # `100x60` must not become the word `x60m`, while `v2x` is a word.
@@ -109,7 +111,7 @@ def tokenize(text: str) -> tuple[Token, ...]:
             if len(piece) == 1 and piece.isupper():
                 words = [replace(words[0], capital=True)]
             elif piece[0].isupper():
-                words[0] = replace(words[0], proper=True)
+                words[0] = replace(words[0], proper=True, upper=piece.isupper())
             raw += words
         else:
             if piece in '>→' and raw and (piece == '→' or (raw[-1].norm in '-=' and glued)):

@@ -30,6 +30,7 @@ _TABLES = [
         'commands.yaml',
         'wrapped.yaml',
         'criteria.yaml',
+        'documents.yaml',
         'events.yaml',
         'reactions.yaml',
         'flights.yaml',

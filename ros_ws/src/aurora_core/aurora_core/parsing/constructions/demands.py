@@ -191,7 +191,7 @@ def _keeps_off(frame: Frame) -> None:
         measure = adjunct.measure
         if measure is None or not keeps_off(frame, adjunct):
             continue
-        observer = _observer(frame)
+        observer = _who_keeps_off(frame)
         if observer is None or not values.accepts('condition_distance', measure):
             continue
         named = [n for n in adjunct.nouns if n.kind in ACTORS]
@@ -211,6 +211,11 @@ def _keeps_off(frame: Frame) -> None:
         for other in others:
             add_condition(frame, 'distance', (observer.id, other), '>=', value)
         return
+
+
+def _who_keeps_off(frame: Frame) -> Entity | None:
+    acting = frame.scene.clause.subjects or (frame.subjects() if frame.subject_nouns else ())
+    return acting[0] if len(acting) == 1 else _observer(frame)
 
 
 def _seen_for(frame: Frame) -> None:

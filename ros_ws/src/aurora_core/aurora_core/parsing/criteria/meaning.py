@@ -52,6 +52,8 @@ class Meaning:
         if self._told.event is not None and dimension in ('', 'T'):
             return self._moment(self._told.event)
         if dimension == 'V':
+            if any(n.kind in (NounKind.PLACE, NounKind.LANDMARK) for n in self._told.nouns):
+                return False  # of a place, a speed says nothing
             return self._each('speed', self._movers())
         if dimension == 'L':
             return self._lengths()

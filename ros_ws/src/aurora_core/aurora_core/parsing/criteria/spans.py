@@ -83,9 +83,17 @@ def _first(atoms: Sequence[Atom], start: int, stop: int) -> tuple[int, Criterion
     for pause in sorted(_stops(atoms[:stop], start))[:-1]:
         rest = next((i for i in range(pause, stop) if atoms[i].kind not in _PAUSES), stop)
         first = criterion(atoms[start:pause])
-        if first is not None and criterion(atoms[rest:stop]) is not None:
+        if first is None or rest == stop:
+            continue
+        if criterion(atoms[rest:stop]) is not None or _acts(atoms[rest:stop]):
             return pause, first
     return None
+
+
+def _acts(atoms: Sequence[Atom]) -> bool:
+    """`must not exceed 36 km/h | and has to be at the station`: another verb, somewhere else."""
+    verb = any(a.kind is AtomKind.VERB for a in atoms)
+    return atoms[0].kind is AtomKind.AUXILIARY and verb and any(a.is_place for a in atoms)
 
 
 def _joins(atoms: Sequence[Atom], start: int, stop: int) -> bool:
@@ -128,7 +136,7 @@ def _is_own(atoms: Sequence[Atom], i: int) -> bool:
 
 def _is_wish(atom: Atom) -> bool:
     """`… and make sure that …`: what asks for a clause begins it."""
-    return atom.kind is AtomKind.FRAME and atom.key == 'wish'
+    return atom.kind is AtomKind.FRAME and atom.key in ('wish', 'demand')
 
 
 def _stops(atoms: Sequence[Atom], start: int) -> list[int]:

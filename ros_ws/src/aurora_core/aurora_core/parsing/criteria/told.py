@@ -68,6 +68,8 @@ def told(atoms: Sequence[Atom]) -> Told:
             name = f'{_LETTERS[atom.measure.dimension]}{len(measures)}'
             measures[name] = atom.measure
             words += [*_qualifier(atom), name]
+        elif atom.kind is AtomKind.FRAME and atom.key == 'demand':
+            words += ['required'] if words[-1:] != ['required'] else []
         elif atom.kind is AtomKind.PREPOSITION and atom.key == 'at':
             words.append('at')  # `at its top speed of` is how fast, not a limit
         else:

@@ -15,7 +15,7 @@ from functools import lru_cache
 
 from aurora_core.parsing.atom_runs import runs
 from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind, NounPhrase
-from aurora_core.parsing.lexicon import read_data
+from aurora_core.parsing.lexicon import expanded, read_data
 from aurora_core.parsing.measures import COUNT
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.spec.parameter import Span
@@ -65,7 +65,9 @@ def _without_background(atoms: list[Atom], prompt: str) -> tuple[list[Atom], lis
         return [], []
     begin, end = atoms[0].start, atoms[-1].end
     text = prompt[begin:end].lower().replace('’', "'")
-    wishes = list(_find(text, begin))
+    found = list(_find(text, begin))
+    wishes = [span for span, _ in found]
+    demanded = [span for span, is_demand in found if is_demand]
     kept: list[Atom] = []
     spans: list[Span] = []
     chunk: list[Atom] = []
@@ -81,7 +83,8 @@ def _without_background(atoms: list[Atom], prompt: str) -> tuple[list[Atom], lis
             kept += chunk
         chunk = []
         if atom is not None:
-            kept.append(replace(atom, kind=AtomKind.FRAME, key='wish', noun=None, measure=None))
+            key = 'demand' if wish in demanded else 'wish'
+            kept.append(replace(atom, kind=AtomKind.FRAME, key=key, noun=None, measure=None))
             framed = True
     return kept, spans
 
@@ -115,9 +118,17 @@ def _within(atom: Atom, span: Span) -> bool:
     return span.start <= atom.start and atom.end <= span.end
 
 
-def _find(text: str, offset: int) -> Iterator[Span]:
+def _find(text: str, offset: int) -> Iterator[tuple[Span, bool]]:
+    """Yield every wish, and whether it names a condition of success."""
     for match in _wishes().finditer(text):
-        yield Span(start=offset + match.start(), end=offset + match.end())
+        asks = match['demand'] is not None
+        yield Span(start=offset + match.start(), end=offset + match.end()), asks
+        for again in _AND_IF.finditer(text, match.end()) if asks else ():
+            yield Span(start=offset + again.start(), end=offset + again.end()), True
+
+
+# `it passes if … and if …`: behind the second one no effect of its own follows.
+_AND_IF = re.compile(r'\band\s+(?:also\s+|only\s+)*(?:if|when|provided that)\b(?=[^,]*$)')
 
 
 def _is_background(atoms: Sequence[Atom], prompt: str, *, before_wish: bool, framed: bool) -> bool:
@@ -213,7 +224,8 @@ def _purpose() -> re.Pattern[str]:
 @lru_cache(maxsize=1)
 def _wishes() -> re.Pattern[str]:
     """Return the pattern of all frames that the lists of the lexicon make."""
-    words = {name: _any_of(listed) for name, listed in read_data('lexicon.yaml')['wishes'].items()}
+    lists = read_data('lexicon.yaml')['wishes']
+    words = {name: _any_of([*expanded(listed)]) for name, listed in lists.items()}
     blank = r',?\s+'
     who = words['speakers']
     hedge = rf'(?:{blank}{words["hedges"]})*'
@@ -242,7 +254,8 @@ def _wishes() -> re.Pattern[str]:
         rf'{blank}to\s+{words["see"]}',
         rf'{link}{words["sure"]}(?:{blank}that\b)?',
         rf'{link}{words["point"]}(?:{blank}{words["for_us"]})?{blank}(?:is|means)(?:{blank}that\b)?',
-        rf'{link}{words["success"]}{blank}(?:only\s+)?(?:if|when|provided that|as long as|that)\b',
+        rf'(?P<demand>(?:{link}{words["success"]}|(?:the|this|that|our|my|each)(?:\s+\w+){{1,3}}?'
+        rf'\s+{words["verdicts"]}){blank}(?:only\s+)?(?:if|when|provided that|as long as|that)\b)',
         rf'would\s+be{hedge}\s+{words["good"]}(?:{blank}{words["for_us"]})?(?=[\s,]*$)',
         rf'{words["asides"]}',
     )

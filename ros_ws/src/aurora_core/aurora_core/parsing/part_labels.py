@@ -1,0 +1,101 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Numbers of the parts of a document: `REQ-3:`, `[R4]`, `Criterion B:`, `3.1 The UAV …`, `2. …`.
+
+Each becomes the mark that ends the sentence before it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from aurora_core.parsing.lexicon import Lexicon
+from aurora_core.parsing.tokens import Token, TokenKind
+
+_ENDS = frozenset('.;:!?\n')
+_GLUE = frozenset('-_/.#')
+_CLOSES = {'[': ']', '(': ')'}
+_MOST_WORDS = 3
+
+
+def part_labels(tokens: Sequence[Token], lexicon: Lexicon) -> tuple[Token, ...]:
+    """Return the tokens with one mark for each label of a part."""
+    kept: list[Token] = []
+    counted = 0  # the last of `1. … 2. …`
+    i = 0
+    while i < len(tokens):
+        opens = not kept or kept[-1].norm in _ENDS
+        end = _label(tokens, i, lexicon) if opens else None
+        if end is None and _counts(tokens, i, counted, opens=opens and kept[-1:] != [':']):
+            counted = int(tokens[i].norm)
+            end = i + 2
+        if end is None:
+            kept.append(tokens[i])
+            i += 1
+            continue
+        last = tokens[end - 1].end
+        kept.append(replace(tokens[i], kind=TokenKind.MARK, norm=';', end=last, value=None))
+        i = end
+    return tuple(kept)
+
+
+def _counts(tokens: Sequence[Token], i: int, counted: int, *, opens: bool) -> bool:
+    """`1. A drone …`, and `2. …` wherever it stands: no number of anything."""
+    behind = tokens[i + 1 : i + 3]
+    numbered = len(behind) == 2 and behind[0].norm == '.' and behind[0].glued
+    if tokens[i].norm != str(counted + 1) or not numbered or not (opens or counted):
+        return False
+    return behind[1].kind is TokenKind.WORD and not behind[1].glued
+
+
+def _label(tokens: Sequence[Token], i: int, lexicon: Lexicon) -> int | None:
+    """Return where the label ends that begins here."""
+    closing = _CLOSES.get(tokens[i].norm)
+    first = i if closing is None else i + 1
+    at = _name(tokens, first, lexicon)
+    named = at > first
+    end = _number(tokens, at)
+    if end is None or end >= len(tokens):
+        return None
+    behind = tokens[end]
+    dotted = '.' in tokens[at].norm
+    if closing is not None:
+        return end + 1 if behind.norm == closing and (named or dotted) else None
+    if named and behind.norm in (':', ';', ')'):
+        return end + 1
+    begins = behind.kind is TokenKind.WORD and (behind.proper or behind.capital)
+    known = tokens[at - 1].norm in lexicon.turns['numbered'] if named else False
+    return end if begins and not behind.glued and (dotted or (named and not known)) else None
+
+
+def _name(tokens: Sequence[Token], i: int, lexicon: Lexicon) -> int:
+    """Return where the words end that name a kind of part: `SYS`, `REQ-NAV`, `test case`."""
+    begin = i
+    while i < len(tokens) and i < begin + 2 * _MOST_WORDS:
+        token = tokens[i]
+        names = token.norm in lexicon.turns['numbered'] or (
+            token.upper and token.norm not in lexicon.words
+        )
+        names = names or _is_letter(tokens, i)
+        if not names and not (i > begin and token.norm in _GLUE and token.glued):
+            break
+        i += 1
+    return i
+
+
+def _is_letter(tokens: Sequence[Token], i: int) -> bool:
+    """`R4`; `D1`, `U2` are drones."""
+    behind = tokens[i + 1] if i + 1 < len(tokens) else None
+    numbered = behind is not None and behind.glued and behind.kind is TokenKind.NUMBER
+    return numbered and tokens[i].capital and tokens[i].norm not in ('d', 'u')
+
+
+def _number(tokens: Sequence[Token], i: int) -> int | None:
+    """Return where `12`, `3.1`, `12a`, `B` ends."""
+    if i >= len(tokens):
+        return None
+    if tokens[i].kind is TokenKind.NUMBER:
+        letter = i + 1 < len(tokens) and tokens[i + 1].glued and len(tokens[i + 1].norm) == 1
+        return i + 2 if letter and tokens[i + 1].kind is TokenKind.WORD else i + 1
+    return i + 1 if tokens[i].capital else None
