@@ -9,12 +9,14 @@ import re
 from aurora_core.parsing.atoms import AtomKind
 from aurora_core.parsing.constructions import actions, messages
 from aurora_core.parsing.constructions.demands import demands
-from aurora_core.parsing.constructions.triggers import time_adjunct
+from aurora_core.parsing.constructions.triggers import Cause, time_adjunct
 from aurora_core.parsing.events import complete_event, same_cause
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.main_clause import main_clause, shared_words
+from aurora_core.parsing.morphology import VerbForm
+from aurora_core.parsing.phases import FLOWN
 from aurora_core.parsing.pieces import Link
-from aurora_core.parsing.scene import EventDraft
+from aurora_core.parsing.scene import Entity, EventDraft
 from aurora_core.parsing.sequence import later
 from aurora_core.parsing.story import Story
 from aurora_core.spec.scenario import (
@@ -24,12 +26,15 @@ from aurora_core.spec.scenario import (
     SendMessage,
     TimeTrigger,
     UavAction,
+    VisibilityTrigger,
 )
 from aurora_core.spec.vocabulary import ClauseStatus
 
 _UNTIL_THEN = re.compile(
     r'(?:and |but )?(?:(?:up )?until then|till then|before that|before then)\b'
 )
+# What only a UAV is told to do.
+_COMMANDED = FLOWN | {'land', 'ascend', 'descend', 'visit'}
 # What a relative clause tells of somebody who is told something: where he is, no reaction.
 _STAYING = frozenset({'wait', 'park', 'be'})
 _WAS_DOING = re.compile(r'\b(?:was|were|had been|has been|have been)\s+\w+ing\b')
@@ -41,10 +46,9 @@ def effect_of_held(story: Story, frame: Frame) -> None:
     sentence = story.held.sentence
     story.held = None
     shared_words(frame)
-    flying = story.scene.uavs
     frame.watched = not isinstance(found, MessageTrigger)
-    if messages.is_command(frame) and len(flying) == 1:
-        frame.heir = flying[0]  # `if the van exceeds 15 m/s, notify the police`
+    if messages.is_command(frame) or _is_flight_command(frame):
+        frame.heir = _told_to_fly(story, found) or frame.heir
     action = actions.action(frame)
     for one in actions.together(frame) if action is None else ():
         event = complete_event(story.scene, found, one, frame.span, (clause,))
@@ -68,6 +72,20 @@ def effect_of_held(story: Story, frame: Frame) -> None:
         story.last = (event, sentence)
     messages.link_values(frame)
     demands(frame)
+
+
+def _is_flight_command(frame: Frame) -> bool:
+    """`if the van vanishes, climb to 80 m`: no van climbs."""
+    told = frame.verb is not None and frame.verb.form is VerbForm.BASE
+    return told and not frame.subject_nouns and frame.key in _COMMANDED
+
+
+def _told_to_fly(story: Story, found: Cause) -> Entity | None:
+    """Return whom a command means: who sees it happen, else the only UAV."""
+    if isinstance(found, VisibilityTrigger):
+        return story.scene.by_id(found.observer)
+    flying = story.scene.uavs
+    return flying[0] if len(flying) == 1 else None
 
 
 def without_cause(story: Story, frame: Frame) -> None:

@@ -67,6 +67,8 @@ def leading(story: Story, piece: Piece, following: Piece) -> None:
     ):
         # `when tracking the bus, the drone …`: a phase that goes on
         main_clause(frame)  # `if the link loses 20 % of the messages`: no event, a value
+        if story.scene.clause.status is not ClauseStatus.ENCODED and not gerund:
+            story.unknown_cause = piece.sentence
     else:
         story.unknown_cause = piece.sentence
     story.close(frame)

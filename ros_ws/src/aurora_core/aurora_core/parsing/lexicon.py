@@ -222,6 +222,8 @@ class Lexicon:
         self.fractions = {word: int(part) for word, part in data['fractions'].items()}
         self.turns = {name: frozenset(words) for name, words in data['turns'].items()}
         self.callsigns: dict[str, str] = dict(data['callsigns'])
+        self.helped = frozenset(data['helped']['behind'])
+        self.helped_forms: dict[str, str] = dict(data['helped']['forms'])
         self.it_is = frozenset(data['it_is'])
         irregular = data['irregular_verbs']
         for section, tag, plurals in _KEYED:

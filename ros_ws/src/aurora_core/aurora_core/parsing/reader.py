@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from aurora_core.parsing.atoms import needs_nothing
+from aurora_core.parsing.atoms import AtomKind, needs_nothing
 from aurora_core.parsing.constructions.places import place_party
 from aurora_core.parsing.constructions.states import adjectives
 from aurora_core.parsing.criteria.criterion import Criterion
@@ -27,8 +27,9 @@ from aurora_core.parsing.effects import (
 from aurora_core.parsing.joint_causes import joint_causes, second_cause
 from aurora_core.parsing.leading_causes import leading
 from aurora_core.parsing.main_clause import main_clause
+from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.named_later import acts_later, named_later
-from aurora_core.parsing.pieces import Link, Piece
+from aurora_core.parsing.pieces import Link, Piece, first_solid
 from aurora_core.parsing.resolver import Resolver
 from aurora_core.parsing.scene import ClauseDraft, Scene
 from aurora_core.parsing.segments import clauses
@@ -72,6 +73,12 @@ def _only_then(pieces: Sequence[Piece], i: int, prompt: str) -> bool:
         and not caused
         and prompt[pieces[i].start :].lower().startswith('only ')
     )
+
+
+def _acts_on(piece: Piece | None) -> bool:
+    """`…, and it slows | and changes lanes`: whoever reacts does something else, too."""
+    first = first_solid(piece.atoms) if piece is not None else None
+    return first is not None and first.kind is AtomKind.VERB and first.form is VerbForm.THIRD
 
 
 class Reader:
@@ -148,7 +155,7 @@ class Reader:
             elif piece.link is Link.WHILE and piece.opens and same:
                 self._plain(piece, following=nxt)
             else:
-                self._plain(piece)
+                self._plain(piece, ahead=nxt if same else None)
             self._story.before = piece
             i += 1
 
@@ -179,7 +186,9 @@ class Reader:
             place_party(self._story.resolver, placed)
         return stated
 
-    def _plain(self, piece: Piece, *, following: Piece | None = None) -> None:
+    def _plain(
+        self, piece: Piece, *, following: Piece | None = None, ahead: Piece | None = None
+    ) -> None:
         if needs_nothing(piece.atoms):
             self._story.scene.clauses.append(
                 ClauseDraft(
@@ -211,8 +220,10 @@ class Reader:
             and not follows_event(self._story, frame)
         ):
             before, flown = len(self._story.scene.events), len(self._story.scene.missions)
-            told = who_was_told(frame) or after_told(frame, self._story.before)
-            if not told:
+            told = who_was_told(frame)
+            if told and len(self._story.scene.events) > before and _acts_on(ahead):
+                self._story.last = (self._story.scene.events[-1], piece.sentence)
+            if not told and not after_told(frame, self._story.before):
                 main_clause(frame)
             note_fronted_time(self._story, frame, before)
             in_sequence(frame, before)

@@ -21,6 +21,7 @@ from aurora_core.parsing.lexicon import shipped_lexicon
 from aurora_core.parsing.measures import TIME
 from aurora_core.parsing.phases import PHASES
 from aurora_core.parsing.pieces import Link, Piece, first_solid
+from aurora_core.parsing.pronouns import anything, mobile
 from aurora_core.parsing.reactions import REACTIONS, reaction
 from aurora_core.parsing.scene import EventDraft, Scene
 from aurora_core.spec.parameter import Bound
@@ -40,6 +41,8 @@ from aurora_core.spec.vocabulary import MissionMode
 
 _BESIDE = 24  # characters around a clause, where its word of sequence stands
 _MOMENTS = (EventDoneTrigger, MessageTrigger, AltitudeTrigger, ArrivalTrigger, VisibilityTrigger)
+# What a UAV does at once.
+_ANSWERS = ('ascend', 'descend', 'land', 'alert', 'send', 'report')
 _GROUND = (NounKind.AGENT, NounKind.VEHICLE, NounKind.EGO)
 
 
@@ -133,11 +136,12 @@ def who_was_told(frame: Frame) -> bool:
     """`it sends the car a message, and the car then yields`: when the message arrives."""
     events = frame.scene.events
     message = events[-1].action if events else None
-    if not frame.piece.then or frame.negated:
+    if frame.negated or not (frame.piece.then or _answers_at_once(frame)):
         return False
     if not isinstance(message, SendMessage):
-        return _reacts(frame)
-    acting = frame.subjects() if frame.subject_nouns else ()
+        return frame.piece.then and _reacts(frame)
+    fits = mobile if frame.key in REACTIONS else anything
+    acting = frame.subjects(fits) if frame.subject_nouns else ()
     if [e.id for e in acting] != [message.receiver]:
         return False
     action = actions.action(frame)
@@ -146,6 +150,18 @@ def who_was_told(frame: Frame) -> bool:
     heard = MessageTrigger(on='message_received', by=message.receiver, sender=message.sender)
     complete_event(frame.scene, heard, action, frame.span, ())
     return True
+
+
+def _answers_at_once(frame: Frame) -> bool:
+    """`the drone warns the bus at 10 s, and it stops`: in the sentence of the message."""
+    clauses = frame.scene.clauses
+    if frame.key not in REACTIONS or frame.piece.link is not Link.MAIN:
+        return False
+    if len(clauses) < 2 or not frame.scene.events:
+        return False
+    told = clauses[-2]
+    same = told.sentence == frame.piece.sentence and frame.scene.events[-1].id in told.ids
+    return same and frame.time('at', 'after', 'in', '') is None
 
 
 def after_told(frame: Frame, before: Piece | None) -> bool:
@@ -220,13 +236,14 @@ def _reacts(frame: Frame) -> bool:
     scene = frame.scene
     same = [c for c in scene.clauses[:-1] if c.sentence == frame.piece.sentence]
     told = [e for e in scene.events if any(e.id in c.ids for c in same)]
-    if not frame.subject_nouns or frame.key not in REACTIONS:
+    if not frame.subject_nouns or frame.key not in (*REACTIONS, *_ANSWERS):
         return False
     if not told and _known_event(frame):
         told = [e for e in scene.events if any(e.id in c.ids for c in same)]
     if not told:
         return False
-    action = actions.agent_action(frame)
+    answers = frame.key in _ANSWERS  # `the van stops, whereupon the drone climbs to 60 m`
+    action = actions.action(frame) if answers else actions.agent_action(frame)
     if action is None:
         return False
     if told[-1].action == action:

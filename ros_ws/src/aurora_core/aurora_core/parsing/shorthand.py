@@ -1,6 +1,9 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""Tokens that stand for others: `drone Bravo` is drone B, `its at 30 m` is `it is at 30 m`."""
+"""Tokens that stand for others.
+
+`drone Bravo` is drone B, `its at 30 m` is `it is at 30 m`, `has left the park` has departed.
+"""
 
 from __future__ import annotations
 
@@ -14,12 +17,14 @@ _CUT = len('it')
 
 
 def written_out(tokens: Sequence[Token], lexicon: Lexicon) -> tuple[Token, ...]:
-    """Return the tokens with callsigns as letters and `its` in front of a place as two words."""
+    """Return the tokens with callsigns as letters, and words that look like others written out."""
     told: list[Token] = []
     called = _callsigns(tokens, lexicon)
     for i, token in enumerate(tokens):
         if i in called:
             told.append(replace(token, norm=called[i], capital=True, proper=False))
+        elif i and tokens[i - 1].norm in lexicon.helped and token.norm in lexicon.helped_forms:
+            told.append(replace(token, norm=lexicon.helped_forms[token.norm]))
         elif token.norm == 'its' and _is_there(tokens, i, lexicon):
             cut = token.start + _CUT
             told.append(replace(token, norm='it', end=cut))

@@ -118,6 +118,7 @@ _BEFORE_NOUN = (
 )
 
 
+_ARE = (['is'], ['are'], ['was'], ['were'], ['remain'], ['remains'])
 # What opens the object of a command.
 _OPENS_OBJECT = frozenset({'the', 'my', 'our', 'ego', 'it'})
 
@@ -308,7 +309,7 @@ class _Tagger:
         matches = self._lexicon.matches(self._words, i)
         for length, senses in matches:
             stop = i + length
-            split = self._and_forth(stop) or self._tells_apart(stop)
+            split = self._and_forth(stop) or self._tells_apart(stop) or self._exists(stop)
             if length > 1 and (self._noun_here(i, senses) or split):
                 continue  # `an orbit around …`
             if self._take(i, length, senses):
@@ -347,7 +348,8 @@ class _Tagger:
         if not matches or matches[0][0] == 1:
             return None
         length, senses = matches[0]
-        split = self._and_forth(i + length) or self._tells_apart(i + length)
+        stop = i + length
+        split = self._and_forth(stop) or self._tells_apart(stop) or self._exists(stop)
         if self._noun_here(i, senses) or split:
             return None  # `an orbit around …`
         if any(
@@ -378,6 +380,10 @@ class _Tagger:
             'and',
             'forth',
         )
+
+    def _exists(self, stop: int) -> bool:
+        """`once there are less than 20 m between them`: nobody is there."""
+        return self._words[stop - 1] == 'there' and self._words[stop : stop + 1] in _ARE
 
     def _tells_apart(self, stop: int) -> bool:
         """`to the rear car`: the last word of the phrase belongs to the noun behind it."""

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from aurora_core.parsing import values
 from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
 from aurora_core.parsing.atoms import ACTORS, NounPhrase
+from aurora_core.parsing.criteria.causes import who_moves
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.scene import Entity
 from aurora_core.spec.parameter import Parameter
@@ -47,6 +48,8 @@ def distance_cause(frame: Frame) -> DistanceCause | None:
     subjects = frame.subjects()
     if not subjects:
         return None
+    flown = subjects
+    subjects = who_moves(frame, subjects)
     other: str | None = None
     if len(subjects) == 2:
         other = subjects[1].id
@@ -56,6 +59,8 @@ def distance_cause(frame: Frame) -> DistanceCause | None:
             other = reference(frame, nouns)
             if other is None:
                 return None
+    if other == subjects[0].id:
+        subjects = flown  # `when it is within 30 m of the van`: whoever tracks the van
     if other == subjects[0].id:
         return None
     adjunct.used = True

@@ -12,7 +12,7 @@ from aurora_core.parsing.constructions.distances import DistanceCause, distance_
 from aurora_core.parsing.constructions.messages import TELLING, message
 from aurora_core.parsing.constructions.missions import mission
 from aurora_core.parsing.constructions.noun_places import noun_places
-from aurora_core.parsing.criteria.causes import told_cause, who_flew
+from aurora_core.parsing.criteria.causes import told_cause, who_flew, who_moves
 from aurora_core.parsing.criteria.thresholds import threshold
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.morphology import VerbForm
@@ -131,7 +131,7 @@ def _speed(frame: Frame) -> SpeedTrigger | None:
         above, below = True, False
     if not values.accepts('trigger_speed', adjunct.measure):
         return None
-    who = frame.subjects()
+    who = who_moves(frame, frame.subjects())
     if len(who) != 1:
         return None
     adjunct.used = True
@@ -236,7 +236,7 @@ def _arrival(frame: Frame) -> ArrivalTrigger | None:
     ):
         for noun in adjunct.nouns:
             place = frame.resolver.place(noun)
-            who = frame.subjects() if place is not None else ()
+            who = who_moves(frame, frame.subjects()) if place is not None else ()
             if place is not None and len(who) == 1:
                 adjunct.used = True
                 return ArrivalTrigger(on='arrives', who=who[0].id, place=place)

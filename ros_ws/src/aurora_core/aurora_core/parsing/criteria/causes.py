@@ -31,6 +31,7 @@ from aurora_core.spec.scenario import (
     Trigger,
     VisibilityTrigger,
 )
+from aurora_core.spec.vocabulary import MissionMode
 
 _PLACES = (NounKind.PLACE, NounKind.LANDMARK)
 _PAUSES = (AtomKind.COMMA, AtomKind.CONJUNCTION, AtomKind.THEN)
@@ -176,6 +177,7 @@ def _arrives(frame: Frame, line: Told) -> Trigger | None:
         who = [e for e in (_parties(frame, line).it(),) if e is not None]
     if len(places) != 1 or len(who) != 1:
         return None
+    who = list(who_moves(frame, tuple(who)))
     frame.scene.clause.places += (places[0],)
     return ArrivalTrigger(on='arrives', who=who[0].id, place=places[0])
 
@@ -212,6 +214,20 @@ def who_flew(scene: Scene, meant: Entity) -> Entity:
     """`after the patrol drone B lands`: whoever has flown nothing yet is not meant."""
     flown = scene.missions[-1].uav if scene.missions else meant
     return meant if scene.missions_of(meant) else flown
+
+
+def who_moves(frame: Frame, who: tuple[Entity, ...]) -> tuple[Entity, ...]:
+    """`a drone tracks a van. Once it reaches the park, …`: whom it tracks gets there."""
+    it = [n.kind is NounKind.PRONOUN and n.key == 'it' for n in frame.subject_nouns]
+    if len(who) != 1 or not who[0].is_uav or not it or not all(it):
+        return who
+    flown = frame.scene.missions_of(who[0])[-1:]
+    tracks = flown and flown[0].mode is MissionMode.TRACK and flown[0].target is not None
+    target = frame.scene.by_id(str(flown[0].target)) if tracks else None
+    if target is None or target.is_uav:
+        return who
+    frame.scene.clause.subjects = (target,)
+    return (target,)
 
 
 def _parties(frame: Frame, line: Told) -> Parties:

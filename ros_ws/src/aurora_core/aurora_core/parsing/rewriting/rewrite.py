@@ -19,6 +19,7 @@ from aurora_core.parsing.pieces import MOST_ATOMS, TRANSPARENT
 from aurora_core.parsing.rewriting.alike import alike, as_fast
 from aurora_core.parsing.rewriting.clefts import plain_order
 from aurora_core.parsing.rewriting.conjunctions import joined
+from aurora_core.parsing.rewriting.dwells import set_off
 from aurora_core.parsing.rewriting.enumerations import told_once
 from aurora_core.parsing.rewriting.flight_nouns import flights
 from aurora_core.parsing.rewriting.inversions import straighten
@@ -67,6 +68,7 @@ def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
         return Rewritten(atoms=tuple(atoms))
     told, background = unwrap(joined(_cast(atoms, prompt), prompt), prompt)
     told = shared_out(not_before(alike(as_fast(told, prompt), prompt)), prompt)
+    told = set_off(told, prompt)
     told = dated(verbal(prompted(radio(told, prompt), prompt), prompt), prompt)
     told = value_statements(
         predicates(
