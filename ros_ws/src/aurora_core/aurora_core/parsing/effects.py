@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import re
 
-from aurora_core.parsing.atoms import AtomKind
+from aurora_core.parsing.atoms import AtomKind, NounKind
 from aurora_core.parsing.constructions import actions, messages
 from aurora_core.parsing.constructions.demands import demands
 from aurora_core.parsing.constructions.triggers import Cause, time_adjunct
@@ -40,11 +40,13 @@ _STAYING = frozenset({'wait', 'park', 'be'})
 _WAS_DOING = re.compile(r'\b(?:was|were|had been|has been|have been)\s+\w+ing\b')
 
 
+_GROUND = (NounKind.AGENT, NounKind.VEHICLE, NounKind.EGO)
+
+
 def effect_of_held(story: Story, frame: Frame) -> None:
     assert story.held is not None
-    found, clause, delay = story.held.cause, story.held.clause, story.held.delay
-    sentence = story.held.sentence
-    story.held = None
+    held, story.held = story.held, None
+    found, clause, delay, sentence = held.cause, held.clause, held.delay, held.sentence
     shared_words(frame)
     frame.watched = not isinstance(found, MessageTrigger)
     if messages.is_command(frame) or _is_flight_command(frame):
@@ -65,6 +67,9 @@ def effect_of_held(story: Story, frame: Frame) -> None:
         clause.status = ClauseStatus.NOT_ENCODED
         clause.notes.append('what should happen then was not understood')
         main_clause(frame)
+        grounded = any(n.kind in _GROUND for n in frame.subject_nouns)
+        if story.scene.clause.status is ClauseStatus.NOT_ENCODED and not grounded:
+            story.held = held  # `when it stops, the drone gives up and orbits the park`
         return
     event = complete_event(story.scene, found, action, frame.span, (clause,))
     if event is not None:

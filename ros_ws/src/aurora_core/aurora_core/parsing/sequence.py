@@ -279,7 +279,7 @@ def after_others(frame: Frame, flown: int, told: Piece | None) -> None:
     scene = frame.scene
     made = scene.missions[flown:]
     phase = told is not None and told.link in (Link.WHEN, Link.AFTER) and is_phase(told)
-    if len(made) != 1 or not flown or not frame.piece.then or not (phase or _goes_on(frame)):
+    if len(made) != 1 or not flown or not frame.piece.then or not (phase or goes_on(frame)):
         return
     before, new = scene.missions[flown - 1], made[0]
     caused = any(
@@ -292,7 +292,7 @@ def after_others(frame: Frame, flown: int, told: Piece | None) -> None:
     complete_event(scene, over, change, frame.span, ())
 
 
-def _goes_on(frame: Frame) -> bool:
+def goes_on(frame: Frame) -> bool:
     """`then`, `afterwards`; `next` and `finally` may just go on with a list."""
     words = shipped_lexicon().turns['goes_on']
     begin, end = frame.piece.start, frame.piece.end

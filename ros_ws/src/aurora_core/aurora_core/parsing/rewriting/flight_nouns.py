@@ -20,6 +20,7 @@ _PAUSES = (AtomKind.COMMA, AtomKind.CONJUNCTION)
 # `patrol` is a police car only where it is watched or acts by itself.
 _WATCHES = FLOWN | {'see', 'overtake', 'approach', 'tailgate', 'trail', 'alert', 'send', 'lose'}
 _OF_A_FLIGHT = frozenset({'finish', 'be', 'last', 'start', 'stop', 'break_off', 'trace', 'take'})
+_ENDED = ('finish', 'trace')
 _BREAKS_OFF = frozenset({'break_off', 'stop', 'finish', 'keep'})
 
 
@@ -80,10 +81,12 @@ def _on_wheels(atoms: Sequence[Atom], i: int) -> bool:
 
 
 def _owned(atoms: list[Atom]) -> list[Atom]:
-    """`through with its scan`: no predicate stands behind whose it is."""
+    """`through with its scan`, `completing the scan`: no predicate stands there."""
     for i in range(1, len(atoms)):
         flown = atoms[i].kind is AtomKind.VERB and atoms[i].key in _FLIGHTS
-        if flown and atoms[i].form is VerbForm.BASE and atoms[i - 1].words in ('its', 'their'):
+        ended = i > 1 and atoms[i - 1].kind is AtomKind.FILL and atoms[i - 2].key in _ENDED
+        owned = atoms[i - 1].words in ('its', 'their') or ended
+        if flown and atoms[i].form is VerbForm.BASE and owned:
             atoms[i] = replace(atoms[i], kind=AtomKind.ROUTE)
     return atoms
 

@@ -29,6 +29,7 @@ _OPENERS = frozenset({'on', 'upon', 'at', 'with', 'after', 'following', 'by'})
 _OF_OBJECT = frozenset({'see', 'lose', 'receive', 'finish'})
 # What a participle in front of a sentence tells as its cause.
 _NOTICED = frozenset({'see', 'lose', 'receive', 'finish', 'reach'})
+_COMPLETES = 'complet'
 _TAKES_PLACE = ('happen', 'be', 'come', 'follow')
 _ENDS = (AtomKind.STOP, AtomKind.COMMA, AtomKind.THEN, AtomKind.CONJUNCTION)
 
@@ -299,7 +300,8 @@ def _event(
             return [verb, *atoms[k + 1 : who + 1]], who + 1
         verb = replace(named, form=VerbForm.THIRD)
         return [*atoms[k + 1 : who + 1], verb], who + 1 + _skipped(atoms, who + 1, named)
-    if gerund and not articled and not because and first.key not in _NOTICED:
+    completes = first.key == 'trace' and first.words.startswith(_COMPLETES)
+    if gerund and not (articled or because or completes) and first.key not in _NOTICED:
         return None  # `after hovering`, `by climbing`: the other readers know these
     verb = replace(named, form=VerbForm.ING)
     return [verb], k + _skipped(atoms, k, named)

@@ -13,7 +13,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import lru_cache
 
-from aurora_core.parsing.atom_runs import runs
+from aurora_core.parsing.atom_runs import runs, skip, text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind, NounPhrase
 from aurora_core.parsing.lexicon import expanded, read_data
 from aurora_core.parsing.measures import COUNT
@@ -95,23 +95,35 @@ _REASONS = frozenset(
 
 
 def _without_reasons(atoms: Sequence[Atom], prompt: str) -> tuple[list[Atom], list[Span]]:
-    """`because the camera smears otherwise, …`: why something is wished is no part of it."""
+    """`because the camera smears otherwise, …`, `so that the crew may rest`: no part of a wish."""
     kept: list[Atom] = []
     spans: list[Span] = []
     i = 0
     while i < len(atoms):
         stop = i + 1
-        if atoms[i].kind is AtomKind.CONJUNCTION and atoms[i].key in _REASONS:
-            while stop < len(atoms) and atoms[stop].kind is not AtomKind.COMMA:
+        reason = atoms[i].kind is AtomKind.CONJUNCTION and atoms[i].key in _REASONS
+        purpose = atoms[i].kind is AtomKind.FRAME and _purpose().match(text_of(atoms[i], prompt))
+        if reason or purpose:
+            while stop < len(atoms) and not _goes_on(atoms, stop):
                 stop += 1
         told = atoms[i + 1 : stop]
         strange = any(_is_strange(a) for a in told)
-        if strange and not _asks(told, prompt, before_wish=True):
+        shown = purpose and any(a.noun is not None and a.noun.kind in _NAMED for a in told)
+        if strange and not shown and not _asks(told, prompt, before_wish=reason):
             spans.append(Span(start=atoms[i].start, end=told[-1].end))
         else:
             kept += atoms[i:stop]
         i = stop
     return kept, spans
+
+
+def _goes_on(atoms: Sequence[Atom], i: int) -> bool:
+    """`because the crew wants that | and then lands`: what follows is asked for again."""
+    if atoms[i].kind in (AtomKind.COMMA, AtomKind.THEN):
+        return True
+    k = skip(atoms, i + 1)
+    joined = atoms[i].kind is AtomKind.CONJUNCTION and k < len(atoms)
+    return joined and (atoms[k].kind in (AtomKind.VERB, AtomKind.THEN))
 
 
 def _within(atom: Atom, span: Span) -> bool:
