@@ -40,6 +40,7 @@ RULES = (
     ),
     (Rule.FLIGHT_BAND, f'{HALL} at 50 m. It must stay above 80 m.'),
     (Rule.PURSUIT, 'A drone tracks a car that drives at 30 m/s.'),
+    (Rule.AFAR, 'A drone tracks a bus. It has to stay at least 300 m away horizontally.'),
     (Rule.BATTERY, f'{HALL} for 900 s, then it hovers over Mercy Hospital for 700 s.'),
     (Rule.DEADLINE, f'{HALL} for 60 seconds at 30 m. It must be on the ground by 40 s.'),
     (Rule.HORIZON, 'A scenario of 20 seconds. The bus brakes at 30 s.'),
@@ -48,6 +49,10 @@ RULES = (
 )
 PROMPTS = dict(RULES)
 MORE = (
+    'The bus brakes at 30 s. The drone warns the ego after that, and the warning has to be '
+    'received before 20 s.',
+    f'{HALL} for 30 s and only then transmits a warning to the ego, which has to arrive no later '
+    'than 10 s after the start of the scenario.',
     'Two drones fly 2 m apart over the main road at 80 m.',
     'The van keeps at least 400 m from the ego and warns it over a link of 150 m range.',
     'The bus starts when the van starts, and the van starts when the bus starts.',

@@ -32,6 +32,7 @@ _DERIVATIONS: Mapping[Rule, _Derivation] = MappingProxyType(
         Rule.STACKING: flights.stacking,
         Rule.FLIGHT_BAND: flights.flight_band,
         Rule.PURSUIT: flights.pursuit,
+        Rule.AFAR: flights.afar,
         Rule.BATTERY: schedule.battery,
         Rule.DEADLINE: schedule.deadline,
         Rule.HORIZON: schedule.horizon,

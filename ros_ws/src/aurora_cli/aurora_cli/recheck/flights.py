@@ -205,3 +205,31 @@ def pursuit(proof: Certificate, request: Request) -> list[Step]:
             f'UAVs fly at most {top:g} m/s',
         ),
     ]
+
+
+def afar(proof: Certificate, request: Request) -> list[Step]:
+    """A condition keeps a tracked target farther away than any standoff, at all times."""
+    parts = proof.path.split('/')
+    condition = request.one('/'.join(parts[:2])) if parts[0] == 'conditions' else None
+    if condition is None or condition['quantity'] != 'horizontal_distance':
+        return [(False, f'{proof.path} is about a horizontal distance')]
+    most = request.limit('uav_standoff_max_m')
+    farthest = most + request.limit('tracking_horizontal_m')
+    value = float(condition['value']['value'])
+    tracked = [
+        m
+        for m in request.all('missions')
+        if m['mode'] == 'track' and [m['uav'], m.get('target')] == list(condition['of'])
+    ]
+    unset = bool(tracked) and not any(stated(m.get('standoff_m')) for m in tracked)
+    always = not condition.get('fraction') and not condition.get('hold_s')
+    return [
+        _same(proof, most),
+        _asked(proof, condition['value']),
+        (unset, 'one of them tracks the other, from no stated standoff'),
+        (always, 'it is asked of the whole time'),
+        (
+            condition['op'] in ('>', '>=', '==') and value > farthest,
+            f'it asks for {condition["op"]} {value:g} m, tracking reaches {farthest:g} m',
+        ),
+    ]

@@ -23,17 +23,37 @@ def _in_flight(request: Request, uav: str) -> float:
     return sum(_soonest(request, m.get('duration_s')) for m in _of_uav(request, uav))
 
 
+def _height(request: Request, mission: dict[str, Any]) -> float:
+    stated_m = mission['altitude_m']
+    return left_open(stated_m, request.slack('altitude_m', stated_m))[0]
+
+
+def _is_sent_elsewhere(request: Request, uav: str) -> bool:
+    """An event may end its phases before their time."""
+    actions = [e.get('action') or {} for e in request.all('events')]
+    return any(a.get('uav') == uav for a in actions)
+
+
+def _until_done(request: Request, uav: str, last: str | None = None) -> float:
+    """Climb to the first phase, and all phases up to the last one."""
+    flown = _of_uav(request, uav)
+    if not flown or _is_sent_elsewhere(request, uav):
+        return 0.0
+    total = _height(request, flown[0]) / request.limit('uav_climb_max_mps')
+    for mission in flown:
+        total += _soonest(request, mission.get('duration_s'))
+        if mission['id'] == last:
+            break
+    return total
+
+
 def _until_landed(request: Request, uav: str) -> float:
     """Climb to the first phase, all phases, descent from the last one."""
     flown = _of_uav(request, uav)
     if not flown:
         return 0.0
-    start, end = (
-        left_open(m['altitude_m'], request.slack('altitude_m', m['altitude_m']))[0]
-        for m in (flown[0], flown[-1])
-    )
-    climb = start / request.limit('uav_climb_max_mps')
-    return climb + _in_flight(request, uav) + end / request.limit('uav_descent_max_mps')
+    down = _height(request, flown[-1]) / request.limit('uav_descent_max_mps')
+    return _until_done(request, uav) + down
 
 
 def event_times(request: Request) -> dict[str, float]:
@@ -46,11 +66,26 @@ def event_times(request: Request) -> dict[str, float]:
     times = {e['id']: 0.0 for e in events}
     for _ in events:
         times = {
-            e['id']: _cause(request, e.get('trigger') or {}, times)
-            + _soonest(request, e.get('delay_s'))
+            e['id']: max(_caused(request, e, times), _put_behind(request, e, times))
             for e in events
         }
     return times
+
+
+def _caused(request: Request, event: dict[str, Any], times: dict[str, float]) -> float:
+    cause = _cause(request, event.get('trigger') or {}, times)
+    return cause + _soonest(request, event.get('delay_s'))
+
+
+def _put_behind(request: Request, event: dict[str, Any], times: dict[str, float]) -> float:
+    """What an order puts in front of an event is over before it."""
+    uavs = {m['id']: m['uav'] for m in request.all('missions')}
+    ahead = [o['first'] for o in request.all('orders') if o['then'] == event['id']]
+    ends = [
+        _until_done(request, uavs[one], one) if one in uavs else times.get(one, 0.0)
+        for one in ahead
+    ]
+    return max(ends, default=0.0)
 
 
 def _cause(request: Request, trigger: dict[str, Any], times: dict[str, float]) -> float:
@@ -61,6 +96,8 @@ def _cause(request: Request, trigger: dict[str, Any], times: dict[str, float]) -
         return times.get(trigger['event'], 0.0) + _soonest(request, trigger.get('after_s'))
     if on == 'altitude_reached':
         return left_open(trigger['value_m'], 0.0)[0] / request.limit('uav_climb_max_mps')
+    if on == 'mission_done':
+        return _until_done(request, trigger['uav'])
     if on == 'message_received':
         return _first_message(request, times, None, trigger['by'])
     return 0.0

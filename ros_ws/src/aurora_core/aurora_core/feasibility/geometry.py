@@ -78,6 +78,7 @@ def check_geometry(
     yield from _radio(spec, geometry)
     yield from _separation(spec, limits)
     yield from _stated_distances(spec, geometry)
+    yield from _tracked_from_afar(spec, limits)
     yield from _pursuit(spec, limits, tolerances)
 
 
@@ -257,6 +258,33 @@ def _band(
     if condition.quantity == QuantityName.HORIZONTAL_DISTANCE:
         return geometry.horizontal(mission)
     return None
+
+
+def _tracked_from_afar(spec: ScenarioSpec, limits: Limits) -> Iterator[Certificate]:
+    """`it tracks the bus and stays 250 m away`: no standoff that may be flown is so great."""
+    tracked = {(m.uav, m.target): m for m in spec.missions if m.mode is MissionMode.TRACK}
+    reach = limits.uav_standoff_max_m + limits.tracking_horizontal_m
+    for condition in spec.conditions:
+        mission = tracked.get(condition.of) if len(condition.of) == 2 else None
+        apart = condition.quantity == QuantityName.HORIZONTAL_DISTANCE
+        apart = apart and condition.op in ('>', '>=', '==')
+        whole = condition.fraction is None and condition.hold_s is None
+        if mission is None or not (apart and whole) or is_stated(mission.standoff_m):
+            continue
+        if condition.value.value > reach:
+            yield beyond(
+                Rule.AFAR,
+                'standoff',
+                condition.value,
+                f'conditions/{condition.id}/value',
+                ('uav_standoff_max_m', limits.uav_standoff_max_m),
+                f'{mission.uav} tracks {mission.target} from at most '
+                f'{limits.uav_standoff_max_m:g} m; {condition.value.value:g} m are asked for.',
+                (
+                    *says(f'conditions/{condition.id}/value', condition.value),
+                    *limit_facts(limits, 'uav_standoff_max_m', 'tracking_horizontal_m'),
+                ),
+            )
 
 
 def _pursuit(spec: ScenarioSpec, limits: Limits, tolerances: Tolerances) -> Iterator[Certificate]:

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from aurora_core.feasibility.certificates import beyond, contradiction
 from aurora_core.feasibility.facts import limit_facts, says, tolerance_facts
@@ -19,9 +19,11 @@ from aurora_core.spec.scenario import (
     Event,
     EventDoneTrigger,
     MessageTrigger,
+    MissionDoneTrigger,
     ScenarioSpec,
     SendMessage,
     TimeTrigger,
+    UavAction,
     UavMission,
 )
 
@@ -34,14 +36,28 @@ class Earliest:
         self._limits = limits
         self._tolerances = tolerances
         self._events = {e.id: e for e in spec.events}
+        self._missions = {m.id: m for m in spec.missions}
+        self._redirected = {e.action.uav for e in spec.events if isinstance(e.action, UavAction)}
 
     def event(self, event_id: str, seen: frozenset[str] = frozenset()) -> float:
         """Return the earliest time of an event; a circle of causes ends the search."""
         event = self._events.get(event_id)
         if event is None or event_id in seen:
             return 0.0
-        delay = self._soonest(event.delay_s)
-        return self._trigger(event, seen | {event_id}) + delay
+        seen |= {event_id}
+        caused = self._trigger(event, seen) + self._soonest(event.delay_s)
+        return max([caused, *(self._end(first, seen) for first in self._ahead(event_id))])
+
+    def _ahead(self, event_id: str) -> list[str]:
+        return [o.first for o in self._spec.orders if o.then == event_id]
+
+    def _end(self, first: str, seen: frozenset[str]) -> float:
+        """Return the earliest end of what an order puts first: an event or a phase."""
+        mission = self._missions.get(first)
+        if mission is None:
+            return self.event(first, seen)
+        flown = [m for m in self._spec.missions if m.uav == mission.uav]
+        return self._flown(flown[: flown.index(mission) + 1])
 
     def _soonest(self, stated: Parameter | None) -> float:
         if stated is None:
@@ -71,7 +87,18 @@ class Earliest:
             return min(sent, default=0.0)
         if isinstance(trigger, AltitudeTrigger):
             return self.ascent(least(trigger.value_m, 0.0, 0.0))
+        if isinstance(trigger, MissionDoneTrigger):
+            return self._flown([m for m in self._spec.missions if m.uav == trigger.uav])
         return 0.0
+
+    def _flown(self, phases: Sequence[UavMission]) -> float:
+        """Return the shortest time from t = 0 to the end of the last of a UAV's phases.
+
+        An event that gives the UAV something else to do may end a phase at any time.
+        """
+        if not phases or phases[0].uav in self._redirected:
+            return 0.0
+        return self.ascent(self._lowest(phases[0])) + sum(self.phase(m) for m in phases)
 
     def ascent(self, altitude_m: float) -> float:
         """Return the shortest time from the ground to an altitude."""
@@ -82,9 +109,7 @@ class Earliest:
         flown = [m for m in self._spec.missions if m.uav == uav]
         if not flown:
             return 0.0
-        first, last = self._lowest(flown[0]), self._lowest(flown[-1])
-        phases = sum(self.phase(m) for m in flown)
-        return self.ascent(first) + phases + last / self._limits.uav_descent_max_mps
+        return self._flown(flown) + self._lowest(flown[-1]) / self._limits.uav_descent_max_mps
 
     def phase(self, mission: UavMission) -> float:
         """Return the shortest stated duration of a phase; unstated: none."""
@@ -102,6 +127,11 @@ class Earliest:
                 found += says(f'{base}/trigger/after_s', e.trigger.after_s)
             if isinstance(e.trigger, AltitudeTrigger):
                 found += says(f'{base}/trigger/value_m', e.trigger.value_m)
+            if isinstance(e.trigger, MissionDoneTrigger):
+                found += says(f'{base}/trigger/uav', e.trigger.uav)
+        for o in self._spec.orders:
+            found += says(f'orders/{o.id}/first', o.first)
+            found += says(f'orders/{o.id}/then', o.then)
         for m in self._spec.missions:
             found += says(f'missions/{m.id}/altitude_m', m.altitude_m)
             found += says(f'missions/{m.id}/duration_s', m.duration_s)

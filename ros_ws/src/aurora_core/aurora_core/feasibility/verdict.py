@@ -31,6 +31,7 @@ class Rule(StrEnum):
     STACKING = 'stacking'  # a flight over another with less than the separation
     FLIGHT_BAND = 'flight_band'  # a condition that a stated flight cannot meet
     PURSUIT = 'pursuit'  # a target faster than UAVs fly
+    AFAR = 'afar'  # a tracked target that is to stay farther away than a standoff may be
     BATTERY = 'battery'  # phases that last longer together than the battery
     DEADLINE = 'deadline'  # earlier than anything can be done
     HORIZON = 'horizon'  # what does not fit into the stated duration

@@ -27,7 +27,7 @@ def part_labels(tokens: Sequence[Token], lexicon: Lexicon) -> tuple[Token, ...]:
     while i < len(tokens):
         opens = not kept or kept[-1].norm in _ENDS
         end = _label(tokens, i, lexicon) if opens else None
-        if end is None and _counts(tokens, i, counted, opens=opens and kept[-1:] != [':']):
+        if end is None and _counts(tokens, i, counted, opens=opens or kept[-1].norm == ','):
             counted = int(tokens[i].norm)
             end = i + 2
         if end is None:
@@ -41,10 +41,10 @@ def part_labels(tokens: Sequence[Token], lexicon: Lexicon) -> tuple[Token, ...]:
 
 
 def _counts(tokens: Sequence[Token], i: int, counted: int, *, opens: bool) -> bool:
-    """`1. A drone …`, and `2. …` wherever it stands: no number of anything."""
+    """`1. A drone …, 2. …`: no number of anything."""
     behind = tokens[i + 1 : i + 3]
     numbered = len(behind) == 2 and behind[0].norm == '.' and behind[0].glued
-    if tokens[i].norm != str(counted + 1) or not numbered or not (opens or counted):
+    if tokens[i].norm != str(counted + 1) or not numbered or not opens:
         return False
     return behind[1].kind is TokenKind.WORD and not behind[1].glued
 

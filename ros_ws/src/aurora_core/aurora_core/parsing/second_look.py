@@ -52,7 +52,7 @@ _IN_THE_WAY: dict[AtomKind | NounKind, int] = {
 }
 _PAUSE = 1  # the same of a sentence that is cut
 # What may be left out of a sentence whose unread clause is another one.
-_FAR = (AtomKind.RELATIVE, AtomKind.VERB, AtomKind.COMMA, AtomKind.AUXILIARY)
+_FAR = (AtomKind.RELATIVE, AtomKind.VERB, AtomKind.COMMA, AtomKind.AUXILIARY, AtomKind.THEN)
 _TURNS_ROUND = frozenset(
     {
         *(

@@ -41,6 +41,21 @@ REFUSED = (
         'temporal_contradiction',
     ),
     (
+        'The bus brakes at 30 s. The drone warns the ego after that, and the warning has to be '
+        'received before 20 s.',
+        'temporal_contradiction',
+    ),
+    (
+        'A drone hovers over City Hall for 30 s and only then transmits a warning to the ego, '
+        'which has to arrive no later than 10 s after the start of the scenario.',
+        'temporal_contradiction',
+    ),
+    (
+        'The drone follows the police car, but it has to stay a quarter of a kilometre away '
+        'from it, horizontally.',
+        'standoff',
+    ),
+    (
         'A drone hovers over City Hall for 900 s, then it hovers over Mercy Hospital for 700 s.',
         'endurance',
     ),
@@ -58,6 +73,11 @@ REFUSED = (
     ('A drone orbits Mercy Hospital at a radius of 100 m, 110 m above the ground.', 'geofence'),
 )
 ACCEPTED = (
+    # An event that ends the phase early leaves time enough.
+    'A drone hovers over City Hall for 60 s at 30 m. At 10 s it lands. It must be on the ground '
+    'by 50 s.',
+    'The drone tracks the police car. The horizontal distance between the drone and the police '
+    'car must be at least 155 m.',
     'Two drones keep at least 4 m apart while they hover over City Hall at 40 m.',
     'The van keeps at least 100 m from the ego and warns it over a link of 150 m range.',
     'The bus starts when the van starts, and the car starts when the bus starts.',

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from aurora_core.parsing.atom_runs import skip
 from aurora_core.parsing.atoms import Atom, AtomKind
 from aurora_core.parsing.clause_openings import ALONE
 from aurora_core.parsing.lexicon import shipped_lexicon
@@ -19,9 +20,8 @@ def in_front(atoms: list[Atom]) -> list[Atom]:
     """`and the ego then stops`: in sequence, wherever the word stands."""
     moved = list(atoms)
     for i in range(1, len(moved)):
-        last = i + 1 == len(moved) or moved[i + 1].kind is AtomKind.STOP
         if (
-            last
+            _ends_clause(moved, i)
             and moved[i].kind is AtomKind.THEN
             and moved[i].key in shipped_lexicon().turns['at_the_end']
         ):
@@ -39,6 +39,21 @@ def in_front(atoms: list[Atom]) -> list[Atom]:
         if worded and moved[i - 1].is_actor and verbal and _acts_anew(moved, i - 1):
             moved[i - 1], moved[i] = moved[i], moved[i - 1]
     return moved
+
+
+def _ends_clause(atoms: Sequence[Atom], i: int) -> bool:
+    """`the drone warns it after that | and the bus slows`: what follows is told of another."""
+    if i + 1 == len(atoms) or atoms[i + 1].kind is AtomKind.STOP:
+        return True
+    if atoms[i - 1].kind in _BREAKS:
+        return False
+    after = skip(atoms, i + 1, (AtomKind.COMMA,))
+    joined = after < len(atoms) and atoms[after].kind is AtomKind.CONJUNCTION
+    who = skip(atoms, after + 1, (AtomKind.FILL,))
+    named = (
+        joined and who + 1 < len(atoms) and atoms[who].kind in (AtomKind.NOUN, AtomKind.MESSAGE)
+    )
+    return named and atoms[who + 1].kind in (AtomKind.VERB, AtomKind.AUXILIARY)
 
 
 def _acts_anew(atoms: Sequence[Atom], i: int) -> bool:
