@@ -220,6 +220,7 @@ class Lexicon:
         self.preludes = Preludes(data['preludes'])
         self.ambiguous_agents: dict[str, list[str]] = dict(data['ambiguous_agents'])
         self.fractions = {word: int(part) for word, part in data['fractions'].items()}
+        self.number_words = {word: int(value) for word, value in data['number_words'].items()}
         self.turns = {name: frozenset(words) for name, words in data['turns'].items()}
         self.callsigns: dict[str, str] = dict(data['callsigns'])
         self.helped = frozenset(data['helped']['behind'])

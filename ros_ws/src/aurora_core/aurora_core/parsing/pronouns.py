@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from aurora_core.parsing.atoms import NounPhrase
+from aurora_core.parsing.lexicon import shipped_lexicon
 from aurora_core.parsing.scene import Doubt, Entity, Scene
 from aurora_core.spec.parameter import Span
 from aurora_core.spec.vocabulary import AgentType, Role
@@ -57,6 +58,8 @@ class PronounResolver:
             cast = [e for e in self._scene.entities if e.role is Role.TARGET]
             target = target or (cast[-1] if len(cast) == 1 else None)
             return (target,) if target is not None else self._ask(noun)
+        if noun.key == 'both' and (number := _how_many(noun)) > 2:
+            return self._so_many(number, accept) or self._ask(noun)
         if noun.key == 'both' and noun.head_text.startswith('all'):
             everyone = self._everyone(accept)
             if everyone:
@@ -134,6 +137,14 @@ class PronounResolver:
                 return ()
         return ()
 
+    def _so_many(self, number: int, accept: Fits) -> tuple[Entity, ...]:
+        """`all three drive at 9 m/s`: who was told of last, or all there are, if that is three."""
+        told = [c.subjects for c in reversed(self._scene.clauses[:-1]) if c.subjects]
+        kin = (self._scene.agents, self._scene.uavs)
+        groups = [*told[:1], self._last_group(accept), *(tuple(k) for k in kin)]
+        fitting = (tuple(e for e in group if accept(e)) for group in groups)
+        return next((group for group in fitting if len(group) == number), ())
+
     def _rest(self, accept: Fits) -> tuple[Entity, ...]:
         """`the fire engine turns left and everyone else waits`: who was not spoken of last."""
         told = next((c.subjects for c in reversed(self._scene.clauses[:-1]) if c.subjects), ())
@@ -201,3 +212,9 @@ class PronounResolver:
             )
         )
         return ()
+
+
+def _how_many(noun: NounPhrase) -> int:
+    """`all three of them`: return the number that is said, 0 where none is."""
+    numbers = shipped_lexicon().number_words
+    return next((numbers[w] for w in noun.head_text.split() if w in numbers), 0)

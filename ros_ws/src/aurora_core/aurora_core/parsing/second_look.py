@@ -198,8 +198,9 @@ def _binds(sentence: Sequence[Atom], i: int) -> bool:
     if atom.kind is AtomKind.CONJUNCTION and is_joint_word(sentence, i):
         return True
     beside = sentence[max(0, i - 1)], sentence[min(len(sentence) - 1, i + 1)]
-    joins = beside[0].is_actor and (beside[1].is_actor or beside[1].kind is AtomKind.VERB)
-    return atom.kind is AtomKind.CONJUNCTION and joins  # `behind the vans and drives`
+    # `15 m ahead and a bus behind`, `behind the vans and drives`: who is it?
+    joins = beside[1].is_actor or (beside[0].is_actor and beside[1].kind is AtomKind.VERB)
+    return atom.kind is AtomKind.CONJUNCTION and joins
 
 
 def _acts(sentence: Sequence[Atom], i: int) -> bool:

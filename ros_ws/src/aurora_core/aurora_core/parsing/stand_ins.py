@@ -86,8 +86,19 @@ class StandInReader:
         by_height = _BY_HEIGHT.intersection(self._said.words[i : i + length])
         if by_height and ' '.join(self._said.words[i + length : i + length + 1]) != 'at':
             return None  # `the lower one lands`: who that is, only their heights tell
+        if self._counts(i, i + length) and not self._stands_alone(i + length):
+            return None  # `all six waypoints`
         kind = NounKind.EGO if sense.tag is Tag.EGO_PRONOUN else NounKind.PRONOUN
         return self._phrase(i, i + length, sense.key, kind)
+
+    def _counts(self, i: int, stop: int) -> bool:
+        number = self._said.lexicon.number_words.get(self._said.words[stop - 1], 0)
+        return i + 1 < stop and number > 2
+
+    def _stands_alone(self, i: int) -> bool:
+        """Return whether no noun follows: a predicate, a preposition, or the end."""
+        follows = (Tag.VERB, Tag.AUXILIARY, Tag.PREPOSITION, Tag.RELATION)
+        return self._ends(i) or self._said.has(i, *follows)
 
     def _one_more(self, i: int) -> int:
         """Return where `another`, `a second` ends that acts or has its place; 0 if it does not."""

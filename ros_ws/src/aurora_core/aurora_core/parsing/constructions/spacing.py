@@ -23,6 +23,8 @@ from aurora_core.spec.vocabulary import Relation
 
 _APART = ('separation', 'gap', 'standoff', 'away')
 _BETWEEN = ('between', 'from', 'to', 'of')
+# `keeps a distance of 12 m`, `leaves a gap of 12 m`, `has a distance of 12 m to it`.
+_HAVING = ('keep', 'start', 'contain')
 _COLUMN = re.compile(r'\b(?:queue|line|row|column|convoy|platoon|string|procession|file) of\b')
 
 
@@ -82,7 +84,7 @@ def _between_them(frame: Frame) -> None:
 
 def told_distance(frame: Frame) -> bool:
     """`the distance between them is 12 m`: how far whoever was placed is from the other."""
-    if frame.negated or frame.key not in ('be', 'exist', ''):
+    if frame.negated or frame.key not in ('be', 'exist', '', *_HAVING):
         return False
     subjects = [n for n in frame.subject_nouns if n.key != 'there']
     value = frame.attribute(*_APART)
@@ -97,6 +99,8 @@ def told_distance(frame: Frame) -> bool:
         return False
     if value.key == LENGTH and words is None and not between:
         return False
+    if frame.key in _HAVING:
+        return value.key != LENGTH and _is_kept(frame, value)
     if subjects and (value.key not in ('away', 'standoff') or value.nouns):
         return False
     if subjects and (frame.key != 'be' or frame.free(AdjunctKind.PLACE)):
@@ -115,6 +119,63 @@ def told_distance(frame: Frame) -> bool:
         if adjunct is not None:
             adjunct.used = True
     return True
+
+
+def _is_kept(frame: Frame, value: Adjunct) -> bool:
+    """`the car keeps a distance of 22 m to the truck`: behind it, where nothing else is told."""
+    assert value.measure is not None
+    flying = any(n.kind is NounKind.UAV for n in frame.subject_nouns)
+    if flying or value.prep not in ('', 'of', 'with'):
+        return False
+    if not values.accepts('placement_distance', value.measure):
+        return False
+    places = frame.free(AdjunctKind.PLACE)
+    side = next((a for a in places if _is_side(a)), None)
+    who = frame.subjects()
+    if len(who) != 1 or who[0].is_uav or places != [a for a in (side,) if a is not None]:
+        return False
+    phrases = frame.free(AdjunctKind.PHRASE, 'to', 'from')
+    others = frame.objects([*value.nouns, *(n for p in phrases for n in p.nouns)])
+    if len(others) > 1 or any(e.is_uav for e in others) or (side is not None and not others):
+        return False
+    distance = values.explicit('placement_distance', value.measure)
+    if others:
+        relation = Relation.AHEAD if side is not None and side.key == 'behind' else Relation.BEHIND
+        relation = Relation.NEAR if frame.key == 'contain' and side is None else relation
+        _beside_whom(frame, who[0], others[0], relation)
+    if not _fill(who + others, {e.id for e in who + others} if others else None, distance):
+        return False
+    for adjunct in (value, side, *phrases):
+        if adjunct is not None:
+            adjunct.used = True
+    frame.scene.became(who[0].id)
+    return True
+
+
+def _is_side(adjunct: Adjunct) -> bool:
+    """`the bus in front`, `the van behind it`: a side and nothing more."""
+    bare = all(n.kind is NounKind.PRONOUN for n in adjunct.nouns) and adjunct.measure is None
+    return bare and adjunct.key in ('ahead', 'behind')
+
+
+def _beside_whom(frame: Frame, one: Entity, other: Entity, relation: Relation) -> None:
+    pairs = ((one, other), (other, one))
+    if not any(p.of == b.id and p.relation in DISTANT for a, b in pairs for p in a.placements):
+        kept = frame.key == 'keep'
+        made = Placement(relation=relation, of=other.id, kept_in_motion=kept, span=frame.span)
+        one.placements.append(made)
+
+
+def _fill(about: tuple[Entity, ...], ids: set[str] | None, distance: Parameter) -> bool:
+    """Give the distance to the first placement that has none; of a pair, if one is named."""
+    for entity in about:
+        for i, known in enumerate(entity.placements):
+            open_end = known.distance_m is None or known.distance_m.span is None
+            if known.relation in DISTANT and open_end and ids in (None, {entity.id, known.of}):
+                told = known.model_dump() | {'distance_m': distance}
+                entity.placements[i] = Placement.model_validate(told)
+                return True
+    return False
 
 
 def _ends(frame: Frame, nouns: list[NounPhrase]) -> tuple[Entity, ...] | None:
@@ -142,17 +203,12 @@ def _set(frame: Frame, ends: tuple[Entity, ...], distance: Parameter) -> bool:
         add_placement(second, made)
         frame.scene.became(second.id)
         return True
-    ids = {e.id for e in ends}
+    ids = {e.id for e in ends} or None
     for clause in reversed(frame.scene.clauses[:-1]):
         for entity in (*clause.subjects, *clause.objects):
-            for i, known in enumerate(entity.placements):
-                open_end = known.distance_m is None or known.distance_m.span is None
-                pair = {entity.id, known.of}
-                if known.relation in DISTANT and open_end and (not ids or ids == pair):
-                    told = known.model_dump() | {'distance_m': distance}
-                    entity.placements[i] = Placement.model_validate(told)
-                    frame.scene.became(entity.id)
-                    return True
+            if _fill((entity,), ids, distance):
+                frame.scene.became(entity.id)
+                return True
         if not ids and clause.subjects:
             return False
     return False

@@ -22,6 +22,7 @@ from aurora_core.parsing.rewriting.conjunctions import joined
 from aurora_core.parsing.rewriting.dwells import set_off
 from aurora_core.parsing.rewriting.enumerations import told_once
 from aurora_core.parsing.rewriting.flight_nouns import flights
+from aurora_core.parsing.rewriting.in_turn import in_turn
 from aurora_core.parsing.rewriting.inversions import straighten
 from aurora_core.parsing.rewriting.moments import dated
 from aurora_core.parsing.rewriting.nominal import predicates
@@ -67,7 +68,6 @@ def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
     if longest_sentence(atoms) > MOST_ATOMS:
         return Rewritten(atoms=tuple(atoms))
     told, background = unwrap(joined(_cast(atoms, prompt), prompt), prompt)
-    told = shared_out(not_before(alike(as_fast(told, prompt), prompt)), prompt)
     told = set_off(told, prompt)
     told = dated(verbal(prompted(radio(told, prompt), prompt), prompt), prompt)
     told = value_statements(
