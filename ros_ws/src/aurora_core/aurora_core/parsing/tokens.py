@@ -121,7 +121,7 @@ def tokenize(text: str) -> tuple[Token, ...]:
             mark = {'–': '-', '—': ';', '×': 'x', '−': '-', '＆': '&'}.get(piece, piece)
             token_kind = TokenKind.WORD if mark == 'x' else TokenKind.MARK
             raw.append(Token(kind=token_kind, norm=mark, start=start, end=end, glued=glued))
-    return _join_signs(_drop_hyphens(_list_marks(_abbreviations(raw))))
+    return _join_signs(_drop_hyphens(_list_marks(_abbreviations(_short_forms(raw)))))
 
 
 def _words(norm: str, start: int, end: int, glued: bool) -> list[Token]:
@@ -142,11 +142,39 @@ def _words(norm: str, start: int, end: int, glued: bool) -> list[Token]:
     ]
 
 
+# Short forms with marks inside, by the word that they stand for.
+_SHORT_FORMS = {
+    ('w', '/', 'out'): 'without',
+    ('w', '/', 'o'): 'without',
+    ('i', '.', 'e', '.'): 'i.e',
+    ('i', '.', 'e'): 'i.e',
+    ('e', '.', 'g', '.'): 'e.g',
+    ('e', '.', 'g'): 'e.g',
+}
+
+
+def _short_forms(tokens: list[Token]) -> list[Token]:
+    """Make one word of `w/o`, `i.e.`"""
+    kept: list[Token] = []
+    i = 0
+    while i < len(tokens):
+        for form, word in _SHORT_FORMS.items() if tokens[i].norm in 'wie' else ():
+            parts = tokens[i : i + len(form)]
+            if tuple(t.norm for t in parts) == form and all(t.glued for t in parts[1:]):
+                kept.append(replace(tokens[i], norm=word, end=parts[-1].end, capital=False))
+                i += len(form)
+                break
+        else:
+            kept.append(tokens[i])
+            i += 1
+    return kept
+
+
 # Words that are cut short with a dot inside a sentence: `min. 10 s`, `max. distance`.
 _CUT_SHORT = frozenset(
     (
         *('min', 'max', 'approx', 'ca', 'alt', 'dist', 'spd', 'dur', 'lat', 'rad', 'vel', 'avg'),
-        *('alti', 'horiz', 'vert', 'incl', 'resp', 'perm', 'allow'),
+        *('alti', 'horiz', 'vert', 'incl', 'resp', 'perm', 'allow', 'acc'),
     )
 )
 

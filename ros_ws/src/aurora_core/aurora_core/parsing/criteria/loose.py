@@ -63,7 +63,11 @@ def _names(atom: Atom) -> bool:
 
 
 def _changes_meaning(atom: Atom) -> bool:
-    return criteria_words()['particular'].search(atom.words) is not None
+    words = criteria_words()
+    measured = any(
+        one.search(atom.words) for one in (words['names_measured'], words.topics['drift'])
+    )
+    return measured or words['particular'].search(atom.words) is not None
 
 
 @lru_cache(maxsize=1024)

@@ -26,11 +26,17 @@ _BETWEEN = re.compile(
     r'\b(?:(?:from|of|to) (?:(?:it|they|any|each|every|other|no) )*N\d|between|apart|closer|'
     r'nearer|away|distance|gap|spacing|clearance|separation|headway|near|together|leave)'
 )
+_MUTUAL = re.compile(r'\b(?:each other|one another)\b')
+_VERTICAL = re.compile(
+    r'\b(?:above|below|under|over|beneath|underneath|higher|lower|exceed\w*|rise|climb|descend)\b'
+)
 _NEITHER = re.compile(r' (?:(?:and|but) )?(?:neither|none)\b')
 _LISTED = re.compile(r'N0(?: ?,)*(?: (?:and|,)+ N\d+)+')
 _ONE = ('it', 'person')
 # `no car shall exceed 50 km/h`
-_EVERYONE = re.compile(r'\b(?:no|none of|each|every|any|all)(?: of)?(?: the)? N0\b')
+_EVERYONE = re.compile(
+    r'\b(?:no|none of|neither|each|every|any|all|both)(?: of)?(?: the)?(?: two)? N0\b'
+)
 _FRACTIONS = ('visible_fraction', 'tracked_fraction', 'delivery_ratio')
 _VALUE = {'L': 'condition_distance', 'V': 'condition_speed', 'T': 'condition_time'}
 
@@ -84,10 +90,9 @@ class Meaning:
     # --- values at every moment ---------------------------------------------------------------
 
     def _movers(self) -> list[Entity]:
-        if self._told.nouns and _EVERYONE.search(self._told.words):
-            kin = self._who.kin()
-            if len(kin) > 1:
-                return kin
+        everyone = self._everyone()
+        if everyone:
+            return everyone
         named = self._who.actors()
         if named:
             listed = _LISTED.search(self._told.words)
@@ -100,6 +105,17 @@ class Meaning:
         one = self._who.it()
         return [one] if one is not None else []
 
+    def _everyone(self) -> list[Entity]:
+        """`no car shall exceed 50 km/h`, `neither drone may drift`: all of that kind."""
+        told = self._told
+        if told.nouns and _EVERYONE.search(told.words):
+            kin = self._who.kin()
+        elif _NEITHER.match(told.words):
+            kin = self._who.pair()
+        else:
+            return []
+        return kin if len(kin) > 1 else []
+
     def _each(self, quantity: str, who: Sequence[Entity]) -> bool:
         for entity in who:
             self._series(quantity, (entity.id,))
@@ -110,19 +126,16 @@ class Meaning:
         told = self._told
         if len(told.nouns) == 1 and ('pairs' in told.topics or self._is_kin(told.nouns[0])):
             return self._apart(self._who.kin())
+        if all(n.kind in (NounKind.UAV, NounKind.PRONOUN) for n in told.nouns):
+            flown = self._of_flyers()
+            if flown is not None:
+                return flown
         named = self._who.named()
         group = self._who.several()
         if group is None and _NEITHER.match(told.words):
             group = self._who.pair()
             if any(n.key == 'other' for n in told.nouns):
                 return self._apart(group)
-        up = 'altitude' in told.topics and not _BETWEEN.search(told.words)
-        if up and group and not named and all(e.is_uav for e in group):
-            return self._each('altitude', group)
-        flying = [e for e in named if isinstance(e, Entity) and e.is_uav]
-        if 'drift' in told.topics and len(named) - len(flying) == 0 and group is None:
-            flyers = self._who.flyers()
-            return self._each('hover_drift', flyers[:1])
         flat = 'horizontal' in told.topics
         if not named and not group and self._is_cut_off():
             return False
@@ -150,6 +163,28 @@ class Meaning:
                 return self._each('altitude', self._who.flyers())
             return self._apart(self._who.pair())
         return self._between(named)
+
+    def _of_flyers(self) -> bool | None:
+        """Lengths of UAVs that nothing else is named with: drifts, heights, gaps of a group."""
+        told = self._told
+        if 'drift' in told.topics:
+            drifting = self._everyone() or self._who.several() or self._who.flyers()[:1]
+            return self._each('hover_drift', [e for e in drifting if e.is_uav])
+        everyone = self._everyone()
+        if everyone and [n.key for n in told.nouns[1:]] == ['other']:
+            return self._apart(everyone)
+        if (len(told.nouns) == 1 or everyone) and self._is_vertical():
+            everyone = everyone or self._who.several() or []
+            if len(everyone) > 1 and all(e.is_uav for e in everyone):
+                return self._each('altitude', everyone)
+        return None
+
+    def _is_vertical(self) -> bool:
+        """`all UAVs must stay above 20 m` is about heights, `… more than 20 m apart` is not."""
+        told = self._told
+        up = 'altitude' in told.topics or _VERTICAL.search(told.words) is not None
+        apart = _BETWEEN.search(told.words) or _MUTUAL.search(told.words)
+        return up and 'pairs' not in told.topics and not apart
 
     def _is_cut_off(self) -> bool:
         """`its yaw must not exceed 2 m`: of what, no known word says."""

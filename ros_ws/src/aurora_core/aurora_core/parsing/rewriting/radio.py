@@ -153,7 +153,8 @@ def _value(atoms: Sequence[Atom], text: str, start: int) -> tuple[str, Measure] 
         return 'loss', measure
     if measure.dimension == RATIO and words['arrives'].search(text) and 'only' in text.split():
         return 'loss', replace(measure, value=round(1.0 - measure.value, 6))
-    plain = measure.bound is Bound.EXACTLY
+    compared = any(a.kind is AtomKind.NEGATION or a.key in ('beyond', 'below') for a in atoms)
+    plain = measure.bound is Bound.EXACTLY and not compared
     if measure.dimension == TIME and plain and words['late'].search(text):
         return 'latency', measure
     if measure.dimension == LENGTH and words['reaches'].search(text):

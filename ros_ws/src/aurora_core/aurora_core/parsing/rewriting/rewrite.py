@@ -106,25 +106,35 @@ def _take_back(atoms: list[Atom]) -> tuple[list[Atom], list[Span]]:
 
 
 def _retracted(atoms: Sequence[Atom], i: int) -> int | None:
-    """Return where the measure begins that the words at i take back."""
+    """Return where the number or the weather begins that the words at i take back."""
     atom = atoms[i]
     denied = atom.kind is AtomKind.NEGATION and atom.key == 'no' and _comma_at(atoms, i + 1)
-    if not denied and not (
-        atom.kind is AtomKind.FRAME and atom.key in shipped_lexicon().turns['takes_back']
-    ):
+    if not denied and not _takes_back(atom):
         return None
     behind = next((a for a in atoms[i + 1 : i + 4] if a.kind is not AtomKind.COMMA), None)
-    if behind is None or behind.measure is None:
+    if behind is None or _said(behind) is None:
         return None
     paused = False
     for j in range(i - 1, max(-1, i - 1 - _MOST_BETWEEN), -1):
         before = atoms[j]
-        if before.measure is not None:
-            return j if paused and before.key == behind.key else None
-        paused = paused or before.kind in (AtomKind.COMMA, AtomKind.STOP)
-        if before.kind not in _PAUSES and before.key != 'no':
+        again = _takes_back(before)  # `no sorry make that 50 m`
+        if _said(before) is not None:
+            return j if paused and _said(before) == _said(behind) else None
+        paused = paused or again or before.kind in (AtomKind.COMMA, AtomKind.STOP)
+        if not again and before.kind not in _PAUSES and before.key != 'no':
             return None
     return None
+
+
+def _takes_back(atom: Atom) -> bool:
+    return atom.kind is AtomKind.FRAME and atom.key in shipped_lexicon().turns['takes_back']
+
+
+def _said(atom: Atom) -> str | None:
+    """Return what a correction may replace: a quantity, the weather, the time of day."""
+    if atom.measure is not None:
+        return atom.key
+    return atom.key.partition(':')[0] if atom.kind is AtomKind.WORLD else None
 
 
 def _places(atoms: list[Atom], prompt: str) -> list[Atom]:

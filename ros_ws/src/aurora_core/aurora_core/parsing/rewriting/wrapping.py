@@ -109,7 +109,8 @@ def _without_reasons(atoms: Sequence[Atom], prompt: str) -> tuple[list[Atom], li
         told = atoms[i + 1 : stop]
         strange = any(_is_strange(a) for a in told)
         shown = purpose and any(a.noun is not None and a.noun.kind in _NAMED for a in told)
-        if strange and not shown and not _asks(told, prompt, before_wish=reason):
+        idle = strange and not shown and not _asks(told, prompt, before_wish=reason)
+        if idle or (reason and _is_foreign(told)):
             spans.append(Span(start=atoms[i].start, end=told[-1].end))
         else:
             kept += atoms[i:stop]
@@ -161,6 +162,14 @@ def _is_background(atoms: Sequence[Atom], prompt: str, *, before_wish: bool, fra
 def _is_strange(atom: Atom) -> bool:
     unknown = atom.noun is not None and atom.noun.kind is NounKind.UNKNOWN
     return unknown or (atom.kind is AtomKind.UNKNOWN and atom.key.isalpha())
+
+
+def _is_foreign(atoms: Sequence[Atom]) -> bool:
+    """`since that is where their balloon flew`: of an actor that no scene can have, told of."""
+    nouns = [a.noun for a in atoms if a.noun is not None]
+    new = any(n.determiner in _NEW or n.determiner is Determiner.MY for n in nouns)
+    told = any(n.kind is NounKind.UNSUPPORTED for n in nouns)
+    return told and not new and not any(a.measure is not None for a in atoms)
 
 
 def _asks(atoms: Sequence[Atom], prompt: str, *, before_wish: bool) -> bool:
@@ -268,6 +277,8 @@ def _wishes() -> re.Pattern[str]:
         rf'{link}{words["point"]}(?:{blank}{words["for_us"]})?{blank}(?:is|means)(?:{blank}that\b)?',
         rf'(?P<demand>(?:{link}{words["success"]}|(?:the|this|that|our|my|each)(?:\s+\w+){{1,3}}?'
         rf'\s+{words["verdicts"]}){blank}(?:only\s+)?(?:if|when|provided that|as long as|that)\b)',
+        rf'(?:the|our|my|this|that)(?:\s+\w+){{1,3}}?\s+{words["stipulates"]}'
+        rf'(?=\s+(?:{words["about_so_much"]}\s+)?\d)',
         rf'would\s+be{hedge}\s+{words["good"]}(?:{blank}{words["for_us"]})?(?=[\s,]*$)',
         rf'{words["asides"]}',
     )
