@@ -48,8 +48,13 @@ _FITS = {
 }
 
 
+_SIDES = ('length', 'width')
+
+
 def fits(thing: str, measure: Measure) -> bool:
-    """Return whether a measure can be a value of the thing."""
+    """Return whether a measure can be a value of the thing; `80 x 50 m` is a size."""
+    if measure.second is not None and thing not in _SIDES:
+        return False
     return measure.dimension in _FITS.get(thing, ())
 
 

@@ -18,6 +18,7 @@ from aurora_core.parsing.atom_runs import runs
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
 from aurora_core.parsing.attempt import Attempt, attempt
 from aurora_core.parsing.joint_causes import is_joint_word
+from aurora_core.parsing.measures import LENGTH
 from aurora_core.parsing.new_clauses import is_placed
 from aurora_core.parsing.scene import ClauseDraft
 from aurora_core.spec.parameter import Span
@@ -77,6 +78,8 @@ _WEIGHT = 3  # words that leaving out one of them must open beside those that an
 _OTHERS = ('rest', 'other', 'another', 'both')
 # Verbs that say little: what stands beside them is the predicate.
 _LIGHT = frozenset({'be', 'keep', 'put', 'come', 'exist', 'contain', ''})
+# Between a name and its number.
+_INSIDE = (AtomKind.FILL, AtomKind.PREPOSITION, AtomKind.AUXILIARY)
 # Left out without a word about it.
 _SAYS_NOTHING = (AtomKind.COMMA, AtomKind.AUXILIARY, AtomKind.RELATIVE)
 
@@ -193,7 +196,7 @@ def _binds(sentence: Sequence[Atom], i: int) -> bool:
     opens = i == 0 or sentence[i - 1].kind is AtomKind.COMMA
     if atom.kind is AtomKind.UNKNOWN and opens and is_placed(sentence[i:]):
         return True
-    if _acts(sentence, i):
+    if _acts(sentence, i) or _names_number(sentence, i):
         return True
     if atom.kind is AtomKind.CONJUNCTION and is_joint_word(sentence, i):
         return True
@@ -201,6 +204,15 @@ def _binds(sentence: Sequence[Atom], i: int) -> bool:
     # `15 m ahead and a bus behind`, `behind the vans and drives`: who is it?
     joins = beside[1].is_actor or (beside[0].is_actor and beside[1].kind is AtomKind.VERB)
     return atom.kind is AtomKind.CONJUNCTION and joins
+
+
+def _names_number(sentence: Sequence[Atom], i: int) -> bool:
+    """`radius of 40 m`, `60 m width`: without its name, a length is a height or a distance."""
+    if sentence[i].kind is not AtomKind.THING or sentence[i].key == 'separation':
+        return False
+    ahead = next((a for a in sentence[i + 1 :] if a.kind not in _INSIDE), None)
+    beside = (ahead, sentence[i - 1] if i else None)
+    return any(a is not None and a.measure is not None and a.key == LENGTH for a in beside)
 
 
 def _acts(sentence: Sequence[Atom], i: int) -> bool:

@@ -297,6 +297,8 @@ def _pattern(frame: Frame, mode: MissionMode | None, target: str | None) -> Patt
         return None
     if frame.attribute('waypoint') is not None or frame.key == 'visit':
         return Pattern.WAYPOINTS
+    if frame.attribute('radius', 'diameter') is not None:
+        return Pattern.ORBIT  # `a circuit with a radius of 40 m`
     phrases = [a.key for a in frame.adjuncts if a.kind is AdjunctKind.PHRASE and a.used]
     if (
         'around' in phrases

@@ -27,7 +27,8 @@ _BREAKS_OFF = frozenset({'break_off', 'stop', 'finish', 'keep'})
 def flights(atoms: Sequence[Atom]) -> list[Atom]:
     """Return the atoms with flights as such, and without the end that the next one implies."""
     ordered = [a for told, stop in runs(atoms, AtomKind.STOP) for a in _ordered(told, stop)]
-    return _broken_off(_after_that(_patrols(_owned(_on_the_way(ordered)))))
+    named = _sized(_centred(_owned(_on_the_way(ordered))))
+    return _broken_off(_after_that(_patrols(named)))
 
 
 def _ordered(atoms: list[Atom], stop: Atom | None) -> list[Atom]:
@@ -89,6 +90,56 @@ def _owned(atoms: list[Atom]) -> list[Atom]:
         if flown and atoms[i].form is VerbForm.BASE and owned:
             atoms[i] = replace(atoms[i], kind=AtomKind.ROUTE)
     return atoms
+
+
+def _centred(atoms: list[Atom]) -> list[Atom]:
+    """`a rectangle which is centred on the junction`, `it is centred on …`: flown around it."""
+    kept: list[Atom] = []
+    for atom in atoms:
+        if atom.kind is AtomKind.PREPOSITION and atom.words.startswith(('centre', 'center')):
+            told = len(kept)
+            while told and (kept[told - 1].kind in HELPERS or kept[told - 1].key == 'be'):
+                told -= 1
+            about = kept[told - 1] if told else None
+            if about is not None and about.kind is AtomKind.RELATIVE:
+                del kept[told - 1 :]
+            elif about is not None and (about.words == 'it' or about.kind in _SHAPES):
+                told = _stop_before(kept, told - 1)
+                told = told if any(a.kind in _SHAPES for a in kept[:told]) else len(kept)
+                del kept[told:]
+        kept.append(atom)
+    return kept
+
+
+_SHAPES = (AtomKind.PATTERN, AtomKind.ROUTE)
+
+
+def _stop_before(atoms: Sequence[Atom], i: int) -> int:
+    """Return where the pause stands in front of which only small words are, else the end."""
+    while i and atoms[i - 1].kind in HELPERS:
+        i -= 1
+    paused = i and atoms[i - 1].kind in (AtomKind.STOP, *_PAUSES)
+    return i - 1 if paused else len(atoms)
+
+
+def _sized(atoms: list[Atom]) -> list[Atom]:
+    """`a 40 m radius orbit around the park`: a noun, behind what it is wide."""
+    written: list[Atom] = []
+    for i, atom in enumerate(atoms):
+        behind = i > 1 and atoms[i - 1].kind is AtomKind.THING and atoms[i - 2].measure is not None
+        verb = atom.kind is AtomKind.VERB and atom.key == 'orbit' and atom.form is VerbForm.BASE
+        if not behind or not verb:
+            written.append(atom)
+            continue
+        noun, _, around = atom.words.partition(' ')
+        cut = atom.start + len(noun)
+        written.append(replace(atom, kind=AtomKind.PATTERN, words=noun, end=cut))
+        if around:
+            start = cut + 1
+            written.append(
+                Atom(kind=AtomKind.PREPOSITION, key='around', start=start, end=atom.end)
+            )
+    return written
 
 
 def _patrols(atoms: list[Atom]) -> list[Atom]:

@@ -164,8 +164,31 @@ def _is_flown(atom: Atom) -> bool:
     return unknown and act_nouns().get(atom.noun.head_text if atom.noun else '') in FLOWN
 
 
+def _size(sides: Sequence[Atom]) -> tuple[Atom | None, int]:
+    """Return the one size of `120 m and 80 m`, `80 m`, and how many atoms tell it."""
+    one = sides[0].measure if sides else None
+    if one is None or one.second is not None or sides[0].key not in (LENGTH, COUNT):
+        return None, 0
+    other = sides[2].measure if len(sides) == 3 else None
+    joined = len(sides) == 3 and sides[1].kind is AtomKind.CONJUNCTION
+    if other is not None and joined and sides[2].key == LENGTH:
+        second, last, count = other, sides[2], 3
+    elif sides[0].key == LENGTH:
+        second, last, count = one, sides[0], 1  # those of a square
+    else:
+        return None, 0
+    size = replace(
+        one,
+        dimension=LENGTH,
+        end=second.end,
+        second=second.value,
+        second_start=second.start,
+    )
+    return replace(sides[0], key=LENGTH, end=last.end, measure=size), count
+
+
 def _sides(atoms: list[Atom]) -> list[Atom]:
-    """`a rectangle whose sides are 120 m and 80 m long`: its size."""
+    """`whose sides are 120 m and 80 m long`, `a square with sides of 80 m`: its size."""
     changed = list(atoms)
     i = 0
     while i < len(changed):
@@ -175,24 +198,11 @@ def _sides(atoms: list[Atom]) -> list[Atom]:
                 changed[k].kind in (*TRANSPARENT, AtomKind.PREPOSITION) or changed[k].key == 'be'
             ):
                 k += 1
-            both = changed[k : k + 3]
-            if len(both) == 3 and both[1].kind is AtomKind.CONJUNCTION:
-                one, other = both[0].measure, both[2].measure
-                lengths = one is not None and other is not None
-                if lengths and both[2].key == LENGTH and both[0].key in (LENGTH, COUNT):
-                    assert one is not None
-                    assert other is not None
-                    size = replace(
-                        one,
-                        dimension=LENGTH,
-                        end=other.end,
-                        second=other.value,
-                        second_start=other.start,
-                    )
-                    whole = replace(both[0], key=LENGTH, end=both[2].end, measure=size)
-                    stop = k + 3
-                    if stop < len(changed) and changed[stop].key == 'length':
-                        stop += 1
-                    changed[i:stop] = [whole]
+            size, stop = _size(changed[k : k + 3])
+            if size is not None:
+                stop += k
+                if stop < len(changed) and changed[stop].key == 'length':
+                    stop += 1
+                changed[i:stop] = [size]
         i += 1
     return changed
