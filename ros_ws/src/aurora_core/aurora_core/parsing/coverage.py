@@ -91,7 +91,7 @@ def _telling(prompt: str, atoms: Sequence[Atom]) -> Iterator[Span]:
         before = atoms[k - 1] if k else None
         after = atoms[k + 1 :]
         if word in _RANKS and before is not None and before.kind is AtomKind.VERB:
-            sentence = takewhile(lambda a: a.kind is not AtomKind.STOP, after)
+            sentence = takewhile(lambda a: a.kind is not AtomKind.STOP or a.key == ';', after)
             if not any(a.kind is AtomKind.THEN for a in sentence):
                 yield _covering(before, atom)
         elif word == 'same' and after and after[0].kind is AtomKind.THING:

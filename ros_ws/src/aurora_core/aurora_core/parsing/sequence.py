@@ -169,7 +169,11 @@ def after_told(frame: Frame, before: Piece | None) -> bool:
     scene = frame.scene
     told = scene.prompt[frame.piece.start : frame.piece.end].lower()
     later_on = frame.piece.then or criteria_words()['later_words'].search(told)
-    if not later_on or before is None or frame.key not in (*REACTIONS, 'land') or frame.negated:
+    if not later_on or before is None or frame.negated:
+        return False
+    if behind_landing(frame, before):
+        return True
+    if frame.key not in (*REACTIONS, 'land'):
         return False
     count = len(scene.events)
     earlier = Frame(without_link(before, Link.AFTER), scene, frame.resolver)
@@ -189,11 +193,29 @@ def after_told(frame: Frame, before: Piece | None) -> bool:
     return True
 
 
+def behind_landing(frame: Frame, landing: Piece) -> bool:
+    """`drone A lands. Then drone B lands`: what another does when a flight is over."""
+    if frame.key not in (*REACTIONS, *_ANSWERS) or not any(a.key == 'land' for a in landing.atoms):
+        return False
+    scene, acting = frame.scene, frame.scene.clause.subjects
+    over = cause(Frame(without_link(landing, Link.AFTER), scene, frame.resolver))
+    scene.clause.subjects = acting
+    if not isinstance(over, MissionDoneTrigger):
+        return False
+    action = actions.action(frame)
+    if action is None or (isinstance(action, UavAction) and action.uav == over.uav):
+        return False
+    complete_event(scene, over, action, frame.span, ())
+    return True
+
+
 def before_told(frame: Frame, before: Piece | None) -> None:
     """`the truck must brake | before the bus stops`: what is told second happens second."""
     scene = frame.scene
+    if before is None or behind_landing(frame, before):
+        return
     second = actions.agent_action(frame)
-    if second is None or before is None:
+    if second is None:
         return
     acting = scene.clause.subjects
     first = actions.agent_action(Frame(before, scene, frame.resolver))

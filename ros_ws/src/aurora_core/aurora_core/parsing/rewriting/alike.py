@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import takewhile
 
 from aurora_core.parsing.atom_runs import LOOSE, skip, stop_at, text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
@@ -15,6 +16,8 @@ from aurora_core.parsing.morphology import VerbForm
 
 _BREAKS = (AtomKind.COMMA, AtomKind.CONJUNCTION, AtomKind.STOP)
 _AS = ('so', 'as', 'and so')
+_VALUES = (AtomKind.MEASURE, AtomKind.PREPOSITION, AtomKind.RELATION, AtomKind.THEN, AtomKind.FILL)
+_SOONER_OR_LATER = ('before', 'after')
 _STANDS_FOR = frozenset({'trace', 'be', 'keep', 'do so'})
 _MOVES = frozenset({'be', 'drive', 'move', 'come'})
 
@@ -25,7 +28,8 @@ def alike(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
     i = 0
     while i < len(atoms):
         opens = not written or written[-1].kind in _BREAKS
-        found = _sharer(atoms, i, prompt) if opens else None
+        next_one = _next(atoms, i)
+        found = _sharer(atoms, i, prompt) if opens and next_one is None else next_one
         told = _predicate(written, atoms[found[0]]) if found is not None else None
         if found is None or told is None:
             written.append(atoms[i])
@@ -36,11 +40,24 @@ def alike(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
         while written[-1].kind in _BREAKS and written[-1].kind is not AtomKind.STOP:
             pause = [stop_at(written.pop())]
         who = list(atoms[begin:stop])
+        if next_one is not None:  # not the values of the first one
+            told = told[:1] + list(takewhile(lambda a: a.kind not in _VALUES, told[1:]))
+            who = [atoms[i], *who]
         rest = resume < len(atoms) and atoms[resume].kind not in _BREAKS
         said = told[:1] if rest else told
         written += [*pause, *who, replace(said[0], form=VerbForm.THIRD), *said[1:]]
         i = resume
     return written
+
+
+def _next(atoms: Sequence[Atom], i: int) -> tuple[int, int, int] | None:
+    """`A lands first, then B`, `A lands before B`: the second, at the end of the sentence."""
+    then = atoms[i].kind is AtomKind.THEN
+    lands = atoms[i].words in _SOONER_OR_LATER and i > 0 and atoms[i - 1].key == 'land'
+    stop = _named(atoms, skip(atoms, i + 1)) if then or lands else None
+    if stop is None or (stop < len(atoms) and atoms[stop].kind is not AtomKind.STOP):
+        return None
+    return skip(atoms, i + 1), stop, stop
 
 
 def _sharer(atoms: Sequence[Atom], i: int, prompt: str) -> tuple[int, int, int] | None:

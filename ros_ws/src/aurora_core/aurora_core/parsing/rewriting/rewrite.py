@@ -68,7 +68,8 @@ def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
     if longest_sentence(atoms) > MOST_ATOMS:
         return Rewritten(atoms=tuple(atoms))
     told, background = unwrap(joined(_cast(atoms, prompt), prompt), prompt)
-    told = set_off(told, prompt)
+    told = alike(as_fast(in_turn(told, prompt), prompt), prompt)
+    told = set_off(shared_out(not_before(told), prompt), prompt)
     told = dated(verbal(prompted(radio(told, prompt), prompt), prompt), prompt)
     told = value_statements(
         predicates(
