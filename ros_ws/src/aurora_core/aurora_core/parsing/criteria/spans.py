@@ -16,6 +16,7 @@ from aurora_core.parsing.criteria.slots import criterion
 from aurora_core.parsing.pieces import MOST_ATOMS
 
 _PAUSES = (AtomKind.COMMA, AtomKind.CONJUNCTION, AtomKind.THEN)
+_CAUSES = ('when', 'after')
 _LEADS = ('such', 'so that', 'hence', 'thus', 'so')
 
 
@@ -58,6 +59,8 @@ def _cut(
         if start < done:
             continue
         for longest in _stops(atoms, start):
+            if _is_caused(atoms, start, longest):
+                continue
             stop, made = state(atoms, start, longest)
             if made is not None:
                 found += _rest(atoms[done:start], opens=done > 0)
@@ -76,6 +79,18 @@ def _stated(atoms: Sequence[Atom], start: int, stop: int) -> tuple[int, _Made]:
     if _is_detail(atoms[start], told) or _joins(atoms, start, stop):
         return stop, None
     return _first(atoms, start, stop) or (stop, told)
+
+
+def _is_caused(atoms: Sequence[Atom], start: int, stop: int) -> bool:
+    """`once the distance drops below 30 m, the drone should …`: a cause and its effect."""
+    opens = start
+    while opens and atoms[opens].kind not in (AtomKind.SUBORDINATOR, AtomKind.COMMA):
+        opens -= 1
+    if atoms[opens].kind is not AtomKind.SUBORDINATOR or atoms[opens].key not in _CAUSES:
+        return False
+    comma = next((i for i in range(start, stop) if atoms[i].kind is AtomKind.COMMA), stop)
+    compared = any(a.measure is not None for a in atoms[start:comma])
+    return compared and any(a.is_actor for a in atoms[comma:stop])
 
 
 def _first(atoms: Sequence[Atom], start: int, stop: int) -> tuple[int, Criterion] | None:

@@ -51,7 +51,8 @@ def _behind(atoms: list[Atom]) -> list[Atom]:
         begin = at
         while begin and atoms[begin - 1].kind not in _PAUSES:
             begin -= 1
-        no = _denied(atoms[begin:at])
+        told = any(a.is_actor for a in atoms[:begin])  # `the bus, parked there, must not start …`
+        no = _denied(atoms[begin:at], named=told)
         if no is not None:
             when = replace(atom, kind=AtomKind.SUBORDINATOR, key='when')
             rest = [*atoms[begin : begin + no], *atoms[begin + no + 1 : at]]
@@ -115,13 +116,13 @@ def _tells(atoms: Sequence[Atom], i: int) -> bool:
     return has_verb(ahead) and not timed
 
 
-def _denied(atoms: Sequence[Atom]) -> int | None:
+def _denied(atoms: Sequence[Atom], *, named: bool = False) -> int | None:
     """Return where the negation stands of a clause that denies a beginning."""
     no = next((i for i, a in enumerate(atoms) if a.kind is AtomKind.NEGATION), None)
     if no is None:
         return None
     verbs = [a for a in atoms[no:] if a.kind is AtomKind.VERB]
-    named = any(a.is_actor for a in atoms)
+    named = named or any(a.is_actor for a in atoms)
     measured = any(a.measure is not None for a in atoms)
     begins = bool(verbs) and verbs[-1].key in _BEGINS and not measured
     return no if begins and named else None

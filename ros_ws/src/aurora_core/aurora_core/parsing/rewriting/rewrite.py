@@ -28,6 +28,7 @@ from aurora_core.parsing.rewriting.moments import dated
 from aurora_core.parsing.rewriting.nominal import predicates
 from aurora_core.parsing.rewriting.nominal_causes import verbal
 from aurora_core.parsing.rewriting.not_before import not_before
+from aurora_core.parsing.rewriting.pairs import pairs
 from aurora_core.parsing.rewriting.placing_words import placing_words, told_of_us
 from aurora_core.parsing.rewriting.prompted import prompted
 from aurora_core.parsing.rewriting.radio import radio
@@ -89,7 +90,9 @@ def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
 
 def _cast(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
     """Return the atoms with words for actors and messages as such."""
-    return messages_told(flights(cast(told_once(told_of_us(atoms)), prompt)), prompt)
+    return messages_told(
+        flights(cast(told_once(told_of_us(pairs(atoms, prompt))), prompt)), prompt
+    )
 
 
 def _take_back(atoms: list[Atom]) -> tuple[list[Atom], list[Span]]:
