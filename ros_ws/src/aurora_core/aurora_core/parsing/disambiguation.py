@@ -33,6 +33,8 @@ def settle_verbs(atoms: list[Atom]) -> list[Atom]:
                 settled[i] = _as(atom, AtomKind.CAUSATIVE)
             elif AtomKind.VERB in kinds and settled[i].kind is AtomKind.CAUSATIVE:
                 settled[i] = _as(atom, AtomKind.VERB)
+        if AtomKind.MESSAGE in kinds and _is_owned(settled, i):
+            settled[i] = replace(settled[i], kind=AtomKind.MESSAGE, key=atom.words)
         if atom.kind is AtomKind.VERB and atom.key == 'hover' and _on_the_ground(settled, i):
             settled[i] = replace(settled[i], key='wait')
         down = atom.kind is AtomKind.VERB and atom.key in ('descend', 'ascend')
@@ -49,6 +51,13 @@ def settle_verbs(atoms: list[Atom]) -> list[Atom]:
                 if not settled[k].is_actor:
                     settled[k] = replace(settled[k], kind=AtomKind.FILL, noun=None)
     return settled
+
+
+def _is_owned(atoms: list[Atom], i: int) -> bool:
+    """`the drone's message`; in `the drone's warning the bus` it is a verb."""
+    behind = next((a for a in atoms[i + 1 :] if a.kind is not AtomKind.FILL), None)
+    owned = i > 1 and atoms[i - 1].words == "'s" and atoms[i - 2].is_actor
+    return owned and (behind is None or not behind.is_actor)
 
 
 def _goes_off_to(atoms: list[Atom], i: int) -> int | None:

@@ -42,7 +42,7 @@ def complete_event(
         event = told[0]
     elif _waits_for(trigger, known):  # nothing causes itself
         event = known[0]
-    elif known and trigger is not None and isinstance(action, AgentAction):
+    elif known and trigger is not None and isinstance(action, AgentAction | SendMessage):
         event = known[0]
         event.trigger = trigger
     else:

@@ -141,7 +141,7 @@ def who_was_told(frame: Frame) -> bool:
     if not isinstance(message, SendMessage):
         return frame.piece.then and _reacts(frame)
     fits = mobile if frame.key in REACTIONS else anything
-    acting = frame.subjects(fits) if frame.subject_nouns else ()
+    acting = frame.subjects(fits) if frame.subject_nouns or frame.piece.head else ()
     if [e.id for e in acting] != [message.receiver]:
         return False
     action = actions.action(frame)
@@ -153,9 +153,9 @@ def who_was_told(frame: Frame) -> bool:
 
 
 def _answers_at_once(frame: Frame) -> bool:
-    """`the drone warns the bus at 10 s, and it stops`: in the sentence of the message."""
+    """`the drone warns the bus at 10 s, and it stops`, `…, which stops`: in the same sentence."""
     clauses = frame.scene.clauses
-    if frame.key not in REACTIONS or frame.piece.link is not Link.MAIN:
+    if frame.key not in REACTIONS or frame.piece.link not in (Link.MAIN, Link.RELATIVE):
         return False
     if len(clauses) < 2 or not frame.scene.events:
         return False

@@ -199,11 +199,22 @@ def _message(frame: Frame) -> MessageTrigger | None:
     frame.mark(AtomKind.MESSAGE.value)
     phrase = frame.take(AdjunctKind.PHRASE, 'from', 'of')
     senders = frame.objects(phrase.nouns) if phrase is not None else ()
+    if refers and senders and who == senders:  # `when it has got the RSU's message`
+        heard = _told_by(frame, senders[0])
+        who = (heard,) if heard is not None else who
     if len(who) != 1:
         return None
     return MessageTrigger(
         on='message_received', by=who[0].id, sender=senders[0].id if senders else None
     )
+
+
+def _told_by(frame: Frame, sender: Entity) -> Entity | None:
+    """Return whom somebody told last."""
+    for event in reversed(frame.scene.events):
+        if isinstance(event.action, SendMessage) and event.action.sender == sender.id:
+            return frame.scene.by_id(event.action.receiver)
+    return None
 
 
 ARRIVES = ('reach', 'come', 'be', 'contain', 'keep')

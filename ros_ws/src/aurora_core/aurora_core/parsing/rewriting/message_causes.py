@@ -19,6 +19,7 @@ from aurora_core.parsing.morphology import VerbForm
 
 _ENDS = (AtomKind.STOP, AtomKind.COMMA, AtomKind.THEN, AtomKind.CONJUNCTION)
 _OPENING = (AtomKind.PREPOSITION, AtomKind.SUBORDINATOR, AtomKind.BECAUSE, AtomKind.VERB)
+_GETS = ('receive', 'come', 'contain')
 _MOST_WORDS = 4  # atoms from the opening to its message that say nothing of their own
 
 
@@ -60,7 +61,7 @@ def _owned(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
             continue
         behind = skip(told, i + 3, (*LOOSE, AtomKind.AUXILIARY))
         arrives = behind < len(told) and told[behind].key in ('reach', 'come')
-        gets = told[i - 1].kind is AtomKind.VERB and told[i - 1].key in ('receive', 'come')
+        gets = told[i - 1].kind is AtomKind.VERB and told[i - 1].key in _GETS
         if gets or (arrives and told[i - 1].kind is AtomKind.SUBORDINATOR):
             source = replace(told[i + 1], kind=AtomKind.PREPOSITION, key='from')
             told[i : i + 3] = [replace(message, kind=AtomKind.MESSAGE), source, owner]
@@ -86,6 +87,9 @@ def _cause(atoms: Sequence[Atom], i: int, prompt: str) -> tuple[list[Atom], int]
     opening = atoms[i]
     data = _hearing()
     words = text_of(opening, prompt)
+    if words == 'having':
+        been = _been_told(atoms, i, prompt)
+        return None if been is None else _clause(opening, *been)
     if opening.kind not in _OPENING:
         return None
     because = opening.kind is AtomKind.BECAUSE
@@ -160,6 +164,23 @@ def _warned(atoms: Sequence[Atom], i: int, prompt: str) -> tuple[Atom, Atom | No
     if len(by) == 2 and by[0].key == 'by' and by[1].is_actor:
         return atoms[k], by[1], k + 3
     return None
+
+
+def _been_told(atoms: Sequence[Atom], i: int, prompt: str) -> tuple[Atom, Atom | None, int] | None:
+    """`having been warned (by the drone), the bus stops`."""
+    k = skip(atoms, i + 1, (*LOOSE, AtomKind.AUXILIARY))
+    been = any(text_of(a, prompt) == 'been' for a in atoms[i + 1 : k])
+    if not been or k >= len(atoms) or atoms[k].key != 'alert' or (i and not _ends(atoms[i - 1])):
+        return None
+    by = atoms[k + 1 : k + 3]
+    named = len(by) == 2 and by[0].key == 'by' and by[1].is_actor
+    stop = k + 3 if named else k + 1
+    told = stop < len(atoms) and atoms[stop].kind is AtomKind.COMMA
+    return (atoms[k], by[1] if named else None, stop) if told else None
+
+
+def _ends(atom: Atom) -> bool:
+    return atom.kind in _ENDS
 
 
 def _receipt(atoms: Sequence[Atom], i: int, prompt: str) -> tuple[int, bool]:

@@ -15,7 +15,7 @@ from functools import lru_cache
 
 from aurora_core.parsing.atom_runs import HELPERS, LOOSE, by_sentence, skip, stop_at, text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind
-from aurora_core.parsing.lexicon import read_data
+from aurora_core.parsing.lexicon import read_data, shipped_lexicon
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.rewriting.counts import counted, said_twice
 
@@ -24,27 +24,32 @@ _WITHOUT_OBJECT = frozenset({'land', 'hover', 'ascend', 'descend', 'start', 'sto
 _WITH_OBJECT = frozenset({'track', 'follow', 'observe', 'orbit', 'navigate', 'overtake', 'cross'})
 
 
+_GOES_OUT = ('drive', 'start', 'leave', 'send', 'come', 'reach')
+
+
 def predicates(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
     """Return the atoms with acts that are nouns as verbs."""
 
     def told(sentence: list[Atom]) -> list[Atom]:
-        acts = _acts(said_twice(_front_siren(_kept(_message(sentence))), prompt), prompt)
+        acts = _acts(said_twice(_front_siren(_kept(_message(sentence, prompt))), prompt), prompt)
         return _verbless(_of_whom(_done_by(_target(acts, prompt), prompt)))
 
     return by_sentence(counted(_steps(atoms, prompt), prompt), told)
 
 
-def _message(atoms: list[Atom]) -> list[Atom]:
+def _message(atoms: list[Atom], prompt: str) -> list[Atom]:
     """`a message goes out from the UAV to the car`: the UAV sends it."""
     for i in range(len(atoms) - 4):
         if atoms[i].kind is not AtomKind.MESSAGE:
             continue
         verb = skip(atoms, i + 1, HELPERS)
-        if verb >= len(atoms) or atoms[verb].key not in ('drive', 'start', 'leave', 'send'):
+        if verb >= len(atoms) or atoms[verb].key not in _GOES_OUT:
             continue
         k = skip(atoms, verb + 1)
         ends = {a.key: n for n, a in enumerate(atoms) if n >= k and a.key in ('from', 'to')}
         start, goal = ends.get('from'), ends.get('to')
+        if start is None and (i == 0 or atoms[i - 1].kind is AtomKind.FILL):
+            atoms = _is_sent(atoms, verb, prompt)
         if start is None or goal is None or goal + 1 >= len(atoms) or start + 1 >= len(atoms):
             continue
         sender, receiver = atoms[start + 1], atoms[goal + 1]
@@ -55,6 +60,18 @@ def _message(atoms: list[Atom]) -> list[Atom]:
         begin = i - 1 if i and atoms[i - 1].kind is AtomKind.FILL else i
         return [*atoms[:begin], sender, send, atoms[i], atoms[goal], receiver, *rest]
     return atoms
+
+
+def _is_sent(atoms: list[Atom], verb: int, prompt: str) -> list[Atom]:
+    """`a warning goes out to the car`, `the call comes at 20 s`: it is sent."""
+    moved = atoms[verb]
+    behind = atoms[verb + 1] if verb + 1 < len(atoms) else None
+    words = text_of(moved, prompt) + ('' if behind is None else ' ' + text_of(behind, prompt))
+    if not words.startswith(tuple(shipped_lexicon().turns['goes_out'])):
+        return atoms
+    helper = replace(moved, kind=AtomKind.AUXILIARY, key='be', end=moved.start + 1)
+    sent = replace(moved, kind=AtomKind.VERB, key='send', form=VerbForm.PAST)
+    return [*atoms[:verb], helper, sent, *atoms[verb + 1 :]]
 
 
 def _kept(atoms: list[Atom]) -> list[Atom]:

@@ -8,19 +8,18 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import replace
-from itertools import pairwise
 
 from aurora_core.parsing.atom_runs import LOOSE, skip, text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
 from aurora_core.parsing.lexicon import shipped_lexicon
-from aurora_core.parsing.measures import LENGTH, SPEED, TIME
+from aurora_core.parsing.measures import TIME
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.phases import PHASES
 from aurora_core.parsing.pieces import TRANSPARENT
 from aurora_core.parsing.rewriting.flight_nouns import flight_end
+from aurora_core.parsing.rewriting.in_place import interrupted, verbless
 from aurora_core.parsing.rewriting.message_causes import heard
 from aurora_core.spec.parameter import Bound
 
@@ -36,7 +35,7 @@ _ENDS = (AtomKind.STOP, AtomKind.COMMA, AtomKind.THEN, AtomKind.CONJUNCTION)
 
 def verbal(atoms: list[Atom], prompt: str) -> list[Atom]:
     """Return the atoms with events that are told as nouns written out as clauses."""
-    atoms = _interrupted(_verbless(heard(atoms, prompt), prompt))
+    atoms = interrupted(verbless(heard(atoms, prompt), prompt))
     written = _participles(_nominal(_made_to(_done(atoms, prompt), prompt), prompt), prompt)
     return [
         replace(a, kind=AtomKind.UNKNOWN)
@@ -101,98 +100,6 @@ def _within_of(written: Sequence[Atom], atom: Atom) -> bool:
         return False
     timed = written[-1].measure is not None and written[-1].key == TIME
     return timed and written[-2].kind is AtomKind.PREPOSITION and written[-2].key == 'within'
-
-
-def _verbless(atoms: list[Atom], prompt: str) -> list[Atom]:
-    """`truck above 60 km/h: the drone warns it`, `bus out of sight -> it climbs`."""
-    told = list(atoms)
-    for i in range(1, len(told)):
-        colon = told[i].kind is AtomKind.STOP and told[i].key == ':'
-        if not colon and not (told[i].kind is AtomKind.THEN and told[i].key == '→'):
-            continue
-        begin = i
-        while begin and told[begin - 1].kind is not AtomKind.STOP:
-            begin -= 1
-        cause = told[begin:i]
-        first = skip(cause, 0)
-        if first >= len(cause) or not cause[first].is_actor:
-            continue
-        text = prompt[cause[0].start : cause[-1].end].lower()
-        gone = re.search(r'\b(?:out of (?:sight|view)|hidden|gone|invisible|occluded)$', text)
-        linked = any(a.kind is AtomKind.SUBORDINATOR for a in cause)
-        if linked or (not gone and any(a.kind is AtomKind.VERB for a in cause)):
-            continue
-        compared = any(
-            a.kind is AtomKind.PREPOSITION
-            and a.key in ('within', 'beyond', 'below', 'over')
-            and b.measure is not None
-            and b.key in (LENGTH, SPEED)
-            for a, b in pairwise(cause)
-        )
-        seen = any(a.kind is AtomKind.IN_VIEW for a in cause)
-        effect = any(a.kind is AtomKind.VERB for a in told[i + 1 : i + 6])
-        if not effect or not (gone or compared or seen):
-            continue
-        clause = cause
-        if gone:
-            word = replace(cause[-1], kind=AtomKind.VERB, key='vanish', form=VerbForm.THIRD)
-            clause = [*cause[: first + 1], replace(word, noun=None, measure=None)]
-        clause = [
-            replace(a, key='beyond') if a.kind is AtomKind.PREPOSITION and a.key == 'over' else a
-            for a in clause
-        ]
-        at = cause[0].start
-        when = Atom(kind=AtomKind.SUBORDINATOR, key='when', start=at, end=at + 1)
-        told[begin : i + 1] = [when, *clause, replace(told[i], kind=AtomKind.COMMA, key=',')]
-        return _verbless(told, prompt)
-    return told
-
-
-def _interrupted(atoms: list[Atom]) -> list[Atom]:
-    """`the car, when it has the message, yields`: the cause first."""
-    told = _asides(list(atoms))
-    for i in range(1, len(told) - 2):
-        opens = told[i].kind is AtomKind.COMMA and told[i - 1].is_actor
-        if not opens or told[i + 1].kind is not AtomKind.SUBORDINATOR or told[i + 1].key != 'when':
-            continue
-        begin = i - 1
-        while begin and told[begin - 1].kind in LOOSE:
-            begin -= 1
-        if begin and told[begin - 1].kind not in (*_ENDS, AtomKind.SUBORDINATOR):
-            continue
-        stop = next((k for k in range(i + 2, len(told)) if told[k].kind is AtomKind.COMMA), None)
-        if stop is None or any(a.kind is AtomKind.STOP for a in told[i:stop]):
-            continue
-        behind = skip(told, stop + 1, TRANSPARENT)
-        if behind < len(told) and told[behind].kind is AtomKind.VERB:
-            told[begin : stop + 1] = [*told[i + 1 : stop + 1], *told[begin:i]]
-    return told
-
-
-def _asides(atoms: list[Atom]) -> list[Atom]:
-    """`when the drone, hovering over the park, sees it, …`: what it does is told before."""
-    for i in range(1, len(atoms) - 2):
-        who, verb = atoms[i - 1], atoms[i + 1]
-        flies = verb.kind is AtomKind.VERB and verb.form is VerbForm.ING and verb.key in PHASES
-        if atoms[i].kind is not AtomKind.COMMA or not who.is_actor or not flies:
-            continue
-        stop = next((k for k in range(i + 2, len(atoms)) if atoms[k].kind is AtomKind.COMMA), None)
-        if stop is None or any(a.kind is AtomKind.STOP for a in atoms[i:stop]):
-            continue
-        behind = skip(atoms, stop + 1, TRANSPARENT)
-        if behind >= len(atoms) or atoms[behind].kind is not AtomKind.VERB:
-            continue
-        if atoms[behind].form is VerbForm.ING:
-            continue
-        begin = i - 1
-        while begin and atoms[begin - 1].kind is not AtomKind.STOP:
-            begin -= 1
-        if not any(a.kind is AtomKind.SUBORDINATOR for a in atoms[begin : i - 1]):
-            continue
-        pause = replace(atoms[i], kind=AtomKind.STOP, key=';')
-        told = [who, replace(verb, form=VerbForm.THIRD), *atoms[i + 2 : stop], pause]
-        return _asides([*atoms[:begin], *told, *atoms[begin:i], *atoms[stop + 1 :]])
-    return atoms
 
 
 def _done(atoms: list[Atom], prompt: str) -> list[Atom]:
@@ -473,7 +380,8 @@ def told_event(cause: Sequence[Atom], prompt: str) -> list[Atom] | None:
                 *cause[first + 2 :],
             ]
     event = _event(cause, 0, prompt, because=False)
-    if event is None:
-        return None
+    if event is None:  # `the drone's warning`
+        told = heard([replace(when, kind=AtomKind.BECAUSE), *cause], prompt)
+        return told if told[0].kind is AtomKind.SUBORDINATOR else None
     clause, stop = event
     return [when, *clause, *cause[stop:]]

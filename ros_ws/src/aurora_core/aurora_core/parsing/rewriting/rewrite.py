@@ -17,6 +17,7 @@ from aurora_core.parsing.measures import LENGTH, TIME
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.pieces import MOST_ATOMS, TRANSPARENT
 from aurora_core.parsing.rewriting.alike import alike, as_fast
+from aurora_core.parsing.rewriting.answers import answers
 from aurora_core.parsing.rewriting.clefts import plain_order
 from aurora_core.parsing.rewriting.conjunctions import joined
 from aurora_core.parsing.rewriting.dwells import set_off
@@ -71,6 +72,7 @@ def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
     told, background = unwrap(joined(_cast(atoms, prompt), prompt), prompt)
     told = alike(as_fast(in_turn(told, prompt), prompt), prompt)
     told = set_off(shared_out(not_before(told), prompt), prompt)
+    told = answers(told, prompt)
     told = dated(verbal(prompted(radio(told, prompt), prompt), prompt), prompt)
     told = value_statements(
         predicates(
