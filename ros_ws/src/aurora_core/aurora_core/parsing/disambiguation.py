@@ -7,6 +7,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
+from aurora_core.parsing.measures import LENGTH
 from aurora_core.parsing.morphology import VerbForm
 
 _SKIPPED = (AtomKind.FILL, AtomKind.NEGATION, AtomKind.AUXILIARY)
@@ -79,7 +80,25 @@ def _on_the_ground(atoms: list[Atom], i: int) -> bool:
     """`the police car standing by at the hospital`: who cannot hover waits."""
     before = next((a for a in reversed(atoms[:i]) if a.kind not in _BESIDE_SUBJECT), None)
     ground = (NounKind.AGENT, NounKind.VEHICLE, NounKind.EGO)
+    if before is not None and before.is_actor and before.key in ('it', 'person'):
+        before = _subject_before(atoms, i) if _may_stand(atoms, i) else None
     return before is not None and before.noun is not None and before.noun.kind in ground
+
+
+def _subject_before(atoms: list[Atom], i: int) -> Atom | None:
+    """`a police car waits there. It stays there`: who is told of in the sentence before."""
+    stops = [k for k in range(i) if atoms[k].kind is AtomKind.STOP]
+    begin = stops[-2] if len(stops) > 1 else 0
+    actors = [a for a in atoms[begin : stops[-1]] if a.is_actor] if stops else []
+    return actors[0] if actors else None
+
+
+def _may_stand(atoms: list[Atom], i: int) -> bool:
+    """`stays there`, `holds its position`; who hovers or is over something is in the air."""
+    behind = atoms[i + 1] if i + 1 < len(atoms) else None
+    over = behind is not None and behind.key in ('over', 'at', LENGTH)
+    first = atoms[i].words.split()[:1]
+    return not over and first in (['stay'], ['stays'], ['remain'], ['remains'], ['holds'])
 
 
 _BESIDE_SUBJECT = (*_SKIPPED, AtomKind.RELATIVE)

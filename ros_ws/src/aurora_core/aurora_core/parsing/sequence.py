@@ -256,7 +256,9 @@ def soon(frame: Frame, before: int) -> None:
 def _reacts(frame: Frame) -> bool:
     """`the bus brakes at 15 s, whereupon my car stops`: caused by the event in front."""
     scene = frame.scene
-    same = [c for c in scene.clauses[:-1] if c.sentence == frame.piece.sentence]
+    answers = frame.key in _ANSWERS  # `the van stops, whereupon the drone climbs to 60 m`
+    earliest = frame.piece.sentence - answers
+    same = [c for c in scene.clauses[:-1] if c.sentence >= earliest]
     told = [e for e in scene.events if any(e.id in c.ids for c in same)]
     if not frame.subject_nouns or frame.key not in (*REACTIONS, *_ANSWERS):
         return False
@@ -264,7 +266,6 @@ def _reacts(frame: Frame) -> bool:
         told = [e for e in scene.events if any(e.id in c.ids for c in same)]
     if not told:
         return False
-    answers = frame.key in _ANSWERS  # `the van stops, whereupon the drone climbs to 60 m`
     action = actions.action(frame) if answers else actions.agent_action(frame)
     if action is None:
         return False

@@ -202,7 +202,7 @@ def _message(frame: Frame) -> MessageTrigger | None:
     if refers and senders and who == senders:  # `when it has got the RSU's message`
         heard = _told_by(frame, senders[0])
         who = (heard,) if heard is not None else who
-    if len(who) != 1:
+    if len(who) != 1 or who == senders:
         return None
     return MessageTrigger(
         on='message_received', by=who[0].id, sender=senders[0].id if senders else None
@@ -234,6 +234,8 @@ def _warned(frame: Frame) -> MessageTrigger | None:
     if len(receivers) != 1:
         return None
     senders = frame.subjects() if frame.subject_nouns else ()
+    if receivers == senders:
+        return None
     return MessageTrigger(
         on='message_received', by=receivers[0].id, sender=senders[0].id if senders else None
     )

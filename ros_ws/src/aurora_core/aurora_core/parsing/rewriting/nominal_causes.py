@@ -19,7 +19,7 @@ from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.phases import PHASES
 from aurora_core.parsing.pieces import TRANSPARENT
 from aurora_core.parsing.rewriting.flight_nouns import flight_end
-from aurora_core.parsing.rewriting.in_place import interrupted, verbless
+from aurora_core.parsing.rewriting.in_place import interrupted, supposed, verbless
 from aurora_core.parsing.rewriting.message_causes import heard
 from aurora_core.spec.parameter import Bound
 
@@ -35,7 +35,7 @@ _ENDS = (AtomKind.STOP, AtomKind.COMMA, AtomKind.THEN, AtomKind.CONJUNCTION)
 
 def verbal(atoms: list[Atom], prompt: str) -> list[Atom]:
     """Return the atoms with events that are told as nouns written out as clauses."""
-    atoms = interrupted(verbless(heard(atoms, prompt), prompt))
+    atoms = interrupted(verbless(supposed(heard(atoms, prompt), prompt), prompt))
     written = _participles(_nominal(_made_to(_done(atoms, prompt), prompt), prompt), prompt)
     return [
         replace(a, kind=AtomKind.UNKNOWN)
@@ -315,6 +315,7 @@ def _made_to(atoms: list[Atom], prompt: str) -> list[Atom]:
         relative = bool(solid) and all(
             a.kind is AtomKind.RELATIVE or a.key == 'that' for a in solid
         )
+        relative = relative or _refers(cause, prompt)
         ing = changed[i].form is VerbForm.ING or changed[i].verb_form is VerbForm.ING
         if relative or (not solid and ing and begin) or _is_message(solid):
             then = replace(changed[i], kind=AtomKind.THEN, key='then', start=changed[i].start)
@@ -327,6 +328,12 @@ def _made_to(atoms: list[Atom], prompt: str) -> list[Atom]:
             changed[begin : verb + 1] = [*clause, comma, *acts]
         i += 1
     return changed
+
+
+def _refers(cause: Sequence[Atom], prompt: str) -> bool:
+    """`this makes the bus brake`: what was told before does."""
+    words = [text_of(a, prompt) for a in cause if a.kind is not AtomKind.CONJUNCTION]
+    return bool(words) and words[0] in shipped_lexicon().turns['referring'] and len(words) < 3
 
 
 def _is_message(solid: Sequence[Atom]) -> bool:
