@@ -19,7 +19,7 @@ from aurora_core.parsing.pieces import (
     flies,
     has_verb,
 )
-from aurora_core.parsing.subjects import COMPLETE
+from aurora_core.parsing.subjects import is_complete
 
 # What a UAV does next: `orbits it before it hovers over the park`.
 _PHASES = frozenset({'hover', 'track', 'orbit', 'navigate', 'land'})
@@ -169,7 +169,7 @@ def is_inverted(ahead: Sequence[Atom]) -> bool:
     if len(solid) > 3 and solid[3].measure is not None and solid[2].key == 'at':
         solid = [*solid[:2], *solid[4:]]
     if len(solid) == 2 and solid[0].kind is AtomKind.RELATION and solid[1].is_actor:
-        return solid[0].words in COMPLETE and _is_new(solid[1])  # `…, to the right a van`
+        return is_complete(solid[0].words) and _is_new(solid[1])  # `…, to the right a van`
     if len(solid) != 3 or solid[0].kind is not AtomKind.RELATION:
         return False
     known = solid[1].noun

@@ -188,7 +188,8 @@ def _changes(known: Attempt) -> Iterator[_Change]:
 def _binds(sentence: Sequence[Atom], i: int) -> bool:
     """Return whether the sentence would say something else without this word."""
     atom = sentence[i]
-    if atom.words in _TURNS_ROUND:
+    more = atom.words.endswith('than') and sentence[max(0, i - 1)].measure is not None
+    if atom.words in _TURNS_ROUND or more:  # `5 m/s faster than the ego`
         return True
     behind = sentence[min(len(sentence) - 1, i + 1)]
     if atom.kind is AtomKind.COMMA and behind.kind is AtomKind.UNKNOWN:

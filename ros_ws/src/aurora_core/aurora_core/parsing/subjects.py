@@ -11,34 +11,17 @@ from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind, Noun
 
 _SILENT = (AtomKind.FILL, AtomKind.AUXILIARY, AtomKind.CONJUNCTION, AtomKind.FRAME)
 _GOVERNORS = (AtomKind.PREPOSITION, AtomKind.RELATION, AtomKind.COMPASS)
-# Relations that take no noun of their own: `30 m ahead a van is parked`.
-COMPLETE = frozenset(
-    {
-        'ahead',
-        'up ahead',
-        'in front',
-        'further ahead',
-        'straight ahead',
-        'just ahead',
-        'up front',
-        'to the rear',
-        'at the rear',
-        'at the back',
-        'further behind',
-        'to the left',
-        'to the right',
-        'on the left',
-        'on the right',
-        'to its left',
-        'to its right',
-        'on its left',
-        'on its right',
-        'in the next lane',
-        'in the adjacent lane',
-        'nearby',
-        'from behind',
-    }
+# Relations that take no noun of their own end so: `30 m ahead a van is parked`.
+_LAST = frozenset(
+    {'ahead', 'front', 'rear', 'back', 'left', 'right', 'side', 'lane', 'direction', 'carriageway'}
+    | {'way', 'road', 'street', 'nearby'}
 )
+_WHOLE = frozenset({'further behind', 'farther behind', 'from behind'})
+
+
+def is_complete(words: str) -> bool:
+    """Return whether a relation needs no noun: `to the left`, `in the opposite direction`."""
+    return words in _WHOLE or words.rpartition(' ')[2] in _LAST
 
 
 def split_subject(
@@ -63,7 +46,7 @@ def split_subject(
             subjects.append(atom.noun)
             continue
         if atom.kind in _GOVERNORS:
-            waiting, governed = not _is_complete(before, i, prompt), False
+            waiting, governed = not _stands_alone(before, i, prompt), False
         elif atom.noun is not None:
             shared = conjunction and governed  # `between the van and the ego`
             actor = atom.is_actor or atom.noun.kind is NounKind.UNKNOWN
@@ -89,10 +72,10 @@ def _before_relative(rest: list[Atom]) -> tuple[list[NounPhrase], list[Atom]]:
     return [], rest
 
 
-def _is_complete(before: Sequence[Atom], i: int, prompt: str) -> bool:
+def _stands_alone(before: Sequence[Atom], i: int, prompt: str) -> bool:
     """`to the rear there is`, `ahead a police car is`: who is new cannot be what it relates to."""
     word = before[i]
-    if text_of(word, prompt) not in COMPLETE:
+    if not is_complete(text_of(word, prompt)):
         return False
     noun = next((a.noun for a in before[i + 1 :] if a.kind not in _SILENT), None)
     new = (Determiner.INDEFINITE, Determiner.ONE)

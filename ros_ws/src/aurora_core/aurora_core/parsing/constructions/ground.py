@@ -14,7 +14,7 @@ from aurora_core.parsing.constructions.places import (
     place_of,
     placements_of,
 )
-from aurora_core.parsing.constructions.spacing import column
+from aurora_core.parsing.constructions.spacing import column, fill_in
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.pronouns import ground
@@ -375,6 +375,10 @@ def _placements(
             wanted = Relation.AHEAD
     if target is not None and _is_placed(frame, subjects, target):
         wanted = None
+        other = frame.scene.by_id(target)
+        distance = gap(frame) if other is not None and not made else None
+        if other is not None and distance is not None:  # of the one who is placed
+            fill_in((other,), {other.id, subjects[0].id}, distance)
     place = target if target is not None else _place_told(frame)
     free = closing is not None and not made and frame.scene.by_id(place or '') is None
     if free and place is not None:  # `approaches the junction from 50 m away`

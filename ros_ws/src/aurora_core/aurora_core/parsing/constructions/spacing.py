@@ -143,7 +143,7 @@ def _is_kept(frame: Frame, value: Adjunct) -> bool:
         relation = Relation.AHEAD if side is not None and side.key == 'behind' else Relation.BEHIND
         relation = Relation.NEAR if frame.key == 'contain' and side is None else relation
         _beside_whom(frame, who[0], others[0], relation)
-    if not _fill(who + others, {e.id for e in who + others} if others else None, distance):
+    if not fill_in(who + others, {e.id for e in who + others} if others else None, distance):
         return False
     for adjunct in (value, side, *phrases):
         if adjunct is not None:
@@ -166,7 +166,7 @@ def _beside_whom(frame: Frame, one: Entity, other: Entity, relation: Relation) -
         one.placements.append(made)
 
 
-def _fill(about: tuple[Entity, ...], ids: set[str] | None, distance: Parameter) -> bool:
+def fill_in(about: tuple[Entity, ...], ids: set[str] | None, distance: Parameter) -> bool:
     """Give the distance to the first placement that has none; of a pair, if one is named."""
     for entity in about:
         for i, known in enumerate(entity.placements):
@@ -206,7 +206,7 @@ def _set(frame: Frame, ends: tuple[Entity, ...], distance: Parameter) -> bool:
     ids = {e.id for e in ends} or None
     for clause in reversed(frame.scene.clauses[:-1]):
         for entity in (*clause.subjects, *clause.objects):
-            if _fill((entity,), ids, distance):
+            if fill_in((entity,), ids, distance):
                 frame.scene.became(entity.id)
                 return True
         if not ids and clause.subjects:

@@ -79,7 +79,8 @@ def _drives(atoms: Sequence[Atom], verb: int) -> bool:
 
 def placing_words(atoms: Sequence[Atom]) -> list[Atom]:
     """Write out what is left unsaid of places."""
-    return _back(_bare_places(_lane_numbers(_in_between(_headed(_themselves(atoms))))))
+    told = _sides_of(_neighbours(_themselves(atoms)))
+    return _back(_bare_places(_lane_numbers(_in_between(_headed(told)))))
 
 
 def _themselves(atoms: Sequence[Atom]) -> list[Atom]:
@@ -88,11 +89,66 @@ def _themselves(atoms: Sequence[Atom]) -> list[Atom]:
     for atom in atoms:
         before = kept[-1] if kept else None
         again = atom.is_actor and atom.words in _ITSELF
-        if again and before is not None and before.is_actor:
+        if again and before is not None and (before.is_actor or before.kind is AtomKind.RELATIVE):
             kept.append(replace(atom, kind=AtomKind.FILL, noun=None))
         else:
             kept.append(atom)
     return kept
+
+
+def _sides_of(atoms: Sequence[Atom]) -> list[Atom]:
+    """`on the ego's left`, `to the van's rear`: to the left of the ego."""
+    told = list(atoms)
+    for i in range(len(told) - 3):
+        prep, whose, mark, side = told[i : i + 4]
+        key = _SIDES.get(side.words)
+        if prep.kind is not AtomKind.PREPOSITION or not whose.is_actor or key is None:
+            continue
+        stop = i + 4
+        while stop < len(told) and told[stop].words in _SIDE_WORDS:
+            stop += 1
+        of_whom = whose.noun is not None and whose.noun.kind is not NounKind.PRONOUN
+        if mark.words not in _OWN or not of_whom or _goes_on(told[stop : stop + 1]):
+            continue
+        beside = replace(prep, kind=AtomKind.RELATION, key=key, words=f'to the {side.words} of')
+        filled = [replace(a, kind=AtomKind.FILL) for a in told[i + 2 : stop]]
+        told[i:stop] = [beside, whose, *filled]
+    return told
+
+
+def _goes_on(atoms: Sequence[Atom]) -> bool:
+    """Return whether the word is no noun yet: `on the ego's left lane`."""
+    return any(a.kind is AtomKind.UNKNOWN or a.noun is not None for a in atoms) and not any(
+        a.is_actor for a in atoms
+    )
+
+
+def _neighbours(atoms: Sequence[Atom]) -> list[Atom]:
+    """`the ego's left-hand neighbour is a van`: the van is to the left of the ego."""
+    told = list(atoms)
+    for i in range(len(told) - 4):
+        whose, mark = told[i], told[i + 1]
+        if not whose.is_actor or mark.words not in _OWN or told[i + 2].words not in _SIDES:
+            continue
+        k = i + 3
+        while k < len(told) and told[k].words in _SIDE_WORDS:
+            k += 1
+        be, new = told[k + 1 : k + 2], told[k + 2 : k + 3]
+        named = k < len(told) and told[k].words in _NEIGHBOURS and bool(new) and new[0].is_actor
+        if not named or be[0].key != 'be':
+            continue
+        side = told[i + 2]
+        beside = replace(
+            side, kind=AtomKind.RELATION, key=_SIDES[side.words], words=f'to the {side.words} of'
+        )
+        told[i : k + 3] = [new[0], be[0], beside, whose]
+    return told
+
+
+_OWN = ("'s", "'", '’s')
+_SIDES = {'left': 'left', 'right': 'right', 'rear': 'behind', 'back': 'behind', 'front': 'ahead'}
+_SIDE_WORDS = ('hand', 'side', 'flank')
+_NEIGHBOURS = ('neighbour', 'neighbor')
 
 
 def _headed(atoms: Sequence[Atom]) -> list[Atom]:

@@ -33,6 +33,10 @@ def _own_types(atoms: list[Atom]) -> list[Atom]:
         own = own and not governed  # `the vehicle ahead of the ego is a bus`
         if own and noun is not None and noun.kind is NounKind.AGENT and not noun.plural:
             new = noun.determiner in (Determiner.INDEFINITE, Determiner.ONE)
+            if link.key == ':' and (
+                new or noun.determiner is Determiner.BARE
+            ):  # `ego: van, 9 m/s`
+                link, new = replace(link, kind=AtomKind.COMMA), True
             behind = atoms[i + 3] if i + 3 < len(atoms) else None
             ends = behind is None or behind.kind is AtomKind.STOP
             apposed = link.kind is AtomKind.COMMA and not ends
@@ -55,6 +59,9 @@ def _apposed(atoms: list[Atom]) -> list[Atom]:
     while i + 2 < len(atoms):
         about, link, told = atoms[i : i + 3]
         opens = i == 0 or atoms[i - 1].kind is AtomKind.STOP
+        governed = i > 0 and atoms[i - 1].kind in (AtomKind.RELATION, AtomKind.PREPOSITION)
+        named = about.noun is not None and about.noun.index > 0
+        opens = opens or (governed and named)  # `20 m in front of vehicle B, a truck`
         apart = link.kind is AtomKind.COMMA or link.key in (':', '(', '=')
         behind = atoms[i + 3] if i + 3 < len(atoms) else None
         ends = behind is None or behind.kind in (AtomKind.COMMA, AtomKind.STOP, AtomKind.FILL)
