@@ -174,10 +174,19 @@ class StandInReader:
                 for _, senses in self._said.matches(j - 1):
                     for sense in senses:
                         if sense.tag in (Tag.UAV, Tag.AGENT, Tag.VEHICLE):
-                            name = self._said.words[j].lower()
-                            self._letters[name] = (NOUN_KINDS[sense.tag], sense.key)
+                            for name in self._listed_at(j):
+                                self._letters[name] = (NOUN_KINDS[sense.tag], sense.key)
             self._letters = self._letters or self._listed_letters()
         return self._letters
+
+    def _listed_at(self, j: int) -> list[str]:
+        """`drones A, B and C`: all letters of the list that begins here."""
+        words, tokens = self._said.words, self._said.tokens
+        names = [words[j].lower()]
+        while j + 2 < len(words) and words[j + 1] in (',', 'and', '&') and tokens[j + 2].capital:
+            j += 2
+            names.append(words[j].lower())
+        return names
 
     def _listed_letters(self) -> dict[str, tuple[NounKind, str]]:
         """`3 uavs: A hover … / B patrol … / C track …`: letters in order, and only UAVs about."""

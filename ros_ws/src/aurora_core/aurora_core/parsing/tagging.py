@@ -205,7 +205,8 @@ def _is_name(tokens: Sequence[Token], words: Sequence[str], i: int, lexicon: Lex
     others = any(t.capital and t.norm == 'b' for t in tokens)
     acting = lexicon.longest_of(words, i + 1, (Tag.VERB, Tag.AUXILIARY))
     finite = acting is not None and acting[1].form in (VerbForm.THIRD, VerbForm.BASE)
-    return others and finite
+    placed = lexicon.longest_of(words, i + 1, (Tag.PREPOSITION,)) is not None
+    return others and (finite or placed)
 
 
 def _is_short_uav(tokens: Sequence[Token], i: int) -> bool:
