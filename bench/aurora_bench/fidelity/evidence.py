@@ -15,6 +15,7 @@ from aurora_bench.prompts.format import (
     AgentRequirement,
     AnnotatedPrompt,
     AnyOfRequirement,
+    OrderRequirement,
     Requirement,
     UavRequirement,
 )
@@ -84,9 +85,10 @@ def evidence(
         fields: Names as `RequirementScore.fields` has them.
         clauses: Of the answer.
     """
-    kinds = _kinds(prompt)
-    asked = set(_values(requirement, kinds, fields))
-    every = set(_values(requirement, kinds))
+    every = _all_values(prompt, requirement)
+    asked = every
+    if not isinstance(requirement, OrderRequirement):
+        asked = set(_values(requirement, _kinds(prompt), fields))
     weights = [(_weight(asked, c.text), _weight(every, c.text)) for c in clauses]
     most = max(weights, default=(0, 0))
     return tuple(c for c, w in zip(clauses, weights, strict=True) if w == most and any(w))
@@ -94,7 +96,17 @@ def evidence(
 
 def speaks_of(prompt: AnnotatedPrompt, requirement: Requirement, text: str) -> bool:
     """Tell whether a text holds a number or a word of a requirement."""
-    return _weight(set(_values(requirement, _kinds(prompt))), text) > 0
+    return _weight(_all_values(prompt, requirement), text) > 0
+
+
+def _all_values(prompt: AnnotatedPrompt, requirement: Requirement) -> set[str | float]:
+    """Return what a requirement says; an order says what the events and missions of it say."""
+    told: list[Requirement] = [requirement]
+    if isinstance(requirement, OrderRequirement):
+        refs = (requirement.first, requirement.then)
+        told += [r for r in prompt.requirements if getattr(r, 'ref', None) in refs]
+    kinds = _kinds(prompt)
+    return {value for one in told for value in _values(one, kinds)}
 
 
 def _kinds(prompt: AnnotatedPrompt) -> dict[str, str]:

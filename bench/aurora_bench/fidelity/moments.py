@@ -48,7 +48,8 @@ def _causes(event: Event, spec: ScenarioSpec) -> set[str]:
     if isinstance(trigger, EventDoneTrigger):
         return {trigger.event}
     if isinstance(trigger, MissionDoneTrigger):
-        return {m.id for m in spec.missions if m.uav == trigger.uav}
+        # It comes true as the landing begins.
+        return {*(m.id for m in spec.missions if m.uav == trigger.uav), landing_of(trigger.uav)}
     if isinstance(trigger, MessageTrigger):
         return {
             other.id

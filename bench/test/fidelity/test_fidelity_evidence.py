@@ -14,6 +14,7 @@ PARTS = (
     'Q1 is a quadcopter that stays closer than 40 m to the van',
     'its share is at least 95 %',
     'a copter and a lorry keep the peace',
+    'it lands before the lorry brakes',
 )
 TEXT = '; '.join(PARTS)
 PROMPT = AnnotatedPrompt.model_validate(
@@ -26,6 +27,9 @@ PROMPT = AnnotatedPrompt.model_validate(
             {'id': 'r3', 'kind': 'agent', 'ref': 'z', 'type': 'truck'},
             {'id': 'r4', 'kind': 'condition', 'quantity': 'distance', 'of': ['x', 'y'],
              'op': '<=', 'value': 40, 'fraction': 0.95},
+            {'id': 'r6', 'kind': 'event', 'ref': 'e1', 'action': {'do': 'land', 'uav': 'x'}},
+            {'id': 'r7', 'kind': 'event', 'ref': 'e2', 'action': {'do': 'brake', 'agent': 'z'}},
+            {'id': 'r8', 'kind': 'order', 'first': 'e1', 'then': 'e2'},
             {'id': 'r5', 'kind': 'condition', 'quantity': 'altitude', 'of': ['x', 'z'],
              'op': '<=', 'value': 77},
         ],
@@ -50,8 +54,9 @@ CLAUSES = tuple(
         ('r4', ('fraction',), PARTS[1:2]),
         ('r4', ('of', 'value', 'fraction'), PARTS[:1]),
         ('r4', ('op',), PARTS[:1]),
-        ('r5', ('of',), PARTS[2:]),
+        ('r5', ('of',), PARTS[2:3]),
         ('r3', ('type',), PARTS[2:]),
+        ('r8', ('then',), PARTS[3:]),
     ],
 )
 def test_the_clause_of_the_missed_fields(
