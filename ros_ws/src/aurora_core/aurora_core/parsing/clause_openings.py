@@ -19,7 +19,7 @@ ALONE = frozenset(
     {'brake', 'stop', 'start', 'slow', 'accelerate', 'change_lane', 'yield', 'appear', 'vanish'}
 )
 # What is over in a moment.
-_MOMENTARY = frozenset(
+MOMENTARY = frozenset(
     {
         *('reach', 'stop', 'brake', 'see', 'lose', 'appear', 'vanish', 'receive', 'step_onto'),
         *('start', 'exceed', 'fall_below', 'land', 'finish', 'alert'),
@@ -57,7 +57,7 @@ def plain_prepositions(atoms: list[Atom]) -> list[Atom]:
 def _at_once(ahead: Sequence[Atom]) -> bool:
     """`as the car arrives, …`: what is over in a moment is no background of the effect."""
     verb = next((a for a in ahead if a.kind is AtomKind.VERB), None)
-    told = verb is not None and verb.key in _MOMENTARY and verb.form is not VerbForm.ING
+    told = verb is not None and verb.key in MOMENTARY and verb.form is not VerbForm.ING
     return told and any(a.is_actor for a in ahead)
 
 

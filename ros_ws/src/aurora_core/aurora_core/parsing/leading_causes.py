@@ -51,6 +51,9 @@ def leading(story: Story, piece: Piece, following: Piece) -> None:
     if frame.has_mark(AtomKind.MESSAGE.value) and not frame.subject_nouns:
         # `once the message has arrived, the ego slows`: with whom, is said behind
         frame.subject_nouns = Frame(following, story.scene, story.resolver).subject_nouns
+    if frame.key == 'alert' and not frame.subject_nouns:  # `only if warned does the ego brake`
+        told = story.resolver.actors(Frame(following, story.scene, story.resolver).subject_nouns)
+        frame.heir = told[0] if len(told) == 1 else None
     named_later(story, frame, following)
     delay = delay_of(frame)
     found = cause(frame) or again(story, frame)

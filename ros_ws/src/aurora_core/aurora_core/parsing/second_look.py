@@ -20,6 +20,7 @@ from aurora_core.parsing.attempt import Attempt, attempt
 from aurora_core.parsing.joint_causes import is_joint_word
 from aurora_core.parsing.measures import LENGTH
 from aurora_core.parsing.new_clauses import is_placed
+from aurora_core.parsing.reactions import REACTIONS
 from aurora_core.parsing.scene import ClauseDraft
 from aurora_core.spec.parameter import Span
 from aurora_core.spec.vocabulary import ClauseStatus
@@ -73,6 +74,10 @@ _TURNS_ROUND = frozenset(
 )
 # Without them a sentence may still be read, but as one that says something else.
 _WEIGHTY = (AtomKind.VERB, AtomKind.PATTERN, AtomKind.STATE)
+# What happens: without its verb the rest of a sentence is no event and must be nothing else.
+_HAPPENINGS = frozenset(
+    {*REACTIONS, 'lose', 'see', 'vanish', 'appear', 'receive', 'land', 'alert'}
+)
 _WEIGHT = 3  # words that leaving out one of them must open beside those that any word must
 # Pronouns for others than who was spoken of last.
 _OTHERS = ('rest', 'other', 'another', 'both')
@@ -177,6 +182,8 @@ def _changes(known: Attempt) -> Iterator[_Change]:
             if worth_asking and (weighty or kind is NounKind.PRONOUN):
                 rank = None
             if far and kind not in _FAR:
+                rank = None
+            if atom.kind is AtomKind.VERB and atom.key in _HAPPENINGS:
                 rank = None
             if rank is not None and not _binds(sentence, i):
                 weight = _WEIGHT if weighty else 0

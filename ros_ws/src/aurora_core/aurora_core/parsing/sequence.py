@@ -393,7 +393,7 @@ def is_arrival(piece: Piece) -> bool:
     """Return whether a clause only tells that a ground agent gets somewhere."""
     verb = next((a for a in piece.atoms if a.kind is AtomKind.VERB), None)
     first = first_solid(piece.atoms)
-    told = piece.link is Link.MAIN and verb is not None and verb.key == 'reach'
+    told = piece.link is Link.MAIN and verb is not None and verb.key in ('reach', 'step_onto')
     grounded = first is not None and first.noun is not None and first.noun.kind in _GROUND
     return told and grounded and any(a.is_place for a in piece.atoms)
 

@@ -111,5 +111,5 @@ class Story:
     def _cast(self, frame: Frame) -> None:
         """Whoever a clause names takes part, also when it was not understood what they do."""
         named = [n for n in frame.nouns() if n.kind in _TAKE_PART and n.key not in _SPEAKER]
-        if not frame.negated:
+        if not frame.negated or frame.key == 'lose':  # who is not lost is there
             self.resolver.actors(named)

@@ -173,8 +173,11 @@ def _sight(frame: Frame) -> VisibilityTrigger | None:
 def _message(frame: Frame) -> MessageTrigger | None:
     told = [e.action.receiver for e in frame.scene.events if isinstance(e.action, SendMessage)]
     warned = frame.verb is not None and frame.verb.form is VerbForm.PAST
-    if frame.key == 'alert' and warned and not frame.subject_nouns and told and not frame.passive:
-        return MessageTrigger(on='message_received', by=told[-1], sender=None)  # `once warned`
+    if frame.key == 'alert' and warned and not frame.subject_nouns and not frame.passive:
+        heir = frame.inherited() if not told and not frame.adjuncts else ()
+        by = told[-1] if told else heir[0].id if len(heir) == 1 else None
+        if by is not None:  # `once warned`
+            return MessageTrigger(on='message_received', by=by, sender=None)
     if frame.key == 'alert' and frame.passive:
         return _warned(frame)
     has_it = frame.key in ('contain', 'come') and _gets_it(frame, told)

@@ -223,7 +223,8 @@ def who_moves(frame: Frame, who: tuple[Entity, ...]) -> tuple[Entity, ...]:
         return who
     flown = frame.scene.missions_of(who[0])[-1:]
     tracks = flown and flown[0].mode is MissionMode.TRACK and flown[0].target is not None
-    target = frame.scene.by_id(str(flown[0].target)) if tracks else None
+    told = frame.scene.reported.get(who[0].id)  # `reports the truck when it goes faster than …`
+    target = frame.scene.by_id(told or str(flown[0].target)) if told or tracks else None
     if target is None or target.is_uav:
         return who
     frame.scene.clause.subjects = (target,)

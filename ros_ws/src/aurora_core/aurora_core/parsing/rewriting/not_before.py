@@ -20,7 +20,9 @@ from aurora_core.parsing.reactions import REACTIONS
 
 _WAITS = ('before', 'until', 'unless')
 _CAUSES = ('when', 'after')
-_BEGINS = frozenset({*REACTIONS, *FLOWN, 'drive', 'walk', 'land', 'ascend', 'send', 'alert'})
+_BEGINS = frozenset(
+    {*REACTIONS, *FLOWN, 'drive', 'walk', 'land', 'ascend', 'send', 'alert', 'report'}
+)
 _EARLIER = ('before', 'earlier', 'sooner', 'before that', 'any earlier', 'any sooner', 'b4')
 _PAUSES = (AtomKind.COMMA, AtomKind.CONJUNCTION, AtomKind.RELATIVE)
 

@@ -5,11 +5,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
-from aurora_core.parsing.atom_runs import skip
+from aurora_core.parsing.atom_runs import HELPERS, skip
 from aurora_core.parsing.atoms import Atom, AtomKind
-from aurora_core.parsing.clause_openings import ALONE
+from aurora_core.parsing.clause_openings import ALONE, MOMENTARY
 from aurora_core.parsing.lexicon import shipped_lexicon
+from aurora_core.parsing.morphology import VerbForm
 
 _BREAKS = (AtomKind.COMMA, AtomKind.STOP, AtomKind.THEN, AtomKind.CONJUNCTION)
 _OPENS_CLAUSE = (*_BREAKS, AtomKind.SUBORDINATOR, AtomKind.FRAME, AtomKind.RELATIVE)
@@ -18,7 +20,7 @@ _REACTING = ('thereupon', 'consequently', 'accordingly', 'subsequently', 'therea
 
 def in_front(atoms: list[Atom]) -> list[Atom]:
     """`and the ego then stops`: in sequence, wherever the word stands."""
-    moved = list(atoms)
+    moved = _consequences(atoms)
     for i in range(1, len(moved)):
         if (
             _ends_clause(moved, i)
@@ -39,6 +41,37 @@ def in_front(atoms: list[Atom]) -> list[Atom]:
         if worded and moved[i - 1].is_actor and verbal and _acts_anew(moved, i - 1):
             moved[i - 1], moved[i] = moved[i], moved[i - 1]
     return moved
+
+
+def _consequences(atoms: list[Atom]) -> list[Atom]:
+    """`the van stopped, so the drone landed`, `…, and the drone at once told the bus`: then."""
+    written: list[Atom] = []
+    caused = happened = False  # in this sentence; in the clause in front
+    for i, atom in enumerate(atoms):
+        if atom.kind is AtomKind.STOP:
+            caused = happened = False
+        caused = caused or atom.kind is AtomKind.SUBORDINATOR
+        joined = bool(written) and written[-1].kind in (AtomKind.COMMA, AtomKind.CONJUNCTION)
+        if joined and happened and not caused and _follows(atoms, i):
+            so = replace(atom, kind=AtomKind.THEN, key='then')
+            written.append(so if atom.words == 'so' else replace(so, end=so.start + 1))
+            if atom.words == 'so':
+                continue
+        if atom.kind is AtomKind.VERB:
+            happened = atom.key in MOMENTARY and atom.form is not VerbForm.ING
+        written.append(atom)
+    return written
+
+
+def _follows(atoms: list[Atom], i: int) -> bool:
+    """Return whether a clause begins here that says that it follows from the one in front."""
+    who = i + 1 if atoms[i].words == 'so' else i
+    if who + 1 >= len(atoms) or not atoms[who].is_actor:
+        return False
+    verb = skip(atoms, who + 1, HELPERS)
+    told = verb < len(atoms) and atoms[verb].kind is AtomKind.VERB
+    at_once = shipped_lexicon().turns['at_once']
+    return told and (who > i or any(a.words in at_once for a in atoms[who + 1 : verb + 3]))
 
 
 def _ends_clause(atoms: Sequence[Atom], i: int) -> bool:
