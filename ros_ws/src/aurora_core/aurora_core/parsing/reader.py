@@ -27,7 +27,7 @@ from aurora_core.parsing.effects import (
 from aurora_core.parsing.joint_causes import joint_causes, second_cause
 from aurora_core.parsing.leading_causes import leading
 from aurora_core.parsing.main_clause import main_clause
-from aurora_core.parsing.mission_changes import changes_mission
+from aurora_core.parsing.mission_changes import changes_mission, starts_late
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.named_later import acts_later, named_later
 from aurora_core.parsing.pieces import Link, Piece, first_solid
@@ -230,6 +230,7 @@ class Reader:
             in_sequence(frame, before)
             after_others(frame, flown, self._story.before)
             changes_mission(frame, flown, before)
+            starts_late(self._story, flown)
             earlier_phase(frame, flown)
             soon(frame, before)
             after_sight(self._story.scene, before, self._story.seen)

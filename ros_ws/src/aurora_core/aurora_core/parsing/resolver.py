@@ -229,6 +229,10 @@ class Resolver:
         members = [e for e in self._scene.entities if like.group and e.group == like.group]
         if noun.head_text.startswith('its') and members:
             return (members[-1],)  # `two drones …, one …, its partner …`
+        free = [e for e in members if not e.assigned]
+        if free and len(free) < len(members):  # `three drones: one …, another …`
+            free[0].assigned = True
+            return (free[0],)
         return self._like(like, Span(start=noun.start, end=noun.end))
 
     def _like(self, like: Entity, span: Span) -> tuple[Entity, ...]:

@@ -71,6 +71,10 @@ def settle(scene: Scene) -> None:
             until.event.action = UavAction(
                 do='change_mission', uav=after[0].uav.id, mission=after[0].id
             )
+            if until.only_waits and phases[0] is until.mission:
+                scene.drop_mission(
+                    until.mission, until.event
+                )  # `waits until it is done, then hovers there`
     for draft in tuple(scene.missions):
         if draft.needs_target and draft.target is None:
             _infer_target(scene, draft)

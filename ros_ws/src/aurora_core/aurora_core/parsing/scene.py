@@ -118,10 +118,15 @@ class EventDraft:
 
 @dataclass(slots=True, kw_only=True, eq=False)
 class UntilDraft:
-    """`tracks the bus until it stops`: the phase and the event that will end it."""
+    """`tracks the bus until it stops`: the phase and the event that will end it.
+
+    Attributes:
+        only_waits: Nothing is said of the phase but that the UAV waits.
+    """
 
     mission: MissionDraft
     event: EventDraft
+    only_waits: bool = False
 
 
 @dataclass(slots=True, kw_only=True, eq=False)
@@ -249,6 +254,14 @@ class Scene:
     def missions_of(self, uav: Entity) -> list[MissionDraft]:
         """Return the phases of one UAV in order."""
         return [m for m in self.missions if m.uav is uav]
+
+    def drop_mission(self, mission: MissionDraft, event: EventDraft) -> None:
+        """Leave out a phase that only said when an event lets the next one begin."""
+        self.missions.remove(mission)
+        for clause in self.clauses:
+            if mission.id in clause.ids:
+                del clause.ids[mission.id]
+                clause.ids[event.id] = None
 
     # --- clauses ------------------------------------------------------------------------------
 

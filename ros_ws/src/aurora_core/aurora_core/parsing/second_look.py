@@ -83,6 +83,7 @@ _WEIGHT = 3  # words that leaving out one of them must open beside those that an
 _OTHERS = ('rest', 'other', 'another', 'both')
 # Verbs that say little: what stands beside them is the predicate.
 _LIGHT = frozenset({'be', 'keep', 'put', 'come', 'exist', 'contain', ''})
+_OF_PATTERNS = ('radius', 'diameter', 'length', 'width', 'sides')
 # Between a name and its number.
 _INSIDE = (AtomKind.FILL, AtomKind.PREPOSITION, AtomKind.AUXILIARY)
 # Left out without a word about it.
@@ -225,7 +226,7 @@ def _names_number(sentence: Sequence[Atom], i: int) -> bool:
 
 def _names_number(sentence: Sequence[Atom], i: int) -> bool:
     """`radius of 40 m`, `60 m width`: without its name, a length is a height or a distance."""
-    if sentence[i].kind is not AtomKind.THING or sentence[i].key == 'separation':
+    if sentence[i].kind is not AtomKind.THING or sentence[i].key not in _OF_PATTERNS:
         return False
     ahead = next((a for a in sentence[i + 1 :] if a.kind not in _INSIDE), None)
     beside = (ahead, sentence[i - 1] if i else None)

@@ -42,6 +42,19 @@ class HeldCause:
     delay: Parameter | None
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LateStart:
+    """`must not begin its task before drone A is done`: what a UAV's first phase waits for.
+
+    Attributes:
+        cause: What it was understood as.
+        clauses: Those that say so, which are not understood when no phase follows.
+    """
+
+    cause: Cause
+    clauses: tuple[ClauseDraft, ...]
+
+
 # Nouns that name somebody, and nobody who has to be looked for.
 _TAKE_PART = (NounKind.AGENT, NounKind.UAV, NounKind.EGO)
 
@@ -57,6 +70,7 @@ class Story:
         seen: What a UAV saw by the clause in front, when it tells so.
         before: The clause in front.
         last: The last event that a leading cause started, and the number of its sentence.
+        late: What the first phase of a UAV waits for, by its id.
     """
 
     def __init__(self, scene: Scene) -> None:
@@ -67,6 +81,7 @@ class Story:
         self.seen: VisibilityTrigger | None = None
         self.before: Piece | None = None
         self.last: tuple[EventDraft, int] | None = None
+        self.late: dict[str, LateStart] = {}
 
     def drop_held(self, sentence: int) -> None:
         """A cause whose effect never came was not understood."""

@@ -108,8 +108,8 @@ def tokenize(text: str) -> tuple[Token, ...]:
             )
         elif kind == 'word':
             words = _words(piece.lower().replace('’', "'"), start, end, glued)
-            if len(piece) == 1 and piece.isupper():
-                words = [replace(words[0], capital=True)]
+            if len(words[0].norm) == 1 and piece[0].isupper():  # `drone B's task`
+                words[0] = replace(words[0], capital=True)
             elif piece[0].isupper():
                 words[0] = replace(words[0], proper=True, upper=piece.isupper())
             raw += words

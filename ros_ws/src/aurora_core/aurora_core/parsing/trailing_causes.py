@@ -17,6 +17,7 @@ from aurora_core.parsing.effects import told_to
 from aurora_core.parsing.events import complete_event, settled
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.main_clause import main_clause, shared_words
+from aurora_core.parsing.mission_changes import begins_late
 from aurora_core.parsing.pieces import Link, Piece
 from aurora_core.parsing.pronouns import airborne
 from aurora_core.parsing.scene import ClauseDraft, EventDraft, MissionDraft, UntilDraft
@@ -52,7 +53,12 @@ def effect_then_cause(story: Story, piece: Piece, because: Piece) -> None:
         story.close(second)
         return
     delay = delay_of(second)
-    found = (cause(second) or again(story, second)) if action is not None else None
+    late = action is None and frame.key == 'start'
+    found = (cause(second) or again(story, second)) if action is not None or late else None
+    both = (effect_clause, story.scene.clause)
+    if late and begins_late(story, frame, found, both):
+        story.close(second)
+        return
     found = _about_the_told(story, second, found, action)
     if found is None or action is None:
         if action is not None:
@@ -150,7 +156,9 @@ def _until(story: Story, frame: Frame, because: Piece) -> None:
             action = UavAction(do='land', uav=mission.uav.id)
             event = complete_event(scene, found, action, frame.span, ())
             if event is not None:
-                scene.untils.append(UntilDraft(mission=mission, event=event))
+                waits = frame.key == 'wait' and mission.target is None and mission.altitude is None
+                until = UntilDraft(mission=mission, event=event, only_waits=waits)
+                scene.untils.append(until)
     elif found is not None:
         # `waits until it is green`: then it goes; `drives until the bus brakes`: then it stops
         last = agents[0].behaviors[-1].kind if agents[0].behaviors else None

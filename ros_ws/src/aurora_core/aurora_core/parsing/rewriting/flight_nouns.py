@@ -10,8 +10,10 @@ from dataclasses import replace
 
 from aurora_core.parsing.atom_runs import HELPERS, LOOSE, runs, skip
 from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind
+from aurora_core.parsing.lexicon import shipped_lexicon
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.phases import FLOWN, PHASES
+from aurora_core.parsing.pieces import flies
 from aurora_core.parsing.rewriting.nominal import act_nouns
 
 _FLIGHTS = PHASES | {'navigate', 'orbit'}
@@ -27,7 +29,7 @@ _BREAKS_OFF = frozenset({'break_off', 'stop', 'finish', 'keep'})
 def flights(atoms: Sequence[Atom]) -> list[Atom]:
     """Return the atoms with flights as such, and without the end that the next one implies."""
     ordered = [a for told, stop in runs(atoms, AtomKind.STOP) for a in _ordered(told, stop)]
-    named = _sized(_centred(_owned(_on_the_way(ordered))))
+    named = _sized(_centred(_owned(_on_the_way(_tasks(ordered)))))
     return _broken_off(_after_that(_patrols(named)))
 
 
@@ -47,6 +49,29 @@ def _ordered(atoms: list[Atom], stop: Atom | None) -> list[Atom]:
     then = replace(atoms[first], kind=AtomKind.THEN, key='then')
     later = [replace(atoms[verb], form=VerbForm.THIRD), *atoms[verb + 1 : pause]]
     return [*atoms[:first], *atoms[pause + 1 :], atoms[pause], then, *later, *end]
+
+
+def _tasks(atoms: list[Atom]) -> list[Atom]:
+    """`the task of drone B is a patrol`: drone B is to patrol."""
+    for i in range(len(atoms) - 2):
+        of = skip(atoms, i + 1)
+        who = skip(atoms, of + 1)
+        be = skip(atoms, who + 1, HELPERS)
+        is_verb = be < len(atoms) and atoms[be].kind is AtomKind.VERB and atoms[be].key == 'be'
+        flown = skip(atoms, be + 1) if is_verb else be
+        task = atoms[i].words in shipped_lexicon().turns['tasks'] and atoms[i].noun is None
+        if not task or flown >= len(atoms) or atoms[of].words != 'of' or not flies(atoms[who]):
+            continue
+        said = any(a.key in ('be', 'be to') for a in atoms[who + 1 : flown])
+        if is_verb:
+            atoms[be] = replace(atoms[be], key='fly')  # `is an orbit around the park`
+        noun = atoms[flown].noun
+        if said and noun is not None and noun.head_text == 'patrol':
+            atoms[flown] = replace(atoms[flown], kind=AtomKind.VERB, key='navigate', noun=None)
+        if said:
+            fill = replace(atoms[i], kind=AtomKind.FILL, key='task')
+            return [*atoms[:i], fill, *_tasks(atoms[who:])]
+    return atoms
 
 
 def _on_the_way(atoms: list[Atom]) -> list[Atom]:

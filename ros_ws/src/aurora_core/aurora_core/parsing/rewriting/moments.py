@@ -8,8 +8,10 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import lru_cache
 
 from aurora_core.parsing.atom_runs import text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
@@ -24,9 +26,29 @@ _HAPPENS = frozenset({'happen', 'be', 'do so'})
 
 def dated(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
     """Return the atoms with every time in the clause of what happens then."""
-    told = _leaving(_clefts(before_that(atoms), prompt))
+    told = _leaving(_clefts(before_that(_exact(atoms, prompt)), prompt))
     told = _in_that_case(_that_happens(told, prompt), prompt)
     return _until_then(_headings(_into_it(_later(told))))
+
+
+def _exact(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
+    """`for a minute and no longer`: for a minute."""
+    kept: list[Atom] = []
+    said = 0  # up to where a time has told it all
+    for i, atom in enumerate(atoms):
+        if atom.start < said:
+            continue
+        kept.append(atom)
+        found = _no_longer().match(prompt.lower(), atom.end) if _is_time(atoms, i) else None
+        said = found.end() if found is not None else said
+    return kept
+
+
+@lru_cache(maxsize=1)
+def _no_longer() -> re.Pattern[str]:
+    words = '|'.join(sorted(shipped_lexicon().turns['no_longer'], key=len, reverse=True))
+    ends = r'(?=\s*(?:[,.;:!?]|and\b|but\b|then\b|$))'
+    return re.compile(rf'[,\s]*(?:(?:and|but)\s+)?(?:{words})\b{ends}')
 
 
 def _is_time(atoms: Sequence[Atom], i: int) -> bool:

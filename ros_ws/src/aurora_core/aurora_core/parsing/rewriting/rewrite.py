@@ -25,6 +25,7 @@ from aurora_core.parsing.rewriting.enumerations import told_once
 from aurora_core.parsing.rewriting.flight_nouns import flights
 from aurora_core.parsing.rewriting.in_turn import in_turn
 from aurora_core.parsing.rewriting.inversions import straighten
+from aurora_core.parsing.rewriting.members import members
 from aurora_core.parsing.rewriting.moments import dated
 from aurora_core.parsing.rewriting.nominal import predicates
 from aurora_core.parsing.rewriting.nominal_causes import verbal
@@ -92,9 +93,8 @@ def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
 
 def _cast(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
     """Return the atoms with words for actors and messages as such."""
-    return messages_told(
-        flights(cast(told_once(told_of_us(pairs(atoms, prompt))), prompt)), prompt
-    )
+    told = told_once(members(told_of_us(pairs(atoms, prompt))))
+    return messages_told(flights(cast(told, prompt)), prompt)
 
 
 def _take_back(atoms: list[Atom]) -> tuple[list[Atom], list[Span]]:

@@ -1,0 +1,155 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Who is named together with others or before what is said of him.
+
+`one of our three drones`, `of the two, one …`, `the van has a drone above it`, `the second drone:
+it hovers`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from aurora_core.parsing.atom_runs import LOOSE, skip, stop_at
+from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind
+from aurora_core.parsing.measures import COUNT
+
+_GROUPS = (NounKind.UAV, NounKind.AGENT, NounKind.VEHICLE)
+_ENDS = (AtomKind.STOP, AtomKind.COMMA)
+
+
+def members(atoms: Sequence[Atom]) -> list[Atom]:
+    """Return the atoms with every group named before its members, which are one each."""
+    return _named_first(_with_it(_of_front(_one_of(list(atoms)))))
+
+
+def _one_of(atoms: list[Atom]) -> list[Atom]:
+    """`one of our three drones tracks it`: there are three drones; one of them tracks it."""
+    written: list[Atom] = []
+    opened = 0  # where the sentence begins
+    i = 0
+    while i < len(atoms):
+        group = _group(atoms, skip(atoms, i + 2)) if _is_one(atoms, i) else None
+        if group is None:
+            written.append(atoms[i])
+            opened = len(written) if atoms[i].kind is AtomKind.STOP else opened
+            i += 1
+            continue
+        noun = group.noun
+        assert noun is not None
+        if noun.count > 1 and not _is_told(written, group):
+            whole = replace(group, noun=replace(noun, determiner=Determiner.BARE))
+            written[opened:opened] = [whole, stop_at(group)]
+        one = replace(noun, start=atoms[i].start, determiner=Determiner.ONE, plural=False, count=1)
+        written.append(replace(group, start=atoms[i].start, noun=one))
+        i = atoms.index(group, i) + 1
+    return written
+
+
+def _is_one(atoms: Sequence[Atom], i: int) -> bool:
+    measure = atoms[i].measure
+    one = measure is not None and measure.dimension == COUNT and measure.value == 1
+    of = atoms[i + 1] if i + 1 < len(atoms) else None
+    return one and of is not None and of.kind is AtomKind.PREPOSITION and of.key == 'of'
+
+
+def _group(atoms: Sequence[Atom], i: int) -> Atom | None:
+    noun = atoms[i].noun if i < len(atoms) else None
+    return atoms[i] if noun is not None and noun.kind in _GROUPS and noun.plural else None
+
+
+def _is_told(atoms: Sequence[Atom], group: Atom) -> bool:
+    """Return whether a group of this kind was named before."""
+    nouns = [a.noun for a in atoms if a.noun is not None and a.key == group.key]
+    return any(noun.count > 1 or noun.plural for noun in nouns)
+
+
+def _of_front(atoms: list[Atom]) -> list[Atom]:
+    """`of our three drones, one tracks it`: there are three drones; one tracks it."""
+    written: list[Atom] = []
+    i = 0
+    while i < len(atoms):
+        opens = not written or written[-1].kind is AtomKind.STOP
+        k = skip(atoms, i, LOOSE)
+        of = opens and k < len(atoms) and atoms[k].words == 'of'
+        group = _group(atoms, skip(atoms, k + 1)) if of else None
+        at = atoms.index(group, k) if group is not None else len(atoms)
+        if group is not None and at + 1 < len(atoms) and atoms[at + 1].kind in _ENDS:
+            written += [group, stop_at(atoms[at + 1])]
+            i = at + 2
+            continue
+        written.append(atoms[i])
+        i += 1
+    return written
+
+
+def _with_it(atoms: list[Atom]) -> list[Atom]:
+    """`the van has a drone above it, which tracks it`: a drone is above the van and tracks it."""
+    for i in range(1, len(atoms) - 3):
+        has = atoms[i]
+        who = skip(atoms, i + 1)
+        near = skip(atoms, who + 1)
+        it = skip(atoms, near + 1)
+        if has.kind is not AtomKind.VERB or has.key != 'contain' or it >= len(atoms):
+            continue
+        first = i - 1
+        while first and atoms[first].kind in _USED:  # `the van we always use has …`
+            first -= 1
+        owner = atoms[first]
+        if not _on_ground(owner) or not _flies(atoms[who]) or atoms[it].key != 'it':
+            continue
+        if atoms[near].kind not in (AtomKind.PREPOSITION, AtomKind.RELATION):
+            continue
+        told = [atoms[who], replace(has, key='be'), atoms[near], owner]
+        rest = atoms[it + 1 :]
+        relative = next((k for k, a in enumerate(rest[:5]) if a.kind is AtomKind.RELATIVE), None)
+        if relative is not None and rest[relative - 1].kind is AtomKind.COMMA:
+            joined = replace(rest[relative], kind=AtomKind.CONJUNCTION, key='and')
+            rest = [*rest[: relative - 1], joined, *rest[relative + 1 :]]
+        return [*atoms[:first], *told, *_with_it(rest)]
+    return atoms
+
+
+_USED = (*LOOSE, AtomKind.UNKNOWN, AtomKind.CAUSATIVE, AtomKind.RELATIVE)
+
+
+def _on_ground(atom: Atom) -> bool:
+    kinds = (NounKind.AGENT, NounKind.VEHICLE, NounKind.EGO)
+    return atom.noun is not None and atom.noun.kind in kinds
+
+
+def _flies(atom: Atom) -> bool:
+    """A UAV, or a member of a group of them."""
+    return atom.noun is not None and (atom.noun.kind is NounKind.UAV or atom.key == 'one')
+
+
+def _named_first(atoms: list[Atom]) -> list[Atom]:
+    """`the second drone: it hovers`, `what is left is the third, and it hovers`: one actor."""
+    written: list[Atom] = []
+    alone: Atom | None = None  # the only thing that the sentence has told yet
+    told = 0  # how many atoms there are up to it
+    for i, atom in enumerate(atoms):
+        written.append(atom)
+        behind = skip(atoms, i + 1)
+        acts = behind < len(atoms) and atoms[behind].kind in (AtomKind.VERB, AtomKind.AUXILIARY)
+        if alone is not None and atom.key in ('it', 'they') and atom.is_actor and acts:
+            del written[told:]
+        if atom.kind is AtomKind.STOP and atom.key != ':':
+            alone = None
+        elif atom.is_actor and not any(a.kind is not AtomKind.FRAME for a in _sentence(written)):
+            alone, told = atom, len(written)
+        elif atom.kind not in _JOINS and atom is not alone:
+            alone = None
+    return written
+
+
+_JOINS = (*LOOSE, AtomKind.STOP, AtomKind.COMMA, AtomKind.CONJUNCTION)
+
+
+def _sentence(atoms: Sequence[Atom]) -> list[Atom]:
+    """Return what the last sentence tells in front of its last atom."""
+    begin = len(atoms) - 1
+    while begin and atoms[begin - 1].kind is not AtomKind.STOP:
+        begin -= 1
+    return [a for a in atoms[begin:-1] if a.kind is not AtomKind.FILL]
