@@ -7,12 +7,12 @@ from __future__ import annotations
 from itertools import pairwise
 
 from aurora_core.parsing.constructions.places import add_placement
+from aurora_core.parsing.own_sequence import own_sequence
 from aurora_core.parsing.scene import Doubt, Entity, LinkDraft, MissionDraft, Scene
 from aurora_core.spec.scenario import (
     Behavior,
     DistanceTrigger,
     MessageTrigger,
-    MissionDoneTrigger,
     Placement,
     SendMessage,
     UavAction,
@@ -78,7 +78,7 @@ def settle(scene: Scene) -> None:
     for draft in tuple(scene.missions):
         if draft.needs_target and draft.target is None:
             _infer_target(scene, draft)
-    _own_sequence(scene)
+    own_sequence(scene)
     _stays_there(scene)
     for event in scene.events:  # nothing waits for itself
         if getattr(event.trigger, 'event', None) == event.id:
@@ -96,27 +96,6 @@ def _stays_there(scene: Scene) -> None:
             place = before.target is not None and scene.by_id(before.target) is None
             if both and place and after.target is None:
                 after.target, after.target_inferred = before.target, True
-
-
-def _own_sequence(scene: Scene) -> None:
-    """`when its hover is over, it orbits the park`: the sequence that every UAV's phases have."""
-    for event in tuple(scene.events):
-        over, action = event.trigger, event.action
-        if not isinstance(over, MissionDoneTrigger) or not isinstance(action, UavAction):
-            continue
-        if event.delay is not None or action.do == 'ascend' or over.uav != action.uav:
-            continue
-        phases = [m.id for m in scene.missions if m.uav.id == action.uav]
-        waits = any(getattr(e.trigger, 'event', None) == event.id for e in scene.events)
-        ordered = any(event.id in (o.first, o.then) for o in scene.orders)
-        follows = action.mission in phases[1:] if action.do == 'change_mission' else phases
-        if not follows or waits or ordered:
-            continue
-        scene.events.remove(event)
-        for clause in scene.clauses:
-            if event.id in clause.ids:
-                del clause.ids[event.id]
-                clause.ids[action.mission or phases[-1]] = None
 
 
 def _shared_speeds(scene: Scene) -> None:

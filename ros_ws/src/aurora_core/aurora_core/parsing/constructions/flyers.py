@@ -15,6 +15,7 @@ from aurora_core.parsing.scene import Entity
 _AERIAL_ONLY = frozenset({'hover', 'orbit', 'fly', 'navigate', 'ascend', 'descend'})
 
 
+_WATCHED = ('track', 'observe', 'follow')
 # Predicates whose object may be the UAV: `fly a drone`, `hover a quadcopter`.
 _LAUNCHED = frozenset(
     {'keep', 'fly', 'ascend', 'be', 'exist', 'put', 'hover', 'orbit', 'land', 'descend'}
@@ -55,6 +56,11 @@ def flyers(frame: Frame) -> tuple[Entity, ...]:
         return ()
     if frame.verb is None and not asks_for_flight(frame):
         return ()
+    if frame.passive and frame.key in _WATCHED:
+        found = frame.inherited(airborne)
+        if len(found) == 1:  # `it hovers there; then a truck is to be tracked`
+            scene.clause.subjects = found
+            return found
     if frame.inherited():
         return ()
     if len(scene.uavs) == 1:
@@ -65,7 +71,7 @@ def flyers(frame: Frame) -> tuple[Entity, ...]:
         found = _named_later(frame) or (new_uav(frame),)
         scene.clause.subjects = found
         return found
-    if frame.key in ('track', 'observe', 'follow') and not scene.uavs:
+    if frame.key in _WATCHED and not scene.uavs:
         return _left_out(frame)
     return ()
 
