@@ -216,6 +216,9 @@ class AdjunctReader:
             stop = j + 1
             if self._is(stop, AtomKind.THING, 'altitude_suffix'):  # `30 m altitude above ground`
                 stop += 1
+            twice = thing.key == 'standoff' and self._is(stop, AtomKind.THING, 'standoff')
+            if twice and not self._is(stop + 1, AtomKind.PREPOSITION, 'of'):
+                stop += 1  # `150 m away horizontally`
             return self._attribute(thing.key, begin, stop, prep, measure)
         j = i + 1
         place = self._at(j + 1)

@@ -181,10 +181,21 @@ class PronounResolver:
         if noun.head_text in ('the former', 'the latter'):
             return self._of_two(accept, number) or self._singular(noun, accept, exclude, False)
         if len(members) < number:
-            return ()
+            return self._alike(accept, exclude, number)
         chosen = members[number - 1]
         chosen.index, chosen.assigned = number, True
         return (chosen,)
+
+    def _alike(self, accept: Fits, exclude: Sequence[Entity], number: int) -> tuple[Entity, ...]:
+        """`a bus waits, a second bus is behind the first`: of those of the kind that acts."""
+        acting = self._scene.clause.subjects[:1]
+        kin = [
+            e
+            for e in self._scene.entities
+            if acting and (e.is_uav, e.type) == (acting[0].is_uav, acting[0].type)
+        ]
+        chosen = kin[number - 1 : number] if len(kin) > 1 else []
+        return tuple(e for e in chosen if accept(e) and e not in (*exclude, *acting))
 
     def _of_two(self, accept: Fits, number: int) -> tuple[Entity, ...]:
         """`one drone circles, a second one hovers; the former …`: the last two told of."""

@@ -295,6 +295,8 @@ def _relation(
         of = each if each is not None else _anchor(frame, adjunct, subjects)
     else:
         of = _beside(frame, adjunct, owner)
+    if of is not None and [e.id for e in subjects] == [of]:
+        return None  # nobody is beside himself
     if relation is Relation.ONCOMING and of is not None and frame.scene.by_id(of) is None:
         relation = Relation.NEAR  # `opposite the school`
     distance = default_distance(relation)

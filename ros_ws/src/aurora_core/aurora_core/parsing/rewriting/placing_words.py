@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from aurora_core.parsing.atom_runs import HELPERS, by_sentence
+from aurora_core.parsing.atom_runs import HELPERS, by_sentence, skip
 from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind, NounPhrase
 from aurora_core.parsing.measures import COUNT, LENGTH, SPEED
 from aurora_core.parsing.morphology import VerbForm
@@ -79,7 +79,7 @@ def _drives(atoms: Sequence[Atom], verb: int) -> bool:
 
 def placing_words(atoms: Sequence[Atom]) -> list[Atom]:
     """Write out what is left unsaid of places."""
-    told = _sides_of(_neighbours(_themselves(atoms)))
+    told = _late_distances(_sides_of(_neighbours(_themselves(atoms))))
     return _back(_bare_places(_lane_numbers(_in_between(_headed(told)))))
 
 
@@ -89,11 +89,35 @@ def _themselves(atoms: Sequence[Atom]) -> list[Atom]:
     for atom in atoms:
         before = kept[-1] if kept else None
         again = atom.is_actor and atom.words in _ITSELF
-        if again and before is not None and (before.is_actor or before.kind is AtomKind.RELATIVE):
+        # Behind a word nobody knows, too: `a van has squeezed itself in to the left of the bus`.
+        mere = before is not None and before.kind in (AtomKind.RELATIVE, AtomKind.UNKNOWN)
+        if again and before is not None and (before.is_actor or mere):
             kept.append(replace(atom, kind=AtomKind.FILL, noun=None))
         else:
             kept.append(atom)
     return kept
+
+
+def _late_distances(atoms: Sequence[Atom]) -> list[Atom]:
+    """`behind this car, 15 m, a van`: 15 m behind this car a van."""
+    told = list(atoms)
+    for i in range(len(told) - 3):
+        where, whom = told[i : i + 2]
+        far = skip(told, i + 2, (AtomKind.COMMA, *HELPERS))
+        new = skip(told, far + 1, (AtomKind.COMMA, *HELPERS))
+        if where.kind is not AtomKind.RELATION or not whom.is_actor or new >= len(told):
+            continue
+        length = told[far].key == LENGTH and told[far].measure is not None
+        before = told[i - 1] if i else None
+        noun = told[new].noun
+        named = told[new].is_actor and noun is not None
+        named = named and noun is not None and noun.determiner in (Determiner.INDEFINITE, _ONE)
+        if length and named and (before is None or before.measure is None):
+            told[i : new + 1] = [told[far], where, whom, told[new]]
+    return told
+
+
+_ONE = Determiner.ONE
 
 
 def _sides_of(atoms: Sequence[Atom]) -> list[Atom]:
