@@ -12,6 +12,8 @@ from aurora_core.parsing.constructions.messages import TELLING
 from aurora_core.parsing.constructions.triggers import cause
 from aurora_core.parsing.constructions.world import world_words
 from aurora_core.parsing.criteria.causes import is_flight
+from aurora_core.parsing.criteria.moments import Moment
+from aurora_core.parsing.criteria.sequels import Sequels
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.main_clause import main_clause
 from aurora_core.parsing.measures import TIME
@@ -19,8 +21,11 @@ from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.named_later import named_later
 from aurora_core.parsing.phases import FLOWN, PHASES
 from aurora_core.parsing.pieces import Link, Piece
+from aurora_core.parsing.reactions import REACTIONS
+from aurora_core.parsing.scene import EventDraft
 from aurora_core.parsing.sequence import HAPPENS
 from aurora_core.parsing.story import HeldCause, Story
+from aurora_core.spec.scenario import EventDoneTrigger
 from aurora_core.spec.vocabulary import ClauseStatus
 
 
@@ -33,6 +38,19 @@ def leading(story: Story, piece: Piece, following: Piece) -> None:
         actors = Frame(following, story.scene, story.resolver).subject_nouns
         frame.subject_nouns = () if _on_ground(actors) else actors
         gerund = False
+    known_event = _told_before(story, frame) if gerund else None
+    if known_event is not None:
+        delay = delay_of(frame)
+        frame.taken()
+        story.scene.became(known_event.id)
+        story.held = HeldCause(
+            cause=EventDoneTrigger(on='event_done', event=known_event.id),
+            clause=story.scene.clause,
+            sentence=piece.sentence,
+            delay=delay,
+        )
+        story.close(frame)
+        return
     if gerund and piece.link is not Link.UNTIL:
         actors = Frame(following, story.scene, story.resolver).subject_nouns
         sent = frame.key in TELLING and bool(story.scene.events)
@@ -84,3 +102,11 @@ def _dated(piece: Piece) -> bool:
 
 def _on_ground(nouns: Sequence[NounPhrase]) -> bool:
     return bool(nouns) and nouns[0].kind in (NounKind.AGENT, NounKind.VEHICLE, NounKind.EGO)
+
+
+def _told_before(story: Story, frame: Frame) -> EventDraft | None:
+    """`within 6 s of the braking, …`: of whoever was told to brake."""
+    before = story.scene.prompt[: frame.verb.start].split() if frame.verb is not None else []
+    if before[-1:] != ['the'] or frame.key not in REACTIONS:
+        return None
+    return Sequels(story.scene, frame.span).event(Moment(key=frame.key))

@@ -13,44 +13,50 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from aurora_core.parsing.lexicon import Lexicon, Tag, shipped_lexicon
+from aurora_core.parsing.measure import (
+    ANGLE,
+    COUNT,
+    LENGTH,
+    RATIO,
+    SPEED,
+    TIME,
+    UNBROKEN,
+    UNREADABLE,
+    Measure,
+)
+from aurora_core.parsing.number_words import spelled
 from aurora_core.parsing.tokens import Token, TokenKind
 from aurora_core.spec.parameter import Bound
 
-LENGTH, TIME, SPEED, RATIO, ANGLE, COUNT = 'length', 'time', 'speed', 'ratio', 'angle', 'count'
-UNREADABLE = 'unreadable'
+__all__ = [
+    'ANGLE',
+    'COUNT',
+    'LENGTH',
+    'RATIO',
+    'SPEED',
+    'TIME',
+    'UNREADABLE',
+    'Measure',
+    'MeasureReader',
+]
+
 # Words in front of a time after the start: `at second 20`, `until 0:45`.
 _AT = frozenset({'at', '@', 'until', 'till', 'from', 'by', 'on', 'around', 'about', 'in', 'after'})
 # Between an article and what it counts: `a full minute`, `a good two minutes`, `a further 90 s`.
 _EMPHASIS = frozenset(
     {'full', 'whole', 'good', 'solid', 'entire', 'complete', 'round', 'mere', 'further', 'total'}
 )
-_WHOLE = frozenset({'full', 'whole', 'entire', 'complete', 'solid'})
+_WHOLE = frozenset({'full', 'whole', 'entire', 'complete', 'solid'}) | UNBROKEN
+# `40 m ± 2 m`
+_SIGNS = (
+    ('±',),
+    ('+', '/', '-'),
+    ('+', '-'),
+    ('plus', '/', 'minus'),
+    ('plus', 'or', 'minus'),
+    ('plus', 'minus'),
+)
 _CLOCK = re.compile(r'(0?[0-5]):([0-5]\d)')
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Measure:
-    """A stated quantity in SI (angles in degrees, ratios 0..1).
-
-    Attributes:
-        dimension: length, time, speed, ratio, angle, count (no unit) or unreadable.
-        value: In SI.
-        start: First character of the number (qualifiers such as `about` are outside).
-        end: One past the last character of the unit.
-        upper: Upper end of a stated range.
-        second: The other side of a size (`100 x 60 m`).
-        second_start: Where the second number begins.
-    """
-
-    dimension: str
-    value: float
-    start: int
-    end: int
-    bound: Bound = Bound.EXACTLY
-    approximate: bool = False
-    upper: float | None = None
-    second: float | None = None
-    second_start: int | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,6 +104,8 @@ class MeasureReader:
         if core is None:
             return None
         measure, k = core
+        if self._word(j - 1) == '±' or self._words[max(j - 3, 0) : j] == ['+', '/', '-']:
+            measure = replace(measure, dimension=UNREADABLE)  # `40 m altitude ± 5 m`
         k, late_bound, late_approximate = self._trailing(k)
         if late_bound is not Bound.EXACTLY:
             bound = late_bound
@@ -240,6 +248,9 @@ class MeasureReader:
             and self._word(k + 2) != 'another'
         )
         joins_size = link in ('x', 'by', 'times') and self._number(k + 1) is not None
+        spread = self._plus_minus(first, unit, k, start)
+        if spread is not None:
+            return spread
         if joins_range or joins_size:
             other = self._number(k + 1)
             if other is not None:
@@ -285,6 +296,35 @@ class MeasureReader:
                 dimension = self._dimension(unit)
                 return Measure(dimension=dimension, value=total, start=start, end=end), k
         return self._single(first, unit, start, end), k
+
+    def _plus_minus(
+        self, first: _Number, unit: str | None, k: int, start: int
+    ) -> tuple[Measure, int] | None:
+        """`40 m ± 2 m`, `40 +/- 2 m`, `40 m plus or minus 5 %`: from 38 to 42."""
+        sign = next((s for s in _SIGNS if tuple(self._words[k : k + len(s)]) == s), None)
+        by = self._number(k + len(sign)) if sign is not None else None
+        if by is None or by.value is None or first.value is None:
+            return None
+        unit2, stop = self._unit(by.stop)
+        unit = unit if unit is not None else unit2
+        value = first.value * self._factor(unit)
+        delta = by.value * self._factor(unit2 if unit2 is not None else unit)
+        if self._dimension(unit2) == RATIO and self._dimension(unit) != RATIO:
+            delta *= value
+        elif unit2 is not None and self._dimension(unit2) != self._dimension(unit):
+            return None
+        if not 0 < delta < value:
+            return None
+        return (
+            Measure(
+                dimension=self._dimension(unit),
+                value=float(value - delta),
+                upper=float(value + delta),
+                start=start,
+                end=self._tokens[stop - 1].end,
+            ),
+            stop,
+        )
 
     def _single(self, first: _Number, unit: str | None, start: int, end: int) -> Measure:
         assert first.value is not None
@@ -405,40 +445,6 @@ class MeasureReader:
         return self._spelled(i)
 
     def _spelled(self, i: int) -> _Number | None:
-        """`forty five`, `a hundred and twenty`, `one and a half`, `two point five`."""
-        total, current, j, seen = Fraction(0), Fraction(0), i, False
-        while j < len(self._words):
-            found = self._lexicon.longest_of(self._words, j, (Tag.NUMBER, Tag.MULTIPLIER))
-            if found is None:
-                if seen and self._word(j) == 'and' and current and current % 100 == 0:
-                    follow = self._lexicon.longest_of(self._words, j + 1, (Tag.NUMBER,))
-                    if follow is not None and 0 < Fraction(follow[1].key) < 100:
-                        j += 1
-                        continue
-                break
-            length, sense = found
-            value = Fraction(sense.key)
-            if sense.tag is Tag.MULTIPLIER:
-                if not seen:
-                    return None
-                if value == 1000:
-                    total, current = total + current * value, Fraction(0)
-                else:
-                    current *= value
-            else:
-                tens_then_unit = current % 100 in range(20, 100, 10) and value < 10
-                if seen and not (current % 100 == 0 or tens_then_unit):
-                    break
-                current += value
-            seen = True
-            j += length
-        if not seen:
-            return None
-        value = total + current
-        if self._word(j) == 'and' and self._word(j + 1) == 'a' and self._word(j + 2) == 'half':
-            return _Number(value + Fraction(1, 2), j + 3, True)
-        if self._word(j) == 'point':
-            digit = self._lexicon.longest_of(self._words, j + 1, (Tag.NUMBER,))
-            if digit is not None and 0 <= Fraction(digit[1].key) < 10:
-                return _Number(value + Fraction(digit[1].key) / 10, j + 2, True)
-        return _Number(value, j, True)
+        """`forty five`, `a hundred and twenty`."""
+        found = spelled(self._words, i, self._lexicon)
+        return None if found is None else _Number(found[0], found[1], True)

@@ -31,9 +31,11 @@ _CLOSER = re.compile(
 )
 _STRICT = re.compile(r'(less than|under|below|quicker than|faster than|<)\s*$')
 _UNBROKEN = re.compile(
-    r'\b(without (?:interruption|a break)|uninterrupted|in one go|at a stretch)'
+    r'\b(without (?:interruption|a break)|uninterrupted|consecutive|in one go|at a stretch)'
 )
 _MOST = re.compile(r'\b(max(?:imum|imal)?|limit(?:ed)?|at most)\b')
+# `within 60 s of that` does not count from the start.
+_OF_THAT = re.compile(r'\s+(?:of|after|from|following)\s+(?:that|this|it)\b')
 _ENDS = re.compile(r'\b(on the ground|landed|lands?|down)\b')
 
 
@@ -260,7 +262,8 @@ def _deadline(frame: Frame) -> None:
         late = measure.bound is Bound.AT_MOST and adjunct.prep in ('', 'after', 'in')
         if not (late or adjunct.prep in ('by', 'within', 'before')):
             continue
-        if not values.accepts('condition_time', measure):
+        counts = _OF_THAT.match(frame.scene.prompt[measure.end :].lower()) is None
+        if not counts or not values.accepts('condition_time', measure):
             continue
         adjunct.used = True
         add_condition(

@@ -74,7 +74,9 @@ class Sequels:
         return self.event(told.then, new=known)
 
     def _told(self, moment: Moment) -> bool:
-        return any(self._is(e, moment.key) for e in self._scene.events)
+        does = (b.kind.value for e in self._scene.agents for b in e.behaviors)
+        told = any(self._is(e, moment.key) for e in self._scene.events)
+        return told or moment.key in (_BEHAVIOR.get(kind, kind) for kind in does)
 
     def chain(self, first: EventDraft, then: EventDraft) -> None:
         """Let one event wait for another; what is set otherwise stays, with the order stated."""
@@ -142,9 +144,10 @@ class Sequels:
             return action.do == key
         return isinstance(action, AgentAction) and action.do == key
 
-    def _of_behavior(self, key: str) -> EventDraft | None:
+    def _of_behavior(self, key: str, *, anyone: bool = False) -> EventDraft | None:
         """`the van brakes; the braking must …`: what was told without a cause is an event now."""
-        agents = [e for e in self._scene.agents if not self._who or e.id in self._who]
+        everyone = anyone or not self._who
+        agents = [e for e in self._scene.agents if everyone or e.id in self._who]
         for entity in reversed(agents):
             for behavior in entity.behaviors:
                 do = _BEHAVIOR.get(behavior.kind.value, behavior.kind.value)
@@ -179,6 +182,7 @@ class Sequels:
             # `the car shall stop within 4 s of the braking`: that of somebody else
             others = [e for e in self._scene.events if self._is(e, moment.key)]
             found = self.event(moment) or (others[-1] if others else None)
+            found = found or self._of_behavior(moment.key, anyone=True)
             return found if found is not then else None
         trigger = then.trigger
         if isinstance(trigger, EventDoneTrigger):

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
 
-from aurora_core.parsing.atoms import Atom
+from aurora_core.parsing.atoms import Atom, AtomKind
 from aurora_core.parsing.criteria.criterion import Criterion, Limit, Op
 from aurora_core.parsing.criteria.moments import Moment, with_events
 from aurora_core.parsing.criteria.placed import take_places
@@ -68,6 +68,8 @@ _SENT = re.compile(
 )
 # `must not cross 40 km/h`: a limit, no street.
 _CROSSING = re.compile(r'\bcross(?:es|ed|ing)? (?=[LV]\d)')
+# `must have stopped within 6 s of that`
+_OF_THAT = re.compile(r'T\d+ (?:of|after|from|following|since) (?:that|this|which|it N\d+|it)\b')
 _BOUNDED = re.compile(r'\b(?:atleast|atmost|nolater)\b')
 _LATEST = re.compile(r'\b(?:by|before|nolater|latest)\b')
 _YES_OR_NO = ('landed', 'completed', 'delivered')
@@ -86,6 +88,8 @@ def criterion(atoms: Sequence[Atom], *, asked: bool = False) -> Criterion | None
 # Cuts of one sentence, and readings of it without a word, ask for the same stretches again.
 @lru_cache(maxsize=1024)
 def _criterion(atoms: tuple[Atom, ...], asked: bool) -> Criterion | None:
+    if atoms and atoms[-1].kind is AtomKind.PREPOSITION and atoms[-1].key == 'of':
+        return None  # `within 6 s of`: of what, stands outside
     rest, placed = take_places(atoms)
     if any(one.at_place for one in placed):  # `a van on the main road must not exceed 40 km/h`
         found = _Reading(told(rest), criteria_words()).run(asked=asked)
@@ -116,6 +120,8 @@ class _Reading:
         self._crosses = asked
         if _INVERTED.match(self._text) or _PART.search(self._text):
             return None
+        if _OF_THAT.search(self._text):
+            return None  # an order: from what was told before
         self._text = _CROSSING.sub('exceed ', self._text)
         self._fails = self._cut(words['fails'])
         asked = asked or self._fails or bool(words['demands'].search(self._text))

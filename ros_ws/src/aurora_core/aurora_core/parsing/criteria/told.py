@@ -13,6 +13,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind, NounPhrase
+from aurora_core.parsing.measure import UNBROKEN
 from aurora_core.parsing.measures import COUNT, LENGTH, RATIO, SPEED, TIME, Measure
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.spec.parameter import Bound
@@ -68,6 +69,7 @@ def told(atoms: Sequence[Atom]) -> Told:
             name = f'{_LETTERS[atom.measure.dimension]}{len(measures)}'
             measures[name] = atom.measure
             words += [*_qualifier(atom), name]
+            words += ['consecutive'] if UNBROKEN & set(atom.words.split()) else []
         elif atom.kind is AtomKind.FRAME and atom.key == 'demand':
             words += ['required'] if words[-1:] != ['required'] else []
         elif atom.kind is AtomKind.PREPOSITION and atom.key == 'at':
