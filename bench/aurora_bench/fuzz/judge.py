@@ -40,6 +40,10 @@ _ACTOR = re.compile(
 _CLOSE = 1e-6
 # `1 h`: the independent reader wants the letter glued to the number.
 _HOURS = (1.0, 3600.0)
+# `30, 45 and 60 km/h`: the unit behind the last is that of all.
+_LISTED = re.compile(
+    r'(?:\s*(?:,\s*and|,|and|or|&)\s*\d+(?:\.\d+)?)+\s*(?P<unit>[a-z]+(?:/[a-z]+)?)', re.IGNORECASE
+)
 # A group beyond this many is cut there: it is refused as too many in any case.
 _MOST_AGENTS = 200
 
@@ -79,7 +83,9 @@ def _invented(prompt: str, spec: ScenarioSpec, meant: Mapping[str, str]) -> Iter
             said = said.replace(written, word)
         if not any(c.isdigit() for c in said):
             continue  # a number in words, or a word that stands for one (`north`, `no retries`)
-        if not _says(said, parameter.value):
+        listed = _LISTED.match(prompt, span.end)
+        shared = listed is not None and _says(f'{said} {listed["unit"]}', parameter.value)
+        if not shared and not _says(said, parameter.value):
             yield f'{path}: {parameter.value:g} {parameter.unit} is not what {said!r} says'
 
 

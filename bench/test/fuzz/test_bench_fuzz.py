@@ -91,6 +91,16 @@ def test_the_judge_reads_both_ends_of_a_range() -> None:
         assert any('30' in fault for fault in faults(changed, outcome))
 
 
+def test_the_judge_reads_the_unit_of_a_list() -> None:
+    prompt = 'Three drones hover over City Hall at 30, 40 and 60 ft respectively.'
+    outcome = _read(prompt)
+    assert list(faults(prompt, outcome)) == []
+    assert outcome.spec is not None
+    assert outcome.spec.missions[0].altitude_m.value == pytest.approx(9.144)
+    changed = prompt.replace('ft', 'yd').replace('30', '31')
+    assert any("'31'" in fault for fault in faults(changed, outcome))
+
+
 def test_results_are_written(tmp_path: Path) -> None:
     assert main(['--prompts', '20', '--replies', '20', '--results', str(tmp_path)]) == 0
     assert '0 of 20' in (tmp_path / 'fuzz.md').read_text(encoding='utf-8')

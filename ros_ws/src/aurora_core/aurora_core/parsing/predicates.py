@@ -27,6 +27,11 @@ def cut_at_verbs(piece: Piece) -> list[Piece]:
         cut, upcoming = _cut_before(atoms, begin, previous, i)
         if cut <= begin:
             continue
+        aside = _of_two(atoms, begin, cut) if upcoming.head is not None else None
+        if aside is not None:
+            told = replace(state, atoms=(*atoms[begin:aside], *atoms[cut:]))
+            described = Piece(atoms=atoms[aside:cut], link=Link.RELATIVE, head=atoms[aside - 1])
+            return [*pieces, *cut_at_verbs(told), described]
         if upcoming.link is Link.MAIN and upcoming.head is not None:
             # `a drone that tracks the van | alerts`: the first part only describes
             upcoming = replace(upcoming, link=state.link, opens=state.opens, then=state.then)
@@ -93,6 +98,15 @@ def _cut_before(atoms: tuple[Atom, ...], begin: int, previous: int, i: int) -> t
         head = next((a for a in atoms[begin:previous] if a.is_actor), None)
         return j, Piece(atoms=(), head=head)
     return j, Piece(atoms=())
+
+
+def _of_two(atoms: Sequence[Atom], begin: int, cut: int) -> int | None:
+    """`the distance between it and a boy | who crosses | falls below 15 m`: where `who` stands."""
+    for k in range(begin + 1, cut):
+        if atoms[k].kind is AtomKind.RELATIVE:
+            named = any(a.kind is AtomKind.THING for a in atoms[begin:k])
+            return k if named and atoms[k - 1].is_actor else None
+    return None
 
 
 def _described(atoms: tuple[Atom, ...], begin: int, previous: int) -> Atom | None:
