@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from aurora_core.parsing.atoms import Determiner, NounKind, NounPhrase
 from aurora_core.parsing.landmarks import landmark_words
@@ -119,6 +120,10 @@ class NounReader:
             if one and (labels or placed):
                 # `the red one`, `the one behind it`
                 return self._one_of_them(i, j, frozenset(labels))
+            if labels and determiner is Determiner.INDEFINITE and self._said.words[j] == 'one':
+                like, stop = self._one_of_them(i, j, frozenset(labels))  # `a red one`
+                kin = replace(like, kind=NounKind.PRONOUN, key='another')
+                return replace(kin, determiner=determiner), stop
             step = prefix(self._said, j, determiner)
             if step is None:
                 if j == i or (determiner is Determiner.BARE and not count):

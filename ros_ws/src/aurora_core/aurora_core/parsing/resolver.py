@@ -233,7 +233,9 @@ class Resolver:
         if free and len(free) < len(members):  # `three drones: one …, another …`
             free[0].assigned = True
             return (free[0],)
-        return self._like(like, Span(start=noun.start, end=noun.end))
+        made = self._like(like, Span(start=noun.start, end=noun.end))
+        made[0].labels = noun.labels  # `a red one`
+        return made
 
     def _like(self, like: Entity, span: Span) -> tuple[Entity, ...]:
         made = Entity(

@@ -209,6 +209,8 @@ def _binds(sentence: Sequence[Atom], i: int) -> bool:
         return True
     if atom.kind is AtomKind.CONJUNCTION and is_joint_word(sentence, i):
         return True
+    if atom.kind is AtomKind.COMMA and behind.kind is AtomKind.CONJUNCTION:
+        return any(a.is_actor for a in sentence[i + 2 : i + 3])  # `6 m apart, and a van`
     beside = sentence[max(0, i - 1)], sentence[min(len(sentence) - 1, i + 1)]
     # `15 m ahead and a bus behind`, `behind the vans and drives`: who is it?
     joins = beside[1].is_actor or (beside[0].is_actor and beside[1].kind is AtomKind.VERB)

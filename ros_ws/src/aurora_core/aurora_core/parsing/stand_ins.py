@@ -8,6 +8,7 @@ from dataclasses import replace
 
 from aurora_core.parsing.atoms import Determiner, NounKind, NounPhrase
 from aurora_core.parsing.lexicon import Tag
+from aurora_core.parsing.measures import LENGTH
 from aurora_core.parsing.noun_words import NOUN_KINDS, NounWords
 from aurora_core.parsing.tokens import TokenKind
 
@@ -141,7 +142,15 @@ class StandInReader:
         several = any(
             a in self._said.words[:i] for a in ('two', '2', 'three', '3', 'both', 'four')
         )
-        return several and plain and before not in _BY_HEIGHT and self._placed(i + 1)
+        placed = self._placed(i + 1) or self._placed_so_far(i + 1)
+        return several and plain and before not in _BY_HEIGHT and placed
+
+    def _placed_so_far(self, i: int) -> bool:
+        """`two vans, one 20 m ahead of it`: a length and a relation."""
+        found = self._said.measures.read(i) if i < len(self._said.words) else None
+        if found is None or found[0].dimension != LENGTH:
+            return False
+        return self._said.has(found[1], Tag.RELATION)
 
     def _placed(self, i: int) -> bool:
         """Return whether a place or a number with a preposition follows."""

@@ -207,9 +207,24 @@ def _in_between(atoms: Sequence[Atom]) -> list[Atom]:
         acts = bool(rest) and rest[0].kind in (AtomKind.VERB, AtomKind.AUXILIARY)
         if apart and verbless and acts and any(a.is_actor for a in apart):
             return [*sentence[: commas[0]], *rest, *apart]
-        return sentence
+        return _members_between(sentence, commas)
 
     return by_sentence(atoms, told)
+
+
+def _members_between(sentence: list[Atom], commas: list[int]) -> list[Atom]:
+    """`two vans, one ahead of it, one behind it, drive at 9 m/s`: what both of them do first."""
+    if len(commas) < 2 or not sentence[commas[0] - 1].is_actor or commas[0] == 0:
+        return sentence
+    share = sentence[commas[0] + 1]
+    close = commas[-1]
+    verb = next((a for a in sentence[close + 1 :] if a.kind not in HELPERS), None)
+    verbless = not any(a.kind is AtomKind.VERB for a in sentence[:close])
+    if share.key != 'one' or not share.is_actor or verb is None or not verbless:
+        return sentence
+    if verb.kind is not AtomKind.VERB:
+        return sentence
+    return [*sentence[: commas[0]], *sentence[close + 1 :], *sentence[commas[0] : close]]
 
 
 def _lane_numbers(atoms: Sequence[Atom]) -> list[Atom]:
