@@ -219,15 +219,6 @@ def _binds(sentence: Sequence[Atom], i: int) -> bool:
 
 def _names_number(sentence: Sequence[Atom], i: int) -> bool:
     """`radius of 40 m`, `60 m width`: without its name, a length is a height or a distance."""
-    if sentence[i].kind is not AtomKind.THING or sentence[i].key == 'separation':
-        return False
-    ahead = next((a for a in sentence[i + 1 :] if a.kind not in _INSIDE), None)
-    beside = (ahead, sentence[i - 1] if i else None)
-    return any(a is not None and a.measure is not None and a.key == LENGTH for a in beside)
-
-
-def _names_number(sentence: Sequence[Atom], i: int) -> bool:
-    """`radius of 40 m`, `60 m width`: without its name, a length is a height or a distance."""
     if sentence[i].kind is not AtomKind.THING or sentence[i].key not in _OF_PATTERNS:
         return False
     ahead = next((a for a in sentence[i + 1 :] if a.kind not in _INSIDE), None)
