@@ -17,7 +17,7 @@ from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.pronouns import airborne
 from aurora_core.parsing.scene import Entity, LinkDraft, Scene
 from aurora_core.spec.parameter import Bound, Parameter
-from aurora_core.spec.scenario import SendMessage
+from aurora_core.spec.scenario import MessageTrigger, SendMessage
 
 TELLING = frozenset({'alert', 'send', 'report'})
 _LINK_FIELDS = {
@@ -49,6 +49,7 @@ def message(frame: Frame) -> SendMessage | None:
     again = None if receivers else _told_again(frame, senders)
     if again is not None:
         return again
+    receivers = receivers or _awaits(frame, senders)
     if not receivers:
         ego = frame.scene.ego
         if ego is None or ego in senders:
@@ -62,6 +63,17 @@ def message(frame: Frame) -> SendMessage | None:
     frame.scene.clause.objects = receivers
     frame.scene.became(link.id)
     return SendMessage(do='send_message', sender=senders[0].id, receiver=receivers[0].id)
+
+
+def _awaits(frame: Frame, senders: tuple[Entity, ...]) -> tuple[Entity, ...]:
+    """`it starts once it has the drone's report. The drone reports at 60 s`: whoever waits."""
+    tellers = [e.id for e in senders]
+    for event in reversed(frame.scene.events):
+        awaited = event.trigger
+        if isinstance(awaited, MessageTrigger) and awaited.sender in tellers:
+            by = frame.scene.by_id(awaited.by)
+            return () if by is None or by in senders else (by,)
+    return ()
 
 
 def _told_again(frame: Frame, senders: tuple[Entity, ...]) -> SendMessage | None:

@@ -29,7 +29,7 @@ _PAUSES = (AtomKind.COMMA, AtomKind.CONJUNCTION, AtomKind.RELATIVE)
 
 def not_before(atoms: Sequence[Atom]) -> list[Atom]:
     """Return the atoms with every denied beginning as one that waits for its cause."""
-    return by_sentence(atoms, lambda told: _added(_behind(_in_front(_repeated(told)))))
+    return by_sentence(atoms, lambda told: _added(_behind(_in_front(_stays(_repeated(told))))))
 
 
 def _repeated(atoms: list[Atom]) -> list[Atom]:
@@ -43,6 +43,20 @@ def _repeated(atoms: list[Atom]) -> list[Atom]:
             atom = replace(atom, kind=AtomKind.FILL)
         kept.append(atom)
     return kept
+
+
+def _stays(atoms: list[Atom]) -> list[Atom]:
+    """`it waits unless it gets the message`: until it does."""
+    at = next((i for i, a in enumerate(atoms) if a.key == 'unless' and _waits(a)), None)
+    pause = [i for i, a in enumerate(atoms) if a.kind is AtomKind.COMMA]
+    if at is None or not _tells(atoms, at + 1):
+        return atoms
+    effect = atoms[:at] if at > skip(atoms, 0) else atoms[pause[0] :] if pause else []
+    verbs = [a for a in effect if a.kind is AtomKind.VERB]
+    denied = any(a.kind is AtomKind.NEGATION for a in effect)
+    if len(verbs) != 1 or verbs[0].key != 'wait' or denied:
+        return atoms
+    return [*atoms[:at], replace(atoms[at], key='until'), *atoms[at + 1 :]]
 
 
 def _behind(atoms: list[Atom]) -> list[Atom]:
