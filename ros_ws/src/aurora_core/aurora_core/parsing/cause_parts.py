@@ -8,8 +8,8 @@ from aurora_core.parsing import values
 from aurora_core.parsing.atoms import NounKind
 from aurora_core.parsing.constructions.triggers import ELAPSED, Cause, cause
 from aurora_core.parsing.frames import Frame
-from aurora_core.parsing.sequence import is_ellipsis, without_link
 from aurora_core.parsing.story import Story
+from aurora_core.parsing.told_pieces import is_ellipsis, without_link
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.scenario import AgentAction, EventDoneTrigger
 

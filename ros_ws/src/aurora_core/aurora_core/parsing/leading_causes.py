@@ -23,8 +23,8 @@ from aurora_core.parsing.phases import FLOWN, PHASES
 from aurora_core.parsing.pieces import Link, Piece
 from aurora_core.parsing.reactions import REACTIONS
 from aurora_core.parsing.scene import EventDraft
-from aurora_core.parsing.sequence import HAPPENS
 from aurora_core.parsing.story import HeldCause, Story
+from aurora_core.parsing.told_pieces import HAPPENS
 from aurora_core.spec.scenario import EventDoneTrigger
 from aurora_core.spec.vocabulary import ClauseStatus
 

@@ -40,18 +40,20 @@ from aurora_core.parsing.sequence import (
     after_told,
     before_told,
     ends_of_own,
-    got_message,
     in_sequence,
+    sight,
+    soon,
+    who_was_told,
+)
+from aurora_core.parsing.story import Story
+from aurora_core.parsing.told_pieces import (
+    got_message,
     is_arrival,
     is_earlier,
     is_phase,
     leads_to,
-    sight,
-    soon,
     was_doing,
-    who_was_told,
 )
-from aurora_core.parsing.story import Story
 from aurora_core.parsing.trailing_causes import effect_then_cause
 from aurora_core.spec.parameter import Span
 from aurora_core.spec.vocabulary import ClauseStatus
