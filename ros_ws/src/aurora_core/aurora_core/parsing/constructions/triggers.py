@@ -253,10 +253,25 @@ def _arrival(frame: Frame) -> ArrivalTrigger | None:
         for noun in adjunct.nouns:
             place = frame.resolver.place(noun)
             who = who_moves(frame, frame.subjects()) if place is not None else ()
+            if noun.key == 'there' and place is not None:
+                who, place = _under_way(frame, who, place)
             if place is not None and len(who) == 1:
                 adjunct.used = True
                 return ArrivalTrigger(on='arrives', who=who[0].id, place=place)
     return None
+
+
+def _under_way(
+    frame: Frame, who: tuple[Entity, ...], place: str
+) -> tuple[tuple[Entity, ...], str]:
+    """`a bus drives to the station; once it is there, …`: who is going to a place, and which."""
+    refers = all(n.kind is NounKind.PRONOUN for n in frame.subject_nouns)
+    known = [e for e in frame.scene.agents if e in who or refers]
+    for entity in reversed(known):
+        goals = [b.target for b in entity.behaviors if b.target is not None]
+        if goals and frame.scene.by_id(goals[-1]) is None:
+            return (entity,), goals[-1]
+    return who, place
 
 
 def _done(frame: Frame) -> MissionDoneTrigger | None:
