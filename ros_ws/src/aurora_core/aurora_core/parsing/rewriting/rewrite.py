@@ -23,6 +23,7 @@ from aurora_core.parsing.rewriting.conjunctions import joined
 from aurora_core.parsing.rewriting.dwells import set_off
 from aurora_core.parsing.rewriting.enumerations import told_once
 from aurora_core.parsing.rewriting.flight_nouns import flights
+from aurora_core.parsing.rewriting.headings import headings
 from aurora_core.parsing.rewriting.in_turn import in_turn
 from aurora_core.parsing.rewriting.inversions import straighten
 from aurora_core.parsing.rewriting.members import members
@@ -70,7 +71,8 @@ def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
     """Return the atoms with shorthand written out and retracted numbers left out."""
     if longest_sentence(atoms) > MOST_ATOMS:
         return Rewritten(atoms=tuple(atoms))
-    told, background = unwrap(joined(_cast(atoms, prompt), prompt), prompt)
+    below, titles = headings(atoms, prompt)
+    told, background = unwrap(joined(_cast(below, prompt), prompt), prompt)
     told = alike(as_fast(in_turn(told, prompt), prompt), prompt)
     told = set_off(shared_out(not_before(told), prompt), prompt)
     told = answers(told, prompt)
@@ -87,7 +89,7 @@ def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
     return Rewritten(
         atoms=tuple(_relatives(_climbs(_small_words(ways(told, prompt)), prompt))),
         taken_back=tuple(spans),
-        background=tuple(background),
+        background=(*titles, *background),
     )
 
 
