@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from aurora_core.parsing.atoms import AtomKind, needs_nothing
+from aurora_core.parsing.atoms import AtomKind, NounKind, needs_nothing
 from aurora_core.parsing.constructions.places import place_party
 from aurora_core.parsing.constructions.states import adjectives
 from aurora_core.parsing.criteria.criterion import Criterion
@@ -32,7 +32,7 @@ from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.named_later import acts_later, named_later
 from aurora_core.parsing.pieces import Link, Piece, first_solid
 from aurora_core.parsing.resolver import Resolver
-from aurora_core.parsing.scene import ClauseDraft, Scene
+from aurora_core.parsing.scene import ClauseDraft, Entity, Scene
 from aurora_core.parsing.segments import clauses
 from aurora_core.parsing.sequence import (
     after_others,
@@ -182,12 +182,23 @@ class Reader:
 
     def _states(self, told: Criterion | Sequel, span: Span) -> bool:
         if isinstance(told, Sequel):
-            who = Parties(self._story.scene, self._story.resolver, told.nouns).actors()
-            return Sequels(self._story.scene, span, who).state(told)
+            who, first = self._who(told)
+            return Sequels(self._story.scene, span, who, first).state(told)
         stated = Meaning(told, self._story.scene, self._story.resolver, span).state()
         for placed in told.placed if stated else ():
             place_party(self._story.resolver, placed)
         return stated
+
+    def _who(self, told: Sequel) -> tuple[list[Entity], list[Entity]]:
+        """`it has to brake within 5 s of the van's departure`: it, not the van."""
+        parties = Parties(self._story.scene, self._story.resolver, told.nouns)
+        named = parties.actors()
+        begins = told.nouns[0] if told.nouns else None
+        if begins is None or told.first is None or told.then is None:
+            return named, []
+        acts = begins.kind is NounKind.PRONOUN and begins.key in ('it', 'person')
+        one = parties.it(avoid=named) if acts else None
+        return ([one], named) if one is not None else (named, [])
 
     def _plain(
         self, piece: Piece, *, following: Piece | None = None, ahead: Piece | None = None

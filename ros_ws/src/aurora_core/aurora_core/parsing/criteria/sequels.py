@@ -44,8 +44,15 @@ def bodies_of_action(event: EventDraft) -> set[str]:
 class Sequels:
     """Finds the events of an order and chains them."""
 
-    def __init__(self, scene: Scene, span: Span, who: Sequence[Entity] = ()) -> None:
+    def __init__(
+        self,
+        scene: Scene,
+        span: Span,
+        who: Sequence[Entity] = (),
+        first_who: Sequence[Entity] = (),
+    ) -> None:
         self._scene = scene
+        self._first_who = tuple(first_who)  # who does what comes first, where it is somebody else
         self._who = {e.id for e in who}
         self._span = span
 
@@ -76,7 +83,7 @@ class Sequels:
     def _told(self, moment: Moment) -> bool:
         does = (b.kind.value for e in self._scene.agents for b in e.behaviors)
         told = any(self._is(e, moment.key) for e in self._scene.events)
-        return told or moment.key in (_BEHAVIOR.get(kind, kind) for kind in does)
+        return told or bool(self._first_who) or moment.key in does
 
     def chain(self, first: EventDraft, then: EventDraft) -> None:
         """Let one event wait for another; what is set otherwise stays, with the order stated."""
@@ -151,7 +158,7 @@ class Sequels:
         for entity in reversed(agents):
             for behavior in entity.behaviors:
                 do = _BEHAVIOR.get(behavior.kind.value, behavior.kind.value)
-                if do != key or do not in REACTIONS:
+                if do != key or do not in REACTIONS or (anyone and key != behavior.kind.value):
                     continue
                 return self._made(entity, behavior, do)
         return None
@@ -179,6 +186,8 @@ class Sequels:
 
     def _first(self, moment: Moment | None, then: EventDraft) -> EventDraft | None:
         if moment is not None and moment.key not in _WAITS_FOR:
+            if self._first_who:  # `… of the fire engine's departure`
+                return Sequels(self._scene, self._span, self._first_who).event(moment, new=True)
             # `the car shall stop within 4 s of the braking`: that of somebody else
             others = [e for e in self._scene.events if self._is(e, moment.key)]
             found = self.event(moment) or (others[-1] if others else None)
