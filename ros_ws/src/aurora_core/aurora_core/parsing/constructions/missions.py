@@ -15,6 +15,7 @@ from aurora_core.parsing.constructions.transits import (
     goes_on_there,
     is_transit,
     just_sent,
+    told_again,
     watches_from,
 )
 from aurora_core.parsing.constructions.waiting import waits_aloft, waits_for
@@ -343,7 +344,8 @@ def _one(
 ) -> str:
     scene = frame.scene
     known = scene.missions_of(uav)
-    draft = (
+    again = told_again(frame, known)
+    draft = again or (
         known[-1] if known and _continues(frame, known[-1], mode, target, pattern, found) else None
     )
     if draft is None:

@@ -4,6 +4,9 @@
 
 from __future__ import annotations
 
+import re
+
+from aurora_core.parsing.atoms import AtomKind
 from aurora_core.parsing.constructions.flight_types import FlightValues
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.pieces import Link
@@ -62,3 +65,16 @@ def watches_from(frame: Frame, last: MissionDraft, mode: MissionMode, target: st
 
 def _places_of(entity: Entity) -> list[str | None]:
     return [p.of for p in entity.placements] + [b.target for b in entity.behaviors]
+
+
+def told_again(frame: Frame, known: list[MissionDraft]) -> MissionDraft | None:
+    """`on that route its height is 40 m`: the flight that was told before, and no new one."""
+    begin = max(0, frame.piece.start - len('during that '))
+    opening = frame.scene.prompt[begin : frame.piece.end].lower()[:_OPENING]
+    routes = [m for m in known if m.mode is MissionMode.NAVIGATE]
+    marked = any(a.key == AtomKind.ROUTE.value for a in frame.adjuncts)
+    return routes[-1] if routes and marked and _REFERS.search(opening) else None
+
+
+_OPENING = 28  # characters in which a clause says what it goes on about
+_REFERS = re.compile(r'\b(?:on|in|during|along|for) (?:that|this) ')
