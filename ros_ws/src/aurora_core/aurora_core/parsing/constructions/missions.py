@@ -9,6 +9,7 @@ from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
 from aurora_core.parsing.atoms import ACTORS, AtomKind, NounKind, NounPhrase
 from aurora_core.parsing.constructions.flight_types import FlightValues, state_ranges
 from aurora_core.parsing.constructions.flight_values import take_flight_values
+from aurora_core.parsing.constructions.flown_patterns import WAYPOINT_PREPS, flown_pattern
 from aurora_core.parsing.constructions.flyers import flyers
 from aurora_core.parsing.constructions.transits import (
     arrive,
@@ -25,7 +26,7 @@ from aurora_core.parsing.pronouns import anything, ground
 from aurora_core.parsing.scene import Entity, MissionDraft
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.scenario import UavAction
-from aurora_core.spec.vocabulary import MissionMode, Pattern, Place
+from aurora_core.spec.vocabulary import MissionMode, Pattern
 
 FLYING = frozenset(
     {
@@ -61,14 +62,6 @@ _TRACKING = frozenset({'track', 'follow', 'trail', 'approach'})
 _CONCURRENT = (Link.WHILE, Link.PARTICIPLE, Link.RELATIVE)
 
 
-_BOTH_WAYS = frozenset(
-    {'back and forth', 'to and fro', 'there and back', 'up and down', 'out and back'}
-)
-
-
-_WAYPOINT_PREPS = ('to', 'through', 'via')
-
-
 def mission(frame: Frame) -> bool:
     """Read one mission phase, or more about the last one."""
     if frame.negated or frame.key not in FLYING:
@@ -88,7 +81,7 @@ def mission(frame: Frame) -> bool:
         mode = MissionMode.TRACK if _is_actor(frame, target) else MissionMode.HOVER
     if frame.key == 'observe' and target is None and frame.piece.link in _CONCURRENT:
         mode = None  # `hovers there, observing the traffic`
-    pattern = _pattern(frame, mode, target)
+    pattern = flown_pattern(frame, mode, target)
     if pattern is not None:
         mode = MissionMode.NAVIGATE
     found = take_flight_values(frame, mode, pattern, above=watching)
@@ -277,61 +270,11 @@ def _mode(frame: Frame, target: str | None, prep: str) -> MissionMode | None:
         return None
     if prep in ('around', 'along'):
         return MissionMode.NAVIGATE
-    if prep in _WAYPOINT_PREPS and not moving:
+    if prep in WAYPOINT_PREPS and not moving:
         return MissionMode.NAVIGATE
     if prep in ('over', 'with', 'at', 'to', 'on', 'in', 'near'):
         return MissionMode.TRACK if moving else MissionMode.HOVER
     return None
-
-
-def _pattern(frame: Frame, mode: MissionMode | None, target: str | None) -> Pattern | None:
-    told = _told_pattern(frame, target)
-    if told is not None:
-        return told
-    if frame.verb is not None and frame.key == 'navigate' and mode is MissionMode.NAVIGATE:
-        word = frame.scene.prompt[frame.verb.start : frame.verb.end].lower()
-        if word.startswith('mow'):
-            return Pattern.LAWNMOWER
-    if frame.key == 'orbit':
-        return Pattern.ORBIT
-    if mode is not MissionMode.NAVIGATE:
-        return None
-    if frame.attribute('waypoint') is not None or frame.key == 'visit':
-        return Pattern.WAYPOINTS
-    if frame.attribute('radius', 'diameter') is not None:
-        return Pattern.ORBIT  # `a circuit with a radius of 40 m`
-    phrases = [a.key for a in frame.adjuncts if a.kind is AdjunctKind.PHRASE and a.used]
-    if (
-        'around' in phrases
-        and not frame.has_mark(AtomKind.ROUTE.value)
-        and frame.key != 'navigate'
-    ):
-        return Pattern.ORBIT
-    if 'along' in phrases or target == Place.MAIN_ROAD:
-        return Pattern.LINE
-    if frame.key in ('fly', 'drive', '') and any(p in _WAYPOINT_PREPS for p in phrases):
-        return Pattern.WAYPOINTS
-    return Pattern.RECTANGLE
-
-
-def _told_pattern(frame: Frame, target: str | None) -> Pattern | None:
-    """Return the pattern that is named; `back and forth` is how a line is flown as well."""
-    marks = frame.free(AdjunctKind.MARK, AtomKind.PATTERN.value)
-    vague = [m for m in marks if _words(frame, m) in _BOTH_WAYS]
-    clear = [m for m in marks if m not in vague]
-    if not marks:
-        return None
-    chosen = (clear or vague)[0]
-    for mark in marks:
-        mark.used = mark in vague or mark.value == chosen.value
-    along = any(a.key == 'along' for a in frame.adjuncts if a.kind is AdjunctKind.PHRASE)
-    if not clear and (along or target == Place.MAIN_ROAD):
-        return Pattern.LINE
-    return Pattern(chosen.value)
-
-
-def _words(frame: Frame, adjunct: Adjunct) -> str:
-    return frame.scene.prompt[adjunct.start : adjunct.end].lower()
 
 
 def _one(

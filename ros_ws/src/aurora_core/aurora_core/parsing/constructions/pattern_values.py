@@ -72,7 +72,8 @@ def _size(frame: Frame, found: FlightValues, pattern: Pattern) -> None:
             use(found, adjunct)
             return
     found.square = any(
-        a.kind is AdjunctKind.MARK and _text(frame, a).endswith('square') for a in frame.adjuncts
+        a.kind is AdjunctKind.MARK and text_of_adjunct(frame, a).endswith('square')
+        for a in frame.adjuncts
     )
 
 
@@ -82,7 +83,8 @@ def _near(frame: Frame, adjunct: Adjunct, word: str) -> bool:
     return word in around
 
 
-def _text(frame: Frame, adjunct: Adjunct) -> str:
+def text_of_adjunct(frame: Frame, adjunct: Adjunct) -> str:
+    """Return the words of an adjunct, in lower case."""
     return frame.scene.prompt[adjunct.start : adjunct.end].lower()
 
 
