@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from aurora_core.parsing.lexicon import Lexicon
+from aurora_core.parsing.lexicon import Lexicon, Tag
 from aurora_core.parsing.tokens import Token, TokenKind
 
 _ENDS = frozenset('.;:!?\n')
@@ -65,6 +65,8 @@ def _label(tokens: Sequence[Token], i: int, lexicon: Lexicon) -> int | None:
     if named and behind.norm in (':', ';', ')'):
         return end + 1
     begins = behind.kind is TokenKind.WORD and (behind.proper or behind.capital)
+    unit = lexicon.longest_of([t.norm for t in tokens[end : end + 2]], 0, (Tag.UNIT,))
+    begins = begins and unit is None  # `1.2 M` is a length
     known = tokens[at - 1].norm in lexicon.turns['numbered'] if named else False
     return end if begins and not behind.glued and (dotted or (named and not known)) else None
 
