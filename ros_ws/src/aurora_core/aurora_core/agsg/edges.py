@@ -120,6 +120,8 @@ class Edges:
         for order in self._spec.orders:
             ends = (order.first, order.then)
             yield from self._judged(ends, order.id, EdgeType.TEMPORAL, _JUDGED)
+        for count in self._spec.counts:
+            yield from self._judged((ENVIRONMENT_ID,), count.id, EdgeType.SPATIAL, _JUDGED)
         for prohibition in self._spec.prohibitions:
             sources = [
                 *self._named(prohibition, (*_PROHIBITION_FIELDS, 'of')),

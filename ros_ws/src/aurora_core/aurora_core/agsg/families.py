@@ -29,6 +29,9 @@ _QUANTITIES = {
         QuantityName.COLLISION_CLEARANCE,
         QuantityName.OBSTACLE_CLEARANCE,
         QuantityName.NO_FLY_DISTANCE,
+        QuantityName.PATTERN_EXTENT,
+        QuantityName.COUNT,
+        QuantityName.WORLD_SETTING,
     ),
     EdgeType.TEMPORAL: (
         QuantityName.EVENT_TIME,
@@ -36,6 +39,8 @@ _QUANTITIES = {
         QuantityName.CAPTURE_TIME,
         QuantityName.PHASE_DURATION,
         QuantityName.ENDURANCE,
+        QuantityName.RUN_DURATION,
+        QuantityName.COMPLETION_DELAY,
     ),
     EdgeType.PERCEPTUAL: (
         QuantityName.TRACKED_FRACTION,
@@ -48,6 +53,8 @@ _QUANTITIES = {
         QuantityName.DELIVERED,
         QuantityName.DELIVERY_LATENCY,
         QuantityName.DELIVERY_RATIO,
+        QuantityName.LINK_RANGE,
+        QuantityName.ATTEMPTS,
     ),
     EdgeType.BEHAVIORAL: (
         QuantityName.SPEED,

@@ -107,7 +107,7 @@ def _own_elements(agsg: Agsg) -> Mapping[str, tuple[str, ...]]:
     """Return the elements of the specification that each condition is about."""
     conditions: tuple[Condition, ...] = conditions_from_json(agsg.conditions_json)
     spec = agsg.spec
-    stated = (*spec.conditions, *spec.orders, *spec.prohibitions)
+    stated = (*spec.conditions, *spec.orders, *spec.counts, *spec.prohibitions)
     return {c.id: c.spec_ids for c in conditions} | {s.id: (s.id,) for s in stated}
 
 

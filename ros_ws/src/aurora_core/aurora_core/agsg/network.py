@@ -34,6 +34,7 @@ _LISTS = (
     'events',
     'conditions',
     'orders',
+    'counts',
     'prohibitions',
 )
 

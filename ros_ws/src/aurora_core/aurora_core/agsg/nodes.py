@@ -44,6 +44,9 @@ def nodes_of(spec: ScenarioSpec, conditions: tuple[Condition, ...]) -> Iterator[
     for order in spec.orders:
         label = f'{order.first} before {order.then}'
         yield AgsgNode(id=order.id, type=NodeType.CONDITION, label=label)
+    for count in spec.counts:
+        label = f'{count.value.bound.value} {count.value.value:g} {count.kind}'
+        yield AgsgNode(id=count.id, type=NodeType.CONDITION, label=label)
     for prohibition in spec.prohibitions:
         label = f'no {_forbidden(prohibition)}'
         yield AgsgNode(id=prohibition.id, type=NodeType.CONDITION, label=label)

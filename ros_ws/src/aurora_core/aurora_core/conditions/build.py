@@ -7,8 +7,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from aurora_core.conditions.condition import Arguments, Condition, Op, Window
-from aurora_core.conditions.plan_facts import MissionFacts, PlanFacts
+from aurora_core.conditions.plan_facts import AgentFacts, MissionFacts, PlanFacts
 from aurora_core.knowledge.limits import Limits, Tolerance, Tolerances
+from aurora_core.quantities.actions import action_rules
 from aurora_core.spec.parameter import Bound, Document, Parameter, Provenance, Span
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import GroundAgent, ScenarioSpec
@@ -57,6 +58,10 @@ class Inputs:
         """Return the facts of a mission."""
         return next((f for f in self.facts.missions if f.mission == mission_id), None)
 
+    def agent_facts(self, agent_id: str) -> AgentFacts | None:
+        """Return the facts of a ground agent, None when it has no place."""
+        return next((f for f in self.facts.agents if f.agent == agent_id), None)
+
     def placement_tolerance(self, agent_id: str) -> Tolerance:
         """Return the tolerance of placement distances: vehicles, or walkers and parked ones."""
         agent = self.agent(agent_id)
@@ -72,6 +77,7 @@ class Inputs:
             values['brake_mps2'] = self.tolerances.brake_mps2
             values['arrival_m'] = self.tolerances.arrival_m
             values['onset_mps2'] = self.tolerances.onset_mps2
+            values['actions'] = action_rules(self.tolerances)
             values['statistics_from'] = self.tolerances.link_statistics_from
         if values.get('aspect') == 'order':
             values['phase_change_s'] = self.tolerances.phase_change_s

@@ -15,9 +15,10 @@ from typing import Literal, Self
 from pydantic import FiniteFloat, TypeAdapter, ValidationError, model_validator
 
 from aurora_core.errors import VerificationError
+from aurora_core.quantities.actions import ActionRules
 from aurora_core.quantities.kernels import TrackRule
 from aurora_core.quantities.phases import CaptureRule
-from aurora_core.spec.parameter import Bound, Document, Provenance, Span
+from aurora_core.spec.parameter import Bound, Document, Provenance, Span, omitted
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.vocabulary import MissionMode, Relation
 from aurora_core.stl.formula import predicates
@@ -121,7 +122,8 @@ class Arguments(Document):
         event: Event id.
         link: Link id.
         relation: Of a placement.
-        after_s: Samples before this time do not count.
+        after_s: Samples before this time do not count; of events what shows sooner after
+            the trigger.
         low: Lower end of what counts per sample (gap, share of a leg, ...); see the evaluator.
         high: Upper end.
         slow_low: Follow: lower end while slow.
@@ -134,6 +136,10 @@ class Arguments(Document):
         strict: A sample that is exactly the wanted number does not count.
         brake_mps2: Events: loss of speed that counts as braking.
         onset_mps2: Events: change of speed that counts as slowing down or speeding up.
+        actions: Events: when the actions of ground agents are complete.
+        acceleration_mps2: Completion: what the agent can do to get to its speed.
+        axis: Patterns: direction (x, y) along which their extent is measured.
+        types: Counts: vocabulary types.
         arrival_m: Events: distance from a place at which an agent is there.
         phase_change_s: Time within which the states have to show a change of phase.
         phase_follow_m: How close a UAV is to its set-point by then.
@@ -162,6 +168,10 @@ class Arguments(Document):
     strict: bool = False
     brake_mps2: FiniteFloat = 0.0
     onset_mps2: FiniteFloat = 0.0
+    actions: ActionRules | None = omitted(None)
+    acceleration_mps2: FiniteFloat = omitted(0.0)
+    axis: tuple[FiniteFloat, FiniteFloat] | None = omitted(None)
+    types: tuple[str, ...] = omitted(())
     arrival_m: FiniteFloat = 0.0
     phase_change_s: FiniteFloat = 0.0
     phase_follow_m: FiniteFloat = 0.0

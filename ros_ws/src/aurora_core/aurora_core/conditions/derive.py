@@ -16,6 +16,7 @@ from aurora_core.conditions.orders import order_conditions
 from aurora_core.conditions.placements import placement_conditions
 from aurora_core.conditions.plan_facts import PlanFacts
 from aurora_core.conditions.safety import safety_conditions
+from aurora_core.conditions.scene import scene_conditions
 from aurora_core.conditions.stated import stated_conditions
 from aurora_core.conditions.unsaid import unsaid
 from aurora_core.errors import VerificationError
@@ -29,7 +30,7 @@ class Derivation:
 
     Attributes:
         conditions: In a fixed order: stated, missions, placements, behaviours, events,
-            orders, safety.
+            orders, scene, safety.
         underivable: Elements that no condition can express yet; their clauses are `incomplete`.
     """
 
@@ -74,6 +75,7 @@ def _all(inputs: Inputs) -> Iterator[Condition | Underivable]:
         behavior_conditions(inputs),
         event_conditions(inputs),
         order_conditions(inputs),
+        scene_conditions(inputs),
         safety_conditions(inputs),
         unsaid(inputs),
     )

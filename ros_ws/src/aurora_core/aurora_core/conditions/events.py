@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from aurora_core.conditions.actions import action_conditions
 from aurora_core.conditions.build import (
     Inputs,
     Source,
@@ -23,6 +24,7 @@ from aurora_core.conditions.links import (
     is_needed,
     link_between,
     loses_messages,
+    model_conditions,
     ratio_condition,
 )
 from aurora_core.conditions.missions import mission_arguments
@@ -41,6 +43,9 @@ from aurora_core.spec.scenario import (
     VisibilityTrigger,
 )
 from aurora_core.spec.vocabulary import MissionMode
+
+# What an agent may not have done before it is asked to.
+_NOT_BEFORE = frozenset({'start', 'cross', 'change_lane'})
 
 
 def actor_of(event: Event) -> str | None:
@@ -71,6 +76,8 @@ def event_conditions(inputs: Inputs) -> Iterator[Condition | Underivable]:
             continue
         source = Source(ids=(event.id,), spans=(event.span,))
         yield from _moment(inputs, event, source)
+        if isinstance(event.action, AgentAction):
+            yield from action_conditions(inputs, event, event.action, source)
         if isinstance(event.action, UavAction) and event.action.altitude_m is not None:
             yield _climb(inputs, event.action, event.action.altitude_m, event, source)
         if isinstance(event.action, SendMessage):
@@ -82,8 +89,10 @@ def event_conditions(inputs: Inputs) -> Iterator[Condition | Underivable]:
                     span=event.span,
                 )
                 continue
-            if link.id not in used and loses_messages(link):
-                yield ratio_condition(inputs, link)
+            if link.id not in used:
+                if loses_messages(link):
+                    yield ratio_condition(inputs, link)
+                yield from model_conditions(inputs, link)
             used.add(link.id)
             yield from _alert(inputs, event, event.action, source)
             yield from _message(inputs, event, link)
@@ -124,9 +133,10 @@ def _moment(inputs: Inputs, event: Event, source: Source) -> Iterator[Condition]
         ('not_before', f'not before {after}', _at_least(earliest_s)),
     ]
     climbs = isinstance(event.action, UavAction) and event.action.do == 'ascend'
-    if isinstance(event.action, AgentAction) or climbs:
+    drives = isinstance(event.action, AgentAction) and event.action.do not in _NOT_BEFORE
+    if drives or climbs:
         # Drivers slow down and speed up for many reasons, and a UAV has climbed at its take-off:
-        # what was before says nothing.
+        # what was before says nothing. What they do before a stated delay is over neither.
         bounds.pop()
     for name, words, target in bounds:
         yield condition(
@@ -135,7 +145,12 @@ def _moment(inputs: Inputs, event: Event, source: Source) -> Iterator[Condition]
             quantity=QuantityName.EVENT_DELAY,
             of=(event.id,),
             target=target,
-            arguments=inputs.arguments(Window.MOMENT, aspect=name, event=event.id),
+            arguments=inputs.arguments(
+                Window.MOMENT,
+                aspect=name,
+                event=event.id,
+                after_s=earliest_s if drives else 0.0,
+            ),
             source=source,
             every_sample=False,
         )

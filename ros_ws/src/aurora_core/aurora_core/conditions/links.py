@@ -1,12 +1,14 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""What links imply: which one carries a message, until when, and how many may be lost."""
+"""What links imply: which one carries a message, until when, how many may be lost, how far."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from aurora_core.conditions.build import Inputs, Source, Target, condition, number
 from aurora_core.conditions.condition import Condition, Window
-from aurora_core.spec.parameter import Provenance
+from aurora_core.spec.parameter import Parameter, Provenance
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import Link, MessageTrigger, ScenarioSpec
 
@@ -66,3 +68,71 @@ def ratio_condition(inputs: Inputs, link: Link) -> Condition:
         ),
         every_sample=False,
     )
+
+
+def model_conditions(inputs: Inputs, link: Link) -> Iterator[Condition]:
+    """Yield that the ledger of a link fits the parameters that the prompt states of it."""
+    of, arguments = (link.sender, link.receiver), inputs.arguments
+    if link.loss.provenance is Provenance.EXPLICIT and not loses_messages(link):
+        passes = 1.0 - link.loss.value
+        yield condition(
+            id=f'{link.id}.loss',
+            sentence=(
+                f'of the attempts on {link.id} as many pass as chance allows: '
+                f'{number(100 * passes)} %, within the 99 % interval'
+            ),
+            quantity=QuantityName.DELIVERY_RATIO,
+            signal=f'attempts_slack({link.id})',
+            of=of,
+            target=Target(op='>=', threshold=0.0, unit='1'),
+            arguments=arguments(
+                Window.MOMENT, aspect='attempts', link=link.id, wanted=link.loss.value
+            ),
+            source=_of_number(link, link.loss),
+            every_sample=False,
+        )
+    if link.range_m is not None and link.range_m.provenance is Provenance.EXPLICIT:
+        range_m = link.range_m.value
+        yield condition(
+            id=f'{link.id}.range',
+            sentence=f'{link.id} reaches {number(range_m)} m, and no farther',
+            quantity=QuantityName.LINK_RANGE,
+            signal=f'range_slack({link.id})',
+            of=of,
+            target=Target(op='>=', threshold=0.0, unit='m'),
+            arguments=arguments(Window.MOMENT, link=link.id, wanted=range_m),
+            source=_of_number(link, link.range_m),
+        )
+    again = link.retransmissions
+    if again.provenance is Provenance.EXPLICIT:
+        yield condition(
+            id=f'{link.id}.retransmissions',
+            sentence=f'{link.id} sends a lost message up to {number(again.value)} times again',
+            quantity=QuantityName.ATTEMPTS,
+            signal=f'attempts_off({link.id})',
+            of=of,
+            target=Target(op='<=', threshold=0.0, unit='1'),
+            arguments=arguments(Window.MOMENT, aspect='count', link=link.id, wanted=again.value),
+            source=_of_number(link, again),
+            every_sample=False,
+        )
+    interval = link.retransmission_interval_s
+    if interval.provenance is Provenance.EXPLICIT:
+        slack_s = inputs.tolerances.duration_s.of(interval.value)
+        yield condition(
+            id=f'{link.id}.interval',
+            sentence=f'{link.id} sends again every {number(interval.value)} s',
+            quantity=QuantityName.ATTEMPTS,
+            signal=f'interval_off({link.id})',
+            of=of,
+            target=Target(op='<=', threshold=slack_s, unit='s'),
+            arguments=arguments(
+                Window.MOMENT, aspect='interval', link=link.id, wanted=interval.value
+            ),
+            source=_of_number(link, interval),
+            every_sample=False,
+        )
+
+
+def _of_number(link: Link, stated: Parameter) -> Source:
+    return Source(ids=(link.id,), spans=(stated.span,), provenance=stated.provenance)

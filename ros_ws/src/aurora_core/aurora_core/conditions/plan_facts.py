@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""The facts of a grounded plan that conditions quote: horizon, waypoints, hover points.
+"""The facts of a grounded plan that conditions quote: horizon, waypoints, hover points, agents.
 
 Grounding fills them in; conditions are derived from the specification and these facts before the
 run and travel in the bag, so nothing that happens later can move a threshold.
@@ -42,13 +42,28 @@ class MissionFacts(Document):
     transit_speed_mps: FiniteFloat = 8.0
 
 
+class AgentFacts(Document):
+    """What a ground agent can do by its type.
+
+    Attributes:
+        acceleration_mps2: From rest.
+        deceleration_mps2: Without emergency.
+    """
+
+    agent: str
+    acceleration_mps2: FiniteFloat
+    deceleration_mps2: FiniteFloat
+
+
 class PlanFacts(Document):
     """Facts of the whole plan.
 
     Attributes:
         horizon_s: Simulated time by which everything, landing included, has to be done.
         missions: In the order of the specification.
+        agents: Ground agents that have a place.
     """
 
     horizon_s: FiniteFloat
     missions: tuple[MissionFacts, ...] = ()
+    agents: tuple[AgentFacts, ...] = ()

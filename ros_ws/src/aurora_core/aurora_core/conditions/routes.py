@@ -17,13 +17,17 @@ from aurora_core.conditions.build import (
     number_target,
     stated_by,
 )
-from aurora_core.conditions.condition import Condition, MissionArguments, Window
+from aurora_core.conditions.condition import Condition, MissionArguments, Point3, Window
 from aurora_core.errors import VerificationError
 from aurora_core.geometry.kernel import norm2
-from aurora_core.spec.parameter import Bound, Provenance
+from aurora_core.quantities.waypoints import extent
+from aurora_core.spec.parameter import Bound, Parameter, Provenance
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import UavMission
 from aurora_core.spec.vocabulary import Pattern
+
+# Patterns with a length and a width.
+_SIZED = frozenset({Pattern.RECTANGLE, Pattern.LINE, Pattern.LAWNMOWER})
 
 # Legs of a pattern whose size is stated keep that size to this.
 SIZE_GUARD_M = 1e-3
@@ -106,6 +110,7 @@ def route_conditions(
             every_sample=False,
         )
     yield from _route_numbers(inputs, mission, arguments, source)
+    yield from _extents(inputs, mission, arguments, source)
 
 
 def _route_numbers(
@@ -149,6 +154,45 @@ def _route_numbers(
             arguments=inputs.arguments(Window.PHASE, aspect='centre', mission=arguments),
             source=stated_by(source, radius),
         )
+
+
+def _extents(
+    inputs: Inputs, mission: UavMission, arguments: MissionArguments, source: Source
+) -> Iterator[Condition]:
+    """Yield that the flown pattern is as long and as wide as the prompt states.
+
+    Each end of it may be as far off as a waypoint may be missed.
+    """
+    if mission.size_m is None or mission.pattern not in _SIZED:
+        return
+    slack = 2.0 * inputs.tolerances.waypoint_horizontal_m
+    axes = _axes(mission.size_m, arguments.waypoints)
+    for name, size, axis in zip(('length', 'width'), mission.size_m, axes, strict=True):
+        if size.provenance is not Provenance.EXPLICIT or size.value == 0.0:
+            continue
+        yield condition(
+            id=f'{mission.id}.{name}',
+            sentence=f'the pattern of {mission.uav} has a {name} of {number(size.value)} m',
+            quantity=QuantityName.PATTERN_EXTENT,
+            signal=f'{name}({mission.uav})',
+            of=(mission.uav,),
+            target=Target(op='==', threshold=size.value, unit='m', tolerance=slack),
+            arguments=inputs.arguments(Window.PHASE, mission=arguments, axis=axis),
+            source=stated_by(source, size),
+            every_sample=False,
+        )
+
+
+def _axes(
+    size: tuple[Parameter, Parameter], points: tuple[Point3, ...]
+) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Return the directions of length and width: the first leg's, and across it."""
+    dx, dy = points[1][0] - points[0][0], points[1][1] - points[0][1]
+    way = norm2(dx, dy)
+    along = (dx / way, dy / way) if way > 0.0 else (1.0, 0.0)
+    across = (-along[1], along[0])
+    seen = [abs(extent(points, axis) - size[0].value) for axis in (along, across)]
+    return (along, across) if seen[0] <= seen[1] else (across, along)
 
 
 def _check_size(mission: UavMission, arguments: MissionArguments) -> None:

@@ -12,6 +12,12 @@ from aurora_core.conditions.events import actor_of
 from aurora_core.execution.observe import Observation
 from aurora_core.execution.triggers import Progress, holds
 from aurora_core.mission.machine import MissionMachine
+from aurora_core.quantities.actions import (
+    ActionRules,
+    ends_with_mps,
+    is_complete,
+    takes_time,
+)
 from aurora_core.spec.scenario import AgentAction, Event, ScenarioSpec, SendMessage, UavAction
 from aurora_core.spec.vocabulary import MissionMode
 from aurora_core.trace.commands import GroundCommand
@@ -22,17 +28,12 @@ from aurora_core.trace.roster import Roster
 # Deceleration of a commanded braking (m/s^2): above the 4 m/s^2 that "brake" asks for.
 BRAKING_MPS2 = 6.0
 
-# What "slow down" and "speed up" mean when no speed is stated.
-SLOW_FACTOR = 0.5
-SPEED_GAIN_MPS = 4.0
-
 Note = Callable[[int, ScenarioEventKind, str, str], None]
 
 # Speed from which an agent can be seen to brake or stop (m/s).
 ON_THE_MOVE_MPS = 5.0
 
-_SPEED_ACTIONS = frozenset({'brake', 'stop', 'yield'})
-_FROM_MOTION = _SPEED_ACTIONS | {'slow'}
+_FROM_MOTION = frozenset({'brake', 'stop', 'yield', 'slow'})
 
 
 def _shows_after(event: Event) -> int:
@@ -48,8 +49,18 @@ def _shows_after(event: Event) -> int:
 
 @dataclass(slots=True)
 class _EventState:
+    """How far an event has come.
+
+    Attributes:
+        acted: Its action was ordered.
+        before_mps: Speed of the agent when it was, None when it has no speed to get to.
+        done: Its action is complete.
+    """
+
     event: Event
     triggered_tick: int | None = None
+    acted: bool = False
+    before_mps: float | None = None
     done: bool = False
 
 
@@ -61,12 +72,22 @@ class EventRunner:
         roster: Row order.
         links: Message links.
         arrival_m: An agent this close to a place is there.
+        rules: When the actions of ground agents are complete.
+        set_off: Gives the commands that let the agent of a row drive.
     """
 
     def __init__(
-        self, spec: ScenarioSpec, roster: Roster, links: Sequence[MessageLink], arrival_m: float
+        self,
+        spec: ScenarioSpec,
+        roster: Roster,
+        links: Sequence[MessageLink],
+        arrival_m: float,
+        rules: ActionRules,
+        set_off: Callable[[int], list[GroundCommand]],
     ) -> None:
         self._roster = roster
+        self._rules = rules
+        self._set_off = set_off
         self._links = links
         self._states = [_EventState(event=e) for e in spec.events]
         ids = {e.id for e in spec.events}
@@ -127,14 +148,42 @@ class EventRunner:
                 note(tick, ScenarioEventKind.TRIGGERED, event.id, '')
             if state.triggered_tick is None:
                 continue
+            if state.acted:
+                self._finish(state, tick, seen)
+                continue
             due = tick >= state.triggered_tick + whole_ticks(event.waits_s, dt_s)
             due = due and self._may_follow(event, tick)
             if due and self._allowed(event, seen, machines):
                 commands += self._act(tick, event, seen, machines)
-                state.done = True
-                self._progress.done_tick[event.id] = tick + _shows_after(event)
                 note(tick, ScenarioEventKind.ACTION, event.id, '')
+                self._begun(state, tick, seen)
         return commands
+
+    def _begun(self, state: _EventState, tick: int, seen: Observation) -> None:
+        """Note that an action was ordered; one that gets to a speed is not complete yet."""
+        action = state.event.action
+        state.acted = True
+        speed_mps = None
+        if isinstance(action, AgentAction) and takes_time(action):
+            speed_mps = seen.speed_mps(action.agent)
+        if speed_mps is None:
+            state.done = True
+            self._progress.done_tick[state.event.id] = tick + _shows_after(state.event)
+            return
+        state.before_mps = speed_mps
+        self._finish(state, tick, seen)
+
+    def _finish(self, state: _EventState, tick: int, seen: Observation) -> None:
+        """Note that an action is complete, once the speed of its agent says so."""
+        action = state.event.action
+        if not isinstance(action, AgentAction) or state.before_mps is None:
+            return
+        speed_mps = seen.speed_mps(action.agent)
+        if speed_mps is None:
+            return
+        if is_complete(action, state.before_mps, speed_mps, self._rules):
+            state.done = True
+            self._progress.done_tick[state.event.id] = tick
 
     def _begins(
         self,
@@ -208,30 +257,16 @@ class EventRunner:
         row = self._roster.agent_index(action.agent)
         if row is None:
             return []
-        value = None if action.value_mps is None else action.value_mps.value
-        if action.do in _SPEED_ACTIONS:
-            commands = []
-            if action.do == 'brake':
-                commands.append(
-                    GroundCommand(
-                        agent=row, kind=GroundCommandKind.SET_DECELERATION, value=BRAKING_MPS2
-                    )
-                )
-            stop = 0.0 if value is None else value
-            return [
-                *commands,
-                GroundCommand(agent=row, kind=GroundCommandKind.SET_SPEED, value=stop),
-            ]
-        if action.do in ('slow', 'accelerate'):
-            now = seen.speed_mps(action.agent)
-            if now is None:
-                return []
-            wanted = value
-            if wanted is None and action.do == 'slow':
-                wanted = SLOW_FACTOR * now
-            elif wanted is None:
-                wanted = now + SPEED_GAIN_MPS
-            return [GroundCommand(agent=row, kind=GroundCommandKind.SET_SPEED, value=wanted)]
-        if action.do == 'start':
-            return [GroundCommand(agent=row, kind=GroundCommandKind.RELEASE_SPEED)]
-        return []
+        if action.do == 'start' and action.value_mps is None:
+            return self._set_off(row)
+        now_mps = seen.speed_mps(action.agent)
+        if now_mps is None:
+            return []
+        goal_mps = ends_with_mps(action, now_mps, self._rules)
+        if goal_mps is None:
+            return []
+        commands = [GroundCommand(agent=row, kind=GroundCommandKind.SET_SPEED, value=goal_mps)]
+        if action.do == 'brake':
+            harder = GroundCommandKind.SET_DECELERATION
+            commands.insert(0, GroundCommand(agent=row, kind=harder, value=BRAKING_MPS2))
+        return commands

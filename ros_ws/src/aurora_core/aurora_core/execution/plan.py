@@ -25,6 +25,7 @@ from aurora_core.knowledge.world import NamedPlace, Wind, WorldModel
 from aurora_core.mission.machine import MissionMachine
 from aurora_core.mission.setpoint import FlightSettings
 from aurora_core.ports.simulators import AirLoad, GroundAgentLoad, GroundLoad, UavHome
+from aurora_core.quantities.actions import action_rules
 from aurora_core.quantities.world_geometry import WorldGeometry
 from aurora_core.spec.scenario import Link, ScenarioSpec, SendMessage
 from aurora_core.temporal.schedule import Schedule
@@ -106,6 +107,7 @@ def build_execution(
             geometry=WorldGeometry(world, parts.sight_line),
             landing_clearance_m=limits.clearance_min_m + 1.0,
             arrival_m=tolerances.arrival_m,
+            action_rules=action_rules(tolerances),
             horizon_ticks=round(schedule.horizon_s / dt_s),
             stated_horizon=schedule.stated_horizon,
             earliest_end_ticks=round(limits.horizon_inferred_min_s / dt_s),

@@ -23,6 +23,7 @@ from aurora_core.execution.step_output import StepOutput
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.grounding.grounded import GroundedAgent, ReleaseOn
 from aurora_core.mission.machine import MissionMachine
+from aurora_core.quantities.actions import ActionRules
 from aurora_core.quantities.instant_sight import InstantSight
 from aurora_core.quantities.world_geometry import WorldGeometry
 from aurora_core.spec.scenario import ScenarioSpec
@@ -51,6 +52,7 @@ class ExecutionSetup:
     Attributes:
         geometry: Solids and places of the world, the same that the monitor judges with.
         arrival_m: An agent this close to a place is there.
+        action_rules: When the actions of ground agents are complete.
         landing_clearance_m: The way to a landing spot keeps this clearance.
         earliest_end_ticks: Runs with an inferred horizon do not end before.
         settle_ticks: Time between the last thing done and the end.
@@ -65,6 +67,7 @@ class ExecutionSetup:
     geometry: WorldGeometry
     landing_clearance_m: float
     arrival_m: float
+    action_rules: ActionRules
     horizon_ticks: int
     stated_horizon: bool
     earliest_end_ticks: int
@@ -87,7 +90,14 @@ class ScenarioExecutor:
         self._held = {i for i, a in enumerate(setup.agents) if a.release is not ReleaseOn.START}
         self._phases = [int(UavPhase.IDLE)] * len(setup.machines)
         self._seen: dict[tuple[str, str], bool] = {}
-        self._runner = EventRunner(setup.spec, setup.roster, setup.links, setup.arrival_m)
+        self._runner = EventRunner(
+            setup.spec,
+            setup.roster,
+            setup.links,
+            setup.arrival_m,
+            setup.action_rules,
+            self._set_off,
+        )
         self._done_tick: int | None = None
         self._landing_since: dict[int, int] = {}
         self._sight = InstantSight(setup.geometry, setup.roster)
@@ -153,6 +163,11 @@ class ScenarioExecutor:
                 )
             ]
         return [GroundCommand(agent=index, kind=GroundCommandKind.RELEASE_SPEED)]
+
+    def _set_off(self, index: int) -> list[GroundCommand]:
+        """Return the commands that let an agent drive, who may have been held until now."""
+        self._held.discard(index)
+        return self._start_commands(index, self._setup.agents[index])
 
     def _release(self, tick: int) -> list[GroundCommand]:
         commands: list[GroundCommand] = []

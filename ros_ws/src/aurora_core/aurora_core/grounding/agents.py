@@ -31,6 +31,7 @@ from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.net_types import Lane
 from aurora_core.knowledge.route_path import RoutePath
 from aurora_core.knowledge.settings import Settings
+from aurora_core.spec.events import sets_off
 from aurora_core.spec.scenario import GroundAgent, ScenarioSpec, TimeTrigger, UavMission
 from aurora_core.spec.vocabulary import BehaviorKind, MissionMode, Place
 
@@ -89,7 +90,7 @@ class AgentPlacer:
                     agent,
                     seat.path,
                     seat.arc_m,
-                    release=release,
+                    release=_own_release(spec, agent, release),
                     still=still,
                     speed_mps=stated_speed_mps(spec, agent),
                     style=style,
@@ -116,7 +117,9 @@ class AgentPlacer:
         found = {a.id: a for a in placed}
         missing = []
         for agent in split.free:
-            grounded = self._free_agent(agent, (x0, y0), list(found.values()), run_m, generator)
+            release = _own_release(spec, agent, _Release())
+            others = list(found.values())
+            grounded = self._free_agent(agent, release, (x0, y0), others, run_m, generator)
             if grounded is None:
                 missing.append(f'{agent.id}: no free lane within reach')
             else:
@@ -126,6 +129,7 @@ class AgentPlacer:
     def _free_agent(
         self,
         agent: GroundAgent,
+        release: _Release,
         centre: tuple[float, float],
         others: list[GroundedAgent],
         run_m: float,
@@ -168,7 +172,7 @@ class AgentPlacer:
                 agent,
                 path,
                 path.arc_of(lane.id, position),
-                release=_Release(),
+                release=release,
                 still=any(b.kind in STILL for b in agent.behaviors),
                 speed_mps=own_speed_mps(agent),
                 style={},
@@ -236,6 +240,8 @@ class AgentPlacer:
             release_uav=release.uav,
             release_mission=release.mission,
             drive_speed_mps=speed_mps,
+            acceleration_mps2=record.accel_mps2,
+            deceleration_mps2=record.decel_mps2,
         )
 
     def _convoy_factor(self, spec: ScenarioSpec, site: Site) -> float:
@@ -300,6 +306,12 @@ def _line_from(path: RoutePath, arc_m: float) -> tuple[tuple[float, float], ...]
         if passed_m > arc_m + 0.01:
             points.append(b)
     return tuple(points)
+
+
+def _own_release(spec: ScenarioSpec, agent: GroundAgent, release: _Release) -> _Release:
+    """Return when an agent may start: whoever an event lets set off waits for it."""
+    waits = sets_off(spec.events, agent.id) is not None
+    return _Release(on=ReleaseOn.EVENT) if waits else release
 
 
 def _release(spec: ScenarioSpec, split: SceneSplit) -> _Release:

@@ -22,6 +22,7 @@ class ReleaseOn(StrEnum):
     ASCENDED = 'ascended'  # a UAV has reached its mission altitude
     CAPTURED = 'captured'  # a UAV has captured its target
     OBSERVED = 'observed'  # a UAV has finished watching it
+    EVENT = 'event'  # the event that lets it set off has happened
     NEVER = 'never'  # stands still
 
 
@@ -50,6 +51,8 @@ class GroundedAgent(Document):
         release_uav: The UAV whose state releases it.
         release_mission: The mission whose capture releases it.
         drive_speed_mps: Stated speed, held from the release on (None: drives with the traffic).
+        acceleration_mps2: What its type can do from rest.
+        deceleration_mps2: And to slow down, without emergency.
     """
 
     id: str
@@ -77,6 +80,8 @@ class GroundedAgent(Document):
     release_uav: str = ''
     release_mission: str = ''
     drive_speed_mps: FiniteFloat | None = None
+    acceleration_mps2: FiniteFloat = 1.5
+    deceleration_mps2: FiniteFloat = 1.5
 
 
 class RealisedValue(Document):

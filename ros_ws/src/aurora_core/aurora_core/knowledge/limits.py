@@ -146,6 +146,11 @@ class Tolerances(_Table):
     free_road_m: NotNegative  # with no leader or junction so near a driver keeps its speed
     moving_speed_mps: NotNegative  # an agent this fast has moved
     onset_mps2: NotNegative  # change of speed with which slowing down or speeding up begins
+    action_speed_mps: Tolerance  # on the speed that an action is to end with
+    action_done_s: NotNegative  # how much later than physics allows an action may be complete
+    slow_share: Share  # share of its speed to which an agent slows down when no speed is stated
+    speed_gain_mps: NotNegative  # by how much an agent speeds up when no speed is stated
+    start_speed_mps: NotNegative  # an agent this fast has set off
     phase_follow_m: NotNegative  # how close a UAV keeps to its set-point when a phase has changed
     link_statistics_from: Annotated[
         int, Field(ge=0)

@@ -219,6 +219,7 @@ class Context:
             brake_mps2=moments.brake_mps2 if moments is not None else 0.0,
             arrival_m=moments.arrival_m if moments is not None else 0.0,
             onset_mps2=moments.onset_mps2 if moments is not None else 0.0,
+            actions=moments.actions if moments is not None else None,
             flights=flights,
             links=self.links,
         )

@@ -9,14 +9,17 @@ from collections.abc import Callable
 from aurora_core.conditions.condition import Condition
 from aurora_core.errors import VerificationError
 from aurora_core.monitor import (
+    measure_actions,
     measure_events,
     measure_lanes,
+    measure_links,
     measure_manoeuvres,
     measure_missions,
     measure_motion,
     measure_relations,
     measure_route,
     measure_safety,
+    measure_scene,
     measure_yielding,
 )
 from aurora_core.monitor.evaluation import Context, Evaluation
@@ -66,6 +69,13 @@ _MEASURES: dict[Q, Callable[[Context, Condition], Evaluation]] = {
     Q.PRESENCE: measure_safety.measure_presence,
     Q.JUMP: measure_safety.measure_jump,
     Q.NO_FLY_DISTANCE: measure_safety.measure_no_fly,
+    Q.COUNT: measure_scene.measure_count,
+    Q.WORLD_SETTING: measure_scene.measure_world_setting,
+    Q.RUN_DURATION: measure_scene.measure_run_duration,
+    Q.COMPLETION_DELAY: measure_actions.measure_completion_delay,
+    Q.LINK_RANGE: measure_links.measure_link_range,
+    Q.ATTEMPTS: measure_links.measure_attempts,
+    Q.PATTERN_EXTENT: measure_route.measure_pattern_extent,
 }
 
 

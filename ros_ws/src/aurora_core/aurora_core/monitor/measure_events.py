@@ -18,6 +18,7 @@ from aurora_core.monitor.evaluation import (
 )
 from aurora_core.monitor.verdict import Reason
 from aurora_core.quantities.ledger import LinkModel, Message, binomial_interval
+from aurora_core.quantities.ticks import whole_ticks
 from aurora_core.spec.scenario import DistanceTrigger
 from aurora_core.spec.vocabulary import MissionMode
 from aurora_core.stl.syntax import format_number
@@ -30,7 +31,8 @@ def _event_id(condition: Condition) -> str:
     return condition.arguments.event
 
 
-def _never(context: Context, condition: Condition, story: str) -> Missing:
+def never_happened(context: Context, condition: Condition, story: str) -> Missing:
+    """Return that what a condition is about never happened, or that the record is too short."""
     if not context.complete(condition):
         return context.short(condition)
     return Missing(reason=Reason.PREMISE_NEVER, story=story)
@@ -58,9 +60,15 @@ def measure_event_delay(context: Context, condition: Condition) -> Evaluation:
     event_id = _event_id(condition)
     trigger = context.events.trigger_tick(event_id)
     if trigger is None:
-        return _never(context, condition, f'the trigger of {event_id} never happened')
-    first = 0 if condition.arguments.aspect == 'not_before' else trigger
-    action = context.events.action_tick(event_id, first)
+        return never_happened(context, condition, f'the trigger of {event_id} never happened')
+    first, fresh = trigger, False
+    if condition.arguments.aspect == 'not_before':
+        first = 0
+    elif condition.arguments.after_s > 0.0:
+        # What a driver does before the stated delay is over is not what was asked for.
+        first = trigger + whole_ticks(condition.arguments.after_s, context.view.dt_s)
+        fresh = True
+    action = context.events.action_tick(event_id, first, begins_there=fresh)
     begin = trigger_story(context, event_id, trigger)
     topics = ('ground/state', 'uav/state', 'comm')
     if action is not None:
@@ -68,7 +76,7 @@ def measure_event_delay(context: Context, condition: Condition) -> Evaluation:
         story = f'{begin}; {event_id} was carried out {value:.2f} s later'
         return at_tick(action, value, story, topics)
     if condition.arguments.aspect == 'not_before':
-        return _never(context, condition, f'{begin}; {event_id} was never carried out')
+        return never_happened(context, condition, f'{begin}; {event_id} was never carried out')
     waited_s = context.time_s(context.view.ticks - trigger)
     if waited_s > condition.threshold:
         story = f'{begin}; {event_id} was not carried out in the {waited_s:.2f} s after it'
@@ -80,7 +88,7 @@ def _order(context: Context, condition: Condition) -> Evaluation:
     first, then = (_moment(context, event_id) for event_id in condition.of)
     if first is None or then is None:
         what = condition.of[0] if first is None else condition.of[1]
-        return _never(context, condition, f'{what} never happened')
+        return never_happened(context, condition, f'{what} never happened')
     value = context.time_s(then - first)
     story = (
         f'{condition.of[0]} happened at {context.time_s(first):.2f} s, {condition.of[1]} at '
@@ -105,7 +113,7 @@ def measure_event_time(context: Context, condition: Condition) -> Evaluation:
     if condition.arguments.aspect == 'action':
         tick = _moment(context, event_id)
     if tick is None:
-        return _never(context, condition, f'{event_id} never happened')
+        return never_happened(context, condition, f'{event_id} never happened')
     value = context.time_s(tick)
     return at_tick(tick, value, f'{event_id} happened at {value:.2f} s', ('events',))
 
@@ -127,7 +135,7 @@ def _more_may_follow(context: Context, condition: Condition) -> bool:
 
 def _none_sent(context: Context, condition: Condition) -> Missing:
     of = condition.arguments.event or condition.arguments.link
-    return _never(context, condition, f'no message of {of} was sent')
+    return never_happened(context, condition, f'no message of {of} was sent')
 
 
 def measure_sent_after_capture(context: Context, condition: Condition) -> Evaluation:
@@ -184,7 +192,7 @@ def measure_delivered(context: Context, condition: Condition) -> Evaluation:
         return _none_sent(context, condition)
     if _more_may_follow(context, condition):
         return context.short(condition)
-    model = _link_model(context, condition)
+    model = link_model(context, condition)
     ticks, values, stories = [], [], []
     for message in sent:
         value = _delivery_s(context, condition, message, model)
@@ -222,7 +230,12 @@ def measure_delivered(context: Context, condition: Condition) -> Evaluation:
     )
 
 
-def _link_model(context: Context, condition: Condition) -> LinkModel:
+def link_model(context: Context, condition: Condition) -> LinkModel:
+    """Return the link that a condition is about.
+
+    Raises:
+        VerificationError: The specification has none of this name.
+    """
     for model in context.links:
         if model.link_id == condition.arguments.link:
             return model
@@ -247,7 +260,7 @@ def measure_delivery_latency(context: Context, condition: Condition) -> Evaluati
     """Seconds from sending to receipt; `steps`: ticks that receipts are off the link's latency."""
     if condition.arguments.aspect != 'steps':
         return measure_delivered(context, condition)
-    model = _link_model(context, condition)
+    model = link_model(context, condition)
     numbers = {m.number: m for m in context.messages if m.link_id == model.link_id}
     ticks, values = [], []
     for record in context.view.trace.links:
@@ -260,7 +273,7 @@ def measure_delivery_latency(context: Context, condition: Condition) -> Evaluati
             took = float(record.tick - passed)
             values.append(abs(took - condition.arguments.wanted / context.view.dt_s))
     if not values:
-        return _never(context, condition, f'nothing passed {model.link_id}')
+        return never_happened(context, condition, f'nothing passed {model.link_id}')
     return Measured(
         ticks=np.array(ticks, dtype=np.intp),
         values=np.array(values),
@@ -270,14 +283,18 @@ def measure_delivery_latency(context: Context, condition: Condition) -> Evaluati
 
 
 def measure_delivery_ratio(context: Context, condition: Condition) -> Evaluation:
-    """Share of a link's messages that arrive; `model`: how far it is inside what chance allows."""
+    """Share of a link's messages that arrive.
+
+    `model`: how far the share of first attempts that passed is inside what chance allows;
+    `attempts`: the same of all attempts.
+    """
     sent = _messages(context, condition)
     if not sent:
         return _none_sent(context, condition)
-    model = _link_model(context, condition)
+    model = link_model(context, condition)
     if _more_may_follow(context, condition):
         return context.short(condition)
-    if condition.arguments.aspect == 'model':
+    if condition.arguments.aspect in ('model', 'attempts'):
         return _chance(context, condition, sent, model)
     end = context.view.ticks
     arrived = sum(m.delivered_tick is not None and m.delivered_tick < end for m in sent)
@@ -292,17 +309,20 @@ def _chance(
 
     What was sent out of range is lost for certain and says nothing about chance.
     """
+    each = 1 if condition.arguments.aspect == 'model' else None
     tried = [
-        message.attempts[0]
+        attempt
         for message in sent
-        if message.attempts and message.attempts[0].reason is not LossReason.RANGE
+        for attempt in message.attempts[:each]
+        if attempt.reason is not LossReason.RANGE
     ]
     if not tried:
-        return _never(context, condition, f'nothing was sent in range on {model.link_id}')
+        return never_happened(context, condition, f'nothing was sent in range on {model.link_id}')
     passed = sum(attempt.passed for attempt in tried)
     low, high = binomial_interval(len(tried), 1.0 - model.loss)
     slack = min(passed - low, high - passed) / len(tried)
+    what = 'messages' if each else 'attempts'
     story = (
-        f'{passed} of {len(tried)} messages passed {model.link_id}, chance allows {low} to {high}'
+        f'{passed} of {len(tried)} {what} passed {model.link_id}, chance allows {low} to {high}'
     )
     return at_tick(tried[-1].tick, slack, story, ('comm',), provisional=True)

@@ -21,6 +21,7 @@ from aurora_core.monitor.evaluation import (
     Missing,
     at_tick,
 )
+from aurora_core.monitor.measure_actions import measure_speed_before_event
 from aurora_core.monitor.measure_manoeuvres import measure_greatest_drop
 from aurora_core.monitor.shares import share_of
 from aurora_core.monitor.verdict import Reason
@@ -184,9 +185,12 @@ def measure_speed(context: Context, condition: Condition) -> Evaluation:
 
     Aspects: `horizontal`, `commanded`, `greatest` (of several bodies), `after_moving` (from when
     it first moved), `greatest_deceleration` and `greatest_drop` (one number), `free` (share on a
-    free road, the second body being no leader), `walking` (share while it walks).
+    free road, the second body being no leader), `walking` (share while it walks), `before_event`
+    (until the trigger of what lets it set off).
     """
     aspect = condition.arguments.aspect
+    if aspect == 'before_event':
+        return measure_speed_before_event(context, condition)
     if aspect in ('free', 'walking'):
         return _free_speed(context, condition)
     if aspect == 'greatest_drop':

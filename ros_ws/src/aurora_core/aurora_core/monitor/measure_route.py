@@ -26,6 +26,7 @@ from aurora_core.quantities.waypoints import (
     Passage,
     approach,
     cruising,
+    extent,
     legs,
     passages,
     pattern_centre,
@@ -152,6 +153,20 @@ def measure_pattern_centre(context: Context, condition: Condition) -> Evaluation
     value = float(distance_2d(float(at[0]) - x, float(at[1]) - y))
     story = f'the centre of the pattern is {value:.2f} m from {target} at t = 0'
     return at_tick(0, value, story, (f'state[{target}]',))
+
+
+def measure_pattern_extent(context: Context, condition: Condition) -> Evaluation:
+    """Metres that the flown route extends along an axis of the pattern."""
+    ticks = context.window(condition)
+    if isinstance(ticks, Missing):
+        return ticks
+    mission, axis = _mission(condition), condition.arguments.axis
+    if axis is None:
+        raise VerificationError(f'condition {condition.id} names no axis')
+    flown = context.view.reference(mission.uav)[ticks]
+    value = extent(flown, axis)
+    story = f'{mission.uav} flew {value:.2f} m far along that side of its pattern'
+    return at_tick(int(ticks[-1]), value, story, _topics(condition), later=Later.RISES)
 
 
 def measure_route_speed(context: Context, condition: Condition) -> Evaluation:

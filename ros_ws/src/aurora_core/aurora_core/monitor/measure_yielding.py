@@ -20,6 +20,7 @@ from aurora_core.monitor.evaluation import (
     at_tick,
     ground_topics,
 )
+from aurora_core.monitor.measure_actions import measure_passed_after
 from aurora_core.monitor.verdict import Reason
 from aurora_core.quantities import motion
 from aurora_core.quantities.ticks import first_tick
@@ -34,7 +35,12 @@ def _ahead(context: Context, condition: Condition, end: int) -> FloatArray:
 
 
 def measure_yielding(context: Context, condition: Condition) -> Evaluation:
-    """Aspects: `passed` (metres), `slower` (m/s, until the other one has passed)."""
+    """Aspects: `passed` (metres), `slower` (m/s, until the other one has passed), `passed_after`.
+
+    The last one counts from an event on.
+    """
+    if condition.arguments.aspect == 'passed_after':
+        return measure_passed_after(context, condition)
     ticks = context.window(condition)
     if isinstance(ticks, Missing):
         return ticks

@@ -16,6 +16,7 @@ import numpy.typing as npt
 
 from aurora_core.knowledge.world import SurfaceKind
 from aurora_core.quantities import motion
+from aurora_core.quantities.actions import ActionRules, completion_index, holds_already, takes_time
 from aurora_core.quantities.lanes import lane_change_ticks, lane_of
 from aurora_core.quantities.ledger import LinkModel, messages
 from aurora_core.quantities.phases import FlightPhases
@@ -57,6 +58,7 @@ class EventRules:
         brake_mps2: Loss of speed that counts as braking.
         arrival_m: Distance from a place at which an agent is there.
         onset_mps2: Change of speed with which slowing down or speeding up begins.
+        actions: When the actions of ground agents are complete; None where no event is judged.
         flights: Phases of each UAV's flight.
         links: Links of the specification.
     """
@@ -64,6 +66,7 @@ class EventRules:
     brake_mps2: float
     onset_mps2: float
     arrival_m: float
+    actions: ActionRules | None
     flights: dict[str, FlightPhases]
     links: tuple[LinkModel, ...]
 
@@ -98,8 +101,49 @@ class EventTimes:
         finally:
             self._open.discard(event_id)
 
-    def action_tick(self, event_id: str, start: int = 0) -> int | None:
-        """Return the first tick from `start` on at which the action of an event shows."""
+    def due_tick(self, event_id: str) -> int | None:
+        """Return the tick at which the action of an event is due: its trigger plus its delay."""
+        event, trigger = self.event(event_id), self.trigger_tick(event_id)
+        if event is None or trigger is None:
+            return None
+        return trigger + whole_ticks(event.waits_s, self.view.dt_s)
+
+    def done_tick(self, event_id: str) -> int | None:
+        """Return the tick from which on other events may follow this one: its completion."""
+        event, trigger = self.event(event_id), self.trigger_tick(event_id)
+        if event is not None and isinstance(event.action, AgentAction):
+            return self.completion_tick(event_id)
+        return self.action_tick(event_id, trigger or 0)
+
+    def completion_tick(self, event_id: str) -> int | None:
+        """Return when what a ground agent is to do is complete, None when it never is."""
+        event = self.event(event_id)
+        due = self.due_tick(event_id)
+        if event is None or not isinstance(event.action, AgentAction):
+            return None
+        begins = self.action_tick(event_id, due or 0)
+        action, rules = event.action, self.rules.actions
+        if rules is None or begins is None or not takes_time(action):
+            return begins
+        # A trigger that nobody states: what the action shows is its beginning.
+        first = begins if due is None else due
+        body = self.view.body(action.agent)
+        there = first_tick(~self.view.present(action.agent), first)
+        speeds = motion.speed(self.view, body)[first:there]
+        hold_ticks = whole_ticks(rules.stop_hold_s, self.view.dt_s)
+        index = completion_index(action, speeds, hold_ticks, rules)
+        return None if index is None else first + index
+
+    def action_tick(
+        self, event_id: str, start: int = 0, *, begins_there: bool = False
+    ) -> int | None:
+        """Return the first tick from `start` on at which the action of an event shows.
+
+        Args:
+            event_id: The event.
+            start: Nothing before this tick counts.
+            begins_there: What a driver has been doing before `start` does not count either.
+        """
         event = self.event(event_id)
         if event is None or event.action is None:
             return None
@@ -111,7 +155,7 @@ class EventTimes:
             ]
             return min(sent, default=None)
         if isinstance(event.action, AgentAction):
-            return self._agent_action(event.action, start)
+            return self._agent_action(event.action, start, begins_there=begins_there)
         return self._uav_action(event.action, start)
 
     def _uav_action(self, action: UavAction, start: int) -> int | None:
@@ -131,15 +175,22 @@ class EventTimes:
         tick = None if flight is None else flight.landing_tick
         return tick if tick is not None and tick >= start else None
 
-    def _agent_action(self, action: AgentAction, start: int) -> int | None:
+    def _agent_action(self, action: AgentAction, start: int, *, begins_there: bool) -> int | None:
         body = self.view.body(action.agent)
+        speed = motion.speed(self.view, body)
+        rules = self.rules.actions
+        standing = start < self.view.ticks and self.view.present(action.agent)[start]
+        if rules is not None and standing and holds_already(action, float(speed[start]), rules):
+            return start
+        if action.do == 'start' and rules is not None:
+            return first_tick(speed > rules.start_mps, start)
         if action.do in ('brake', 'stop', 'slow', 'yield'):
             loss = motion.deceleration(self.view, body)
             least = self.rules.brake_mps2 if action.do == 'brake' else self.rules.onset_mps2
-            return first_tick(loss >= least, start)
+            return _onset(loss >= least, start, begins_there=begins_there)
         if action.do in ('start', 'accelerate'):
             gain = -motion.deceleration(self.view, body)
-            return first_tick(gain >= self.rules.onset_mps2, start)
+            return _onset(gain >= self.rules.onset_mps2, start, begins_there=begins_there)
         if action.do == 'change_lane':
             changes = lane_change_ticks(self.view, lane_of(self.view, body))
             return next((tick for tick in changes if tick >= start), None)
@@ -154,7 +205,7 @@ class EventTimes:
         view = self.view
         match trigger:
             case EventDoneTrigger():
-                done = self.action_tick(trigger.event, self.trigger_tick(trigger.event) or 0)
+                done = self.done_tick(trigger.event)
                 if done is None:
                     return None
                 after_s = trigger.after_s.value if trigger.after_s is not None else 0.0
@@ -186,6 +237,13 @@ class EventTimes:
                         return None
                     start = before
                 return first_tick(mask, start)
+
+
+def _onset(mask: BoolArray, start: int, *, begins_there: bool) -> int | None:
+    """Return the first tick from `start` on inside the mask, or where a stretch begins."""
+    if begins_there:
+        mask = mask & ~np.concatenate(([False], mask[:-1]))
+    return first_tick(mask, start)
 
 
 def trigger_series(

@@ -140,3 +140,15 @@ def pattern_centre(waypoints: Sequence[Point3]) -> tuple[float, float]:
     x = [point[0] for point in waypoints]
     y = [point[1] for point in waypoints]
     return (min(x) + max(x)) / 2.0, (min(y) + max(y)) / 2.0
+
+
+def extent(points: npt.ArrayLike, axis: tuple[float, float]) -> float:
+    """Return how far points reach along a direction.
+
+    Args:
+        points: (n, 2) or (n, 3) metres, n >= 1; heights do not count.
+        axis: Unit vector (x, y).
+    """
+    rows = np.asarray(points, dtype=np.float64)
+    along = rows[:, 0] * axis[0] + rows[:, 1] * axis[1]
+    return float(np.max(along) - np.min(along))

@@ -64,6 +64,7 @@ def _ids(spec: ScenarioSpec) -> list[str]:
         *(event.id for event in spec.events),
         *(stated.id for stated in spec.conditions),
         *(order.id for order in spec.orders),
+        *(count.id for count in spec.counts),
         *(prohibition.id for prohibition in spec.prohibitions),
     ]
 

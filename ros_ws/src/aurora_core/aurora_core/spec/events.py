@@ -159,6 +159,25 @@ class Event(Element):
         return self.delay_s.value
 
 
+# After these an agent that is to start again has stood still before.
+_STOPS = frozenset({'stop', 'yield', 'brake'})
+
+
+def sets_off(events: tuple[Event, ...], agent: str) -> Event | None:
+    """Return the event that lets an agent set off for the first time, None when none does.
+
+    One that is to start again after it has stopped has set off by itself.
+    """
+    mine = [e for e in events if isinstance(e.action, AgentAction) and e.action.agent == agent]
+    kinds = [e.action.do for e in mine if isinstance(e.action, AgentAction)]
+    if 'start' not in kinds or _STOPS & set(kinds[: kinds.index('start')]):
+        return None
+    first = mine[kinds.index('start')]
+    cause = first.trigger.event if isinstance(first.trigger, EventDoneTrigger) else None
+    after_stop = any(e.id == cause and k in _STOPS for e, k in zip(mine, kinds, strict=True))
+    return None if after_stop else first
+
+
 def bodies_of(event: Event) -> frozenset[str]:
     """Return every agent and UAV that an event's trigger and action refer to by id."""
     names = ('a', 'b', 'uav', 'observer', 'target', 'who', 'by', 'sender', 'receiver', 'agent')

@@ -13,7 +13,7 @@ from pydantic import Field, model_validator
 from aurora_core.spec.parameter import Document, Element, Parameter, Span, Unit
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.reference import Id, PlaceRef
-from aurora_core.spec.vocabulary import ClauseStatus
+from aurora_core.spec.vocabulary import AgentType, ClauseStatus
 
 # Quantities that a prompt can name, with their unit; the others are implied by runs.
 STATED_QUANTITIES: Mapping[str, Unit] = MappingProxyType(
@@ -76,6 +76,20 @@ class StatedCondition(Element):
         if name == 'value':
             return STATED_QUANTITIES.get(self.quantity, self.value.unit)
         return super()._unit_of(name)
+
+
+class SceneCount(Element):
+    """How many of a kind there are in the whole scene, background included: it closes the scene.
+
+    Attributes:
+        kind: A type of the vocabulary, `uav`, `vehicle`, `person` or `body`.
+        value: The number; its bound says whether it is exact, a least or a greatest one.
+    """
+
+    id: Id
+    kind: AgentType | Literal['uav', 'vehicle', 'person', 'body']
+    value: Parameter
+    span: Span | None = None
 
 
 class Order(Element):

@@ -35,7 +35,7 @@ from aurora_core.spec.events import (
 from aurora_core.spec.parameter import Document, omitted
 from aurora_core.spec.prohibitions import Prohibition
 from aurora_core.spec.reference import Id, PlaceRef, is_place
-from aurora_core.spec.requirements import Clause, Order, StatedCondition
+from aurora_core.spec.requirements import Clause, Order, SceneCount, StatedCondition
 from aurora_core.spec.scene import (
     Behavior,
     GroundAgent,
@@ -66,6 +66,7 @@ __all__ = [
     'Placement',
     'Prohibition',
     'ScenarioSpec',
+    'SceneCount',
     'SendMessage',
     'SpeedTrigger',
     'StatedCondition',
@@ -90,6 +91,7 @@ class ScenarioSpec(Document):
         events: Triggers, actions, chains and milestones.
         conditions: Success conditions that the prompt states itself.
         orders: What comes before what.
+        counts: How many of a kind there are in the whole scene.
         prohibitions: What must not be so.
         clauses: Every piece of the prompt and what became of it.
     """
@@ -104,6 +106,7 @@ class ScenarioSpec(Document):
     events: tuple[Event, ...] = ()
     conditions: tuple[StatedCondition, ...] = ()
     orders: tuple[Order, ...] = omitted(())
+    counts: tuple[SceneCount, ...] = omitted(())
     prohibitions: tuple[Prohibition, ...] = omitted(())
     clauses: tuple[Clause, ...] = ()
 

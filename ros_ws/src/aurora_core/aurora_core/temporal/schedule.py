@@ -8,7 +8,7 @@ import json
 
 from pydantic import FiniteFloat
 
-from aurora_core.conditions.plan_facts import MissionFacts, PlanFacts
+from aurora_core.conditions.plan_facts import AgentFacts, MissionFacts, PlanFacts
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.choices import chosen
 from aurora_core.grounding.grounded import GroundedScenario
@@ -52,8 +52,18 @@ def plan_time(spec: ScenarioSpec, grounded: GroundedScenario, limits: Limits) ->
         for k, mission in enumerate(uav.missions)
     )
     order = {m.id: k for k, m in enumerate(spec.missions)}
+    agents = tuple(
+        AgentFacts(
+            agent=agent.id,
+            acceleration_mps2=agent.acceleration_mps2,
+            deceleration_mps2=agent.deceleration_mps2,
+        )
+        for agent in grounded.agents
+    )
     facts = PlanFacts(
-        horizon_s=horizon, missions=tuple(sorted(missions, key=lambda f: order[f.mission]))
+        horizon_s=horizon,
+        missions=tuple(sorted(missions, key=lambda f: order[f.mission])),
+        agents=agents,
     )
     return Schedule(
         horizon_s=horizon, stated_horizon=spec.world.duration_s is not None, facts=facts

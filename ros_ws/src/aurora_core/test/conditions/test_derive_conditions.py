@@ -43,7 +43,7 @@ def test_the_tailgating_prompt(tb: ModuleType) -> None:
         'm1.order', 'm1.capture', 'm1.completed', 'm1.tracked', 'm1.visible', 'uav1.landed',
         'van1.placed', 'van1.placed.distance', 'van1.tailgate', 'van1.tailgate.from_start',
         'van1.tailgate.from_closing', 'e1.within', 'e1.not_before', 'e1.after_capture',
-        'e1.actor_visible', 'e1.delivered',
+        'e1.actor_visible', 'e1.delivered', 'scene.car', 'scene.van', 'scene.uav',
     }  # fmt: skip
     found = _by_id(derivation)
     assert found['van1.tailgate'].formula == (
@@ -58,7 +58,7 @@ def test_the_survey_prompt(tb: ModuleType) -> None:
     case = tb.survey_case(altitude_m=tb.number(30.0, explicit=True))
     assert _ids(_derive(tb, case)) == {
         'm1.order', 'm1.capture', 'm1.completed', 'm1.altitude', 'm1.waypoints', 'm1.closed',
-        'm1.over_streets', 'm1.centre', 'uav1.landed',
+        'm1.over_streets', 'm1.centre', 'uav1.landed', 'scene.car', 'scene.uav',
     }  # fmt: skip
 
 
@@ -69,6 +69,7 @@ def test_the_convoy_prompt(tb: ModuleType) -> None:
         'm1.order', 'm1.capture', 'm1.completed', 'm1.tracked', 'm1.visible', 'uav1.landed',
         'bus1.placed', 'bus1.placed.distance', 'bus1.placed.kept', 'bus1.drive',
         'ambulance1.placed', 'ambulance1.placed.kept', 'ambulance1.follow', 'car1.circulate',
+        'scene.ambulance', 'scene.bus', 'scene.car', 'scene.uav',
     }  # fmt: skip
 
 
@@ -95,7 +96,7 @@ def test_a_scene_of_one_body_has_nothing_to_collide_with(tb: ModuleType) -> None
     case = tb.tailgate_case()
     case.spec = tb.spec(agents=(tb.agent('walker1', 'pedestrian'),))
     assert {c.id for c in _derive(tb, case).conditions} == {
-        'safety.presence', 'safety.jump', 'safety.pedestrian_speed'
+        'scene.pedestrian', 'safety.presence', 'safety.jump', 'safety.pedestrian_speed'
     }  # fmt: skip
 
 

@@ -19,13 +19,14 @@ from aurora_core.execution.step_output import StepOutput
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.grounding.grounded import GroundedAgent, ReleaseOn
 from aurora_core.knowledge.config_files import config_path
-from aurora_core.knowledge.limits import load_limits
+from aurora_core.knowledge.limits import load_limits, load_tolerances
 from aurora_core.knowledge.map_types import Building
 from aurora_core.knowledge.world import NamedPlace, Wind, WorldModel
 from aurora_core.mission.machine import MissionMachine
 from aurora_core.mission.plan import MissionPlan, UavPlan
 from aurora_core.mission.setpoint import FlightSettings
 from aurora_core.ports.random_streams import stream
+from aurora_core.quantities.actions import action_rules
 from aurora_core.quantities.world_geometry import WorldGeometry
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.scenario import (
@@ -299,6 +300,7 @@ class Stage:
             geometry=WorldGeometry(world),
             landing_clearance_m=4.0,
             arrival_m=15.0,
+            action_rules=action_rules(load_tolerances(config_path('tolerances.json'))),
             horizon_ticks=self.horizon_ticks,
             stated_horizon=self.stated_horizon,
             earliest_end_ticks=self.earliest_end_ticks,

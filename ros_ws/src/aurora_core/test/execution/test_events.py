@@ -232,10 +232,35 @@ def test_event_done_with_a_delay(stage: Build, parameter: Make) -> None:
     )
     scene = stage(events=events)
     scene.step(100)
-    # What an agent does shows one tick after it was told.
-    assert _triggered(scene) == [(20, 'e1'), (31, 'e3'), (71, 'e2')]
+    # The ego stands: at once nothing is left to be done.
+    assert _triggered(scene) == [(20, 'e1'), (30, 'e3'), (70, 'e2')]
     actions = [(t, s) for t, s, _ in scene.notes(ScenarioEventKind.ACTION)]
-    assert actions == [(30, 'e1'), (31, 'e3'), (71, 'e2')]
+    assert actions == [(30, 'e1'), (30, 'e3'), (70, 'e2')]
+
+
+@pytest.mark.parametrize(
+    ('do', 'value_mps', 'before_mps', 'done_mps'),
+    [('stop', None, 10.0, 0.0), ('slow', 4.0, 10.0, 4.9), ('accelerate', None, 5.0, 8.2)],
+)
+def test_a_chain_goes_on_once_the_action_is_complete(
+    do: str,
+    value_mps: float | None,
+    before_mps: float,
+    done_mps: float,
+    stage: Build,
+    parameter: Make,
+) -> None:
+    value = None if value_mps is None else parameter(value_mps, 'm/s')
+    action = AgentAction.model_validate({'do': do, 'agent': 'ego', 'value_mps': value})
+    events = (
+        _event(TimeTrigger(on='time', at_s=parameter(1.0, 's')), action, id='e1'),
+        _event(EventDoneTrigger(on='event_done', event='e1'), id='e2'),
+    )
+    scene = stage(events=events)
+    scene.put('ego', 0.0, speed=before_mps).step(40)
+    assert _triggered(scene) == [(20, 'e1')]
+    scene.put('ego', 0.0, speed=done_mps).step(10)
+    assert _triggered(scene) == [(20, 'e1'), (40, 'e2')]
 
 
 def test_mission_done(stage: Build) -> None:
@@ -412,10 +437,12 @@ def test_an_event_waits_for_what_comes_before_it(stage: Build, parameter: Make) 
         orders=(Order(id='o1', first='e2', then='e1'),),
     )
     scene.step(20)
-    # What the ego is told at tick 10 shows at tick 11. A trigger is noted when it holds.
+    # A trigger is noted when it holds. The ego has not set off yet, though it was told to.
     assert _triggered(scene) == [(0, 'e1'), (10, 'e2')]
+    assert [(t, name) for t, name, _ in scene.notes(ScenarioEventKind.ACTION)] == [(10, 'e2')]
+    scene.put('ego', 0.0, speed=0.6).step(2)
     done = [(tick, name) for tick, name, _ in scene.notes(ScenarioEventKind.ACTION)]
-    assert done == [(10, 'e2'), (11, 'e1')]
+    assert done == [(10, 'e2'), (21, 'e1')]
 
 
 def test_who_is_to_climb_after_its_missions_lands_from_there(

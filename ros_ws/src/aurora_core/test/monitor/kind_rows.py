@@ -7,10 +7,13 @@ The tables are the `ROWS` of `test_kinds_*.py`; `test_kinds_all.py` asks for thr
 
 from __future__ import annotations
 
+import importlib.util
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from functools import cache
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -22,6 +25,8 @@ from aurora_core.conditions.derive import derive_conditions
 from aurora_core.monitor.verdict import Reason
 from aurora_core.spec.parameter import Unit
 from aurora_core.trace.trace import Trace
+
+_FOLDER = Path(__file__).parent
 
 
 class Outcome(StrEnum):
@@ -68,6 +73,11 @@ class Row:
         if self.margin is None:
             return Outcome.UNJUDGED
         return Outcome.SATISFIED if condition.satisfied(self.margin) else Outcome.VIOLATED
+
+    @property
+    def shows(self) -> Outcome:
+        """What the row shows of its condition."""
+        return self.outcome(next(c for c in self.conditions() if c.id == self.id))
 
     def check(self) -> None:
         """Judge the run and compare."""
@@ -157,3 +167,20 @@ def stated(
     one = {'id': 'c1', 'quantity': quantity, 'of': of, 'op': op, 'value': number(value, unit)}
     case.spec = spec(**{**dict(case.spec), 'conditions': (one | numbers,)})
     return case
+
+
+def _rows(path: Path) -> tuple[Row, ...]:
+    spec = importlib.util.spec_from_file_location(f'rows_of_{path.stem}', path)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    rows: tuple[Row, ...] = module.ROWS
+    return rows
+
+
+@cache
+def all_rows() -> tuple[Row, ...]:
+    """Return the rows of all tables."""
+    paths = sorted(p for p in _FOLDER.glob('test_kinds_*.py') if p.stem != 'test_kinds_all')
+    return tuple(row for path in paths for row in _rows(path))

@@ -50,10 +50,10 @@ def _loses(do: str) -> Callable[[int, float], Case]:
 
 
 def _gains(do: str) -> Callable[[int, float], Case]:
-    """From rest with 2 m/s^2."""
+    """From rest with 10 m/s^2: at the tick it has set off."""
 
     def make(tick: int, at_s: float) -> Case:
-        return _car(do, 0.1 * np.maximum(TICK - tick + 1, 0), at_s)
+        return _car(do, np.minimum(0.51 * np.maximum(TICK - tick + 1, 0), 12.0), at_s)
 
     return make
 
@@ -130,6 +130,88 @@ def _next_mission(tick: int, at_s: float) -> Case:
     return _flown({'do': 'change_mission', 'mission': 'm2'}, one, at_s, 'm2')
 
 
+def _to(
+    do: str,
+    end_mps: float,
+    value_mps: float | None = None,
+    *,
+    from_mps: float = 10.0,
+    rate: float = 5.0,
+) -> Case:
+    """From one speed to another with `rate` m/s^2 from tick 301 on, which is asked for."""
+    change = rate * 0.05 * np.maximum(TICK - 300, 0)
+    speed = np.maximum(from_mps - change, end_mps)
+    if end_mps > from_mps:
+        speed = np.minimum(from_mps + change, end_mps)
+    case = _car(do, speed, AT_S)
+    (event,) = case.spec.events
+    if value_mps is not None:
+        assert event.action is not None
+        value = number(value_mps, Unit.METRE_PER_SECOND, explicit=True)
+        action = {**dict(event.action), 'value_mps': value}
+        case.spec = spec(**{**dict(case.spec), 'events': ({**dict(event), 'action': action},)})
+    return case
+
+
+def _later(case: Case, **changes: object) -> Case:
+    """Change the event."""
+    (event,) = case.spec.events
+    case.spec = spec(**{**dict(case.spec), 'events': ({**dict(event), **changes},)})
+    return case
+
+
+def _never_due(do: str, end_mps: float, value_mps: float | None = None) -> Case:
+    at_s = number(99.0, Unit.SECOND)
+    return _later(_to(do, end_mps, value_mps), trigger={'on': 'time', 'at_s': at_s})
+
+
+def _after_2_s(case: Case) -> Case:
+    return _later(case, delay_s=number(2.0, Unit.SECOND, explicit=True))
+
+
+def _sets_off(tick: int) -> Case:
+    """It has to stand until 15 s."""
+    return _gains('start')(tick, AT_S)
+
+
+def _starts_again(tick: int) -> Case:
+    """It stops at 5 s and is to start again 10 s after it stands, which is at 7 s."""
+    speed = np.maximum(10.0 - 0.25 * np.maximum(TICK - 100, 0), 0.0)
+    speed = np.where(tick <= TICK, 5.0, speed)
+    case = ground_case(Behavior(kind=BehaviorKind.DRIVE), speed)
+    stop = {
+        'id': 'e0',
+        'trigger': {'on': 'time', 'at_s': number(5.0, Unit.SECOND)},
+        'action': {'do': 'stop', 'agent': 'car1'},
+    }
+    start = {
+        'id': 'e1',
+        'trigger': {'on': 'event_done', 'event': 'e0', 'after_s': number(8.0, Unit.SECOND)},
+        'action': {'do': 'start', 'agent': 'car1'},
+    }
+    case.spec = spec(**{**dict(case.spec), 'events': (stop, start)})
+    return case
+
+
+def _yields(speed_mps: float, *, triggered: bool = True) -> Case:
+    """car1 stands or drives; car2 comes from 50 m behind with 5 m/s and may get ahead."""
+    speed = np.full(T, speed_mps)
+    case = ground_case(Behavior(kind=BehaviorKind.DRIVE), speed, car2=(-50.0, np.full(T, 5.0)))
+    event = {
+        'id': 'e1',
+        'trigger': {
+            'on': 'distance_below',
+            'a': 'car1',
+            'b': 'car2',
+            'value_m': number(60.0 if triggered else 0.001),
+        },
+        'action': {'do': 'yield', 'agent': 'car1'},
+    }
+    case.run.agents[1].y[:] = 1.0
+    case.spec = spec(**{**dict(case.spec), 'events': (event,)})
+    return case
+
+
 ACTIONS: dict[str, Callable[[int, float], Case]] = {
     **{do: _loses(do) for do in ('brake', 'stop', 'slow', 'yield')},
     **{do: _gains(do) for do in ('accelerate', 'start')},
@@ -154,6 +236,58 @@ def _rows(do: str, make: Callable[[int, float], Case]) -> tuple[Row, ...]:
     )
 
 
+NEVER = Reason.PREMISE_NEVER
+# Without facts of its type an agent has 1.5 m/s^2; 2 s more are allowed.
+ALLOWED_S, RATE = 2.0, 1.5
+
+
+def _completed(make: Callable[[], Case], took_s: float, change_mps: float, what: str) -> Row:
+    """An action that takes some seconds for a change of speed."""
+    margin = ALLOWED_S - (took_s - change_mps / RATE)
+    return Row(id='e1.completed', make=make, margin=margin, within=0.06, what=what)
+
+
+# With 5 m/s^2 from 15 s on; the run ends at 20 s.
+COMPLETED = (
+    _completed(lambda: _to('stop', 0.0), 2.0, 10.0, 'stop'),
+    # Within 1 m/s of 4 m/s; half of 10 m/s; 4 m/s more.
+    _completed(lambda: _to('slow', 4.0, 4.0), 1.0, 6.0, 'slow-to'),
+    _completed(lambda: _to('slow', 5.0), 0.8, 5.0, 'slow-half'),
+    _completed(lambda: _to('accelerate', 14.0), 0.55, 4.0, 'gain'),
+    _completed(lambda: _to('brake', 5.0, 5.0), 0.8, 5.0, 'brake-to'),
+    _completed(lambda: _to('slow', 9.5, 8.0), 5.05, 2.0, 'slow-never'),
+    _completed(lambda: _to('start', 1.0, 2.5, from_mps=0.0), 5.05, 2.5, 'start-never'),
+    # There was no time left for it.
+    Row(id='e1.completed', make=lambda: _to('stop', 1.0), margin=-0.05, what='stop-short'),
+    Row(id='e1.completed', make=lambda: _never_due('stop', 0.0), reason=NEVER),
+)
+# It has to stand until 15 s, or from when it has stopped until it is to start again.
+SET_OFF = (
+    Row(id='e1.at_rest', make=lambda: _sets_off(310), margin=0.1),
+    Row(id='e1.at_rest', make=lambda: _sets_off(296), margin=0.1 - 0.51 * 5),
+    Row(id='e1.at_rest', make=lambda: _gains('start')(310, 99.0), reason=NEVER),
+    Row(id='e1.at_rest', make=lambda: _starts_again(305), margin=0.1, what='again'),
+    Row(id='e1.at_rest', make=lambda: _starts_again(250), margin=0.1 - 5.0, what='again'),
+    Row(id='e1.not_before', make=lambda: _sets_off(296), margin=-0.2, what='start'),
+)
+# 2 s after the trigger: at once is too early, and braking that goes on is none that begins.
+DELAYED = (
+    Row(
+        id='e1.within',
+        make=lambda: _after_2_s(_to('brake', 0.0)),
+        margin=3.0 - 5.05,
+        within=0.06,
+        what='delayed-at-once',
+    ),
+    Row(
+        id='e1.within',
+        make=lambda: _after_2_s(_loses('brake')(345, AT_S)),
+        margin=3.0 - 2.25,
+        within=0.06,
+        what='delayed',
+    ),
+)
+
 ROWS = (
     *(row for do, make in ACTIONS.items() for row in _rows(do, make)),
     # 2 m or 3 % are allowed: 2.1 m of 70 m.
@@ -164,6 +298,12 @@ ROWS = (
         margin=2.1 - 10.0,
         within=0.05,
     ),
+    *COMPLETED,
+    *SET_OFF,
+    *DELAYED,
+    Row(id='e1.passed', make=lambda: _yields(0.0), margin=50.0, within=0.3),
+    Row(id='e1.passed', make=lambda: _yields(5.0), margin=-50.0, within=0.3),
+    Row(id='e1.passed', make=lambda: _yields(0.0, triggered=False), reason=NEVER),
     # It had begun to climb, to cross, to fly the mission before: that is not what was asked.
     Row(
         id='e1.within', make=lambda: _crosses(200, AT_S), margin=1.0 - 5.05, what='crossed-before'

@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import importlib.util
 from collections import defaultdict
 from functools import cache
 from itertools import pairwise
@@ -13,7 +12,7 @@ from typing import get_args
 
 import numpy as np
 import pytest
-from kind_rows import Outcome, Row, kind_of, trace_part
+from kind_rows import Outcome, Row, all_rows, kind_of, trace_part
 
 from aurora_core.conditions.condition import Condition
 from aurora_core.monitor.online import OnlineMonitor
@@ -27,29 +26,12 @@ FOLDER = Path(__file__).parent
 OUTCOMES = frozenset(Outcome)
 
 
-def _rows(path: Path) -> tuple[Row, ...]:
-    spec = importlib.util.spec_from_file_location(f'rows_of_{path.stem}', path)
-    assert spec is not None
-    assert spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    rows: tuple[Row, ...] = module.ROWS
-    return rows
-
-
-@cache
-def _all_rows() -> tuple[Row, ...]:
-    """Return the rows of all tables."""
-    paths = sorted(p for p in FOLDER.glob('test_kinds_*.py') if p != Path(__file__))
-    return tuple(row for path in paths for row in _rows(path))
-
-
 @cache
 def _seen() -> tuple[dict[str, set[Outcome]], set[str]]:
     """Return the outcomes that the tables show of each kind, and all kinds of their requests."""
     shown: dict[str, set[Outcome]] = defaultdict(set)
     asked: set[str] = set()
-    for row in _all_rows():
+    for row in all_rows():
         conditions = row.conditions()
         asked.update(kind_of(condition) for condition in conditions)
         mine = next(condition for condition in conditions if condition.id == row.id)
@@ -112,7 +94,7 @@ def test_the_tables_of_the_stated_quantities_know_their_shares() -> None:
     assert {f'{quantity}/share' for quantity in series} <= asked
 
 
-@pytest.mark.parametrize('row', _all_rows(), ids=lambda row: row.name)
+@pytest.mark.parametrize('row', all_rows(), ids=lambda row: row.name)
 def test_while_the_run_goes_on_the_margin_stays_inside_its_bounds(row: Row) -> None:
     case = row.make()
     # Beside the condition those that say which missions and events there are.

@@ -17,6 +17,7 @@ from trace_builder import number, world
 from trace_cases import Case, facts_of, message, mission, spec, tailgate_case
 
 from aurora_core.conditions.plan_facts import MissionFacts
+from aurora_core.knowledge.world import NamedPlace
 from aurora_core.monitor.verdict import Reason
 from aurora_core.spec.parameter import Unit
 from aurora_core.spec.vocabulary import MissionMode
@@ -109,6 +110,26 @@ def _ordered(first: str, then: str, within_s: float | None = None, **alert: bool
     return case
 
 
+def _late_after(**trigger: object) -> Case:
+    """The alert, at 32.25 s, comes long after this trigger."""
+    case = _event(tailgate_case(), trigger=trigger)
+    spot = NamedPlace(name='intersection', x_m=-45.0, y_m=0.0)
+    case.world = replace(case.world, places=(spot,))
+    return case
+
+
+def _never_answered() -> Case:
+    """The ego does not slow down when it receives the alert."""
+    case = tailgate_case()
+    answer = {
+        'id': 'e2',
+        'trigger': {'on': 'message_received', 'by': 'ego', 'sender': 'uav1'},
+        'action': {'do': 'slow', 'agent': 'ego'},
+    }
+    case.spec = spec(**{**dict(case.spec), 'events': (*case.spec.events, answer)})
+    return case
+
+
 NEVER, SHORT = Reason.PREMISE_NEVER, Reason.TRACE_SHORT
 # 49.24 m to the waiting van in steps of 0.75 m, from tick 141 or 142 on: the 53rd is within 10 m.
 CAPTURED_S = 194 * 0.05
@@ -119,6 +140,43 @@ ROWS = (
     Row(id='e1.within', make=lambda: _sent(20), margin=0.0, what='threshold'),
     Row(id='e1.within', make=_never, reason=NEVER),
     Row(id='e1.within', make=lambda: cut(tailgate_case(), 640), reason=SHORT),
+    # The ego drives 2 m/s from 21 s on, the ascent ends at 7 s, the drone lands from 52.5 s on.
+    Row(
+        id='e1.within',
+        make=lambda: _late_after(
+            on='speed_above', who='ego', value_mps=number(2.0, Unit.METRE_PER_SECOND)
+        ),
+        margin=1.0 - 11.25,
+        within=0.06,
+        what='speed',
+    ),
+    Row(
+        id='e1.within',
+        make=lambda: _late_after(on='visible', observer='uav1', target='van1'),
+        margin=1.0 - 25.25,
+        within=0.06,
+        what='visible',
+    ),
+    Row(
+        id='e1.within',
+        make=lambda: _late_after(on='arrives', who='van1', place='intersection'),
+        margin=1.0 - 32.25,
+        what='arrives',
+    ),
+    Row(
+        id='e1.within',
+        make=lambda: _late_after(on='mission_done', uav='uav1'),
+        margin=1.0 - (END_S - 52.5),
+        within=0.06,
+        what='mission_done',
+    ),
+    Row(
+        id='e2.within',
+        make=_never_answered,
+        margin=1.0 - (END_S - TRIGGER_S - 0.1),
+        within=0.06,
+        what='answer',
+    ),
     Row(id='e1.not_before', make=tailgate_case, margin=0.0),
     Row(id='e1.not_before', make=lambda: _sent(-30), margin=-1.5),
     Row(id='e1.not_before', make=_never, reason=NEVER),

@@ -77,6 +77,11 @@ def _count(skip: int | None = None) -> Case:
     return survey_case(skip=skip, waypoint_count=number(4.0, Unit.ONE, explicit=True))
 
 
+def _sized(**values: int) -> Case:
+    size = (number(100.0, explicit=True), number(60.0, explicit=True))
+    return survey_case(size_m=size, **values)  # type: ignore[arg-type]
+
+
 def _on_ground() -> Case:
     return grounded(_count())
 
@@ -117,6 +122,13 @@ ROWS = (
     Row(id='m1.speed', make=lambda: _speed(8.0, speed=6.9), margin=0.0 - 0.8),
     # 16 m/s need 85 m to be reached and 85 m to brake: no leg has that.
     Row(id='m1.speed', make=lambda: _speed(16.0), reason=EMPTY),
+    # 3 m are allowed at each end of the 100 m and of the 60 m.
+    Row(id='m1.length', make=_sized, margin=6.0),
+    Row(id='m1.length', make=lambda: _sized(stop_after=350), margin=6.0 - 40.0, within=0.5),
+    Row(id='m1.length', make=lambda: grounded(_sized()), reason=EMPTY),
+    Row(id='m1.width', make=_sized, margin=6.0),
+    Row(id='m1.width', make=lambda: _sized(stop_after=450), margin=6.0 - 57.5, within=0.1),
+    Row(id='m1.width', make=lambda: grounded(_sized()), reason=EMPTY),
     # 5 m are allowed on 40 m.
     Row(id='m1.radius', make=lambda: _orbit(42.0), margin=5.0 - 2.0),
     Row(id='m1.radius', make=lambda: _orbit(46.0), margin=5.0 - 6.0),

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from aurora_core.quantities.actions import action_rules
 from aurora_core.quantities.kernels import TrackRule
 from aurora_core.quantities.phases import (
     CaptureRule,
@@ -178,6 +179,7 @@ def _times(tb: ModuleType, *events: Event, place: bool = False) -> EventTimes:
         brake_mps2=4.0,
         onset_mps2=0.5,
         arrival_m=15.0,
+        actions=action_rules(tb.TOLERANCES),
         flights={'uav1': flight_phases(view, view.body('uav1'), 30.0, 2.0, 0.3)},
         links=(),
     )

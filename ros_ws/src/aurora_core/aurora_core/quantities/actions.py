@@ -1,0 +1,193 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""What the actions of ground agents mean: when one begins to show, and when it is complete.
+
+The executor asks at a tick, the monitor of a whole run; both ask here. An action that comes to a
+standstill or to a speed begins with the first change of speed and is complete at that speed; one
+that already holds when it is due ("stop" of who stands) is complete at once.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from pydantic import FiniteFloat
+
+from aurora_core.knowledge.limits import Tolerances
+from aurora_core.spec.events import AgentAction
+from aurora_core.spec.parameter import Bound, Document
+
+FloatArray = npt.NDArray[np.float64]
+BoolArray = npt.NDArray[np.bool_]
+
+# Actions after which the agent has another speed than before.
+SPEED_ACTIONS = frozenset({'stop', 'slow', 'accelerate', 'start', 'brake'})
+# Of these and of yielding one cannot tell that they happen once they already hold.
+_HOLDS_ALREADY = frozenset({'stop', 'slow'})
+
+
+class ActionRules(Document):
+    """What actions are measured with; the tolerances in force, as they travel in conditions.
+
+    Attributes:
+        stop_mps: Below this an agent stands.
+        stop_hold_s: For how long, to have stopped.
+        start_mps: At this speed an agent has set off.
+        slow_share: Share of the speed at the trigger that `slow` without a number ends with.
+        gain_mps: What `accelerate` without a number adds to the speed at the trigger.
+        speed_mps: Tolerance on a speed to be reached: at least this ...
+        speed_share: ... or this share of it.
+    """
+
+    stop_mps: FiniteFloat
+    stop_hold_s: FiniteFloat
+    start_mps: FiniteFloat
+    slow_share: FiniteFloat
+    gain_mps: FiniteFloat
+    speed_mps: FiniteFloat
+    speed_share: FiniteFloat
+
+
+def takes_time(action: AgentAction) -> bool:
+    """Tell whether an action is complete only once the agent has got to its speed.
+
+    Braking, yielding, crossing and changes of lane count from when they show.
+    """
+    if action.do == 'brake':
+        return action.value_mps is not None
+    return action.do in ('stop', 'slow', 'accelerate', 'start')
+
+
+def action_rules(tolerances: Tolerances) -> ActionRules:
+    """Return what actions are measured with under these tolerances."""
+    return ActionRules(
+        stop_mps=tolerances.stop_speed_mps,
+        stop_hold_s=tolerances.stop_hold_s,
+        start_mps=tolerances.start_speed_mps,
+        slow_share=tolerances.slow_share,
+        gain_mps=tolerances.speed_gain_mps,
+        speed_mps=tolerances.action_speed_mps.absolute,
+        speed_share=tolerances.action_speed_mps.relative,
+    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SpeedGoal:
+    """The speed that an action is to end with.
+
+    Attributes:
+        value_mps: Speed to be reached.
+        tolerance_mps: On it.
+        bound: "to at most 5 m/s" is reached below it, too.
+    """
+
+    value_mps: float
+    tolerance_mps: float
+    bound: Bound
+
+    def reached(self, speed_mps: FloatArray) -> BoolArray:
+        """Tell of each speed (n,) in m/s whether it is the one to be reached."""
+        off = speed_mps - self.value_mps
+        if self.bound is Bound.AT_MOST:
+            return off <= self.tolerance_mps
+        if self.bound is Bound.AT_LEAST:
+            return off >= -self.tolerance_mps
+        return (off <= self.tolerance_mps) & (off >= -self.tolerance_mps)
+
+
+def speed_goal(action: AgentAction, before_mps: float, rules: ActionRules) -> SpeedGoal | None:
+    """Return the speed that an action ends with, None when it has none of its own.
+
+    Args:
+        action: What is to be done.
+        before_mps: Speed of the agent when it is due.
+        rules: What actions are measured with.
+    """
+    stated = action.value_mps
+    if action.do not in SPEED_ACTIONS or action.do == 'stop':
+        return None
+    if stated is not None:
+        slack = max(rules.speed_mps, rules.speed_share * stated.value)
+        bound = stated.bound
+        if action.do in ('slow', 'brake') and bound is Bound.EXACTLY and before_mps < stated.value:
+            # Who is slower already has nothing to do.
+            bound = Bound.AT_MOST
+        return SpeedGoal(value_mps=stated.value, tolerance_mps=slack, bound=bound)
+    if action.do == 'slow':
+        wanted = rules.slow_share * before_mps
+    elif action.do == 'accelerate':
+        wanted = before_mps + rules.gain_mps
+    else:
+        return None
+    slack = max(rules.speed_mps, rules.speed_share * wanted)
+    return SpeedGoal(value_mps=wanted, tolerance_mps=slack, bound=Bound.EXACTLY)
+
+
+def ends_with_mps(action: AgentAction, before_mps: float, rules: ActionRules) -> float | None:
+    """Return the speed that is commanded for an action, None when it is left to the driver."""
+    if action.do in ('stop', 'yield') or (action.do == 'brake' and action.value_mps is None):
+        return 0.0
+    goal = speed_goal(action, before_mps, rules)
+    return None if goal is None else goal.value_mps
+
+
+def holds_already(action: AgentAction, speed_mps: float, rules: ActionRules) -> bool:
+    """Tell whether nothing is left to be done for an action that is due."""
+    if action.do not in _HOLDS_ALREADY:
+        return False
+    if action.do == 'stop':
+        return speed_mps < rules.stop_mps
+    goal = speed_goal(action, speed_mps, rules)
+    return goal is not None and bool(goal.reached(np.array([speed_mps]))[0])
+
+
+def is_complete(
+    action: AgentAction, before_mps: float, speed_mps: float, rules: ActionRules
+) -> bool:
+    """Tell whether an action that has begun is complete at this speed, as far as one tick shows.
+
+    Args:
+        action: What was to be done.
+        before_mps: Speed when it was due.
+        speed_mps: Speed now.
+        rules: What actions are measured with.
+    """
+    if action.do == 'stop':
+        return speed_mps < rules.stop_mps
+    goal = speed_goal(action, before_mps, rules)
+    if goal is not None:
+        return bool(goal.reached(np.array([speed_mps]))[0])
+    return action.do != 'start' or speed_mps > rules.start_mps
+
+
+def completion_index(
+    action: AgentAction, speeds_mps: FloatArray, hold_ticks: int, rules: ActionRules
+) -> int | None:
+    """Return the index at which an action is complete, None when it never is.
+
+    Args:
+        action: What is to be done; one that ends with a speed.
+        speeds_mps: (n,) speeds of the agent from when the action is due.
+        hold_ticks: For how many ticks it has to stand, to have stopped.
+        rules: What actions are measured with.
+    """
+    if len(speeds_mps) == 0:
+        return None
+    if action.do == 'stop':
+        done = _held(speeds_mps < rules.stop_mps, hold_ticks)
+    else:
+        goal = speed_goal(action, float(speeds_mps[0]), rules)
+        done = speeds_mps > rules.start_mps if goal is None else goal.reached(speeds_mps)
+    index = int(np.argmax(done)) if len(done) else 0
+    return index if len(done) and bool(done[index]) else None
+
+
+def _held(mask: BoolArray, ticks: int) -> BoolArray:
+    """Return where a stretch of `ticks` steps begins that lies inside the mask, (n - ticks,)."""
+    if len(mask) <= ticks:
+        return np.zeros(0, dtype=np.bool_)
+    total = np.concatenate(([0], np.cumsum(mask)))
+    held: BoolArray = total[ticks + 1 :] - total[: -ticks - 1] == ticks + 1
+    return held

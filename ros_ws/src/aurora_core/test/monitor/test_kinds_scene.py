@@ -1,0 +1,109 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Conditions on the scene as a whole: satisfied, violated, not judged.
+
+One car drives for 20 s, tick 0 to 400.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from kind_rows import Row, cut, gone
+from trace_builder import driver, number
+from trace_cases import Case, ground_case, hover_case, spec
+
+from aurora_core.monitor.verdict import Reason
+from aurora_core.spec.parameter import Bound, Unit
+from aurora_core.spec.scenario import Behavior
+from aurora_core.spec.vocabulary import BehaviorKind
+
+T = 401
+SHORT = Reason.TRACE_SHORT
+
+
+def _drive(**values: object) -> Case:
+    case = ground_case(Behavior(kind=BehaviorKind.DRIVE), np.full(T, 5.0))
+    case.spec = spec(**{**dict(case.spec), **values})
+    return case
+
+
+def _also(case: Case, kind: str, role: str = 'other') -> Case:
+    """Add a body that nobody asked for."""
+    ticks = case.run.ticks
+    case.run.agents.append(driver('more1', kind, 300.0, np.zeros(ticks), y=3.3, role=role))
+    return case
+
+
+def _other_type() -> Case:
+    case = _drive()
+    case.run.agents[0].type = 'bus'
+    return case
+
+
+def _closed(kind: str, value: float, bound: Bound = Bound.EXACTLY) -> Case:
+    number_of = number(value, Unit.ONE, explicit=True, bound=bound)
+    return _drive(counts=({'id': 'n1', 'kind': kind, 'value': number_of},))
+
+
+def _in(weather: str, time_of_day: str) -> Case:
+    """It was to rain at night."""
+    case = _drive(world={'weather': 'rain', 'time_of_day': 'night'})
+    case.world = replace(case.world, weather=weather, time_of_day=time_of_day)
+    return case
+
+
+def _on_map(name: str) -> Case:
+    case = _drive(world={'map_name': 'junction'})
+    case.world = replace(case.world, map_name=name)
+    return case
+
+
+def _lasting(seconds: float) -> Case:
+    return _drive(world={'duration_s': number(seconds, Unit.SECOND, explicit=True)})
+
+
+ROWS = (
+    Row(id='scene.car', make=_drive, margin=0.0),
+    Row(id='scene.car', make=lambda: _also(_drive(), 'car', 'background'), margin=0.0, what='bg'),
+    Row(id='scene.car', make=lambda: _also(_drive(), 'car'), margin=-1.0, what='one-more'),
+    Row(id='scene.car', make=_other_type, margin=-1.0, what='a-bus'),
+    Row(id='scene.car', make=lambda: gone(_drive(), 0, 300), margin=-1.0, what='left'),
+    Row(id='scene.car', make=lambda: cut(_drive(), 200), reason=SHORT),
+    Row(id='scene.uav', make=hover_case, margin=0.0),
+    Row(id='n1.holds', make=lambda: _closed('car', 1.0), margin=0.0),
+    Row(id='n1.holds', make=lambda: _closed('vehicle', 2.0), margin=-1.0, what='too-few'),
+    Row(
+        id='n1.holds',
+        make=lambda: _also(_closed('vehicle', 1.0), 'bus', 'background'),
+        margin=-1.0,
+        what='background',
+    ),
+    Row(
+        id='n1.holds',
+        make=lambda: _closed('body', 3.0, Bound.AT_MOST),
+        margin=2.0,
+        what='at-most',
+    ),
+    Row(id='n1.holds', make=lambda: cut(_closed('car', 1.0), 200), reason=SHORT),
+    Row(id='world.weather', make=lambda: _in('rain', 'night'), margin=0.0),
+    Row(id='world.weather', make=lambda: _in('clear', 'night'), margin=-1.0),
+    Row(id='world.weather', make=lambda: cut(_in('rain', 'night'), 200), reason=SHORT),
+    Row(id='world.time_of_day', make=lambda: _in('rain', 'night'), margin=0.0),
+    Row(id='world.time_of_day', make=lambda: _in('rain', 'noon'), margin=-1.0),
+    Row(id='world.time_of_day', make=lambda: cut(_in('rain', 'night'), 200), reason=SHORT),
+    Row(id='world.map_name', make=lambda: _on_map('junction'), margin=0.0),
+    Row(id='world.map_name', make=lambda: _on_map('downtown'), margin=-1.0),
+    Row(id='world.map_name', make=lambda: cut(_on_map('junction'), 200), reason=SHORT),
+    # The run lasts 20 s; 0.5 s are allowed, of 30 s 0.6 s.
+    Row(id='world.duration', make=lambda: _lasting(20.0), margin=0.5),
+    Row(id='world.duration', make=lambda: _lasting(30.0), margin=0.6 - 10.0),
+    Row(id='world.duration', make=lambda: cut(_lasting(20.0), 200), reason=SHORT),
+)
+
+
+@pytest.mark.parametrize('row', ROWS, ids=lambda row: row.name)
+def test_scene_kinds(row: Row) -> None:
+    row.check()
