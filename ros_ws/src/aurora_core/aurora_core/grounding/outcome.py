@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from aurora_core.agsg.graph import Agsg
+from aurora_core.agsg.judged import Unjudged
 from aurora_core.spec.parameter import Document
 
 
@@ -17,8 +18,14 @@ class GroundingFailure(Document):
 
 
 class GroundingOutcome(Document):
-    """Exactly one of the two is set."""
+    """Exactly one of graph and failure is set.
+
+    Attributes:
+        unsupported: What nobody carries out or judges yet, as `id: what`.
+        unjudged: What is stated and no condition of the run depends on.
+    """
 
     agsg: Agsg | None = None
     failure: GroundingFailure | None = None
     unsupported: tuple[str, ...] = ()
+    unjudged: tuple[Unjudged, ...] = ()

@@ -11,8 +11,10 @@ from typing import Any
 
 from aurora_core.agsg.build import build_agsg, derived
 from aurora_core.agsg.graph import Agsg, Stage
+from aurora_core.agsg.judged import unjudged
 from aurora_core.agsg.message import read_agsg
 from aurora_core.conditions.condition import (
+    Condition,
     conditions_from_json,
     conditions_to_json,
 )
@@ -138,6 +140,11 @@ def ground_stage(agsg: Agsg, seed: int) -> GroundingOutcome:
         return GroundingOutcome(failure=grounded)
     schedule = plan_time(spec, grounded, known.limits)
     derivation = derive_conditions(spec, schedule.facts, known.limits, known.tolerances)
+
+    def derive(asked: ScenarioSpec) -> tuple[Condition, ...]:
+        made = derive_conditions(asked, schedule.facts, known.limits, known.tolerances)
+        return judgeable(made.conditions, asked, grounded)
+
     conditions = judgeable(derivation.conditions, spec, grounded)
     graph = build_agsg(
         spec,
@@ -154,7 +161,9 @@ def ground_stage(agsg: Agsg, seed: int) -> GroundingOutcome:
         *unsupported(spec, grounded),
         *(f'{u.element}: {u.what}' for u in derivation.underivable),
     )
-    return GroundingOutcome(agsg=graph, unsupported=missing)
+    return GroundingOutcome(
+        agsg=graph, unsupported=missing, unjudged=unjudged(spec, conditions, derive)
+    )
 
 
 def execution_stage(agsg: Agsg, seed: int, faults: tuple[Fault, ...]) -> Execution:

@@ -95,8 +95,7 @@ def _status_facts(
         undecided=verdict is not None and is_undecided(verdict),
         violated=not all(row.satisfied and row.exercised for row in rows),
         # Without clauses nobody has shown that the whole prompt was read.
-        encoded=bool(clauses)
-        and all(clause.status is not ClauseStatus.NOT_ENCODED for clause in clauses),
+        encoded=bool(clauses) and all(not clause.status.is_open for clause in clauses),
         edited=facts.relaxed,
     )
 

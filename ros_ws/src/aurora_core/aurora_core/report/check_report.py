@@ -17,7 +17,6 @@ from aurora_core.report.run_report import ClauseReport, ErrorReport, RealisedRep
 from aurora_core.report.status import ExitCode, Status
 from aurora_core.spec.parameter import Document
 from aurora_core.spec.scenario import ScenarioSpec
-from aurora_core.spec.vocabulary import ClauseStatus
 from aurora_core.temporal.schedule import Schedule
 
 
@@ -123,7 +122,7 @@ def _result(
     placed = facts.grounding is not None and facts.grounding.agsg is not None
     if not placed or feasibility is None or feasibility.result is not Feasibility.FEASIBLE:
         return CheckResult.UNKNOWN
-    if any(clause.status is ClauseStatus.NOT_ENCODED for clause in clauses):
+    if any(clause.status.is_open for clause in clauses):
         return CheckResult.INCOMPLETE
     return CheckResult.FEASIBLE
 

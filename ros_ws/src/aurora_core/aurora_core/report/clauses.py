@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from aurora_core.agsg.judged import Unjudged
 from aurora_core.parsing.outcome import ParseOutcome
 from aurora_core.report.facts import RunFacts
 from aurora_core.report.run_report import ClauseReport
@@ -16,11 +17,16 @@ def clause_reports(facts: RunFacts) -> tuple[ClauseReport, ...]:
     """Return the clauses in the order of the prompt.
 
     A clause whose element cannot be executed or judged yet is `not_encoded` and names the
-    capability that is missing; an element that no clause claims stands as a clause of its own, so
-    that it cannot get lost.
+    capability that is missing; one that states what no condition depends on is `not_judged`. An
+    element that no clause claims stands as a clause of its own, so that it cannot get lost.
     """
     missing = _missing(facts)
     reports = [_report(clause, missing) for clause in _clauses(facts.parse)]
+    if facts.grounding is not None:
+        for one in facts.grounding.unjudged:
+            # What nobody carries out is told already.
+            if one.element not in missing:
+                _mark(reports, one, facts.prompt)
     claimed = {name for clause in reports for name in clause.ids}
     for element, what in missing.items():
         if element not in claimed and facts.prompt:
@@ -66,3 +72,33 @@ def _report(clause: Clause, missing: dict[str, str]) -> ClauseReport:
         ids=clause.ids,
         note='; '.join(notes),
     )
+
+
+def _mark(reports: list[ClauseReport], found: Unjudged, prompt: str) -> None:
+    """Mark the clause that states what no condition depends on, else add one."""
+    note = f'no condition depends on {found.what}'
+    hits = [k for k, r in enumerate(reports) if found.span is not None and _meet(r.span, found)]
+    hits = hits or [k for k, r in enumerate(reports) if found.element in r.ids]
+    if not hits and prompt:
+        whole = Span(start=0, end=len(prompt))
+        reports.append(
+            ClauseReport(
+                text=prompt,
+                span=whole,
+                status=ClauseStatus.NOT_JUDGED,
+                ids=(found.element,),
+                note=note,
+            )
+        )
+    for k in hits:
+        report = reports[k]
+        lost = report.status is ClauseStatus.NOT_ENCODED
+        values = {name: getattr(report, name) for name in ClauseReport.model_fields}
+        values['status'] = report.status if lost else ClauseStatus.NOT_JUDGED
+        values['note'] = '; '.join(part for part in (report.note, note) if part)
+        reports[k] = ClauseReport(**values)
+
+
+def _meet(span: Span, found: Unjudged) -> bool:
+    stated = found.span
+    return stated is not None and span.start < stated.end and stated.start < span.end

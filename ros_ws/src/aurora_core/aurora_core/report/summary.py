@@ -8,7 +8,6 @@ from aurora_core.grounding.outcome import GroundingOutcome
 from aurora_core.monitor.verdict import Reason
 from aurora_core.report.run_report import ConditionReport, RunReport
 from aurora_core.report.status import Status
-from aurora_core.spec.vocabulary import ClauseStatus
 from aurora_core.trace.trace import Integrity
 
 _SHOWN = 3
@@ -44,7 +43,7 @@ def summary_of(report: RunReport, grounding: GroundingOutcome | None) -> str:
 
 
 def _lost(report: RunReport) -> str:
-    lost = [c for c in report.clauses if c.status is ClauseStatus.NOT_ENCODED]
+    lost = [c for c in report.clauses if c.status.is_open]
     if not lost:
         return 'the prompt was not divided into clauses'
     return '; '.join(f'“{c.text}”' + (f' ({c.note})' if c.note else '') for c in lost)

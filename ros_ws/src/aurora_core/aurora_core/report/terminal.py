@@ -23,7 +23,6 @@ from aurora_core.report.status import Status
 from aurora_core.report.summary import margin_value
 from aurora_core.report.verify_report import VerifyReport
 from aurora_core.report.visible import one_line
-from aurora_core.spec.vocabulary import ClauseStatus
 
 _COLOURS = {
     Status.VERIFIED: 'green',
@@ -151,7 +150,7 @@ def print_clauses(clauses: Sequence[ClauseReport], console: Console) -> None:
             for clause in clauses
         ],
         console,
-        bad=[k for k, c in enumerate(clauses) if c.status is ClauseStatus.NOT_ENCODED],
+        bad=[k for k, c in enumerate(clauses) if c.status.is_open],
     )
 
 

@@ -125,3 +125,9 @@ class ClauseStatus(StrEnum):
     ENCODED = 'encoded'
     NO_REQUIREMENT = 'no_requirement'
     NOT_ENCODED = 'not_encoded'
+    NOT_JUDGED = 'not_judged'  # encoded, and no condition of the run depends on it
+
+    @property
+    def is_open(self) -> bool:
+        """Whether a run with such a clause is incomplete."""
+        return self in (ClauseStatus.NOT_ENCODED, ClauseStatus.NOT_JUDGED)

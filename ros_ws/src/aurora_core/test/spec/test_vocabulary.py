@@ -25,7 +25,7 @@ _WORDS = {
     'MissionMode': 'hover track navigate',
     'Pattern': 'rectangle line lawnmower orbit waypoints',
     'LinkOcclusion': 'shortens blocks ignored',
-    'ClauseStatus': 'encoded no_requirement not_encoded',
+    'ClauseStatus': 'encoded no_requirement not_encoded not_judged',
 }
 _QUANTITIES = (
     'distance horizontal_distance separation altitude speed tracked_fraction visible_time '

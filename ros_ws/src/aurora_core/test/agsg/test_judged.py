@@ -1,0 +1,51 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""What is stated and judged by nothing is found; what is judged is not called so."""
+
+from __future__ import annotations
+
+import pytest
+
+from aurora_core.agsg.build import build_agsg
+from aurora_core.agsg.judged import Unjudged
+from aurora_core.pipeline.functions import ground_stage, parse_stage
+from aurora_core.spec.scenario import ScenarioSpec
+
+
+def _unjudged(spec: ScenarioSpec) -> dict[str, Unjudged]:
+    outcome = ground_stage(build_agsg(spec), 1)
+    assert outcome.agsg is not None
+    return {one.path: one for one in outcome.unjudged}
+
+
+def _parsed(prompt: str) -> ScenarioSpec:
+    spec = parse_stage(prompt, 'downtown', 1).spec
+    assert spec is not None
+    return spec
+
+
+@pytest.mark.parametrize(
+    'prompt',
+    [
+        'A drone hovers over City Hall at 50 m for 20 seconds.',
+        'In rain at night a drone tracks a bus from 40 m at 30 m altitude for 30 s.',
+        'A drone tracks a bus; after 20 s the bus slows to 5 m/s.',
+        'A van tailgates the ego car closely, closing from 45 meters; a tracking drone alerts the '
+        'ego when the van comes within 20 meters.',
+    ],
+)
+def test_ordinary_requests_are_judged_in_everything(prompt: str) -> None:
+    assert _unjudged(_parsed(prompt)) == {}
+
+
+def test_traffic_that_nobody_makes_is_found() -> None:
+    found = _unjudged(_parsed('In dense traffic a drone tracks a bus for 30 s.'))
+    assert found.keys() == {'world/traffic_density'}
+    assert found['world/traffic_density'].element == 'world'
+
+
+def test_a_place_that_an_agent_is_to_stop_at_is_found() -> None:
+    found = _unjudged(_parsed('A drone tracks a bus that stops at the intersection.'))
+    assert [path for path in found if path.endswith('/target')] == [
+        'agents/bus1/behaviors/0/target'
+    ]
