@@ -208,7 +208,9 @@ class _SeeingEverything:
 def _runner(kind: type[EventRunner]) -> Sabotage:
     def sabotage(executor: ScenarioExecutor) -> Stepper:
         s = executor._setup
-        executor._runner = kind(s.spec, s.roster, s.links, s.arrival_m)
+        executor._runner = kind(
+            s.spec, s.roster, s.links, s.arrival_m, s.action_rules, executor._set_off
+        )
         return executor
 
     return sabotage

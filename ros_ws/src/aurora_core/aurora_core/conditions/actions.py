@@ -52,6 +52,15 @@ def action_conditions(
         yield _passed(inputs, event, action, source)
 
 
+def earliest_s(inputs: Inputs, event: Event) -> float:
+    """Return how long after its trigger an event has to wait at least, seconds."""
+    delay = event.delay_s
+    if delay is None or delay.provenance is not Provenance.EXPLICIT:
+        return 0.0
+    slack_s = inputs.tolerances.duration_s.of(event.waits_s, approximate=delay.approximate)
+    return max(0.0, event.waits_s - slack_s)
+
+
 def _completed(inputs: Inputs, event: Event, action: AgentAction, source: Source) -> Condition:
     value = action.value_mps if action.do in _TO_A_SPEED else None
     facts = inputs.agent_facts(action.agent)
@@ -103,7 +112,12 @@ def _at_rest(inputs: Inputs, event: Event, action: AgentAction, source: Source) 
         signal=f'speed_before({event.id})',
         of=(action.agent,),
         target=Target(op='<', threshold=limit, unit='m/s'),
-        arguments=inputs.arguments(Window.MOMENT, aspect='before_event', event=event.id),
+        arguments=inputs.arguments(
+            Window.MOMENT,
+            aspect='before_event',
+            event=event.id,
+            after_s=earliest_s(inputs, event),
+        ),
         source=source,
     )
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from aurora_core.conditions.actions import action_conditions
+from aurora_core.conditions.actions import action_conditions, earliest_s
 from aurora_core.conditions.build import (
     Inputs,
     Source,
@@ -28,6 +28,7 @@ from aurora_core.conditions.links import (
     ratio_condition,
 )
 from aurora_core.conditions.missions import mission_arguments
+from aurora_core.spec.events import sets_off
 from aurora_core.spec.parameter import Bound, Parameter, Provenance
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import (
@@ -46,6 +47,17 @@ from aurora_core.spec.vocabulary import MissionMode
 
 # What an agent may not have done before it is asked to.
 _NOT_BEFORE = frozenset({'start', 'cross', 'change_lane'})
+
+
+def _binds_before(inputs: Inputs, event: Event) -> bool:
+    """Tell whether what an agent did before the trigger would be the action itself, too early.
+
+    Who is to start again has driven before.
+    """
+    action = event.action
+    if not isinstance(action, AgentAction) or action.do not in _NOT_BEFORE:
+        return False
+    return action.do != 'start' or sets_off(inputs.spec.events, action.agent) == event
 
 
 def actor_of(event: Event) -> str | None:
@@ -117,23 +129,20 @@ def _moment(inputs: Inputs, event: Event, source: Source) -> Iterator[Condition]
         )
         return
     delay_s, provenance = 0.0, Provenance.DEFAULT
-    earliest_s = 0.0
+    first_s = earliest_s(inputs, event)
     if event.delay_s is not None:
         delay_s, provenance = event.waits_s, event.delay_s.provenance
-        if provenance is Provenance.EXPLICIT:
-            slack = inputs.tolerances.duration_s.of(delay_s, approximate=event.delay_s.approximate)
-            earliest_s = max(0.0, delay_s - slack)
     latest_s = delay_s + inputs.tolerances.event_delay_s
     if event.delay_s is not None and event.delay_s.bound is Bound.AT_MOST:
         latest_s = event.delay_s.value
     source = Source(ids=source.ids, spans=source.spans, provenance=provenance)
-    after = 'its trigger' if earliest_s == 0.0 else f'{number(earliest_s)} s after its trigger'
+    after = 'its trigger' if first_s == 0.0 else f'{number(first_s)} s after its trigger'
     bounds = [
         ('within', f'within {number(latest_s)} s of its trigger', _at_most(latest_s)),
-        ('not_before', f'not before {after}', _at_least(earliest_s)),
+        ('not_before', f'not before {after}', _at_least(first_s)),
     ]
     climbs = isinstance(event.action, UavAction) and event.action.do == 'ascend'
-    drives = isinstance(event.action, AgentAction) and event.action.do not in _NOT_BEFORE
+    drives = isinstance(event.action, AgentAction) and not _binds_before(inputs, event)
     if drives or climbs:
         # Drivers slow down and speed up for many reasons, and a UAV has climbed at its take-off:
         # what was before says nothing. What they do before a stated delay is over neither.
@@ -149,7 +158,7 @@ def _moment(inputs: Inputs, event: Event, source: Source) -> Iterator[Condition]
                 Window.MOMENT,
                 aspect=name,
                 event=event.id,
-                after_s=earliest_s if drives else 0.0,
+                after_s=first_s if drives else 0.0,
             ),
             source=source,
             every_sample=False,

@@ -21,6 +21,7 @@ from aurora_core.monitor.measure_events import never_happened, trigger_story
 from aurora_core.monitor.verdict import Reason
 from aurora_core.quantities import motion
 from aurora_core.quantities.actions import ends_with_mps
+from aurora_core.quantities.ticks import whole_ticks
 from aurora_core.spec.events import sets_off
 from aurora_core.spec.scenario import AgentAction, EventDoneTrigger
 
@@ -96,7 +97,9 @@ def measure_speed_before_event(context: Context, condition: Condition) -> Evalua
     if first is None or first > trigger:
         story = f'{action.agent} had not come to rest before {event_id} was triggered'
         return Missing(reason=Reason.EMPTY_PHASE, story=story, tick=trigger)
-    ticks = np.arange(first, trigger + 1, dtype=np.intp)
+    wait = whole_ticks(condition.arguments.after_s, context.view.dt_s)
+    last = min(trigger + wait, context.view.ticks - 1)
+    ticks = np.arange(first, last + 1, dtype=np.intp)
     gone = context.gone(condition, ticks)
     if gone is not None:
         return gone

@@ -34,7 +34,9 @@ def measure_count(context: Context, condition: Condition) -> Evaluation:
         if body.entry.type_name in arguments.types
         and (everybody or body.entry.role != Role.BACKGROUND.value or body.body_id in condition.of)
     ]
-    values = np.sum(counted, axis=0, dtype=np.float64) if counted else np.zeros(view.ticks)
+    values = np.zeros(view.ticks)
+    for present in counted:
+        values += present
     return Measured(ticks=ticks, values=values[ticks], evidence=('roster', 'ground/state'))
 
 

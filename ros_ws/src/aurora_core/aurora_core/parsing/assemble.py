@@ -49,6 +49,7 @@ def build(scene: Scene) -> ScenarioSpec:
         events=scene.events_as_values(),
         conditions=tuple(scene.conditions),
         orders=tuple(scene.orders),
+        counts=tuple(scene.counts),
         clauses=scene.finished_clauses(),
     )
 

@@ -20,6 +20,7 @@ from aurora_core.spec.vocabulary import ClauseStatus
 # A group beyond this many is cut: it is refused as too many in any case.
 _MOST = 200
 _RANKS = ('first', 'last', 'earlier', 'sooner', 'next')
+_WHERE = 'where'
 _NO_ACTORS = (NounKind.PRONOUN, NounKind.UNSUPPORTED, NounKind.AMBIGUOUS)
 
 
@@ -64,6 +65,7 @@ def unaccounted(
             miscounted = miscounted and became <= _MOST
             if forgotten or miscounted or (counted and (digits or noun.count != 1)):
                 lost.append(span)
+    lost += _forgotten_places(spec, atoms)
     ordered = [o.span for o in spec.orders if o.span is not None]
     for span in _telling(spec.prompt, atoms):
         if not any(_inside(span, known) for known in unread + ordered):
@@ -96,6 +98,24 @@ def _telling(prompt: str, atoms: Sequence[Atom]) -> Iterator[Span]:
                 yield _covering(before, atom)
         elif word == 'same' and after and after[0].kind is AtomKind.THING:
             yield _covering(atom, after[0])
+
+
+def _forgotten_places(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """Return `City Hall, where` when nothing is placed there: who is told of behind it is not.
+
+    That a place is flown over or tracked puts nobody at it.
+    """
+    taken = {p.of for agent in spec.agents for p in agent.placements}
+    taken |= {b.target for agent in spec.agents for b in agent.behaviors}
+    for k, atom in enumerate(atoms):
+        before = [a for a in atoms[max(0, k - 2) : k] if a.kind is not AtomKind.COMMA][-1:]
+        told = atom.kind is AtomKind.FRAME and atom.key == _WHERE
+        who = next((a.noun for a in atoms[k + 1 : k + 2]), None)
+        told = told and who is not None and who.kind in (NounKind.AGENT, NounKind.VEHICLE)
+        if told and before and before[0].is_place:
+            place = before[0].key
+            if place not in taken and f'landmark:{place}' not in taken:
+                yield _covering(before[0], atom)
 
 
 def _covering(first: Atom, last: Atom) -> Span:

@@ -34,6 +34,7 @@ from aurora_core.errors import SpecError
 from aurora_core.parsing.assemble import build
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
 from aurora_core.parsing.attempt import attempt
+from aurora_core.parsing.closing import close_scene
 from aurora_core.parsing.coverage import in_no_clause, unaccounted
 from aurora_core.parsing.landmarks import landmark_phrases
 from aurora_core.parsing.outcome import ParseContext, ParseOutcome, Refusal, RefusalKind
@@ -89,6 +90,7 @@ def parse_offline(prompt: str, context: ParseContext) -> ParseOutcome:
     if scene.questions:
         question = ' '.join(dict.fromkeys(scene.questions))
         return ParseOutcome(question=question, clauses=scene.finished_clauses())
+    close_scene(scene, read.told.atoms)
     spec = _build(scene)
     lost = unaccounted(
         spec,

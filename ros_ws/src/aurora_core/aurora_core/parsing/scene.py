@@ -16,6 +16,7 @@ from aurora_core.spec.scenario import (
     EventAction,
     Order,
     Placement,
+    SceneCount,
     StatedCondition,
     Trigger,
 )
@@ -194,6 +195,7 @@ class Scene:
         self.events: list[EventDraft] = []
         self.conditions: list[StatedCondition] = []
         self.orders: list[Order] = []
+        self.counts: list[SceneCount] = []
         self.clauses: list[ClauseDraft] = []
         self.questions: list[str] = []
         self.doubts: list[Doubt] = []

@@ -79,7 +79,7 @@ def _count(skip: int | None = None) -> Case:
 
 def _sized(**values: int) -> Case:
     size = (number(100.0, explicit=True), number(60.0, explicit=True))
-    return survey_case(size_m=size, **values)  # type: ignore[arg-type]
+    return survey_case(size_m=size, **values)
 
 
 def _on_ground() -> Case:

@@ -45,3 +45,27 @@ def test_politeness_needs_nothing() -> None:
 def test_number_is_never_politeness() -> None:
     outcome = parse_offline('Thank you 5 times. A drone tracks a bus.', ParseContext())
     assert outcome.clauses[0].status is ClauseStatus.NOT_ENCODED
+
+
+@pytest.mark.parametrize(
+    ('prompt', 'kinds'),
+    [
+        ('Exactly two cars drive along, a drone hovers at 40 m.', [('car', 2.0)]),
+        ('Two cars drive along, a drone hovers at 40 m.', []),
+        ('Only one bus and just 2 drones are there; the drones track the bus.', [('bus', 1.0)]),
+        ('There are exactly 3 vehicles. A drone hovers at 40 m.', [('vehicle', 3.0)]),
+    ],
+)
+def test_exact_numbers_close_the_scene(prompt: str, kinds: list[tuple[str, float]]) -> None:
+    spec = parse_offline(prompt, ParseContext(landmark_names=('City Hall',))).spec
+    assert spec is not None
+    found = [(count.kind, count.value.value) for count in spec.counts]
+    assert found[: len(kinds)] == kinds
+    assert all(any(c.id in clause.ids for clause in spec.clauses) for c in spec.counts)
+
+
+def test_who_is_told_of_behind_a_place_is_not_lost_in_silence() -> None:
+    prompt = 'A drone hovers at 40 m over City Hall, where a police car is parked.'
+    outcome = parse_offline(prompt, ParseContext(landmark_names=('City Hall',)))
+    unread = [c.text for c in outcome.clauses if c.status is ClauseStatus.NOT_ENCODED]
+    assert unread == ['City Hall, where']

@@ -196,11 +196,20 @@ class ConditionReading(Document):
     quote: Quote
 
 
+class CountReading(Document):
+    """How many of a kind there are in the whole scene: `exactly two cars`, `no other drone`."""
+
+    id: Name
+    kind: AgentType | Literal['uav', 'vehicle', 'person', 'body']
+    value: Number
+    quote: Quote
+
+
 class ClauseReading(Document):
     """A piece of the prompt and the ids that it became (`world` for weather and time)."""
 
     quote: Quote
-    status: ClauseStatus
+    status: Literal[ClauseStatus.ENCODED, ClauseStatus.NO_REQUIREMENT, ClauseStatus.NOT_ENCODED]
     ids: tuple[Name, ...] = ()
     note: Annotated[str, StringConstraints(max_length=300)] = ''
 
@@ -222,6 +231,7 @@ class Reading(Document):
     links: tuple[LinkReading, ...] = ()
     events: tuple[EventReading, ...] = ()
     conditions: tuple[ConditionReading, ...] = ()
+    counts: tuple[CountReading, ...] = ()
     clauses: tuple[ClauseReading, ...] = ()
     missing: tuple[MissingReading, ...] = ()
     question: Annotated[str, StringConstraints(max_length=1000)] | None = None

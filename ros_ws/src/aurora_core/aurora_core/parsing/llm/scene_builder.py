@@ -16,6 +16,7 @@ from aurora_core.parsing.llm.places import is_place
 from aurora_core.parsing.llm.reading import (
     AgentReading,
     BehaviorReading,
+    CountReading,
     Reading,
     UavReading,
     WorldReading,
@@ -23,7 +24,7 @@ from aurora_core.parsing.llm.reading import (
 from aurora_core.parsing.scene import Entity
 from aurora_core.parsing.values import default
 from aurora_core.spec.parameter import Span
-from aurora_core.spec.scenario import Behavior, Placement
+from aurora_core.spec.scenario import Behavior, Placement, SceneCount
 from aurora_core.spec.vocabulary import (
     AgentType,
     BehaviorKind,
@@ -55,6 +56,7 @@ def build_scene(reading: Reading, parts: Parts, anchors: Anchors) -> None:
     parts.name_all('link', [link.id for link in reading.links])
     parts.name_all('e', [e.id for e in reading.events])
     parts.name_all('c', [c.id for c in reading.conditions])
+    parts.name_all('count', [c.id for c in reading.counts])
     for agent in reading.agents:
         _add_agent(agent, parts)
     for mission in reading.missions:
@@ -65,6 +67,17 @@ def build_scene(reading: Reading, parts: Parts, anchors: Anchors) -> None:
         add_event(event, parts)
     for condition in reading.conditions:
         add_condition(condition, parts)
+    for count in reading.counts:
+        _add_count(count, parts)
+
+
+def _add_count(count: CountReading, parts: Parts) -> None:
+    value = parts.number('scene_count', count.value, f'{count.id}.value')
+    if value is not None:
+        span = parts.span(count.quote, count.id)
+        parts.scene.counts.append(
+            SceneCount(id=parts.ref(count.id), kind=count.kind, value=value, span=span)
+        )
 
 
 def _add_world(said: WorldReading, parts: Parts) -> None:
