@@ -13,7 +13,7 @@ from collections.abc import Callable, Mapping
 from types import MappingProxyType
 from typing import Any
 
-from aurora_cli.recheck import flights, places, schedule
+from aurora_cli.recheck import flights, places, schedule, zones
 from aurora_cli.recheck.finding import Finding, Outcome, Step, finding
 from aurora_cli.recheck.limits import by_limit, by_sign
 from aurora_cli.recheck.listings import by_listing
@@ -38,7 +38,7 @@ _DERIVATIONS: Mapping[Rule, _Derivation] = MappingProxyType(
         Rule.HORIZON: schedule.horizon,
         Rule.ORDER: schedule.order,
         Rule.PLACEMENT: places.placement,
-        Rule.ZONE: places.zone,
+        Rule.ZONE: zones.zone,
     }
 )
 

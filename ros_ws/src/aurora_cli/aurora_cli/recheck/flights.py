@@ -29,8 +29,20 @@ def _aside(request: Request, mission: dict[str, Any]) -> tuple[float, float]:
 def _straight(request: Request, mission: dict[str, Any]) -> tuple[float, float]:
     low, high = _heights(request, mission)
     near, far = _aside(request, mission)
+    if mission.get('target') in _uavs(request):
+        # It flies as well, and may be level with the other one or far above it.
+        return near, math.sqrt(request.limit('uav_altitude_max_m') ** 2 + far**2)
     drop = max(0.0, low - _TOP_OF_TARGET_M)
     return math.sqrt(drop**2 + near**2), math.sqrt(high**2 + far**2)
+
+
+def _uavs(request: Request) -> set[str]:
+    return {u[key] for u in request.all('uavs') for key in ('id', 'group') if u.get(key)}
+
+
+def _is_partial(condition: dict[str, Any]) -> bool:
+    """Return whether a condition is asked of a share, a stretch or one moment only."""
+    return any(condition.get(name) is not None for name in ('fraction', 'hold_s', 'by_s'))
 
 
 def _same(proof: Certificate, limit: float) -> Step:
@@ -102,8 +114,7 @@ def _kept_apart(request: Request, ends: set[str]) -> float:
             if c['quantity'] in ('distance', 'horizontal_distance', 'separation')
             and c['op'] in ('>', '>=')
             and set(c['of']) == ends
-            and c.get('fraction') is None
-            and c.get('hold_s') is None
+            and not _is_partial(c)
         ),
         default=0.0,
     )
@@ -122,6 +133,7 @@ def closeness(proof: Certificate, request: Request) -> list[Step]:
     return [
         _same(proof, least),
         _asked(proof, condition['value']),
+        (set(condition['of']) <= _uavs(request), 'it is about UAVs'),
         (
             (condition['op'] in ('<', '<=', '==') or upward) and value < least,
             f'it asks for {condition["op"]} {value:g} m, at least {least:g} m are kept',
@@ -137,20 +149,22 @@ def stacking(proof: Certificate, request: Request) -> list[Step]:
         return [(False, f'{proof.path} is a stated altitude')]
     least = request.limit('separation_min_m')
     aside = upper.get('standoff_m')
-    fixed = aside is not None or upper['mode'] == 'hover'
-    away = 0.0 if aside is None else float(aside['value'])
-    gaps = [
-        math.hypot(float(upper['altitude_m']['value']) - float(m['altitude_m']['value']), away)
-        for m in request.all('missions')
-        if m['uav'] == upper.get('target') and stated(m['altitude_m'])
-    ]
+    # A place that nothing states can be chosen; hovering over something is a place.
+    above = aside is None and upper['mode'] == 'hover'
+    away = 0.0 if above else left_open(aside, 0.0)[1]
+    fixed = math.isfinite(away)
+    low, high = left_open(upper['altitude_m'], 0.0)
+    gaps = []
+    for other in (m for m in request.all('missions') if m['uav'] == upper.get('target')):
+        floor, ceiling = left_open(other['altitude_m'], 0.0)
+        gaps.append(math.hypot(max(abs(high - floor), abs(ceiling - low)), away))
     return [
         _same(proof, least),
         _asked(proof, upper['altitude_m']),
         (fixed, 'its place beside the other is fixed'),
         (
-            any(gap < least for gap in gaps),
-            f'the two would be {min(gaps, default=math.inf):g} m apart, {least:g} m are kept',
+            bool(gaps) and max(gaps) < least,
+            f'the two may be {max(gaps, default=math.inf):g} m apart, {least:g} m are kept',
         ),
     ]
 
@@ -160,7 +174,7 @@ def flight_band(proof: Certificate, request: Request) -> list[Step]:
     condition = request.one(proof.path)
     if condition is None or condition.get('quantity') is None:
         return [(False, f'{proof.path} is a condition')]
-    free = condition.get('fraction') is not None or condition.get('hold_s') is not None
+    free = _is_partial(condition)
     value, op = float(condition['value']['value']), condition['op']
     excluded = [
         (op in ('<', '<=') and low > value) or (op in ('>', '>=') and high < value)
@@ -196,7 +210,12 @@ def pursuit(proof: Certificate, request: Request) -> list[Step]:
     agent = request.one(f'agents/{mission["target"]}') or {}
     speeds = [b['speed_mps'] for b in agent.get('behaviors', ()) if b.get('speed_mps')]
     slowest = [left_open(s, request.slack('route_speed_mps', s))[0] for s in speeds]
+    actions = [e.get('action') or {} for e in request.all('events')]
     return [
+        (
+            all(a.get('agent') != mission['target'] for a in actions),
+            'no event changes how it drives',
+        ),
         _same(proof, top),
         _asked(proof, *speeds),
         (
@@ -222,7 +241,7 @@ def afar(proof: Certificate, request: Request) -> list[Step]:
         if m['mode'] == 'track' and [m['uav'], m.get('target')] == list(condition['of'])
     ]
     unset = bool(tracked) and not any(stated(m.get('standoff_m')) for m in tracked)
-    always = not condition.get('fraction') and not condition.get('hold_s')
+    always = not _is_partial(condition)
     return [
         _same(proof, most),
         _asked(proof, condition['value']),

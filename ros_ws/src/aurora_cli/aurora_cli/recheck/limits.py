@@ -33,15 +33,39 @@ def by_limit(proof: Certificate, spec: dict[str, Any] | None) -> list[Step]:
 
 
 def by_sign(proof: Certificate, spec: dict[str, Any]) -> list[Step]:
-    """A stated distance, time, speed or share lies below zero."""
+    """A stated number is one that nothing has: below zero, nothing flown, a broken count."""
     number = _at(spec, proof.path)
     if number is None:
         return [(False, f'the specification has no parameter {proof.path}')]
+    value, bound = float(number['value']), number.get('bound', 'exactly')
+    if value == 0.0:
+        step = _is_flown(spec, proof.path), f'{proof.path} = 0 leaves nothing to fly'
+    elif proof.path.endswith('/waypoint_count') and value > 0.0:
+        broken = bound == 'exactly' and value != int(value)
+        step = broken, f'{proof.path} = {value:g} is no whole number'
+    else:
+        step = value < 0.0, f'{proof.path} = {value:g} is below zero'
     return [
         (number.get('provenance') == 'explicit', f'{proof.path} is {number.get("provenance")}'),
-        (number.get('unit') in _SIGNED, f'nothing in {number.get("unit")} is below zero'),
-        (float(number['value']) < 0.0, f'{proof.path} = {number["value"]:g} is below zero'),
+        (number.get('unit') in _SIGNED, f'a number in {number.get("unit")} has to be positive'),
+        (bound != 'at_least', f'the number binds {bound}, so nothing greater meets it'),
+        step,
     ]
+
+
+def _is_flown(spec: dict[str, Any], path: str) -> bool:
+    """Return whether a zero at a path leaves a UAV without a phase, a way or a pattern."""
+    parts = path.split('/')
+    mission = node_at(spec, '/'.join(parts[:2])) if parts[0] == 'missions' else None
+    if not isinstance(mission, dict):
+        return False
+    name = '/'.join(parts[2:])
+    if name == 'size_m/1':
+        return mission.get('pattern') in ('rectangle', 'lawnmower')
+    return name == 'duration_s' or (
+        mission.get('mode') == 'navigate'
+        and name in ('speed_mps', 'radius_m', 'waypoint_count', 'size_m/0')
+    )
 
 
 def _limit(proof: Certificate) -> list[Step]:

@@ -1,12 +1,10 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""Proofs by where things are placed: twice beside each other, or inside a no-fly zone."""
+"""Proofs by where ground agents are placed: twice beside each other."""
 
 from __future__ import annotations
 
 from typing import Any
-
-from shapely.geometry import Point, shape
 
 from aurora_cli.recheck.finding import Step
 from aurora_cli.recheck.request import Request, left_open, stated
@@ -59,61 +57,3 @@ def _exclude(
     low, high = left_open(far, request.slack('placement_other_m', far))
     least, most = left_open(away, request.slack('placement_other_m', away))
     return low > most or least > high
-
-
-def zone(proof: Certificate, request: Request) -> list[Step]:
-    """Wherever the tolerances let the flight be, it is inside the zone."""
-    mission = request.one(proof.path)
-    marks = {
-        f'landmark:{f["properties"]["name"]}': Point(f['geometry']['coordinates'])
-        for f in request.features('landmarks.geojson')
-    }
-    zones = [
-        f
-        for f in request.features('zones.geojson')
-        if f['properties'].get('kind') == 'no_fly' and f['properties']['name'] == proof.word
-    ]
-    centre = marks.get((mission or {}).get('target') or '')
-    if mission is None or centre is None or len(zones) != 1:
-        return [(False, f'{proof.path} is at a landmark, and {proof.word!r} is a no-fly zone')]
-    properties, area = zones[0]['properties'], shape(zones[0]['geometry'])
-    altitude = mission['altitude_m']
-    low, high = left_open(
-        altitude,
-        request.slack('altitude_m', altitude),
-        request.limit('uav_altitude_min_m'),
-        request.limit('uav_altitude_max_m'),
-    )
-    floor, ceiling = float(properties['floor_m']), float(properties['ceiling_m'])
-    inside, how = _inside(request, mission, centre, area)
-    return [
-        (
-            floor <= low and high <= ceiling,
-            f'{low:g} m to {high:g} m lie between {floor:g} m and {ceiling:g} m',
-        ),
-        (inside, how),
-    ]
-
-
-def _inside(
-    request: Request, mission: dict[str, Any], centre: Point, area: Any
-) -> tuple[bool, str]:
-    edge = float(centre.distance(area.boundary))
-    if mission['mode'] == 'hover':
-        drift = float(request.tolerances['hover_drift_calm_m'])
-        deep = area.covers(centre) and edge >= drift
-        return deep, f'the place is {edge:.1f} m inside the edge, the drift {drift:g} m'
-    radius = mission.get('radius_m')
-    if mission.get('pattern') != 'orbit' or not stated(radius):
-        return False, 'the flight hovers or flies around the place at a stated radius'
-    core = area.buffer(-request.slack('standoff_m', radius))
-    value = float(radius['value'])
-    # A circle meets a connected area when its radius lies between the nearest and farthest point.
-    reaches = [
-        (centre.distance(part), max(centre.distance(Point(c)) for c in part.exterior.coords))
-        for part in getattr(core, 'geoms', [core])
-        if not part.is_empty
-    ]
-    shown = ', '.join(f'{near:.1f} m to {far:.1f} m' for near, far in reaches)
-    meets = any(near <= value <= far for near, far in reaches)
-    return meets, f'the circle of {value:g} m meets the zone, which is {shown or "too small"} away'

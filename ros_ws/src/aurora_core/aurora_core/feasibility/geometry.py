@@ -17,7 +17,14 @@ from aurora_core.feasibility.verdict import Certificate, Fact, Rule
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.quantity import QuantityName
-from aurora_core.spec.scenario import Link, ScenarioSpec, SendMessage, StatedCondition, UavMission
+from aurora_core.spec.scenario import (
+    AgentAction,
+    Link,
+    ScenarioSpec,
+    SendMessage,
+    StatedCondition,
+    UavMission,
+)
 from aurora_core.spec.vocabulary import MissionMode
 
 # Quantities that say how far two stay from each other.
@@ -29,7 +36,8 @@ _TARGET_HEIGHT_M = 2.0
 class Geometry:
     """The distances between a UAV and its target that a request leaves open."""
 
-    def __init__(self, limits: Limits, tolerances: Tolerances) -> None:
+    def __init__(self, spec: ScenarioSpec, limits: Limits, tolerances: Tolerances) -> None:
+        self._flying = frozenset(uav.id for uav in spec.uavs)
         self._limits = limits
         self._tolerances = tolerances
 
@@ -52,9 +60,14 @@ class Geometry:
         return least(stated, slack, 0.0), most(stated, slack, math.inf)
 
     def slant(self, mission: UavMission) -> tuple[float, float]:
-        """Return the least and greatest straight distance to the target, in metres."""
+        """Return the least and greatest straight distance to the target, in metres.
+
+        A target that flies itself may be at any height up to the UAV's own, and above it.
+        """
         low, high = self.altitude(mission)
         near, far = self.horizontal(mission)
+        if mission.target in self._flying:
+            return near, math.hypot(self._limits.uav_altitude_max_m, far)
         return math.hypot(max(0.0, low - _TARGET_HEIGHT_M), near), math.hypot(high, far)
 
     def facts(self, mission: UavMission) -> tuple[Fact, ...]:
@@ -73,7 +86,7 @@ def check_geometry(
     spec: ScenarioSpec, limits: Limits, tolerances: Tolerances
 ) -> Iterator[Certificate]:
     """Return what sight, radio, separation and stated distances rule out."""
-    geometry = Geometry(limits, tolerances)
+    geometry = Geometry(spec, limits, tolerances)
     yield from _sight(spec, limits, geometry)
     yield from _radio(spec, geometry)
     yield from _separation(spec, limits)
@@ -151,8 +164,10 @@ def _kept_out_of_range(spec: ScenarioSpec, link: Link, reach: Parameter) -> Iter
     """`the two never come nearer than 300 m`, and their link reaches 120 m."""
     for condition in spec.conditions:
         apart = condition.quantity in _BETWEEN and condition.op in ('>', '>=')
-        whole = condition.fraction is None and condition.hold_s is None
-        if not (apart and whole) or set(condition.of) != {link.sender, link.receiver}:
+        if not (apart and _holds_throughout(condition)) or set(condition.of) != {
+            link.sender,
+            link.receiver,
+        }:
             continue
         if condition.value.value > reach.value and reach.bound is not Bound.AT_LEAST:
             yield beyond(
@@ -170,9 +185,17 @@ def _kept_out_of_range(spec: ScenarioSpec, link: Link, reach: Parameter) -> Iter
             )
 
 
+def _holds_throughout(condition: StatedCondition) -> bool:
+    """Return whether a condition is asked of all the time, not of a share, stretch or moment."""
+    return condition.fraction is None and condition.hold_s is None and condition.by_s is None
+
+
 def _separation(spec: ScenarioSpec, limits: Limits) -> Iterator[Certificate]:
     limit = limits.separation_min_m
+    flying = {name for uav in spec.uavs for name in (uav.id, uav.group) if name is not None}
     for condition in spec.conditions:
+        if not flying.issuperset(condition.of):
+            continue
         # `2 m apart` asks for 2 m; `at least 2 m apart` leaves room.
         exact = condition.value.bound is Bound.EXACTLY and is_stated(condition.value)
         close = condition.value.value < limit and (
@@ -192,13 +215,25 @@ def _separation(spec: ScenarioSpec, limits: Limits) -> Iterator[Certificate]:
                     *limit_facts(limits, 'separation_min_m'),
                 ),
             )
+    yield from _stacked(spec, limits)
+
+
+def _stacked(spec: ScenarioSpec, limits: Limits) -> Iterator[Certificate]:
+    """A UAV that is asked to fly at another one, nearer than two may be.
+
+    The stated heights count as they are commanded; a height or distance that binds one-sidedly,
+    or that the prompt does not state, can be chosen wider. The other one may fly several phases:
+    only what holds for all of them is refused.
+    """
+    limit = limits.separation_min_m
     for above in spec.missions:
-        for below in (m for m in spec.missions if m.uav == above.target):
-            aside_m = 0.0 if above.standoff_m is None else above.standoff_m.value
-            over = above.standoff_m is not None or above.mode is MissionMode.HOVER
-            gap = abs(above.altitude_m.value - below.altitude_m.value)
-            fixed = is_stated(above.altitude_m) and is_stated(below.altitude_m)
-            if fixed and over and math.hypot(gap, aside_m) < limit:
+        others = [m for m in spec.missions if m.uav == above.target]
+        standoff = above.standoff_m
+        over = standoff is None and above.mode is MissionMode.HOVER
+        aside_m = 0.0 if over else most(standoff, 0.0, math.inf)
+        gaps = [(below, _widest_m(above.altitude_m, below.altitude_m)) for below in others]
+        if gaps and all(math.hypot(gap, aside_m) < limit for _, gap in gaps):
+            for below, gap in gaps:
                 yield beyond(
                     Rule.STACKING,
                     'separation',
@@ -216,12 +251,20 @@ def _separation(spec: ScenarioSpec, limits: Limits) -> Iterator[Certificate]:
                 )
 
 
+def _widest_m(one: Parameter, other: Parameter) -> float:
+    """Return the greatest difference of two heights that a request allows."""
+    return max(
+        most(one, 0.0, math.inf) - least(other, 0.0, 0.0),
+        most(other, 0.0, math.inf) - least(one, 0.0, 0.0),
+    )
+
+
 def _stated_distances(spec: ScenarioSpec, geometry: Geometry) -> Iterator[Certificate]:
     """A stated condition that the stated flight cannot meet."""
     for condition in spec.conditions:
         for mission in spec.missions:
             band = _band(condition, mission, geometry)
-            if band is None or condition.fraction is not None or condition.hold_s is not None:
+            if band is None or not _holds_throughout(condition):
                 continue
             low, high = band
             value = condition.value.value
@@ -268,7 +311,7 @@ def _tracked_from_afar(spec: ScenarioSpec, limits: Limits) -> Iterator[Certifica
         mission = tracked.get(condition.of) if len(condition.of) == 2 else None
         apart = condition.quantity == QuantityName.HORIZONTAL_DISTANCE
         apart = apart and condition.op in ('>', '>=', '==')
-        whole = condition.fraction is None and condition.hold_s is None
+        whole = _holds_throughout(condition)
         if mission is None or not (apart and whole) or is_stated(mission.standoff_m):
             continue
         if condition.value.value > reach:
@@ -291,8 +334,10 @@ def _pursuit(spec: ScenarioSpec, limits: Limits, tolerances: Tolerances) -> Iter
     """A target that is asked to drive faster than UAVs fly cannot be tracked."""
     top = limits.uav_speed_max_mps
     tracked = {m.target: m for m in spec.missions if m.mode is MissionMode.TRACK}
+    # What an event makes faster or slower has its stated speed for a part of the time only.
+    changed = {e.action.agent for e in spec.events if isinstance(e.action, AgentAction)}
     for agent in spec.agents:
-        mission = tracked.get(agent.id)
+        mission = tracked.get(agent.id) if agent.id not in changed else None
         for k, behavior in enumerate(agent.behaviors):
             speed = behavior.speed_mps
             if speed is None:

@@ -24,7 +24,7 @@ class Rule(StrEnum):
 
     LIMIT = 'limit'  # a stated number beyond a limit
     COUNT = 'count'  # more agents or UAVs than possible
-    SIGN = 'sign'  # a stated number below zero
+    SIGN = 'sign'  # a stated number below zero, or a zero that leaves nothing to fly
     SENSING = 'sensing'  # a flight farther from its target than the camera reaches
     RADIO = 'radio'  # flights that keep sender and receiver out of a stated range
     CLOSENESS = 'closeness'  # a condition that asks for less than the separation

@@ -406,6 +406,8 @@ class FlightPlanner:
             if mission.waypoint_count is None
             else round(mission.waypoint_count.value),
         )
+        if points is None or mission.speed_mps.value <= 0.0:
+            return Rejected(reason='pattern')
         hx, hy = centre[2], centre[3]
         shifts = self._settings.pattern_shifts_m
         best: PlannedFlight | None = None
@@ -439,8 +441,14 @@ class FlightPlanner:
 
     def _over_street(self, placed: tuple[tuple[float, float], ...]) -> float:
         legs = [shapely.LineString([a, b]) for a, b in itertools.pairwise(placed)]
+        # Numbers that are tiny beside the map's coordinates give legs without a length.
         return max(
-            float(leg.intersection(self._carriageway).length) / float(leg.length) for leg in legs
+            (
+                float(leg.intersection(self._carriageway).length) / float(leg.length)
+                for leg in legs
+                if leg.length > 0.0
+            ),
+            default=0.0,
         )
 
     def _centre(self, mission: UavMission, site: Site) -> tuple[float, float, float, float] | None:

@@ -66,6 +66,8 @@ def convoy_pace_mps(spec: ScenarioSpec, limits: Limits, settings: GroundingSetti
         hovers = mission.mode is MissionMode.HOVER and mission.duration_s is not None
         if hovers and target is not None and moves(spec, target):
             assert mission.duration_s is not None
+            if mission.duration_s.value <= 0.0:
+                continue
             pace = min(pace, _OBSERVED_SHARE * range_m / mission.duration_s.value)
     return pace
 

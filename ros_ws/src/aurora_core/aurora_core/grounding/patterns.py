@@ -14,6 +14,8 @@ Point2 = tuple[float, float]
 _ORBIT_STEP_DEG = 10.0
 # Distance between the lines of a lawnmower pattern.
 _LAWNMOWER_SPACING_M = 20.0
+# More points than a battery lasts for, one second apart: no site is searched for such a pattern.
+MOST_POINTS = 1500
 
 
 def pattern_points(
@@ -23,7 +25,7 @@ def pattern_points(
     width_m: float,
     radius_m: float,
     waypoint_count: int,
-) -> tuple[Point2, ...]:
+) -> tuple[Point2, ...] | None:
     """Return the points of a pattern around (0, 0), its length along +x.
 
     Args:
@@ -34,18 +36,25 @@ def pattern_points(
         waypoint_count: `waypoints`: number of points on a ring of `radius_m`.
 
     Returns:
-        Points (x, y) in flight order.
+        Points (x, y) in flight order; None when the numbers give no pattern that can be planned:
+        no extent, or more than `MOST_POINTS` points.
     """
+    lines = max(2.0, ceil(width_m / _LAWNMOWER_SPACING_M) + 1.0)
+    wide = pattern in (Pattern.RECTANGLE, Pattern.LAWNMOWER)
+    straight = wide or pattern is Pattern.LINE
+    count = 2.0 * lines if pattern is Pattern.LAWNMOWER else float(waypoint_count)
+    extents = (length_m, width_m) if wide else (length_m if straight else radius_m,)
+    if min(extents) <= 0.0 or count > MOST_POINTS:
+        return None
     a, b = length_m / 2.0, width_m / 2.0
     if pattern is Pattern.RECTANGLE:
         return ((-a, -b), (a, -b), (a, b), (-a, b), (-a, -b))
     if pattern is Pattern.LINE:
         return ((-a, 0.0), (a, 0.0))
     if pattern is Pattern.LAWNMOWER:
-        lines = max(2, ceil(width_m / _LAWNMOWER_SPACING_M) + 1)
         points: list[Point2] = []
-        for k in range(lines):
-            y = -b + k * width_m / (lines - 1)
+        for k in range(round(lines)):
+            y = -b + k * width_m / (lines - 1.0)
             points += [(-a, y), (a, y)] if k % 2 == 0 else [(a, y), (-a, y)]
         return tuple(points)
     if pattern is Pattern.ORBIT:

@@ -103,7 +103,10 @@ def _mission(draft: MissionDraft, altitude: Parameter, by_event: bool) -> UavMis
     if count is None and pattern is Pattern.WAYPOINTS:
         count = values.default('waypoint_count')
     standoff = draft.standoff
-    if standoff is None and draft.mode is MissionMode.TRACK:
+    # `watches the tower` leaves open from where; `hovers over the tower` does not.
+    watched = draft.watching and draft.mode is MissionMode.HOVER and draft.bearing is None
+    watched = watched and (draft.target or '').startswith('landmark:')
+    if standoff is None and (draft.mode is MissionMode.TRACK or watched):
         standoff = values.default('standoff')
     radius = draft.radius
     if radius is None and pattern is Pattern.ORBIT:

@@ -16,7 +16,11 @@ Point2 = tuple[float, float]
 
 
 def _points(pattern: Pattern, length: float = 120.0, width: float = 70.0) -> tuple[Point2, ...]:
-    return pattern_points(pattern, length_m=length, width_m=width, radius_m=45.0, waypoint_count=5)
+    points = pattern_points(
+        pattern, length_m=length, width_m=width, radius_m=45.0, waypoint_count=5
+    )
+    assert points is not None
+    return points
 
 
 def _extent(points: tuple[Point2, ...]) -> tuple[float, float]:
@@ -69,6 +73,7 @@ def test_waypoints_are_as_many_as_asked(asked: int, made: int) -> None:
     points = pattern_points(
         Pattern.WAYPOINTS, length_m=1.0, width_m=1.0, radius_m=30.0, waypoint_count=asked
     )
+    assert points is not None
     assert len(points) == len(set(points)) == made
 
 

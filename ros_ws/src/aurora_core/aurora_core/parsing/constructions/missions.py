@@ -309,6 +309,8 @@ def _one(
         arrive(draft, mode)
     elif watches_from(frame, draft, mode, target):
         draft.mode, draft.target = mode, target or draft.target
+    # `watches the plaza, hovering there`: from where it watches is said after all.
+    draft.watching = draft.watching and frame.key not in ('hover', 'wait')
     draft.target = draft.target or target
     draft.on_the_way = is_transit(frame, draft, pattern, found)
     draft.needs_target = draft.mode is MissionMode.TRACK and draft.target is None

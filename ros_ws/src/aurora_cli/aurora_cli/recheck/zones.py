@@ -1,0 +1,137 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Proofs by no-fly zones: wherever the tolerances let a flight be, it is inside the zone.
+
+The edge of the zone is walked in short pieces. Where no piece lies at a distance and bearing that
+the request allows, all allowed places are on one side of the edge, and one of them tells which.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from itertools import pairwise
+from typing import Any
+
+from shapely.geometry import Point, shape
+
+from aurora_cli.recheck.finding import Step
+from aurora_cli.recheck.request import Request, left_open, stated
+from aurora_core.feasibility.verdict import Certificate
+
+_PIECE_M = 0.25
+_RAYS = 720
+
+Place = tuple[float, float]
+
+
+def zone(proof: Certificate, request: Request) -> list[Step]:
+    """Wherever the tolerances let the flight be, it is inside the zone."""
+    mission = request.one(proof.path)
+    marks = {
+        f'landmark:{f["properties"]["name"]}': tuple(f['geometry']['coordinates'])
+        for f in request.features('landmarks.geojson')
+    }
+    zones = [
+        f
+        for f in request.features('zones.geojson')
+        if f['properties'].get('kind') == 'no_fly' and f['properties']['name'] == proof.word
+    ]
+    centre = marks.get((mission or {}).get('target') or '')
+    if mission is None or centre is None or len(zones) != 1:
+        return [(False, f'{proof.path} is at a landmark, and {proof.word!r} is a no-fly zone')]
+    properties, area = zones[0]['properties'], shape(zones[0]['geometry'])
+    altitude = mission['altitude_m']
+    low, high = left_open(
+        altitude,
+        request.slack('altitude_m', altitude),
+        request.limit('uav_altitude_min_m'),
+        request.limit('uav_altitude_max_m'),
+    )
+    floor, ceiling = float(properties['floor_m']), float(properties['ceiling_m'])
+    return [
+        _read_whole(request, mission),
+        (
+            floor <= low and high <= ceiling,
+            f'{low:g} m to {high:g} m lie between {floor:g} m and {ceiling:g} m',
+        ),
+        _inside(request, mission, (float(centre[0]), float(centre[1])), area),
+    ]
+
+
+def _read_whole(request: Request, mission: dict[str, Any]) -> Step:
+    span = mission.get('span') or {'start': 0, 'end': math.inf}
+    lost = [
+        c['text']
+        for c in request.all('clauses')
+        if c['status'] == 'not_encoded'
+        and max(c['span']['start'], span['start']) < min(c['span']['end'], span['end'])
+    ]
+    return not lost, f'nothing that is said of the flight was left out {lost or ""}'.rstrip()
+
+
+def _inside(request: Request, mission: dict[str, Any], centre: Place, area: Any) -> Step:
+    if mission['mode'] == 'hover':
+        near, far = _distances(request, mission)
+        bearing, either = mission.get('bearing_deg'), 180.0
+        if stated(bearing):
+            either = float(request.tolerances['bearing_deg'])
+        towards = float(bearing['value']) if stated(bearing) else 0.0
+        text = f'all places {near:.1f} m to {far:.1f} m away, {towards:g} +- {either:g} degrees'
+        crossed = any(
+            lowest <= far and highest >= near and abs(_turn(angle - towards)) <= either + width
+            for lowest, highest, angle, width in _edge(area, centre)
+        )
+        middle = _towards(centre, (near + far) / 2.0, towards)
+        return (not crossed and bool(area.contains(Point(middle)))), f'{text} are in the zone'
+    radius = mission.get('radius_m')
+    if mission.get('pattern') != 'orbit' or not stated(radius):
+        return False, 'the flight hovers or flies around the place at a stated radius'
+    near, far = left_open(radius, request.slack('standoff_m', radius))
+    text = f'a way round at {near:.1f} m to {far:.1f} m has to cross the zone'
+    if not math.isfinite(far):
+        return False, text
+    return any(_is_barred(centre, near, far, 360.0 * k / _RAYS, area) for k in range(_RAYS)), text
+
+
+def _distances(request: Request, mission: dict[str, Any]) -> tuple[float, float]:
+    """Return how near and far from the landmark a hover may be."""
+    standoff, most = mission.get('standoff_m'), request.limit('uav_standoff_max_m')
+    if stated(standoff):
+        ceiling = max(most, float(standoff['value']))
+        return left_open(standoff, request.slack('standoff_m', standoff), 0.0, ceiling)
+    if standoff is None and mission.get('bearing_deg') is None:
+        allowed = ('pattern_centre_m', 'hover_drift_wind_m')
+        return 0.0, sum(float(request.tolerances[name]) for name in allowed)
+    return 0.0, most
+
+
+def _edge(area: Any, centre: Place) -> Iterator[tuple[float, float, float, float]]:
+    """Yield of every piece least and greatest distance, bearing, half width in bearing."""
+    corners = list(area.exterior.coords)
+    for (ax, ay), (bx, by) in pairwise(corners):
+        length = math.hypot(bx - ax, by - ay)
+        count = max(1, math.ceil(length / _PIECE_M))
+        for k in range(count):
+            share = (k + 0.5) / count
+            east, north = ax + share * (bx - ax) - centre[0], ay + share * (by - ay) - centre[1]
+            away, half = math.hypot(east, north), length / count / 2.0
+            width = math.degrees(math.asin(half / away)) if away > half else 180.0
+            yield away - half, away + half, math.degrees(math.atan2(east, north)), width
+
+
+def _is_barred(centre: Place, near: float, far: float, bearing: float, area: Any) -> bool:
+    """Return whether the zone holds all of a ray from one distance to the other."""
+    count = max(1, math.ceil((far - near) / _PIECE_M))
+    steps = (near + (far - near) * k / count for k in range(count + 1))
+    return all(area.intersects(Point(_towards(centre, step, bearing))) for step in steps)
+
+
+def _towards(centre: Place, away: float, bearing: float) -> Place:
+    compass = math.radians(bearing)
+    return centre[0] + away * math.sin(compass), centre[1] + away * math.cos(compass)
+
+
+def _turn(degrees: float) -> float:
+    """Return an angle between -180 and 180 degrees."""
+    return (degrees + 180.0) % 360.0 - 180.0

@@ -1,0 +1,161 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Refuse flights at a landmark that are inside a no-fly zone wherever they may be flown.
+
+A flight is refused only when every position that meets the stated distance and bearing, with
+their tolerances, lies in the zone. Where the request leaves the place open, or part of the clause
+that tells of the flight was not read, nothing is proven.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+
+import shapely
+
+from aurora_core.feasibility.facts import limit_facts, map_fact, says, tolerance_facts
+from aurora_core.feasibility.stated import is_stated, least, most
+from aurora_core.feasibility.verdict import Certificate, Fact, Rule
+from aurora_core.knowledge.limits import Limits, Tolerances
+from aurora_core.knowledge.map_types import Landmark, NoFlyZone
+from aurora_core.spec.scenario import ScenarioSpec, UavMission
+from aurora_core.spec.vocabulary import ClauseStatus, MissionMode, Pattern
+
+_LANDMARK = 'landmark:'
+# Corners of the polygons that stand for circles.
+_STEP_DEG = 1.0
+_ROUNDING_M = 1e-6
+
+
+def check_zones(
+    spec: ScenarioSpec,
+    zones: Sequence[NoFlyZone],
+    landmarks: Sequence[Landmark],
+    limits: Limits,
+    tolerances: Tolerances,
+) -> Iterator[Certificate]:
+    """Return flights at a landmark that enter a no-fly zone wherever their place may be."""
+    known = {f'{_LANDMARK}{mark.name}': mark for mark in landmarks}
+    for mission in spec.missions:
+        mark = known.get(mission.target or '')
+        if mark is None or _is_half_read(spec, mission):
+            continue
+        stated = mission.altitude_m
+        slack = tolerances.altitude_m.of(stated.value, approximate=stated.approximate)
+        low = least(stated, slack, limits.uav_altitude_min_m)
+        high = most(stated, slack, limits.uav_altitude_max_m)
+        for zone in zones:
+            is_level = zone.floor_m <= low and high <= zone.ceiling_m
+            if is_level and _enters(mission, mark, zone, limits, tolerances):
+                yield Certificate(
+                    kind='geometric_contradiction',
+                    reason='geofence',
+                    path=f'missions/{mission.id}',
+                    word=zone.name,
+                    span=mission.span,
+                    sentence=f'{mission.uav} would enter the no-fly zone {zone.name!r} '
+                    f'({zone.floor_m:g} m to {zone.ceiling_m:g} m) at {mark.name}.',
+                    rule=Rule.ZONE,
+                    facts=_facts(mission, zone, limits, tolerances),
+                )
+
+
+def _facts(
+    mission: UavMission, zone: NoFlyZone, limits: Limits, tolerances: Tolerances
+) -> tuple[Fact, ...]:
+    base = f'missions/{mission.id}'
+    hovers = mission.mode is MissionMode.HOVER
+    beside = ('pattern_centre_m', 'hover_drift_wind_m', 'bearing_deg') if hovers else ()
+    return (
+        *says(f'{base}/target', mission.target),
+        *says(f'{base}/altitude_m', mission.altitude_m),
+        *says(f'{base}/standoff_m', mission.standoff_m),
+        *says(f'{base}/bearing_deg', mission.bearing_deg),
+        *says(f'{base}/radius_m', mission.radius_m),
+        map_fact(f'{zone.id}/name', zone.name),
+        map_fact(f'{zone.id}/floor_m', zone.floor_m),
+        map_fact(f'{zone.id}/ceiling_m', zone.ceiling_m),
+        *limit_facts(limits, 'uav_altitude_min_m', 'uav_altitude_max_m', 'uav_standoff_max_m'),
+        *tolerance_facts(tolerances, 'altitude_m', 'standoff_m', *beside),
+    )
+
+
+def _is_half_read(spec: ScenarioSpec, mission: UavMission) -> bool:
+    """Return whether words that may say where a flight is were not read."""
+    return any(
+        clause.status is ClauseStatus.NOT_ENCODED
+        and (
+            mission.span is None
+            or (clause.span.start < mission.span.end and mission.span.start < clause.span.end)
+        )
+        for clause in spec.clauses
+    )
+
+
+def _enters(
+    mission: UavMission, mark: Landmark, zone: NoFlyZone, limits: Limits, tolerances: Tolerances
+) -> bool:
+    area = shapely.Polygon(zone.ring)
+    centre = (mark.x_m, mark.y_m)
+    if mission.mode is MissionMode.HOVER:
+        near, far = _distances(mission, limits, tolerances)
+        return bool(area.covers(_sector(centre, near, far, *_bearings(mission, tolerances))))
+    radius = mission.radius_m
+    if mission.pattern is not Pattern.ORBIT or radius is None or not is_stated(radius):
+        return False
+    slack = tolerances.standoff_m.of(radius.value, approximate=radius.approximate)
+    low, high = least(radius, slack, 0.0), most(radius, slack, math.inf)
+    if not math.isfinite(high):
+        return False
+    # Whoever goes round the centre between the two distances has to cross a piece of the zone
+    # that reaches from one to the other.
+    inside = area.intersection(_sector(centre, low, high, 0.0, 180.0))
+    point = shapely.Point(centre)
+    return any(
+        point.distance(piece) <= low + _ROUNDING_M
+        and float(shapely.hausdorff_distance(point, piece)) >= high
+        for piece in shapely.get_parts(inside)
+        if not piece.is_empty
+    )
+
+
+def _distances(mission: UavMission, limits: Limits, tolerances: Tolerances) -> tuple[float, float]:
+    """Return the least and greatest horizontal distance from the landmark that is asked for."""
+    standoff, far = mission.standoff_m, limits.uav_standoff_max_m
+    if standoff is not None and is_stated(standoff):
+        slack = tolerances.standoff_m.of(standoff.value, approximate=standoff.approximate)
+        return least(standoff, slack, 0.0), most(standoff, slack, max(far, standoff.value))
+    if standoff is None and mission.bearing_deg is None:  # over it
+        return 0.0, tolerances.pattern_centre_m + tolerances.hover_drift_wind_m
+    return 0.0, far
+
+
+def _bearings(mission: UavMission, tolerances: Tolerances) -> tuple[float, float]:
+    """Return the compass bearing from the landmark and by how much it may be missed, degrees."""
+    bearing = mission.bearing_deg
+    if bearing is None or not is_stated(bearing):
+        return 0.0, 180.0
+    return bearing.value, tolerances.bearing_deg
+
+
+def _sector(
+    centre: tuple[float, float], near_m: float, far_m: float, bearing_deg: float, either_deg: float
+) -> shapely.Geometry:
+    """Return a polygon that holds all points at these distances and bearings."""
+    steps = max(1, math.ceil(2.0 * either_deg / _STEP_DEG))
+    width = 2.0 * either_deg / steps
+    whole = either_deg >= 180.0
+    # Corners of the outer arc lie beyond it, so that its sides touch the circle.
+    beyond = far_m / math.cos(math.radians(width) / 2.0)
+    angles = [bearing_deg - either_deg + width * k for k in range(steps if whole else steps + 1)]
+    outer = [_at(centre, beyond, a) for a in angles]
+    inner = [_at(centre, near_m, a) for a in angles]
+    if not whole:
+        return shapely.Polygon([*outer, *(reversed(inner) if near_m > 0.0 else [centre])])
+    return shapely.Polygon(outer, [inner] if near_m > 0.0 else [])
+
+
+def _at(centre: tuple[float, float], radius_m: float, bearing_deg: float) -> tuple[float, float]:
+    compass = math.radians(bearing_deg)
+    return centre[0] + radius_m * math.sin(compass), centre[1] + radius_m * math.cos(compass)
