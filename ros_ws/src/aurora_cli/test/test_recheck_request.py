@@ -12,10 +12,12 @@ from typing import Any
 
 import pytest
 
+from aurora_cli.recheck import recheck
 from aurora_core.feasibility.times import check_times
-from aurora_core.feasibility.verdict import Rule
+from aurora_core.feasibility.verdict import Certificate, Rule
 from aurora_core.knowledge.config_files import config_path
 from aurora_core.knowledge.limits import load_limits, load_tolerances
+from aurora_core.knowledge.map_model import load_map
 from aurora_core.parsing.outcome import ParseContext
 from aurora_core.parsing.parser import parse_offline
 from aurora_core.spec.scenario import ScenarioSpec
@@ -177,3 +179,54 @@ def test_a_specification_without_its_defaults_is_read_the_same(here: Path, call:
     assert 'bound' not in json.dumps(document['spec']['agents'])
     again = _again(call, here, document)
     assert again.code == 0, again.out
+
+
+NOT_PROVEN = (
+    # The other one flies as well: 60 m and 40 m up they are within 30 m of each other.
+    'Drone A hovers at 40 m over City Hall. Drone B tracks drone A at 60 m altitude and stays '
+    'within 30 m of it.',
+    # A moment is not all the time.
+    f'{HALL} at 40 m for 20 s, then it hovers at 80 m over Harbor Market. It reaches at least '
+    '70 m by 60 s.',
+    # Two cars are no UAVs.
+    'Two cars keep at most 3 m apart while a drone hovers at 40 m.',
+    # It drives that fast for a part of the time only.
+    'A drone tracks a car that drives at 30 m/s. After 10 s the car stops.',
+)
+
+
+@pytest.mark.parametrize('prompt', NOT_PROVEN)
+def test_what_is_not_proven_is_not_refused(here: Path, call: Call, prompt: str) -> None:
+    assert json.loads(call('check', prompt, '--json').out)['result'] != 'infeasible'
+
+
+@pytest.mark.parametrize(
+    ('rule', 'prompt'),
+    [
+        (Rule.FLIGHT_BAND, NOT_PROVEN[0]),
+        (Rule.FLIGHT_BAND, NOT_PROVEN[1]),
+        (Rule.CLOSENESS, NOT_PROVEN[2]),
+        (Rule.PURSUIT, NOT_PROVEN[3]),
+    ],
+)
+def test_a_proof_of_what_can_be_is_refuted(here: Path, rule: Rule, prompt: str) -> None:
+    names = tuple(mark.name for mark in load_map('downtown').landmarks)
+    spec = parse_offline(prompt, ParseContext(landmark_names=names)).spec
+    assert spec is not None
+    path = {
+        Rule.FLIGHT_BAND: 'conditions/c1',
+        Rule.CLOSENESS: 'conditions/c1/value',
+        Rule.PURSUIT: 'missions/m1/target',
+    }[rule]
+    number = {Rule.CLOSENESS: 3.0, Rule.PURSUIT: 30.0}.get(rule)
+    limit = {Rule.CLOSENESS: 5.0, Rule.PURSUIT: 18.0}.get(rule)
+    forged = Certificate(
+        kind='contradiction',
+        reason='spatial_contradiction',
+        path=path,
+        requested=number,
+        limit=limit,
+        sentence='forged',
+        rule=rule,
+    )
+    assert not recheck(forged, spec.model_dump(mode='json')).valid

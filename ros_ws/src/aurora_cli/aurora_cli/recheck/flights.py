@@ -210,12 +210,14 @@ def pursuit(proof: Certificate, request: Request) -> list[Step]:
     agent = request.one(f'agents/{mission["target"]}') or {}
     speeds = [b['speed_mps'] for b in agent.get('behaviors', ()) if b.get('speed_mps')]
     slowest = [left_open(s, request.slack('route_speed_mps', s))[0] for s in speeds]
-    actions = [e.get('action') or {} for e in request.all('events')]
+    slowing = [
+        e
+        for e in request.all('events')
+        if (e.get('action') or {}).get('agent') == mission['target']
+        and e['action']['do'] in ('brake', 'slow', 'stop', 'yield')
+    ]
     return [
-        (
-            all(a.get('agent') != mission['target'] for a in actions),
-            'no event changes how it drives',
-        ),
+        (not slowing, 'no event makes it slower'),
         _same(proof, top),
         _asked(proof, *speeds),
         (

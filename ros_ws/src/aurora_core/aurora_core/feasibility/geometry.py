@@ -29,6 +29,8 @@ from aurora_core.spec.vocabulary import MissionMode
 
 # Quantities that say how far two stay from each other.
 _BETWEEN = (QuantityName.DISTANCE, QuantityName.HORIZONTAL_DISTANCE, QuantityName.SEPARATION)
+# What takes a vehicle's stated speed from it.
+_SLOWING = frozenset({'brake', 'stop', 'slow', 'yield'})
 # No point of a target that is looked at stands higher: half the height of the tallest vehicle.
 _TARGET_HEIGHT_M = 2.0
 
@@ -334,8 +336,9 @@ def _pursuit(spec: ScenarioSpec, limits: Limits, tolerances: Tolerances) -> Iter
     """A target that is asked to drive faster than UAVs fly cannot be tracked."""
     top = limits.uav_speed_max_mps
     tracked = {m.target: m for m in spec.missions if m.mode is MissionMode.TRACK}
-    # What an event makes faster or slower has its stated speed for a part of the time only.
-    changed = {e.action.agent for e in spec.events if isinstance(e.action, AgentAction)}
+    # What an event makes slower has its stated speed for a part of the time only.
+    acted = [e.action for e in spec.events if isinstance(e.action, AgentAction)]
+    changed = {action.agent for action in acted if action.do in _SLOWING}
     for agent in spec.agents:
         mission = tracked.get(agent.id) if agent.id not in changed else None
         for k, behavior in enumerate(agent.behaviors):
