@@ -19,6 +19,7 @@ from aurora_bench.progress import Progress
 from aurora_bench.prompts.reading import read_prompts
 from aurora_bench.prompts.shipped import first_files
 from aurora_bench.results import ResultsError, markdown_table, write_results
+from aurora_bench.seeds import seed_option
 from aurora_core.errors import ConfigError
 from aurora_core.pipeline.stages import RunRequest
 from aurora_llm.parse import check_model_name
@@ -42,7 +43,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     )
     parser.add_argument('--history', type=Path, default=None, help='past runs; nothing is added')
     parser.add_argument('--map', default='downtown', help='map that the prompts are read against')
-    parser.add_argument('--seed', type=int, default=1)
+    parser.add_argument('--seed', type=seed_option, default=1)
     parser.add_argument('--only', default='', help='prompts whose id begins so')
     parser.add_argument('--results', type=Path, default=None, help='folder for JSON and Markdown')
     parser.add_argument('--name', default='fidelity', help='of the files of results')

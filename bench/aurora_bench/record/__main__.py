@@ -13,6 +13,7 @@ from aurora_bench.interrupt import stop_on_sigterm
 from aurora_bench.progress import Progress
 from aurora_bench.prompts.reading import read_prompts
 from aurora_bench.results import ResultsError
+from aurora_bench.seeds import seed_option
 from aurora_core.errors import ConfigError
 from aurora_core.pipeline.stages import RunRequest
 from aurora_core.ports.language_model import LanguageModel
@@ -34,7 +35,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         '--transcripts', type=Path, required=True, metavar='DIR', help='where replies are kept'
     )
     parser.add_argument('--map', default='downtown', help='map that the prompts are read against')
-    parser.add_argument('--seed', type=int, default=1)
+    parser.add_argument('--seed', type=seed_option, default=1)
     parser.add_argument('--only', default='', help='prompts whose id begins so')
     parser.add_argument('--history', type=Path, default=None, help='past runs; nothing is added')
     options = parser.parse_args(arguments)

@@ -19,6 +19,7 @@ from aurora_core.parsing.text import check_prompt_text
 from aurora_core.pipeline.stages import RunRequest
 from aurora_core.report.facts import RunFacts
 from aurora_core.report.versions import product_versions
+from aurora_core.spec.seed import check_seed
 from aurora_llm.parse import check_model_name
 from aurora_llm.settings import RECORDED
 
@@ -56,8 +57,10 @@ def checked(options: RunOptions) -> RunRequest:
         raise UsageProblem(f'--transcripts: there is no folder {options.transcripts}')
     if options.engine not in ('local', 'ros'):
         raise UsageProblem(f'--engine is local or ros, found {options.engine}')
-    if options.seed < 0:
-        raise UsageProblem(f'--seed counts from 0, found {options.seed}')
+    try:
+        check_seed(options.seed)
+    except ValueError as err:
+        raise UsageProblem(f'--seed {options.seed}: {err}') from err
     known = list_maps()
     if options.map_name not in known:
         raise UsageProblem(f'there is no map {options.map_name}; there are {", ".join(known)}')

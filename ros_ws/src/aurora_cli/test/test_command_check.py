@@ -52,3 +52,18 @@ def test_a_file_may_hold_the_prompt(empty: Path, capsys: pytest.CaptureFixture[s
 def test_people_get_a_table(empty: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run_command_line(['check', 'A drone hovers at 30 meters over the ego car.']) == 0
     assert capsys.readouterr().out.startswith('FEASIBLE')
+
+
+@pytest.mark.parametrize('command', [['check'], ['run'], ['graph', '-o', 'graph.json']])
+@pytest.mark.parametrize('seed', ['-1', '2147483648', '1' * 400, '1.5', 'one'])
+def test_a_seed_that_no_run_can_have_is_a_usage_error(
+    empty: Path, capsys: pytest.CaptureFixture[str], command: list[str], seed: str
+) -> None:
+    assert run_command_line([*command, 'A drone hovers at 30 m.', f'--seed={seed}']) == 64
+    assert 'seed' in capsys.readouterr().err
+    assert list(empty.iterdir()) == []
+
+
+def test_the_greatest_seed_is_one(empty: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    prompt = 'A drone hovers at 30 meters over the ego car.'
+    assert run_command_line(['check', prompt, '--seed', '2147483647']) == 0

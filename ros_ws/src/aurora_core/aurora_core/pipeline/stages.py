@@ -13,8 +13,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal, Protocol
 
-from pydantic import NonNegativeInt
-
 from aurora_core.agsg.graph import Agsg
 from aurora_core.execution.faults import Fault
 from aurora_core.feasibility.verdict import FeasibilityVerdict
@@ -22,6 +20,7 @@ from aurora_core.grounding.outcome import GroundingOutcome
 from aurora_core.monitor.verdict import Verdict
 from aurora_core.parsing.outcome import ParseOutcome
 from aurora_core.spec.parameter import Document
+from aurora_core.spec.seed import Seed
 
 
 class RunRequest(Document):
@@ -39,7 +38,7 @@ class RunRequest(Document):
 
     prompt: str
     map_name: str = 'downtown'
-    seed: NonNegativeInt = 1
+    seed: Seed = 1
     engine: Literal['local', 'ros'] = 'local'
     model: str = 'offline'
     allow_relax: bool = False

@@ -6,10 +6,11 @@ from __future__ import annotations
 
 from typing import Self
 
-from pydantic import NonNegativeInt, model_validator
+from pydantic import model_validator
 
 from aurora_core.spec.parameter import Element, Parameter, Span, omitted
 from aurora_core.spec.reference import Id, PlaceRef
+from aurora_core.spec.seed import Seed
 from aurora_core.spec.vocabulary import (
     AgentType,
     BehaviorKind,
@@ -38,7 +39,7 @@ class World(Element):
     time_of_day_span: Span | None = None
     traffic_density: TrafficDensity | None = None
     duration_s: Parameter | None = None
-    seed: NonNegativeInt | None = omitted(None)
+    seed: Seed | None = omitted(None)
     span: Span | None = None
 
 

@@ -60,7 +60,7 @@ def runs_directory(options: str) -> Path | None:
 def _given(options: str) -> dict[str, Any]:
     try:
         given = json.loads(options) if options else {}
-    except ValueError as err:
+    except (ValueError, RecursionError) as err:
         raise SpecError(f'options_json is not JSON: {err}') from err
     if not isinstance(given, dict):
         raise SpecError(f'options_json: expected a JSON object, found {given!r}')

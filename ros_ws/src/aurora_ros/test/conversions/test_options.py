@@ -35,7 +35,21 @@ def test_short_names_and_the_folder() -> None:
 
 
 @pytest.mark.parametrize(
-    'options', ['{', '[]', '3', '{"sed": 1}', '{"seed": "one"}', '{"faults": [{"kind": "x"}]}']
+    'options',
+    [
+        '{',
+        '[]',
+        '3',
+        '{"sed": 1}',
+        '{"seed": "one"}',
+        '{"seed": 1.5}',
+        '{"seed": true}',
+        '{"seed": -1}',
+        '{"seed": 2147483648}',
+        '{"faults": [{"kind": "x"}]}',
+        '[' * 100_000,
+    ],
+    ids=lambda options: options[:30],
 )
 def test_unknown_names_and_values_are_refused(options: str) -> None:
     with pytest.raises(SpecError, match='options_json'):
