@@ -119,7 +119,38 @@ def _goals(outcomes: Sequence[Outcome], planted: Sequence[Outcome]) -> list[Goal
             figure=f'{_good(planted)} of {len(planted)}',
             met=_good(planted) == len(planted),
         ),
+        *_recomputed(breaking, harmless, planted),
     ]
+
+
+def _recomputed(
+    breaking: Sequence[Outcome], harmless: Sequence[Outcome], planted: Sequence[Outcome]
+) -> Iterable[Goal]:
+    """What the executor says that is stepped over the recorded states; all else is without it."""
+    altered = [o for o in breaking if o.recomputed is not None]
+    untouched = [o for o in harmless if o.recomputed is not None]
+    by_it, wrongly = (
+        sum(o.recomputed is True for o in planted),
+        sum(o.recomputed is True for o in untouched),
+    )
+    yield Goal(
+        name='planted bugs that recomputing the commands finds by itself',
+        target=f'{len(planted)} of {len(planted)}',
+        figure=f'{by_it} of {len(planted)}',
+        met=by_it == len(planted),
+    )
+    yield Goal(
+        name='alterations that it finds by itself',
+        target='reported',
+        figure=f'{sum(o.recomputed is True for o in altered)} of {len(altered)}',
+        met=None,
+    )
+    yield Goal(
+        name='untouched runs in which it finds anything',
+        target=f'0 of {len(untouched)}',
+        figure=f'{wrongly} of {len(untouched)}',
+        met=wrongly == 0,
+    )
 
 
 def _good(outcomes: Iterable[Outcome]) -> int:

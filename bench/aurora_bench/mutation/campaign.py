@@ -11,8 +11,10 @@ from pathlib import Path
 
 from aurora_bench.bags.forge import mcap_of, rewrite, stamp
 from aurora_bench.mutation.bag import write_bag
+from aurora_bench.mutation.harmless import UNTOUCHED
 from aurora_bench.mutation.judge import (
     Judgement,
+    by_recomputation,
     in_memory,
     judge_bag,
     through_bag,
@@ -27,7 +29,7 @@ from aurora_core.errors import AuroraError
 from aurora_core.pipeline.functions import verify_stage
 from aurora_core.trace.definitions import message_definitions
 from aurora_system_tests.local_runs import names_of, run_prompt
-from aurora_system_tests.planted_bugs import PLANTED, SabotagedStages
+from aurora_system_tests.planted_bugs import BY_RECOMPUTATION, PLANTED, SabotagedStages
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,6 +41,8 @@ class Outcome:
         bag: It went through a bag.
         good: It was judged as it has to be.
         problem: What was said instead.
+        recomputed: The executor, stepped over the recorded states, finds it too; None where that
+            was not asked.
     """
 
     kind: str
@@ -50,6 +54,7 @@ class Outcome:
     good: bool
     status: str
     problem: str = ''
+    recomputed: bool | None = None
 
 
 @dataclass
@@ -71,7 +76,8 @@ class Campaign:
         """Judge everything that breaks something in one run."""
         definitions = message_definitions()
         for number, one in enumerate(breaking_mutants(base, self.seed)):
-            self._add(one, in_memory(one), stamped=True, bag=False)
+            again = by_recomputation(one)
+            self._add(one, in_memory(one), stamped=True, bag=False, recomputed=again)
             self._add(one, unstamped_in_memory(one, definitions), stamped=False, bag=False)
             # The places differ from run to run, so that every kind gets its turn.
             if (number + len(base.name)) % bag_every == 0:
@@ -82,7 +88,8 @@ class Campaign:
     def leave(self, base: Recording, noisy: int) -> None:
         """Judge everything that breaks nothing in one run."""
         for one in harmless_mutants(base, self.seed, noisy):
-            self._add(one, in_memory(one), stamped=True, bag=False)
+            again = by_recomputation(one) if one.kind == UNTOUCHED else None
+            self._add(one, in_memory(one), stamped=True, bag=False, recomputed=again)
         for one, bag in self._other_bags(base):
             self._add(one, judge_bag(bag), stamped=True, bag=True)
 
@@ -91,7 +98,7 @@ class Campaign:
         for planted in PLANTED:
             stages = SabotagedStages(planted.sabotage)
             report, bag = run_prompt(planted.name, planted.prompt, 1, self.folder, stages)
-            names = names_of(verify_stage(bag))
+            names = names_of(verify_stage(bag, recompute=False))
             good = report.status in ('violated', 'inconclusive') and bool(names & planted.names)
             self.progress.note(f'{planted.name}: {report.status}, {_named(names)}')
             yield Outcome(
@@ -104,6 +111,7 @@ class Campaign:
                 good=good,
                 status=report.status,
                 problem=_named(names & planted.names if good else names),
+                recomputed=bool(names_of(verify_stage(bag)) & BY_RECOMPUTATION),
             )
 
     def _other_bags(self, base: Recording) -> Iterator[tuple[Mutant, Path]]:
@@ -121,7 +129,15 @@ class Campaign:
         stamp(bag)
         yield mutant('chunked anew', 'by another writer', base, ()), bag
 
-    def _add(self, one: Mutant, found: Judgement, *, stamped: bool, bag: bool) -> None:
+    def _add(
+        self,
+        one: Mutant,
+        found: Judgement,
+        *,
+        stamped: bool,
+        bag: bool,
+        recomputed: bool | None = None,
+    ) -> None:
         if one.harmless:
             good = found.status == one.base.status
         elif stamped:
@@ -145,6 +161,7 @@ class Campaign:
                 good=good,
                 status=found.status,
                 problem=problem,
+                recomputed=recomputed,
             )
         )
 

@@ -22,6 +22,8 @@ from aurora_core.trace.trace import Trace
 # Nothing moves so close (ticks) to where something is decided: a trigger, a phase, a change of
 # sight, a transmission.
 _AWAY = 3
+# The kind of the run as it is.
+UNTOUCHED = 'untouched'
 
 
 def same_mutants(base: Recording, random: Random, noisy: int) -> Iterator[Mutant]:
@@ -32,7 +34,7 @@ def same_mutants(base: Recording, random: Random, noisy: int) -> Iterator[Mutant
         random: Seeded.
         noisy: How many with noise on the positions.
     """
-    yield mutant('untouched', f'seed {base.seed}', base, ())
+    yield mutant(UNTOUCHED, f'seed {base.seed}', base, ())
     yield from _noise(base, random, noisy)
     yield from _unused(base, random)
     yield from _more_sights(base, random)

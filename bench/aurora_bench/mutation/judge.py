@@ -1,6 +1,10 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the verifier says about a mutant, in memory or through a bag."""
+"""What the verifier says about a mutant, in memory or through a bag.
+
+What is asked is what conditions and cross-checks find by themselves, so the executor is not
+stepped over the recorded states; what that finds is counted apart.
+"""
 
 from __future__ import annotations
 
@@ -13,8 +17,14 @@ from aurora_bench.mutation.mutant import Mutant
 from aurora_core.agsg.build import derived
 from aurora_core.agsg.message import agsg_message, read_agsg
 from aurora_core.errors import AuroraError
+from aurora_core.monitor.plan_check import Plan
 from aurora_core.monitor.verdict import Verdict
-from aurora_core.pipeline.functions import load_bag, verify_content
+from aurora_core.pipeline.functions import (
+    load_bag,
+    recomputed_content,
+    recorded_plan,
+    verify_content,
+)
 from aurora_core.report.recorded_trace import believed
 from aurora_core.trace.bag_content import BagContent
 from aurora_core.trace.bag_metadata import METADATA
@@ -50,7 +60,17 @@ class Judgement:
 def in_memory(mutant: Mutant) -> Judgement:
     """Judge it as if every digest had been stamped anew."""
     content = BagContent(trace=mutant.trace, world=mutant.world, agsg_message=None)
-    return _judged(lambda: verify_content(content, mutant.agsg))
+    return _judged(lambda: verify_content(content, mutant.agsg, recompute=False))
+
+
+def by_recomputation(mutant: Mutant) -> bool:
+    """Tell whether the executor gives other commands or claims from the states of a mutant."""
+    content = BagContent(trace=mutant.trace, world=mutant.world, agsg_message=None)
+    try:
+        known = isinstance(recorded_plan(mutant.world, mutant.agsg), Plan)
+        return known and bool(recomputed_content(content, mutant.agsg))
+    except AuroraError:
+        return False
 
 
 def unstamped_in_memory(mutant: Mutant, definitions: MessageDefinitions) -> Judgement:
@@ -65,7 +85,8 @@ def unstamped_in_memory(mutant: Mutant, definitions: MessageDefinitions) -> Judg
             agsg = read_agsg(message, derived)
         sha256 = trace_sha256(mutant.trace, mutant.world)
         trace = believed(mutant.trace, sha256, mutant.base.reported)
-        return verify_content(BagContent(trace=trace, world=mutant.world, agsg_message=None), agsg)
+        content = BagContent(trace=trace, world=mutant.world, agsg_message=None)
+        return verify_content(content, agsg, recompute=False)
 
     return _judged(verdict)
 
@@ -85,7 +106,7 @@ def judge_bag(bag: Path) -> Judgement:
 
     def verdict() -> Verdict:
         content, agsg = load_bag(bag)
-        return verify_content(content, agsg)
+        return verify_content(content, agsg, recompute=False)
 
     return _judged(verdict)
 

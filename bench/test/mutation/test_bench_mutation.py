@@ -10,7 +10,13 @@ from random import Random
 import pytest
 
 from aurora_bench.mutation.bag import write_bag
-from aurora_bench.mutation.judge import in_memory, judge_bag, through_bag, unstamped_in_memory
+from aurora_bench.mutation.judge import (
+    by_recomputation,
+    in_memory,
+    judge_bag,
+    through_bag,
+    unstamped_in_memory,
+)
 from aurora_bench.mutation.kinds import breaking_mutants, harmless_mutants
 from aurora_bench.mutation.mutant import Mutant, mutant
 from aurora_bench.mutation.prompts import SOUND
@@ -65,6 +71,14 @@ def test_a_bag_with_new_digests_is_judged_as_its_messages(
 def test_what_breaks_nothing_stays_verified(base: Recording) -> None:
     for one in harmless_mutants(base, SEED, noisy=3):
         assert in_memory(one).status == 'verified', f'{one.kind}: {one.name}'
+
+
+def test_only_what_was_altered_is_not_the_executor_s(
+    base: Recording, sample: list[Mutant]
+) -> None:
+    assert not by_recomputation(mutant('untouched', '', base, ()))
+    kinds = {'phase skipped', 'event moved', 'ledger entry altered', 'sight forged', 'teleport'}
+    assert kinds <= {one.kind for one in sample if by_recomputation(one)}
 
 
 def test_a_bag_that_is_written_anew_holds_the_same_trace(base: Recording, tmp_path: Path) -> None:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path as FilePath
 
 import numpy as np
 import numpy.typing as npt
@@ -20,6 +21,8 @@ from aurora_core.execution.scenario_executor import ScenarioExecutor
 from aurora_core.execution.step_output import StepOutput, Stepper
 from aurora_core.mission.machine import MissionMachine, TargetMotion
 from aurora_core.mission.plan import MissionPlan, UavPlan
+from aurora_core.monitor.verdict import Verdict
+from aurora_core.pipeline.functions import verify_stage
 from aurora_core.pipeline.stages import RunRequest
 from aurora_core.spec.scenario import DistanceTrigger, Event
 from aurora_core.trace.commands import GroundCommand
@@ -29,6 +32,9 @@ from aurora_core.trace.records import LinkEventKind, LinkRecord
 FloatArray = npt.NDArray[np.float64]
 Sabotage = Callable[[ScenarioExecutor], Stepper]
 Machines = Sequence[MissionMachine]
+
+# What the honest executor finds when it is stepped over the states of a run.
+BY_RECOMPUTATION = frozenset({'finding:command', 'finding:claim'})
 
 # Runs that end verified when nothing is planted.
 PROMPTS = {
@@ -73,6 +79,10 @@ class SabotagedStages(LocalStages):
         honest = super().execution(agsg, request)
         assert isinstance(honest.stepper, ScenarioExecutor)
         return replace(honest, stepper=self._sabotage(honest.stepper))
+
+    def verify(self, agsg: Agsg, bag: FilePath) -> Verdict:
+        """Judge without the honest executor beside it, which would find every bug at once."""
+        return verify_stage(bag, recompute=False)
 
 
 class _LateRunner(EventRunner):

@@ -3,7 +3,7 @@
 """Apply injected faults between the executor and the simulators.
 
 What is recorded as command is what the simulators really got; each fault announces itself once
-as a scenario event.
+as a scenario event, with all that is needed to inject it again.
 """
 
 from __future__ import annotations
@@ -118,7 +118,7 @@ class FaultPort:
                     sequence=self._executor.next_sequence(),
                     kind=ScenarioEventKind.FAULT,
                     subject=fault.subject,
-                    detail=fault.kind,
+                    detail=fault.told(),
                 )
                 output = replace(output, events=(*output.events, record))
             output = self._apply(fault, output, uav, first=first)

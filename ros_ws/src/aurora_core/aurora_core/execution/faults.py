@@ -8,11 +8,16 @@ scenario events and in the report.
 
 from __future__ import annotations
 
+import json
 from typing import Annotated, Literal, Self
 
-from pydantic import Field, FiniteFloat, model_validator
+from pydantic import Field, FiniteFloat, ValidationError, model_validator
 
+from aurora_core.errors import ExecutionError
 from aurora_core.spec.parameter import Document
+
+# Two numbers as JSON are never longer.
+_LONGEST = 100
 
 
 class Fault(Document):
@@ -39,3 +44,38 @@ class Fault(Document):
         if self.kind == 'link_loss' and self.value is not None and self.value > 1.0:
             raise ValueError(f'value of link_loss is a probability, found {self.value}')
         return self
+
+    def told(self) -> str:
+        """Return the detail of its scenario event: the kind, and all else that it does."""
+        values = json.dumps({'at_s': self.at_s, 'value': self.value}, separators=(',', ':'))
+        return f'{self.kind} {values}'
+
+
+def read_fault(subject: str, detail: str) -> Fault:
+    """Return the fault that a recorded scenario event announces.
+
+    Args:
+        subject: Of the event.
+        detail: As `Fault.told` wrote it.
+
+    Raises:
+        ExecutionError: It announces none.
+    """
+    kind, _, values = detail.partition(' ')
+    try:
+        if len(values) > _LONGEST:
+            raise ValueError('too long')
+        return Fault.model_validate({**json.loads(values), 'kind': kind, 'subject': subject})
+    except (ValidationError, ValueError, TypeError) as err:
+        raise ExecutionError(
+            f'the record announces no fault that can be injected: {detail[:_LONGEST]!r}',
+            hint='run the scenario again',
+        ) from err
+
+
+def in_order(faults: tuple[Fault, ...]) -> tuple[Fault, ...]:
+    """Return faults in the order in which they act, which is also that of their records.
+
+    Of two that hit the same the later one counts.
+    """
+    return tuple(sorted(faults, key=lambda fault: fault.at_s))

@@ -11,10 +11,11 @@ from aurora_core.agsg.graph import Agsg
 from aurora_core.comm.link import LinkSettings, MessageLink, link_stream
 from aurora_core.errors import ExecutionError
 from aurora_core.execution.fault_port import FaultPort, loss_with_faults
-from aurora_core.execution.faults import Fault
+from aurora_core.execution.faults import Fault, in_order
 from aurora_core.execution.map_parts import MapParts, map_parts
 from aurora_core.execution.scenario_executor import ExecutionSetup, ScenarioExecutor
 from aurora_core.execution.step_output import Stepper
+from aurora_core.grounding.airspace import Airspace
 from aurora_core.grounding.grounded import GroundedAgent, GroundedScenario
 from aurora_core.grounding.places import place_positions
 from aurora_core.knowledge.config_files import config_path
@@ -30,6 +31,10 @@ from aurora_core.quantities.world_geometry import WorldGeometry
 from aurora_core.spec.scenario import Link, ScenarioSpec, SendMessage
 from aurora_core.temporal.schedule import Schedule
 from aurora_core.trace.roster import Roster, RosterEntry
+
+# Raised whenever the same states give other commands or records than before: what was recorded
+# with another version cannot be recomputed here.
+EXECUTOR_VERSION = 1
 
 # Box of the multirotor in the roster (m): motor to motor with propellers, and its height.
 UAV_SIZE_M = (0.7, 0.7, 0.3)
@@ -76,35 +81,93 @@ def build_execution(
         parts: Parts of that map, built here when not given.
 
     Raises:
-        ExecutionError: The graph is not grounded, or on another map, or an event sends a message
-            without a link.
+        ExecutionError: The graph is not grounded, or on another map, or for another executor, or
+            an event sends a message without a link.
     """
     if not agsg.grounding_json or not agsg.schedule_json:
         raise ExecutionError('the graph is not grounded', hint='call ground_scenario first')
     grounded = GroundedScenario.model_validate_json(agsg.grounding_json)
-    schedule = Schedule.model_validate_json(agsg.schedule_json)
+    if grounded.executor_version not in (0, EXECUTOR_VERSION):
+        raise ExecutionError(
+            f'grounded for version {grounded.executor_version} of the executor, this is '
+            f'{EXECUTOR_VERSION}',
+            hint='start every node of the graph from one installation',
+        )
     if grounded.map_digest != map_model.digest:
         raise ExecutionError(
             f'grounded on map digest {grounded.map_digest[:12]}, loaded {map_model.digest[:12]}',
             hint='ground the scenario again on this map',
         )
-    _check_links(agsg.spec)
     dt_s = settings.run.dt_s
-    roster = build_roster(grounded, dt_s)
     places = place_positions(agsg.spec, map_model, grounded)
     parts = map_parts(map_model) if parts is None else parts
     world = build_world(map_model, grounded, limits, places, agsg.conditions_json, parts)
+    roster = build_roster(grounded, dt_s)
+    stepper = build_stepper(
+        agsg,
+        grounded,
+        roster,
+        airspace=parts.airspace,
+        geometry=WorldGeometry(world, parts.sight_line),
+        tolerances=tolerances,
+        settings=settings,
+        seed=seed,
+        faults=faults,
+    )
+    return Execution(
+        stepper=stepper,
+        ground_load=_ground_load(grounded, map_model, dt_s, seed),
+        air_load=_air_load(grounded, map_model, dt_s, seed),
+        roster=roster,
+        world=world,
+        horizon_s=Schedule.model_validate_json(agsg.schedule_json).horizon_s,
+    )
+
+
+def build_stepper(
+    agsg: Agsg,
+    grounded: GroundedScenario,
+    roster: Roster,
+    *,
+    airspace: Airspace,
+    geometry: WorldGeometry,
+    tolerances: Tolerances,
+    settings: Settings,
+    seed: int,
+    faults: tuple[Fault, ...] = (),
+) -> Stepper:
+    """Build the executor of a grounded graph, behind its faults if there are any.
+
+    It needs no map: a recording holds everything that this takes.
+
+    Args:
+        agsg: Grounded, with schedule.
+        grounded: Its grounding.
+        roster: Row order of the states, and their time step.
+        airspace: What stands in the way of a flight.
+        geometry: The world of the run, with the limits in force.
+        tolerances: Tolerances in force.
+        settings: Execution settings.
+        seed: Seed of the run.
+        faults: Faults to inject.
+
+    Raises:
+        ExecutionError: An event sends a message without a link, or a fault hits nobody.
+    """
+    _check_links(agsg.spec)
+    schedule = Schedule.model_validate_json(agsg.schedule_json)
+    limits, dt_s = geometry.world.limits, roster.dt_s
+    acting = in_order(faults)
     flight = FlightSettings(**settings.flight.model_dump())
-    links = tuple(_link(link, limits, dt_s, seed, faults) for link in agsg.spec.links)
     executor = ScenarioExecutor(
         ExecutionSetup(
             spec=agsg.spec,
             roster=roster,
             agents=grounded.agents,
             machines=tuple(MissionMachine(u, flight, dt_s) for u in grounded.uavs),
-            links=links,
-            airspace=parts.airspace,
-            geometry=WorldGeometry(world, parts.sight_line),
+            links=tuple(_link(link, limits, dt_s, seed, acting) for link in agsg.spec.links),
+            airspace=airspace,
+            geometry=geometry,
             landing_clearance_m=limits.clearance_min_m + 1.0,
             arrival_m=tolerances.arrival_m,
             action_rules=action_rules(tolerances),
@@ -115,17 +178,9 @@ def build_execution(
             sight_period_ticks=max(1, round(settings.run.sight_period_s / dt_s)),
         )
     )
-    stepper: Stepper = executor
-    if faults:
-        stepper = FaultPort(executor, faults, roster, tuple(x.id for x in agsg.spec.links))
-    return Execution(
-        stepper=stepper,
-        ground_load=_ground_load(grounded, map_model, dt_s, seed),
-        air_load=_air_load(grounded, map_model, dt_s, seed),
-        roster=roster,
-        world=world,
-        horizon_s=schedule.horizon_s,
-    )
+    if not acting:
+        return executor
+    return FaultPort(executor, acting, roster, tuple(link.id for link in agsg.spec.links))
 
 
 def _check_links(spec: ScenarioSpec) -> None:

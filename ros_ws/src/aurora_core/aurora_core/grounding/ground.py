@@ -55,6 +55,8 @@ class Grounder:
         limits: Limits in force.
         tolerances: Tolerances in force.
         settings: Search settings.
+        configuration: Digest of all that decides a run, written into each grounding.
+        executor_version: Version of the executor that will run it, written there too.
     """
 
     def __init__(
@@ -65,9 +67,11 @@ class Grounder:
         tolerances: Tolerances,
         settings: Settings,
         configuration: str = '',
+        executor_version: int = 0,
     ) -> None:
         self._map = map_model
         self._configuration = configuration
+        self._executor_version = executor_version
         self._types = types
         self._limits = limits
         self._tolerances = tolerances
@@ -229,4 +233,5 @@ class Grounder:
             wind_gust_mps=self._limits.wind_gust_mps[weather],
             seed=seed,
             configuration=self._configuration,
+            executor_version=self._executor_version,
         )

@@ -113,8 +113,10 @@ class GroundedScenario(Document):
     wind_mean_north_mps: FiniteFloat = 0.0
     wind_gust_mps: FiniteFloat = 0.0
     seed: int = 1
-    # Digest of version, limits, tolerances and settings that it was made with.
+    # Digest of version, executor, limits, tolerances and settings that it was made with.
     configuration: str = ''
+    # Version of the executor that it is for (`execution.plan.EXECUTOR_VERSION`), 0 in old ones.
+    executor_version: int = 0
 
     def canonical_json(self) -> str:
         """Return the byte-exact JSON text that travels in the graph."""

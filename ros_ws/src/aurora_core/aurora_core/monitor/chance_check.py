@@ -10,7 +10,7 @@ from aurora_core.comm.link import link_stream
 from aurora_core.monitor.evaluation import Context
 from aurora_core.monitor.verdict import Finding
 from aurora_core.spec.scenario import Link
-from aurora_core.trace.records import LinkEventKind, LossReason, ScenarioEventKind
+from aurora_core.trace.records import LinkEventKind, LossReason
 
 _ATTEMPTS = (LinkEventKind.ATTEMPT_LOST, LinkEventKind.ATTEMPT_PASSED)
 _FAULT = 'link_loss'
@@ -20,16 +20,14 @@ _ALL_LINKS = '*'
 def chance_findings(context: Context, seed: int) -> Iterator[Finding]:
     """Yield, link by link, the first attempt whose luck is not that of its draw.
 
-    A link that has an injected loss is left out: what that loss is stands nowhere in a recording.
+    A link that has an injected loss is left out: faults are injected again in the recomputation.
 
     Args:
         context: The run.
         seed: Of the run.
     """
     faulty = {
-        record.subject
-        for record in context.view.trace.events
-        if record.kind is ScenarioEventKind.FAULT and record.detail == _FAULT
+        record.subject for record in context.view.trace.events if record.fault_kind == _FAULT
     }
     for link in context.spec.links:
         if link.id not in faulty and _ALL_LINKS not in faulty:

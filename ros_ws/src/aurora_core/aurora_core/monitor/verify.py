@@ -25,6 +25,9 @@ from aurora_core.stl.robustness import SampledSignals, robustness
 from aurora_core.stl.syntax import parse_formula
 from aurora_core.trace.trace import Integrity, Trace
 
+# A note names so many injected faults.
+_FAULTS_TOLD = 5
+
 
 def verify(
     trace: Trace,
@@ -32,6 +35,7 @@ def verify(
     conditions: Sequence[Condition],
     spec: ScenarioSpec,
     plan: Plan | NotComparable | None = None,
+    recomputed: Sequence[Finding] = (),
 ) -> Verdict:
     """Recompute every margin.
 
@@ -44,6 +48,7 @@ def verify(
         conditions: What has to hold.
         spec: The request (links and events).
         plan: What the request gives when worked out anew; None compares nothing with it.
+        recomputed: Where the record is not what the executor gives from its states.
 
     Raises:
         VerificationError: The conditions do not fit the trace: a body or an event is missing in
@@ -63,6 +68,7 @@ def verify(
         )
     context = Context(view, spec, tuple(conditions))
     findings: tuple[Finding, ...] = ()
+    notes += _told_faults(trace)
     if isinstance(plan, NotComparable):
         notes.append(plan.why)
     if isinstance(plan, Plan):
@@ -77,6 +83,7 @@ def verify(
         findings += cross_check(context)
         if isinstance(plan, Plan):
             findings += tuple(chance_findings(context, plan.seed))
+    findings += tuple(recomputed)
     return Verdict(
         status=_status(trace.integrity, results, len(findings)),
         results=results,
@@ -84,6 +91,11 @@ def verify(
         integrity=trace.integrity,
         notes=tuple(notes),
     )
+
+
+def _told_faults(trace: Trace) -> list[str]:
+    faults = [f'{e.fault_kind} ({e.subject})' for e in trace.events if e.fault_kind]
+    return [f'faults were injected: {", ".join(faults[:_FAULTS_TOLD])}'] if faults else []
 
 
 def judge(context: Context, condition: Condition, *, cut: int | None = None) -> ConditionResult:

@@ -24,6 +24,7 @@ from aurora_core.execution.capabilities import judgeable, unsupported
 from aurora_core.execution.faults import Fault
 from aurora_core.execution.map_parts import MapParts, map_parts
 from aurora_core.execution.plan import (
+    EXECUTOR_VERSION,
     Execution,
     build_execution,
     build_roster,
@@ -42,11 +43,12 @@ from aurora_core.knowledge.map_model import MapModel, load_map
 from aurora_core.knowledge.settings import Settings, load_settings
 from aurora_core.knowledge.world import WorldModel
 from aurora_core.monitor.plan_check import NotComparable, Plan
-from aurora_core.monitor.verdict import Verdict
+from aurora_core.monitor.verdict import Finding, Verdict
 from aurora_core.monitor.verify import verify
 from aurora_core.parsing.idle_uavs import hovering
 from aurora_core.parsing.outcome import ParseContext, ParseOutcome
 from aurora_core.parsing.parser import parse_offline
+from aurora_core.pipeline.recompute import recomputed
 from aurora_core.report.versions import AURORA_VERSION
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.temporal.schedule import plan_time
@@ -64,6 +66,7 @@ class Knowledge:
         self.types = load_agent_types()
         self.configuration = _digest(
             AURORA_VERSION,
+            str(EXECUTOR_VERSION),
             config_path('limits.json').read_text('utf-8'),
             config_path('tolerances.json').read_text('utf-8'),
             self.settings.model_dump_json(),
@@ -94,8 +97,18 @@ class Knowledge:
                 self.tolerances,
                 self.settings,
                 self.configuration,
+                EXECUTOR_VERSION,
             )
         return self._grounders[name]
+
+    def parts_of(self, world: WorldModel) -> MapParts | None:
+        """Return the parts of the installed map whose solids a recorded world has, else None."""
+        try:
+            known = self.map(world.map_name)
+        except AuroraError:
+            return None
+        same = known.buildings == world.buildings and known.zones == world.no_fly_zones
+        return self.parts(world.map_name) if same else None
 
 
 def _digest(*texts: str) -> str:
@@ -214,17 +227,38 @@ def graph_from_message(message: Any) -> Agsg:
     return read_agsg(message, derived)
 
 
-def verify_stage(bag: Path) -> Verdict:
-    """Recompute every margin from a bag alone."""
+def verify_stage(bag: Path, *, recompute: bool = True) -> Verdict:
+    """Recompute every margin from a bag alone; see `verify_content`."""
     content, agsg = load_bag(bag)
-    return verify_content(content, agsg)
+    return verify_content(content, agsg, recompute=recompute)
 
 
-def verify_content(content: BagContent, agsg: Agsg) -> Verdict:
-    """Compute every margin of a run, wherever its messages come from."""
+def verify_content(content: BagContent, agsg: Agsg, *, recompute: bool = True) -> Verdict:
+    """Compute every margin of a run, wherever its messages come from.
+
+    Args:
+        content: Messages of the run.
+        agsg: Graph in them.
+        recompute: Step the executor over the recorded states, too. Only a benchmark that asks what
+            the conditions find by themselves goes without.
+    """
     conditions = conditions_from_json(content.world.conditions_json)
     plan = recorded_plan(content.world, agsg)
-    return verify(content.trace, content.world, conditions, agsg.spec, plan)
+    found = recomputed_content(content, agsg) if recompute and isinstance(plan, Plan) else ()
+    return verify(content.trace, content.world, conditions, agsg.spec, plan, found)
+
+
+def recomputed_content(content: BagContent, agsg: Agsg) -> tuple[Finding, ...]:
+    """Return where a run that was made with what is configured here is not the executor's."""
+    known = knowledge()
+    return recomputed(
+        content.trace,
+        content.world,
+        agsg,
+        tolerances=known.tolerances,
+        settings=known.settings,
+        parts=known.parts_of(content.world),
+    )
 
 
 def recorded_plan(world: WorldModel, agsg: Agsg) -> Plan | NotComparable:

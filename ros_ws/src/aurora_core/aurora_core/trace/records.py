@@ -35,7 +35,7 @@ class ScenarioEventKind(IntEnum):
     TRIGGERED = 1  # subject: event id
     ACTION = 2  # subject: event id
     RELEASED = 3  # subject: agent id
-    FAULT = 4  # subject: body or link id, detail: fault
+    FAULT = 4  # subject: body or link id, detail: kind of fault, a blank, JSON of time and value
     FINISHED = 5  # detail: reason
 
 
@@ -77,3 +77,8 @@ class EventRecord:
     kind: ScenarioEventKind
     subject: str
     detail: str
+
+    @property
+    def fault_kind(self) -> str:
+        """Kind of the injected fault that it announces, empty when it announces none."""
+        return self.detail.partition(' ')[0] if self.kind is ScenarioEventKind.FAULT else ''

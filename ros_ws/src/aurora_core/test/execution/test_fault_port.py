@@ -42,7 +42,7 @@ def test_target_removed_once_and_nothing_follows(stage: Build, parameter: Make) 
     scene.step(60)
     assert _of(scene, 'van1') == [(0, FREE, 0.0), (20, REMOVE, 0.0)]
     assert _of(scene, 'ego') == [(0, FREE, 0.0)]
-    assert scene.notes(ScenarioEventKind.FAULT) == [(20, 'van1', 'target_removed')]
+    assert scene.notes(ScenarioEventKind.FAULT) == [(20, 'van1', fault.told())]
 
 
 def test_route_blocked_stops_an_agent_for_good(stage: Build, parameter: Make) -> None:
@@ -67,7 +67,7 @@ def test_route_blocked_freezes_a_uav_in_flight(stage: Build) -> None:
     scene = stage(faults=(Fault(kind='route_blocked', subject='uav1', at_s=8.0),), hold_s=5.0)
     scene.put('van1', 100.0).follow(400)
     [(tick, subject, detail)] = scene.notes(ScenarioEventKind.FAULT)
-    assert (tick, subject, detail) == (160, 'uav1', 'route_blocked')
+    assert (tick, subject, detail) == (160, 'uav1', 'route_blocked {"at_s":8.0,"value":null}')
     rows = np.array([o.uav_commands[0] for o in scene.outputs])
     frozen = rows[160:, UavCommandColumn.X : UavCommandColumn.Z + 1]
     assert np.ptp(frozen, axis=0).tolist() == [0.0, 0.0, 0.0]
@@ -125,7 +125,7 @@ def test_link_loss(subject: str, lost: bool, stage: Build, parameter: Make) -> N
     assert {r.reason for r in records if r.kind is LinkEventKind.ATTEMPT_LOST} == (
         {LossReason.RANDOM} if lost else set()
     )
-    assert scene.notes(ScenarioEventKind.FAULT) == [(10, subject, 'link_loss')]
+    assert scene.notes(ScenarioEventKind.FAULT) == [(10, subject, fault.told())]
 
 
 def test_loss_by_time() -> None:

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -15,8 +16,13 @@ import shapely
 from aurora_core.agsg.build import build_agsg
 from aurora_core.agsg.graph import Agsg, Stage
 from aurora_core.errors import ExecutionError
-from aurora_core.execution.faults import Fault
-from aurora_core.execution.plan import UAV_SIZE_M, Execution, build_execution
+from aurora_core.execution.faults import Fault, read_fault
+from aurora_core.execution.plan import (
+    EXECUTOR_VERSION,
+    UAV_SIZE_M,
+    Execution,
+    build_execution,
+)
 from aurora_core.execution.step_output import StepOutput
 from aurora_core.geometry.polyline import Polyline
 from aurora_core.grounding.grounded import GroundedScenario
@@ -188,6 +194,16 @@ def test_a_graph_that_is_not_grounded_is_refused(
         assert caught.value.hint
 
 
+def test_a_graph_for_another_executor_is_refused(
+    build: Build, graph: Callable[[str], Agsg]
+) -> None:
+    agsg = graph('survey')
+    later = json.loads(agsg.grounding_json) | {'executor_version': EXECUTOR_VERSION + 1}
+    with pytest.raises(ExecutionError, match='of the executor') as caught:
+        build(agsg.model_copy(update={'grounding_json': json.dumps(later)}))
+    assert caught.value.hint
+
+
 def test_another_map_than_the_grounded_one_is_refused(build: Build) -> None:
     with pytest.raises(ExecutionError, match='map digest'):
         build('survey', 'downtown')
@@ -347,8 +363,8 @@ def test_faults_change_the_run(kind: str, subject: str, at_s: float, build: Buil
     fault = Fault(kind=kind, subject=subject, at_s=at_s)  # type: ignore[arg-type]
     trace, _ = run(build('tailgate', faults=(fault,)))
     announced = [e for e in trace.events if e.kind is ScenarioEventKind.FAULT]
-    assert [(e.subject, e.detail, e.tick) for e in announced] == [
-        (subject, kind, round(at_s / 0.05))
+    assert [(read_fault(e.subject, e.detail), e.tick) for e in announced] == [
+        (fault, round(at_s / 0.05))
     ]
     assert LinkEventKind.DELIVERED not in {r.kind for r in trace.links}
 

@@ -63,5 +63,5 @@ def test_other_luck_is_found_at_its_attempt(tb: ModuleType, more: int) -> None:
 
 def test_an_injected_loss_is_left_out(tb: ModuleType) -> None:
     case = lossy(tb, 2)
-    case.run.claim(0, ScenarioEventKind.FAULT, '*', 'link_loss')
+    case.run.claim(0, ScenarioEventKind.FAULT, '*', 'link_loss {"at_s":0.0,"value":null}')
     assert findings(tb, case)[1] == []

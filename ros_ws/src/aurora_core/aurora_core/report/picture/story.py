@@ -284,7 +284,7 @@ def _faults(trace: Trace, by_name: dict[str, Track]) -> list[Moment]:
             found.append(
                 Moment(
                     tick=record.tick,
-                    text=f'injected fault: {record.detail.replace("_", " ")} ({whom})',
+                    text=f'injected fault: {record.fault_kind.replace("_", " ")} ({whom})',
                     tone=Tone.FAULT,
                     place_m=next((place for place in places if place is not None), None),
                 )

@@ -131,8 +131,13 @@ def test_faults_say_what_was_injected_into_whom(make: SimpleNamespace) -> None:
     trace = replace(
         make.trace(),
         events=(
-            _event(100, ScenarioEventKind.FAULT, 'motorcycle1', 'target_removed'),
-            _event(120, ScenarioEventKind.FAULT, '*', 'link_loss'),
+            _event(
+                100,
+                ScenarioEventKind.FAULT,
+                'motorcycle1',
+                'target_removed {"at_s":5.0,"value":null}',
+            ),
+            _event(120, ScenarioEventKind.FAULT, '*', 'link_loss {"at_s":6.0,"value":null}'),
         ),
     )
     faults = [m for m in _told(trace, None) if m.tone is Tone.FAULT]
