@@ -3,7 +3,9 @@
 """A prompt with its annotated requirements, as one line of a prompt file holds it.
 
 Numbers are in metres, seconds and metres per second, angles in degrees. A field that is left out
-is not required. The models are closed: an unknown field is an error.
+is not required. The models are closed: an unknown field is an error. What came later than the
+shipped files (wind, counts of the scene, sides, outages, `beyond`, ...) is optional everywhere:
+files without it stay valid.
 """
 
 from __future__ import annotations
@@ -33,10 +35,15 @@ Because = Literal[
     'duration', 'count', 'clearance', 'separation', 'temporal_contradiction',
     'spatial_contradiction', 'comm_range', 'missing_element', 'unsupported',
 ]  # fmt: skip
+Side = Literal['ahead', 'behind', 'left', 'right']
+# Patterns of the product, and those that annotations name beside them.
+PatternName = Pattern | Literal['facade', 'street']
+LowHigh = tuple[FiniteFloat, FiniteFloat]
 QuantityName = Literal[
     'distance', 'horizontal_distance', 'separation', 'altitude', 'speed', 'tracked_fraction',
     'visible_time', 'visible_fraction', 'delivery_latency', 'delivered', 'delivery_ratio',
     'event_time', 'hover_drift', 'waypoints_visited', 'mission_completed', 'landed',
+    'clearance', 'battery', 'wind',
 ]  # fmt: skip
 
 
@@ -56,10 +63,13 @@ class _Requirement(Document):
 
 
 class WorldRequirement(_Requirement):
-    """One field of the world."""
+    """One field of the world; `wind_from_deg` is the compass bearing that it blows from."""
 
     kind: Literal['world']
-    field: Literal['weather', 'time_of_day', 'map', 'traffic_density', 'duration_s']
+    field: Literal[
+        'weather', 'time_of_day', 'map', 'traffic_density', 'duration_s', 'wind_mps',
+        'wind_from_deg', 'wind',
+    ]  # fmt: skip
     value: str | FiniteFloat
 
 
@@ -71,6 +81,22 @@ class AgentRequirement(_Requirement):
     type: AgentType
     count: NonNegativeInt = 1
     role: Literal['ego', 'target', 'background'] | None = None
+
+
+class CountRequirement(_Requirement):
+    """How many there are, of a type or of what names stand for.
+
+    Attributes:
+        type: `vehicle` is every type that drives, `uav` every UAV.
+        of: In place of the type.
+        scope: `scene`: in the whole run, background included.
+    """
+
+    kind: Literal['count']
+    type: AgentType | Literal['vehicle', 'uav'] | None = None
+    of: Ref | tuple[Ref, ...] | None = None
+    value: NonNegativeInt
+    scope: Literal['scene'] | None = None
 
 
 class PlacementRequirement(_Requirement):
@@ -103,26 +129,40 @@ class UavRequirement(_Requirement):
 
 
 class MissionRequirement(_Requirement):
-    """A phase of a UAV's flight; altitude above ground, standoff horizontal."""
+    """A phase of a UAV's flight; altitude above ground, standoff horizontal.
+
+    Attributes:
+        altitude_m: A pair is the lowest and the highest one (of a facade).
+        side: Of the target's heading.
+        start, end: Places.
+        turns: Number of orbits.
+        avoid, avoid_m: Places to keep away from, and how far.
+    """
 
     kind: Literal['mission']
     ref: Ref
     uav: Ref
     mode: MissionMode
     target: Ref | None = None
-    altitude_m: FiniteFloat | None = None
+    altitude_m: FiniteFloat | LowHigh | None = None
     standoff_m: FiniteFloat | None = None
     bearing_deg: FiniteFloat | None = None
     duration_s: FiniteFloat | None = None
-    pattern: Pattern | None = None
+    pattern: PatternName | None = None
     size_m: tuple[FiniteFloat, FiniteFloat] | None = None
     radius_m: FiniteFloat | None = None
     waypoint_count: FiniteFloat | None = None
     speed_mps: FiniteFloat | None = None
+    side: Side | None = None
+    start: Ref | None = None
+    end: Ref | None = None
+    turns: FiniteFloat | None = None
+    avoid: tuple[Ref, ...] | None = None
+    avoid_m: FiniteFloat | None = None
 
 
 class LinkRequirement(_Requirement):
-    """A directed radio link."""
+    """A directed radio link, perhaps with an outage or with a stream of reports at a rate."""
 
     kind: Literal['link']
     sender: Ref
@@ -131,6 +171,8 @@ class LinkRequirement(_Requirement):
     latency_s: FiniteFloat | None = None
     range_m: FiniteFloat | None = None
     retransmissions: FiniteFloat | None = None
+    outage_s: LowHigh | None = None
+    rate_hz: FiniteFloat | None = None
 
 
 class Trigger(Document):
@@ -139,6 +181,7 @@ class Trigger(Document):
     on: Literal[
         'distance_below', 'distance_above', 'visible', 'occluded', 'time', 'altitude_reached',
         'arrives', 'message_received', 'speed_below', 'speed_above', 'event_done', 'mission_done',
+        'battery_below',
     ]  # fmt: skip
     a: Ref | None = None
     b: Ref | None = None
@@ -154,6 +197,7 @@ class Trigger(Document):
     value_mps: FiniteFloat | None = None
     event: Ref | None = None
     after_s: FiniteFloat | None = None
+    value: FiniteFloat | None = None  # share of a full battery
 
 
 FIELDS_OF_TRIGGER: dict[str, frozenset[str]] = {
@@ -169,40 +213,46 @@ FIELDS_OF_TRIGGER: dict[str, frozenset[str]] = {
     'speed_above': frozenset({'who', 'value_mps'}),
     'event_done': frozenset({'event', 'after_s'}),
     'mission_done': frozenset({'uav'}),
+    'battery_below': frozenset({'uav', 'value'}),
 }
 
 
 class Action(Document):
-    """What an event does; `change_mission` takes the fields of a mission."""
+    """What an event does; which fields go with `do` is in `fields_of_action`."""
 
     do: Literal[
         'send_message', 'brake', 'stop', 'slow', 'accelerate', 'change_lane', 'yield', 'start',
-        'cross', 'change_mission', 'land', 'ascend',
+        'cross', 'change_mission', 'land', 'ascend', 'return_home', 'hand_over',
     ]  # fmt: skip
     sender: Ref | None = None
     receiver: Ref | None = None
     agent: Ref | None = None
     value_mps: FiniteFloat | None = None
     uav: Ref | None = None
+    to: Ref | None = None
     mode: MissionMode | None = None
     target: Ref | None = None
-    altitude_m: FiniteFloat | None = None
+    altitude_m: FiniteFloat | LowHigh | None = None
     standoff_m: FiniteFloat | None = None
     bearing_deg: FiniteFloat | None = None
     duration_s: FiniteFloat | None = None
-    pattern: Pattern | None = None
+    pattern: PatternName | None = None
     size_m: tuple[FiniteFloat, FiniteFloat] | None = None
     radius_m: FiniteFloat | None = None
     waypoint_count: FiniteFloat | None = None
     speed_mps: FiniteFloat | None = None
+    side: Side | None = None
+    start: Ref | None = None
+    end: Ref | None = None
+    turns: FiniteFloat | None = None
+    avoid: tuple[Ref, ...] | None = None
+    avoid_m: FiniteFloat | None = None
 
 
-MISSION_FIELDS = frozenset(
-    {
-        'mode', 'target', 'altitude_m', 'standoff_m', 'bearing_deg', 'duration_s', 'pattern',
-        'size_m', 'radius_m', 'waypoint_count', 'speed_mps',
-    }
-)  # fmt: skip
+# What describes the flight itself: `change_mission` takes these fields too.
+MISSION_FIELDS = frozenset(MissionRequirement.model_fields) - {
+    *_Requirement.model_fields, 'kind', 'ref', 'uav',
+}  # fmt: skip
 
 
 def fields_of_action(do: str) -> frozenset[str]:
@@ -213,16 +263,21 @@ def fields_of_action(do: str) -> frozenset[str]:
         return MISSION_FIELDS | {'uav'}
     if do in ('land', 'ascend'):
         return frozenset({'uav', 'altitude_m'})
+    if do == 'return_home':
+        return frozenset({'uav'})
+    if do == 'hand_over':
+        return frozenset({'uav', 'to'})
     return frozenset({'agent', 'value_mps'})
 
 
 class EventRequirement(_Requirement):
-    """A trigger and what follows; one of the two may be missing."""
+    """A trigger and what follows, `once` or every time; one of the two may be missing."""
 
     kind: Literal['event']
     ref: Ref
     trigger: Trigger | None = None
     action: Action | None = None
+    once: StrictBool | None = None
 
 
 class OrderRequirement(_Requirement):
@@ -239,7 +294,7 @@ class ConditionRequirement(_Requirement):
 
     kind: Literal['condition']
     quantity: QuantityName
-    of: tuple[Ref, ...]
+    of: tuple[Ref, ...] = ()
     op: Literal['<=', '<', '>=', '>', '==']
     value: StrictBool | FiniteFloat
     hold_s: FiniteFloat | None = None
@@ -254,6 +309,13 @@ class RejectRequirement(_Requirement):
     because: Because
 
 
+class BeyondRequirement(_Requirement):
+    """Something asked for that no field holds: listed, never scored."""
+
+    kind: Literal['beyond']
+    text: Annotated[str, StringConstraints(min_length=1)]
+
+
 class AnyOfRequirement(_Requirement):
     """One of several fair readings suffices."""
 
@@ -264,6 +326,7 @@ class AnyOfRequirement(_Requirement):
 Requirement = Annotated[
     WorldRequirement
     | AgentRequirement
+    | CountRequirement
     | PlacementRequirement
     | BehaviorRequirement
     | UavRequirement
@@ -273,6 +336,7 @@ Requirement = Annotated[
     | OrderRequirement
     | ConditionRequirement
     | RejectRequirement
+    | BeyondRequirement
     | AnyOfRequirement,
     Field(discriminator='kind'),
 ]
@@ -318,6 +382,11 @@ def everything(requirements: tuple[Requirement, ...]) -> tuple[Requirement, ...]
 def flat(requirements: tuple[Requirement, ...]) -> tuple[Requirement, ...]:
     """Return requirements with the readings of every `any_of` in place of it."""
     return tuple(r for r in everything(requirements) if not isinstance(r, AnyOfRequirement))
+
+
+def beyond(prompt: AnnotatedPrompt) -> tuple[BeyondRequirement, ...]:
+    """Return what a prompt asks for that no field of an annotation holds."""
+    return tuple(r for r in flat(prompt.requirements) if isinstance(r, BeyondRequirement))
 
 
 def stated_fields(value: Document) -> dict[str, Any]:

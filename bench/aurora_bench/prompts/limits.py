@@ -121,8 +121,9 @@ def _mission(r: MissionRequirement, limits: Limits) -> Iterator[_Use]:
         ('duration_s', None, limits.uav_endurance_s),
     ):
         value = getattr(r, field)
-        if value is not None:
-            yield _Use(path=f'{r.id}.{field}', name=field, value=value, low=low, high=high)
+        for number in value if isinstance(value, tuple) else (value,):
+            if number is not None:
+                yield _Use(path=f'{r.id}.{field}', name=field, value=number, low=low, high=high)
 
 
 def _counts(prompt: AnnotatedPrompt, limits: Limits) -> Iterator[_Use]:
@@ -142,7 +143,9 @@ def _ranges(prompt: AnnotatedPrompt, limits: Limits) -> Iterator[_Use]:
     for r in missions:
         if r.target is None or r.mode.value == 'navigate' or r.altitude_m is None:
             continue
-        slant = ((r.altitude_m or 0.0) ** 2 + (r.standoff_m or 0.0) ** 2) ** 0.5
+        # Of a range of altitudes the nearer one can always be flown.
+        altitude_m = r.altitude_m[0] if isinstance(r.altitude_m, tuple) else r.altitude_m
+        slant = (altitude_m**2 + (r.standoff_m or 0.0) ** 2) ** 0.5
         yield _Use(path=f'{r.id} slant range', name='sensing range', value=slant, high=sensing)
         for link in links:
             if link.range_m is not None and {link.sender, link.receiver} == {r.uav, r.target}:

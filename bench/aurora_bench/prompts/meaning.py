@@ -18,16 +18,20 @@ from aurora_bench.prompts.format import (
 from aurora_bench.prompts.numbers import field_of, numbers_at
 from aurora_core.spec.vocabulary import MissionMode, TimeOfDay, TrafficDensity, Weather
 
+_NUMBERS_OF_WORLD = frozenset({'duration_s', 'wind_mps', 'wind_from_deg'})
 _WORDS: dict[str, frozenset[str]] = {
+    'wind': frozenset({'crosswind', 'headwind', 'tailwind'}),
     'weather': frozenset(Weather),
     'time_of_day': frozenset(TimeOfDay),
     'traffic_density': frozenset(TrafficDensity),
 }
 # How many bodies (or events) a quantity is of; the others take any number of them.
-_OF_ONE = frozenset({'altitude', 'speed', 'hover_drift', 'waypoints_visited', 'event_time'})
+_OF_ONE = frozenset(
+    {'altitude', 'speed', 'hover_drift', 'waypoints_visited', 'event_time', 'battery'}
+)
 _OF_TWO = frozenset(
     {'distance', 'horizontal_distance', 'tracked_fraction', 'visible_time', 'visible_fraction',
-     'delivery_latency', 'delivered', 'delivery_ratio'}
+     'delivery_latency', 'delivered', 'delivery_ratio', 'clearance'}
 )  # fmt: skip
 _YES_OR_NO = frozenset({'delivered', 'mission_completed', 'landed'})
 _SHARES = frozenset({'loss', 'fraction'})
@@ -46,17 +50,6 @@ def check_meaning(prompt: AnnotatedPrompt) -> Iterator[Finding]:
         texts.append('is marked end_to_end, but there is nobody to run and nothing to refuse')
     for text in texts:
         yield Finding(where=prompt.id, rule=Rule.MEANING, text=text)
-    uavs = {r.ref for r in requirements if r.kind == 'uav'}
-    for r in requirements:
-        trigger = r.trigger if r.kind == 'event' else None
-        if trigger is not None and trigger.observer is not None and trigger.observer not in uavs:
-            # People see things too; the product has no eyes but those of a UAV.
-            yield Finding(
-                where=prompt.id,
-                rule=Rule.MEANING,
-                text=f'{r.id}: {trigger.observer!r} observes and is no UAV',
-                is_error=False,
-            )
 
 
 def _repeated(names: list[str]) -> set[str]:
@@ -67,6 +60,8 @@ def _of_one(r: Requirement) -> Iterator[str]:
     if r.kind == 'any_of':
         if any(reading.kind == 'any_of' for reading in r.any_of):
             yield f'{r.id}: a reading cannot have readings itself'
+        if any(reading.kind == 'beyond' for reading in r.any_of):
+            yield f'{r.id}: what no field holds is no reading'
         return
     yield from _numbers(r)
     if r.kind == 'world':
@@ -78,9 +73,26 @@ def _of_one(r: Requirement) -> Iterator[str]:
             yield f'{r.id}: a pattern is flown by navigate, not by {r.mode}'
         if r.target == r.uav:
             yield f'{r.id}: {r.uav!r} cannot be its own target'
+        yield from _pair_of_altitudes(r.id, r.altitude_m, r.pattern)
+    elif r.kind == 'event' and r.action is not None:
+        yield from _pair_of_altitudes(r.id, r.action.altitude_m, r.action.pattern)
+    elif r.kind == 'link' and r.outage_s is not None and r.outage_s[0] >= r.outage_s[1]:
+        yield f'{r.id}: an outage ends after it begins'
+    elif r.kind == 'count' and (r.type is None) is (r.of is None):
+        yield f'{r.id}: a count is of a type or of names, one of the two'
     for one, other in _pairs(r):
         if one == other:
             yield f'{r.id}: {one!r} cannot stand in relation to itself'
+
+
+def _pair_of_altitudes(
+    ident: str, altitude_m: float | tuple[float, float] | None, pattern: str | None
+) -> Iterator[str]:
+    if isinstance(altitude_m, tuple):
+        if pattern != 'facade':
+            yield f'{ident}: two altitudes belong to a facade'
+        if altitude_m[0] >= altitude_m[1]:
+            yield f'{ident}: the first altitude is the lower one'
 
 
 def _pairs(r: Requirement) -> Iterator[tuple[str, str | None]]:
@@ -99,7 +111,7 @@ def _numbers(r: Requirement) -> Iterator[str]:
             continue
         if value < 0.0:
             yield f'{path} = {value:g} is below zero'
-        elif field in _SHARES and value > 1.0:
+        elif (field in _SHARES or path.endswith('.trigger.value')) and value > 1.0:
             yield f'{path} = {value:g} is no share between 0 and 1'
     if isinstance(r.tol, dict):
         held = {path.split('.')[-1] for path, _ in numbers_at(r) if '.tol.' not in path}
@@ -108,7 +120,7 @@ def _numbers(r: Requirement) -> Iterator[str]:
 
 
 def _world(r: WorldRequirement) -> Iterator[str]:
-    if (r.field == 'duration_s') is isinstance(r.value, str):
+    if (r.field in _NUMBERS_OF_WORLD) is isinstance(r.value, str):
         yield f'{r.id}: {r.field} cannot be {r.value!r}'
     elif r.field in _WORDS and r.value not in _WORDS[r.field]:
         yield f'{r.id}: {r.field} is one of {", ".join(sorted(_WORDS[r.field]))}, not {r.value!r}'
@@ -117,7 +129,8 @@ def _world(r: WorldRequirement) -> Iterator[str]:
 def _condition(r: ConditionRequirement) -> Iterator[str]:
     number = len(r.of)
     wanted = 1 if r.quantity in _OF_ONE else 2 if r.quantity in _OF_TWO else None
-    if number == 0 or (wanted is not None and number != wanted):
+    is_of_scene = r.quantity == 'wind' and number == 0
+    if (number == 0 and not is_of_scene) or (wanted is not None and number != wanted):
         yield f'{r.id}: {r.quantity} is of {wanted or "at least 1"}, not of {number}'
     if (r.quantity in _YES_OR_NO) is not isinstance(r.value, bool):
         yield f'{r.id}: {r.quantity} cannot be {r.value!r}'

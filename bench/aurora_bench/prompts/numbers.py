@@ -14,6 +14,7 @@ from aurora_bench.prompts.format import (
     AnnotatedPrompt,
     Requirement,
     UavRequirement,
+    beyond,
     everything,
     flat,
 )
@@ -23,7 +24,9 @@ from aurora_core.spec.parameter import Document
 # Rounding in an annotation, e.g. 500 ft as 152.4 m.
 _RELATIVE = 0.005
 _SHARES = frozenset({'loss', 'fraction'})
-_BARE_FIELDS = frozenset({'count', 'waypoint_count', 'retransmissions'})
+_BARE_FIELDS = frozenset({'count', 'waypoint_count', 'retransmissions', 'turns'})
+# Degrees between the points of the compass that have names.
+_COMPASS_DEG = 22.5
 
 
 class AnnotatedNumber(Document):
@@ -92,7 +95,6 @@ def _is_taken_back(text: str, stated: StatedNumber) -> bool:
 def annotated_numbers(prompt: AnnotatedPrompt) -> Iterator[AnnotatedNumber]:
     """Return every number of a prompt's requirements and variations."""
     for requirement in flat(prompt.requirements):
-        quantity = getattr(requirement, 'quantity', None)
         for path, value in numbers_at(requirement):
             field = field_of(path)
             is_one_of_a_kind = field == 'count' and value == 1
@@ -101,19 +103,19 @@ def annotated_numbers(prompt: AnnotatedPrompt) -> Iterator[AnnotatedNumber]:
                 continue
             yield AnnotatedNumber(
                 value=value,
-                dimension=_dimension(field, quantity),
+                dimension=_dimension(path, requirement),
                 path=path,
-                # "No drone", "all the time": none and all need no number.
-                is_required=value not in _none_and_all(field),
+                is_required=_needs_a_number(path, value, requirement),
             )
+    for number in (n for r in beyond(prompt) for n in stated_numbers(r.text)):
+        yield AnnotatedNumber(
+            value=number.value, dimension=number.dimension, path='beyond', is_required=False
+        )
+    by_id = {r.id: r for r in everything(prompt.requirements)}
     for path, ends in prompt.variation.items():
-        field = field_of(path)
-        by_id = {r.id: r for r in everything(prompt.requirements)}
-        quantity = getattr(by_id.get(path.split('.')[0]), 'quantity', None)
+        dimension = _dimension(path, by_id.get(path.split('.')[0]))
         for end in ends:
-            yield AnnotatedNumber(
-                value=end, dimension=_dimension(field, quantity), path=path, is_required=False
-            )
+            yield AnnotatedNumber(value=end, dimension=dimension, path=path, is_required=False)
 
 
 def numbers_at(requirement: Requirement) -> Iterator[tuple[str, float]]:
@@ -141,14 +143,28 @@ def _none_and_all(field: str) -> tuple[float, ...]:
     return (0.0, 1.0) if field in (*_SHARES, 'value') else (0.0,)
 
 
-def _dimension(field: str, quantity: str | None) -> Dimension:
-    if field in _BARE_FIELDS:
+def _needs_a_number(path: str, value: float, requirement: Requirement) -> bool:
+    """Whether a prompt has to state it: "no drone", "all the time", "from the west" need none."""
+    if getattr(requirement, 'field', None) == 'wind_from_deg' and value % _COMPASS_DEG == 0.0:
+        return False
+    return value not in _none_and_all(field_of(path))
+
+
+def _dimension(path: str, requirement: Requirement | None) -> Dimension:
+    field = field_of(path)
+    if field in _BARE_FIELDS or getattr(requirement, 'kind', None) == 'count':
         return Dimension.BARE
-    if field in _SHARES:
+    if field in _SHARES or path.endswith('.trigger.value'):
         return Dimension.SHARE
     if field == 'value':
+        # The field of the world's name says its unit (wind_mps), that of a quantity does not.
+        quantity = getattr(requirement, 'quantity', None)
+        if quantity is None:
+            return _by_ending(getattr(requirement, 'field', 'duration_s'))
         return {
             'speed': Dimension.SPEED,
+            'wind': Dimension.SPEED,
+            'battery': Dimension.SHARE,
             'visible_time': Dimension.TIME,
             'delivery_latency': Dimension.TIME,
             'event_time': Dimension.TIME,
@@ -156,10 +172,15 @@ def _dimension(field: str, quantity: str | None) -> Dimension:
             'visible_fraction': Dimension.SHARE,
             'delivery_ratio': Dimension.SHARE,
             'waypoints_visited': Dimension.BARE,
-        }.get(quantity or '', Dimension.LENGTH if quantity else Dimension.TIME)
+        }.get(quantity, Dimension.LENGTH)
+    return _by_ending(field)
+
+
+def _by_ending(field: str) -> Dimension:
     for ending, dimension in (
         ('_mps', Dimension.SPEED),
         ('_deg', Dimension.ANGLE),
+        ('_hz', Dimension.RATE),
         ('_s', Dimension.TIME),
     ):
         if field.endswith(ending):
@@ -186,11 +207,14 @@ def _in_variation(prompt: AnnotatedPrompt, number: AnnotatedNumber, stated: Stat
 
 
 def _derived(number: AnnotatedNumber, stated: tuple[StatedNumber, ...]) -> bool:
-    """Half of a diameter, the rest of a share, or a sum ("10 m higher than that")."""
+    """Half of a diameter, the rest of a share, a sum ("10 m higher"), a rate ("every 2 s")."""
     values = [s.value for s in stated if s.dimension in (number.dimension, Dimension.BARE)]
     results = [v / 2.0 for v in values] + [v * 2.0 for v in values]
     if number.dimension is Dimension.SHARE:
         results += [1.0 - v for v in values]
+    if number.dimension is Dimension.RATE:
+        periods = [s.value for s in stated if s.dimension is Dimension.TIME]
+        results += [1.0 / period for period in periods if period > 0.0]
     results += [a + b for k, a in enumerate(values) for b in values[k + 1 :]]
     return any(_close(result, number.value) for result in results)
 

@@ -22,6 +22,7 @@ class Dimension(StrEnum):
     SPEED = 'm/s'
     ANGLE = 'deg'
     SHARE = 'share'
+    RATE = 'Hz'
     BARE = ''
 
 
@@ -60,6 +61,7 @@ _UNITS: tuple[tuple[str, Dimension, float], ...] = (
     (r'seconds?|secs?|s', Dimension.TIME, 1.0),
     (r'met(?:re|er)s?|mtrs?|mts?|m', Dimension.LENGTH, 1.0),
     (r'degrees?|deg|°', Dimension.ANGLE, 1.0),
+    (r'hertz|hz', Dimension.RATE, 1.0),
     (r'%|percent|per cent|pct', Dimension.SHARE, 0.01),
 )
 _UNIT = '|'.join(f'(?P<u{k}>{pattern})' for k, (pattern, _, _) in enumerate(_UNITS))

@@ -19,6 +19,7 @@ from aurora_bench.prompts.format import (
     Trigger,
 )
 from aurora_bench.prompts.reference_names import Names, NotExpressibleError, id_of
+from aurora_bench.prompts.reference_spans import StatedSpans, binding
 from aurora_core.spec.parameter import unit_of
 from aurora_core.spec.requirements import STATED_QUANTITIES
 
@@ -51,9 +52,23 @@ _MISSION_NUMBERS = (
 class Numbers:
     """Parameters of one requirement; a stated range is the domain."""
 
-    def __init__(self, r: Requirement, variation: Mapping[str, tuple[float, float]]) -> None:
+    def __init__(
+        self,
+        r: Requirement,
+        variation: Mapping[str, tuple[float, float]],
+        spans: StatedSpans | None = None,
+    ) -> None:
+        """Take the numbers of a requirement.
+
+        Args:
+            r: The requirement.
+            variation: Annotated ranges of the prompt.
+            spans: Where the prompt states its numbers: they are explicit then, and judged. None:
+                they are inferred.
+        """
         self._id = r.id
         self._variation = variation
+        self._spans = spans
 
     def stated(self, path: str, value: float, unit: str | None = None) -> Doc:
         """Return the parameter of an annotated number.
@@ -64,9 +79,22 @@ class Numbers:
             unit: Where the field's name does not say it.
         """
         low, high = self._variation.get(f'{self._id}.{path}', (value, value))
+        low, high = min(low, value), max(high, value)
+        name = unit or unit_of(path.split('.')[-1])
+        found: Doc = {
+            'value': value, 'unit': name, 'low': low, 'high': high, 'provenance': 'inferred',
+        }  # fmt: skip
+        if self._spans is None:
+            return found
+        explicit = {'provenance': 'explicit', 'span': self._spans.of(value, name)}
+        return found | explicit | binding(value, low, high)
+
+    def unsaid(self, value: float, unit: str) -> Doc:
+        """Return the parameter of one point that no annotation states."""
+        # Stored references called it inferred before anything was explicit in a reference.
+        provenance = 'inferred' if self._spans is None else 'default'
         return {
-            'value': value, 'unit': unit or unit_of(path.split('.')[-1]), 'low': min(low, value),
-            'high': max(high, value), 'provenance': 'inferred',
+            'value': value, 'unit': unit, 'low': value, 'high': value, 'provenance': provenance,
         }  # fmt: skip
 
     def of(self, holder: object, names: tuple[str, ...], prefix: str = '') -> Doc:
@@ -112,17 +140,20 @@ def mission(
             found |= {'target': names.agent(None), 'target_inferred': True}
     if mode != 'navigate':
         return {'duration_s': default('duration_s'), **found}
-    pattern = r.pattern.value if r.pattern is not None else 'rectangle'
+    pattern = str(r.pattern) if r.pattern is not None else 'rectangle'
     found = {'speed_mps': default('speed_mps'), **found, 'pattern': pattern}
     if pattern == 'orbit':
         found = {'radius_m': default('radius_m'), **found}
     elif pattern == 'waypoints':
         found = {'waypoint_count': default('waypoint_count'), **found}
     if r.size_m is not None or pattern in ('rectangle', 'lawnmower', 'line'):
-        size = r.size_m or (SIZE_M if pattern != 'line' else (SIZE_M[0], 0.0))
-        found['size_m'] = [
-            numbers.stated(f'{prefix}size_m.{k}', v, 'm') for k, v in enumerate(size)
-        ]
+        if r.size_m is not None:
+            found['size_m'] = [
+                numbers.stated(f'{prefix}size_m.{k}', v, 'm') for k, v in enumerate(r.size_m)
+            ]
+        else:
+            size = SIZE_M if pattern != 'line' else (SIZE_M[0], 0.0)
+            found['size_m'] = [numbers.unsaid(v, 'm') for v in size]
     return found
 
 

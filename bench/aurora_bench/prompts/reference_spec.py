@@ -3,8 +3,10 @@
 """`python -m aurora_bench.prompts.reference_spec FILE…`: write the reference specifications.
 
 A reference says what the annotation says, and nothing of the parser is in it: every requirement
-becomes one element, what is not annotated has the product's default. It has no spans, so no value
-is explicit; stated ones have a domain of one point, or the annotated range.
+becomes one element, what is not annotated has the product's default. Those that are written into
+files have no spans, so no value is explicit; stated ones have a domain of one point, or the
+annotated range. Those that are run (`judged`) call every annotated number explicit: else nothing
+would ask of the run that the number is kept.
 """
 
 from __future__ import annotations
@@ -36,34 +38,49 @@ from aurora_bench.prompts.reference_parts import (
     mission,
     placement,
 )
+from aurora_bench.prompts.reference_sayable import check_sayable
+from aurora_bench.prompts.reference_spans import StatedSpans
 from aurora_core.spec.scenario import ScenarioSpec
 
 _MOST_READINGS = 64
 
 
-def reference_spec(prompt: AnnotatedPrompt) -> ScenarioSpec:
+def reference_spec(prompt: AnnotatedPrompt, *, judged: bool = False) -> ScenarioSpec:
     """Return a specification that says what a prompt's annotation says.
 
     Of several readings the first is taken that the schema can express together with the rest.
+    What is `beyond` every field is left out.
+
+    Args:
+        prompt: With its annotation.
+        judged: Annotated numbers are explicit, with the span that states them, and one clause
+            over the whole prompt names every element: conditions and report treat the reference
+            as they treat a prompt that was read.
 
     Raises:
         NotExpressibleError: None can be expressed, or the prompt is to be refused.
     """
     if prompt.feasibility == 'infeasible':
         raise NotExpressibleError('a refusal has no specification')
-    choices = [r.any_of if r.kind == 'any_of' else (r,) for r in prompt.requirements]
+    asked = [r for r in prompt.requirements if r.kind != 'beyond']
+    choices = [r.any_of if r.kind == 'any_of' else (r,) for r in asked]
     reason = ''
     for readings in itertools.islice(itertools.product(*choices), _MOST_READINGS):
         try:
-            return ScenarioSpec.model_validate(_Builder(prompt, readings).document())
-        except (NotExpressibleError, ValidationError) as err:
+            return ScenarioSpec.model_validate(_Builder(prompt, readings, judged).document())
+        except ValidationError as err:
+            reason = reason or str(err.errors()[0]['msg'])
+        except NotExpressibleError as err:
             reason = reason or str(err)
     raise NotExpressibleError(reason)
 
 
 class _Builder:
-    def __init__(self, prompt: AnnotatedPrompt, requirements: Sequence[Requirement]) -> None:
+    def __init__(
+        self, prompt: AnnotatedPrompt, requirements: Sequence[Requirement], judged: bool
+    ) -> None:
         self._prompt = prompt
+        self._spans = StatedSpans(prompt.prompt) if judged else None
         self._requirements = requirements
         self._names = Names(requirements)
         self._agents: dict[str, Doc] = {}
@@ -75,6 +92,7 @@ class _Builder:
     def document(self) -> Doc:
         """Return the specification as a document, bodies first: the others name them."""
         for r in self._requirements:
+            check_sayable(r)
             if isinstance(r, AgentRequirement | UavRequirement):
                 self._body(r)
         for r in self._requirements:
@@ -83,7 +101,20 @@ class _Builder:
             else:
                 self._add(r)
         self._link_messages()
-        return {**self._spec, 'agents': list(self._agents.values())}
+        document = {**self._spec, 'agents': list(self._agents.values())}
+        return document if self._spans is None else document | {'clauses': [self._clause()]}
+
+    def _clause(self) -> Doc:
+        """Return the whole prompt as one clause that became every element."""
+        prompt = self._prompt.prompt
+        elements = [e for part in self._spec.values() if isinstance(part, list) for e in part]
+        return {
+            'text': prompt, 'span': {'start': 0, 'end': len(prompt)}, 'status': 'encoded',
+            'ids': sorted({*self._agents, *(e['id'] for e in elements)}),
+        }  # fmt: skip
+
+    def _numbers(self, r: Requirement) -> Numbers:
+        return Numbers(r, self._prompt.variation, self._spans)
 
     def _link_messages(self) -> None:
         """Give every message that no annotated link carries a default one."""
@@ -112,7 +143,7 @@ class _Builder:
                 self._agents[ident] = {'id': ident, 'type': r.type, **role, **group, **lists}
 
     def _add(self, r: Requirement) -> None:
-        numbers = Numbers(r, self._prompt.variation)
+        numbers = self._numbers(r)
         names = self._names
         if r.kind == 'world':
             self._world(r, numbers)
@@ -156,7 +187,7 @@ class _Builder:
 
     def _prohibit(self, r: Requirement) -> None:
         """Forbid what must not be so, for the kinds that prompts forbid."""
-        numbers = Numbers(r, self._prompt.variation)
+        numbers = self._numbers(r)
         found: Doc = {'forbids': r.kind, 'id': self._new('no')}
         if r.kind == 'world' and r.field != 'duration_s':
             found['map_name' if r.field == 'map' else r.field] = r.value

@@ -13,6 +13,7 @@ from aurora_bench.prompts.format import (
     AnnotatedPrompt,
     BehaviorRequirement,
     ConditionRequirement,
+    CountRequirement,
     EventRequirement,
     LinkRequirement,
     MissionRequirement,
@@ -32,12 +33,20 @@ _ALWAYS = frozenset({'rsu', *(place.value for place in Place)})
 # Fields of triggers and actions whose values are names.
 _NAMES = frozenset(
     {'a', 'b', 'observer', 'target', 'uav', 'who', 'place', 'by', 'from', 'sender', 'receiver',
-     'agent'}
+     'agent', 'to', 'start', 'end', 'avoid'}
 )  # fmt: skip
 
 
-def check_references(prompt: AnnotatedPrompt, landmarks: frozenset[str]) -> Iterator[Finding]:
-    """Find names that nothing declares, repeated ids, and fields that belong to another kind."""
+def check_references(
+    prompt: AnnotatedPrompt, landmarks: frozenset[str], streets: frozenset[str] = frozenset()
+) -> Iterator[Finding]:
+    """Find names that nothing declares, repeated ids, and fields that belong to another kind.
+
+    Args:
+        prompt: One prompt.
+        landmarks: Names of places on the map.
+        streets: Names of streets: a flight along a street has one as its target.
+    """
     requirements = flat(prompt.requirements)
     ids = [r.id for r in everything(prompt.requirements)]
     for repeated in sorted({i for i in ids if ids.count(i) > 1}):
@@ -52,7 +61,7 @@ def check_references(prompt: AnnotatedPrompt, landmarks: frozenset[str]) -> Iter
     events = {r.ref for r in requirements if isinstance(r, EventRequirement)}
     for requirement in requirements:
         for name in _bodies_of(requirement):
-            if name not in known:
+            if name not in known and not (_is_along_street(requirement) and name in streets):
                 yield _error(
                     prompt,
                     Rule.REFERENCE,
@@ -134,8 +143,12 @@ def _bodies_of(requirement: Requirement) -> Iterator[str]:
     if isinstance(requirement, BehaviorRequirement):
         yield requirement.agent
         yield from [requirement.target] if requirement.target is not None else []
-    if isinstance(requirement, MissionRequirement) and requirement.target is not None:
-        yield requirement.target
+    if isinstance(requirement, MissionRequirement):
+        fields = stated_fields(requirement)
+        for name in ('target', 'start', 'end', 'avoid'):
+            yield from _names(fields.get(name))
+    if isinstance(requirement, CountRequirement):
+        yield from _names(requirement.of)
     if isinstance(requirement, LinkRequirement):
         yield from (requirement.sender, requirement.receiver)
     if isinstance(requirement, ConditionRequirement) and requirement.quantity != 'event_time':
@@ -144,7 +157,18 @@ def _bodies_of(requirement: Requirement) -> Iterator[str]:
         for part in (requirement.trigger, requirement.action):
             if part is not None:
                 fields = stated_fields(part)
-                yield from (fields[name] for name in sorted(fields.keys() & _NAMES))
+                for name in sorted(fields.keys() & _NAMES):
+                    yield from _names(fields[name])
+
+
+def _names(value: str | tuple[str, ...] | None) -> tuple[str, ...]:
+    """Return one name or several as several."""
+    return (value,) if isinstance(value, str) else value or ()
+
+
+def _is_along_street(requirement: Requirement) -> bool:
+    part = requirement.action if isinstance(requirement, EventRequirement) else requirement
+    return getattr(part, 'pattern', None) == 'street'
 
 
 def _error(prompt: AnnotatedPrompt, rule: Rule, text: str) -> Finding:

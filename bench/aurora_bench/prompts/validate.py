@@ -39,11 +39,11 @@ def validate(
         read, problems = read_lines(text)
         prompts += read
         findings += problems
-    landmarks = _landmarks(map_name)
+    landmarks, streets = _places(map_name)
     limits = load_limits(config_path('limits.json'))
     types = load_agent_types()
     for prompt in prompts:
-        findings += check_references(prompt, landmarks)
+        findings += check_references(prompt, landmarks, streets)
         findings += check_numbers(prompt)
         nonsense = [*check_meaning(prompt), *_reference(prompt)]
         findings += nonsense
@@ -69,5 +69,7 @@ def _reference(prompt: AnnotatedPrompt) -> Iterator[Finding]:
 
 
 @lru_cache
-def _landmarks(map_name: str) -> frozenset[str]:
-    return frozenset(mark.name for mark in load_map(map_name).landmarks)
+def _places(map_name: str) -> tuple[frozenset[str], frozenset[str]]:
+    known = load_map(map_name)
+    landmarks = frozenset(mark.name for mark in known.landmarks)
+    return landmarks, frozenset(known.network.street_names)

@@ -1,0 +1,74 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""What an annotation can say and no specification can: refused by name, never left out.
+
+A reference that silently said less than its annotation would be easier to realise than the
+request.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from aurora_bench.prompts.format import (
+    Action,
+    ConditionRequirement,
+    CountRequirement,
+    EventRequirement,
+    LinkRequirement,
+    MissionRequirement,
+    Requirement,
+    WorldRequirement,
+    stated_fields,
+)
+from aurora_bench.prompts.reference_names import NotExpressibleError
+from aurora_core.spec.requirements import STATED_QUANTITIES
+from aurora_core.spec.vocabulary import Pattern
+
+_WIND = frozenset({'wind', 'wind_mps', 'wind_from_deg'})
+_OF_A_FLIGHT = ('side', 'start', 'end', 'turns', 'avoid', 'avoid_m')
+_OF_A_LINK = ('outage_s', 'rate_hz')
+_TRIGGERS = frozenset({'battery_below'})
+_ACTIONS = frozenset({'return_home', 'hand_over'})
+
+
+def check_sayable(r: Requirement) -> None:
+    """Check that the schema of specifications has a place for all that a requirement states.
+
+    Raises:
+        NotExpressibleError: It has none for something, which is named without the requirement's
+            own ids, so that the causes of many prompts can be counted.
+    """
+    for what in _unsayable(r):
+        raise NotExpressibleError(f'no specification can say: {what}')
+
+
+def _unsayable(r: Requirement) -> Iterator[str]:
+    if isinstance(r, WorldRequirement) and r.field in _WIND:
+        yield f'world {r.field}'
+    elif isinstance(r, CountRequirement):
+        yield 'count'
+    elif isinstance(r, MissionRequirement):
+        yield from (f'mission {what}' for what in _of_flight(r))
+    elif isinstance(r, LinkRequirement):
+        yield from (f'link {name}' for name in _OF_A_LINK if name in stated_fields(r))
+    elif isinstance(r, ConditionRequirement) and r.quantity not in STATED_QUANTITIES:
+        yield f'condition {r.quantity}'
+    elif isinstance(r, EventRequirement):
+        if r.once is False:
+            yield 'event once'
+        if r.trigger is not None and r.trigger.on in _TRIGGERS:
+            yield f'trigger {r.trigger.on}'
+        if r.action is not None and r.action.do in _ACTIONS:
+            yield f'action {r.action.do}'
+        if r.action is not None:
+            yield from (f'action {what}' for what in _of_flight(r.action))
+
+
+def _of_flight(flight: MissionRequirement | Action) -> Iterator[str]:
+    stated = stated_fields(flight)
+    yield from (name for name in _OF_A_FLIGHT if name in stated)
+    if flight.pattern is not None and flight.pattern not in set(Pattern):
+        yield f'pattern {flight.pattern}'
+    if isinstance(flight.altitude_m, tuple):
+        yield 'altitude_m from low to high'

@@ -1,0 +1,97 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""A reference that is run is asked for every number that the annotation states."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import pytest
+
+from aurora_bench.prompts.format import AnnotatedPrompt
+from aurora_bench.prompts.reference_spec import reference_spec
+from aurora_core.agsg.build import build_agsg
+from aurora_core.pipeline.functions import ground_stage, knowledge
+from aurora_core.spec.parameter import Bound, Provenance
+from aurora_core.spec.scenario import ScenarioSpec
+
+Doc = dict[str, Any]
+TEXT = 'A drone circles City Hall at 40 m with a radius of 50 m at 8 m/s.'
+
+
+def asked(*requirements: Doc, text: str = TEXT, **fields: Any) -> AnnotatedPrompt:
+    """Return an annotated prompt about one drone."""
+    return AnnotatedPrompt.model_validate(
+        {
+            'id': 'patrol-901', 'category': 'patrol', 'prompt': text, 'feasibility': 'feasible',
+            'paraphrase_group': None, 'end_to_end': False,
+            'requirements': [{'id': 'r1', 'kind': 'uav', 'ref': 'uav1'}, *requirements], **fields,
+        }
+    )  # fmt: skip
+
+
+ORBIT: Doc = {
+    'id': 'r2', 'kind': 'mission', 'ref': 'm1', 'uav': 'uav1', 'mode': 'navigate',
+    'target': 'City Hall', 'pattern': 'orbit', 'altitude_m': 40, 'radius_m': 50, 'speed_mps': 8,
+}  # fmt: skip
+
+
+def condition_ids(spec: ScenarioSpec) -> set[str]:
+    """Return the conditions that a grounded specification is judged by."""
+    graph = ground_stage(build_agsg(spec, map_digest=knowledge().map('downtown').digest), 1).agsg
+    assert graph is not None
+    return {c['id'] for c in json.loads(graph.conditions_json)}
+
+
+def test_annotated_numbers_get_the_conditions_that_a_prompt_would_get() -> None:
+    hover: Doc = {
+        'id': 'r2', 'kind': 'mission', 'ref': 'm1', 'uav': 'uav1', 'mode': 'hover',
+        'target': 'City Hall', 'altitude_m': 40, 'duration_s': 10,
+    }  # fmt: skip
+    plain, judged = reference_spec(asked(hover)), reference_spec(asked(hover), judged=True)
+    assert condition_ids(judged) - condition_ids(plain) == {'m1.altitude', 'm1.duration'}
+
+
+def test_a_number_has_the_span_that_states_it_and_a_derived_one_the_prompt() -> None:
+    mission = reference_spec(asked({**ORBIT, 'duration_s': 25}), judged=True).missions[0]
+    assert mission.altitude_m.provenance is Provenance.EXPLICIT
+    spans = {}
+    for name in ('altitude_m', 'radius_m', 'speed_mps', 'duration_s'):
+        span = getattr(mission, name).span
+        spans[name] = TEXT[span.start : span.end]
+    assert spans == {
+        'altitude_m': '40 m', 'radius_m': '50 m', 'speed_mps': '8 m/s', 'duration_s': TEXT,
+    }  # fmt: skip
+
+
+def test_what_is_not_annotated_stays_a_default() -> None:
+    mission = reference_spec(asked({**ORBIT, 'pattern': 'rectangle'}), judged=True).missions[0]
+    assert mission.size_m is not None
+    assert {p.provenance for p in mission.size_m} == {Provenance.DEFAULT}
+
+
+@pytest.mark.parametrize(
+    ('ends', 'approximate', 'bound'),
+    [
+        ((36, 44), True, Bound.EXACTLY),
+        ((39, 41), False, Bound.EXACTLY),
+        ((40, 120), False, Bound.AT_LEAST),
+        ((3, 40), False, Bound.AT_MOST),
+        ((38, 40), False, Bound.EXACTLY),
+    ],
+)
+def test_a_range_says_how_a_number_binds(
+    ends: tuple[float, float], approximate: bool, bound: Bound
+) -> None:
+    prompt = asked(ORBIT, variation={'r2.altitude_m': ends})
+    altitude = reference_spec(prompt, judged=True).missions[0].altitude_m
+    assert (altitude.approximate, altitude.bound) == (approximate, bound)
+
+
+def test_one_clause_names_every_element() -> None:
+    car: Doc = {'id': 'r3', 'kind': 'agent', 'ref': 'car1', 'type': 'car'}
+    none: Doc = {'id': 'r4', 'kind': 'agent', 'ref': 'no', 'type': 'bus', 'count': 0}
+    (clause,) = reference_spec(asked(ORBIT, car, none), judged=True).clauses
+    assert clause.text == TEXT
+    assert set(clause.ids) == {'car1', 'uav1', 'm1', 'no1'}
