@@ -20,9 +20,8 @@ from typing import Any
 
 from aurora_bench.prompts.documents import Doc, read_documents, write_documents
 from aurora_bench.prompts.format import AnnotatedPrompt
+from aurora_bench.rulers.watched import WatchedStages
 from aurora_cli.clock import MonotonicClock
-from aurora_cli.local_engine import LocalStages
-from aurora_core.parsing.outcome import ParseOutcome
 from aurora_core.pipeline.run import run
 from aurora_core.pipeline.stages import RunControl, RunRequest
 from aurora_core.report.run_folder import RunFolder, StageFile, new_run_id
@@ -34,27 +33,6 @@ _AGENT = ('lane_id', 'lane_position_m', 'x_m', 'y_m', 'speed_mps')
 _MISSION = (
     'altitude_m', 'standoff_m', 'offset_m', 'duration_s', 'speed_mps', 'hover_point', 'waypoints',
 )  # fmt: skip
-
-
-class ReferenceStages(LocalStages):
-    """The local engine, with a given specification in place of the parser."""
-
-    def __init__(self, reference: Mapping[str, Any]) -> None:
-        """Take the reference of a prompt.
-
-        Args:
-            reference: A specification, as a document.
-        """
-        super().__init__()
-        # A run whose prompt is not divided into clauses counts as incomplete. The reference is
-        # built from all requirements, so that the prompt as a whole is what it encodes.
-        prompt = reference['prompt']
-        clause = {'text': prompt, 'span': {'start': 0, 'end': len(prompt)}, 'status': 'encoded'}
-        self._spec = ScenarioSpec.model_validate({**reference, 'clauses': [clause]})
-
-    def parse(self, request: RunRequest) -> ParseOutcome:
-        """Return the reference."""
-        return ParseOutcome(spec=self._spec)
 
 
 def realized(prompt: AnnotatedPrompt, folder: Path) -> tuple[Doc | None, RunReport]:
@@ -69,7 +47,7 @@ def realized(prompt: AnnotatedPrompt, folder: Path) -> tuple[Doc | None, RunRepo
     """
     run_folder = RunFolder(folder, new_run_id(datetime.now(UTC), b'ref'))
     request = RunRequest(prompt=prompt.prompt, seed=SEED)
-    stages = ReferenceStages(prompt.reference or {})
+    stages = WatchedStages(_with_clause(prompt.reference or {}))
     report = run(request, stages, run_folder, RunControl(), MonotonicClock())
     if report.status != 'verified':
         return None, report
@@ -78,6 +56,17 @@ def realized(prompt: AnnotatedPrompt, folder: Path) -> tuple[Doc | None, RunRepo
         for kind in (StageFile.GROUNDING, StageFile.SCHEDULE)
     )
     return realization(grounding, schedule), report
+
+
+def _with_clause(reference: Mapping[str, Any]) -> ScenarioSpec:
+    """Return a stored reference as a specification.
+
+    A run whose prompt is not divided into clauses counts as incomplete. The reference is built
+    from all requirements, so that the prompt as a whole is what it encodes.
+    """
+    prompt = reference['prompt']
+    clause = {'text': prompt, 'span': {'start': 0, 'end': len(prompt)}, 'status': 'encoded'}
+    return ScenarioSpec.model_validate({**reference, 'clauses': [clause]})
 
 
 def realization(grounding: Doc, schedule: Doc) -> Doc:

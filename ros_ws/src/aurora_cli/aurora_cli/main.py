@@ -35,7 +35,7 @@ bag = typer.Typer(help='Recordings.', rich_markup_mode=None)
 app.add_typer(maps, name='map')
 app.add_typer(certificate, name='certificate')
 app.add_typer(bag, name='bag')
-bench = typer.Typer(help='Benchmarks of reading prompts.', rich_markup_mode=None)
+bench = typer.Typer(help='Measurements over prompt files.', rich_markup_mode=None)
 app.add_typer(bench, name='bench')
 
 Json = Annotated[bool, typer.Option('--json', help='One JSON document on standard output.')]
@@ -344,6 +344,8 @@ def _measurement(package: str) -> Callable[[typer.Context], None]:
 
 for _package, _help in (
     ('fidelity', 'How much of what prompts ask for their specifications hold.'),
+    ('realise', 'Run what annotations say; count what is realised and what is contradicted.'),
+    ('outcome', 'Run prompts to their verdicts; count the right ones and the silent failures.'),
     ('record', 'Record the replies of language models, to repeat a campaign without them.'),
 ):
     bench.command(_package, help=_help, context_settings=Anything, add_help_option=False)(

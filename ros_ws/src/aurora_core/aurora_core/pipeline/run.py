@@ -9,7 +9,7 @@ Whatever breaks becomes the run's status `error`; the folder always ends with a 
 from __future__ import annotations
 
 import logging
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
 from types import MappingProxyType
@@ -178,6 +178,7 @@ def run(
     *,
     versions: Mapping[str, str] = MappingProxyType({}),
     manifest: Mapping[str, Any] = MappingProxyType({}),
+    outputs: Callable[[RunReport, RunFolder], None] = write_outputs,
 ) -> RunReport:
     """Run a prompt and return its report, which is also written to the folder.
 
@@ -189,6 +190,7 @@ def run(
         clock: For the timings.
         versions: Versions of the product and of what decides results.
         manifest: Facts about the process, written first (an unfinished run is found by them).
+        outputs: Writes what the run leaves for people; campaigns need no pictures.
 
     Raises:
         ReportError: The folder cannot be written.
@@ -221,7 +223,7 @@ def run(
         state.note(error=AuroraError(text, hint='this is a defect of AURORA: please report it'))
     control.progress('report', _BEGINS['report'], 0.0)
     report = build_report(state.facts)
-    write_outputs(report, folder)
+    outputs(report, folder)
     _keep(request, report, state.facts)
     control.progress('done', _BEGINS['done'], 0.0)
     return report

@@ -21,11 +21,20 @@ def write_outputs(report: RunReport, folder: RunFolder) -> None:
         ReportError: The folder cannot be written.
     """
     # First, since it closes the run; what follows can be made again from it and the bag.
-    folder.write_json(REPORT, report)
+    write_report(report, folder)
     picture = _picture(report, folder)
     if picture is not None:
         folder.write_bytes(PICTURE, picture)
     folder.write_text(REPORT_HTML, report_html(report, picture))
+
+
+def write_report(report: RunReport, folder: RunFolder) -> None:
+    """Write `report.json` alone.
+
+    Raises:
+        ReportError: The folder cannot be written.
+    """
+    folder.write_json(REPORT, report)
 
 
 def _picture(report: RunReport, folder: RunFolder) -> bytes | None:

@@ -1,0 +1,208 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a worker of a ruler does: run one trial in the local engine and judge how it ended."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+from aurora_bench.prompts.format import AnnotatedPrompt, RejectRequirement, flat
+from aurora_bench.prompts.reference_names import NotExpressibleError
+from aurora_bench.prompts.reference_spec import reference_spec
+from aurora_bench.rulers.causes import Found, cause_of, reasons
+from aurora_bench.rulers.checking import Check, Said, asked_of, independent_checker
+from aurora_bench.rulers.trial import Cause, JudgedTrial, Trial, judged
+from aurora_bench.rulers.watched import WatchedStages
+from aurora_cli.clock import MonotonicClock
+from aurora_core.pipeline.functions import knowledge
+from aurora_core.pipeline.run import run
+from aurora_core.pipeline.stages import RunControl, RunRequest
+from aurora_core.report.outputs import write_report
+from aurora_core.report.run_folder import RunFolder, new_run_id
+from aurora_core.report.run_report import RunReport
+from aurora_core.report.status import Status
+from aurora_core.spec.scenario import ScenarioSpec
+
+
+@dataclass(kw_only=True)
+class RunWork:
+    """How trials are run; sent to every worker.
+
+    Attributes:
+        folder: Runs go below it.
+        keep: They stay there.
+        map_name: Map of the runs.
+        check: The checker; None: the independent one.
+    """
+
+    folder: Path
+    keep: bool = False
+    map_name: str = 'downtown'
+    check: Check | None = None
+    _seconds: dict[str, float] = field(default_factory=dict, init=False)
+
+    def prepare(self) -> None:
+        """Load what every run needs: simulator, map, configuration, checker."""
+        import libsumo  # noqa: F401  (takes seconds; a run would wait for it)
+
+        knowledge().map(self.map_name)
+        if self.check is None:
+            self.check = independent_checker()
+
+    def __call__(self, trial: Trial) -> JudgedTrial:
+        """Run one trial; its folder goes, whatever happens, unless it is kept."""
+        self._seconds = {}
+        begin = time.perf_counter()
+        place = self.folder / trial.folder
+        shutil.rmtree(place, ignore_errors=True)  # of a campaign that was cut short
+        try:
+            place.mkdir(parents=True)
+            result = self.judge(trial, place)
+        finally:
+            if not self.keep:
+                shutil.rmtree(place, ignore_errors=True)
+        self._seconds['all'] = time.perf_counter() - begin
+        return result.model_copy(update={'seconds': self._seconds})
+
+    def judge(self, trial: Trial, place: Path) -> JudgedTrial:
+        """Run a trial into a folder and judge it."""
+        raise NotImplementedError
+
+    def ran(self, request: RunRequest, place: Path, stages: WatchedStages) -> _Ran:
+        """Run a request into a folder and remember how long its stages took."""
+        folder = RunFolder(place, new_run_id(datetime.now(UTC), os.urandom(3)))
+        report = run(request, stages, folder, RunControl(), MonotonicClock(), outputs=write_report)
+        self._seconds.update(report.timing)
+        return _Ran(report, stages, folder.path)
+
+    def verified(self, trial: Trial, ran: _Ran) -> JudgedTrial:
+        """Judge a run that had to be verified."""
+        report = ran.report
+        said: tuple[Said, ...] = ()
+        found: Found | None = None
+        if report.status is Status.VERIFIED:
+            said, found = self._checked(trial, ran)
+        else:
+            found = cause_of(report, ran.stages.grounding)
+        return judged(
+            trial,
+            status=report.status.value,
+            cause=found[0] if found is not None else None,
+            words=found[1] if found is not None else (),
+            summary=report.summary,
+            said=said,
+            trace_sha256=report.trace.sha256 if report.trace is not None else '',
+        )
+
+    def _checked(self, trial: Trial, ran: _Ran) -> tuple[tuple[Said, ...], Found | None]:
+        """Let the checker contradict a verified run; one that breaks has confirmed nothing."""
+        assert self.check is not None
+        assert ran.report.trace is not None
+        bag = ran.folder / ran.report.trace.bag
+        begin = time.perf_counter()
+        try:
+            said = asked_of(self.check, bag, trial.document)
+        except Exception as err:  # noqa: BLE001  (a checker that breaks must not end the campaign)
+            return (), (Cause.ERROR, (f'checker: {type(err).__name__}: {err}',))
+        finally:
+            self._seconds['checker'] = time.perf_counter() - begin
+        wrong = tuple(dict.fromkeys(s.kind for s in said if s.outcome == 'does_not'))
+        return said, (Cause.CONTRADICTED, wrong) if wrong else None
+
+
+@dataclass(frozen=True)
+class _Ran:
+    report: RunReport
+    stages: WatchedStages
+    folder: Path
+
+
+@dataclass(kw_only=True)
+class RealiseWork(RunWork):
+    """Runs the reference of every annotation."""
+
+    def judge(self, trial: Trial, place: Path) -> JudgedTrial:
+        """Build the reference and run it."""
+        begin = time.perf_counter()
+        try:
+            spec = on_map(reference_spec(trial.prompt, judged=True), self.map_name)
+        except NotExpressibleError as err:
+            return judged(
+                trial,
+                status='not_expressible',
+                cause=Cause.CAPABILITY,
+                words=(str(err),),
+                summary=f'The annotation cannot be written as a specification: {err}',
+            )
+        finally:
+            self._seconds['reference'] = time.perf_counter() - begin
+        request = RunRequest(prompt=trial.prompt.prompt, seed=trial.seed, map_name=self.map_name)
+        return self.verified(trial, self.ran(request, place, WatchedStages(spec)))
+
+
+@dataclass(kw_only=True)
+class OutcomeWork(RunWork):
+    """Runs every prompt from its text.
+
+    Attributes:
+        model: Who reads, as in `aurora run`.
+        transcripts: Recorded replies in place of the models.
+    """
+
+    model: str = 'offline'
+    transcripts: Path | None = None
+
+    def judge(self, trial: Trial, place: Path) -> JudgedTrial:
+        """Run the prompt."""
+        request = RunRequest(
+            prompt=trial.prompt.prompt,
+            seed=trial.seed,
+            map_name=self.map_name,
+            model=self.model,
+            transcripts=self.transcripts,
+            history_frozen=True,
+        )
+        ran = self.ran(request, place, WatchedStages())
+        if trial.prompt.feasibility != 'infeasible':
+            return self.verified(trial, ran)
+        found = refusal_cause(trial.prompt, ran.report)
+        return judged(
+            trial,
+            status=ran.report.status.value,
+            cause=found[0] if found is not None else None,
+            words=found[1] if found is not None else (),
+            summary=ran.report.summary,
+        )
+
+
+def refusal_cause(prompt: AnnotatedPrompt, report: RunReport) -> Found | None:
+    """Return why a run that had to be refused is not right; None when it is.
+
+    One of the annotated reasons suffices: several are several fair readings.
+    """
+    wanted = {r.because for r in flat(prompt.requirements) if isinstance(r, RejectRequirement)}
+    given = reasons(report)
+    if wanted.intersection(given):
+        return None
+    if given:
+        return Cause.OTHER_REASON, tuple(f'{", ".join(sorted(wanted))}: {g}' for g in given)
+    if report.status in (Status.VERIFIED, Status.VERIFIED_AS_EDITED):
+        return Cause.ACCEPTED, tuple(sorted(wanted))
+    if report.status in (Status.ERROR, Status.CANCELLED):
+        return cause_of(report, None)
+    return Cause.NOT_REFUSED, (report.status.value,)
+
+
+def on_map(spec: ScenarioSpec, map_name: str) -> ScenarioSpec:
+    """Return a specification that lies on a map unless its annotation names another one."""
+    values: Mapping[str, Any] = {'map_name': map_name}
+    if 'map_name' in spec.world.model_fields_set:
+        return spec
+    return spec.model_copy(update={'world': spec.world.model_copy(update=values)})

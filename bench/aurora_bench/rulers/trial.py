@@ -1,0 +1,113 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""One trial: a prompt run once with one seed, and what came of it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from enum import StrEnum
+from typing import Any
+
+from pydantic import FiniteFloat
+
+from aurora_bench.prompts.format import AnnotatedPrompt, Category, Feasibility
+from aurora_bench.rulers.checking import Said
+from aurora_core.spec.parameter import Document
+
+
+class Cause(StrEnum):
+    """Why a trial did not end as it should, the first that applies."""
+
+    ERROR = 'error'  # something broke, or a worker died or took too long
+    CONTRADICTED = 'contradicted'  # verified, and the checker shows that it does not hold
+    ACCEPTED = 'accepted'  # to be refused, and verified
+    NOT_REFUSED = 'not refused'  # to be refused, and ended otherwise
+    OTHER_REASON = 'other reason'  # refused for a reason that is not annotated
+    READING = 'reading'  # a question, or a clause that was not encoded
+    CAPABILITY = 'capability'  # no specification says it, or nothing runs or judges it yet
+    GROUNDING = 'grounding'  # no place, no plan, or refused
+    CONDITION = 'condition'  # it was run, and a condition does not hold
+
+
+class Trial(Document):
+    """A prompt and a seed.
+
+    Attributes:
+        key: Unique in a campaign, the same when it is repeated.
+        file: Name of the prompt file.
+        prompt: What is asked.
+        document: The same, as the file's line has it.
+        folder: Where the run goes, below the campaign's folder.
+    """
+
+    key: str
+    file: str
+    seed: int
+    prompt: AnnotatedPrompt
+    document: Mapping[str, Any]
+    folder: str
+
+
+class JudgedTrial(Document):
+    """What came of a trial; equal for equal requests but for the seconds.
+
+    Attributes:
+        status: Of the run; `not_expressible` and `lost` where there was none.
+        right: It ended as it should.
+        cause: None when it is right.
+        words: What exactly, in words that are the same for many prompts.
+        summary: What the run's report says.
+        said: The checker's answers; () for a run that is not verified.
+        trace_sha256: '' without a trace.
+        seconds: Wall seconds by stage.
+    """
+
+    file: str
+    id: str
+    category: Category
+    feasibility: Feasibility
+    seed: int
+    status: str
+    right: bool
+    cause: Cause | None = None
+    words: tuple[str, ...] = ()
+    summary: str = ''
+    said: tuple[Said, ...] = ()
+    trace_sha256: str = ''
+    seconds: Mapping[str, FiniteFloat] = {}
+
+    @property
+    def contradictions(self) -> tuple[Said, ...]:
+        """Annotated requirements that the checker shows not to hold."""
+        return tuple(s for s in self.said if s.outcome == 'does_not')
+
+
+def judged(
+    trial: Trial, *, status: str, cause: Cause | None, words: tuple[str, ...] = (), **more: Any
+) -> JudgedTrial:
+    """Return what came of a trial; without a cause it is right.
+
+    Args:
+        trial: The prompt and its seed.
+        status: Of the run.
+        cause: Why it did not end as it should.
+        words: What exactly.
+        more: Other fields of `JudgedTrial`.
+    """
+    return JudgedTrial(
+        file=trial.file,
+        id=trial.prompt.id,
+        category=trial.prompt.category,
+        feasibility=trial.prompt.feasibility,
+        seed=trial.seed,
+        status=status,
+        right=cause is None,
+        cause=cause,
+        words=words,
+        **more,
+    )
+
+
+def lost(trial: Trial, why: str) -> JudgedTrial:
+    """Return the result of a trial whose worker gave none."""
+    return judged(trial, status='lost', cause=Cause.ERROR, words=(why,), summary=why)

@@ -1,0 +1,39 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The local engine as a ruler uses it: it remembers what grounding said."""
+
+from __future__ import annotations
+
+from aurora_cli.local_engine import LocalStages
+from aurora_core.agsg.graph import Agsg
+from aurora_core.grounding.outcome import GroundingOutcome
+from aurora_core.parsing.outcome import ParseOutcome
+from aurora_core.pipeline.stages import RunRequest
+from aurora_core.spec.scenario import ScenarioSpec
+
+
+class WatchedStages(LocalStages):
+    """The local engine; with a specification nothing of a parser is in it.
+
+    Attributes:
+        grounding: What grounding said; None before.
+    """
+
+    def __init__(self, spec: ScenarioSpec | None = None) -> None:
+        """Take what is run.
+
+        Args:
+            spec: Stands in place of what the prompt would be read as; None: it is read.
+        """
+        super().__init__()
+        self._spec = spec
+        self.grounding: GroundingOutcome | None = None
+
+    def parse(self, request: RunRequest) -> ParseOutcome:
+        """Return the specification, or read the prompt."""
+        return ParseOutcome(spec=self._spec) if self._spec is not None else super().parse(request)
+
+    def ground(self, agsg: Agsg, request: RunRequest) -> GroundingOutcome:
+        """Ground the graph and remember the outcome."""
+        self.grounding = super().ground(agsg, request)
+        return self.grounding
