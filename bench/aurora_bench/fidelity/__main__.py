@@ -11,12 +11,12 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from aurora_bench.fidelity.answer import answer
+from aurora_bench.fidelity.prompt_file import prompt_file
 from aurora_bench.fidelity.summary import Judged, as_json, judge, last_line, tables
 from aurora_bench.fidelity.timing import seconds_per_prompt, timing_table
 from aurora_bench.interrupt import stop_on_sigterm
 from aurora_bench.machine import machine_facts
 from aurora_bench.progress import Progress
-from aurora_bench.prompts.reading import read_prompts
 from aurora_bench.prompts.shipped import first_files
 from aurora_bench.results import ResultsError, markdown_table, write_results
 from aurora_bench.seeds import seed_option
@@ -51,7 +51,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     machine = machine_facts()
     try:
         check_model_name(options.model)
-        everything = [prompt for path in options.files for prompt in read_prompts(path)]
+        files = [prompt_file(path) for path in options.files]
+        everything = [prompt for file in files for prompt in file.prompts]
     except (ResultsError, ConfigError) as err:
         sys.stderr.write(f'{err}\n')
         return 64
@@ -84,9 +85,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     shown = (*tables(judged), timing_table(warm))
     sys.stdout.write('\n\n'.join(markdown_table(table) for table in shown) + '\n\n')
     if options.results is not None:
-        names = [f'{path.parent.name}/{path.name}' for path in options.files]
+        names = [file.name for file in files]
         document = {
             'files': names,
+            'prompt_files': [
+                {'name': file.name, 'sha256': file.sha256, 'beyond': file.beyond} for file in files
+            ],
             'model': options.model,
             'seconds_per_prompt': seconds_per_prompt(warm),
             **as_json(judged),
@@ -97,11 +101,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
             document,
             title=f'Fidelity of {options.model} on {", ".join(names)}',
             tables=shown,
-            notes=(f'`{last_line(judged)}`',),
+            notes=(*(f'`{file.line}`' for file in files), f'`{last_line(judged)}`'),
             machine=machine,
         )
         progress.note(f'see {written}')
-    sys.stdout.write(f'{last_line(judged)}\n')
+    sys.stdout.write(
+        ''.join(f'{line}\n' for line in (*(f.line for f in files), last_line(judged)))
+    )
     return 0
 
 

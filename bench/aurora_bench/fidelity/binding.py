@@ -22,10 +22,12 @@ class Binding:
     Attributes:
         bodies: Agents and UAVs by local name; a group has several, a name without partner none.
         moments: Missions and events by local name.
+        others: What else says the same as a named mission or event (`equivalences.py`).
     """
 
     bodies: Names
     moments: Mapping[str, str] = field(default_factory=dict)
+    others: Names = field(default_factory=dict)
 
     def of(self, name: str) -> frozenset[str]:
         """Return the specification's ids (or the place) that a local name means."""
@@ -34,6 +36,11 @@ class Binding:
         if name in {place.value for place in Place}:
             return frozenset({name})
         return frozenset({f'landmark:{name}'})
+
+    def moments_of(self, name: str) -> frozenset[str]:
+        """Return every mission, event or moment of one that a local name stands for."""
+        own = self.moments.get(name)
+        return self.others.get(name, frozenset()) | ({own} if own is not None else frozenset())
 
     def means(self, name: str, found: str | None) -> bool:
         """Whether an id of the specification is (one of) what a local name means."""

@@ -21,14 +21,15 @@ from aurora_bench.prompts.format import (
 from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.scenario import (
     Event,
+    EventAction,
     EventDoneTrigger,
     SendMessage,
     StatedCondition,
     UavAction,
 )
+from aurora_core.spec.scenario import Trigger as SpecTrigger
 
 _APART = {'separation', 'distance'}
-_NUMBERS = frozenset({'value_m', 'at_s', 'value_mps', 'after_s', 'altitude_m'})
 
 
 def event_names(r: EventRequirement) -> list[str]:
@@ -45,9 +46,9 @@ def event_fields(r: EventRequirement, event: Event, subject: Subject, rule: Numb
     """Compare an event; fields of another kind of trigger or action never count."""
     fields = dict.fromkeys(event_names(r), False)
     if r.trigger is not None and event.trigger is not None and event.trigger.on == r.trigger.on:
-        fields |= _trigger(r.trigger, event, subject, rule)
+        fields |= trigger_fields(r.trigger, event.trigger, subject, rule, event.delay_s)
     if r.action is not None and event.action is not None and event.action.do == r.action.do:
-        fields |= _action(r.action, event, subject, rule)
+        fields |= action_fields(r.action, event.action, subject, rule)
     return fields
 
 
@@ -86,24 +87,29 @@ def implied_event_fields(
                     }
 
 
-def _trigger(wanted: Trigger, event: Event, subject: Subject, rule: NumberRule) -> Fields:
-    found = event.trigger
+def trigger_fields(
+    wanted: Trigger,
+    found: SpecTrigger,
+    subject: Subject,
+    rule: NumberRule,
+    delay_s: Parameter | None = None,
+) -> Fields:
+    """Compare a trigger with one of the same kind; `delay_s` is of the event that has it."""
     fields = {'trigger.on': True}
     stated = stated_fields(wanted)
     for name, value in stated.items():
         key = f'trigger.{name}'
-        if name in _NUMBERS:
-            number = getattr(found, name)
-            # "5 s after e1" may be the trigger's delay or the event's.
-            if name == 'after_s' and number is None:
-                number = event.delay_s
-            fields[key] = rule.counts(key, value, number)
-        elif name == 'event':
+        other = getattr(found, 'sender' if name == 'from' else name, None)
+        if name == 'event':
             assert isinstance(found, EventDoneTrigger)
             fields[key] = subject.binding.moments.get(value) == found.event
+        elif isinstance(value, float):
+            # "5 s after e1" may be the trigger's delay or the event's.
+            if name == 'after_s' and other is None:
+                other = delay_s
+            fields[key] = rule.counts(key, value, other)
         elif name != 'on':
-            other = getattr(found, 'sender' if name == 'from' else name)
-            fields[key] = subject.binding.means(value, other)
+            fields[key] = isinstance(value, str) and subject.binding.means(value, other)
     if wanted.a is not None and wanted.b is not None:  # a distance has no direction
         a, b = getattr(found, 'a', None), getattr(found, 'b', None)
         if subject.binding.means(wanted.a, b) and subject.binding.means(wanted.b, a):
@@ -111,8 +117,10 @@ def _trigger(wanted: Trigger, event: Event, subject: Subject, rule: NumberRule) 
     return fields
 
 
-def _action(wanted: Action, event: Event, subject: Subject, rule: NumberRule) -> Fields:
-    found = event.action
+def action_fields(
+    wanted: Action, found: EventAction, subject: Subject, rule: NumberRule
+) -> Fields:
+    """Compare an action with one of the same kind; a change of mission by its new mission."""
     fields = {'action.do': True}
     stated = stated_fields(wanted)
     carrier: object = found
@@ -129,7 +137,7 @@ def _action(wanted: Action, event: Event, subject: Subject, rule: NumberRule) ->
         elif name in ('mode', 'pattern'):
             fields[key] = other is value
         elif name != 'do':
-            fields[key] = subject.binding.means(value, other)
+            fields[key] = isinstance(value, str) and subject.binding.means(value, other)
     return fields
 
 

@@ -20,8 +20,10 @@ from aurora_bench.prompts.format import (
     LinkRequirement,
     MissionRequirement,
     PlacementRequirement,
+    Requirement,
     UavRequirement,
     WorldRequirement,
+    stated_fields,
 )
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.scenario import ScenarioSpec, UavMission
@@ -38,6 +40,25 @@ class Subject:
     placements: tuple[PlacementFact, ...]
     behaviors: tuple[BehaviorFact, ...]
     before: frozenset[tuple[str, str]]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Case:
+    """A requirement and what it is looked for in.
+
+    Attributes:
+        requirement: One of the prompt, or one reading of an `any_of`.
+        asked: All requirements of the prompt, readings included.
+        subject: Specification and binding.
+        rule: Tolerances of the requirement.
+        is_reading: It is one of several readings: it may share elements with other requirements.
+    """
+
+    requirement: Requirement
+    asked: tuple[Requirement, ...]
+    subject: Subject
+    rule: NumberRule
+    is_reading: bool
 
 
 def best(candidates: Iterable[Fields], names: Iterable[str]) -> Fields:
@@ -61,8 +82,8 @@ def world_fields(r: WorldRequirement, subject: Subject, rule: NumberRule) -> Fie
         'time_of_day': world.time_of_day,
         'map': world.map_name,
         'traffic_density': world.traffic_density or '',
-    }[r.field]
-    return {'value': str(found) == str(r.value)}
+    }.get(r.field)
+    return {'value': found is not None and str(found) == str(r.value)}
 
 
 def agent_fields(r: AgentRequirement, subject: Subject) -> Fields:
@@ -187,6 +208,33 @@ def link_fields(r: LinkRequirement, subject: Subject, rule: NumberRule) -> Field
         ),
         ['sender', 'receiver', *numbers],
     )
+
+
+# What `world_fields` to `condition_fields` look at; the annotation format may have grown.
+_READ: dict[str, frozenset[str]] = {
+    'world': frozenset({'field', 'value'}),
+    'agent': frozenset({'ref', 'type', 'count', 'role'}),
+    'uav': frozenset({'ref', 'count'}),
+    'placement': frozenset({'agent', 'relation', 'of', 'distance_m', 'bearing_deg'}),
+    'behavior': frozenset({'agent', 'behavior', 'target', 'speed_mps'}),
+    'mission': frozenset({'ref', 'uav', 'mode', 'target', 'pattern', 'size_m', *_MISSION_NUMBERS}),
+    'link': frozenset({'sender', 'receiver', 'loss', 'latency_s', 'range_m', 'retransmissions'}),
+    'event': frozenset({'ref', 'trigger', 'action'}),
+    'order': frozenset({'first', 'then', 'within_s'}),
+    'condition': frozenset({'quantity', 'of', 'op', 'value', 'hold_s', 'by_s', 'fraction'}),
+    'reject': frozenset({'because'}),
+}
+_OF_EVERY_KIND = frozenset({'id', 'kind', 'negate', 'tol'})
+
+
+def unread_fields(r: Requirement) -> Fields:
+    """Return the annotated fields that no comparison knows: a specification cannot say them yet.
+
+    Each counts as not held, so that an extension of the format is never met by being overlooked.
+    """
+    read = _READ.get(r.kind)
+    names = [n for n in stated_fields(r) if n not in _OF_EVERY_KIND | (read or frozenset())]
+    return dict.fromkeys(names or ['kind'], False) if read is None or names else {}
 
 
 def _named(value: object, name: str) -> list[str]:

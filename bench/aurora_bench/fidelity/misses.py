@@ -50,9 +50,11 @@ class Miss(Document):
 
 def misses(prompt: AnnotatedPrompt, answer: Answer, score: PromptScore) -> Iterator[Miss]:
     """Return every miss of one answer."""
-    for requirement, result in zip(prompt.requirements, score.requirements, strict=True):
+    by_id = {requirement.id: requirement for requirement in prompt.requirements}
+    for result in score.requirements:
         if result.is_met:
             continue
+        requirement = by_id[result.id]
         lost = tuple(name for name, held in result.fields.items() if not held)
         clauses = evidence(prompt, requirement, lost, answer.clauses)
         told_of = [

@@ -4,6 +4,9 @@
 
 from __future__ import annotations
 
+import json
+from typing import Any
+
 from aurora_core.spec.scenario import (
     Event,
     EventDoneTrigger,
@@ -12,6 +15,7 @@ from aurora_core.spec.scenario import (
     ScenarioSpec,
     SendMessage,
     TimeTrigger,
+    Trigger,
     UavAction,
 )
 
@@ -32,7 +36,11 @@ def precedence(spec: ScenarioSpec) -> frozenset[tuple[str, str]]:
     pairs |= {(a, b) for at_a, a in timed for at_b, b in timed if at_a < at_b}
     pairs |= {(order.first, order.then) for order in spec.orders}
     for event in spec.events:
-        pairs |= {(before, event.id) for before in _causes(event, spec)}
+        causes = _causes(event, spec)
+        pairs |= {(before, event.id) for before in causes}
+        if event.trigger is not None:
+            onset = onset_of(event.trigger)
+            pairs |= {(before, onset) for before in causes} | {(onset, event.id)}
         if isinstance(event.action, UavAction) and event.action.mission is not None:
             pairs.add((event.id, event.action.mission))
     return _closed(pairs)
@@ -41,6 +49,20 @@ def precedence(spec: ScenarioSpec) -> frozenset[tuple[str, str]]:
 def landing_of(uav: str) -> str:
     """Return the name of the landing that ends the last mission of a UAV."""
     return f'landing of {uav}'
+
+
+def onset_of(trigger: Trigger) -> str:
+    """Return the name of the moment at which a trigger comes true, the same for equal triggers."""
+    return f'onset of {json.dumps(_plain(trigger.model_dump(mode="json")), sort_keys=True)}'
+
+
+def _plain(value: Any) -> Any:
+    """Return a trigger's document without what tells only where and how it was read."""
+    if isinstance(value, dict):
+        if 'provenance' in value:
+            return value['value']
+        return {k: _plain(v) for k, v in value.items()}
+    return value
 
 
 def _causes(event: Event, spec: ScenarioSpec) -> set[str]:

@@ -21,15 +21,15 @@ class NumberRule:
     requirement: Requirement
     variation: Mapping[str, tuple[float, float]]
 
-    def counts(self, path: str, wanted: float, found: Parameter | float | None) -> bool:
+    def counts(self, path: str, wanted: object, found: Parameter | float | None) -> bool:
         """Whether a found number is the wanted one.
 
         Args:
             path: Field inside the requirement, e.g. `altitude_m` or `trigger.value_m`.
-            wanted: Annotated value.
+            wanted: Annotated value; a range (an extension of the format) never counts.
             found: In the specification, same unit.
         """
-        if found is None:
+        if found is None or not isinstance(wanted, int | float):
             return False
         value = found.value if isinstance(found, Parameter) else float(found)
         tol = self.requirement.tol

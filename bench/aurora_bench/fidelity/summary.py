@@ -10,6 +10,7 @@ from typing import Any
 
 from aurora_bench.fidelity.answer import Answer
 from aurora_bench.fidelity.consistency import Group, groups
+from aurora_bench.fidelity.equivalences import EQUIVALENCES
 from aurora_bench.fidelity.misses import Miss, Told, misses
 from aurora_bench.fidelity.score import PromptScore, RequirementScore, score
 from aurora_bench.fidelity.wilson import Share
@@ -21,11 +22,20 @@ from aurora_core.spec.vocabulary import ClauseStatus
 
 
 class Judged(Document):
-    """One prompt, its answer, its score and its misses."""
+    """One prompt, its answer, its scores and its misses.
+
+    Attributes:
+        prompt: With its annotation.
+        answer: Of the product.
+        score: The fair one, which counts (`equivalences.py`).
+        strict: Only the form of the annotation counts; beside the fair one.
+        misses: By the fair score.
+    """
 
     prompt: AnnotatedPrompt
     answer: Answer
     score: PromptScore
+    strict: PromptScore
     misses: tuple[Miss, ...]
 
     @property
@@ -64,6 +74,7 @@ def judge(prompt: AnnotatedPrompt, answer: Answer) -> Judged:
         prompt=prompt,
         answer=answer,
         score=result,
+        strict=score(prompt, answer, is_fair=False),
         misses=tuple(misses(prompt, answer, result)),
     )
 
@@ -85,6 +96,11 @@ def all_scores(judged: Sequence[Judged]) -> list[RequirementScore]:
     return [r for j in judged for r in j.score.requirements]
 
 
+def strict_scores(judged: Sequence[Judged]) -> list[RequirementScore]:
+    """Return the scores of all requirements without equivalences, final landings included."""
+    return [r for j in judged for r in j.strict.requirements]
+
+
 def last_line(judged: Sequence[Judged]) -> str:
     """Return the one line that programs read."""
     whole, fields = requirement_share(all_scores(judged)), field_share(all_scores(judged))
@@ -101,6 +117,8 @@ def tables(judged: Sequence[Judged]) -> tuple[Table, ...]:
     told = Counter(m.told for m in lost)
     kinds = Counter((m.kind, ', '.join(m.fields), m.told.value) for m in lost)
     return (
+        _scorer_table(judged),
+        _forms_table(judged),
         _table('kind', _split(judged, lambda _j, r: r.kind)),
         _table('category', _split(judged, lambda j, _r: j.prompt.category)),
         _table('style', _split(judged, lambda j, _r: style(j.prompt.prompt))),
@@ -124,6 +142,40 @@ def tables(judged: Sequence[Judged]) -> tuple[Table, ...]:
 def paraphrases(judged: Sequence[Judged]) -> list[Group]:
     """Return the paraphrase groups and who stands apart in them."""
     return groups([(j.prompt, j.answer) for j in judged])
+
+
+def turned(judged: Sequence[Judged]) -> dict[str, int]:
+    """Return how many requirements each equivalence turned from missed to met.
+
+    An empty key: met in the same form, since other requirements are.
+    """
+    found: Counter[str] = Counter()
+    for j in judged:
+        was_met = {r.id: r.is_met for r in j.strict.requirements}
+        found.update(r.form for r in j.score.requirements if r.is_met and not was_met[r.id])
+        # Named otherwise, or present after all where it must not be.
+        found[''] -= sum(was_met[r.id] and not r.is_met for r in j.score.requirements)
+    return {key: number for key, number in sorted(found.items()) if number}
+
+
+def _scorer_table(judged: Sequence[Judged]) -> Table:
+    rows: list[tuple[Cell, ...]] = []
+    for word, scores in (('strict', strict_scores(judged)), ('fair', all_scores(judged))):
+        rows.append((word, *_shares(scores)))
+    return Table(headings=('scorer', *_SHARES), rows=tuple(rows))
+
+
+def _forms_table(judged: Sequence[Judged]) -> Table:
+    found = turned(judged)
+    landings = [name for j in judged for name in j.score.landings]
+    rows: list[tuple[Cell, ...]] = [(e.key, e.forms, found.get(e.key, 0)) for e in EQUIVALENCES]
+    rows.append(('', 'met or missed with other requirements', found.get('', 0)))
+    rows.append(('landing', 'the landing that ends every mission: not scored', len(landings)))
+    return Table(
+        headings=('form', 'what counts the same', 'requirements'),
+        rows=tuple(rows),
+        caption='What the strict scorer misses and the fair one does not',
+    )
 
 
 def _consistency_table(judged: Sequence[Judged]) -> Table:
@@ -205,6 +257,13 @@ def as_json(judged: Sequence[Judged]) -> dict[str, Any]:
     return {
         'requirement_fidelity': share_json(requirement_share(scores)),
         'field_fidelity': share_json(field_share(scores)),
+        'strict': {
+            'requirement_fidelity': share_json(requirement_share(strict_scores(judged))),
+            'field_fidelity': share_json(field_share(strict_scores(judged))),
+        },
+        'turned': turned(judged),
+        'final_landings': sum(len(j.score.landings) for j in judged),
+        'beyond': sum(len(j.score.beyond) for j in judged),
         'by_kind': _split_json(_split(judged, lambda _j, r: r.kind)),
         'by_category': _split_json(_split(judged, lambda j, _r: j.prompt.category)),
         'by_style': _split_json(_split(judged, lambda j, _r: style(j.prompt.prompt))),
@@ -222,6 +281,9 @@ def as_json(judged: Sequence[Judged]) -> dict[str, Any]:
                 'question': j.answer.question,
                 'error': j.answer.error,
                 'extra': list(j.score.extra),
+                'forms': {r.id: r.form for r in j.score.requirements if r.form},
+                'final_landings': list(j.score.landings),
+                'beyond': list(j.score.beyond),
                 'misses': [m.model_dump(mode='json') for m in j.misses],
             }
             for j in judged
@@ -259,11 +321,14 @@ def _split_json(parts: dict[str, list[RequirementScore]]) -> dict[str, Any]:
 def _table(heading: str, parts: dict[str, list[RequirementScore]]) -> Table:
     rows: list[tuple[Cell, ...]] = []
     for name, scores in parts.items():
-        whole, fields = requirement_share(scores), field_share(scores)
-        low, high = whole.interval
-        interval = f'[{low:.3f}, {high:.3f}]'
-        rows.append((name, whole.total, whole.value, interval, fields.total, fields.value))
-    return Table(
-        headings=(heading, 'requirements', 'met', '95 % interval', 'fields', 'held'),
-        rows=tuple(rows),
-    )
+        rows.append((name, *_shares(scores)))
+    return Table(headings=(heading, *_SHARES), rows=tuple(rows))
+
+
+_SHARES = ('requirements', 'met', '95 % interval', 'fields', 'held')
+
+
+def _shares(scores: Sequence[RequirementScore]) -> tuple[Cell, ...]:
+    whole, fields = requirement_share(scores), field_share(scores)
+    low, high = whole.interval
+    return whole.total, whole.value, f'[{low:.3f}, {high:.3f}]', fields.total, fields.value

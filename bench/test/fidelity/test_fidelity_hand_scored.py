@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""The scorer agrees with a person on every pair of `hand_scored.yaml`."""
+"""The scorer agrees with a person on every pair of `hand_scored.yaml` and `equivalences.yaml`."""
 
 from __future__ import annotations
 
@@ -11,16 +11,22 @@ import pytest
 import yaml
 
 from aurora_bench.fidelity.answer import Answer
-from aurora_bench.fidelity.score import score
+from aurora_bench.fidelity.equivalences import EQUIVALENCES
+from aurora_bench.fidelity.score import PromptScore, score
 from aurora_bench.prompts.format import AnnotatedPrompt
 from aurora_core.spec.requirements import STATED_QUANTITIES
 from aurora_core.spec.scenario import ScenarioSpec
 
 Doc = dict[str, Any]
 
-PAIRS: list[Doc] = yaml.safe_load(
-    Path(__file__).with_name('hand_scored.yaml').read_text(encoding='utf-8')
-)
+
+def pairs_of(name: str) -> list[Doc]:
+    """Return the pairs of a file beside this one."""
+    return list(yaml.safe_load(Path(__file__).with_name(name).read_text(encoding='utf-8')))
+
+
+PAIRS = pairs_of('hand_scored.yaml')
+FORMS = pairs_of('equivalences.yaml')
 _NAMES = {'loss', 'retransmissions', 'waypoint_count'}
 _UNITS = (('_mps', 'm/s'), ('_deg', 'deg'), ('_m', 'm'), ('_s', 's'))
 # What the product puts where a request is silent.
@@ -64,8 +70,8 @@ def test_there_are_forty_pairs_with_names_of_their_own() -> None:
     assert len(names) == len(PAIRS) >= 40
 
 
-@pytest.mark.parametrize('pair', PAIRS, ids=[p['pair'].replace(' ', '-') for p in PAIRS])
-def test_the_scorer_says_what_a_person_says(pair: Doc) -> None:
+def scored(pair: Doc, *, is_fair: bool) -> PromptScore:
+    """Return the score of a pair."""
     feasibility = pair.get('feasibility', 'feasible')
     prompt = AnnotatedPrompt.model_validate(
         {
@@ -80,14 +86,58 @@ def test_the_scorer_says_what_a_person_says(pair: Doc) -> None:
         }
     )
     spec = specification(pair['spec']) if 'spec' in pair else None
-    result = score(prompt, Answer(spec=spec, reasons=tuple(pair.get('reasons', ()))))
-    found = {
+    answer = Answer(spec=spec, reasons=tuple(pair.get('reasons', ())))
+    return score(prompt, answer, is_fair=is_fair)
+
+
+def missed(result: PromptScore) -> dict[str, list[str]]:
+    """Return the fields that do not hold, by requirement."""
+    return {
         r.id: sorted(name for name, held in r.fields.items() if not held)
         for r in result.requirements
         if not r.is_met
     }
-    assert found == {name: sorted(fields) for name, fields in pair.get('missed', {}).items()}
+
+
+def named(pairs: list[Doc]) -> list[str]:
+    """Return what tests of pairs are called."""
+    return [pair['pair'].replace(' ', '-') for pair in pairs]
+
+
+@pytest.mark.parametrize('is_fair', [True, False], ids=['fair', 'strict'])
+@pytest.mark.parametrize('pair', PAIRS, ids=named(PAIRS))
+def test_the_scorer_says_what_a_person_says(pair: Doc, is_fair: bool) -> None:
+    result = scored(pair, is_fair=is_fair)
+    wanted = {name: sorted(fields) for name, fields in pair.get('missed', {}).items()}
+    assert missed(result) == wanted
     fields = [held for r in result.requirements for held in r.fields.values()]
     met = sum(r.is_met for r in result.requirements)
     assert [met, len(result.requirements), sum(fields), len(fields)] == pair['score']
     assert list(result.extra) == pair.get('extra', [])
+
+
+SAME = [pair for pair in FORMS if 'same' in pair]
+NEAR = [pair for pair in FORMS if 'near' in pair]
+
+
+@pytest.mark.parametrize('pair', SAME, ids=named(SAME))
+def test_what_says_the_same_counts_the_same(pair: Doc) -> None:
+    assert list(missed(scored(pair, is_fair=False))) == pair['turned']
+    result = scored(pair, is_fair=True)
+    assert missed(result) == {}
+    turned = {r.id: r.form for r in result.requirements if r.id in pair['turned']}
+    assert turned == dict(zip(pair['turned'], pair['forms'], strict=True))
+    assert pair['same'] in ('', *pair['forms'])
+
+
+@pytest.mark.parametrize('pair', NEAR, ids=named(NEAR))
+def test_what_nearly_says_the_same_does_not(pair: Doc) -> None:
+    result = scored(pair, is_fair=True)
+    assert missed(result) == {name: sorted(lost) for name, lost in pair['missed'].items()}
+
+
+def test_every_equivalence_has_a_pair_and_a_near_pair() -> None:
+    keys = {equivalence.key for equivalence in EQUIVALENCES}
+    assert len(keys) == len(EQUIVALENCES)
+    assert {form for pair in SAME for form in pair['forms']} == keys
+    assert {pair['near'] for pair in NEAR} == keys

@@ -133,7 +133,9 @@ def both(*changes: Change) -> Change:
     return change
 
 
-def scored(spec: Doc, requirements: list[Doc] | None = None, **fields: Any) -> PromptScore:
+def scored(
+    spec: Doc, requirements: list[Doc] | None = None, *, is_fair: bool = True, **fields: Any
+) -> PromptScore:
     """Score a specification."""
     prompt = AnnotatedPrompt.model_validate(
         {
@@ -142,7 +144,7 @@ def scored(spec: Doc, requirements: list[Doc] | None = None, **fields: Any) -> P
             'requirements': REQUIREMENTS if requirements is None else requirements, **fields,
         }
     )  # fmt: skip
-    return score(prompt, Answer(spec=ScenarioSpec.model_validate(spec)))
+    return score(prompt, Answer(spec=ScenarioSpec.model_validate(spec)), is_fair=is_fair)
 
 
 def missed(result: PromptScore) -> dict[str, set[str]]:
@@ -419,5 +421,5 @@ def test_the_landing_follows_the_missions(stays_up: bool, expected: dict[str, se
     spec = right_spec()
     for mission in spec['missions']:
         mission['ends_in_flight'] = stays_up
-    found = missed(scored(spec, [*REQUIREMENTS, landing, order]))
+    found = missed(scored(spec, [*REQUIREMENTS, landing, order], is_fair=False))
     assert found.get('r22', set()) == expected.get('r22', set())

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import re
 from pathlib import Path
@@ -14,7 +15,7 @@ import pytest
 from aurora_bench.fidelity.__main__ import main
 from aurora_bench.fidelity.answer import Answer, offline_answer
 from aurora_bench.fidelity.misses import Told
-from aurora_bench.fidelity.summary import Judged, as_json, counts, judge, last_line
+from aurora_bench.fidelity.summary import Judged, as_json, counts, judge, last_line, tables
 from aurora_bench.fidelity.wilson import Share
 from aurora_bench.prompts.format import AnnotatedPrompt
 from aurora_core.report.run_folder import json_text
@@ -135,6 +136,26 @@ def test_the_last_line_and_the_json_agree() -> None:
     assert document['prompts'][1]['misses'][0]['told'] == 'dismissed'
 
 
+def test_both_scorers_stand_side_by_side() -> None:
+    landing = {'id': 'r3', 'kind': 'event', 'ref': 'e1', 'action': {'do': 'land', 'uav': 'uav1'}}
+    above = HOVER | {'id': 'r2', 'target': 'City Hall', 'standoff_m': 0}
+    asked = prompt('feasible', {'id': 'r1', 'kind': 'uav', 'ref': 'uav1'}, above, landing)
+    found = spec(50)
+    over = found.missions[0].model_copy(update={'target': 'landmark:City Hall'})
+    judged = [judge(asked, Answer(spec=found.model_copy(update={'missions': (over,)})))]
+    document = as_json(judged)
+    assert document['requirement_fidelity']['total'] == 2
+    assert document['requirement_fidelity']['met'] == 2
+    assert document['strict']['requirement_fidelity']['total'] == 3
+    assert document['strict']['requirement_fidelity']['met'] == 2
+    assert (document['turned'], document['final_landings']) == ({'above': 1}, 1)
+    assert judged[0].misses == ()
+    side_by_side, forms = tables(judged)[:2]
+    assert [row[:3] for row in side_by_side.rows] == [('strict', 3, 2 / 3), ('fair', 2, 1.0)]
+    assert {row[0]: row[2] for row in forms.rows if row[2]} == {'above': 1, 'landing': 1}
+    assert last_line(judged).startswith('requirement fidelity 1.000')
+
+
 @pytest.mark.parametrize(
     ('met', 'total', 'low', 'high'),
     [(0, 10, 0.0, 0.27753), (10, 10, 0.72247, 1.0), (81, 263, 0.25529, 0.36621), (0, 0, 0.0, 1.0)],
@@ -158,8 +179,15 @@ def test_the_command_scores_the_offline_parser(
         captured.out.splitlines()[-1],
     )
     assert '[1/1] hover-1: all met' in captured.err
+    digest = hashlib.sha256(file.read_bytes()).hexdigest()
+    line = f'{tmp_path.name}/mine.jsonl  sha256 {digest}  beyond 0'
+    assert captured.out.splitlines()[-2] == line
     written = json.loads((tmp_path / 'out' / 'fidelity.json').read_text(encoding='utf-8'))
     assert written['model'] == 'offline'
+    assert written['prompt_files'] == [
+        {'name': f'{tmp_path.name}/mine.jsonl', 'sha256': digest, 'beyond': 0}
+    ]
+    assert line in (tmp_path / 'out' / 'fidelity.md').read_text(encoding='utf-8')
 
 
 def test_a_file_that_is_no_prompt_file_is_a_usage_error(
