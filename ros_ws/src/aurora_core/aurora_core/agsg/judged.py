@@ -139,6 +139,8 @@ def conditions_depending(
             ids |= {c.id for c in conditions if event == c.arguments.event or event in c.of}
         for other in _changed(document, facet, derive):
             if other is None:
+                # No plan has it: what is judged of the element is judged on one that fits.
+                ids |= {c.id for c in conditions if element_of(facet.path) in c.spec_ids}
                 continue
             ids |= {name for name, text in known.items() if other.get(name) != text}
         found[facet.path] = frozenset(ids)

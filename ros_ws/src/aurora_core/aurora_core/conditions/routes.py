@@ -20,7 +20,7 @@ from aurora_core.conditions.build import (
 from aurora_core.conditions.condition import Condition, MissionArguments, Point3, Window
 from aurora_core.errors import VerificationError
 from aurora_core.geometry.kernel import norm2
-from aurora_core.quantities.waypoints import extent
+from aurora_core.quantities.waypoints import extent, has_shape
 from aurora_core.spec.parameter import Bound, Parameter, Provenance
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import UavMission
@@ -39,8 +39,9 @@ def route_conditions(
     """Yield the conditions of a navigate mission.
 
     Raises:
-        VerificationError: The plan resized an explicit pattern.
+        VerificationError: The plan has another pattern than the request, or resized it.
     """
+    _check_shape(mission, arguments)
     _check_size(mission, arguments)
     uav, points = mission.uav, arguments.waypoints
     closed = points[0] == points[-1]
@@ -193,6 +194,18 @@ def _axes(
     across = (-along[1], along[0])
     seen = [abs(extent(points, axis) - size[0].value) for axis in (along, across)]
     return (along, across) if seen[0] <= seen[1] else (across, along)
+
+
+def _check_shape(mission: UavMission, arguments: MissionArguments) -> None:
+    """Refuse a plan of another pattern: that its points are visited would then say nothing."""
+    points = arguments.waypoints
+    if mission.pattern is None or has_shape(mission.pattern, points):
+        return
+    raise VerificationError(
+        f'mission {mission.id} asks for the pattern {mission.pattern.value}, the plan has '
+        f'{len(points)} points of another shape',
+        hint='grounding must plan the pattern that is asked for',
+    )
 
 
 def _check_size(mission: UavMission, arguments: MissionArguments) -> None:

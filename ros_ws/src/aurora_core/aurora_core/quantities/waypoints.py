@@ -14,6 +14,7 @@ import numpy.typing as npt
 from aurora_core.quantities.kernels import distance_2d
 from aurora_core.quantities.ticks import first_tick
 from aurora_core.quantities.view import Body, RunView
+from aurora_core.spec.vocabulary import Pattern
 
 FloatArray = npt.NDArray[np.float64]
 BoolArray = npt.NDArray[np.bool_]
@@ -140,6 +141,48 @@ def pattern_centre(waypoints: Sequence[Point3]) -> tuple[float, float]:
     x = [point[0] for point in waypoints]
     y = [point[1] for point in waypoints]
     return (min(x) + max(x)) / 2.0, (min(y) + max(y)) / 2.0
+
+
+# Points of a plan are rounded when they are written down, no more.
+_SHAPE_M = 1e-3
+# An orbit has more points than any other ring.
+_ORBIT_POINTS = 12
+
+
+def has_shape(pattern: Pattern, points: Sequence[Point3]) -> bool:
+    """Tell whether planned waypoints have the shape of a pattern.
+
+    Args:
+        pattern: Rectangles and orbits are closed, a line has two points, a lawnmower goes to and
+            fro on parallel lines; `waypoints` are in any order, and none of these.
+        points: (x, y, z) metres, in the order flown.
+    """
+    closed = len(points) > 2 and points[0] == points[-1]
+    if pattern is Pattern.LINE:
+        return len(points) == 2
+    if pattern is Pattern.RECTANGLE:
+        return closed and len(points) == 5 and _turns_square(points)
+    if pattern is Pattern.ORBIT:
+        return closed and len(points) > _ORBIT_POINTS and _is_ring(points)
+    if pattern is Pattern.LAWNMOWER:
+        return not closed and len(points) >= 4 and len(points) % 2 == 0 and _turns_square(points)
+    return not closed
+
+
+def _turns_square(points: Sequence[Point3]) -> bool:
+    legs = [(b[0] - a[0], b[1] - a[1]) for a, b in pairwise(points)]
+    return all(abs(a[0] * b[0] + a[1] * b[1]) <= _SHAPE_M * _way(a, b) for a, b in pairwise(legs))
+
+
+def _way(a: tuple[float, float], b: tuple[float, float]) -> float:
+    return max(abs(a[0]) + abs(a[1]), abs(b[0]) + abs(b[1]), 1.0)
+
+
+def _is_ring(points: Sequence[Point3]) -> bool:
+    x = sum(point[0] for point in points[:-1]) / (len(points) - 1)
+    y = sum(point[1] for point in points[:-1]) / (len(points) - 1)
+    away = [float(distance_2d(point[0] - x, point[1] - y)) for point in points]
+    return max(away) - min(away) <= _SHAPE_M * max(max(away), 1.0)
 
 
 def extent(points: npt.ArrayLike, axis: tuple[float, float]) -> float:

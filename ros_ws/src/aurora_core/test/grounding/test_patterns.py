@@ -10,6 +10,7 @@ from math import sqrt
 import pytest
 
 from aurora_core.grounding.patterns import pattern_points, place_pattern
+from aurora_core.quantities.waypoints import has_shape
 from aurora_core.spec.vocabulary import Pattern
 
 Point2 = tuple[float, float]
@@ -93,3 +94,12 @@ def test_placing_turns_and_moves_but_never_resizes(pattern: Pattern, heading: Po
         assert after[0] * heading[0] + after[1] * heading[1] == pytest.approx(before[0], abs=1e-9)
         left = -after[0] * heading[1] + after[1] * heading[0]
         assert left == pytest.approx(before[1], abs=1e-9)
+
+
+@pytest.mark.parametrize('pattern', list(Pattern))
+def test_a_planned_pattern_has_its_shape_and_no_other(pattern: Pattern) -> None:
+    flat = pattern_points(pattern, length_m=100.0, width_m=60.0, radius_m=40.0, waypoint_count=5)
+    assert flat is not None
+    placed = place_pattern(flat, (300.0, -20.0), (0.6, 0.8))
+    points = tuple((x, y, 30.0) for x, y in placed)
+    assert [other for other in Pattern if has_shape(other, points)] == [pattern]

@@ -1,0 +1,84 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Read and ground a prompt, and ask what of it no condition depends on."""
+
+from __future__ import annotations
+
+from aurora_core.agsg.build import build_agsg
+from aurora_core.agsg.judged import paths_stated, unjudged
+from aurora_core.conditions.condition import Condition
+from aurora_core.conditions.derive import derive_conditions
+from aurora_core.execution.capabilities import judgeable
+from aurora_core.grounding.grounded import GroundedScenario
+from aurora_core.pipeline.functions import ground_stage, knowledge, parse_stage
+from aurora_core.spec.parameter import Document
+from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.temporal.schedule import Schedule
+
+
+class Asked(Document):
+    """A prompt of a file."""
+
+    id: str
+    prompt: str
+
+
+class Found(Document):
+    """What became of a prompt.
+
+    Attributes:
+        outcome: `grounded`, `no place`, or `no specification`.
+        stated: How many explicit numbers and stated choices there are.
+        open: Of these the fields that no condition depends on and nothing else is said of.
+        admitted: Fields that no condition depends on, of elements that nobody carries out.
+    """
+
+    outcome: str
+    stated: int = 0
+    open: tuple[str, ...] = ()
+    admitted: tuple[str, ...] = ()
+
+
+class Sweep:
+    """Reads, grounds and asks of every prompt."""
+
+    def __init__(self, map_name: str, seed: int) -> None:
+        self._map_name = map_name
+        self._seed = seed
+
+    def prepare(self) -> None:
+        """Load the map."""
+        knowledge().grounder(self._map_name)
+
+    def __call__(self, task: Asked) -> Found:
+        """Return what a prompt states and nothing judges."""
+        spec = parse_stage(task.prompt, self._map_name, self._seed).spec
+        if spec is None:
+            return Found(outcome='no specification')
+        outcome = ground_stage(build_agsg(spec), self._seed)
+        if outcome.agsg is None:
+            return Found(outcome='no place')
+        graph = outcome.agsg
+        known = knowledge()
+        facts = Schedule.model_validate_json(graph.schedule_json).facts
+        grounded = GroundedScenario.model_validate_json(graph.grounding_json)
+
+        def derive(asked: ScenarioSpec) -> tuple[Condition, ...]:
+            made = derive_conditions(asked, facts, known.limits, known.tolerances)
+            return judgeable(made.conditions, asked, grounded)
+
+        said = {text.partition(': ')[0] for text in outcome.unsupported}
+        found = unjudged(graph.spec, derive(graph.spec), derive)
+        return Found(
+            outcome='grounded',
+            stated=len(paths_stated(graph.spec)),
+            open=tuple(_field(u.path) for u in found if u.element not in said),
+            admitted=tuple(_field(u.path) for u in found if u.element in said),
+        )
+
+
+def _field(path: str) -> str:
+    """Return what a path is about, without ids and numbers: `missions/altitude_m`."""
+    parts = path.split('/')
+    kept = [p for k, p in enumerate(parts) if k != 1 or parts[0] == 'world']
+    return '/'.join(p for p in kept if not p.isdigit())
