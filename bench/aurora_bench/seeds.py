@@ -19,3 +19,12 @@ def seed_option(text: str) -> int:
         return typed_seed(text)
     except ValueError as err:
         raise argparse.ArgumentTypeError(str(err)) from err
+
+
+def seeds_option(text: str) -> tuple[int, ...]:
+    """Return the seeds of a comma-separated list, each once, in its order; for `argparse`.
+
+    Raises:
+        argparse.ArgumentTypeError: One of them is none that a run can have.
+    """
+    return tuple(dict.fromkeys(seed_option(part.strip()) for part in text.split(',')))

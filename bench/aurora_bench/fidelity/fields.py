@@ -17,6 +17,7 @@ from aurora_bench.fidelity.numbers import NumberRule
 from aurora_bench.prompts.format import (
     AgentRequirement,
     BehaviorRequirement,
+    CountRequirement,
     LinkRequirement,
     MissionRequirement,
     PlacementRequirement,
@@ -210,6 +211,26 @@ def link_fields(r: LinkRequirement, subject: Subject, rule: NumberRule) -> Field
     )
 
 
+def count_fields(r: CountRequirement, subject: Subject, rule: NumberRule) -> Fields:
+    """Compare a number of bodies in the whole scene with the numbers that close the scene."""
+    names = [*_named(r.type, 'type'), *_named(r.of, 'of'), *_named(r.scope, 'scope'), 'value']
+    return best(
+        (
+            {
+                name: {
+                    'type': count.kind == r.type,
+                    'of': False,  # a specification counts kinds, nobody by name
+                    'scope': r.scope == 'scene',
+                    'value': rule.counts('value', r.value, count.value),
+                }[name]
+                for name in names
+            }
+            for count in subject.spec.counts
+        ),
+        names,
+    )
+
+
 # What `world_fields` to `condition_fields` look at; the annotation format may have grown.
 _READ: dict[str, frozenset[str]] = {
     'world': frozenset({'field', 'value'}),
@@ -220,6 +241,7 @@ _READ: dict[str, frozenset[str]] = {
     'mission': frozenset({'ref', 'uav', 'mode', 'target', 'pattern', 'size_m', *_MISSION_NUMBERS}),
     'link': frozenset({'sender', 'receiver', 'loss', 'latency_s', 'range_m', 'retransmissions'}),
     'event': frozenset({'ref', 'trigger', 'action'}),
+    'count': frozenset({'type', 'of', 'value', 'scope'}),
     'order': frozenset({'first', 'then', 'within_s'}),
     'condition': frozenset({'quantity', 'of', 'op', 'value', 'hold_s', 'by_s', 'fraction'}),
     'reject': frozenset({'because'}),

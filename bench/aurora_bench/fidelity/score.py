@@ -29,6 +29,7 @@ from aurora_bench.fidelity.fields import (
     agent_fields,
     behavior_fields,
     best,
+    count_fields,
     for_all,
     link_fields,
     mission_fields,
@@ -48,6 +49,7 @@ from aurora_bench.prompts.format import (
     AnyOfRequirement,
     BehaviorRequirement,
     ConditionRequirement,
+    CountRequirement,
     EventRequirement,
     LinkRequirement,
     MissionRequirement,
@@ -317,6 +319,8 @@ class _Scorer:
             return link_fields(r, subject, rule)
         if isinstance(r, ConditionRequirement):
             return condition_fields(r, subject, rule)
+        if isinstance(r, CountRequirement):
+            return count_fields(r, subject, rule)
         if isinstance(r, OrderRequirement):
             return order_fields(r, subject, rule)
         if isinstance(r, MissionRequirement):

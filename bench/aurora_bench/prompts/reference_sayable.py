@@ -46,8 +46,8 @@ def check_sayable(r: Requirement) -> None:
 def _unsayable(r: Requirement) -> Iterator[str]:
     if isinstance(r, WorldRequirement) and r.field in _WIND:
         yield f'world {r.field}'
-    elif isinstance(r, CountRequirement):
-        yield 'count'
+    elif isinstance(r, CountRequirement) and (r.type is None or r.scope != 'scene'):
+        yield 'count of what has a name'
     elif isinstance(r, MissionRequirement):
         yield from (f'mission {what}' for what in _of_flight(r))
     elif isinstance(r, LinkRequirement):

@@ -86,7 +86,7 @@ class _Builder:
         self._agents: dict[str, Doc] = {}
         self._spec: Doc = {
             'prompt': prompt.prompt, 'world': {}, 'uavs': [], 'missions': [], 'links': [],
-            'events': [], 'conditions': [], 'orders': [], 'prohibitions': [],
+            'events': [], 'conditions': [], 'orders': [], 'counts': [], 'prohibitions': [],
         }  # fmt: skip
 
     def document(self) -> Doc:
@@ -168,6 +168,9 @@ class _Builder:
             if r.action is not None and r.action.do == 'change_mission':
                 ident, uav = found['action']['mission'], found['action']['uav']
                 self._spec['missions'].append(mission(r.action, ident, uav, names, numbers))
+        elif r.kind == 'count':
+            counted = {'id': self._new('count'), 'kind': r.type, **numbers.of(r, ('value',))}
+            self._spec['counts'].append(counted)
         elif r.kind == 'order':
             self._spec['orders'].append(
                 {

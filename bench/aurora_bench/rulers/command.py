@@ -32,6 +32,7 @@ from aurora_bench.rulers.summary import (
     unchecked_share,
 )
 from aurora_bench.rulers.trial import JudgedTrial, Trial, lost
+from aurora_bench.seeds import seeds_option
 from aurora_core.errors import AuroraError, ConfigError, MapError
 from aurora_core.knowledge.map_model import list_maps
 from aurora_core.report.run_folder import json_text
@@ -40,8 +41,6 @@ from aurora_core.report.versions import product_versions
 USAGE = 64
 BROKEN = 4
 INTERRUPTED = 130
-# The greatest seed that a simulator takes.
-_SEED_MOST = 2**31 - 1
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -121,7 +120,11 @@ def _parser(ruler: Ruler) -> argparse.ArgumentParser:
         'files', nargs='+', type=Path, metavar='FILE', help='prompts, one JSON object a line'
     )
     parser.add_argument(
-        '--seeds', type=_seeds, default=(1,), metavar='1,2,3', help='each prompt with each of them'
+        '--seeds',
+        type=seeds_option,
+        default=(1,),
+        metavar='1,2,3',
+        help='each prompt with each of them',
     )
     parser.add_argument('--jobs', type=int, default=1, metavar='N', help='worker processes')
     parser.add_argument('--map', default='downtown', help='map of the runs')
@@ -148,14 +151,6 @@ def _parser(ruler: Ruler) -> argparse.ArgumentParser:
     parser.add_argument('--json', action='store_true', help='one JSON document, no tables')
     ruler.add_options(parser)
     return parser
-
-
-def _seeds(text: str) -> tuple[int, ...]:
-    """Return seeds, each once, in the order given."""
-    seeds = tuple(dict.fromkeys(int(part) for part in text.split(',')))
-    if not all(0 <= seed <= _SEED_MOST for seed in seeds):
-        raise argparse.ArgumentTypeError(f'seeds are from 0 to {_SEED_MOST}')
-    return seeds
 
 
 def _check(options: argparse.Namespace) -> None:

@@ -113,12 +113,6 @@ class _Count(Document):
     tol: None = None
 
 
-class _SidedMission(MissionRequirement):
-    """A mission with a field that the scorer does not know."""
-
-    side: str
-
-
 def with_requirements(*requirements: Document) -> AnnotatedPrompt:
     """Return a prompt with requirements that the format may not have."""
     plain = prompt()
@@ -139,7 +133,7 @@ def test_what_no_field_holds_is_listed_and_never_scored(is_fair: bool) -> None:
 
 
 def test_a_field_or_kind_that_the_scorer_does_not_know_is_missed() -> None:
-    mission = _SidedMission.model_validate(SCENE[1] | {'side': 'left'})
+    mission = MissionRequirement.model_validate(SCENE[1] | {'side': 'left'})
     asked = with_requirements(mission, _Count(id='r9', value=2))
     hover = {
         'id': 'm', 'uav': 'u', 'mode': 'hover',

@@ -180,7 +180,7 @@ def test_the_command_scores_the_offline_parser(
     )
     assert '[1/1] hover-1: all met' in captured.err
     digest = hashlib.sha256(file.read_bytes()).hexdigest()
-    line = f'{tmp_path.name}/mine.jsonl  sha256 {digest}  beyond 0'
+    line = f'file {tmp_path.name}/mine.jsonl  sha256 {digest}  prompts 1  beyond 0'
     assert captured.out.splitlines()[-2] == line
     written = json.loads((tmp_path / 'out' / 'fidelity.json').read_text(encoding='utf-8'))
     assert written['model'] == 'offline'
@@ -188,6 +188,30 @@ def test_the_command_scores_the_offline_parser(
         {'name': f'{tmp_path.name}/mine.jsonl', 'sha256': digest, 'beyond': 0}
     ]
     assert line in (tmp_path / 'out' / 'fidelity.md').read_text(encoding='utf-8')
+
+
+def test_a_campaign_is_resumed_and_workers_change_nothing(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / 'mine.jsonl'
+    texts = ('A drone hovers over City Hall at 50 m for 20 seconds.', 'A bus stops.')
+    lines = [
+        json.dumps(prompt().model_dump(mode='json', exclude_unset=True) | {'id': i, 'prompt': t})
+        for i, t in zip(('hover-1', 'hover-2'), texts, strict=True)
+    ]
+    file.write_text('\n'.join(lines) + '\n', encoding='utf-8')
+    begin = [str(file), '--resume', str(tmp_path), '--seeds', '1,2']
+    assert main([*begin, '--jobs', '2']) == 0
+    first = capsys.readouterr().out
+    journal = tmp_path / 'fidelity.journal.jsonl'
+    kept = journal.read_bytes().splitlines()
+    assert len(kept) == 1 + 2 * len(texts) + 1
+    # Of a campaign that was killed the last line may be half a line.
+    journal.write_bytes(b'\n'.join(kept[:3]) + b'\n' + kept[3][:20])
+    assert main(begin) == 0
+    assert capsys.readouterr().out.splitlines()[-2:] == first.splitlines()[-2:]
+    assert main([str(file), '--resume', str(tmp_path), '--map', 'junction']) == 64
+    assert 'another campaign' in capsys.readouterr().err
 
 
 def test_a_file_that_is_no_prompt_file_is_a_usage_error(

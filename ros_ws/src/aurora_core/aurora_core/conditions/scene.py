@@ -18,6 +18,7 @@ from aurora_core.conditions.build import (
 from aurora_core.conditions.condition import Condition, Window
 from aurora_core.knowledge.limits import Tolerance
 from aurora_core.spec.parameter import Parameter, Provenance, Span
+from aurora_core.spec.prohibitions import ForbiddenAgent
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.reference import ENVIRONMENT_ID
 from aurora_core.spec.requirements import SceneCount
@@ -36,6 +37,9 @@ def scene_conditions(inputs: Inputs) -> Iterator[Condition]:
     yield from _numbers(inputs)
     for count in inputs.spec.counts:
         yield _count(inputs, count)
+    for prohibition in inputs.spec.prohibitions:
+        if isinstance(prohibition, ForbiddenAgent):
+            yield _absent(inputs, prohibition)
 
 
 def _world(inputs: Inputs) -> Iterator[Condition]:
@@ -132,6 +136,24 @@ def _count(inputs: Inputs, count: SceneCount) -> Condition:
             ids=(count.id,),
             spans=(count.span, value.span),
             provenance=value.provenance,
+            implied=False,
+        ),
+    )
+
+
+def _absent(inputs: Inputs, forbidden: ForbiddenAgent) -> Condition:
+    return condition(
+        id=f'{forbidden.id}.holds',
+        sentence=f'there is no {forbidden.type} in the whole scene',
+        quantity=QuantityName.COUNT,
+        signal=f'count_all({forbidden.type})',
+        of=(),
+        target=Target(op='==', threshold=0.0, unit='1', tolerance=0.0),
+        arguments=inputs.arguments(Window.RUN, aspect='all', types=(str(forbidden.type),)),
+        source=Source(
+            ids=(forbidden.id,),
+            spans=(forbidden.span,),
+            provenance=Provenance.EXPLICIT,
             implied=False,
         ),
     )

@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from aurora_core.conditions.build import Inputs, Underivable
+from aurora_core.spec.prohibitions import ForbiddenAgent
 from aurora_core.spec.vocabulary import LinkOcclusion
 
 
@@ -25,5 +26,7 @@ def unsaid(inputs: Inputs) -> Iterator[Underivable]:
             what = f'a link with occlusion {link.occlusion.value}'
             yield Underivable(element=link.id, what=what, span=link.span)
     for prohibition in spec.prohibitions:
+        if isinstance(prohibition, ForbiddenAgent):
+            continue  # it has a condition of its own
         what = f'a forbidden {prohibition.forbids}'
         yield Underivable(element=prohibition.id, what=what, span=prohibition.span)

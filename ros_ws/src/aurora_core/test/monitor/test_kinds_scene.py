@@ -48,6 +48,10 @@ def _closed(kind: str, value: float, bound: Bound = Bound.EXACTLY) -> Case:
     return _drive(counts=({'id': 'n1', 'kind': kind, 'value': number_of},))
 
 
+def _without(kind: str) -> Case:
+    return _drive(prohibitions=({'forbids': 'agent', 'id': 'no1', 'type': kind},))
+
+
 def _in(weather: str, time_of_day: str) -> Case:
     """It was to rain at night."""
     case = _drive(world={'weather': 'rain', 'time_of_day': 'night'})
@@ -87,6 +91,8 @@ ROWS = (
         margin=2.0,
         what='at-most',
     ),
+    Row(id='no1.holds', make=lambda: _without('bus'), margin=0.0, what='no-bus'),
+    Row(id='no1.holds', make=lambda: _also(_without('bus'), 'bus'), margin=-1.0, what='a-bus'),
     Row(id='n1.holds', make=lambda: cut(_closed('car', 1.0), 200), reason=SHORT),
     Row(id='world.weather', make=lambda: _in('rain', 'night'), margin=0.0),
     Row(id='world.weather', make=lambda: _in('clear', 'night'), margin=-1.0),
