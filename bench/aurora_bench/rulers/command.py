@@ -15,13 +15,13 @@ from typing import Any
 
 from aurora_bench.campaign.files import PromptFile, file_line, read_files, verdict_line
 from aurora_bench.campaign.journal import Journal, JournalError, JournalHead, journal_path
-from aurora_bench.campaign.pool import Lost, PoolError, run_tasks
+from aurora_bench.campaign.pool import Lost, PoolError, Work, run_tasks
 from aurora_bench.interrupt import stop_on_sigterm
 from aurora_bench.machine import Machine, machine_facts
 from aurora_bench.progress import Progress
 from aurora_bench.prompts.format import AnnotatedPrompt, beyond
+from aurora_bench.prompts.shipped import first_files
 from aurora_bench.results import ResultsError, markdown_table, write_results
-from aurora_bench.rulers.runs import RunWork
 from aurora_bench.rulers.summary import (
     as_json,
     detail_tables,
@@ -64,7 +64,7 @@ class Ruler:
     word: str
     of: str
     takes: Callable[[AnnotatedPrompt], bool]
-    work: Callable[[argparse.Namespace, Path], RunWork]
+    work: Callable[[argparse.Namespace, Path], Work[Trial, JudgedTrial]]
     add_options: Callable[[argparse.ArgumentParser], None] = lambda _parser: None
     check_options: Callable[[argparse.Namespace], None] = lambda _options: None
     own_options: tuple[str, ...] = field(default=())
@@ -117,7 +117,12 @@ def measure(ruler: Ruler, arguments: Sequence[str] | None) -> int:
 def _parser(ruler: Ruler) -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(prog=f'aurora bench {ruler.name}', description=ruler.about)
     parser.add_argument(
-        'files', nargs='+', type=Path, metavar='FILE', help='prompts, one JSON object a line'
+        'files',
+        nargs='*',
+        type=Path,
+        default=first_files('tune'),
+        metavar='FILE',
+        help='prompts, one JSON object a line (default: the first 200 shipped ones to tune on)',
     )
     parser.add_argument(
         '--seeds',
@@ -211,7 +216,7 @@ def _folder(ruler: Ruler, keep: Path | None) -> Iterator[Path]:
 
 
 def _campaign(
-    work: RunWork,
+    work: Work[Trial, JudgedTrial],
     trials: Sequence[Trial],
     options: argparse.Namespace,
     journal: Journal | None,

@@ -59,7 +59,7 @@ class RunWork:
     def __call__(self, trial: Trial) -> JudgedTrial:
         """Run one trial; its folder goes, whatever happens, unless it is kept."""
         self._seconds = {}
-        begin = time.perf_counter()
+        begin, cpu_begin = time.perf_counter(), time.process_time()
         place = self.folder / trial.folder
         shutil.rmtree(place, ignore_errors=True)  # of a campaign that was cut short
         try:
@@ -69,6 +69,8 @@ class RunWork:
             if not self.keep:
                 shutil.rmtree(place, ignore_errors=True)
         self._seconds['all'] = time.perf_counter() - begin
+        # Wall time says little on a machine with other work on it.
+        self._seconds['processor'] = time.process_time() - cpu_begin
         return result.model_copy(update={'seconds': self._seconds})
 
     def judge(self, trial: Trial, place: Path) -> JudgedTrial:

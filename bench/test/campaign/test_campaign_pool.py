@@ -1,0 +1,97 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Workers stay warm, and one that is lost takes one task with it."""
+
+from __future__ import annotations
+
+import importlib
+import multiprocessing
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from aurora_bench.campaign.pool import Lost, PoolError, run_tasks
+
+LIMIT_S = 60.0
+
+
+@pytest.fixture
+def squares(monkeypatch: pytest.MonkeyPatch) -> Any:
+    """Return the class of the work; workers take over the search path."""
+    monkeypatch.syspath_prepend(str(Path(__file__).parent))
+    return importlib.import_module('pool_work').Squares
+
+
+def done(
+    work: Any, tasks: Sequence[tuple[str, int]], jobs: int, limit_s: float = LIMIT_S
+) -> tuple[dict[int, int | str], set[int]]:
+    """Return by task the square or why there is none, and who answered."""
+    found: dict[int, int | str] = {}
+    workers = set()
+    for index, answer in run_tasks(work, tasks, jobs=jobs, limit_s=limit_s):
+        assert index not in found
+        if isinstance(answer, Lost):
+            found[index] = answer.why
+        else:
+            found[index] = answer[0]
+            workers.add(answer[1])
+    assert not multiprocessing.active_children()
+    return found, workers
+
+
+def test_any_number_of_workers_gives_the_same_and_each_does_many_tasks(squares: Any) -> None:
+    tasks = [('', k) for k in range(12)]
+    alone, one = done(squares(), tasks, jobs=1)
+    together, several = done(squares(), tasks, jobs=3)
+    assert alone == together == {k: k * k for k in range(12)}
+    assert len(one) == 1
+    assert 1 <= len(several) <= 3
+
+
+@pytest.mark.parametrize(
+    ('word', 'why'),
+    [('exit', 'died with exit code 7'), ('crash', 'died of SIGKILL'), ('raise', 'cannot square')],
+)
+@pytest.mark.parametrize('jobs', [1, 2])
+def test_a_lost_task_is_named_and_the_others_are_done(
+    squares: Any, word: str, why: str, jobs: int
+) -> None:
+    found, _ = done(squares(), [('', 0), ('', 1), (word, 2), ('', 3), (word, 4)], jobs=jobs)
+    assert why in str(found.pop(2))
+    assert why in str(found.pop(4))
+    assert found == {0: 0, 1: 1, 3: 9}
+
+
+def test_a_worker_that_hangs_is_ended_and_replaced(squares: Any) -> None:
+    found, workers = done(squares(), [('', 3), ('hang', 0), ('', 5)], jobs=1, limit_s=3.0)
+    assert 'no answer within 3 s' in str(found.pop(1))
+    assert found == {0: 9, 2: 25}
+    assert len(workers) == 2
+
+
+def test_ctrl_c_of_the_terminal_does_not_reach_a_worker(squares: Any) -> None:
+    assert done(squares(), [('interrupt', 4)], jobs=1)[0] == {0: 16}
+
+
+def test_workers_that_cannot_begin_end_the_campaign(squares: Any) -> None:
+    with pytest.raises(PoolError, match='worker 1 cannot begin: RuntimeError: no simulator'):
+        done(squares('no simulator'), [('', 1), ('', 2)], jobs=1)
+    assert not multiprocessing.active_children()
+
+
+def test_what_a_worker_prints_is_no_answer(
+    squares: Any, capfd: pytest.CaptureFixture[str]
+) -> None:
+    done(squares(), [('', 1)], jobs=1)
+    printed = capfd.readouterr()
+    assert (printed.out, 'loading' in printed.err) == ('', True)
+
+
+def test_who_stops_listening_ends_the_workers(squares: Any) -> None:
+    answers = run_tasks(squares(), [('', 1), ('', 2), ('', 3)], jobs=2, limit_s=LIMIT_S)
+    next(answers)
+    assert multiprocessing.active_children()
+    answers.close()  # type: ignore[attr-defined]
+    assert not multiprocessing.active_children()
