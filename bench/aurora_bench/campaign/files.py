@@ -69,10 +69,7 @@ def _read(path: Path) -> PromptFile:
 
 def file_line(file: PromptFile) -> str:
     """Return the line about one file that stands above the last line."""
-    return (
-        f'file {file.name}  sha256 {file.sha256}  prompts {len(file.prompts)}  '
-        f'beyond {file.beyond}'
-    )
+    return f'{file.name}  sha256 {file.sha256}  beyond {file.beyond}'
 
 
 def verdict_line(what: str, share: Share, of: str, silent: int, unchecked: Share) -> str:

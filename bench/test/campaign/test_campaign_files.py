@@ -40,7 +40,7 @@ def test_a_file_is_told_by_digest_and_number_of_beyond(tmp_path: Path) -> None:
     text = line() + line(id='hover-902')
     (file,) = read_files([written(tmp_path / 'mine' / 'own.jsonl', text)])
     digest = hashlib.sha256(text.encode()).hexdigest()
-    assert file_line(file) == f'file mine/own.jsonl  sha256 {digest}  prompts 2  beyond 2'
+    assert file_line(file) == f'mine/own.jsonl  sha256 {digest}  beyond 2'
 
 
 def test_what_would_count_twice_is_refused(tmp_path: Path) -> None:

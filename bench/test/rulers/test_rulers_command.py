@@ -84,7 +84,7 @@ def test_the_last_line_and_the_causes_count_every_trial(
     printed = capsys.readouterr()
     *_, about_file, last = printed.out.splitlines()
     assert last == LAST
-    assert about_file.startswith('file mine/own.jsonl  sha256 ')
+    assert about_file.startswith('mine/own.jsonl  sha256 ')
     assert '[5/5]' in printed.err
     found = results(tmp_path / 'res')
     causes = {cause: n for cause, n in found['by_cause'].items() if n}
