@@ -13,8 +13,6 @@ from aurora_core.report.status import Status
 from aurora_core.spec.vocabulary import ClauseStatus
 
 Found = tuple[Cause, tuple[str, ...]]
-# Clauses that nothing is missing for.
-_FINE = frozenset({ClauseStatus.ENCODED, ClauseStatus.NO_REQUIREMENT})
 _SAFETY = 'safety'
 
 
@@ -52,12 +50,7 @@ def cause_of(report: RunReport, grounding: GroundingOutcome | None) -> Found:
 
 def _unread(report: RunReport) -> Found:
     """All that was judged holds: what is left of the prompt?"""
-    left = [clause for clause in report.clauses if clause.status not in _FINE]
-    unjudged = [c for c in left if c.status is not ClauseStatus.NOT_ENCODED]
-    if unjudged:
-        notes = dict.fromkeys(f'not judged: {c.note or "a clause"}' for c in unjudged)
-        return Cause.CAPABILITY, tuple(notes)
-    if left:
+    if any(clause.status is ClauseStatus.NOT_ENCODED for clause in report.clauses):
         return Cause.READING, ('clause not encoded',)
     if not all(row.exercised for row in report.conditions):
         return Cause.CONDITION, ('premise never',)
@@ -73,9 +66,15 @@ def reasons(report: RunReport) -> tuple[str, ...]:
 
 def _missing(grounding: GroundingOutcome | None) -> Iterator[str]:
     """Yield what cannot be run or judged, without the names that the prompt's bodies have."""
-    for text in grounding.unsupported if grounding is not None else ():
+    if grounding is None:
+        return
+    for text in grounding.unsupported:
         element, separator, what = text.partition(': ')
         yield what if separator else element
+    lost = {text.partition(': ')[0] for text in grounding.unsupported}
+    for one in grounding.unjudged:
+        if one.element not in lost:
+            yield f'not judged: {one.what.partition(" = ")[0]}'
 
 
 def _what(row: ConditionReport) -> str:

@@ -12,6 +12,7 @@ from aurora_bench.prompts.format import AnnotatedPrompt
 from aurora_bench.rulers.causes import cause_of
 from aurora_bench.rulers.runs import refusal_cause
 from aurora_bench.rulers.trial import Cause
+from aurora_core.agsg.judged import Unjudged
 from aurora_core.grounding.outcome import GroundingFailure, GroundingOutcome
 from aurora_core.report.run_report import RunReport
 
@@ -48,6 +49,9 @@ NOWHERE = GroundingOutcome(
     failure=GroundingFailure(reason='clearance', tried=9, rejected_by={'clearance': 9})
 )
 MISSING = GroundingOutcome(unsupported=('car1: behaviour turn_left', 'van1: behaviour turn_left'))
+UNJUDGED = GroundingOutcome(
+    unjudged=(Unjudged(element='m1', path='missions/m1', what='radius_m = 50 m'),)
+)
 ERROR: Doc = {'error': {'code': 4, 'component': 'sumo', 'message': 'no route\nat edge 7'}}
 FAILED: Doc = {
     'conditions': [
@@ -74,6 +78,7 @@ UNREAD: Doc = {
         ),
         ('inconclusive', {}, NOWHERE, Cause.GROUNDING, ('clearance',)),
         ('incomplete', UNREAD, MISSING, Cause.CAPABILITY, ('behaviour turn_left',)),
+        ('incomplete', UNREAD, UNJUDGED, Cause.CAPABILITY, ('not judged: radius_m',)),
         # What is missing comes before what failed because of it.
         ('violated', FAILED, MISSING, Cause.CAPABILITY, ('behaviour turn_left',)),
         (
