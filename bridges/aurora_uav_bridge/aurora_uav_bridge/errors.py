@@ -21,6 +21,12 @@ class CommandRefusedError(AirSimulatorError):
     default_component = 'uav_sim'
 
 
+class SimulatorHeldError(CommandRefusedError):
+    """The simulator is in lockstep with another client, which still speaks."""
+
+    default_code = 425
+
+
 class CommandRangeError(AirSimulatorError):
     """A number that must not reach the simulator: not finite or out of range."""
 

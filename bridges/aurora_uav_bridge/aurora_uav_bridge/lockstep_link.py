@@ -20,6 +20,7 @@ from aurora_uav_bridge import conversions
 from aurora_uav_bridge.errors import (
     CommandRefusedError,
     SessionLostError,
+    SimulatorHeldError,
     SimulatorSilentError,
 )
 from aurora_uav_bridge.transports import Transport
@@ -54,6 +55,7 @@ _RETRY_GROWTH = 1.5
 _NEWEST = 0.125
 # A step answered so often with "no such session" means it; fewer may be leftovers.
 _DISOWNED_LIMIT = 3
+_HELD_HINT = 'another client flies with this simulator: end it, or use another ROS_DOMAIN_ID'
 _STATUS_TEXT = int(mavlink.MAVLINK_MSG_ID_STATUSTEXT)
 _ACK_ID = COMMAND_ACK.message_id
 _POSITION_ID = LOCAL_POSITION.message_id
@@ -130,6 +132,7 @@ class LockstepLink:
 
         Raises:
             CommandRefusedError: The answer is not ACCEPTED.
+            SimulatorHeldError: The same to entering, while another client has the session.
             SimulatorSilentError: No answer within the time limit.
         """
         filled = (*parameters, *(0.0 for _ in range(7 - len(parameters))))
@@ -211,7 +214,10 @@ class LockstepLink:
         if result != Result.ACCEPTED:
             word = Result(result).name if result in tuple(Result) else f'result {result}'
             reason = f': {self._text}' if self._text else ''
-            raise CommandRefusedError(f'{name}: expected ACCEPTED, found {word}{reason}')
+            text = f'{name}: expected ACCEPTED, found {word}{reason}'
+            if command == CMD_LOCKSTEP and result == Result.TEMPORARILY_REJECTED:
+                raise SimulatorHeldError(text, hint=_HELD_HINT)
+            raise CommandRefusedError(text)
 
     def _exchange(
         self, packer: Packer, done: Callable[[], bool], what: str, limit_s: float
@@ -242,6 +248,14 @@ class LockstepLink:
                     hint='is it running? ros2 run aurora_uav_sim uav_sim',
                 )
             wait_s = min(_RETRY_GROWTH * wait_s, _LAST_RETRY_S)
+
+    def heartbeat(self) -> None:
+        """Say that the owner of the session is there; no answer comes."""
+        message = mavlink.MAVLink_heartbeat_message(
+            mavlink.MAV_TYPE_ONBOARD_CONTROLLER, mavlink.MAV_AUTOPILOT_INVALID,
+            0, 0, mavlink.MAV_STATE_ACTIVE, 3,
+        )  # fmt: skip
+        self._transport.send(self._sequence.encode(message))
 
     # Answers ------------------------------------------------------------------------------------
 

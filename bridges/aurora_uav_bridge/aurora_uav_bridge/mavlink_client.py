@@ -22,7 +22,11 @@ from aurora_core.trace.layout import (
     UavMode,
 )
 from aurora_uav_bridge import conversions
-from aurora_uav_bridge.errors import CommandRefusedError, SimulatorSilentError
+from aurora_uav_bridge.errors import (
+    CommandRefusedError,
+    SimulatorHeldError,
+    SimulatorSilentError,
+)
 from aurora_uav_bridge.lockstep_link import OWN_COMPONENT, OWN_SYSTEM, LockstepLink
 from aurora_uav_bridge.transports import Transport
 from aurora_uav_sim.autopilot import FlightMode
@@ -33,11 +37,15 @@ from aurora_uav_sim.protocol import (
     CMD_WIND,
     MAX_NONCE,
     MAX_TICK,
+    OWNER_SILENCE_S,
     fleet_masks,
     seed_words,
 )
 from aurora_uav_sim.wire import Sequence
 
+# A session of somebody who died is free after the simulator's limit of silence; the wait for it.
+_HELD_LIMIT_S = OWNER_SILENCE_S + 1.0
+_HELD_PAUSE_S = 0.25
 # Leaving must not hold up the end of a run for long.
 _LEAVE_LIMIT_S = 0.5
 _GLOBAL = int(mavlink.MAV_FRAME_GLOBAL)
@@ -90,6 +98,7 @@ class MavlinkClient:
             CommandRangeError: A number is not finite or out of range; nothing was sent.
             SimulatorSilentError: No answer within the time limit.
             CommandRefusedError: The simulator refused something, named.
+            SimulatorHeldError: It is in lockstep with another client that is alive.
         """
         if self._closed:
             raise AirSimulatorError('the link to the air simulator is closed', hint='open another')
@@ -164,6 +173,11 @@ class MavlinkClient:
         self._tick = tick
         return self._state.copy()
 
+    def stand_by(self) -> None:
+        """Keep the session while no tick comes; the simulator gives a silent one away."""
+        if self._link is not None:
+            self._link.heartbeat()
+
     def close(self) -> None:
         """Leave the session and free the link; safe to call twice."""
         if self._closed:
@@ -189,11 +203,7 @@ class MavlinkClient:
         self._link = link = LockstepLink(
             self._transport, self._timeout_s, load.homes, self._nonce, self._sequence
         )
-        masks = fleet_masks(tuple(home.system_id for home in load.homes))
-        link.command(
-            link.first, 'enter lockstep', CMD_LOCKSTEP,
-            1.0, float(self._nonce), float(tick_us), *masks,
-        )  # fmt: skip
+        self._enter(link, load, tick_us)
         for home in load.homes:
             system_id = home.system_id
             link.command(system_id, 'reboot', _REBOOT, 1.0)
@@ -213,6 +223,26 @@ class MavlinkClient:
             )  # fmt: skip
             link.command(system_id, 'set seed', CMD_SEED, *seed_words(load.seed))
         return link
+
+    def _enter(self, link: LockstepLink, load: AirLoad, tick_us: int) -> None:
+        """Enter lockstep, after the silence of an owner that died if need be."""
+        transport = self._transport
+        masks = fleet_masks(tuple(home.system_id for home in load.homes))
+        until_s = transport.steady_time_s() + _HELD_LIMIT_S
+        while True:
+            try:
+                link.command(
+                    link.first, 'enter lockstep', CMD_LOCKSTEP,
+                    1.0, float(self._nonce), float(tick_us), *masks,
+                )  # fmt: skip
+            except SimulatorHeldError:
+                again_s = transport.steady_time_s() + _HELD_PAUSE_S
+                if again_s > until_s:
+                    raise
+            else:
+                return
+            while (left_s := again_s - transport.steady_time_s()) > 0.0:
+                transport.receive(left_s)  # telemetry for anybody
 
     def _change_mode(
         self, link: LockstepLink, i: int, mode: UavMode, takeoff_altitude_m: float

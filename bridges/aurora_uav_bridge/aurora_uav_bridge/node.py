@@ -84,6 +84,11 @@ class UavBridgeNode(LockstepBridge):
         rows = self._loaded.advance(tick, unpack(command.data, UAV_COMMAND_WIDTH, 'UAV command'))
         return uav_state(run_number, tick, dt_s, rows)
 
+    def stand_by(self) -> None:
+        """Keep the session while the run stands still."""
+        if self._client is not None:
+            self._client.stand_by()
+
     def close_run(self) -> None:
         """Leave the session, so that the simulator runs in real time again."""
         client, self._client = self._client, None

@@ -28,6 +28,7 @@ from aurora_uav_bridge.errors import (
     CommandRangeError,
     CommandRefusedError,
     SessionLostError,
+    SimulatorHeldError,
     SimulatorSilentError,
 )
 from aurora_uav_bridge.mavlink_client import MavlinkClient, random_nonce
@@ -38,6 +39,7 @@ from aurora_uav_bridge.transports import (
     UdpTransport,
 )
 from aurora_uav_sim.mavlink_server import SimServer
+from aurora_uav_sim.protocol import OWNER_SILENCE_S
 
 DT_S = 0.05
 NEVER = 10**9
@@ -243,15 +245,65 @@ def test_a_restarted_simulator_is_noticed() -> None:
     assert fly(client, load, 5).tobytes() == fly(loopback(), load, 5).tobytes()
 
 
-def test_another_client_takes_over() -> None:
+def test_another_client_is_refused_while_the_owner_flies() -> None:
     server = SimServer()
     first, second = loopback(server), loopback(server)
     load = load_of()
     fly(first, load, 3)
+    with pytest.raises(SimulatorHeldError, match='Held by loopback:') as caught:
+        second.load(load)
+    assert caught.value.hint
+    first.advance(4, commands_of(load, 4))
+    first.close()
     fly(second, load, 3)
+
+
+def test_the_owner_may_load_again_without_leaving() -> None:
+    client = loopback()
+    load = load_of()
+    first = fly(client, load, 10)
+    assert fly(client, load, 10).tobytes() == first.tobytes()
+
+
+class RunningTransport(LoopbackTransport):
+    """Lets the simulator's time pass with that of the waits."""
+
+    def __init__(self, server: SimServer) -> None:
+        super().__init__(server)
+        self._running = server
+
+    def receive(self, timeout_s: float) -> bytes | None:
+        answer = super().receive(timeout_s)
+        self._running.poll(self.steady_time_s())
+        return answer
+
+
+def test_the_session_of_a_dead_owner_is_waited_for_and_taken() -> None:
+    server = SimServer()
+    server.poll(0.0)
+    load = load_of()
+    dead = loopback(server)
+    fly(dead, load, 3)
+    transport = RunningTransport(server)
+    fly(MavlinkClient(transport), load, 3)
+    assert OWNER_SILENCE_S < transport.steady_time_s() < OWNER_SILENCE_S + 1.0
     with pytest.raises(SessionLostError):
-        first.advance(4, commands_of(load, 4))
-    second.advance(4, commands_of(load, 4))
+        dead.advance(4, commands_of(load, 4))
+
+
+def test_an_owner_that_stands_by_keeps_its_session() -> None:
+    server = SimServer()
+    server.poll(0.0)
+    load = load_of()
+    owner = loopback(server)
+    fly(owner, load, 3)
+    for tenth in range(1, 200):
+        if tenth % 5 == 0:
+            owner.stand_by()
+        server.poll(0.1 * tenth)
+    with pytest.raises(SimulatorHeldError):
+        loopback(server).load(load)
+    owner.advance(4, commands_of(load, 4))
 
 
 @pytest.mark.parametrize('bad', [math.nan, math.inf, 1e30])

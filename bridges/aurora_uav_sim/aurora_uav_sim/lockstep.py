@@ -26,6 +26,7 @@ class Session:
     Attributes:
         nonce: Number that the owner chose.
         source: Where the owner sends from.
+        sender: System and component id of the owner.
         fleet: The vehicles by system id, ascending; these and no others are stepped.
         tick: Last tick that was simulated.
         newer: Filter against stale frames of the owner.
@@ -39,15 +40,22 @@ class Session:
         'fleet',
         'newer',
         'nonce',
+        'sender',
         'source',
         'tick',
     )
 
     def __init__(
-        self, nonce: int, source: Hashable, tick_us: int, vehicles: Iterable[Vehicle]
+        self,
+        nonce: int,
+        source: Hashable,
+        sender: tuple[int, int],
+        tick_us: int,
+        vehicles: Iterable[Vehicle],
     ) -> None:
         self.nonce = nonce
         self.source = source
+        self.sender = sender
         self.fleet = {v.system_id: v for v in vehicles}
         self.tick = 0
         self.newer = Newer()
@@ -55,6 +63,10 @@ class Session:
         self._h = tick_us / 1e6 / self._steps
         self._targets: dict[int, Target] = {}
         self._readers = {system_id: SetPointReader() for system_id in self.fleet}
+
+    def owned_by(self, source: Hashable, sender: tuple[int, int]) -> bool:
+        """Return whether somebody is the owner: the same address and the same MAVLink ids."""
+        return self.source == source and self.sender == sender
 
     def take_set_point(self, payload: bytes) -> None:
         """Keep a set-point for the next tick; one for another tick or vehicle is dropped."""

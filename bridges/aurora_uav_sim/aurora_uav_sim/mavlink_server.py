@@ -4,7 +4,7 @@
 
 Stand-alone, `poll` lets time pass and streams telemetry, and any ground station may command. In
 a lockstep session (`protocol`) only its owner commands and only its steps move time; everyone
-else may look.
+else may look. A session cannot be taken away while its owner speaks.
 """
 
 from __future__ import annotations
@@ -30,6 +30,7 @@ from aurora_uav_sim.protocol import (
     CMD_LOCKSTEP,
     CMD_STEP,
     MAX_NONCE,
+    OWNER_SILENCE_S,
 )
 from aurora_uav_sim.services import Services
 from aurora_uav_sim.set_point import SetPointReader
@@ -63,11 +64,17 @@ class SimServer:
     Args:
         system_ids: MAVLink system ids of the stand-alone vehicles.
         watchers: Destinations that get telemetry without having asked.
+        owner_silence_s: After so long a silence of its owner a session may be taken over.
     """
 
     def __init__(
-        self, system_ids: Iterable[int] = (1,), watchers: Iterable[Hashable] = ()
+        self,
+        system_ids: Iterable[int] = (1,),
+        watchers: Iterable[Hashable] = (),
+        *,
+        owner_silence_s: float = OWNER_SILENCE_S,
     ) -> None:
+        self._owner_silence_s = owner_silence_s
         self._vehicles: dict[int, Vehicle] = {}
         for seat, system_id in enumerate(system_ids):
             self._vehicles[system_id] = Vehicle(system_id, seat)
@@ -113,7 +120,8 @@ class SimServer:
                 link = self._new_link(source)
             link.heard = True
             session = self._session
-            if session is not None and session.source == source:
+            sender = (frame.system_id, frame.component_id)
+            if session is not None and session.owned_by(source, sender):
                 if not session.newer.accept(frame):
                     # A new client may count from 0 again on the same port.
                     if frame.message_id == _COMMAND_LONG_ID and _is_lockstep(frame):
@@ -130,7 +138,7 @@ class SimServer:
                         continue
             self._message(frame, source, link, out)
             opened = self._session
-            if opened is not None and opened is not session and opened.source == source:
+            if opened is not None and opened is not session and opened.owned_by(source, sender):
                 # What its owner sent before, for an older session, must not act in this one.
                 opened.newer.accept(frame)
         return _datagrams(out)
@@ -178,7 +186,7 @@ class SimServer:
             if self._session is None:
                 self._stream_set_point(frame.payload)
         else:
-            may_change = self._session is None or self._session.source == source
+            may_change = self._session is None or self._session.owned_by(source, sender)
             out.extend(self._services.answer(m, kind, sender, self.vehicles, link, may_change))
 
     def _stream_set_point(self, payload: bytes) -> None:
@@ -221,7 +229,7 @@ class SimServer:
             answers = [(vehicle, denial) for vehicle in self._addressed(0, 0)[:1]]
         else:
             session = self._session
-            owned = session is not None and session.source == source
+            owned = session is not None and session.owned_by(source, request.sender)
             number = session.nonce if session is not None and owned else 0
             answers = [
                 (vehicle, self._vehicle_command(vehicle, request, source, link, out))
@@ -250,7 +258,7 @@ class SimServer:
             return asked
         session = self._session
         if session is not None:
-            if session.source != source:
+            if not session.owned_by(source, request.sender):
                 return Answer(Result.TEMPORARILY_REJECTED, 'In lockstep with another client')
             if request.command in PREPARATIONS:
                 if session.tick > 0:
@@ -269,7 +277,9 @@ class SimServer:
             return Answer(Result.DENIED, 'Lockstep denied: nonce')
         session = self._session
         if request.p1 == 0.0:
-            if session is not None and session.nonce == nonce and session.source == source:
+            if session is not None and session.nonce == nonce:
+                if not session.owned_by(source, request.sender):
+                    return Answer(Result.DENIED, 'Lockstep denied: not its owner')
                 self._leave()
                 return ACCEPTED
             # Left already: the answer was lost.
@@ -277,10 +287,13 @@ class SimServer:
         if request.p1 != 1.0:
             return Answer(Result.DENIED, 'Lockstep denied: enter or leave')
         if session is not None and session.nonce == nonce:
-            same = session.source == source
+            same = session.owned_by(source, request.sender)
             return ACCEPTED if same else Answer(Result.DENIED, 'Nonce is taken')
         if nonce in self._nonces:
             return Answer(Result.DENIED, 'Lockstep denied: old session')
+        owned = session is not None and session.owned_by(source, request.sender)
+        if session is not None and not owned and self._owner_speaks(session):
+            return Answer(Result.TEMPORARILY_REJECTED, f'Held by {_address(session.source)}')
         wanted = read_session(request)
         if isinstance(wanted, Answer):
             return wanted
@@ -292,10 +305,18 @@ class SimServer:
             vehicle = self._vehicles[system_id]
             vehicle.place_default()
             fleet.append(vehicle)
-        self._session = Session(nonce, source, tick_us, fleet)
+        self._session = Session(nonce, source, request.sender, tick_us, fleet)
         self._nonces.append(nonce)
         self._session_heard_s = self._wall_s or 0.0
         return ACCEPTED
+
+    def _owner_speaks(self, session: Session) -> bool:
+        """Return whether the owner was heard lately."""
+        link = self._links[session.source]
+        if link.heard:
+            return True
+        heard_s = max(link.heard_s, self._session_heard_s)
+        return (self._wall_s or 0.0) - heard_s <= self._owner_silence_s
 
     def _leave(self) -> None:
         self._session = None
@@ -357,6 +378,10 @@ class SimServer:
         ]
         for source in silent:
             del self._links[source]
+
+
+def _address(source: Hashable) -> str:
+    return ':'.join(map(str, source)) if isinstance(source, tuple) else str(source)
 
 
 def _is_lockstep(frame: Frame) -> bool:

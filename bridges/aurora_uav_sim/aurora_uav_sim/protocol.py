@@ -11,6 +11,11 @@ with LOCAL_POSITION_NED, ATTITUDE_QUATERNION and NAMED_VALUE_INT per vehicle, al
 time_boot_ms = k, and an acknowledgement whose result_param2 is k; asked again for k it answers
 again and does not move. If a set-point is missing it answers TEMPORARILY_REJECTED and waits.
 
+Whoever opened a session owns it, by address and by system and component id. Until the owner leaves
+or has been silent for some seconds, anybody else who enters is answered TEMPORARILY_REJECTED, with
+the owner's address as text, and so is anybody else's command. The owner speaks with every tick;
+while a run stands still its heartbeats are enough.
+
 Acknowledgements to the owner carry the nonce in result_param2, except those of steps.
 
 Every frame of the session must be newer, by MAVLink sequence number, than the last one accepted,
@@ -36,6 +41,10 @@ MAX_NONCE = 2**24 - 1
 MAX_TICK = 2**24 - 1
 MAX_SYSTEM_ID = 64
 MAX_FLEET = 20
+
+# A session whose owner was silent for so long may be taken over. It speaks with every tick, and
+# twice a second while its run stands still.
+OWNER_SILENCE_S = 3.0
 
 # Magic number of MAV_CMD_COMPONENT_ARM_DISARM param2. Source: MAVLink common.xml.
 FORCE_ARM_MAGIC = 21196

@@ -7,6 +7,7 @@ from __future__ import annotations
 import argparse
 import errno
 import gc
+import math
 import os
 import signal
 import socket
@@ -18,7 +19,12 @@ from pathlib import Path
 from types import FrameType
 
 from aurora_uav_sim.mavlink_server import SimServer
-from aurora_uav_sim.protocol import MAX_FLEET, MAX_SYSTEM_ID, mavlink_port
+from aurora_uav_sim.protocol import (
+    MAX_FLEET,
+    MAX_SYSTEM_ID,
+    OWNER_SILENCE_S,
+    mavlink_port,
+)
 
 LOOPBACK = '127.0.0.1'
 # How often time passes, s of steady time.
@@ -47,12 +53,19 @@ def _arguments(argv: list[str]) -> argparse.Namespace:
         '--gcs', type=_address, action='append', default=[], metavar='HOST:PORT',
         help='send telemetry there unasked, e.g. 127.0.0.1:14550 (may be repeated)',
     )  # fmt: skip
+    parser.add_argument(
+        '--owner-silence', type=float, default=OWNER_SILENCE_S, metavar='SECONDS',
+        help='a lockstep session may be taken over after its owner was silent for so long '
+        '(default: %(default)s)',
+    )  # fmt: skip
     # `ros2 run` and launch files add these; there is nothing of ROS here to configure.
     own = argv[: argv.index('--ros-args')] if '--ros-args' in argv else argv
     options = parser.parse_args(own)
     last = options.system_id + options.count - 1
     if not 1 <= options.count <= MAX_FLEET or options.system_id < 1 or last > MAX_SYSTEM_ID:
         parser.error(f'expected 1 to {MAX_FLEET} vehicles with system ids 1 to {MAX_SYSTEM_ID}')
+    if not 0.0 < options.owner_silence < math.inf:
+        parser.error(f'expected seconds of silence above 0, found {options.owner_silence}')
     if options.port is None:
         try:
             options.port = mavlink_port(
@@ -137,7 +150,11 @@ def main(argv: list[str] | None = None) -> int:
         if options.host != LOOPBACK:
             sys.stderr.write(f'uav_sim: warning: open to the network on {options.host}\n')
         first = options.system_id
-        server = SimServer(range(first, first + options.count), options.gcs)
+        server = SimServer(
+            range(first, first + options.count),
+            options.gcs,
+            owner_silence_s=options.owner_silence,
+        )
         gc.freeze()
         host, port = sock.getsockname()
         sys.stdout.write(f'uav_sim: {options.count} vehicle(s) on UDP {host}:{port}\n')

@@ -15,6 +15,7 @@ from aurora_uav_sim.protocol import (
     CMD_SEED,
     CMD_STEP,
     CMD_WIND,
+    OWNER_SILENCE_S,
     fleet_masks,
     unpack_status,
 )
@@ -164,21 +165,99 @@ def test_only_the_owner_commands_but_others_may_look(
     assert {where for where, _ in sent} == {'other'}
 
 
-def test_another_client_takes_over_and_the_first_is_told(
+def test_a_session_that_is_owned_is_not_taken_over(
     server: SimServer, station: Any, other: Any
 ) -> None:
+    server.poll(0.0)
     enter(station)
     step(station, 1)
+    answers = other.command(CMD_LOCKSTEP, 1, 99, 50_000, *fleet_masks((1,)))
+    assert ack_of(answers).result == REJECTED
+    (text,) = [m.text for m in answers if m.get_type() == 'STATUSTEXT']
+    assert text == 'Held by station'
+    assert ack_of(step(station, 2)).result == ACCEPTED
+    assert server.vehicles[1].autopilot.time_s == pytest.approx(0.1)
+    # Free again once its owner has left.
+    assert station.result(CMD_LOCKSTEP, 0, NONCE) == ACCEPTED
+    assert enter(other, nonce=99, ids=(1,)) == ACCEPTED
+
+
+def test_heartbeats_keep_a_session_and_silence_gives_it_away(
+    server: SimServer, station: Any, other: Any
+) -> None:
+    server.poll(0.0)
+    enter(station)
+    for second in range(1, 20):
+        station.send(mavlink.MAVLink_heartbeat_message(18, 8, 0, 0, 4, 3))
+        server.poll(float(second))
+    server.poll(19.0 + 0.9 * OWNER_SILENCE_S)
+    assert enter(other, nonce=99, ids=(1,)) == REJECTED
+    server.poll(19.0 + 1.1 * OWNER_SILENCE_S)
+    assert server.in_lockstep, 'nobody wanted it: it goes on'
     assert enter(other, nonce=99, ids=(1,)) == ACCEPTED
     assert server.vehicles[1].autopilot.time_s == 0.0
-    ack = ack_of(step(station, 2))
-    assert (ack.result, ack.result_param2) == (DENIED, 0)
+    ack = ack_of(step(station, 1))
+    assert (ack.result, ack.result_param2) == (DENIED, 0), 'the first is told'
+
+
+def test_how_long_an_owner_may_be_silent_is_a_setting(station: Any) -> None:
+    server = SimServer((1, 2), owner_silence_s=10.0)
+    kind = type(station)
+    station, other = kind(server, 'station'), kind(server, 'other')
+    server.poll(0.0)
+    enter(station)
+    server.poll(0.01)
+    server.poll(9.0)
+    assert enter(other, nonce=99) == REJECTED
+    server.poll(11.0)
+    assert enter(other, nonce=99) == ACCEPTED
+
+
+def test_the_owner_is_its_ids_as_well_as_its_address(server: SimServer, station: Any) -> None:
+    enter(station)
+    stranger = type(station)(server, station.source)
+    stranger.mav.srcSystem = 7
+    stranger.command(ARM, 1)
+    stranger.send(set_point(1, 1))
+    stranger.send(set_point(1, 2))
+    acks = [
+        ack_of(stranger.command(CMD_LOCKSTEP, *rest)).result
+        for rest in ((1, 99, 50_000, *fleet_masks((1, 2))), (0, NONCE))
+    ]
+    assert acks == [REJECTED, DENIED]
+    assert ack_of(stranger.send(step_message(0))).result == DENIED
+    assert ack_of(station.send(step_message(1))).result == REJECTED, 'its set-points are not there'
+    assert not server.vehicles[1].autopilot.armed
+
+
+@pytest.mark.parametrize('ticks', [0, 3])
+def test_nobody_but_the_owner_prepares_or_commands(
+    server: SimServer, station: Any, other: Any, ticks: int
+) -> None:
+    enter(station)
+    for tick in range(1, ticks + 1):
+        step(station, tick)
+    wind = server.vehicles[1].autopilot.wind.x
+    home = server.vehicles[1].home
+    for command, *parameters in (
+        (CMD_WIND, 1.0, 2.0, 0.0, 3.0),
+        (CMD_SEED, 1, 2, 3, 4),
+        (SET_HOME, 0, 0, 0, 90.0, 48.0, 11.0, 100.0),
+        (REBOOT, 1),
+        (ARM, 1),
+        (TAKEOFF, 0, 0, 0, 0, 0, 0, 500.0),
+    ):
+        assert other.result(command, *parameters) == REJECTED
+    assert server.vehicles[1].autopilot.wind.x == wind
+    assert server.vehicles[1].home == home
+    assert ack_of(step(station, ticks + 1)).result == ACCEPTED
 
 
 def test_a_late_duplicate_of_an_old_session_is_denied(
     server: SimServer, station: Any, other: Any
 ) -> None:
     enter(station, nonce=1)
+    station.result(CMD_LOCKSTEP, 0, 1)
     enter(other, nonce=2)
     step(other, 1)
     assert enter(station, nonce=1) == DENIED

@@ -99,6 +99,8 @@ def test_the_port_comes_from_the_domain(monkeypatch: pytest.MonkeyPatch) -> None
         ['--gcs', 'nowhere'],
         ['--gcs', 'host:0'],
         ['--what'],
+        ['--owner-silence', '0'],
+        ['--owner-silence', 'nan'],
     ],
 )
 def test_bad_arguments_are_refused(

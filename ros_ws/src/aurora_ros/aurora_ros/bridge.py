@@ -65,6 +65,9 @@ class LockstepBridge(ManagedNode):
     def advance(self, tick: int, command: Any, run_number: int, dt_s: float) -> Any:
         """Apply the command stamped `tick`, advance to it and return its state message."""
 
+    def stand_by(self) -> None:
+        """Do what keeps the simulator while a run stands still; called twice a second."""
+
     def close_run(self) -> None:
         """Leave the simulator after a run; the next one loads it again."""
 
@@ -122,7 +125,10 @@ class LockstepBridge(ManagedNode):
 
     def _on_look(self) -> None:
         """Leave a run whose clock has died: no word of its end will come."""
-        if self._input.run_number is not None and self._watch.is_dead(_CLOCK):
+        if self._input.run_number is None:
+            return
+        self.stand_by()
+        if self._watch.is_dead(_CLOCK):
             self.get_logger().error(f'{_CLOCK} {self._watch.cause_of_death(_CLOCK)}: run given up')
             self._end_run()
 
