@@ -132,7 +132,7 @@ class _RepeatingRunner(EventRunner):
         for state in self._states:
             first = state.triggered_tick
             if state.done and first is not None and tick == first + _AGAIN_TICKS:
-                state.done = False
+                state.done = state.acted = False
         return super().step(tick, dt_s, seen, machines, note)
 
 
