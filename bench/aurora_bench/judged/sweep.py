@@ -67,8 +67,13 @@ class Sweep:
             made = derive_conditions(asked, facts, known.limits, known.tolerances)
             return judgeable(made.conditions, asked, grounded)
 
+        conditions = derive(graph.spec)
         said = {text.partition(': ')[0] for text in outcome.unsupported}
-        found = unjudged(graph.spec, derive(graph.spec), derive)
+        found = unjudged(graph.spec, conditions, derive)
+        if said:
+            # Events and links of a body that has no place have no condition for its sake.
+            judged = {name for c in conditions for name in c.spec_ids}
+            said |= {u.element for u in found} - judged
         return Found(
             outcome='grounded',
             stated=len(paths_stated(graph.spec)),
