@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from aurora_core.files import DOCUMENT_BYTES, read_text
 from aurora_core.report.run_folder import REPORT, is_run_id
 from aurora_nodes.jobs import FINISHED
 
@@ -31,7 +32,7 @@ def read_finished(root: Path, run_id: str) -> FinishedRun | None:
         return None
     folder = root / run_id
     try:
-        text = (folder / REPORT).read_text(encoding='utf-8')
+        text = read_text(folder / REPORT, DOCUMENT_BYTES)
         report = json.loads(text)
         return FinishedRun(
             run_id=run_id,
@@ -40,7 +41,7 @@ def read_finished(root: Path, run_id: str) -> FinishedRun | None:
             prompt=str(report['prompt']),
             report_json=text,
         )
-    except (OSError, ValueError, KeyError, TypeError):
+    except (OSError, ValueError, KeyError, TypeError, RecursionError):
         return None
 
 

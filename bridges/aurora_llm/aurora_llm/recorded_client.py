@@ -10,6 +10,7 @@ from pathlib import Path
 from pydantic import ValidationError
 
 from aurora_core.errors import ConfigError
+from aurora_core.files import TRANSCRIPT_BYTES, read_text
 from aurora_core.ports.language_model import (
     FailureKind,
     ModelCall,
@@ -36,7 +37,7 @@ class RecordedClient:
         # The same request may have been made again (after a time-out): answered in order.
         self._calls: defaultdict[str, deque[ModelCall]] = defaultdict(deque)
         try:
-            lines = path.read_text(encoding='utf-8').splitlines()
+            lines = read_text(path, TRANSCRIPT_BYTES).splitlines()
             for line in filter(str.strip, lines):
                 call = ModelCall.model_validate_json(line)
                 self._calls[call.request_sha256].append(call)

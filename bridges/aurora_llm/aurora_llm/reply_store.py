@@ -15,6 +15,7 @@ from pathlib import Path
 from pydantic import ValidationError
 
 from aurora_core.errors import ConfigError
+from aurora_core.files import TRANSCRIPT_BYTES, read_text
 from aurora_core.ports.language_model import (
     LanguageModel,
     ModelCall,
@@ -48,7 +49,7 @@ class ReplyStore:
         """
         path = self.path(model, request)
         try:
-            lines = path.read_text(encoding='utf-8').split('\n')
+            lines = read_text(path, TRANSCRIPT_BYTES).split('\n')
             found = tuple(ModelCall.model_validate_json(line) for line in lines if line.strip())
         except FileNotFoundError:
             return ()

@@ -10,6 +10,7 @@ import yaml
 from pydantic import Field, NonNegativeFloat, PositiveFloat, PositiveInt, ValidationError
 
 from aurora_core.errors import ConfigError
+from aurora_core.files import CONFIG_BYTES, read_text
 from aurora_core.knowledge.config_files import config_path
 from aurora_core.retrieval.background import Amounts
 from aurora_core.spec.parameter import Document
@@ -104,6 +105,6 @@ def load_model_settings(path: Path | None = None) -> ModelSettings:
     """
     file = path if path is not None else config_path('models.yaml')
     try:
-        return ModelSettings.model_validate(yaml.safe_load(file.read_text(encoding='utf-8')))
+        return ModelSettings.model_validate(yaml.safe_load(read_text(file, CONFIG_BYTES)))
     except (OSError, yaml.YAMLError, ValidationError) as err:
         raise ConfigError(f'{file} cannot be used: {err}', hint='see docs/models.md') from err

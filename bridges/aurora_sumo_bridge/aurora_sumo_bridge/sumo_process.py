@@ -22,6 +22,7 @@ from xml.parsers import expat
 import libsumo
 
 from aurora_core.errors import GroundSimulatorError
+from aurora_core.files import MAP_BYTES, open_regular
 
 # Lateral time of a lane change: without it SUMO jumps 3 m sideways in one step.
 LANE_CHANGE_DURATION_S = 3
@@ -143,7 +144,10 @@ def check_xml_root(path: Path, roots: set[str]) -> None:
     parser = expat.ParserCreate()
     parser.StartElementHandler = first_element
     try:
-        with gzip.open(path) if path.suffix == '.gz' else path.open('rb') as stream:
+        with contextlib.ExitStack() as opened:
+            stream: IO[bytes] = opened.enter_context(open_regular(path, MAP_BYTES))
+            if path.suffix == '.gz':
+                stream = opened.enter_context(gzip.GzipFile(fileobj=stream))
             while not found:
                 chunk = stream.read(_FIRST_BYTES)
                 parser.Parse(chunk, not chunk)

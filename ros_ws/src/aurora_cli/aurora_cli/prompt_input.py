@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 from aurora_cli.output import UsageProblem
+from aurora_core.files import BAG_BYTES, open_regular
 from aurora_core.parsing.text import MAX_PROMPT_BYTES
 
 # Far more than any prompt may have: what is longer is no prompt that somebody wrote, and an
@@ -35,7 +36,7 @@ def prompt_bytes(argument: str | None, file: Path | None) -> bytes:
         raise UsageProblem('give one prompt: PROMPT, - (standard input) or --prompt-file FILE')
     if file is not None:
         try:
-            with file.open('rb') as stream:
+            with open_regular(file, BAG_BYTES) as stream:  # its own limit is told below
                 return _all_of(stream, str(file))
         except OSError as err:
             raise UsageProblem(f'{file} cannot be read: {err.strerror or err}') from err

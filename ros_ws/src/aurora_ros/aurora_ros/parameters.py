@@ -17,6 +17,7 @@ from rclpy.exceptions import ParameterException
 from rclpy.node import Node
 
 from aurora_core.errors import ConfigError
+from aurora_core.files import CONFIG_BYTES, read_text
 from aurora_core.knowledge.config_files import config_path
 
 _T = TypeVar('_T')
@@ -38,7 +39,7 @@ def read_parameters(path: Path, settings: type[_T]) -> dict[str, Any]:
     """
     hints = get_type_hints(settings)
     try:
-        document = yaml.safe_load(path.read_text(encoding='utf-8'))
+        document = yaml.safe_load(read_text(path, CONFIG_BYTES))
         values = dict(document['/**']['ros__parameters'])
     except (OSError, yaml.YAMLError, KeyError, TypeError, ValueError) as err:
         raise ConfigError(

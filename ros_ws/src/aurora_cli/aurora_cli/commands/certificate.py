@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +13,7 @@ from aurora_cli.output import answer_console, print_json
 from aurora_cli.recheck import Outcome, recheck
 from aurora_core.errors import ReportError
 from aurora_core.feasibility.verdict import Certificate
+from aurora_core.files import DOCUMENT_BYTES, read_json, read_text
 from aurora_core.report.terminal import headline, line
 
 _REFUTED = 1
@@ -71,7 +71,7 @@ def certificate_command(file: Path, *, as_json: bool) -> int:
 
 def _read(path: Path) -> Any:
     try:
-        return json.loads(path.read_bytes())
+        return read_json(path, DOCUMENT_BYTES)
     except (OSError, ValueError) as err:
         raise ReportError(
             f'{path} cannot be read as JSON: {err}',
@@ -110,5 +110,5 @@ def _spec_beside(path: Path, document: Any) -> dict[str, Any] | None:
         return value if isinstance(value, dict) else None
     prompt = path.with_name('prompt.txt')
     if prompt.exists():
-        return {'prompt': prompt.read_text(encoding='utf-8', errors='replace')}
+        return {'prompt': read_text(prompt, DOCUMENT_BYTES, 'replace')}
     return None

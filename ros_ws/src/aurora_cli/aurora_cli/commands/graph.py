@@ -28,6 +28,7 @@ from aurora_core.agsg.graph import Agsg
 from aurora_core.agsg.influence import Influence, conditions_affected, parameters_affecting
 from aurora_core.errors import PromptError, SpecError
 from aurora_core.feasibility.verdict import Feasibility
+from aurora_core.files import DOCUMENT_BYTES, read_bytes
 from aurora_core.pipeline import functions
 from aurora_core.pipeline.stages import RunRequest
 from aurora_core.report.run_folder import StageFile, is_run_id
@@ -135,7 +136,7 @@ def _of_run(path: Path, iteration: int | None) -> Agsg:
     else:
         return functions.load_bag(find_bag(str(path), iteration).bag)[1]
     try:
-        return Agsg.model_validate_json(file.read_bytes())
+        return Agsg.model_validate_json(read_bytes(file, DOCUMENT_BYTES))
     except (OSError, ValidationError) as err:
         raise SpecError(f'{file} holds no graph: {err}', hint='name another run') from err
 

@@ -12,6 +12,7 @@ from aurora_cli.bags import find_bag
 from aurora_cli.files import write_file
 from aurora_cli.output import UsageProblem, print_json, quiet_stdout, say
 from aurora_core.conditions.condition import conditions_from_json
+from aurora_core.files import DOCUMENT_BYTES, read_bytes
 from aurora_core.monitor.verify import verify
 from aurora_core.pipeline.functions import load_bag
 from aurora_core.report.picture.caption import Caption
@@ -56,6 +57,6 @@ def picture_command(run_or_bag: str, output: Path, iteration: int | None, *, as_
 
 def _report(run: Path) -> RunReport | None:
     try:
-        return RunReport.model_validate_json((run / REPORT).read_bytes())
+        return RunReport.model_validate_json(read_bytes(run / REPORT, DOCUMENT_BYTES))
     except (OSError, ValidationError):
         return None

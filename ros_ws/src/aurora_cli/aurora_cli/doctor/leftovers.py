@@ -51,6 +51,7 @@ def shared_memory(machine: Machine) -> list[Finding]:
 
 def unfinished_runs(machine: Machine) -> list[Finding]:
     """No run is left without a report by a process that has ended."""
+    from aurora_core.files import MANIFEST_BYTES, read_bytes
     from aurora_core.report.manifest import Manifest
     from aurora_core.report.run_folder import MANIFEST, REPORT, is_run_id
 
@@ -60,8 +61,8 @@ def unfinished_runs(machine: Machine) -> list[Finding]:
         if not is_run_id(folder.name) or (folder / REPORT).exists():
             continue
         try:
-            manifest = Manifest.model_validate_json(path.read_bytes())
-        except ValueError:
+            manifest = Manifest.model_validate_json(read_bytes(path, MANIFEST_BYTES))
+        except (OSError, ValueError):
             findings.append(
                 Finding(
                     expected=f'a readable {path}',

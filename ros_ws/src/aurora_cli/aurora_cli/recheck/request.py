@@ -4,12 +4,12 @@
 
 from __future__ import annotations
 
-import json
 import math
 from typing import Any, TypeGuard
 
 from aurora_cli.recheck.finding import Step
 from aurora_core.feasibility.verdict import Certificate, Fact, FactSource
+from aurora_core.files import MAP_BYTES, read_json
 from aurora_core.knowledge.config_files import config_path
 
 # "about" widens a relative tolerance to a tenth.
@@ -18,7 +18,7 @@ _ABOUT = 0.10
 
 def read_config(*parts: str) -> Any:
     """Return a JSON document of the configuration."""
-    return json.loads(config_path(*parts).read_text(encoding='utf-8'))
+    return read_json(config_path(*parts), MAP_BYTES)
 
 
 def node_at(document: Any, path: str) -> Any:

@@ -4,12 +4,12 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 
 from pydantic import BaseModel, ConfigDict
 
 from aurora_core.errors import ConfigError
+from aurora_core.files import CONFIG_BYTES, read_json
 from aurora_core.knowledge.config_files import config_path
 from aurora_core.knowledge.limits import Limits, Positive
 from aurora_core.spec.vocabulary import AgentType
@@ -46,7 +46,7 @@ def load_agent_types() -> Mapping[str, AgentTypeRecord]:
     """
     path = config_path('knowledge', 'agent_types.json')
     try:
-        table = json.loads(path.read_text(encoding='utf-8'))
+        table = read_json(path, CONFIG_BYTES)
         records = [AgentTypeRecord.model_validate(row) for row in table['types']]
     except OSError as err:
         raise ConfigError(f'{path} cannot be read: {err}', hint='run make setup') from err

@@ -11,6 +11,7 @@ from typing import Annotated, Self, TypeVar
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from aurora_core.errors import ConfigError
+from aurora_core.files import CONFIG_BYTES, read_json
 from aurora_core.spec.vocabulary import TimeOfDay, Weather
 
 # A limit or tolerance of zero would forbid everything; a share lies in (0, 1].
@@ -180,7 +181,7 @@ def load_tolerances(path: Path) -> Tolerances:
 
 def _load(path: Path, kind: type[_T]) -> _T:
     try:
-        return kind.model_validate(json.loads(path.read_text(encoding='utf-8')))
+        return kind.model_validate(read_json(path, CONFIG_BYTES))
     except OSError as err:
         raise ConfigError(f'{path.name} cannot be read: {err}', hint='run make setup') from err
     except ValueError as err:  # not UTF-8, not JSON, or out of the schema

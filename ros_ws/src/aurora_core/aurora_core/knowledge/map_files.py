@@ -7,7 +7,6 @@ Coordinates in them are ENU map metres, not degrees; each file says so in its me
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Mapping
 from itertools import pairwise
 from pathlib import Path
@@ -15,6 +14,7 @@ from typing import Any, TypeVar
 from xml.etree import ElementTree as Xml
 
 from aurora_core.errors import MapError
+from aurora_core.files import MAP_BYTES, read_json, read_xml
 from aurora_core.knowledge.map_types import (
     Area,
     Building,
@@ -82,10 +82,10 @@ def read_stops(
         MapError: When the file is missing or damaged or names a lane that the network lacks.
     """
     try:
-        root = Xml.parse(path).getroot()
+        root = read_xml(path)
         stops = [_bus_stop(e, network) for e in root.iterfind('busStop')]
         rows = [_parking_area(e, network) for e in root.iterfind('parkingArea')]
-    except (OSError, Xml.ParseError, KeyError, ValueError, MapError) as err:
+    except (OSError, KeyError, ValueError, MapError) as err:
         raise _damaged(path, err) from err
     return _sorted(stops, path, lambda s: s.id), _sorted(rows, path, lambda r: r.id)
 
@@ -96,7 +96,7 @@ def _damaged(path: Path, err: Exception | str) -> MapError:
 
 def _features(path: Path, convert: Callable[[_Feature], _T | None]) -> list[_T]:
     try:
-        document = json.loads(path.read_text(encoding='utf-8'))
+        document = read_json(path, MAP_BYTES)
         if document['frame'] != FRAME:
             raise ValueError(f'frame is {document["frame"]!r}, expected {FRAME!r}')
         converted = [convert(feature) for feature in document['features']]

@@ -11,6 +11,7 @@ from pathlib import Path
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from aurora_core.errors import MapError
+from aurora_core.files import MANIFEST_BYTES, MAP_BYTES, read_bytes
 
 MANIFEST_NAME = 'map.json'
 SCHEMA_VERSION = 1
@@ -58,7 +59,7 @@ class MapManifest(BaseModel):
 
 def describe_file(path: Path) -> MapFile:
     """Return name, hash and size of a file."""
-    data = path.read_bytes()
+    data = read_bytes(path, MAP_BYTES)
     return MapFile(name=path.name, sha256=hashlib.sha256(data).hexdigest(), size_bytes=len(data))
 
 
@@ -73,7 +74,7 @@ def read_manifest(folder: Path) -> MapManifest:
     """
     path = folder / MANIFEST_NAME
     try:
-        manifest = MapManifest.model_validate_json(path.read_bytes())
+        manifest = MapManifest.model_validate_json(read_bytes(path, MANIFEST_BYTES))
     except (OSError, ValidationError) as err:
         raise MapError(f'expected a map manifest in {path}, but: {err}', hint=_BUILD_HINT) from err
     for expected in manifest.files:

@@ -4,14 +4,13 @@
 
 from __future__ import annotations
 
-import gzip
-import zlib
 from collections.abc import Mapping
 from itertools import pairwise
 from pathlib import Path
 from xml.etree import ElementTree as Xml
 
 from aurora_core.errors import MapError
+from aurora_core.files import read_xml
 from aurora_core.geometry.polyline import Polyline
 from aurora_core.knowledge.net_types import (
     Connection,
@@ -74,13 +73,11 @@ def read_network(path: Path) -> NetworkData:
         MapError: When the file is missing, damaged or not a network.
     """
     try:
-        data = path.read_bytes()
-        text = gzip.decompress(data) if path.suffix == '.gz' else data
-        root = Xml.fromstring(text)
+        root = read_xml(path)
         if root.tag != 'net':
             raise ValueError(f'root element is <{root.tag}>, expected <net>')
         return _network(root)
-    except (OSError, EOFError, zlib.error, Xml.ParseError, KeyError, ValueError) as err:
+    except (OSError, KeyError, ValueError) as err:
         raise MapError(
             f'expected a SUMO network in {path}, but: {err}',
             hint='restore the file or build it again with `make maps`',

@@ -4,12 +4,12 @@
 
 from __future__ import annotations
 
-import json
 from typing import Annotated, Self
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from aurora_core.errors import ConfigError
+from aurora_core.files import CONFIG_BYTES, read_json
 from aurora_core.knowledge.config_files import config_path
 from aurora_core.knowledge.limits import NotNegative, Positive
 
@@ -99,7 +99,7 @@ def load_settings() -> Settings:
     """
     path = config_path('settings.json')
     try:
-        return Settings.model_validate(json.loads(path.read_text(encoding='utf-8')))
+        return Settings.model_validate(read_json(path, CONFIG_BYTES))
     except OSError as err:
         raise ConfigError(f'{path} cannot be read: {err}', hint='run make setup') from err
     except ValueError as err:  # not UTF-8, not JSON, or out of the schema

@@ -47,10 +47,11 @@ def find_bag(text: str, iteration: int | None) -> FoundBag:
         raise BagError(f'{text} is neither a run folder, nor a run in runs/, nor a bag')
     if path.is_file() and path.name == METADATA:
         path = path.parent
-    folder = path.parent if path.is_file() else path
+    is_named = not path.is_dir()
+    folder = path.parent if is_named else path
     match = _BAG.fullmatch(folder.absolute().name)
-    # A file that is named is the bag, whatever it holds: its reader says what is wrong with it.
-    if path.is_file() or any(path.glob('*.mcap')):
+    # What is named is the bag, whatever it is or holds: its reader says what is wrong with it.
+    if is_named or any(path.glob('*.mcap')):
         if iteration is not None and (match is None or int(match[1]) != iteration):
             raise BagError(f'--iteration {iteration} does not fit the bag {path}')
         parent = folder.absolute().parent

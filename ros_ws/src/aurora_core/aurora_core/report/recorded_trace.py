@@ -12,6 +12,7 @@ from pathlib import Path
 
 from pydantic import ValidationError
 
+from aurora_core.files import DOCUMENT_BYTES, read_bytes
 from aurora_core.report.run_folder import REPORT
 from aurora_core.report.run_report import RunReport, TraceReport
 from aurora_core.trace.trace import Integrity, Trace
@@ -25,7 +26,7 @@ def recorded_trace(run: Path, bag: str) -> TraceReport | None:
         bag: Name of the bag's folder.
     """
     try:
-        report = RunReport.model_validate_json((run / REPORT).read_bytes())
+        report = RunReport.model_validate_json(read_bytes(run / REPORT, DOCUMENT_BYTES))
     except (OSError, ValidationError):
         return None
     return report.trace if report.trace is not None and report.trace.bag == bag else None

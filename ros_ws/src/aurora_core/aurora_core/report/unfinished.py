@@ -10,6 +10,7 @@ from pathlib import Path
 from pydantic import ValidationError
 
 from aurora_core.errors import ReportError
+from aurora_core.files import DOCUMENT_BYTES, MANIFEST_BYTES, read_bytes, read_text
 from aurora_core.report.build import build_report
 from aurora_core.report.facts import RunFacts
 from aurora_core.report.manifest import Manifest
@@ -48,14 +49,14 @@ def close_unfinished(
 
 def _read_manifest(path: Path) -> Manifest | None:
     try:
-        return Manifest.model_validate_json(path.read_bytes())
+        return Manifest.model_validate_json(read_bytes(path, MANIFEST_BYTES))
     except (OSError, ValidationError):
         return None
 
 
 def _close(folder: RunFolder, manifest: Manifest) -> None:
     try:
-        prompt = folder.file(PROMPT).read_text(encoding='utf-8', errors='replace')
+        prompt = read_text(folder.file(PROMPT), DOCUMENT_BYTES, 'replace')
     except OSError:
         prompt = ''
     request = manifest.request

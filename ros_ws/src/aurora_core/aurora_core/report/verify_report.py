@@ -10,6 +10,7 @@ from typing import Literal
 from pydantic import FiniteFloat, ValidationError
 
 from aurora_core.errors import ReportError
+from aurora_core.files import DOCUMENT_BYTES, read_bytes
 from aurora_core.monitor.verdict import ConditionResult, Verdict, VerdictStatus
 from aurora_core.report.status import ExitCode
 from aurora_core.spec.parameter import Document
@@ -68,7 +69,7 @@ def read_recorded(path: Path) -> Verdict | None:
         ReportError: The file is damaged.
     """
     try:
-        return Verdict.model_validate_json(path.read_bytes())
+        return Verdict.model_validate_json(read_bytes(path, DOCUMENT_BYTES))
     except FileNotFoundError:
         return None
     except (OSError, ValidationError) as err:

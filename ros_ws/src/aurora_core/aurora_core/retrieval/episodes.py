@@ -11,6 +11,7 @@ from pathlib import Path
 from pydantic import FiniteFloat, ValidationError
 
 from aurora_core.errors import ConfigError
+from aurora_core.files import DOCUMENT_BYTES, read_bytes
 from aurora_core.retrieval.record import Record, RecordKind
 from aurora_core.spec.parameter import Document
 
@@ -95,7 +96,7 @@ class EpisodeStore:
         found = []
         for path in sorted(self.folder.glob('*.json')):
             try:
-                episode = Episode.model_validate_json(path.read_bytes())
+                episode = Episode.model_validate_json(read_bytes(path, DOCUMENT_BYTES))
             except (OSError, ValidationError) as err:
                 raise ConfigError(f'{path} is no episode: {err}', hint='remove the file') from err
             if episode.status != _VERIFIED:

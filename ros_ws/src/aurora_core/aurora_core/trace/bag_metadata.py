@@ -16,6 +16,8 @@ from typing import Any
 
 import yaml
 
+from aurora_core.files import BAG_BYTES, UnreadableFileError, open_regular, read_bytes
+
 METADATA = 'metadata.yaml'
 METADATA_VERSION = 9
 LATCHED = ('/aurora/agsg', '/aurora/roster', '/aurora/world', '/aurora/verdict')
@@ -94,10 +96,8 @@ def read_metadata(folder: Path) -> BagMetadata:
         ValueError: It is not what a bag has.
     """
     path = folder / METADATA
-    if path.stat().st_size > _SIZE_LIMIT:
-        raise ValueError(f'it has {path.stat().st_size} bytes')
     try:
-        text = path.read_bytes()
+        text = read_bytes(path, _SIZE_LIMIT)
         _check_depth(text)
         document = yaml.load(text, Loader=_LOADER)  # noqa: S506  (a safe loader)
         info = document['rosbag2_bagfile_information']
@@ -119,13 +119,15 @@ def read_metadata(folder: Path) -> BagMetadata:
                 for entry in info['topics_with_message_count']
             },
         )
+    except UnreadableFileError as err:
+        raise ValueError(err.message) from err
     except (yaml.YAMLError, LookupError, TypeError, AttributeError) as err:
         raise ValueError(f'{type(err).__name__}: {err}') from err
 
 
 def file_sha256(path: Path) -> str:
     """Return the sha256 (hex) of a file."""
-    with path.open('rb') as stream:
+    with open_regular(path, BAG_BYTES) as stream:
         return hashlib.file_digest(stream, 'sha256').hexdigest()
 
 

@@ -68,7 +68,8 @@ def bag_files(path: Path) -> tuple[Path, ...]:
     Raises:
         BagError: There is no bag.
     """
-    if path.is_file() and path.name != METADATA:
+    # What is named is the bag, a pipe too: who opens it says what is wrong.
+    if path.exists() and not path.is_dir() and path.name != METADATA:
         return (path,)
     folder = path if path.is_dir() else path.parent
     files = tuple(sorted(folder.glob('*.mcap')))

@@ -35,6 +35,8 @@ from mcap.records import (
     Statistics,
 )
 
+from aurora_core.files import BAG_BYTES, open_regular
+
 MAGIC = b'\x89MCAP0\r\n'
 # Our chunks have a megabyte and one message more; a record that is longer is not believed.
 CHUNK_LIMIT = 64 << 20
@@ -98,7 +100,7 @@ def scan(path: Path, *, check_index: bool = False) -> Iterator[Record | Defect]:
     Raises:
         OSError: The file cannot be read at all.
     """
-    with path.open('rb') as stream:
+    with open_regular(path, BAG_BYTES) as stream:
         yield from _Scan(stream, path.stat().st_size, check_index).run()
 
 
