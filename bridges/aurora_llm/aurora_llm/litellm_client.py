@@ -14,11 +14,14 @@ import os
 import threading
 from types import ModuleType
 from typing import Any
+from urllib.parse import parse_qsl, unquote, urlsplit
 
 from aurora_core.ports.language_model import FailureKind, ModelFailure, ModelReply, ModelRequest
 from aurora_llm.settings import ModelEntry, ModelSettings
 
 _MOST_MESSAGE = 300
+# Of a whole HTTP answer: several times what is read of it (`MAX_REPLY_CHARACTERS`), escaped.
+MOST_ANSWER_BYTES = 4 << 20
 # By name, most special first: litellm's classes come with the lazy import.
 _KINDS = (
     ('Timeout', FailureKind.TIMEOUT),
@@ -59,13 +62,19 @@ class LitellmClient:
         off as well.
         """
         litellm = _litellm()
+        from aurora_llm.guarded_http import Guard, guarded
+
+        ended: list[Guard] = []
         answer: concurrent.futures.Future[Any] = concurrent.futures.Future()
 
         def ask() -> None:
-            try:
-                answer.set_result(litellm.completion(**self._arguments(request)))
-            except Exception as err:  # noqa: BLE001 - told to the waiting thread, which sorts it
-                answer.set_exception(err)
+            with guarded(MOST_ANSWER_BYTES) as guard:
+                try:
+                    answer.set_result(litellm.completion(**self._arguments(request)))
+                except Exception as err:  # noqa: BLE001 - told to the thread that waits
+                    if guard.problem:
+                        ended.append(guard)
+                    answer.set_exception(err)
 
         # A daemon: a server that never ends must not keep the process from ending.
         threading.Thread(target=ask, name='language model', daemon=True).start()
@@ -77,7 +86,10 @@ class LitellmClient:
                 message=f'no answer within {self._settings.timeout_s:g} s',
             )
         except Exception as err:  # noqa: BLE001 - providers raise what they like; it is recorded
-            return _failure(err)
+            if ended:
+                kind = FailureKind.REFUSED if ended[0].is_final else FailureKind.TRUNCATED
+                return ModelFailure(kind=kind, message=ended[0].problem)
+            return _failure(err, self._entry)
 
     def _arguments(self, request: ModelRequest) -> dict[str, Any]:
         settings, entry = self._settings, self._entry
@@ -112,7 +124,7 @@ class LitellmClient:
             return ModelFailure(kind=FailureKind.UNAVAILABLE, message='an answer without text')
         usage = getattr(answer, 'usage', None)
         return ModelReply(
-            text=_redacted(text),
+            text=_redacted(text, self._entry),
             tokens_in=getattr(usage, 'prompt_tokens', None) or 0,
             tokens_out=getattr(usage, 'completion_tokens', None) or 0,
             cost_usd=_cost(answer, litellm),
@@ -136,12 +148,13 @@ def _cost(answer: Any, litellm: ModuleType) -> float | None:
         return None
 
 
-def _failure(err: Exception) -> ModelFailure:
+def _failure(err: Exception, entry: ModelEntry) -> ModelFailure:
     names = {cls.__name__ for cls in type(err).__mro__}
     kind = next((k for name, k in _KINDS if name in names), FailureKind.UNAVAILABLE)
     text = ' '.join(f'{type(err).__name__}: {err}'.split())
     wait = _retry_after(err) if kind is FailureKind.RATE_LIMITED else None
-    return ModelFailure(kind=kind, message=_redacted(text)[:_MOST_MESSAGE], retry_after_s=wait)
+    told = _redacted(text, entry)[:_MOST_MESSAGE]
+    return ModelFailure(kind=kind, message=told, retry_after_s=wait)
 
 
 def _retry_after(err: Exception) -> float:
@@ -154,9 +167,21 @@ def _retry_after(err: Exception) -> float:
     return max(0.0, asked) if math.isfinite(asked) else _RATE_LIMIT_WAIT_S
 
 
-def _redacted(text: str) -> str:
+def _redacted(text: str, entry: ModelEntry) -> str:
     """Take out keys: what comes from a server goes into the run folder."""
+    for value in _secrets(entry.api_base or ''):
+        text = text.replace(value, '[key]')
     for name, value in os.environ.items():
         if name.endswith(('_KEY', '_TOKEN', '_SECRET')) and len(value) >= 8:
             text = text.replace(value, '[key]')
     return text
+
+
+def _secrets(address: str) -> list[str]:
+    """Return user, password and the values of the query of an address, the longest first."""
+    parts = urlsplit(address)
+    user = parts.netloc.rpartition('@')[0]
+    found = [user, *user.partition(':')[::2], parts.query, parts.fragment]
+    found += [value for _, value in parse_qsl(parts.query)]
+    found += [unquote(value) for value in found]
+    return sorted({value for value in found if len(value) >= 4}, key=lambda v: (-len(v), v))

@@ -14,12 +14,13 @@ from aurora_core.pipeline.background import background
 from aurora_core.pipeline.functions import knowledge, parse_context, parse_stage
 from aurora_core.pipeline.stages import RunRequest
 from aurora_core.ports.language_model import LanguageModel
+from aurora_core.ports.model_name import RECORDED
 from aurora_core.retrieval.background import Background
 from aurora_llm.embedding import rankers
 from aurora_llm.litellm_client import LitellmClient
 from aurora_llm.recorded_client import RecordedClient
 from aurora_llm.reply_store import ReplyStore, StoredClient
-from aurora_llm.settings import OFFLINE, RECORDED, ModelSettings, load_model_settings
+from aurora_llm.settings import OFFLINE, ModelSettings, load_model_settings
 
 
 def read_prompt(

@@ -12,11 +12,11 @@ from pydantic import Field, NonNegativeFloat, PositiveFloat, PositiveInt, Valida
 from aurora_core.errors import ConfigError
 from aurora_core.files import CONFIG_BYTES, read_text
 from aurora_core.knowledge.config_files import config_path
+from aurora_core.ports.model_name import RECORDED, check_no_secret, without_secrets
 from aurora_core.retrieval.background import Amounts
 from aurora_core.spec.parameter import Document
 
 OFFLINE = 'offline'
-RECORDED = 'recorded:'
 _MOST_ATTEMPTS = 10
 
 
@@ -63,8 +63,13 @@ class ModelSettings(Document):
             named: The `--model` as given; commas give the whole order, else `fallback` follows.
 
         Raises:
-            ConfigError: There is no name in it, or `offline` is not the last.
+            ConfigError: There is no name in it, `offline` is not the last, or an address in it
+                holds a secret.
         """
+        try:
+            check_no_secret(named)
+        except ValueError as err:
+            raise ConfigError(str(err), hint='see docs/models.md') from err
         # A path may hold a comma: what is recorded stands alone.
         parts = (named,) if named.startswith(RECORDED) else tuple(named.split(','))
         given = tuple(part.strip() for part in parts if part.strip())
@@ -89,7 +94,7 @@ class ModelSettings(Document):
         if not all(model.partition('/')):
             raise ConfigError(
                 f'expected {OFFLINE}, {RECORDED}FILE, provider/model or one of '
-                f'{", ".join(sorted(self.models)) or "no names"}, found {name!r}',
+                f'{", ".join(sorted(self.models)) or "no names"}, found {without_secrets(name)!r}',
                 hint='see config/models.yaml and docs/models.md',
             )
         if not address.startswith(('http://', 'https://')):

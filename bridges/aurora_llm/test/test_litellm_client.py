@@ -5,7 +5,9 @@
 from __future__ import annotations
 
 import time
+from dataclasses import replace
 
+import httpx
 import pytest
 
 from aurora_core.ports.language_model import (
@@ -15,7 +17,7 @@ from aurora_core.ports.language_model import (
     ModelReply,
     ModelRequest,
 )
-from aurora_llm.litellm_client import LitellmClient
+from aurora_llm.litellm_client import MOST_ANSWER_BYTES, LitellmClient
 from aurora_llm.settings import ModelEntry, ModelSettings, RetrievalSettings
 from aurora_llm.testing.model_server import ModelServer, Turn
 
@@ -110,3 +112,60 @@ def test_keys_go_to_the_server_and_never_into_the_record(monkeypatch: pytest.Mon
     assert isinstance(failure, ModelFailure)
     assert CANARY not in failure.message
     assert reply == ModelReply(text='[key]!', tokens_in=100, tokens_out=10)
+
+
+def test_a_redirect_is_not_followed_with_the_prompt() -> None:
+    with ModelServer([Turn(text='{"a": 1}')]) as elsewhere:
+        away = Turn(status=307, headers={'Location': f'{elsewhere.url}/chat/completions'})
+        with ModelServer([away]) as server:
+            failure = client(server.url).complete(REQUEST)
+        assert elsewhere.requests == []
+    assert isinstance(failure, ModelFailure)
+    assert failure.kind is FailureKind.REFUSED
+    assert 'elsewhere' in failure.message
+
+
+def test_an_answer_without_end_is_cut_off_and_the_next_request_works() -> None:
+    flood = Turn(text='{"a": 1}', flood=1 << 30)
+    with ModelServer([flood, Turn(text='{"a": 1}')]) as server:
+        asked = client(server.url)
+        failure = asked.complete(REQUEST)
+        assert isinstance(failure, ModelFailure)
+        assert failure.kind is FailureKind.TRUNCATED
+        assert f'{MOST_ANSWER_BYTES} bytes' in failure.message
+        assert server.sent_bytes < 64 << 20  # what the sockets hold
+        assert isinstance(asked.complete(REQUEST), ModelReply)
+
+
+def test_an_answer_that_unpacks_to_more_is_not_unpacked() -> None:
+    with ModelServer([Turn(text='x' * (1 << 26), packed=True)]) as server:
+        failure = client(server.url).complete(REQUEST)
+    assert isinstance(failure, ModelFailure)
+    assert 'compresses' in failure.message
+
+
+def test_other_http_of_the_process_is_left_alone() -> None:
+    with ModelServer([Turn(text='x', packed=True)]) as server:
+        client(server.url).complete(REQUEST)
+        assert httpx.post(server.url, json={}).status_code == 200
+
+
+@pytest.mark.parametrize(
+    'turn', [Turn(text='{user} {word} {key}', status=400), Turn(raw='{word}')]
+)
+def test_a_password_in_an_address_is_in_no_failure(turn: Turn) -> None:
+    secrets = {'user': 'somebody', 'word': 'pass%40word', 'key': 'query-key'}
+    turn = replace(
+        turn, text=turn.text.format(**secrets), raw=turn.raw and turn.raw.format(**secrets)
+    )
+    with ModelServer([turn]) as server:
+        address = server.url.replace('://', '://somebody:pass%40word@') + '?key=query-key'
+        told = client(address).complete(REQUEST).model_dump_json()
+    for secret in (*secrets.values(), 'pass@word'):
+        assert secret not in told
+
+
+def test_a_server_that_is_not_there_tells_no_password() -> None:
+    failure = client('http://somebody:password@127.0.0.1:1/v1').complete(REQUEST)
+    assert isinstance(failure, ModelFailure)
+    assert 'password' not in failure.message

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import gzip
 import json
 import threading
 from collections.abc import Sequence
@@ -13,6 +14,7 @@ from types import TracebackType
 from typing import Any, Self
 
 _DRIP_PERIOD_S = 0.05
+_FLOOD = b' ' * (1 << 16)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -26,6 +28,8 @@ class Turn:
         raw: Body in place of a completion.
         hang: Says nothing until the server is closed.
         drip: Sends a blank now and then, for ever.
+        flood: Sends so many bytes before the body.
+        packed: Sends the body compressed, whatever was asked for.
         cut: Announces the whole body, sends half of it, closes the connection.
         finish: `length` when the model ran into its limit.
     """
@@ -37,6 +41,8 @@ class Turn:
     hang: bool = False
     drip: bool = False
     cut: bool = False
+    flood: int = 0
+    packed: bool = False
     finish: str = 'stop'
 
 
@@ -51,6 +57,8 @@ class ModelServer:
         self.requests: list[dict[str, Any]] = []
         """Bodies of the requests so far."""
         self.authorizations: list[str] = []
+        self.sent_bytes = 0
+        """Of floods."""
         self._turns = list(turns)
         self._closing = threading.Event()
         outer = self
@@ -97,13 +105,19 @@ class ModelServer:
             handler.close_connection = True
             return
         body = (turn.raw if turn.raw is not None else _body(turn)).encode()
+        body = gzip.compress(body) if turn.packed else body
         handler.send_response(turn.status)
         handler.send_header('Content-Type', 'application/json')
-        handler.send_header('Content-Length', str(len(body)))
+        handler.send_header('Content-Length', str(turn.flood + len(body)))
+        if turn.packed:
+            handler.send_header('Content-Encoding', 'gzip')
         for name, value in turn.headers.items():
             handler.send_header(name, value)
         handler.end_headers()
         try:
+            for _ in range(0, turn.flood, len(_FLOOD)):
+                handler.wfile.write(_FLOOD)
+                self.sent_bytes += len(_FLOOD)
             while turn.drip and not self._closing.wait(_DRIP_PERIOD_S):
                 handler.wfile.write(b' ')
             handler.wfile.write(body[: len(body) // 2] if turn.cut or turn.drip else body)

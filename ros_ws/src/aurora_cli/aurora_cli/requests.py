@@ -17,11 +17,11 @@ from aurora_core.knowledge.map_model import list_maps
 from aurora_core.parsing.outcome import ParseOutcome
 from aurora_core.parsing.text import check_prompt_text
 from aurora_core.pipeline.stages import RunRequest
+from aurora_core.ports.model_name import RECORDED, without_secrets
 from aurora_core.report.facts import RunFacts
 from aurora_core.report.versions import product_versions
 from aurora_core.spec.seed import check_seed
 from aurora_llm.parse import check_model_name
-from aurora_llm.settings import RECORDED
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -52,7 +52,7 @@ def checked(options: RunOptions) -> RunRequest:
     try:
         check_model_name(options.model)
     except ConfigError as err:
-        raise UsageProblem(f'--model {options.model}: {err}') from err
+        raise UsageProblem(f'--model {without_secrets(options.model)}: {err}') from err
     if options.transcripts is not None and not options.transcripts.is_dir():
         raise UsageProblem(f'--transcripts: there is no folder {options.transcripts}')
     if options.engine not in ('local', 'ros'):

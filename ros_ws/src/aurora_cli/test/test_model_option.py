@@ -97,3 +97,34 @@ def test_name_that_means_nothing_is_a_usage_error(here: Path, call: Call) -> Non
     assert done.code == 64
     assert 'expected offline, recorded:FILE, provider/model or one of local' in done.err
     assert list(here.iterdir()) == []
+
+
+def test_a_secret_in_an_address_is_refused_and_told_nowhere(here: Path, call: Call) -> None:
+    for name in (
+        'openai/x@http://somebody:hunter2@127.0.0.1:1/v1?key=hunter3',
+        'openai/x@http://127.0.0.1:1/v1?key=hunter3,offline',
+        'openai/x@somebody:hunter2@127.0.0.1',
+    ):
+        for command in ('run', 'check'):
+            done = call(command, PROMPT, '--model', name)
+            assert done.code == 64
+            assert 'config/models.yaml' in done.err
+            assert 'hunter' not in done.out + done.err
+        examined = call('doctor', '--model', name)
+        assert 'hunter' not in examined.out + examined.err
+    assert list(here.iterdir()) == []
+
+
+def test_an_answer_without_measure_is_kept_nowhere(here: Path, call: Call) -> None:
+    turns = [Turn(text='x' * (1 << 20)), Turn(text=f'```json\n{ANSWER}\n```')]
+    with ModelServer(turns) as server:
+        done = call('run', PROMPT, '--model', f'openai/local@{server.url}', '--json')
+        first_asked, second_asked = server.requests
+        assert first_asked['messages'] == second_asked['messages']  # not told what it wrote
+    report = json.loads(done.out)
+    assert (done.code, report['status']) == (5, 'infeasible'), done.err
+    transcript = _folder(here, report) / 'transcript.jsonl'
+    first, second = map(json.loads, transcript.read_text(encoding='utf-8').splitlines())
+    assert (first['reply'], first['failure']['kind']) == (None, 'truncated')
+    assert '262144 characters' in first['failure']['message']
+    assert second['attempt'] == 2

@@ -45,6 +45,9 @@ def model(machine: Machine) -> list[Finding]:
     """The configured language model can be reached; `offline` needs nothing."""
     if machine.model == OFFLINE:
         return []
+    from aurora_core.ports.model_name import without_secrets
+
+    shown = without_secrets(machine.model)
     provider = machine.model.partition('/')[0].upper().replace('-', '_')
     name = f'{provider}_API_BASE'
     base = machine.environment.get(name, '')
@@ -52,8 +55,8 @@ def model(machine: Machine) -> list[Finding]:
     if not base or address.scheme not in _PORTS or not address.hostname:
         return [
             Finding(
-                expected=f'{name} with the address that serves {machine.model}',
-                found=base or 'not set',
+                expected=f'{name} with the address that serves {shown}',
+                found=without_secrets(base) or 'not set',
                 fix=f'export {name}=http://127.0.0.1:11434 (or use --model offline)',
             )
         ]
@@ -63,7 +66,7 @@ def model(machine: Machine) -> list[Finding]:
     except OSError as err:
         return [
             Finding(
-                expected=f'{machine.model} answers at {address.hostname}:{port}',
+                expected=f'{shown} answers at {address.hostname}:{port}',
                 found=f'{err.strerror or err} (waited up to {_CONNECT_LIMIT_S:g} s)',
                 fix=f'start the server or correct {name}; without a network: --model offline',
             )

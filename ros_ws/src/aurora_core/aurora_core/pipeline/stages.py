@@ -11,7 +11,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Literal, Protocol
+from typing import Annotated, Literal, Protocol
+
+from pydantic import AfterValidator, ConfigDict
 
 from aurora_core.agsg.graph import Agsg
 from aurora_core.execution.faults import Fault
@@ -19,6 +21,7 @@ from aurora_core.feasibility.verdict import FeasibilityVerdict
 from aurora_core.grounding.outcome import GroundingOutcome
 from aurora_core.monitor.verdict import Verdict
 from aurora_core.parsing.outcome import ParseOutcome
+from aurora_core.ports.model_name import check_no_secret
 from aurora_core.spec.parameter import Document
 from aurora_core.spec.seed import Seed
 
@@ -28,7 +31,8 @@ class RunRequest(Document):
 
     Attributes:
         prompt: Byte-identical to what was typed.
-        model: `offline`, or language models as `config/models.yaml` says.
+        model: `offline`, or language models as `config/models.yaml` says; it is recorded, and
+            holds no secret.
         faults: Injected run-time faults; invisible to feasibility and monitor.
         history: Folder of past episodes that a language model may be shown, and that takes the run
             in when it is verified; None without one.
@@ -36,11 +40,14 @@ class RunRequest(Document):
         transcripts: Folder of recorded replies that stand for every named model; None asks them.
     """
 
+    # An error that quotes its input would tell the secret that it refuses.
+    model_config = ConfigDict(hide_input_in_errors=True)
+
     prompt: str
     map_name: str = 'downtown'
     seed: Seed = 1
     engine: Literal['local', 'ros'] = 'local'
-    model: str = 'offline'
+    model: Annotated[str, AfterValidator(check_no_secret)] = 'offline'
     allow_relax: bool = False
     faults: tuple[Fault, ...] = ()
     history: Path | None = None

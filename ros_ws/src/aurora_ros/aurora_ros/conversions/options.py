@@ -36,8 +36,13 @@ def run_request(prompt: str, options: str) -> RunRequest:
     except ValidationError as err:
         known = ', '.join(name for name in RunRequest.model_fields if name != 'prompt')
         raise SpecError(
-            f'options_json is not valid: {err}', hint=f'a JSON object with any of: {known}'
+            f'options_json is not valid: {_told(err)}', hint=f'a JSON object with any of: {known}'
         ) from err
+
+
+def _told(err: ValidationError) -> str:
+    errors = err.errors(include_input=False, include_url=False)
+    return '; '.join(f'{".".join(map(str, e["loc"]))}: {e["msg"]}' for e in errors)
 
 
 def runs_directory(options: str) -> Path | None:

@@ -66,3 +66,9 @@ def test_a_folder_that_depends_on_where_the_node_runs_is_refused(options: str) -
 def test_text_that_no_answer_could_carry_is_refused(options: str) -> None:
     with pytest.raises(SpecError, match=r'surrogate|NUL'):
         runs_directory(options)
+
+
+def test_a_secret_in_the_address_of_a_model_is_refused_and_not_told() -> None:
+    with pytest.raises(SpecError, match=r'models\.yaml') as refused:
+        run_request('go', '{"model": "openai/x@http://me:hunter2@host/v1?key=hunter3"}')
+    assert 'hunter' not in f'{refused.value} {refused.value.hint}'

@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 from aurora_core.parsing.llm.check import judge
+from aurora_core.parsing.llm.extract import MAX_REPLY_CHARACTERS
 from aurora_core.parsing.llm.facts import PromptFacts
 from aurora_core.parsing.llm.request import first_request, with_feedback
 from aurora_core.parsing.outcome import ParseContext, ParseOutcome
@@ -60,7 +61,7 @@ def parse_with_models(
     for model in models:
         request = first_request(facts, background)
         for attempt in range(1, attempts + 1):
-            answer = model.complete(request)
+            answer = _limited(model.complete(request))
             if isinstance(answer, ModelFailure):
                 calls.append(_failed(model.name, attempt, request, answer))
                 if answer.kind in _FINAL:
@@ -74,6 +75,16 @@ def parse_with_models(
                 return _with_calls(judgement.outcome, calls, background)
             request = with_feedback(request, answer.text, judgement.complaints)
     return _with_calls(ParseOutcome(question=_why_not(calls)), calls, background)
+
+
+def _limited(answer: ModelReply | ModelFailure) -> ModelReply | ModelFailure:
+    """Return an answer, or the failure that one without measure is: nobody reads or keeps it."""
+    if isinstance(answer, ModelFailure) or len(answer.text) <= MAX_REPLY_CHARACTERS:
+        return answer
+    return ModelFailure(
+        kind=FailureKind.TRUNCATED,
+        message=f'the answer has more than {MAX_REPLY_CHARACTERS} characters',
+    )
 
 
 def _with_calls(
