@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from aurora_bench.campaign.code import code_digest
 from aurora_bench.campaign.files import PromptFile, file_line, read_files, verdict_line
 from aurora_bench.campaign.journal import Journal, JournalError, JournalHead, journal_path
 from aurora_bench.campaign.pool import Lost, PoolError, Work, run_tasks
@@ -86,12 +87,12 @@ def measure(ruler: Ruler, arguments: Sequence[str] | None) -> int:
     except (ResultsError, ConfigError, MapError) as err:
         sys.stderr.write(f'{err}\n')
         return USAGE
-    machine = machine_facts()
+    machine, code = machine_facts(), code_digest()
     trials = tuple(_trials(ruler, files, options))
     progress = Progress(ruler.name, len(trials))
     try:
         with ExitStack() as stack:
-            journal = _journal(ruler, files, options)
+            journal = _journal(ruler, files, options, code)
             if journal is not None:
                 stack.enter_context(journal)
             folder = stack.enter_context(_folder(ruler, options.keep))
@@ -107,7 +108,7 @@ def measure(ruler: Ruler, arguments: Sequence[str] | None) -> int:
         # A journal of something else is a mistake of whoever gave it.
         return USAGE if isinstance(err, JournalError) else BROKEN
     try:
-        _tell(ruler, files, judged, options, machine, progress)
+        _tell(ruler, files, judged, options, code, machine, progress)
     except AuroraError as err:
         sys.stderr.write(f'{err}\n')
         return BROKEN
@@ -188,7 +189,7 @@ def _trials(
 
 
 def _journal(
-    ruler: Ruler, files: Sequence[PromptFile], options: argparse.Namespace
+    ruler: Ruler, files: Sequence[PromptFile], options: argparse.Namespace, code: str
 ) -> Journal | None:
     place = options.resume or options.results
     if place is None:
@@ -197,7 +198,7 @@ def _journal(
     head = JournalHead(
         campaign=ruler.name,
         files={file.name: file.sha256 for file in files},
-        options={'map': options.map, **own, **product_versions()},
+        options={'map': options.map, **own, **product_versions(), 'code': code},
     )
     path = journal_path(place, options.name)
     return Journal(path, head, resume=options.resume is not None)
@@ -256,6 +257,7 @@ def _tell(
     files: Sequence[PromptFile],
     judged: Sequence[JudgedTrial],
     options: argparse.Namespace,
+    code: str,
     machine: Machine,
     progress: Progress,
 ) -> None:
@@ -274,6 +276,7 @@ def _tell(
             {'name': f.name, 'sha256': f.sha256, 'prompts': len(f.prompts), 'beyond': f.beyond}
             for f in files
         ],
+        'code': code,
         'map': options.map,
         'seeds': list(options.seeds),
         'jobs': options.jobs,

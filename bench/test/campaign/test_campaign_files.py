@@ -11,6 +11,7 @@ from typing import Any
 
 import pytest
 
+from aurora_bench.campaign.code import code_digest, files_digest
 from aurora_bench.campaign.files import file_line, read_files, verdict_line
 from aurora_bench.fidelity.wilson import Share
 from aurora_bench.results import ResultsError
@@ -71,3 +72,18 @@ def test_what_would_count_twice_is_refused(tmp_path: Path) -> None:
 def test_the_last_line_is_the_contracts(what: str, of: str, found: str) -> None:
     share, unchecked = Share(met=42, total=93), Share(met=7, total=210)
     assert verdict_line(what, share, of, 3, unchecked) == found
+
+
+def test_any_edit_of_the_code_or_the_configuration_is_another_product(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    one, two = written(tmp_path / 'a' / 'one.py', 'x = 1'), written(tmp_path / 'a' / 'two.py', '')
+    before = files_digest([('one', one), ('two', two)])
+    assert files_digest([('two', two), ('one', one)]) == before
+    assert files_digest([('one', two), ('two', one)]) != before
+    one.write_text('x = 2')
+    assert files_digest([('one', one), ('two', two)]) != before
+    here = code_digest()
+    (tmp_path / 'config').mkdir()
+    monkeypatch.setenv('AURORA_CONFIG_DIR', str(tmp_path / 'config'))
+    assert code_digest() != here
