@@ -19,7 +19,7 @@ import signal
 import sys
 import time
 from collections import deque
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Generator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from multiprocessing.connection import Connection, wait
@@ -80,10 +80,11 @@ def run_tasks(
     jobs: int,
     limit_s: float,
     clock: Callable[[], float] = time.monotonic,
-) -> Iterator[tuple[int, R | Lost]]:
+) -> Generator[tuple[int, R | Lost], None, None]:
     """Do all tasks; yield the index and the result of each as it ends, in any order.
 
-    Closing the generator (an exception, Ctrl-C) ends the workers at once.
+    Closing the generator ends the workers at once. Who may be interrupted while it looks at a
+    result does so with `contextlib.closing`: else they work on until the generator is collected.
 
     Args:
         work: What is done.

@@ -8,7 +8,7 @@ import argparse
 import sys
 import tempfile
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, closing, contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -232,14 +232,15 @@ def _campaign(
         if trial.key in judged:
             progress.step(f'{_shown(judged[trial.key], options)} (from the journal)')
     left = [t for t in trials if t.key not in judged]
-    answers = run_tasks(work, left, jobs=options.jobs, limit_s=options.limit_s)
-    for index, answer in answers:
-        trial = left[index]
-        result = lost(trial, answer.why) if isinstance(answer, Lost) else answer
-        judged[trial.key] = result
-        if journal is not None:
-            journal.add(trial.key, result.model_dump(mode='json'))
-        progress.step(_shown(result, options))
+    # Closed before anything else goes: a worker that is still at it would write into the folder.
+    with closing(run_tasks(work, left, jobs=options.jobs, limit_s=options.limit_s)) as answers:
+        for index, answer in answers:
+            trial = left[index]
+            result = lost(trial, answer.why) if isinstance(answer, Lost) else answer
+            judged[trial.key] = result
+            if journal is not None:
+                journal.add(trial.key, result.model_dump(mode='json'))
+            progress.step(_shown(result, options))
     return tuple(judged[t.key] for t in trials)
 
 

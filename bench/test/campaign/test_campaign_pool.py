@@ -93,5 +93,5 @@ def test_who_stops_listening_ends_the_workers(squares: Any) -> None:
     answers = run_tasks(squares(), [('', 1), ('', 2), ('', 3)], jobs=2, limit_s=LIMIT_S)
     next(answers)
     assert multiprocessing.active_children()
-    answers.close()  # type: ignore[attr-defined]
+    answers.close()
     assert not multiprocessing.active_children()

@@ -7,6 +7,7 @@ from __future__ import annotations
 import argparse
 import importlib
 import json
+import multiprocessing
 import os
 import signal
 from dataclasses import replace
@@ -120,9 +121,14 @@ def test_ctrl_c_keeps_what_is_finished_and_resume_does_the_rest(
         if 'hover-902' in text:
             os.kill(os.getpid(), signal.SIGINT)
 
+    temporary = tmp_path / 'temporary'
+    temporary.mkdir()
     with monkeypatch.context() as patch:
+        patch.setattr('tempfile.tempdir', str(temporary))
         patch.setattr(Progress, 'step', step_and_interrupt)
         assert measure(cheap, [str(file), '--results', str(parts)]) == 130
+    assert not multiprocessing.active_children()
+    assert list(temporary.iterdir()) == []
     assert not (parts / 'realise.json').exists()
     assert measure(cheap, [str(file), '--results', str(parts)]) == 64  # it would be lost
     capsys.readouterr()
