@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
 
+from aurora_bench.campaign.code import code_digest
 from aurora_bench.campaign.files import PromptFile, file_line, read_files
 from aurora_bench.campaign.journal import Journal, JournalError, JournalHead, journal_path
 from aurora_bench.campaign.pool import PoolError
@@ -138,7 +139,12 @@ def _journal(files: Sequence[PromptFile], options: argparse.Namespace) -> Journa
     head = JournalHead(
         campaign='fidelity',
         files={file.name: file.sha256 for file in files},
-        options={'map': options.map, 'model': options.model, **product_versions()},
+        options={
+            'map': options.map,
+            'model': options.model,
+            **product_versions(),
+            'code': code_digest(),
+        },
     )
     return Journal(journal_path(options.resume, options.name), head, resume=True)
 

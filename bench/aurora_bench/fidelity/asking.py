@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
+from contextlib import closing
 from pathlib import Path
 
 from pydantic import FiniteFloat
@@ -93,17 +94,18 @@ def ask(
         if question.key in known:
             step(question, known[question.key])
     left = [q for q in questions if q.key not in known]
-    for index, result in run_tasks(work, left, jobs=jobs, limit_s=limit_s):
-        question = left[index]
-        told = result
-        if isinstance(told, Lost):
-            told = Told(answer=Answer(error=told.why), seconds=0.0)
-        if told.config:
-            raise ConfigError(f'{question.prompt.id}: {told.config}')
-        known[question.key] = told
-        if journal is not None:
-            journal.add(question.key, told.model_dump(mode='json'))
-        step(question, told)
+    with closing(run_tasks(work, left, jobs=jobs, limit_s=limit_s)) as results:
+        for index, result in results:
+            question = left[index]
+            told = result
+            if isinstance(told, Lost):
+                told = Told(answer=Answer(error=told.why), seconds=0.0)
+            if told.config:
+                raise ConfigError(f'{question.prompt.id}: {told.config}')
+            known[question.key] = told
+            if journal is not None:
+                journal.add(question.key, told.model_dump(mode='json'))
+            step(question, told)
     return tuple(known[q.key] for q in questions)
 
 

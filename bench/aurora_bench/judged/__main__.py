@@ -13,6 +13,7 @@ import argparse
 import sys
 from collections import Counter
 from collections.abc import Sequence
+from contextlib import closing
 from pathlib import Path
 
 from aurora_bench.campaign.pool import Lost, run_tasks
@@ -50,17 +51,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
     found: dict[int, Found] = {}
     lost: dict[str, str] = {}
     work = Sweep(options.map, options.seed)
-    for index, result in run_tasks(work, tasks, jobs=options.jobs, limit_s=_LIMIT_S):
-        if isinstance(result, Lost):
-            lost[tasks[index].id] = result.why
-        else:
-            found[index] = result
-        told = result.why if isinstance(result, Lost) else ', '.join(result.open)
-        progress.step(f'{tasks[index].id}: {told or "-"}')
-    results = [found[k] for k in sorted(found)]
-    shown = (_outcomes(results), _fields(results))
+    with closing(run_tasks(work, tasks, jobs=options.jobs, limit_s=_LIMIT_S)) as results:
+        for index, result in results:
+            if isinstance(result, Lost):
+                lost[tasks[index].id] = result.why
+            else:
+                found[index] = result
+            told = result.why if isinstance(result, Lost) else ', '.join(result.open)
+            progress.step(f'{tasks[index].id}: {told or "-"}')
+    swept = [found[k] for k in sorted(found)]
+    shown = (_outcomes(swept), _fields(swept))
     sys.stdout.write('\n\n'.join(markdown_table(table) for table in shown) + '\n\n')
-    line = _last_line(results)
+    line = _last_line(swept)
     if options.results is not None:
         names = [f'{path.parent.name}/{path.name}' for path in options.files]
         document = {
