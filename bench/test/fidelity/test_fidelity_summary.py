@@ -180,7 +180,7 @@ def test_the_command_scores_the_offline_parser(
     )
     assert '[1/1] hover-1: all met' in captured.err
     digest = hashlib.sha256(file.read_bytes()).hexdigest()
-    line = f'file {tmp_path.name}/mine.jsonl  sha256 {digest}  prompts 1  beyond 0'
+    line = f'{tmp_path.name}/mine.jsonl  sha256 {digest}  beyond 0'
     assert captured.out.splitlines()[-2] == line
     written = json.loads((tmp_path / 'out' / 'fidelity.json').read_text(encoding='utf-8'))
     assert written['model'] == 'offline'
