@@ -144,10 +144,8 @@ def check_xml_root(path: Path, roots: set[str]) -> None:
     parser = expat.ParserCreate()
     parser.StartElementHandler = first_element
     try:
-        with contextlib.ExitStack() as opened:
-            stream: IO[bytes] = opened.enter_context(open_regular(path, MAP_BYTES))
-            if path.suffix == '.gz':
-                stream = opened.enter_context(gzip.GzipFile(fileobj=stream))
+        with open_regular(path, MAP_BYTES) as file:
+            stream = gzip.GzipFile(fileobj=file) if path.suffix == '.gz' else file
             while not found:
                 chunk = stream.read(_FIRST_BYTES)
                 parser.Parse(chunk, not chunk)

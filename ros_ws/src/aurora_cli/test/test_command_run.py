@@ -138,3 +138,15 @@ def test_a_signal_ends_as_cancelled_with_a_readable_folder(
     assert report['status'] == 'cancelled'
     folder = tmp_path / 'runs' / report['run_id']
     assert json.loads((folder / 'report.json').read_text()) == report
+
+
+def test_an_event_of_a_body_that_nobody_can_place_yet_ends_incomplete(
+    here: Path, call: Callable[..., SimpleNamespace]
+) -> None:
+    prompt = (
+        'A drone tracks the bus for 5 s. The pedestrian walks along the street. When the '
+        'pedestrian walks faster than 1 m/s the bus brakes.'
+    )
+    done = call('run', prompt, '--json')
+    report = json.loads(done.out)
+    assert (done.code, report['status']) == (3, 'incomplete'), (report['error'], done.err)

@@ -13,8 +13,9 @@ import json
 import os
 import stat
 import zlib
+from io import BufferedReader
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import Any
 from xml.etree import ElementTree as Xml
 from xml.parsers import expat
 
@@ -41,7 +42,7 @@ class UnreadableFileError(AuroraError, OSError):
     default_component = 'files'
 
 
-def open_regular(path: Path, most_bytes: int) -> BinaryIO:
+def open_regular(path: Path, most_bytes: int) -> BufferedReader:
     """Open a regular file for reading.
 
     Args:

@@ -18,7 +18,14 @@ from aurora_core.quantities.actions import (
     is_complete,
     takes_time,
 )
-from aurora_core.spec.scenario import AgentAction, Event, ScenarioSpec, SendMessage, UavAction
+from aurora_core.spec.scenario import (
+    AgentAction,
+    Event,
+    ScenarioSpec,
+    SendMessage,
+    UavAction,
+    bodies_of,
+)
 from aurora_core.spec.vocabulary import MissionMode
 from aurora_core.trace.commands import GroundCommand
 from aurora_core.trace.layout import GroundCommandKind
@@ -89,7 +96,10 @@ class EventRunner:
         self._rules = rules
         self._set_off = set_off
         self._links = links
-        self._states = [_EventState(event=e) for e in spec.events]
+        # What waits for a body that could not be placed never happens: the run ends without it,
+        # as `incomplete`.
+        absent = {a.id for a in spec.agents if roster.agent_index(a.id) is None}
+        self._states = [_EventState(event=e) for e in spec.events if not bodies_of(e) & absent]
         ids = {e.id for e in spec.events}
         self._before: dict[str, set[str]] = {
             e.id: {o.first for o in spec.orders if o.then == e.id and o.first in ids}

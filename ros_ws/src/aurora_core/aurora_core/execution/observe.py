@@ -52,14 +52,13 @@ class Observation:
         return point
 
     def speed_mps(self, body_id: str) -> float | None:
-        """Return the speed of a body, None when it is gone."""
+        """Return the speed of a body, None when it is gone or was never placed."""
         row = self._roster.agent_index(body_id)
         if row is not None:
             here = instant.present(self._ground[row])
             return instant.ground_speed_mps(self._ground[row]) if here else None
         index = self._roster.uav_index(body_id)
-        assert index is not None
-        return instant.uav_speed_mps(self._uav[index])
+        return None if index is None else instant.uav_speed_mps(self._uav[index])
 
     def distance_m(self, a: str, b: str) -> float | None:
         """Return the 3-D distance of two reference points, None when one of them is gone."""

@@ -60,6 +60,7 @@ class Stage:
 
     Attributes:
         agents: Ids of the ground agents; all are cars.
+        absent: Ids of agents that the request names and that nobody placed.
         releases: When each may start, as (release, UAV); START where not given.
         tracks: UAV id -> target of its one mission, '' = no mission at all.
         links: UAV or agent pairs with a link.
@@ -68,6 +69,7 @@ class Stage:
 
     make: Callable[..., Parameter]
     agents: tuple[str, ...] = ('van1', 'ego')
+    absent: tuple[str, ...] = ()
     releases: dict[str, tuple[ReleaseOn, str]] = field(default_factory=dict)
     speeds: dict[str, float] = field(default_factory=dict)
     tracks: dict[str, str] = field(default_factory=lambda: {'uav1': 'van1'})
@@ -226,7 +228,9 @@ class Stage:
         make = self.make
         return ScenarioSpec(
             prompt='x',
-            agents=tuple(GroundAgent(id=a, type=AgentType.CAR) for a in self.agents),
+            agents=tuple(
+                GroundAgent(id=a, type=AgentType.CAR) for a in (*self.agents, *self.absent)
+            ),
             uavs=tuple(Uav(id=u) for u in self.tracks),
             missions=tuple(
                 UavMission(

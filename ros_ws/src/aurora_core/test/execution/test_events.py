@@ -463,3 +463,39 @@ def test_who_is_to_climb_after_its_missions_lands_from_there(
     across = [z for x, _, z in track[top:] if 5.0 < x < 55.0]
     assert min(across) >= 43.9  # the way to the spot is flown up there
     assert scene.machines[0].landed
+
+
+def _brakes(event_id: str, trigger: Any, agent: str = 'ego') -> Event:
+    return Event(id=event_id, trigger=trigger, action=AgentAction(do='brake', agent=agent))
+
+
+def test_what_waits_for_a_body_that_nobody_placed_never_happens(
+    stage: Build, parameter: Make
+) -> None:
+    """Pedestrians are not placed yet: their events are told as not carried out, nothing breaks."""
+    near, fast, sight = parameter(10.0), parameter(1.0, 'm/s'), {'observer': 'uav1'}
+    events = (
+        _brakes('speed', SpeedTrigger(on='speed_above', who='walker', value_mps=fast)),
+        _brakes('near', DistanceTrigger(on='distance_below', a='walker', b='ego', value_m=near)),
+        _brakes('far', DistanceTrigger(on='distance_above', a='ego', b='walker', value_m=near)),
+        _brakes('seen', VisibilityTrigger(on='visible', target='walker', **sight)),
+        _brakes('lost', VisibilityTrigger(on='occluded', target='walker', **sight)),
+        _brakes('there', ArrivalTrigger(on='arrives', who='walker', place='intersection')),
+        _brakes('told', MessageTrigger(on='message_received', by='walker')),
+        _brakes('own', None, agent='walker'),
+        Event(id='send', action=SendMessage(do='send_message', sender='walker', receiver='ego')),
+        _brakes('after', EventDoneTrigger(on='event_done', event='own')),
+    )
+    made = stage(events=events, absent=('walker',), links=(('walker', 'ego'),))
+    made.put('van1', 0.0, speed=8.0).put('ego', 20.0, speed=8.0)
+    made.follow(600)
+    assert made.notes(ScenarioEventKind.TRIGGERED) == []
+    assert made.notes(ScenarioEventKind.ACTION) == []
+
+
+def test_a_run_does_not_wait_for_what_cannot_happen(stage: Build) -> None:
+    events = (_brakes('own', None, agent='walker'),)
+    made = stage(events=events, absent=('walker',), hold_s=2.0, horizon_ticks=4000)
+    made.put('van1', 0.0).put('ego', 20.0)
+    made.follow(1500)
+    assert next(detail for _, _, detail in made.notes(ScenarioEventKind.FINISHED)) == 'finished'
