@@ -14,14 +14,19 @@ _STANDARD_ERROR = 2  # file descriptor
 
 
 class Interrupts:
-    """Context in which SIGINT and SIGTERM set `requested` instead of raising."""
+    """Context in which SIGINT, SIGTERM and SIGHUP set `requested` instead of raising.
+
+    A terminal that is closed sends SIGHUP; `nohup` has it ignored, and it stays so.
+    """
 
     def __init__(self) -> None:
         self.requested = False
         self._before: dict[int, Any] = {}
 
     def __enter__(self) -> Self:
-        for number in (signal.SIGINT, signal.SIGTERM):
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            if number == signal.SIGHUP and signal.getsignal(number) is signal.SIG_IGN:
+                continue
             self._before[number] = signal.signal(number, self._on_signal)
         return self
 

@@ -113,7 +113,7 @@ def test_unfinished_runs_are_closed_before_the_next_one(here: Path, call: Call) 
     assert json.loads(dead.file('report.json').read_text())['status'] == 'error'
 
 
-@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_a_signal_ends_as_cancelled_with_a_readable_folder(
     tmp_path: Path, shell: SimpleNamespace, number: signal.Signals
 ) -> None:

@@ -12,7 +12,7 @@ import pytest
 from aurora_cli.interrupts import Interrupts
 
 
-@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_the_first_signal_asks_the_second_insists(number: signal.Signals) -> None:
     before = signal.getsignal(number)
     with Interrupts() as interrupts:
@@ -22,6 +22,16 @@ def test_the_first_signal_asks_the_second_insists(number: signal.Signals) -> Non
         with pytest.raises(KeyboardInterrupt):
             signal.raise_signal(number)
     assert signal.getsignal(number) is before
+
+
+def test_a_hang_up_that_is_ignored_stays_so() -> None:
+    before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
+    try:
+        with Interrupts() as interrupts:
+            signal.raise_signal(signal.SIGHUP)
+            assert not interrupts.cancelled()
+    finally:
+        signal.signal(signal.SIGHUP, before)
 
 
 class _Pipe(io.RawIOBase):

@@ -74,7 +74,8 @@ def convoy_pace_mps(spec: ScenarioSpec, limits: Limits, settings: GroundingSetti
 
 def own_speed_mps(agent: GroundAgent) -> float | None:
     """Return the speed that the request states for an agent."""
-    speeds = [b.speed_mps.value for b in agent.behaviors if b.speed_mps is not None]
+    # "at least" a number below zero leaves everything open, and standing is the least there is.
+    speeds = [max(0.0, b.speed_mps.value) for b in agent.behaviors if b.speed_mps is not None]
     return speeds[0] if speeds else None
 
 

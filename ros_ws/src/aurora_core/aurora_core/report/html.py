@@ -8,9 +8,11 @@ import base64
 from pathlib import Path
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from markupsafe import Markup
 
 from aurora_core.report.run_report import RunReport
 from aurora_core.report.status import Status
+from aurora_core.report.visible import visible
 
 _TEMPLATE = 'report.html.jinja'
 
@@ -32,7 +34,7 @@ def report_html(report: RunReport, picture_png: bytes | None = None) -> str:
     """Return the page.
 
     Args:
-        report: What to show; every text in it is escaped.
+        report: What to show; every text in it is escaped, and what no reader would see is named.
         picture_png: Picture of the run, None when there is none.
     """
     environment = Environment(
@@ -42,6 +44,7 @@ def report_html(report: RunReport, picture_png: bytes | None = None) -> str:
         trim_blocks=True,
         lstrip_blocks=True,
         keep_trailing_newline=True,
+        finalize=_legible,
     )
     environment.filters['number'] = number
     picture = base64.b64encode(picture_png).decode('ascii') if picture_png is not None else ''
@@ -53,6 +56,11 @@ def report_html(report: RunReport, picture_png: bytes | None = None) -> str:
         safety=[row for row in report.conditions if not row.source],
         picture=picture,
     )
+
+
+def _legible(value: object) -> object:
+    """Return a text without characters that are obeyed instead of shown; the rest as it is."""
+    return visible(value) if isinstance(value, str) and not isinstance(value, Markup) else value
 
 
 def number(value: float | None, signed: bool = False) -> str:

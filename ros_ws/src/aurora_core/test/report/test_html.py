@@ -96,3 +96,10 @@ def test_a_condition_without_a_margin_says_why(make: SimpleNamespace) -> None:
 )
 def test_numbers_have_four_digits(value: float | None, signed: bool, text: str) -> None:
     assert number(value, signed) == text
+
+
+def test_what_no_reader_would_see_is_named(make: SimpleNamespace) -> None:
+    text = 'A drone \x1b[31mhovers\x07 \u202eover\u2066 the ego.'
+    page = report_html(build_report(make.facts(prompt=text)))
+    assert not any(character in page for character in '\x1b\x07\u202e\u2066')
+    assert r'\x1b[31mhovers\x07 \u202eover\u2066' in page
