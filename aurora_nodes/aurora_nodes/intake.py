@@ -10,16 +10,21 @@ from __future__ import annotations
 
 import dataclasses
 import threading
+import time
 import traceback
 from collections.abc import Callable
 
-from aurora_core.errors import AuroraError, BagError
+from aurora_core.errors import AuroraError, BagError, ExecutionError
 from aurora_nodes.recording import Belonging, RecordedTopic, Recording
 from aurora_ros import interfaces as on
 from aurora_ros import qos
 from aurora_ros.interfaces import Topic
 from aurora_ros.node import AuroraNode, defect
 from aurora_ros.polling import PolledGroup, drain
+from aurora_ros.writers import LoneWriters
+
+# How often it is looked who writes, while recording (s).
+_LOOK_S = 0.2
 
 _TOPICS: tuple[tuple[Topic, Belonging, int], ...] = (
     (on.AGSG, Belonging.BY_ID, 0),
@@ -75,6 +80,11 @@ class Intake:
             ): node.subscription(topic, _ignore, raw=True, group=group)
             for topic, belonging, first_tick in _TOPICS
         }
+        self._lone = LoneWriters(
+            node,
+            {topic: tap for (topic, _, _), tap in zip(_TOPICS, self._taps.values(), strict=True)},
+        )
+        self._looked_s = 0.0
         self._recording: Recording | None = None
         self._acked = -1
         self._lock = threading.Lock()
@@ -83,10 +93,16 @@ class Intake:
         # Starts with the first recording: endpoints must not be used while others are created.
         self._thread = threading.Thread(target=self._work, name='intake', daemon=True)
 
-    def begin(self, recording: Recording) -> None:
-        """Store what belongs to a recording from now on."""
+    def begin(self, recording: Recording, wanted: set[str]) -> None:
+        """Store what belongs to a recording from now on; nobody else may begin to write it.
+
+        Args:
+            recording: What to store.
+            wanted: Topics that have their writers.
+        """
         with self._lock:
             self._acked = -1
+            self._lone.begin(wanted)
             self._recording = recording
         if not self._thread.is_alive():
             self._thread.start()
@@ -107,12 +123,22 @@ class Intake:
         with self._lock:
             self._drain()
 
+    def check_writers(self) -> None:
+        """Look whether anybody else has written since the recording began.
+
+        Raises:
+            ExecutionError: Somebody has, or may have.
+        """
+        with self._lock:
+            self._lone.check()
+
     def close(self) -> None:
         """End the thread; the subscriptions may be destroyed afterwards."""
         self._closing = True
         self._changed.set()
         if self._thread.is_alive():
             self._thread.join()
+        self._lone.close()
 
     def unmatched(self, wanted: set[str]) -> list[str]:
         """Return which of these topics have no publisher.
@@ -143,9 +169,10 @@ class Intake:
                 self._drain()
                 if recording is not None:
                     self._acknowledge(recording)
+                    self._look_around()
                 return
             except AuroraError as err:
-                error = err
+                error = self._cause(err)
             except OSError as err:
                 error = BagError(f'cannot write the bag: {err}')
             except Exception as err:  # noqa: BLE001 - a defect: it ends the run, not the node
@@ -162,6 +189,20 @@ class Intake:
             for cdr in drain(tap):
                 if recording is not None:
                     recording.store(topic, cdr)
+
+    def _look_around(self) -> None:
+        now_s = time.monotonic()
+        if now_s - self._looked_s >= _LOOK_S:
+            self._looked_s = now_s
+            self._lone.check()
+
+    def _cause(self, error: AuroraError) -> AuroraError:
+        """Return what is behind an error: a message too many may be a stranger's."""
+        try:
+            self._lone.check()
+        except ExecutionError as err:
+            return err
+        return error
 
     def _acknowledge(self, recording: Recording) -> None:
         stored = recording.stored_tick

@@ -89,7 +89,7 @@ class RecorderNode(AuroraNode):
         recording = Recording(writer, run_id=request.run_id, run_number=request.run_number)
         with self._lock:
             self._writer, self._recording = writer, recording
-        self._intake.begin(recording)
+        self._intake.begin(recording, set(request.topics))
         self.heartbeat.busy(request.run_number)
         response.ready = True
         return response
@@ -103,6 +103,7 @@ class RecorderNode(AuroraNode):
         expected = dict(zip(request.expected_topics, request.expected_counts, strict=True))
         try:
             self._await_stored(recording, expected)
+            self._intake.check_writers()
         finally:
             summary = self._close()
         if summary is None:

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 
 from rclpy.duration import Duration
 from rclpy.impl.implementation_singleton import rclpy_implementation
+from rclpy.publisher import Publisher
 from rosgraph_msgs.msg import Clock as ClockMessage
 
 from aurora_core.errors import ExecutionError
@@ -74,10 +75,7 @@ class ReplayNode(AuroraNode):
         self._busy: dict[str, bool] = {}
         self._running = ''
         self._began = self._ended = False
-        self._outlets = {topic.full_name: self.publisher(topic) for topic in on.JUDGED}
-        self._clock_outlet = self.publisher(on.CLOCK)
-        self._status_outlet = self.publisher(on.SYNC_STATUS)
-        self._end_outlet = self.publisher(on.RUN_END)
+        self._outlets: dict[str, Publisher] = {}
         self._watch = HeartbeatWatch(self)
         self.subscription(on.HEARTBEAT, self._on_heartbeat)
         self.subscription(on.SYNC_STATUS, self._on_status)
@@ -89,7 +87,9 @@ class ReplayNode(AuroraNode):
         ]
 
     def await_quiet(self) -> None:
-        """Look whether a run is going on in this domain.
+        """Look whether a run is going on in this domain; if not, get ready to publish.
+
+        Not before: a second writer on its topics ends a run.
 
         Raises:
             ExecutionError: There is one.
@@ -97,6 +97,10 @@ class ReplayNode(AuroraNode):
         deadline = time.monotonic() + self._settings.discovery_s
         self._await(lambda: time.monotonic() > deadline or self._is_occupied())
         self._refuse_occupied()
+        self._outlets = {topic.full_name: self.publisher(topic) for topic in on.JUDGED}
+        self._clock_outlet = self.publisher(on.CLOCK)
+        self._status_outlet = self.publisher(on.SYNC_STATUS)
+        self._end_outlet = self.publisher(on.RUN_END)
 
     def _refuse_occupied(self) -> None:
         if self._is_occupied():
@@ -190,6 +194,8 @@ class ReplayNode(AuroraNode):
         """Tell the listeners that nothing more comes, and let the last messages reach them."""
         if self._began and not self._ended:
             self._tell(SyncStatus.IDLE)
+        if not self._outlets:
+            return
         limit = Duration(seconds=1)
         for publisher in (*self._outlets.values(), self._status_outlet, self._end_outlet):
             publisher.wait_for_all_acked(limit)

@@ -10,6 +10,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from rclpy.exceptions import InvalidHandle
+from rclpy.impl.implementation_singleton import rclpy_implementation
+
 from aurora_core.agsg.graph import Agsg
 from aurora_core.errors import AuroraError, ExecutionError, ParticipantSilentError
 from aurora_core.execution.plan import Execution
@@ -24,6 +27,8 @@ from aurora_ros.heartbeat import HeartbeatWatch
 from aurora_ros.lifecycle import ManagedNode
 from aurora_ros.matching import await_subscribers, twins, wait_until
 from aurora_ros.parameters import require_positive
+from aurora_ros.writers import COMPONENT as WRITERS
+from aurora_ros.writers import Stranger, second_writer, strangers
 
 CALLS = (
     on.GROUND_LOAD,
@@ -36,6 +41,7 @@ CALLS = (
 )
 _LOOK_S = 0.05
 _SETTLE_S = 0.6  # the others' leases of whoever died end within one announcement of ours
+_WRITERS_S = 0.2  # how often it is looked who writes on the topics of a run
 _LATCHED = (on.AGSG, on.ROSTER, on.WORLD)
 _RECORDED = (*_LATCHED, on.GROUND_STATE, on.GROUND_COMMAND, on.COMM, on.SENSING, on.EVENTS)
 _RECORDED_WITH_UAVS = (*_RECORDED, on.UAV_STATE, on.UAV_COMMAND)
@@ -138,6 +144,7 @@ class RunDriver:
         recording = False
         try:
             self._await_participants(cancelled)
+            self._await_alone(cancelled)
             self._load(order, run)
             self._start_recording(order, run)
             recording = True
@@ -146,13 +153,17 @@ class RunDriver:
             self._call(on.SYNC_START, StartSync.Request(run_number=run_number))
             self._await_end(run, cancelled)
             self._path.disarm()
+            self._check_writers(self._strangers())
             self._publish_end(order, run)
             self._stop_clock(run)
             bag = self._stop_recording(run, complete=True)
-        except AuroraError:
+        except AuroraError as err:
+            cause = self._cause(err)
             self._participants = ()  # the clean-up goes on without whoever died
             self._give_up(run, recording=recording)
-            raise
+            if cause is None:
+                raise
+            raise cause from err
         finally:
             self._participants = ()
             self._path.disarm()
@@ -189,6 +200,36 @@ class RunDriver:
                 hint='another graph runs in this ROS_DOMAIN_ID: end it or use another domain',
             )
         time.sleep(_SETTLE_S)
+
+    def _await_alone(self, cancelled: Callable[[], bool]) -> None:
+        """Wait until nobody else writes on the topics of a run; one that died is forgotten.
+
+        Raises:
+            ExecutionError: Somebody does for longer than any lease.
+        """
+        limit_s = self._settings.twin_limit_s
+        wait_until(lambda: cancelled() or not self._strangers(), limit_s, _LOOK_S)
+        for stranger in () if cancelled() else self._strangers():
+            raise second_writer(stranger)
+
+    def _strangers(self) -> list[Stranger]:
+        names = (self._node.get_name(), *self._participants)
+        return strangers(self._node, on.RUN_TOPICS, names)
+
+    def _check_writers(self, before: list[Stranger]) -> list[Stranger]:
+        """Raise when somebody else writes; return those whose name is not known yet.
+
+        Args:
+            before: What this returned at the last look.
+
+        Raises:
+            ExecutionError: Somebody does.
+        """
+        there = self._strangers()
+        for stranger in there:
+            if stranger.node or stranger in before:
+                raise second_writer(stranger)
+        return there
 
     def _load(self, order: Order, run: ActiveRun) -> None:
         execution = order.execution
@@ -269,11 +310,14 @@ class RunDriver:
             AuroraError: The run failed.
         """
         seen_tick, moved_at = run.last_tick, time.monotonic()
+        looked_at, unnamed = moved_at, list[Stranger]()
         while not run.ended.is_set():
             run.stopping = run.stopping or cancelled()
             if run.last_tick != seen_tick:
                 seen_tick, moved_at = run.last_tick, time.monotonic()
             self._check_alive(run, time.monotonic() - moved_at)
+            if time.monotonic() - looked_at >= _WRITERS_S:
+                looked_at, unnamed = time.monotonic(), self._check_writers(unnamed)
             run.ended.wait(_LOOK_S)
         if run.error is not None:
             raise run.error
@@ -324,6 +368,16 @@ class RunDriver:
             self._stop_recording(run, complete=False)
         except AuroraError as err:
             self._node.get_logger().warning(f'while cleaning up: {err}')
+
+    def _cause(self, error: AuroraError) -> AuroraError | None:
+        """Return what is behind an error, if it is something else: a stranger's messages."""
+        # Whoever died may have been started again already.
+        if isinstance(error, ParticipantSilentError) or error.component == WRITERS:
+            return None
+        try:
+            return next(map(second_writer, self._strangers()), None)
+        except (InvalidHandle, rclpy_implementation.RCLError):
+            return None  # the node is being shut down under us
 
     def _call(self, call: on.Call, request: object, limit_s: float | None = None) -> Any:
         return self._caller.service(call, request, limit_s or self._settings.call_limit_s)

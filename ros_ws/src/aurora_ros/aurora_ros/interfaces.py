@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""Names, types and QoS of every topic, service and action of the graph (`docs/interfaces.md`).
+"""Names, types, QoS and writers of every topic, service and action (`docs/interfaces.md`).
 
 Names are relative: every node lives in the namespace `aurora` unless it is remapped.
 """
@@ -21,11 +21,12 @@ NAMESPACE = 'aurora'
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Topic:
-    """A topic: relative name, message class, profile."""
+    """A topic: relative name, message class, profile, and the nodes that may write on it."""
 
     name: str
     type: Any
     qos: QoSProfile
+    writers: tuple[str, ...]
 
     @property
     def full_name(self) -> str:
@@ -48,26 +49,71 @@ class Call:
     server: str
 
 
-CLOCK = Topic(name='/clock', type=Clock, qos=qos.CLOCK)
-TICK = Topic(name='tick', type=msg.Tick, qos=qos.STREAM)
-TICK_DONE = Topic(name='tick_done', type=msg.TickDone, qos=qos.STREAM)
-ACK = Topic(name='ack', type=msg.Ack, qos=qos.STREAM)
-FAULT = Topic(name='fault', type=msg.Fault, qos=qos.STREAM)
-SYNC_STATUS = Topic(name='sync/status', type=msg.SyncStatus, qos=qos.LATCHED)
-HEARTBEAT = Topic(name='heartbeat', type=msg.Heartbeat, qos=qos.HEARTBEAT)
-AGSG = Topic(name='agsg', type=msg.Agsg, qos=qos.LATCHED)
-ROSTER = Topic(name='roster', type=msg.Roster, qos=qos.LATCHED)
-WORLD = Topic(name='world', type=msg.World, qos=qos.LATCHED)
-RUN_END = Topic(name='run_end', type=msg.RunEnd, qos=qos.LATCHED)
-GROUND_STATE = Topic(name='ground/state', type=msg.GroundState, qos=qos.STREAM)
-UAV_STATE = Topic(name='uav/state', type=msg.UavState, qos=qos.STREAM)
-GROUND_COMMAND = Topic(name='ground/command', type=msg.GroundCommand, qos=qos.STREAM)
-UAV_COMMAND = Topic(name='uav/command', type=msg.UavCommand, qos=qos.STREAM)
-COMM = Topic(name='comm', type=msg.LinkEvent, qos=qos.STREAM)
-SENSING = Topic(name='sensing', type=msg.Visibility, qos=qos.STREAM)
-EVENTS = Topic(name='events', type=msg.ScenarioEvent, qos=qos.STREAM)
-MARGINS = Topic(name='margins', type=msg.Margins, qos=qos.LATCHED)
-VERDICT = Topic(name='verdict', type=msg.Verdict, qos=qos.LATCHED)
+# Every node of the graph that is named in it, and the one that publishes a recording instead.
+NODES = (
+    'sync',
+    'sumo_bridge',
+    'uav_bridge',
+    'recorder',
+    'executor',
+    'parser',
+    'grounding',
+    'monitor',
+    'orchestrator',
+    'replay',
+)
+_FAILING = ('sumo_bridge', 'uav_bridge', 'recorder', 'executor')
+
+CLOCK = Topic(name='/clock', type=Clock, qos=qos.CLOCK, writers=('sync',))
+TICK = Topic(name='tick', type=msg.Tick, qos=qos.STREAM, writers=('sync',))
+TICK_DONE = Topic(name='tick_done', type=msg.TickDone, qos=qos.STREAM, writers=('executor',))
+ACK = Topic(name='ack', type=msg.Ack, qos=qos.STREAM, writers=('recorder', 'monitor'))
+FAULT = Topic(name='fault', type=msg.Fault, qos=qos.STREAM, writers=_FAILING)
+SYNC_STATUS = Topic(name='sync/status', type=msg.SyncStatus, qos=qos.LATCHED, writers=('sync',))
+HEARTBEAT = Topic(name='heartbeat', type=msg.Heartbeat, qos=qos.HEARTBEAT, writers=NODES)
+AGSG = Topic(
+    name='agsg', type=msg.Agsg, qos=qos.LATCHED, writers=('executor', 'parser', 'grounding')
+)
+ROSTER = Topic(name='roster', type=msg.Roster, qos=qos.LATCHED, writers=('executor',))
+WORLD = Topic(name='world', type=msg.World, qos=qos.LATCHED, writers=('executor',))
+RUN_END = Topic(name='run_end', type=msg.RunEnd, qos=qos.LATCHED, writers=('executor',))
+GROUND_STATE = Topic(
+    name='ground/state', type=msg.GroundState, qos=qos.STREAM, writers=('sumo_bridge',)
+)
+UAV_STATE = Topic(name='uav/state', type=msg.UavState, qos=qos.STREAM, writers=('uav_bridge',))
+GROUND_COMMAND = Topic(
+    name='ground/command', type=msg.GroundCommand, qos=qos.STREAM, writers=('executor',)
+)
+UAV_COMMAND = Topic(name='uav/command', type=msg.UavCommand, qos=qos.STREAM, writers=('executor',))
+COMM = Topic(name='comm', type=msg.LinkEvent, qos=qos.STREAM, writers=('executor',))
+SENSING = Topic(name='sensing', type=msg.Visibility, qos=qos.STREAM, writers=('executor',))
+EVENTS = Topic(name='events', type=msg.ScenarioEvent, qos=qos.STREAM, writers=('executor',))
+MARGINS = Topic(name='margins', type=msg.Margins, qos=qos.LATCHED, writers=('monitor',))
+VERDICT = Topic(name='verdict', type=msg.Verdict, qos=qos.LATCHED, writers=('monitor',))
+
+# Nobody else may write on these while a run goes on.
+RUN_TOPICS = (
+    CLOCK,
+    TICK,
+    TICK_DONE,
+    ACK,
+    FAULT,
+    SYNC_STATUS,
+    HEARTBEAT,
+    AGSG,
+    ROSTER,
+    WORLD,
+    RUN_END,
+    GROUND_STATE,
+    UAV_STATE,
+    GROUND_COMMAND,
+    UAV_COMMAND,
+    COMM,
+    SENSING,
+    EVENTS,
+    MARGINS,
+    VERDICT,
+)
 
 # What a run is judged on: every one is in its bag, and heard by the live monitor.
 JUDGED = (

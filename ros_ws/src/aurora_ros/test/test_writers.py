@@ -1,0 +1,138 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Writers that should not be there are found while they are there, and after they have gone."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack
+
+import pytest
+
+pytest.importorskip('rclpy')
+
+import rclpy
+from rclpy.context import Context
+from rclpy.node import Node
+from rclpy.publisher import Publisher
+
+from aurora_core.errors import ExecutionError
+from aurora_ros import interfaces as on
+from aurora_ros.interfaces import NAMESPACE, Topic
+from aurora_ros.matching import wait_until
+from aurora_ros.testing.domains import own_domain
+from aurora_ros.writers import LoneWriters, second_writer, strangers
+
+pytestmark = pytest.mark.ros
+
+LIMIT_S = 10.0
+Make = Callable[..., Node]
+
+
+@pytest.fixture
+def make() -> Iterator[Make]:
+    """Return a maker of nodes in a domain of their own, each with a participant of its own."""
+    with ExitStack() as stack:
+        domain = stack.enter_context(own_domain())
+
+        def node(name: str, namespace: str = NAMESPACE) -> Node:
+            context = Context()
+            rclpy.init(context=context, domain_id=domain)
+            stack.callback(lambda: rclpy.try_shutdown(context=context))
+            made = Node(name, namespace=namespace, context=context)
+            stack.callback(made.destroy_node)
+            return made
+
+        yield node
+
+
+def writer(node: Node, topic: Topic) -> Publisher:
+    return node.create_publisher(topic.type, topic.full_name, topic.qos)
+
+
+def found(asks: Node, topic: Topic, *participants: str) -> list[str]:
+    return sorted({s.node for s in strangers(asks, [topic], participants)})
+
+
+def known(asks: Node, topic: Topic, count: int) -> bool:
+    """Wait until so many writers are known by name."""
+
+    def named() -> bool:
+        infos = asks.get_publishers_info_by_topic(topic.full_name)
+        return len(infos) == count and not any('UNKNOWN' in i.node_name for i in infos)
+
+    return wait_until(named, LIMIT_S)
+
+
+def test_every_topic_of_a_run_has_writers() -> None:
+    for topic in on.RUN_TOPICS:
+        assert topic.writers
+        assert set(topic.writers) <= set(on.NODES)
+    assert set(on.JUDGED) <= set(on.RUN_TOPICS)
+
+
+@pytest.mark.parametrize(
+    ('name', 'namespace'), [('intruder', '/'), ('executor', '/other'), ('sync', NAMESPACE)]
+)
+def test_somebody_else_is_named(make: Make, name: str, namespace: str) -> None:
+    asks = make('executor')
+    writer(asks, on.UAV_COMMAND)
+    assert known(asks, on.UAV_COMMAND, 1)
+    assert found(asks, on.UAV_COMMAND, 'executor') == []
+    writer(make(name, namespace), on.UAV_COMMAND)
+    assert known(asks, on.UAV_COMMAND, 2)
+    full = f'/{namespace.strip("/")}/{name}'.replace('//', '/')
+    assert found(asks, on.UAV_COMMAND, 'executor') == [full]
+    (stranger,) = strangers(asks, [on.UAV_COMMAND], ['executor'])
+    error = second_writer(stranger)
+    assert error.message == f'second writer on /aurora/uav/command: node {full}'
+    assert error.hint
+
+
+def test_one_that_has_taken_the_name_is_a_second_one(make: Make) -> None:
+    asks = make('sync')
+    for _ in range(2):
+        writer(make('executor'), on.EVENTS)
+    assert known(asks, on.EVENTS, 2)
+    assert found(asks, on.EVENTS, 'executor') == ['/aurora/executor']
+
+
+def test_who_takes_no_part_in_a_run_may_stand_beside_its_dead_self(make: Make) -> None:
+    asks = make('executor')
+    for _ in range(2):
+        writer(make('parser'), on.AGSG)
+    assert known(asks, on.AGSG, 2)
+    assert found(asks, on.AGSG, 'executor', 'recorder') == []
+
+
+def test_who_has_gone_again_was_there(make: Make) -> None:
+    hears = make('recorder')
+    taps = {
+        topic: hears.create_subscription(
+            topic.type, topic.full_name, lambda _message: None, topic.qos
+        )
+        for topic in (on.UAV_COMMAND, on.GROUND_STATE, on.AGSG)
+    }
+    writer(make('executor'), on.UAV_COMMAND)
+    assert wait_until(lambda: taps[on.UAV_COMMAND].get_publisher_count() == 1, LIMIT_S)
+    lone = LoneWriters(hears, taps)
+    lone.begin({on.UAV_COMMAND.full_name, on.AGSG.full_name})
+    lone.check()
+    # Not asked for, and one of several that may write.
+    for topic in (on.GROUND_STATE, on.AGSG):
+        writer(make('parser'), topic)
+    others = (taps[on.GROUND_STATE], taps[on.AGSG])
+    assert wait_until(lambda: all(t.get_publisher_count() == 1 for t in others), LIMIT_S)
+    lone.check()
+    intruder = make('intruder', '/')
+    second = writer(intruder, on.UAV_COMMAND)
+    assert wait_until(lambda: taps[on.UAV_COMMAND].get_publisher_count() == 2, LIMIT_S)
+    with pytest.raises(ExecutionError, match='second writer on /aurora/uav/command: node /intr'):
+        lone.check()
+    intruder.destroy_publisher(second)
+    assert wait_until(lambda: taps[on.UAV_COMMAND].get_publisher_count() == 1, LIMIT_S)
+    with pytest.raises(ExecutionError, match='/aurora/uav/command: a node that is gone again'):
+        lone.check()
+    lone.begin({on.UAV_COMMAND.full_name})
+    lone.check()
+    lone.close()
