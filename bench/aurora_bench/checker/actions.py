@@ -1,0 +1,462 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Whether an action set in after a time, and when it was complete."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import shapely
+
+from aurora_bench.checker import limits
+from aurora_bench.checker.answers import Judged, cannot_tell, does_not, graded, holds
+from aurora_bench.checker.case import Case
+from aurora_bench.checker.paths import lane_of, offset
+from aurora_bench.checker.recording import BoolArray
+from aurora_bench.checker.scene import runs_of
+
+# A time step of the action's own: what is commanded at a tick shows one or two ticks later.
+STEPS = 2
+# The least that shows: a change of speed, or a movement.
+SHOWS_MPS = 0.2
+# What a type can do in the weather is not recorded; who brakes less than this brakes too little.
+LEAST_BRAKE_MPS2 = 1.5
+
+
+@dataclass(frozen=True, slots=True)
+class Acted:
+    """What became of an action: `start_s` and `done_s` where they are known."""
+
+    judged: Judged
+    start_s: float | None = None
+    done_s: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Window:
+    """When an action has to set in: the trigger lies between two times (delay included).
+
+    Attributes:
+        free: No trigger is stated: it may set in at any time.
+    """
+
+    early_s: float
+    late_s: float
+    free: bool = False
+
+    @property
+    def last_s(self) -> float:
+        """Return the latest time of an onset."""
+        return np.inf if self.free else self.late_s + limits.ONSET_S
+
+
+GROUND_ACTIONS = ('brake', 'stop', 'slow', 'accelerate', 'change_lane', 'yield', 'start', 'cross')
+
+
+def ground_action(
+    case: Case, action: Mapping[str, Any], agent: str, window: Window, others: tuple[str, ...]
+) -> Acted:
+    """Return what became of an action of a ground body.
+
+    Args:
+        others: Bodies to whom it may have to yield.
+    """
+    value = action.get('value_mps')
+    speed = None if value is None else float(value)
+    match action.get('do'):
+        case 'stop':
+            return _stop(case, agent, window)
+        case 'slow':
+            return _slow(case, agent, window, speed)
+        case 'accelerate':
+            return _accelerate(case, agent, window, speed)
+        case 'brake':
+            return _brake(case, agent, window, speed)
+        case 'start':
+            return _start(case, agent, window, speed)
+        case 'change_lane':
+            return _change_lane(case, agent, window)
+        case 'cross':
+            return _cross(case, agent, window)
+        case 'yield':
+            return _yield(case, agent, window, others)
+        case other:
+            return Acted(cannot_tell(f'action {other!r} is not known'))
+
+
+def _ticks(case: Case, window: Window) -> tuple[int, int]:
+    """Return the first tick and the one past the last of the time in which it may set in."""
+    scene = case.scene
+    first = scene.tick(window.early_s)
+    last = scene.recording.ticks if window.free else scene.tick(window.last_s) + 1 + STEPS
+    return first, min(last, scene.recording.ticks)
+
+
+def _onset(case: Case, shows: BoolArray, window: Window) -> int | None:
+    """Return the first tick of the window at which something shows."""
+    first, last = _ticks(case, window)
+    ticks = np.flatnonzero(shows[first:last])
+    return first + int(ticks[0]) if len(ticks) else None
+
+
+def _too_late(case: Case, window: Window) -> bool:
+    """Return whether the recording ends before the action has to show."""
+    return not window.free and window.late_s + limits.ONSET_S > case.scene.end_s
+
+
+def _never(case: Case, window: Window, what: str) -> Acted:
+    if _too_late(case, window):
+        return Acted(cannot_tell(f'{what}, but the recording ends at {case.scene.end_s:.1f} s'))
+    when = 'at any time' if window.free else f'from {window.early_s:.2f} to {window.last_s:.2f} s'
+    return Acted(does_not(f'{what} {when}'))
+
+
+def _slowing(case: Case, agent: str) -> BoolArray:
+    return np.asarray(case.scene.acceleration(agent) < -SHOWS_MPS)
+
+
+def _stop(case: Case, agent: str, window: Window) -> Acted:
+    scene = case.scene
+    still = (scene.speed(agent) < limits.STOPPED_MPS) & scene.present(agent)
+    stops = [
+        (a, b) for a, b in runs_of(still) if (b - 1 - a) * scene.dt_s >= limits.STOPPED_S - 1e-9
+    ]
+    if window.free:
+        # Standing from the start is no stop; coming to rest is.
+        later = [a for a, _ in stops if a > 0]
+        if later:
+            time = float(scene.times[later[0]])
+            return Acted(holds(f'{agent} stops at {time:.2f} s'), time, time + limits.STOPPED_S)
+        return Acted(does_not(f'{agent} never comes to rest for 2 s'))
+    first, last = _ticks(case, window)
+    for a, b in stops:
+        if a <= last and b > first and a <= scene.tick(window.late_s):
+            done = max(float(scene.times[a]), window.late_s)
+            return Acted(holds(f'{agent} stands at {done:.2f} s already'), done, done)
+    onset = _onset(case, _slowing(case, agent), window)
+    if onset is None:
+        return _never(case, window, f'{agent} does not slow down')
+    after = [a for a, _ in stops if a >= onset]
+    if not after:
+        least = float(scene.speed(agent)[onset:].min())
+        rest = (runs_of(still) or [(0, 0)])[-1]
+        if rest[1] == len(still) and rest[0] >= onset:
+            return Acted(cannot_tell(f'{agent} comes to rest as the recording ends'))
+        why = f'{agent} slows down at {scene.times[onset]:.2f} s but does not stop'
+        return Acted(does_not(f'{why}: least {least:.2f} m/s'))
+    # The way and the type bound the time; 1 m/s^2 is slower than any vehicle brakes.
+    took = (after[0] - onset) * scene.dt_s
+    bound = float(scene.speed(agent)[onset]) / 1.0 + 2.0
+    start, end = float(scene.times[onset]), float(scene.times[after[0]])
+    gap = scene.speed(agent)[onset : after[0]]
+    again = bool((np.maximum.accumulate(gap[::-1])[::-1] > gap[0] + 2.0).any())
+    why = f'{agent} slows down at {start:.2f} s and stands from {end:.2f} s'
+    return Acted(graded(took <= bound and not again, not again, why), start, end)
+
+
+def _reach(
+    case: Case, agent: str, window: Window, shows: BoolArray, there: BoolArray, what: str
+) -> Acted:
+    """Return whether something sets in within the window and a speed is reached after it."""
+    scene = case.scene
+    onset = _onset(case, shows, window)
+    if onset is None:
+        return _never(case, window, f'{agent} does not begin to {what}')
+    reached = np.flatnonzero(there[onset:])
+    start = float(scene.times[onset])
+    if not len(reached):
+        return Acted(does_not(f'{agent} begins at {start:.2f} s but does not {what}'), start)
+    done = float(scene.times[onset + reached[0]])
+    why = f'{agent} begins at {start:.2f} s, {what} by {done:.2f} s'
+    # The type's acceleration is not recorded: 0.5 m/s^2 is the slowest that counts.
+    change = abs(float(scene.speed(agent)[onset + reached[0]] - scene.speed(agent)[onset]))
+    return Acted(graded(done - start <= change / 0.5 + 2.0, True, why), start, done)
+
+
+def _slow(case: Case, agent: str, window: Window, value: float | None) -> Acted:
+    scene, speed = case.scene, case.scene.speed(agent)
+    at = scene.tick(window.late_s)
+    if value is not None:
+        slack = limits.tolerance(limits.SPEED, value)
+        there = np.abs(speed - value) <= slack
+        if not window.free and speed[at] <= value + slack:
+            time = window.late_s
+            return Acted(holds(f'{agent} goes at {speed[at]:.2f} m/s already'), time, time)
+        what = f'slow to {value:g} m/s'
+    elif window.free:
+        shows = _slowing(case, agent)
+        onset = np.flatnonzero(shows)
+        if not len(onset):
+            return Acted(does_not(f'{agent} never slows down'))
+        before = np.maximum.accumulate(speed)
+        half = np.flatnonzero(speed <= before / 2.0 + 1e-9)
+        half = half[before[half] > 1.0]
+        if not len(half):
+            return Acted(does_not(f'{agent} never slows to half of its speed'))
+        time = float(scene.times[half[0]])
+        return Acted(holds(f'{agent} at half of its speed at {time:.2f} s'), time, time)
+    else:
+        there = speed <= speed[scene.tick(window.early_s)] / 2.0 + 1e-9
+        what = f'slow to half of {speed[scene.tick(window.early_s)]:.2f} m/s'
+    return _reach(case, agent, window, _slowing(case, agent), there, what)
+
+
+def _accelerate(case: Case, agent: str, window: Window, value: float | None) -> Acted:
+    scene, speed = case.scene, case.scene.speed(agent)
+    gaining = scene.acceleration(agent) > SHOWS_MPS
+    if value is not None:
+        slack = limits.tolerance(limits.SPEED, value)
+        return _reach(
+            case, agent, window, gaining, np.abs(speed - value) <= slack, f'reach {value:g} m/s'
+        )
+    base = float(speed[scene.tick(window.early_s)]) if not window.free else float(speed.min())
+    goal = base + limits.ACCELERATE_BY_MPS
+    return _reach(case, agent, window, gaining, speed >= goal - 0.05, f'reach {goal:.2f} m/s')
+
+
+def _brake(case: Case, agent: str, window: Window, value: float | None) -> Acted:
+    scene = case.scene
+    slowing = _slowing(case, agent)
+    onset = _onset(case, slowing, window)
+    if onset is None:
+        return _never(case, window, f'{agent} does not brake')
+    end = onset
+    hardest = 0.0
+    runs = [
+        (a, b)
+        for a, b in runs_of(slowing)
+        if b > onset and (window.free or a <= _ticks(case, window)[1])
+    ]
+    recorded = -scene.recording.ground[:, scene.bodies[agent].row, 5]
+    for a, b in runs:
+        hard = float(
+            max(
+                (-scene.acceleration(agent)[max(a, onset) : b]).max(initial=0.0),
+                recorded[max(a, onset) : b].max(initial=0.0),
+            )
+        )
+        if hard > hardest:
+            hardest, end = hard, b
+        if hard >= limits.BRAKE_MPS2 * (1.0 - limits.REALISED_SHARE):
+            break
+    start, done = float(scene.times[onset]), float(scene.times[min(end, len(slowing) - 1)])
+    why = f'{agent} brakes from {start:.2f} s with up to {hardest:.2f} m/s^2'
+    enough = hardest >= limits.BRAKE_MPS2 * (1.0 - limits.REALISED_SHARE)
+    judged = graded(enough, hardest >= LEAST_BRAKE_MPS2, why)
+    if value is not None:
+        slack = limits.tolerance(limits.SPEED, value)
+        if not (np.abs(scene.speed(agent)[onset:] - value) <= slack).any():
+            judged = does_not(f'{why}, but never to {value:g} m/s')
+    return Acted(judged, start, done)
+
+
+def _start(case: Case, agent: str, window: Window, value: float | None) -> Acted:
+    scene, speed = case.scene, case.scene.speed(agent)
+    moving = speed > limits.STARTED_MPS
+    first = np.flatnonzero(speed >= limits.STOPPED_MPS)
+    if not len(first):
+        return _never(case, window, f'{agent} does not start')
+    if window.free:
+        onset: int | None = int(first[0])
+        if onset == 0:
+            return Acted(does_not(f'{agent} moves from t = 0'))
+    else:
+        before = speed[: scene.tick(window.early_s) + 1]
+        if (before >= limits.STOPPED_MPS).any():
+            at = float(scene.times[np.flatnonzero(before >= limits.STOPPED_MPS)[0]])
+            why = f'{agent} moves at {at:.2f} s, before {window.early_s:.2f} s'
+            return Acted(does_not(why), at)
+        onset = _onset(case, speed >= limits.STOPPED_MPS, window)
+    if onset is None:
+        return _never(case, window, f'{agent} does not start')
+    start = float(scene.times[onset])
+    there = moving
+    what = 'move'
+    if value is not None:
+        there = np.abs(speed - value) <= limits.tolerance(limits.SPEED, value)
+        what = f'reach {value:g} m/s'
+    reached = np.flatnonzero(there[onset:])
+    if not len(reached):
+        top = float(speed[onset:].max())
+        return Acted(does_not(f'{agent} does not {what} (fastest {top:.2f} m/s)'), start)
+    # An event that starts somebody is done when he moves: chains count from then.
+    done = float(scene.times[onset + reached[0]])
+    return Acted(holds(f'{agent} starts at {start:.2f} s, {what} by {done:.2f} s'), start, done)
+
+
+def _change_lane(case: Case, agent: str, window: Window) -> Acted:
+    changes = lane_changes(case, agent)
+    first, last = _ticks(case, window)
+    # The way across the lane takes its time: the onset shows before the body is over the line.
+    reach = 0 if window.free else round(5.0 / case.scene.dt_s)
+    for tick, held in changes:
+        if first <= tick <= last + reach:
+            time = float(case.scene.times[tick])
+            why = f'{agent} is on another lane at {time:.2f} s'
+            return Acted(graded(held, not held and _at_end(case, tick), why), time, time)
+    seen = [round(float(case.scene.times[t]), 1) for t, _ in changes]
+    return _never(case, window, f'{agent} does not change lane (changes at {seen} s)')
+
+
+def _at_end(case: Case, tick: int) -> bool:
+    return case.scene.end_s - float(case.scene.times[tick]) < limits.LANE_HELD_S
+
+
+def lane_changes(case: Case, agent: str) -> list[tuple[int, bool]]:
+    """Return the ticks at which a vehicle came onto a lane beside its own; did it stay 2 s?"""
+    key = ('lanes', agent)
+    if key not in case.scene.memory:
+        case.scene.memory[key] = _lane_changes(case, agent)
+    found = case.scene.memory[key]
+    assert isinstance(found, list)
+    return found
+
+
+def _lane_changes(case: Case, agent: str) -> list[tuple[int, bool]]:
+    scene = case.scene
+    xy, heading = scene.xy(agent), scene.heading(agent)
+    step = max(1, round(0.2 / scene.dt_s))
+    found: list[tuple[int, bool]] = []
+    current = None
+    held = round(limits.LANE_HELD_S / scene.dt_s)
+    present = scene.present(agent)
+    for tick in range(0, len(xy), step):
+        if not present[tick]:
+            current = None
+            continue
+        if current is not None:
+            arc, lateral = offset(current, xy[tick])
+            length = float(np.linalg.norm(np.diff(current.xy_m, axis=0), axis=1).sum())
+            if abs(lateral) <= current.width_m / 2.0 and 0.0 < arc < length:
+                continue
+            beside = 0.5 * current.width_m < abs(lateral) < 1.7 * current.width_m
+            if beside and 0.5 < arc < length - 0.5:
+                other = lane_of(scene, xy[tick], heading[tick])
+                if other is None:
+                    continue
+                if other.lane_id != current.lane_id:
+                    stay = all(
+                        abs(offset(current, xy[t])[1]) > current.width_m / 2.0
+                        or not 0.0 < offset(current, xy[t])[0] < length
+                        for t in range(tick, min(tick + held, len(xy)), step)
+                    )
+                    found.append((tick, stay and tick + held < len(xy)))
+        current = lane_of(scene, xy[tick], heading[tick])
+    return found
+
+
+def crossings_of(case: Case, person: str) -> list[tuple[int, int, float]]:
+    """Return (tick of leaving the kerb, tick of reaching the other, metres) of each crossing."""
+    scene = case.scene
+    key = ('crossings', person)
+    if key not in scene.memory:
+        road = scene.places.road()
+        shapely.prepare(road)
+        on = np.asarray(shapely.contains_xy(road, *scene.xy(person).T)) & scene.present(person)
+        scene.memory[key] = [
+            (a, b, float(np.linalg.norm(scene.xy(person)[b - 1] - scene.xy(person)[a])))
+            for a, b in runs_of(on)
+            if a > 0
+        ]
+    found = scene.memory[key]
+    assert isinstance(found, list)
+    return found
+
+
+def _cross(case: Case, agent: str, window: Window) -> Acted:
+    scene = case.scene
+    found = [c for c in crossings_of(case, agent) if c[2] >= 3.0]
+    whole = [c for c in found if c[1] < scene.recording.ticks]
+    if window.free:
+        if whole:
+            start, end = float(scene.times[whole[0][0]]), float(scene.times[whole[0][1]])
+            why = f'{agent} crosses from {start:.2f} to {end:.2f} s'
+            return Acted(holds(why), start, end)
+        return Acted(graded(False, bool(found), f'{agent} never crosses a carriageway'))
+    early = [c for c in found if scene.times[c[0]] < window.early_s - scene.dt_s]
+    later = [c for c in found if scene.times[c[0]] >= window.early_s - scene.dt_s]
+    if not later:
+        if early:
+            at = float(scene.times[early[0][0]])
+            why = f'{agent} steps on the carriageway at {at:.2f} s, before {window.early_s:.2f} s'
+            return Acted(does_not(why), at)
+        return _never(case, window, f'{agent} does not cross')
+    a, b, _ = later[0]
+    moving = scene.speed(agent) > SHOWS_MPS
+    onset = _onset(case, moving, window)
+    start, end = float(scene.times[a]), float(scene.times[min(b, len(moving) - 1)])
+    why = f'{agent} is on the carriageway from {start:.2f} to {end:.2f} s'
+    if early or (onset is None and start > window.last_s):
+        return Acted(does_not(f'{why}, asked from {window.early_s:.2f} s'), start, end)
+    stood = onset is not None and not (moving[onset:a] == 0).any()
+    prompt_ = start <= window.last_s or stood
+    ended = b < scene.recording.ticks
+    return Acted(graded(prompt_ and ended, True, why), start, end if ended else None)
+
+
+def _yield(case: Case, agent: str, window: Window, others: tuple[str, ...]) -> Acted:
+    scene = case.scene
+    speed = scene.speed(agent)
+    onset = _onset(case, _slowing(case, agent) | (speed < limits.STOPPED_MPS), window)
+    firsts = [passed_first(case, other, agent) for other in others]
+    known = [f for f in firsts if f is not None]
+    if any(not f[0] for f in known):
+        return Acted(does_not(f'{agent} passes before {others}'))
+    if not known:
+        if onset is None:
+            return _never(case, window, f'{agent} does not slow down')
+        start = float(scene.times[onset])
+        why = f'{agent} slows at {start:.2f} s, but to whom it yields is not seen'
+        return Acted(cannot_tell(why), start)
+    done = max(f[1] for f in known)
+    why = f'{others} passed first, at {done:.2f} s'
+    if onset is None and not window.free:
+        return Acted(cannot_tell(f'{why}; {agent} does not slow down'), None, done)
+    return Acted(holds(why), float(scene.times[onset]) if onset is not None else None, done)
+
+
+def passed_first(case: Case, first: str, second: str) -> tuple[bool, float] | None:
+    """Return whether one body passed where the ways cross before another; and when.
+
+    None when their ways do not cross.
+    """
+    scene = case.scene
+    step = max(1, round(0.2 / scene.dt_s))
+    a, b = scene.xy(first)[::step], scene.xy(second)[::step]
+    way_a, way_b = _line(a), _line(b)
+    if way_a is None:
+        return None
+    if way_b is None:
+        # Whoever stands until the end has let everybody pass who came by.
+        near = np.linalg.norm(a - b[0], axis=1)
+        if near.min() > 30.0:
+            return None
+        return True, float(near.argmin() * step * scene.dt_s)
+    cut = way_a.intersection(way_b)
+    if cut.is_empty:
+        # A body that waits short of the crossing point: its heading is the rest of its way.
+        ahead = b[-1] + scene.heading(second)[-1] * 25.0
+        cut = way_a.intersection(shapely.LineString([b[-1], ahead]))
+        if cut.is_empty:
+            return None
+        point = np.array(cut.centroid.coords[0])
+        when = float(np.linalg.norm(a - point, axis=1).argmin() * step * scene.dt_s)
+        return True, when
+    for geometry in getattr(cut, 'geoms', [cut]):
+        point = np.array(geometry.centroid.coords[0])
+        time_a = int(np.linalg.norm(a - point, axis=1).argmin())
+        time_b = int(np.linalg.norm(b - point, axis=1).argmin())
+        if abs(time_a - time_b) * step * scene.dt_s < 60.0:
+            return time_a < time_b, float(time_a * step * scene.dt_s)
+    return None
+
+
+def _line(xy: Any) -> Any | None:
+    keep = np.concatenate([[True], np.linalg.norm(np.diff(xy, axis=0), axis=1) > 1e-3])
+    points = xy[keep]
+    if len(points) < 2 or np.ptp(points, axis=0).max() < 1.0:
+        return None
+    return shapely.LineString(points)

@@ -1,0 +1,284 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a ground body does over the run, alone or with another."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from aurora_bench.checker import limits
+from aurora_bench.checker.actions import (
+    Window,
+    crossings_of,
+    ground_action,
+    lane_changes,
+)
+from aurora_bench.checker.answers import (
+    Judged,
+    all_of,
+    any_of,
+    cannot_tell,
+    decide,
+    does_not,
+    graded,
+    holds,
+)
+from aurora_bench.checker.case import Case, Requirement
+from aurora_bench.checker.events import happened
+from aurora_bench.checker.numbers import wanted
+from aurora_bench.checker.pairs import approach, follow, overtake, tailgate
+from aurora_bench.checker.paths import way
+from aurora_bench.checker.placements import AT_M
+from aurora_bench.checker.recording import BoolArray
+from aurora_bench.checker.scene import longest_s, runs_of, share
+
+MOVED_M = 10.0
+TURN_DEG = (60.0, 45.0)
+TURN_WITHIN_M = 45.0
+
+
+def behavior(case: Case, requirement: Requirement) -> Judged:
+    """Return whether bodies behave as annotated (every one of a group)."""
+    agent, target = requirement.get('agent'), requirement.get('target')
+    gone = case.missing(agent, target)
+    bodies = case.bodies(agent)
+    if gone or not bodies:
+        return does_not(f'there is no {gone or agent}')
+    if case.unknown_place(target):
+        return cannot_tell(f'no place {target!r} in the recorded world')
+    return all_of([_one(case, requirement, body) for body in bodies])
+
+
+def _one(case: Case, requirement: Requirement, body: str) -> Judged:
+    judged = _kind(case, requirement, body)
+    if requirement.get('speed_mps') is None or requirement.get('behavior') in ('slow',):
+        return judged
+    return all_of([judged, driven_speed(case, requirement, body)])
+
+
+def _kind(case: Case, requirement: Requirement, body: str) -> Judged:
+    targets = [t for t in case.things(requirement.get('target')) if t != body]
+    pairs = {'follow': follow, 'tailgate': tailgate, 'overtake': overtake, 'approach': approach}
+    kind = str(requirement.get('behavior'))
+    if kind in pairs:
+        if not targets:
+            return cannot_tell(f'{kind} whom is not annotated')
+        judged = [pairs[kind](case.scene, body, t) for t in targets]
+        return all_of(judged) if kind == 'overtake' else any_of(judged)
+    match kind:
+        case 'drive' | 'circulate' | 'walk' | 'emergency_run':
+            return _moves(case, requirement, body, targets)
+        case 'stop' | 'wait' | 'park':
+            return _stands(case, kind, body, targets)
+        case 'brake' | 'slow' | 'yield':
+            action = {'do': kind, 'value_mps': requirement.get('speed_mps')}
+            others = tuple(t for t in targets if case.scene.is_body(t))
+            window = Window(0.0, case.scene.end_s, free=True)
+            return ground_action(case, action, body, window, others).judged
+        case 'cross':
+            return _crosses(case, body, targets)
+        case 'change_lane':
+            found = lane_changes(case, body)
+            held = any(h for _, h in found)
+            seen = [round(float(case.scene.times[t]), 1) for t, _ in found]
+            return graded(held, bool(found), f'{body} changes lane at {seen} s')
+        case 'turn_left' | 'turn_right':
+            return _turns(case, body, 1.0 if kind == 'turn_left' else -1.0, targets)
+        case _:
+            return cannot_tell(f'behaviour {kind!r} is not known')
+
+
+def _moves(case: Case, requirement: Requirement, body: str, targets: list[str]) -> Judged:
+    scene, kind = case.scene, str(requirement.get('behavior'))
+    if kind == 'walk' and not scene.is_person(body):
+        return does_not(f'{body} is no person')
+    moved = float(way(scene, body).own_m[-1])
+    why = f'{body} moves {moved:.1f} m'
+    least = MOVED_M if kind != 'walk' else 3.0
+    parts = [graded(moved >= least, moved >= 1.0, why)]
+    if kind == 'circulate':
+        active = share(scene.speed(body) > limits.STARTED_MPS)
+        parts.append(graded(moved >= 100.0, moved >= 30.0, f'{why}, on the move for {active:.0%}'))
+    if kind == 'emergency_run':
+        # Right of way and signals are not in the states.
+        parts.append(cannot_tell('an emergency run does not show in the states'))
+    if targets:
+        parts.append(any_of([_heads_for(case, body, t) for t in targets]))
+    return all_of(parts)
+
+
+def _heads_for(case: Case, body: str, target: str) -> Judged:
+    scene = case.scene
+    if not scene.is_body(target) and scene.places.is_region(target):
+        moving = (scene.speed(body) > limits.STARTED_MPS) & scene.present(body)
+        ticks = np.flatnonzero(moving)[:: max(1, round(0.5 / scene.dt_s))]
+        if not len(ticks):
+            return does_not(f'{body} does not move')
+        on = scene.places.outline_distance(target, scene.xy(body)[ticks]) <= 3.0
+        why = f'{body} on {target} for {share(on):.0%} of its way'
+        surely = share(on) >= limits.FOLLOW_SHARE
+        # Which street is a main road the contract leaves open.
+        return graded(surely, bool(on.any()) or target.casefold() == 'main_road', why)
+    return approach(scene, body, target)
+
+
+def _near(case: Case, body: str, targets: list[str], most: float) -> BoolArray:
+    scene = case.scene
+    near = np.zeros(scene.recording.ticks, dtype=bool)
+    for target in targets:
+        if scene.is_body(target):
+            away = scene.distance(body, target, horizontal=True)
+        else:
+            away = scene.places.outline_distance(target, scene.xy(body))
+        with np.errstate(invalid='ignore'):
+            near |= away <= most
+    return near
+
+
+def _stands(case: Case, kind: str, body: str, targets: list[str]) -> Judged:
+    scene = case.scene
+    still = (scene.speed(body) < limits.STOPPED_MPS) & scene.present(body)
+    first = runs_of(still)
+    from_start = first[0][1] * scene.dt_s if first and first[0][0] == 0 else 0.0
+    if kind == 'park':
+        why = f'{body} stands for the first {from_start:.1f} s of {scene.end_s:.1f} s'
+        parts = [graded(bool(still.all()), from_start >= limits.STOPPED_S, why)]
+        if targets:
+            near = bool(_near(case, body, targets, AT_M[0])[0])
+            possibly = bool(_near(case, body, targets, AT_M[1])[0])
+            parts.append(graded(near, possibly, f'{body} at {targets[0]}: {near}'))
+        return all_of(parts)
+    longest = longest_s(still, scene.dt_s)
+    why = f'{body} at rest for up to {longest:.1f} s'
+    edge = limits.STOPPED_S - 2.0 * scene.dt_s
+    if not targets:
+        return decide(longest >= edge, why)
+    at = longest_s(still & _near(case, body, targets, AT_M[0]), scene.dt_s)
+    far = longest_s(still & _near(case, body, targets, AT_M[1]), scene.dt_s)
+    return graded(at >= edge, far >= edge, f'{why}, {at:.1f} s of it at {targets[0]}')
+
+
+def _crosses(case: Case, body: str, targets: list[str]) -> Judged:
+    scene = case.scene
+    found = [c for c in crossings_of(case, body) if c[2] >= 3.0]
+    whole = [c for c in found if c[1] < scene.recording.ticks]
+    if not found:
+        return does_not(f'{body} never crosses a carriageway')
+    a, _b, metres = (whole or found)[0]
+    why = f'{body} crosses {metres:.1f} m from {scene.times[a]:.1f} s'
+    parts = [graded(bool(whole), True, why)]
+    places = [t for t in targets if not scene.is_body(t)]
+    if places:
+        away = min(
+            float(scene.places.outline_distance(p, scene.xy(body)[x:y]).min())
+            for p in places
+            for x, y, _ in whole or found
+        )
+        parts.append(graded(away <= 3.0, away <= AT_M[0], f'{away:.1f} m from {places[0]}'))
+    return all_of(parts)
+
+
+def _turns(case: Case, body: str, sign: float, targets: list[str]) -> Judged:
+    scene = case.scene
+    own = way(scene, body)
+    marks = np.arange(0.0, float(own.own_m[-1]), 2.0)
+    if len(marks) < 3:
+        return does_not(f'{body} does not move')
+    ticks = np.searchsorted(own.own_m, marks)
+    ticks = np.minimum(ticks, len(own.own_m) - 1)
+    heading = scene.heading(body)[ticks]
+    angle = np.degrees(np.unwrap(np.arctan2(heading[:, 1], heading[:, 0]))) * sign
+    span = round(TURN_WITHIN_M / 2.0)
+    best = 0.0
+    near = _near(case, body, targets, 25.0)[ticks] if targets else np.ones(len(ticks), dtype=bool)
+    for i in range(len(angle)):
+        later = angle[i : i + span]
+        j = int(later.argmax())
+        if near[i : i + j + 1].any():
+            best = max(best, float(later[j] - angle[i]))
+    side = 'left' if sign > 0 else 'right'
+    why = f'{body} turns up to {best:.0f} degrees {side} within {TURN_WITHIN_M:.0f} m'
+    return graded(TURN_DEG[0] <= best <= 150.0, best >= TURN_DEG[1], why)
+
+
+def driven_speed(case: Case, requirement: Requirement, body: str) -> Judged:
+    """Return whether a body drives at the annotated speed where nothing keeps it from that.
+
+    No leader, no junction (so no signal either) within 50 m, not while it speeds up or slows, and
+    not from an annotated action on.
+    """
+    asked = wanted(requirement, 'speed_mps', case.variation, limits.SPEED)
+    if asked is None:
+        return holds('')
+    scene, speed = case.scene, case.scene.speed(body)
+    low, high = asked.low - asked.slack, asked.high + asked.slack
+    good = (speed >= low) & (speed <= high)
+    steady = (speed > limits.STARTED_MPS) & scene.present(body)
+    steady &= np.abs(scene.acceleration(body)) < 0.3
+    steady[_changed(case, body) :] = False
+    free = steady & ~_held_up(case, body)
+    top = float(speed.max())
+    if free.sum() * scene.dt_s >= 1.0:
+        ratio = share(good[free])
+        middle = float(np.median(speed[free]))
+        why = f'{body} at {asked.text()} m/s for {ratio:.1%} of its free way, median {middle:.2f}'
+        reached = longest_s(good & steady, scene.dt_s) >= limits.STOPPED_S
+        return graded(ratio >= limits.SPEED_SHARE, reached and ratio >= 0.5, why)
+    reached_s = longest_s(good & steady, scene.dt_s)
+    why = f'{body} is never free; at {asked.text()} m/s for {reached_s:.1f} s, fastest {top:.2f}'
+    return graded(reached_s >= 5.0, True, why)
+
+
+def _changed(case: Case, body: str) -> int:
+    """Return the tick from which an annotated action makes a body's speed another."""
+    tick = case.scene.recording.ticks
+    for event in case.annotation.flat():
+        action: Mapping[str, object] = event.get('action') or {}
+        if event['kind'] != 'event' or body not in case.bodies(action.get('agent')):
+            continue
+        if action.get('do') in ('brake', 'stop', 'slow', 'accelerate', 'yield'):
+            start = happened(case, event).start_s
+            if start is not None:
+                tick = min(tick, case.scene.tick(start))
+    return tick
+
+
+def _held_up(case: Case, body: str) -> BoolArray:
+    """Return (ticks,) whether somebody or a junction is within 50 m ahead."""
+    key = ('held up', body)
+    if key not in case.scene.memory:
+        case.scene.memory[key] = _find_held_up(case, body)
+    found = case.scene.memory[key]
+    assert isinstance(found, np.ndarray)
+    return found
+
+
+def _find_held_up(case: Case, body: str) -> BoolArray:
+    scene = case.scene
+    xy, heading = scene.xy(body), scene.heading(body)
+    held = np.zeros(len(xy), dtype=bool)
+
+    def ahead(points: np.ndarray) -> BoolArray:
+        delta = points - xy
+        forward = np.einsum('ij,ij->i', delta, heading)
+        beside = np.abs(heading[:, 0] * delta[:, 1] - heading[:, 1] * delta[:, 0])
+        return np.asarray(
+            (forward > 0.0) & (forward <= limits.FREE_AHEAD_M + 15.0) & (beside <= 15.0)
+        )
+
+    for spot in scene.places.spots('intersection'):
+        if np.linalg.norm(xy - spot.xy, axis=1).min() <= limits.FREE_AHEAD_M + 20.0:
+            held |= ahead(np.tile(spot.xy, (len(xy), 1)))
+            held |= np.linalg.norm(xy - spot.xy, axis=1) <= 20.0
+    for spot in scene.places.spots('crosswalk'):
+        if not scene.is_person(body):
+            near = np.linalg.norm(xy - spot.xy, axis=1)
+            if near.min() <= limits.FREE_AHEAD_M + 20.0:
+                held |= ahead(np.tile(spot.xy, (len(xy), 1)))
+    for other in scene.bodies.values():
+        if other.is_uav or other.body_id == body:
+            continue
+        held |= ahead(scene.xy(other.body_id)) & scene.present(other.body_id)
+    return held

@@ -1,0 +1,253 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Events (trigger, delay, action) and the order of events and missions."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from aurora_bench.checker import limits, uav_actions
+from aurora_bench.checker.actions import GROUND_ACTIONS, Acted, Window, ground_action
+from aurora_bench.checker.answers import (
+    Judged,
+    Outcome,
+    all_of,
+    cannot_tell,
+    does_not,
+    graded,
+    holds,
+)
+from aurora_bench.checker.case import Case, Requirement
+from aurora_bench.checker.phases import ascent_end_tick
+from aurora_bench.checker.triggers import Fired, Instant, fired
+
+# Triggers of a state count from their first time; of happenings any one may be meant.
+HAPPENINGS = ('message_received', 'mission_done', 'event_done', 'arrives')
+MOST_INSTANTS = 40
+
+
+@dataclass(frozen=True, slots=True)
+class Happened:
+    """What became of an event."""
+
+    judged: Judged
+    start_s: float | None = None
+    done_s: float | None = None
+
+
+def happened(case: Case, requirement: Requirement) -> Happened:
+    """Return whether an event happened as annotated, and when."""
+    key = ('event', id(requirement))
+    if key not in case.memory:
+        # An event that waits for itself through others is never done.
+        case.memory[key] = Happened(cannot_tell('the events wait for each other'))
+        case.memory[key] = _happened(case, requirement)
+    found = case.memory[key]
+    assert isinstance(found, Happened)
+    return found
+
+
+def _happened(case: Case, requirement: Requirement) -> Happened:
+    trigger, action = requirement.get('trigger') or {}, requirement.get('action') or {}
+    for part in (trigger, action):
+        gone = case.missing(*(v for v in part.values() if isinstance(v, str)))
+        if gone:
+            return Happened(does_not(f'there is no {gone}'))
+    if not trigger:
+        if not action:
+            return Happened(cannot_tell('an event without trigger and action'))
+        acted = _act(case, requirement, action, Window(0.0, case.scene.end_s, free=True))
+        return Happened(acted.judged, acted.start_s, acted.done_s)
+    when = fired(case, trigger, lambda event: _done(case, event))
+    if when.unclear:
+        return Happened(cannot_tell(when.unclear))
+    if not when.instants:
+        return Happened(does_not(f'the trigger never became true ({when.why})'))
+    instants = _delayed(requirement, trigger, when.instants)
+    if not action:
+        first = instants[0]
+        return Happened(holds(f'at {first.late_s:.2f} s'), first.early_s, first.late_s)
+    return _answered(case, requirement, trigger, action, instants)
+
+
+def _delayed(
+    requirement: Requirement, trigger: Mapping[str, Any], instants: tuple[Instant, ...]
+) -> tuple[Instant, ...]:
+    """Add the delay, and the tolerance of stated times."""
+    delay = float(requirement.get('delay_s') or trigger.get('delay_s') or 0.0)
+    stated = delay or float(trigger.get('after_s') or trigger.get('at_s') or 0.0)
+    slack = limits.tolerance(limits.DURATION, stated) if stated else 0.0
+    # Being late is forgiven once: by the second of the onset, or by a greater tolerance.
+    more = max(slack - limits.ONSET_S, 0.0)
+    return tuple(
+        Instant(max(i.early_s + delay - slack, 0.0), i.late_s + delay + more)
+        for i in instants[:MOST_INSTANTS]
+    )
+
+
+def _answered(
+    case: Case,
+    requirement: Requirement,
+    trigger: Mapping[str, Any],
+    action: Mapping[str, Any],
+    instants: tuple[Instant, ...],
+) -> Happened:
+    ready = _ready_s(case, requirement, action)
+    usable = tuple(
+        i if i.late_s >= ready else Instant(max(i.early_s, ready), ready) for i in instants
+    )
+    tried = [_act(case, requirement, action, Window(i.early_s, i.late_s)) for i in usable]
+    good = [k for k, a in enumerate(tried) if a.judged.outcome is Outcome.HOLDS]
+    if requirement.get('once') is False:
+        judged = all_of([a.judged for a in tried])
+        return Happened(judged, tried[0].start_s, tried[-1].done_s)
+    if not good:
+        doubtful = [a for a in tried if a.judged.outcome is Outcome.CANNOT_TELL]
+        best = (doubtful or tried)[0]
+        at = usable[tried.index(best)]
+        why = f'trigger at {at.late_s:.2f} s: {best.judged.why}'
+        return Happened(Judged(best.judged.outcome, why), best.start_s, best.done_s)
+    k = good[0]
+    best, at = tried[k], usable[k]
+    why = f'trigger at {at.late_s:.2f} s: {best.judged.why}'
+    # What holds from t = 0 on, before anything has moved, is no occurrence of its own.
+    firsts = sum(1 for i in instants if i.late_s <= case.scene.dt_s)
+    firsts += sum(1 for i in instants if i.late_s < ready)
+    if trigger.get('on') in HAPPENINGS or k <= firsts:
+        return Happened(holds(why), best.start_s, best.done_s)
+    first = f'not at the first time ({usable[0].late_s:.2f} s: {tried[0].judged.why})'
+    return Happened(cannot_tell(f'{why}, {first}'), best.start_s, best.done_s)
+
+
+def _ready_s(case: Case, requirement: Requirement, action: Mapping[str, Any]) -> float:
+    """Return the time from which the event can happen: after the ascent, after what it follows."""
+    scene, ready = case.scene, 0.0
+    actors = [action.get('uav')]
+    if action.get('do') == 'send_message':
+        actors.append(action.get('sender'))
+    for actor in actors:
+        for body in case.bodies(actor):
+            if scene.bodies[body].is_uav:
+                ready = max(ready, float(scene.times[ascent_end_tick(scene, body)]))
+    for order in case.annotation.requirements:
+        if order['kind'] != 'order' or order.get('then') != requirement.get('ref'):
+            continue
+        first = case.annotation.events.get(str(order.get('first')))
+        if first is not None and first is not requirement:
+            start = happened(case, first).start_s
+            ready = max(ready, start) if start is not None else ready
+    return ready
+
+
+def _done(case: Case, event: str) -> Fired:
+    found = happened(case, case.annotation.events[event])
+    if found.done_s is not None:
+        return Fired((Instant(found.done_s, found.done_s),), why=found.judged.why)
+    if found.judged.outcome is Outcome.CANNOT_TELL:
+        return Fired(unclear=f'{event}: {found.judged.why}')
+    if found.start_s is not None and found.judged.outcome is Outcome.HOLDS:
+        return Fired((Instant(found.start_s, case.scene.end_s),), why=found.judged.why)
+    return Fired(why=found.judged.why)
+
+
+def _act(case: Case, requirement: Requirement, action: Mapping[str, Any], window: Window) -> Acted:
+    do = action.get('do')
+    if do == 'send_message':
+        return uav_actions.send(case, action, window)
+    if do in GROUND_ACTIONS:
+        agents = case.bodies(action.get('agent'))
+        if not agents:
+            return Acted(does_not(f'there is no {action.get("agent")!r}'))
+        others = _others(case, requirement, agents)
+        return _together([ground_action(case, action, agent, window, others) for agent in agents])
+    uavs = case.bodies(action.get('uav'))
+    if not uavs:
+        return Acted(does_not(f'there is no {action.get("uav")!r}'))
+    if do == 'hand_over':
+        return uav_actions.hand_over(case, action, window)
+    each = {
+        'land': lambda uav: uav_actions.land(case, uav, window),
+        'return_home': lambda uav: uav_actions.return_home(case, uav, window),
+        'ascend': lambda uav: uav_actions.ascend(case, action, uav, window),
+        'change_mission': lambda uav: uav_actions.change_mission(
+            case, action, uav, window, requirement
+        ),
+    }.get(str(do))
+    if each is None:
+        return Acted(cannot_tell(f'action {do!r} is not known'))
+    return _together([each(uav) for uav in uavs])
+
+
+def _together(parts: list[Acted]) -> Acted:
+    starts = [p.start_s for p in parts if p.start_s is not None]
+    ends = [p.done_s for p in parts]
+    known = [e for e in ends if e is not None]
+    done = max(known) if known and len(known) == len(ends) else None
+    return Acted(all_of([p.judged for p in parts]), min(starts, default=None), done)
+
+
+def _others(case: Case, requirement: Requirement, agents: tuple[str, ...]) -> tuple[str, ...]:
+    """Return to whom somebody may have to yield: the others of the trigger, or of a behaviour."""
+    trigger = requirement.get('trigger') or {}
+    names = [trigger.get(k) for k in ('a', 'b', 'who', 'target')]
+    names += [
+        r.get('target')
+        for r in case.annotation.flat()
+        if r['kind'] == 'behavior'
+        and r.get('behavior') == 'yield'
+        and set(case.bodies(r.get('agent'))) & set(agents)
+    ]
+    found = [b for n in names for b in case.bodies(n)]
+    ground = [b for b in found if not case.scene.bodies[b].is_uav and b not in agents]
+    return tuple(dict.fromkeys(ground))
+
+
+def ordered(
+    case: Case, requirement: Requirement, spans: Mapping[str, tuple[float, float]]
+) -> Judged:
+    """Return whether one event or mission comes after another.
+
+    Args:
+        spans: Start and end of the flown missions of the annotated ones, by reference.
+    """
+    times = []
+    for name in (requirement.get('first'), requirement.get('then')):
+        ref = str(name)
+        if ref in spans:
+            times.append(spans[ref])
+            continue
+        if ref not in case.annotation.events:
+            if ref in case.annotation.missions:
+                return does_not(f'{ref} was not flown')
+            return cannot_tell(f'{name!r} is neither an event nor a mission')
+        found = happened(case, case.annotation.events[ref])
+        if found.start_s is None:
+            return Judged(
+                Outcome.DOES_NOT
+                if found.judged.outcome is Outcome.DOES_NOT
+                else Outcome.CANNOT_TELL,
+                f'{ref}: {found.judged.why}',
+            )
+        times.append((found.start_s, found.done_s if found.done_s is not None else found.start_s))
+    (start_a, end_a), (start_b, _) = times
+    why = f'{requirement["first"]} from {start_a:.2f} to {end_a:.2f} s'
+    why += f', {requirement["then"]} from {start_b:.2f} s'
+    slack = 2.0 * case.scene.dt_s
+    judged = graded(end_a <= start_b + 0.5, start_a <= start_b + slack, why)
+    within = requirement.get('within_s')
+    if within is None:
+        return judged
+    most = float(within) + limits.tolerance(limits.DURATION, float(within)) + slack
+    gaps = (start_b - end_a, start_b - start_a)
+    late = graded(max(gaps) <= most, min(gaps) <= most, f'{why}, within {within:g} s')
+    return all_of([judged, late])
+
+
+def event_time(case: Case, name: str) -> tuple[float | None, Judged]:
+    """Return when an event happened (its onset), and what is known of it."""
+    if name not in case.annotation.events:
+        return None, cannot_tell(f'{name!r} is no annotated event')
+    found = happened(case, case.annotation.events[name])
+    return found.start_s, found.judged

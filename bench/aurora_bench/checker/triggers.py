@@ -1,0 +1,238 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""When a trigger of the annotation became true, computed from states and the ledger."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+import numpy as np
+
+from aurora_bench.checker import limits
+from aurora_bench.checker.case import Case
+from aurora_bench.checker.phases import ascent_end_tick, landing_tick, segments
+from aurora_bench.checker.recording import BoolArray, FloatArray, LinkKind
+from aurora_bench.checker.scene import runs_of
+from aurora_bench.checker.sight import STEP_S, visible
+
+# "Arrives": the contract states no distance; from the first of these to the second.
+ARRIVED_FROM_M = 40.0
+ARRIVED_AT_M = 5.0
+
+
+@dataclass(frozen=True, slots=True)
+class Instant:
+    """A time at which a trigger may be said to have become true: between two times."""
+
+    early_s: float
+    late_s: float
+
+
+@dataclass(frozen=True, slots=True)
+class Fired:
+    """Instants in order of time; `unclear` says why there is no answer."""
+
+    instants: tuple[Instant, ...] = ()
+    unclear: str = ''
+    why: str = ''
+
+
+class DoneTimes(Protocol):
+    """Says when an event was done (the completion of its action)."""
+
+    def __call__(self, event: str) -> Fired:
+        """Return the instants."""
+
+
+def fired(case: Case, trigger: Mapping[str, Any], done: DoneTimes) -> Fired:
+    """Return when a trigger became true (each time again); none when it never did.
+
+    Args:
+        done: For triggers that wait for another event.
+    """
+    scene = case.scene
+    match trigger.get('on'):
+        case 'time':
+            at = float(trigger.get('at_s', 0.0))
+            return Fired((Instant(at, at),))
+        case 'distance_below' | 'distance_above':
+            return _distance(case, trigger)
+        case 'visible' | 'occluded':
+            return _sight(case, trigger)
+        case 'altitude_reached':
+            level = float(trigger.get('value_m', 0.0))
+            slack = limits.tolerance(limits.ALTITUDE, level)
+            found = []
+            for uav in case.bodies(trigger.get('uav')):
+                z = scene.altitude(uav)
+                soft, hard = np.flatnonzero(z >= level - slack), np.flatnonzero(z >= level)
+                if len(soft):
+                    early = float(scene.times[soft[0]])
+                    late = float(scene.times[hard[0]]) if len(hard) else early + 5.0
+                    found.append(Instant(early, min(late, early + 5.0)))
+            return Fired(tuple(found), why=f'altitude of {level:g} m')
+        case 'arrives':
+            return _arrives(case, trigger)
+        case 'message_received':
+            return _received(case, trigger)
+        case 'speed_below' | 'speed_above':
+            return _speed(case, trigger)
+        case 'event_done':
+            event = trigger.get('event')
+            if not isinstance(event, str) or event not in case.annotation.events:
+                return Fired(unclear=f'it waits for {event!r}, which is no annotated event')
+            after = float(trigger.get('after_s', 0.0))
+            finished = done(event)
+            shifted = tuple(
+                Instant(i.early_s + after, i.late_s + after) for i in finished.instants
+            )
+            return Fired(shifted, finished.unclear, f'{event} done, {finished.why}')
+        case 'mission_done':
+            ends = [
+                float(scene.times[min(s.end, scene.recording.ticks - 1)])
+                for uav in case.bodies(trigger.get('uav'))
+                for s in segments(scene, uav)
+                if s.closed
+            ]
+            return Fired(tuple(Instant(e, e) for e in sorted(ends)), why='mission done')
+        case 'battery_below':
+            return _battery(case, trigger)
+        case other:
+            return Fired(unclear=f'trigger {other!r} is not known')
+
+
+def edges(case: Case, true: BoolArray, blur_s: float = 0.0) -> tuple[Instant, ...]:
+    """Return when a series becomes true, its first sample included."""
+    times = case.scene.times
+    return tuple(
+        Instant(max(float(times[a]) - blur_s, 0.0), float(times[a]) + blur_s)
+        for a, _ in runs_of(true)
+    )
+
+
+def _distance(case: Case, trigger: Mapping[str, Any]) -> Fired:
+    a, b = trigger.get('a'), trigger.get('b')
+    for name in (a, b):
+        if case.unknown_place(name):
+            return Fired(unclear=f'no place {name!r} in the recorded world')
+    value = float(trigger.get('value_m', 0.0))
+    below = trigger['on'] == 'distance_below'
+    rows = [
+        case.scene.distance(x, y)
+        for x in case.things(a)
+        for y in case.things(b)
+        if x != y and (case.scene.is_body(x) or case.scene.is_body(y))
+    ]
+    if not rows:
+        return Fired(why='no pair of bodies')
+    with np.errstate(invalid='ignore'):
+        near = np.fmin.reduce(rows) if below else np.fmax.reduce(rows)
+        true = near < value if below else near > value
+    extreme = float(np.nanmin(near) if below else np.nanmax(near))
+    word = 'least' if below else 'greatest'
+    return Fired(edges(case, true), why=f'{word} distance {extreme:.2f} m, {value:g} m')
+
+
+def _sight(case: Case, trigger: Mapping[str, Any]) -> Fired:
+    scene, ever = case.scene, 0.0
+    found: list[Instant] = []
+    seeing = trigger['on'] == 'visible'
+    if case.unknown_place(trigger.get('target')):
+        return Fired(unclear=f'no place {trigger.get("target")!r} in the recorded world')
+    for observer in case.bodies(trigger.get('observer')):
+        for target in case.things(trigger.get('target')):
+            seen = visible(scene, observer, target)
+            ever += float(seen.sum()) * scene.dt_s
+            if seeing:
+                ready = np.ones(len(seen), dtype=bool)
+                if scene.bodies[observer].is_uav:
+                    # A UAV reports what it sees once it is up, not from the ground.
+                    ready &= scene.airborne(observer)
+                found += edges(case, seen & ready, STEP_S)
+                ascent = ascent_end_tick(scene, observer) if scene.bodies[observer].is_uav else 0
+                if ascent and seen[ascent]:
+                    found.append(Instant(0.0, float(scene.times[ascent])))
+            else:
+                start = ascent_end_tick(scene, observer) if scene.bodies[observer].is_uav else 0
+                lost = ~seen & scene.present(target) if scene.is_body(target) else ~seen
+                landing = landing_tick(scene, observer) if scene.bodies[observer].is_uav else None
+                lost[:start] = False
+                lost[landing if landing is not None else len(lost) :] = False
+                found += edges(case, lost, STEP_S)
+    return Fired(_sorted(found), why=f'seen for {ever:.1f} s in all')
+
+
+def _arrives(case: Case, trigger: Mapping[str, Any]) -> Fired:
+    scene, place = case.scene, trigger.get('place')
+    if case.unknown_place(place):
+        return Fired(unclear=f'no place {place!r} in the recorded world')
+    found, least = [], np.inf
+    for who in case.bodies(trigger.get('who')):
+        for goal in case.things(place):
+            if scene.is_body(goal):
+                away = scene.distance(who, goal, horizontal=True)
+            else:
+                away = scene.places.outline_distance(goal, scene.xy(who))
+            least = min(least, float(np.nanmin(away)))
+            with np.errstate(invalid='ignore'):
+                near = away <= ARRIVED_FROM_M
+            for a, b in runs_of(near):
+                at = np.flatnonzero(away[a:b] <= ARRIVED_AT_M)
+                nearest = int(at[0]) if len(at) else int(np.nanargmin(away[a:b]))
+                moved = np.flatnonzero(scene.speed(who)[a + nearest : b] < limits.STOPPED_MPS)
+                stop = a + nearest + (int(moved[0]) if len(moved) else 0)
+                found.append(Instant(float(scene.times[a]), float(scene.times[stop])))
+    return Fired(_sorted(found), why=f'nearest {least:.1f} m')
+
+
+def _received(case: Case, trigger: Mapping[str, Any]) -> Fired:
+    by, sender = case.bodies(trigger.get('by')), trigger.get('from')
+    senders = case.bodies(sender) if sender is not None else None
+    times = [
+        e.time_s
+        for e in case.scene.recording.ledger
+        if e.kind is LinkKind.DELIVERED
+        and e.receiver in by
+        and (senders is None or e.sender in senders)
+    ]
+    why = f'{len(times)} messages received'
+    return Fired(tuple(Instant(t, t) for t in sorted(times)), why=why)
+
+
+def _speed(case: Case, trigger: Mapping[str, Any]) -> Fired:
+    scene, below = case.scene, trigger['on'] == 'speed_below'
+    value = trigger.get('value_mps')
+    limit = limits.STOPPED_MPS if value is None else float(value)
+    found: list[Instant] = []
+    extreme: list[float] = []
+    for who in case.bodies(trigger.get('who')):
+        speed = scene.speed(who)
+        true = (speed < limit if below else speed > limit) & scene.present(who)
+        extreme.append(float(speed.min() if below else speed.max()))
+        found += edges(case, true)
+    shown = [round(e, 2) for e in extreme]
+    return Fired(_sorted(found), why=f'{shown} m/s against {limit:g}')
+
+
+def _battery(case: Case, trigger: Mapping[str, Any]) -> Fired:
+    value = float(trigger.get('value', 0.0))
+    level = value / 100.0 if value > 1.0 else value
+    found = [
+        instant
+        for uav in case.bodies(trigger.get('uav'))
+        for instant in edges(case, battery(case, uav) < level)
+    ]
+    return Fired(_sorted(found), why=f'battery below {level:.0%}')
+
+
+def battery(case: Case, uav: str) -> FloatArray:
+    """Return (ticks,) the share left: full at take-off, empty at the endurance."""
+    scene = case.scene
+    flown = np.cumsum(scene.airborne(uav)) * scene.dt_s
+    return np.asarray(1.0 - flown / scene.limit('uav_endurance_s'))
+
+
+def _sorted(found: Sequence[Instant]) -> tuple[Instant, ...]:
+    return tuple(sorted(found, key=lambda i: (i.late_s, i.early_s)))

@@ -1,0 +1,217 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Actions of UAVs and messages: send, change of mission, land, ascend, return, hand over."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from aurora_bench.checker import limits, missions
+from aurora_bench.checker.actions import Acted, Window
+from aurora_bench.checker.answers import (
+    all_of,
+    any_of,
+    cannot_tell,
+    decide,
+    does_not,
+    graded,
+    holds,
+)
+from aurora_bench.checker.case import Case
+from aurora_bench.checker.phases import Segment, landing_tick, segments
+from aurora_bench.checker.recording import LinkKind
+
+STEPS = 2
+
+
+def _inside(case: Case, window: Window, time_s: float) -> bool:
+    slack = STEPS * case.scene.dt_s
+    return window.free or window.early_s - slack <= time_s <= window.last_s + slack
+
+
+def _words(window: Window) -> str:
+    return 'at any time' if window.free else f'{window.early_s:.2f} to {window.last_s:.2f} s'
+
+
+def send(case: Case, action: Mapping[str, Any], window: Window) -> Acted:
+    """Return whether a message was sent in time and received."""
+    receivers = case.bodies(action.get('receiver'))
+    sender = action.get('sender')
+    senders = case.bodies(sender) if sender is not None else tuple(case.scene.bodies)
+    if not receivers or not senders:
+        return Acted(does_not(f'no body for {sender!r} or {action.get("receiver")!r}'))
+    parts, starts, ends = [], [], []
+    for receiver in receivers:
+        part = _send_to(case, senders, receiver, window)
+        parts.append(part.judged)
+        starts += [part.start_s] if part.start_s is not None else []
+        ends += [part.done_s] if part.done_s is not None else []
+    return Acted(all_of(parts), min(starts, default=None), max(ends, default=None))
+
+
+def _send_to(case: Case, senders: tuple[str, ...], receiver: str, window: Window) -> Acted:
+    ledger = case.scene.recording.ledger
+    sent = [
+        e
+        for e in ledger
+        if e.kind is LinkKind.SENT and e.sender in senders and e.receiver == receiver
+    ]
+    fitting = [e for e in sent if _inside(case, window, e.time_s)]
+    if not fitting:
+        times = [round(e.time_s, 2) for e in sent]
+        if not window.free and window.last_s > case.scene.end_s:
+            return Acted(cannot_tell(f'the recording ends before {window.last_s:.2f} s'))
+        why = f'{senders} to {receiver}: sent at {times} s, asked {_words(window)}'
+        return Acted(does_not(why))
+    entry = fitting[0]
+    got = [e.time_s for e in ledger if e.kind is LinkKind.DELIVERED and e.message == entry.message]
+    needed, bound = _delivery(case, entry.sender, receiver)
+    why = f'{entry.sender} to {receiver}: sent {entry.time_s:.2f} s'
+    early = [
+        uav
+        for uav in (entry.sender,)
+        if case.scene.bodies[uav].is_uav
+        and not case.scene.airborne(uav)[case.scene.tick(entry.time_s)]
+    ]
+    if early:
+        return Acted(does_not(f'{why}, from the ground'), entry.time_s)
+    if not got:
+        left = case.scene.end_s - entry.time_s < bound
+        judged = graded(not needed, left, f'{why}, never received')
+        return Acted(judged, entry.time_s, None if needed else entry.time_s)
+    took = got[0] - entry.time_s
+    slack = limits.LATENCY_STEPS * case.scene.dt_s
+    judged = decide(took <= bound + slack, f'{why}, received {got[0]:.2f} s')
+    return Acted(judged, entry.time_s, got[0])
+
+
+def _delivery(case: Case, sender: str, receiver: str) -> tuple[bool, float]:
+    """Return whether a message has to arrive, and within which time."""
+    for link in case.annotation.flat():
+        if link['kind'] != 'link' or link.get('negate'):
+            continue
+        if sender in case.bodies(link.get('sender')) and receiver in case.bodies(
+            link.get('receiver')
+        ):
+            tries = link.get('retransmissions', limits.RETRANSMISSIONS)
+            latency = float(link.get('latency_s') or limits.LATENCY_S)
+            lossy = float(link.get('loss') or 0.0) > 0.0
+            needed = not (lossy and tries == 0) and float(link.get('loss') or 0.0) < 1.0
+            needed = needed and not link.get('outage_s')
+            most = latency * (1 + tries) + tries * limits.RETRANSMISSION_GAP_S
+            return needed, max(limits.DELIVERED_S, most)
+    return True, limits.DELIVERED_S
+
+
+def change_mission(
+    case: Case, action: Mapping[str, Any], uav: str, window: Window, event: Mapping[str, Any]
+) -> Acted:
+    """Return whether another mission began in time, and is the annotated one."""
+    found = segments(case.scene, uav)
+    fitting = [
+        s
+        for s in found
+        if s.number > 0 and _inside(case, window, float(case.scene.times[s.start]))
+    ]
+    if not fitting:
+        times = [round(float(case.scene.times[s.start]), 2) for s in found]
+        return Acted(does_not(f'{uav} begins missions at {times} s, asked {_words(window)}'))
+    readings = [(_change(case, action, uav, s, event), s) for s in fitting]
+    best = any_of([j for j, _ in readings])
+    segment = next(s for j, s in readings if j.outcome is best.outcome)
+    start = float(case.scene.times[segment.start])
+    end = float(case.scene.times[min(segment.end, case.scene.recording.ticks - 1)])
+    return Acted(best, start, end if segment.closed else None)
+
+
+def _change(
+    case: Case, action: Mapping[str, Any], uav: str, segment: Segment, event: Mapping[str, Any]
+) -> Any:
+    flight = missions.Flight(
+        scene=case.scene,
+        uav=uav,
+        segment=segment,
+        targets=case.things(action.get('target')),
+        variation=case.variation,
+        until=segment.end,
+    )
+    if case.missing(action.get('target')):
+        return does_not(f'there is no {action["target"]}')
+    requirement = {**action, 'id': event.get('id')}
+    return missions.judge(flight, requirement)
+
+
+def land(case: Case, uav: str, window: Window) -> Acted:
+    """Return whether a landing began in time and ended on the ground."""
+    tick = landing_tick(case.scene, uav)
+    if tick is None:
+        return Acted(does_not(f'{uav} is never told to land'))
+    start, down = float(case.scene.times[tick]), case.scene.landed_s(uav)
+    why = f'{uav} goes down from {start:.2f} s'
+    if not _inside(case, window, start):
+        return Acted(does_not(f'{why}, asked {_words(window)}'), start, down)
+    if down is None:
+        return Acted(cannot_tell(f'{why}, still up as the recording ends'), start)
+    return Acted(holds(f'{why}, landed at {down:.2f} s'), start, down)
+
+
+def return_home(case: Case, uav: str, window: Window) -> Acted:
+    """Return whether a UAV lands where it took off."""
+    landed = land(case, uav, window)
+    xy = case.scene.xy(uav)
+    away = float(np.linalg.norm(xy[-1] - xy[0]))
+    home = decide(away <= limits.RETURN_M, f'{uav} lands {away:.1f} m from its start')
+    return Acted(all_of([landed.judged, home]), landed.start_s, landed.done_s)
+
+
+def ascend(case: Case, action: Mapping[str, Any], uav: str, window: Window) -> Acted:
+    """Return whether a UAV begins to climb in time and reaches the altitude."""
+    scene = case.scene
+    z = scene.altitude(uav)
+    rate = np.gradient(z, scene.dt_s)
+    goal = action.get('altitude_m')
+    first = 0 if window.free else scene.tick(window.early_s)
+    last = len(z) if window.free else scene.tick(window.last_s) + 1 + STEPS
+    climbing = np.flatnonzero(rate[first:last] > 0.15)
+    if goal is None:
+        why = f'{uav} climbs {_words(window)}'
+        if not len(climbing):
+            return Acted(does_not(f'{uav} does not climb {_words(window)}'))
+        start = float(scene.times[first + climbing[0]])
+        rest = z[first + climbing[0] :]
+        return Acted(graded(float(rest.max() - rest[0]) >= 2.0, True, why), start, start)
+    level = float(goal)
+    slack = limits.tolerance(limits.ALTITUDE, level)
+    near = np.abs(z - level) <= slack
+    if not window.free and near[scene.tick(window.late_s)]:
+        return Acted(holds(f'{uav} is at {level:g} m'), window.late_s, window.late_s)
+    if not len(climbing):
+        if not window.free and window.last_s > scene.end_s:
+            return Acted(cannot_tell('the recording ends before'))
+        return Acted(does_not(f'{uav} does not climb {_words(window)}'))
+    begin = first + int(climbing[0])
+    reached = np.flatnonzero(near[begin:])
+    start = float(scene.times[begin])
+    if not len(reached):
+        why = f'{uav} climbs from {start:.2f} s, highest {z[begin:].max():.2f} of {level:g} m'
+        return Acted(does_not(why), start)
+    done = float(scene.times[begin + reached[0]])
+    # Half of the least climb rate that a limit allows is the slowest that counts.
+    bound = abs(level - float(z[begin])) / 1.0 + 2.0
+    why = f'{uav} climbs from {start:.2f} s, at {level:g} m at {done:.2f} s'
+    return Acted(graded(done - start <= bound, window.free, why), start, done)
+
+
+def hand_over(case: Case, action: Mapping[str, Any], window: Window) -> Acted:
+    """Return what can be seen of a hand-over: the other UAV begins a mission."""
+    starts = [
+        float(case.scene.times[s.start])
+        for uav in case.bodies(action.get('to'))
+        for s in segments(case.scene, uav)
+    ]
+    if not any(_inside(case, window, s) or s <= window.last_s for s in starts):
+        return Acted(does_not(f'{action.get("to")} begins no mission ({starts} s)'))
+    return Acted(cannot_tell('who observes whom after a hand-over is not in the states'))
