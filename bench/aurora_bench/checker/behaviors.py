@@ -9,12 +9,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from aurora_bench.checker import limits
-from aurora_bench.checker.actions import (
-    Window,
-    crossings_of,
-    ground_action,
-    lane_changes,
-)
+from aurora_bench.checker.actions import Window, ground_action
 from aurora_bench.checker.answers import (
     Judged,
     all_of,
@@ -32,6 +27,7 @@ from aurora_bench.checker.pairs import approach, follow, overtake, tailgate
 from aurora_bench.checker.paths import way
 from aurora_bench.checker.placements import AT_M
 from aurora_bench.checker.recording import BoolArray
+from aurora_bench.checker.roads import crossings_of, lane_changes
 from aurora_bench.checker.scene import longest_s, runs_of, share
 
 MOVED_M = 10.0

@@ -10,41 +10,23 @@ from typing import Any
 
 import numpy as np
 
-from aurora_bench.checker import limits, missions
+from aurora_bench.checker import endings, missions
 from aurora_bench.checker.answers import (
     Judged,
-    Outcome,
     all_of,
-    any_of,
     cannot_tell,
     decide,
     does_not,
     graded,
 )
 from aurora_bench.checker.case import Case, Requirement
-from aurora_bench.checker.events import event_time
-from aurora_bench.checker.flights import waypoints
 from aurora_bench.checker.flown import flight, flown
-from aurora_bench.checker.links import deliveries
 from aurora_bench.checker.phases import segments
 from aurora_bench.checker.recording import BoolArray, FloatArray
 from aurora_bench.checker.scene import longest_s, share
 from aurora_bench.checker.sight import visible
+from aurora_bench.checker.thresholds import EPSILON, compare, value_of
 from aurora_bench.checker.triggers import battery
-
-EPSILON = 1e-9
-
-
-def compare(op: str, value: float, slack: float = 0.0) -> Callable[[Any], Any]:
-    """Return the test of a condition; `slack` is the tolerance of ==."""
-    tests: dict[str, Callable[[Any], Any]] = {
-        '<=': lambda x: x <= value + EPSILON,
-        '<': lambda x: x < value,
-        '>=': lambda x: x >= value - EPSILON,
-        '>': lambda x: x > value,
-        '==': lambda x: np.abs(x - value) <= slack + EPSILON,
-    }
-    return tests[op]
 
 
 def condition(case: Case, requirement: Requirement) -> Judged:
@@ -71,40 +53,18 @@ def condition(case: Case, requirement: Requirement) -> Judged:
         'tracked_fraction': _tracked,
         'visible_time': _visible,
         'visible_fraction': _visible,
-        'delivery_latency': _delivery,
-        'delivered': _delivery,
-        'delivery_ratio': _delivery,
-        'event_time': _event_time,
-        'hover_drift': _drift,
-        'waypoints_visited': _waypoints,
-        'mission_completed': _completed,
-        'landed': _completed,
+        'delivery_latency': endings.delivery,
+        'delivered': endings.delivery,
+        'delivery_ratio': endings.delivery,
+        'event_time': endings.event_time,
+        'hover_drift': endings.drift,
+        'waypoints_visited': endings.waypoints,
+        'mission_completed': endings.completed,
+        'landed': endings.completed,
     }.get(str(requirement['quantity']))
     if judge is None:
         return cannot_tell(f'quantity {requirement["quantity"]!r} is not known')
     return judge(case, requirement)
-
-
-def _value(case: Case, requirement: Requirement) -> tuple[float, float]:
-    """Return the threshold (its kindest reading inside of a variation) and the slack of ==."""
-    value = float(requirement['value'])
-    own = case.variation.get(f'{requirement.get("id")}.value')
-    if isinstance(own, list | tuple) and len(own) == 2:
-        low, high = float(own[0]), float(own[1])
-        if requirement['op'] in ('>=', '>'):
-            return low, 0.0
-        if requirement['op'] in ('<=', '<'):
-            return high, 0.0
-        return (low + high) / 2.0, (high - low) / 2.0
-    rule = {
-        'altitude': limits.ALTITUDE,
-        'speed': limits.SPEED,
-        'event_time': limits.DURATION,
-        'distance': limits.STANDOFF,
-        'horizontal_distance': limits.STANDOFF,
-        'separation': limits.STANDOFF,
-    }.get(str(requirement['quantity']), (0.0, 0.01))
-    return value, limits.tolerance(rule, value)
 
 
 def window_of(case: Case, names: list[str]) -> tuple[BoolArray, BoolArray]:
@@ -230,7 +190,7 @@ def _over_time(
     narrow: BoolArray,
     wide: BoolArray,
 ) -> Judged:
-    value, slack = _value(case, requirement)
+    value, slack = value_of(case, requirement)
     op = str(requirement['op'])
     with np.errstate(invalid='ignore'):
         true = np.asarray(compare(op, value, slack)(row)) & np.isfinite(row)
@@ -265,7 +225,7 @@ def _over_time(
 
 def _tracked(case: Case, requirement: Requirement) -> Judged:
     names = list(requirement['of'])
-    value, slack = _value(case, requirement)
+    value, slack = value_of(case, requirement)
     parts = []
     for uav in case.bodies(names[0]):
         for target in case.bodies(names[-1]):
@@ -309,7 +269,7 @@ def _missions(case: Case, uav: str, target: str) -> list[Mapping[str, Any]]:
 
 def _visible(case: Case, requirement: Requirement) -> Judged:
     names = list(requirement['of'])
-    value, slack = _value(case, requirement)
+    value, slack = value_of(case, requirement)
     test = compare(str(requirement['op']), value, slack)
     parts = []
     for observer in case.bodies(names[0]):
@@ -355,7 +315,7 @@ def _seconds(
     narrow: BoolArray,
     wide: BoolArray,
 ) -> Judged:
-    value, slack = _value(case, requirement)
+    value, slack = value_of(case, requirement)
     test = compare(str(requirement['op']), value, slack)
     dt_s, by = case.scene.dt_s, requirement.get('by_s')
     if by is not None:
@@ -367,117 +327,3 @@ def _seconds(
     why = f'{target} seen {inner:.1f} s in the phase, {outer:.1f} s with its way there'
     ok = (bool(test(inner)), bool(test(outer)), bool(test(inner + 0.1)))
     return graded(ok[0] and ok[1], any(ok), why)
-
-
-def _delivery(case: Case, requirement: Requirement) -> Judged:
-    names = list(requirement['of'])
-    sent = deliveries(case, names[0], names[-1])
-    if not sent:
-        return does_not(f'no message from {names[0]} to {names[-1]}')
-    quantity = requirement['quantity']
-    value, slack = _value(case, requirement) if quantity != 'delivered' else (0.0, 0.0)
-    open_ = [s for s in sent if s.received_s is None and not s.failed]
-    got = [s for s in sent if s.received_s is not None]
-    if quantity == 'delivery_latency':
-        if not got:
-            return does_not('no message was received')
-        worst = max(s.received_s - s.sent_s for s in got if s.received_s is not None)
-        test = compare(str(requirement['op']), value, slack)
-        lost = len(sent) - len(got)
-        why = f'slowest of {len(got)} messages {worst:.3f} s, {lost} not received'
-        return graded(
-            bool(test(worst)) and not lost, bool(test(worst)) and lost <= len(open_), why
-        )
-    ratio = len(got) / len(sent)
-    why = f'{len(got)} of {len(sent)} messages received'
-    if quantity == 'delivered':
-        by = requirement.get('by_s')
-        late = [s for s in got if by is not None and (s.received_s or 0.0) > float(by)]
-        whole = len(got) == len(sent) and not late
-        asked = bool(requirement['value'])
-        if by is not None:
-            why += f', {len(late)} after {by:g} s'
-        return graded(whole is asked, bool(open_) and asked and not late, why)
-    test = compare(str(requirement['op']), value, slack)
-    return graded(bool(test(ratio)), bool(test((len(got) + len(open_)) / len(sent))), why)
-
-
-def _event_time(case: Case, requirement: Requirement) -> Judged:
-    name = str((requirement.get('of') or [''])[0])
-    time, judged = event_time(case, name)
-    if time is None:
-        if judged.outcome is Outcome.DOES_NOT:
-            return does_not(f'{name}: {judged.why}')
-        return cannot_tell(f'{name}: {judged.why}')
-    value, slack = _value(case, requirement)
-    test = compare(str(requirement['op']), value, slack)
-    return decide(bool(test(time)), f'{name} at {time:.2f} s')
-
-
-def _drift(case: Case, requirement: Requirement) -> Judged:
-    value, slack = _value(case, requirement)
-    test = compare(str(requirement['op']), value, slack)
-    parts = []
-    for uav in case.bodies(requirement['of'][0]):
-        asked = [
-            r
-            for r in case.annotation.flat()
-            if r['kind'] == 'mission' and r['mode'] == 'hover' and uav in case.bodies(r.get('uav'))
-        ]
-        readings = []
-        for one in asked:
-            segment = flown(case, one, uav).segment
-            if segment is None:
-                continue
-            start = missions.captured_tick(flight(case, one, uav, segment), one)
-            if start is None:
-                continue
-            xy = case.scene.xy(uav)[start : flight(case, one, uav, segment).until]
-            middle = np.median(xy, axis=0)
-            drift = float(np.linalg.norm(xy - middle, axis=1).max())
-            # The hover point itself is not recorded; the median is near it.
-            sure = bool(test(drift)) and bool(test(drift + 0.3))
-            doubt = bool(test(drift)) or bool(test(max(drift - 0.3, 0.0)))
-            readings.append(graded(sure, doubt, f'{uav} drifts {drift:.2f} m'))
-        parts.append(any_of(readings) if readings else does_not(f'{uav} hovers nowhere'))
-    return all_of(parts) if parts else does_not('there is no UAV')
-
-
-def _waypoints(case: Case, requirement: Requirement) -> Judged:
-    count = int(float(requirement['value']))
-    if requirement['op'] in ('<', '<='):
-        return cannot_tell('points flown to that were not asked for cannot be told from turns')
-    parts = []
-    for uav in case.bodies(requirement['of'][0]):
-        readings = []
-        for segment in segments(case.scene, uav):
-            end = segment.end
-            if requirement.get('by_s') is not None:
-                end = min(end, case.scene.tick(float(requirement['by_s'])) + 1)
-            if end <= segment.start + 2:
-                readings.append(does_not('the mission has not begun'))
-                continue
-            step = max(1, round(0.2 / case.scene.dt_s))
-            readings.append(waypoints(case.scene.xy(uav)[segment.start : end : step], count))
-        parts.append(any_of(readings) if readings else does_not(f'{uav} flies no mission'))
-    return all_of(parts) if parts else does_not('there is no UAV')
-
-
-def _completed(case: Case, requirement: Requirement) -> Judged:
-    asked = bool(requirement['value'])
-    by, parts = requirement.get('by_s'), []
-    for uav in case.bodies(requirement['of'][0]):
-        if requirement['quantity'] == 'landed':
-            time = case.scene.landed_s(uav)
-            word = 'landed'
-        else:
-            found = segments(case.scene, uav)
-            last = found[-1] if found else None
-            time = float(case.scene.times[last.end]) if last is not None and last.closed else None
-            word = 'last mission ended'
-        if time is None:
-            parts.append(decide(not asked, f'{uav}: never {word}'))
-        else:
-            within = by is None or time <= float(by) + EPSILON
-            parts.append(decide(within is asked, f'{uav}: {word} at {time:.2f} s'))
-    return all_of(parts) if parts else does_not('there is no UAV')

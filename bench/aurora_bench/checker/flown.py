@@ -11,6 +11,7 @@ from aurora_bench.checker import missions
 from aurora_bench.checker.answers import Judged, Outcome, all_of, cannot_tell, does_not
 from aurora_bench.checker.case import Case, Requirement
 from aurora_bench.checker.events import happened
+from aurora_bench.checker.flight import Flight
 from aurora_bench.checker.phases import Segment, segments
 
 MOST_MISSIONS = 6
@@ -108,9 +109,9 @@ def _judge(case: Case, requirement: Requirement, uav: str, segment: Segment) -> 
     return missions.judge(flight(case, requirement, uav, segment), requirement)
 
 
-def flight(case: Case, requirement: Requirement, uav: str, segment: Segment) -> missions.Flight:
+def flight(case: Case, requirement: Requirement, uav: str, segment: Segment) -> Flight:
     """Return a flown mission as it is judged: up to where an annotated climb changes it."""
-    return missions.Flight(
+    return Flight(
         scene=case.scene,
         uav=uav,
         segment=segment,

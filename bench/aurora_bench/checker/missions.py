@@ -4,13 +4,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
-from aurora_bench.checker import flights, limits
+from aurora_bench.checker import limits
 from aurora_bench.checker.answers import (
     Judged,
     all_of,
@@ -21,37 +20,16 @@ from aurora_bench.checker.answers import (
     graded,
     holds,
 )
-from aurora_bench.checker.numbers import Wanted, wanted
-from aurora_bench.checker.phases import Segment
+from aurora_bench.checker.flight import Flight, altitude, avoided, leg_speed, level_of
+from aurora_bench.checker.numbers import wanted
 from aurora_bench.checker.recording import BoolArray, FloatArray
-from aurora_bench.checker.scene import Scene, share
+from aurora_bench.checker.routes import navigate
+from aurora_bench.checker.scene import share
 from aurora_bench.checker.sight import visible
 
 # The hover point is not recorded; the median of the phase stands for it, with this doubt.
 HOVER_DOUBT_M = 1.0
 HOVER_POINT_DOUBT_M = 0.5
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Flight:
-    """What a mission is judged on.
-
-    Attributes:
-        targets: Bodies or places that the target can mean; empty: none stated.
-        until: Tick at which an event changes the flight (its end otherwise).
-    """
-
-    scene: Scene
-    uav: str
-    segment: Segment
-    targets: Sequence[str]
-    variation: Mapping[str, Any]
-    until: int
-
-    @property
-    def ticks(self) -> slice:
-        """Return the ticks of the mission up to its change."""
-        return slice(self.segment.start, max(self.until, self.segment.start + 1))
 
 
 def judge(flight: Flight, requirement: Mapping[str, Any]) -> Judged:
@@ -66,9 +44,9 @@ def judge(flight: Flight, requirement: Mapping[str, Any]) -> Judged:
         case 'track':
             return _track(flight, requirement)
         case 'navigate':
-            return _navigate(flight, requirement)
+            return navigate(flight, requirement)
         case None:
-            return _altitude(flight, requirement, flight.segment.start)
+            return altitude(flight, requirement, flight.segment.start)
         case mode:
             return cannot_tell(f'mode {mode!r} is not known')
 
@@ -86,34 +64,6 @@ def captured_tick(flight: Flight, requirement: Mapping[str, Any]) -> int | None:
                     return flight.segment.start + int(ticks[0])
         return None
     return flight.segment.start
-
-
-def _level(flight: Flight, requirement: Mapping[str, Any]) -> tuple[float, Wanted | None]:
-    """Return the altitude that the mission is about: annotated, else the flown median."""
-    asked = wanted(requirement, 'altitude_m', flight.variation, limits.ALTITUDE)
-    altitude = flight.scene.altitude(flight.uav)[flight.ticks]
-    flown = float(np.median(altitude[len(altitude) // 2 :]))
-    if asked is None or asked.slack > 0.0:
-        return flown, asked
-    return asked.value, asked
-
-
-def _altitude(flight: Flight, requirement: Mapping[str, Any], start: int) -> Judged:
-    altitude = flight.scene.altitude(flight.uav)[start : flight.ticks.stop]
-    band = requirement.get('altitude_m')
-    if isinstance(band, list | tuple) and len(band) == 2:
-        asked: Wanted | None = Wanted(float(band[0]), float(band[0]), float(band[1]), 2.0)
-    else:
-        asked = wanted(requirement, 'altitude_m', flight.variation, limits.ALTITUDE)
-    if asked is None:
-        return holds('')
-    if not len(altitude):
-        return does_not('no sample of the altitude')
-    inside = (altitude >= asked.low - asked.slack) & (altitude <= asked.high + asked.slack)
-    middle = float(np.median(altitude))
-    why = f'{share(inside):.1%} at altitude {asked.text()} m, median {middle:.2f}'
-    ok = share(inside) >= limits.ALTITUDE_SHARE
-    return decide(ok and (asked.slack == 0.0 or asked.counts(middle)), why)
 
 
 def _duration(flight: Flight, requirement: Mapping[str, Any], early: int, late: int) -> Judged:
@@ -159,7 +109,7 @@ def _hover_capture(
 ) -> tuple[int | None, int | None]:
     """Return the earliest and the latest tick that count as the capture of a hover."""
     scene = flight.scene
-    level, asked = _level(flight, requirement)
+    level, asked = level_of(flight, requirement)
     height = scene.altitude(flight.uav)[flight.ticks]
     band = limits.tolerance(limits.ALTITUDE, level)
     if asked is not None and asked.slack > 0.0:
@@ -180,7 +130,7 @@ def _hover(flight: Flight, requirement: Mapping[str, Any]) -> Judged:
     scene = flight.scene
     early, late = _hover_capture(flight, requirement)
     if early is None or late is None:
-        level, _ = _level(flight, requirement)
+        level, _ = level_of(flight, requirement)
         return does_not(f'never settles near its hover point at {level:.1f} m')
     point = _hover_point(flight)
     limit = limits.HOVER_DRIFT_WIND_M if scene.windy else limits.HOVER_DRIFT_CALM_M
@@ -188,12 +138,12 @@ def _hover(flight: Flight, requirement: Mapping[str, Any]) -> Judged:
     drift = float(away.max()) if len(away) else 0.0
     parts = [
         graded(drift <= limit, drift <= limit + HOVER_DOUBT_M, f'drift {drift:.2f} m'),
-        _altitude(flight, requirement, late),
+        altitude(flight, requirement, late),
         _duration(flight, requirement, early, late),
     ]
     if flight.targets:
         parts += [_over(flight, requirement, point, late), _seen(flight, late)]
-    return all_of([*parts, *_avoided(flight, requirement)])
+    return all_of([*parts, *avoided(flight, requirement)])
 
 
 def _over(flight: Flight, requirement: Mapping[str, Any], point: FloatArray, tick: int) -> Judged:
@@ -234,7 +184,7 @@ def tracked(
     """Return (ticks,) tracked within tolerance, the horizontal distance, and the rule in words."""
     scene = flight.scene
     away = scene.distance(flight.uav, target, horizontal=True)
-    level, height = _level(flight, requirement)
+    level, height = level_of(flight, requirement)
     altitude = scene.altitude(flight.uav)
     band = scene.limit('tracking_altitude_m')
     asked = wanted(requirement, 'standoff_m', flight.variation, limits.STANDOFF)
@@ -281,14 +231,14 @@ def _track_one(flight: Flight, requirement: Mapping[str, Any], target: str) -> J
     parts = [
         decide(fraction >= limits.TRACKED_SHARE, f'{target} tracked {fraction:.1%} at {word}'),
         decide(seen >= limits.VISIBLE_SHARE, f'{target} visible {seen:.1%}'),
-        _altitude(flight, requirement, start),
+        altitude(flight, requirement, start),
         _duration(flight, requirement, start, start),
         _middle_standoff(flight, requirement, away[window]),
         _side(flight, requirement, target, window),
         _bearing(flight, requirement, target, window),
-        _speed(flight, requirement, window),
+        leg_speed(flight, requirement, window),
     ]
-    return all_of([*parts, *_avoided(flight, requirement)])
+    return all_of([*parts, *avoided(flight, requirement)])
 
 
 def _middle_standoff(flight: Flight, requirement: Mapping[str, Any], away: FloatArray) -> Judged:
@@ -327,175 +277,3 @@ def _bearing(flight: Flight, requirement: Mapping[str, Any], target: str, window
     good = share(off <= limits.BEARING_DEG)
     # Whether from the target or to it, from north or from the heading, the format leaves open.
     return graded(good >= limits.TRACKED_SHARE, True, f'bearing {asked:g} for {good:.1%}')
-
-
-# ---- navigate
-
-
-def _navigate(flight: Flight, requirement: Mapping[str, Any]) -> Judged:
-    scene = flight.scene
-    level, asked = _level(flight, requirement)
-    height = scene.altitude(flight.uav)[flight.ticks]
-    band = limits.tolerance(limits.ALTITUDE, level)
-    if asked is not None and asked.slack > 0.0:
-        band = max(band, asked.high - level, level - asked.low)
-    reached = np.flatnonzero(np.abs(height - level) <= band)
-    if not len(reached):
-        return does_not(f'never at the altitude of {level:.1f} m')
-    start = flight.segment.start + int(reached[0])
-    step = max(1, round(0.2 / scene.dt_s))
-    xy = scene.xy(flight.uav)[flight.segment.start : flight.ticks.stop : step]
-    parts = [
-        _altitude(flight, requirement, start),
-        _pattern(flight, requirement, xy),
-        _speed(flight, requirement, flight.ticks),
-    ]
-    return all_of([*parts, *_ends(flight, requirement), *_avoided(flight, requirement)])
-
-
-def _pattern(flight: Flight, requirement: Mapping[str, Any], xy: FloatArray) -> Judged:
-    scene, places = flight.scene, flight.scene.places
-    size, pattern = requirement.get('size_m'), requirement.get('pattern')
-    judged: Judged
-    centre: FloatArray | None = None
-    match pattern:
-        case 'rectangle' | 'lawnmower' if size:
-            shape = flights.rectangle if pattern == 'rectangle' else flights.lawnmower
-            judged, centre = shape(xy, [float(s) for s in size])
-        case 'line' if size:
-            judged, centre = flights.line(xy, float(size[0]))
-        case 'orbit':
-            turns = float(requirement.get('turns') or 1.0)
-            radius = requirement.get('radius_m')
-            centres = [
-                s.xy for t in flight.targets if not scene.is_body(t) for s in _centres(places, t)
-            ]
-            own = requirement.get('radius_m')
-            bodies = [t for t in flight.targets if scene.is_body(t)]
-            if bodies:
-                return _orbit_of_body(flight, bodies, own, turns)
-            judged, centre = flights.orbit(xy, centres, radius and float(radius), turns)
-            return judged
-        case 'street':
-            return any_of([flights.street(xy, places, t) for t in flight.targets])
-        case 'waypoints' | None:
-            count = requirement.get('waypoint_count')
-            judged = flights.waypoints(xy, int(count)) if count else _goes_there(flight, xy)
-        case _:
-            flown = len(flights.corners(xy))
-            if flown < 3:
-                return does_not(f'no {pattern}: the path has {flown} corners')
-            judged = cannot_tell(f'{pattern} without a size: {flown} corners')
-    parts = [judged]
-    for target in flight.targets[:1]:
-        if scene.is_body(target):
-            parts.append(_over_body(flight, target, centre))
-        elif places.is_region(target):
-            parts.append(flights.over_road(xy, places))
-        elif centre is not None:
-            parts.append(flights.centred(centre, places, target))
-    return all_of(parts)
-
-
-def _centres(places: Any, name: str) -> Sequence[Any]:
-    return (*places.chosen(name), *places.spots(name)[:40])
-
-
-def _orbit_of_body(flight: Flight, bodies: Sequence[str], radius: Any, turns: float) -> Judged:
-    """Return whether a body is circled, where it stood at t = 0 or where it is."""
-    scene = flight.scene
-    step = max(1, round(0.2 / scene.dt_s))
-    uav = scene.xy(flight.uav)[flight.ticks][::step]
-    size = None if radius is None else float(radius)
-    readings = []
-    for body in bodies:
-        moving = scene.xy(body)[flight.ticks][::step]
-        readings.append(flights.orbit(uav, [scene.xy(body)[0]], size, turns)[0])
-        readings.append(flights.orbit(uav - moving, [np.zeros(2)], size, turns)[0])
-    return any_of(readings)
-
-
-def _over_body(flight: Flight, target: str, centre: FloatArray | None) -> Judged:
-    if centre is None:
-        return holds('')
-    away = float(np.linalg.norm(flight.scene.xy(target)[0] - centre))
-    return decide(away <= limits.CENTRED_M, f'centre {away:.1f} m from {target} at t = 0')
-
-
-def _goes_there(flight: Flight, xy: FloatArray) -> Judged:
-    """Return whether a flight without a pattern reaches its target."""
-    scene, readings = flight.scene, []
-    for target in flight.targets:
-        if scene.is_body(target):
-            away = scene.distance(flight.uav, target, horizontal=True)[flight.ticks]
-        elif scene.places.known(target):
-            away = scene.places.outline_distance(target, xy)
-        else:
-            continue
-        least = float(np.nanmin(away))
-        readings.append(decide(least <= limits.CENTRED_M, f'within {least:.1f} m of {target}'))
-    return any_of(readings) if readings else cannot_tell('a route of unknown shape')
-
-
-def _speed(flight: Flight, requirement: Mapping[str, Any], window: slice) -> Judged:
-    """Return whether the legs are flown at the annotated speed, outside of turns."""
-    asked = wanted(requirement, 'speed_mps', flight.variation, limits.SPEED)
-    if asked is None:
-        return holds('')
-    scene = flight.scene
-    xy, speed = scene.xy(flight.uav)[window], scene.speed(flight.uav)[window]
-    if requirement.get('pattern') == 'orbit':
-        turns = np.array([0, len(xy) - 1])
-    else:
-        turns = np.array(flights.corners(xy))
-    arc = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(xy, axis=0), axis=1))])
-    to_turn = np.abs(arc[:, None] - arc[turns][None]).min(axis=1)
-    low, high = asked.low - asked.slack, asked.high + asked.slack
-    moving = speed > 0.3
-    best, why = 0.0, 'no leg is long enough to reach the speed'
-    # How fast the UAV speeds up is not recorded: short distances are tried, then longer ones.
-    for gain_mps2 in (3.0, 1.5, 0.75):
-        free = moving & (to_turn > asked.value**2 / (2.0 * gain_mps2))
-        if free.sum() * scene.dt_s < 1.0:
-            continue
-        good = share((speed[free] >= low) & (speed[free] <= high))
-        if good >= best:
-            best = good
-            why = f'{good:.1%} of the legs at {asked.text()} m/s, median '
-            why += f'{float(np.median(speed[free])):.2f}'
-    top = float(speed.max()) if len(speed) else 0.0
-    reached = bool(low <= top <= high + asked.slack)
-    return graded(best >= limits.SPEED_SHARE, best == 0.0 and reached, f'{why}, fastest {top:.2f}')
-
-
-def _ends(flight: Flight, requirement: Mapping[str, Any]) -> list[Judged]:
-    parts = []
-    xy = flight.scene.xy(flight.uav)[flight.segment.start : flight.ticks.stop]
-    for field in ('start', 'end'):
-        place = requirement.get(field)
-        if not isinstance(place, str) or not flight.scene.places.known(place):
-            continue
-        away = flight.scene.places.outline_distance(place, xy)
-        half = away[: len(away) // 2] if field == 'start' else away[len(away) // 2 :]
-        least = float(half.min()) if len(half) else np.inf
-        why = f'{field} {least:.1f} m from {place}'
-        parts.append(graded(least <= limits.CENTRED_M, least <= 30.0, why))
-    return parts
-
-
-def _avoided(flight: Flight, requirement: Mapping[str, Any]) -> list[Judged]:
-    avoid = requirement.get('avoid') or ()
-    names = [avoid] if isinstance(avoid, str) else list(avoid)
-    least = float(requirement.get('avoid_m') or 0.0)
-    scene, parts = flight.scene, []
-    for name in names:
-        airborne = scene.airborne(flight.uav)
-        if not scene.places.known(name):
-            zones = [z.polygon for z in scene.world.zones if name.casefold() in z.name.casefold()]
-            if not zones:
-                parts.append(cannot_tell(f'no place {name!r} in the recorded world'))
-                continue
-        away = scene.places.outline_distance(name, scene.xy(flight.uav)[airborne])
-        nearest = float(away.min()) if len(away) else np.inf
-        parts.append(decide(nearest > 0.0 and nearest >= least, f'{nearest:.1f} m from {name}'))
-    return parts

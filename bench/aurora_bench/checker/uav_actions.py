@@ -21,6 +21,7 @@ from aurora_bench.checker.answers import (
     holds,
 )
 from aurora_bench.checker.case import Case
+from aurora_bench.checker.flight import Flight
 from aurora_bench.checker.phases import Segment, landing_tick, segments
 from aurora_bench.checker.recording import LinkKind
 
@@ -130,7 +131,7 @@ def change_mission(
 def _change(
     case: Case, action: Mapping[str, Any], uav: str, segment: Segment, event: Mapping[str, Any]
 ) -> Any:
-    flight = missions.Flight(
+    flight = Flight(
         scene=case.scene,
         uav=uav,
         segment=segment,

@@ -1,0 +1,145 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Annotated routes (mode navigate) against one flown mission."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from aurora_bench.checker import flights, limits
+from aurora_bench.checker.answers import (
+    Judged,
+    all_of,
+    any_of,
+    cannot_tell,
+    decide,
+    does_not,
+    graded,
+    holds,
+)
+from aurora_bench.checker.flight import Flight, altitude, avoided, leg_speed, level_of
+from aurora_bench.checker.recording import FloatArray
+
+
+def navigate(flight: Flight, requirement: Mapping[str, Any]) -> Judged:
+    """Return whether the flown mission is the annotated route."""
+    scene = flight.scene
+    level, asked = level_of(flight, requirement)
+    height = scene.altitude(flight.uav)[flight.ticks]
+    band = limits.tolerance(limits.ALTITUDE, level)
+    if asked is not None and asked.slack > 0.0:
+        band = max(band, asked.high - level, level - asked.low)
+    reached = np.flatnonzero(np.abs(height - level) <= band)
+    if not len(reached):
+        return does_not(f'never at the altitude of {level:.1f} m')
+    start = flight.segment.start + int(reached[0])
+    step = max(1, round(0.2 / scene.dt_s))
+    xy = scene.xy(flight.uav)[flight.segment.start : flight.ticks.stop : step]
+    parts = [
+        altitude(flight, requirement, start),
+        _pattern(flight, requirement, xy),
+        leg_speed(flight, requirement, flight.ticks),
+    ]
+    return all_of([*parts, *_ends(flight, requirement), *avoided(flight, requirement)])
+
+
+def _pattern(flight: Flight, requirement: Mapping[str, Any], xy: FloatArray) -> Judged:
+    scene, places = flight.scene, flight.scene.places
+    size, pattern = requirement.get('size_m'), requirement.get('pattern')
+    judged: Judged
+    centre: FloatArray | None = None
+    match pattern:
+        case 'rectangle' | 'lawnmower' if size:
+            shape = flights.rectangle if pattern == 'rectangle' else flights.lawnmower
+            judged, centre = shape(xy, [float(s) for s in size])
+        case 'line' if size:
+            judged, centre = flights.line(xy, float(size[0]))
+        case 'orbit':
+            turns = float(requirement.get('turns') or 1.0)
+            radius = requirement.get('radius_m')
+            centres = [
+                s.xy for t in flight.targets if not scene.is_body(t) for s in _centres(places, t)
+            ]
+            own = requirement.get('radius_m')
+            bodies = [t for t in flight.targets if scene.is_body(t)]
+            if bodies:
+                return _orbit_of_body(flight, bodies, own, turns)
+            judged, centre = flights.orbit(xy, centres, radius and float(radius), turns)
+            return judged
+        case 'street':
+            return any_of([flights.street(xy, places, t) for t in flight.targets])
+        case 'waypoints' | None:
+            count = requirement.get('waypoint_count')
+            judged = flights.waypoints(xy, int(count)) if count else _goes_there(flight, xy)
+        case _:
+            flown = len(flights.corners(xy))
+            if flown < 3:
+                return does_not(f'no {pattern}: the path has {flown} corners')
+            judged = cannot_tell(f'{pattern} without a size: {flown} corners')
+    parts = [judged]
+    for target in flight.targets[:1]:
+        if scene.is_body(target):
+            parts.append(_over_body(flight, target, centre))
+        elif places.is_region(target):
+            parts.append(flights.over_road(xy, places))
+        elif centre is not None:
+            parts.append(flights.centred(centre, places, target))
+    return all_of(parts)
+
+
+def _centres(places: Any, name: str) -> Sequence[Any]:
+    return (*places.chosen(name), *places.spots(name)[:40])
+
+
+def _orbit_of_body(flight: Flight, bodies: Sequence[str], radius: Any, turns: float) -> Judged:
+    """Return whether a body is circled, where it stood at t = 0 or where it is."""
+    scene = flight.scene
+    step = max(1, round(0.2 / scene.dt_s))
+    uav = scene.xy(flight.uav)[flight.ticks][::step]
+    size = None if radius is None else float(radius)
+    readings = []
+    for body in bodies:
+        moving = scene.xy(body)[flight.ticks][::step]
+        readings.append(flights.orbit(uav, [scene.xy(body)[0]], size, turns)[0])
+        readings.append(flights.orbit(uav - moving, [np.zeros(2)], size, turns)[0])
+    return any_of(readings)
+
+
+def _over_body(flight: Flight, target: str, centre: FloatArray | None) -> Judged:
+    if centre is None:
+        return holds('')
+    away = float(np.linalg.norm(flight.scene.xy(target)[0] - centre))
+    return decide(away <= limits.CENTRED_M, f'centre {away:.1f} m from {target} at t = 0')
+
+
+def _goes_there(flight: Flight, xy: FloatArray) -> Judged:
+    """Return whether a flight without a pattern reaches its target."""
+    scene, readings = flight.scene, []
+    for target in flight.targets:
+        if scene.is_body(target):
+            away = scene.distance(flight.uav, target, horizontal=True)[flight.ticks]
+        elif scene.places.known(target):
+            away = scene.places.outline_distance(target, xy)
+        else:
+            continue
+        least = float(np.nanmin(away))
+        readings.append(decide(least <= limits.CENTRED_M, f'within {least:.1f} m of {target}'))
+    return any_of(readings) if readings else cannot_tell('a route of unknown shape')
+
+
+def _ends(flight: Flight, requirement: Mapping[str, Any]) -> list[Judged]:
+    parts = []
+    xy = flight.scene.xy(flight.uav)[flight.segment.start : flight.ticks.stop]
+    for field in ('start', 'end'):
+        place = requirement.get(field)
+        if not isinstance(place, str) or not flight.scene.places.known(place):
+            continue
+        away = flight.scene.places.outline_distance(place, xy)
+        half = away[: len(away) // 2] if field == 'start' else away[len(away) // 2 :]
+        least = float(half.min()) if len(half) else np.inf
+        why = f'{field} {least:.1f} m from {place}'
+        parts.append(graded(least <= limits.CENTRED_M, least <= 30.0, why))
+    return parts
