@@ -93,6 +93,8 @@ def run_and(graph: RunningGraph, moment: Moment, act: Callable[[], None]) -> tup
     [
         ('recorder', signal.SIGKILL, flying),
         ('executor', signal.SIGKILL, flying),
+        # Its successor finds the session of the dead one, which still has an owner.
+        ('uav_bridge', signal.SIGKILL, flying),
         ('sync', signal.SIGSTOP, loading),
         ('sync', signal.SIGKILL, flying),
         ('uav_sim', signal.SIGSTOP, flying),
