@@ -16,11 +16,14 @@ from aurora_bench.mutation.recording import Recording
 from aurora_core.agsg.build import build_agsg
 from aurora_core.agsg.graph import Agsg
 from aurora_core.conditions.condition import conditions_from_json, conditions_to_json
+from aurora_core.grounding.grounded import GroundedScenario
+from aurora_core.knowledge.basis import Basis
 from aurora_core.knowledge.limits import Limits
 from aurora_core.knowledge.world import WorldModel
 from aurora_core.spec.scenario import ScenarioSpec
 
 _CONDITION, _ROSTER, _WORLD = 'finding:condition', 'finding:roster', 'finding:world'
+_CONFIGURATION = 'finding:configuration'
 # A request that changes shows in its conditions, or in claims that do not fit it any more, or
 # leaves conditions about what it does not have, which are refused.
 _REQUEST = (_CONDITION, 'finding:event', 'finding:message', 'refused')
@@ -39,19 +42,24 @@ def document_mutants(base: Recording, random: Random) -> Iterator[Mutant]:
     yield from _request(base, random)
     yield from _bodies(base, random)
     yield from _world(base, random)
+    yield from _configuration(base, random)
 
 
 def graph(
-    base: Recording, spec: ScenarioSpec | None = None, conditions_json: str | None = None
+    base: Recording,
+    spec: ScenarioSpec | None = None,
+    conditions_json: str | None = None,
+    grounding_json: str | None = None,
 ) -> Agsg:
     """Return the graph of other documents, derived as the stages derive it."""
     text = base.agsg.conditions_json if conditions_json is None else conditions_json
+    grounding = base.agsg.grounding_json if grounding_json is None else grounding_json
     return build_agsg(
         base.agsg.spec if spec is None else spec,
-        map_digest=base.agsg.map_digest,
+        map_digest=json.loads(grounding)['map_digest'],
         stage=base.agsg.stage,
         iteration=base.agsg.iteration,
-        grounding_json=base.agsg.grounding_json,
+        grounding_json=grounding,
         schedule_json=base.agsg.schedule_json,
         conditions=conditions_from_json(text),
         conditions_json=text,
@@ -183,3 +191,45 @@ def _world(base: Recording, random: Random) -> Iterator[Mutant]:
         altered = alter(world)
         if altered.no_fly_zones != world.no_fly_zones or name != 'no-fly zones removed':
             yield mutant('world altered', name, base, {_WORLD}, world=altered)
+
+
+def _configuration(base: Recording, random: Random) -> Iterator[Mutant]:
+    """Pretend that it was recorded with something that nobody here can compare with."""
+    kind = 'configuration altered'
+    document: dict[str, Any] = json.loads(base.agsg.grounding_json)
+    rows: Rows = json.loads(base.world.conditions_json)
+    kept = random.sample(rows, len(rows) // 2)
+    fewer = conditions_to_json(conditions_from_json(json.dumps(kept)))
+    basis: dict[str, Any] = document['basis']
+    laxer = {**basis['tolerances'], 'tracked_fraction': 0.01, 'stop_speed_mps': 30.0}
+    lower = {**basis['limits'], 'clearance_min_m': 0.1}
+    cases: list[tuple[str, dict[str, Any]]] = [
+        ('foreign digest', {'configuration': 'f' * 64}),
+        ('nothing told', {'basis': None, 'configuration': ''}),
+        ('of another version', _of({**basis, 'version': '0.0.1'})),
+        ('of unknown entries', _of({**basis, 'limits': {'of_tomorrow': 1.0}})),
+        ('tolerances laxer', _of({**basis, 'tolerances': laxer})),
+        ('limits laxer', _of({**basis, 'limits': lower})),
+    ]
+    for name, changes in cases:
+        agsg = graph(base, None, fewer, _grounding({**document, **changes}))
+        world = replace(base.world, conditions_json=fewer)
+        whole = f'{name}, half of the conditions removed'
+        yield mutant(
+            'configuration altered', whole, base, {_CONFIGURATION}, world=world, agsg=agsg
+        )
+        agsg = graph(base, None, None, _grounding({**document, **changes}))
+        yield mutant('configuration altered', name, base, {_CONFIGURATION}, agsg=agsg)
+    elsewhere = {'map_digest': '0' * 64}
+    agsg = graph(base, None, None, _grounding({**document, **elsewhere}))
+    world = replace(base.world, map_digest='0' * 64, buildings=())
+    name = 'of another map, every building removed'
+    yield mutant(kind, name, base, {_CONFIGURATION}, world=world, agsg=agsg)
+
+
+def _of(basis: dict[str, Any]) -> dict[str, Any]:
+    return {'basis': basis, 'configuration': Basis.model_validate(basis).sha256}
+
+
+def _grounding(document: dict[str, Any]) -> str:
+    return GroundedScenario.model_validate_json(json.dumps(document)).canonical_json()

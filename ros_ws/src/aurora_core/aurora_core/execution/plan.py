@@ -211,11 +211,7 @@ def build_world(
         origin_lon_deg=map_model.origin_lon_deg,
         weather=grounded.weather,
         time_of_day=grounded.time_of_day,
-        wind=Wind(
-            mean_east_mps=grounded.wind_mean_east_mps,
-            mean_north_mps=grounded.wind_mean_north_mps,
-            gust_mps=grounded.wind_gust_mps,
-        ),
+        wind=wind_of(grounded),
         buildings=map_model.buildings,
         no_fly_zones=map_model.zones,
         surfaces=parts.surfaces,
@@ -224,6 +220,15 @@ def build_world(
         places=_named_places(parts, places),
         limits=limits,
         conditions_json=conditions_json,
+    )
+
+
+def wind_of(grounded: GroundedScenario) -> Wind:
+    """Return the wind that a scenario was grounded with."""
+    return Wind(
+        mean_east_mps=grounded.wind_mean_east_mps,
+        mean_north_mps=grounded.wind_mean_north_mps,
+        gust_mps=grounded.wind_gust_mps,
     )
 
 

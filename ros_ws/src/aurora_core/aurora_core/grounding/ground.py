@@ -25,6 +25,7 @@ from aurora_core.grounding.sites import Site, sites, tied_way_m
 from aurora_core.grounding.spots import SpotFinder
 from aurora_core.grounding.time_need import horizon_s
 from aurora_core.knowledge.agent_types import AgentTypeRecord
+from aurora_core.knowledge.basis import Basis
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.settings import Settings
@@ -55,7 +56,7 @@ class Grounder:
         limits: Limits in force.
         tolerances: Tolerances in force.
         settings: Search settings.
-        configuration: Digest of all that decides a run, written into each grounding.
+        basis: What the grounding says it was made with.
         executor_version: Version of the executor that will run it, written there too.
     """
 
@@ -66,11 +67,11 @@ class Grounder:
         limits: Limits,
         tolerances: Tolerances,
         settings: Settings,
-        configuration: str = '',
+        basis: Basis | None = None,
         executor_version: int = 0,
     ) -> None:
         self._map = map_model
-        self._configuration = configuration
+        self._basis = basis
         self._executor_version = executor_version
         self._types = types
         self._limits = limits
@@ -232,6 +233,7 @@ class Grounder:
             wind_mean_east_mps=self._limits.wind_mean_mps[weather],
             wind_gust_mps=self._limits.wind_gust_mps[weather],
             seed=seed,
-            configuration=self._configuration,
+            basis=self._basis,
+            configuration='' if self._basis is None else self._basis.sha256,
             executor_version=self._executor_version,
         )

@@ -9,6 +9,7 @@ from enum import StrEnum
 
 from pydantic import FiniteFloat
 
+from aurora_core.knowledge.basis import Basis
 from aurora_core.mission.plan import UavPlan
 from aurora_core.spec.parameter import Document, Provenance
 
@@ -113,7 +114,9 @@ class GroundedScenario(Document):
     wind_mean_north_mps: FiniteFloat = 0.0
     wind_gust_mps: FiniteFloat = 0.0
     seed: int = 1
-    # Digest of version, executor, limits, tolerances and settings that it was made with.
+    # Version, limits, tolerances and settings that it was made with (older recordings: None), and
+    # their digest.
+    basis: Basis | None = None
     configuration: str = ''
     # Version of the executor that it is for (`execution.plan.EXECUTOR_VERSION`), 0 in old ones.
     executor_version: int = 0

@@ -30,16 +30,27 @@ class Plan:
     """What the recorded request and grounding give when they are worked out anew.
 
     Attributes:
-        conditions: Derived with the recorded limits and the tolerances in force.
+        conditions: Derived with the recorded limits and tolerances.
         roster: Bodies of the recorded grounding.
-        world: Of the installed map; None when the run was on a map that is not installed here.
+        world: Of the installed map, with the recorded limits; where that map is not installed, the
+            recorded one with what the grounding says of it.
         seed: Of the run.
+        documents: Where the recorded documents do not fit each other.
+        version: Of AURORA that recorded it.
+        other_version: That is not the version that is installed.
+        foreign: Every limit, tolerance, setting or map that is another here, for people.
+        missing: What of the request nobody carries out or judges, as `id: what`.
     """
 
     conditions: tuple[Condition, ...]
     roster: Roster
-    world: WorldModel | None
+    world: WorldModel
     seed: int
+    documents: tuple[Finding, ...] = ()
+    version: str = ''
+    other_version: bool = False
+    foreign: tuple[str, ...] = ()
+    missing: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -53,6 +64,53 @@ class NotComparable:
     why: str
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Held:
+    """A recording held against its plan.
+
+    Attributes:
+        findings: What speaks against believing it.
+        notes: What is only told.
+    """
+
+    findings: tuple[Finding, ...] = ()
+    notes: tuple[str, ...] = ()
+
+
+def held_against(
+    conditions: Sequence[Condition],
+    roster: Roster,
+    world: WorldModel,
+    plan: Plan | NotComparable,
+    *,
+    as_recorded: bool,
+) -> Held:
+    """Hold a recording against what its own request and grounding give.
+
+    Args:
+        conditions: As recorded.
+        roster: As recorded.
+        world: As recorded.
+        plan: The same, worked out anew.
+        as_recorded: What is another here (version, limits, tolerances, settings, map) is only
+            told; what another version of AURORA derives is not known here, so that is only told
+            as well.
+    """
+    if isinstance(plan, NotComparable):
+        if as_recorded:
+            return Held(notes=(plan.why,))
+        return Held(findings=(finding('configuration', 'record', plan.why),))
+    found = plan_findings(conditions, roster, world, plan)
+    if not as_recorded:
+        foreign = [finding('configuration', text.partition(' ')[0], text) for text in plan.foreign]
+        return Held(findings=(*found, *_few(foreign)))
+    told = tuple(f'judged as recorded: {text}' for text in plan.foreign)
+    if not plan.other_version:
+        return Held(findings=found, notes=told)
+    derived = tuple(f'this version derives it otherwise: {f.kind} {f.subject}' for f in found)
+    return Held(notes=(*told, *derived))
+
+
 def plan_findings(
     conditions: Sequence[Condition], roster: Roster, world: WorldModel, plan: Plan
 ) -> tuple[Finding, ...]:
@@ -64,24 +122,24 @@ def plan_findings(
         world: As recorded.
         plan: The same, worked out anew.
     """
-    found = [
+    return (
+        *plan.documents,
         *_few(_conditions(conditions, plan.conditions)),
         *_few(_roster(roster, plan.roster)),
-    ]
-    if plan.world is not None:
-        found += _few(_world(world, plan.world))
-    return tuple(found)
+        *_few(_world(world, plan.world)),
+    )
 
 
 def _few(findings: Iterable[Finding]) -> list[Finding]:
     found = list(findings)
     if len(found) <= _FINDINGS:
         return found
-    more = _finding(found[0].kind, found[0].kind, f'and {len(found) - _FINDINGS} more')
+    more = finding(found[0].kind, found[0].kind, f'and {len(found) - _FINDINGS} more')
     return [*found[:_FINDINGS], more]
 
 
-def _finding(kind: str, subject: str, text: str) -> Finding:
+def finding(kind: str, subject: str, text: str) -> Finding:
+    """Return a finding about what was recorded before the first tick."""
     return Finding(kind=kind, subject=subject, tick=0, time_s=0.0, text=text)
 
 
@@ -90,14 +148,14 @@ def _conditions(recorded: Sequence[Condition], derived: Sequence[Condition]) -> 
     theirs = {condition.id: condition for condition in recorded}
     for name in dict.fromkeys((*ours, *theirs)):
         if name not in theirs:
-            yield _finding('condition', name, 'the request implies it, it is not recorded')
+            yield finding('condition', name, 'the request implies it, it is not recorded')
         elif name not in ours:
-            yield _finding('condition', name, 'recorded, but the request does not imply it')
+            yield finding('condition', name, 'recorded, but the request does not imply it')
         elif ours[name] != theirs[name]:
             text = _difference(ours[name].model_dump(), theirs[name].model_dump())
-            yield _finding('condition', name, text)
+            yield finding('condition', name, text)
     if list(theirs) != list(ours) and set(theirs) == set(ours):
-        yield _finding('condition', 'order', 'the conditions are recorded in another order')
+        yield finding('condition', 'order', 'the conditions are recorded in another order')
 
 
 def _difference(derived: Mapping[str, Any], recorded: Mapping[str, Any]) -> str:
@@ -120,18 +178,18 @@ def _short(value: object) -> str:
 def _roster(recorded: Roster, planned: Roster) -> Iterator[Finding]:
     if recorded.dt_s != planned.dt_s:
         text = f'time step recorded as {recorded.dt_s} s, the settings give {planned.dt_s} s'
-        yield _finding('roster', 'dt_s', text)
+        yield finding('roster', 'dt_s', text)
     ours = {entry.body_id: entry for entry in (*planned.agents, *planned.uavs)}
     theirs = {entry.body_id: entry for entry in (*recorded.agents, *recorded.uavs)}
     for name in dict.fromkeys((*ours, *theirs)):
         if name not in theirs:
-            yield _finding('roster', name, 'part of the grounding, not recorded')
+            yield finding('roster', name, 'part of the grounding, not recorded')
         elif name not in ours:
-            yield _finding('roster', name, 'recorded, but not part of the grounding')
+            yield finding('roster', name, 'recorded, but not part of the grounding')
         elif ours[name] != theirs[name]:
-            yield _finding('roster', name, _difference(_values(ours[name]), _values(theirs[name])))
+            yield finding('roster', name, _difference(_values(ours[name]), _values(theirs[name])))
     if list(theirs) != list(ours) and set(theirs) == set(ours):
-        yield _finding('roster', 'order', 'the bodies are recorded in another order')
+        yield finding('roster', 'order', 'the bodies are recorded in another order')
 
 
 def _values(entry: RosterEntry) -> dict[str, object]:
@@ -146,10 +204,10 @@ def _world(recorded: WorldModel, planned: WorldModel) -> Iterator[Finding]:
         if _same(ours, theirs):
             continue
         if isinstance(ours, tuple) and isinstance(theirs, tuple):
-            yield _finding('world', field.name, _members(ours, theirs))
+            yield finding('world', field.name, _members(ours, theirs))
         else:
             text = f'recorded as {_short(theirs)}, map and grounding give {_short(ours)}'
-            yield _finding('world', field.name, text)
+            yield finding('world', field.name, text)
 
 
 def _members(ours: tuple[object, ...], theirs: tuple[object, ...]) -> str:

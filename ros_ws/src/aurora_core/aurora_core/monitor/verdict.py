@@ -99,8 +99,8 @@ class Finding(Document):
     """A claim of the recording that recomputation does not bear out.
 
     Attributes:
-        kind: event, message, chance, sight, phase, end, motion; condition, roster or world;
-            command or claim (not what the executor gives from the states); live.
+        kind: event, message, chance, sight, phase, end, motion; condition, roster, world, graph or
+            configuration; command or claim (not what the executor gives from the states); live.
         subject: What the claim is about.
         tick: Where.
         time_s: Simulated time of that tick.

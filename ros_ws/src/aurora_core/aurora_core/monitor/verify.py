@@ -13,7 +13,7 @@ from aurora_core.monitor.chance_check import chance_findings
 from aurora_core.monitor.cross_check import cross_check
 from aurora_core.monitor.evaluation import Context, Measured, Missing
 from aurora_core.monitor.measure import measure
-from aurora_core.monitor.plan_check import NotComparable, Plan, plan_findings
+from aurora_core.monitor.plan_check import Held, NotComparable, Plan, held_against
 from aurora_core.monitor.sentences import explain, explain_missing
 from aurora_core.monitor.verdict import ConditionResult, Finding, Reason, Verdict, VerdictStatus
 from aurora_core.quantities.ticks import whole_ticks
@@ -36,6 +36,8 @@ def verify(
     spec: ScenarioSpec,
     plan: Plan | NotComparable | None = None,
     recomputed: Sequence[Finding] = (),
+    *,
+    as_recorded: bool = False,
 ) -> Verdict:
     """Recompute every margin.
 
@@ -49,6 +51,7 @@ def verify(
         spec: The request (links and events).
         plan: What the request gives when worked out anew; None compares nothing with it.
         recomputed: Where the record is not what the executor gives from its states.
+        as_recorded: See `held_against`.
 
     Raises:
         VerificationError: The conditions do not fit the trace: a body or an event is missing in
@@ -67,14 +70,12 @@ def verify(
             f'the recording is {trace.integrity.value}: {trace.integrity_note}'.rstrip(': ')
         )
     context = Context(view, spec, tuple(conditions))
-    findings: tuple[Finding, ...] = ()
+    held = Held()
     notes += _told_faults(trace)
-    if isinstance(plan, NotComparable):
-        notes.append(plan.why)
-    if isinstance(plan, Plan):
-        findings = plan_findings(conditions, trace.roster, world, plan)
-        if plan.world is None:
-            notes.append(f'the map {world.map_name} is not installed: its world is as recorded')
+    if plan is not None:
+        held = held_against(conditions, trace.roster, world, plan, as_recorded=as_recorded)
+    notes += held.notes
+    findings = held.findings
     if missing == 0:
         lost = Missing(reason=Reason.SAMPLES_MISSING, story='the first tick is missing')
         results = tuple(_without_margin(condition, lost, context) for condition in conditions)
@@ -85,7 +86,7 @@ def verify(
             findings += tuple(chance_findings(context, plan.seed))
     findings += tuple(recomputed)
     return Verdict(
-        status=_status(trace.integrity, results, len(findings)),
+        status=verdict_status(trace.integrity, results, len(findings)),
         results=results,
         cross_check=findings,
         integrity=trace.integrity,
@@ -236,9 +237,10 @@ def _without_margin(condition: Condition, missing: Missing, context: Context) ->
     )
 
 
-def _status(
+def verdict_status(
     integrity: Integrity, results: tuple[ConditionResult, ...], findings: int
 ) -> VerdictStatus:
+    """Return what a trace of that integrity shows, with so many findings against it."""
     undecided = any(r.reason is not None and r.reason.undecided for r in results)
     if integrity is not Integrity.INTACT or findings or undecided:
         return VerdictStatus.INCONCLUSIVE

@@ -4,21 +4,22 @@
 
 from __future__ import annotations
 
-import hashlib
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
 from aurora_core.agsg.build import build_agsg, derived
 from aurora_core.agsg.graph import Agsg, Stage
-from aurora_core.agsg.judged import unjudged
+from aurora_core.agsg.judged import Unjudged, unjudged
 from aurora_core.agsg.message import read_agsg
 from aurora_core.conditions.condition import (
     Condition,
     conditions_from_json,
     conditions_to_json,
 )
-from aurora_core.conditions.derive import derive_conditions
+from aurora_core.conditions.derive import Derivation, derive_conditions
 from aurora_core.errors import AuroraError, VerificationError
 from aurora_core.execution.capabilities import judgeable, unsupported
 from aurora_core.execution.faults import Fault
@@ -29,6 +30,7 @@ from aurora_core.execution.plan import (
     build_execution,
     build_roster,
     build_world,
+    wind_of,
 )
 from aurora_core.feasibility.check import check_request
 from aurora_core.feasibility.verdict import FeasibilityVerdict
@@ -37,12 +39,13 @@ from aurora_core.grounding.grounded import GroundedScenario
 from aurora_core.grounding.outcome import GroundingFailure, GroundingOutcome
 from aurora_core.grounding.places import place_positions
 from aurora_core.knowledge.agent_types import load_agent_types
+from aurora_core.knowledge.basis import Basis, Tables
 from aurora_core.knowledge.config_files import config_path
 from aurora_core.knowledge.limits import Limits, Tolerances, load_limits, load_tolerances
 from aurora_core.knowledge.map_model import MapModel, load_map
 from aurora_core.knowledge.settings import Settings, load_settings
 from aurora_core.knowledge.world import WorldModel
-from aurora_core.monitor.plan_check import NotComparable, Plan
+from aurora_core.monitor.plan_check import NotComparable, Plan, finding
 from aurora_core.monitor.verdict import Finding, Verdict
 from aurora_core.monitor.verify import verify
 from aurora_core.parsing.idle_uavs import hovering
@@ -51,7 +54,7 @@ from aurora_core.parsing.parser import parse_offline
 from aurora_core.pipeline.recompute import recomputed
 from aurora_core.report.versions import AURORA_VERSION
 from aurora_core.spec.scenario import ScenarioSpec
-from aurora_core.temporal.schedule import plan_time
+from aurora_core.temporal.schedule import Schedule, plan_time
 from aurora_core.trace.bag_reader import BagContent, read_bag
 from aurora_core.trace.definitions import message_definitions
 
@@ -64,13 +67,8 @@ class Knowledge:
         self.tolerances: Tolerances = load_tolerances(config_path('tolerances.json'))
         self.settings: Settings = load_settings()
         self.types = load_agent_types()
-        self.configuration = _digest(
-            AURORA_VERSION,
-            str(EXECUTOR_VERSION),
-            config_path('limits.json').read_text('utf-8'),
-            config_path('tolerances.json').read_text('utf-8'),
-            self.settings.model_dump_json(),
-        )
+        tables = Tables(limits=self.limits, tolerances=self.tolerances, settings=self.settings)
+        self.basis = Basis.of(AURORA_VERSION, tables)
         self._maps: dict[str, MapModel] = {}
         self._grounders: dict[str, Grounder] = {}
         self._parts: dict[str, MapParts] = {}
@@ -96,7 +94,7 @@ class Knowledge:
                 self.limits,
                 self.tolerances,
                 self.settings,
-                self.configuration,
+                self.basis,
                 EXECUTOR_VERSION,
             )
         return self._grounders[name]
@@ -109,10 +107,6 @@ class Knowledge:
             return None
         same = known.buildings == world.buildings and known.zones == world.no_fly_zones
         return self.parts(world.map_name) if same else None
-
-
-def _digest(*texts: str) -> str:
-    return hashlib.sha256('\0'.join(texts).encode('utf-8')).hexdigest()
 
 
 @lru_cache(maxsize=1)
@@ -153,11 +147,6 @@ def ground_stage(agsg: Agsg, seed: int) -> GroundingOutcome:
         return GroundingOutcome(failure=grounded)
     schedule = plan_time(spec, grounded, known.limits)
     derivation = derive_conditions(spec, schedule.facts, known.limits, known.tolerances)
-
-    def derive(asked: ScenarioSpec) -> tuple[Condition, ...]:
-        made = derive_conditions(asked, schedule.facts, known.limits, known.tolerances)
-        return judgeable(made.conditions, asked, grounded)
-
     conditions = judgeable(derivation.conditions, spec, grounded)
     graph = build_agsg(
         spec,
@@ -170,13 +159,37 @@ def ground_stage(agsg: Agsg, seed: int) -> GroundingOutcome:
         conditions_json=conditions_to_json(conditions),
         realised={r.path: r.realised for r in grounded.realised},
     )
-    missing = (
+    return GroundingOutcome(
+        agsg=graph,
+        unsupported=_missing(spec, grounded, derivation),
+        unjudged=_unjudged(spec, grounded, schedule, known.limits, known.tolerances),
+    )
+
+
+def _missing(
+    spec: ScenarioSpec, grounded: GroundedScenario, derivation: Derivation
+) -> tuple[str, ...]:
+    """Return what of a request nobody carries out or judges, as `id: what`."""
+    return (
         *unsupported(spec, grounded),
         *(f'{u.element}: {u.what}' for u in derivation.underivable),
     )
-    return GroundingOutcome(
-        agsg=graph, unsupported=missing, unjudged=unjudged(spec, conditions, derive)
-    )
+
+
+def _unjudged(
+    spec: ScenarioSpec,
+    grounded: GroundedScenario,
+    schedule: Schedule,
+    limits: Limits,
+    tolerances: Tolerances,
+) -> tuple[Unjudged, ...]:
+    """Return what a request states and no condition of its run depends on."""
+
+    def derive(asked: ScenarioSpec) -> tuple[Condition, ...]:
+        made = derive_conditions(asked, schedule.facts, limits, tolerances)
+        return judgeable(made.conditions, asked, grounded)
+
+    return unjudged(spec, derive(spec), derive)
 
 
 def execution_stage(agsg: Agsg, seed: int, faults: tuple[Fault, ...]) -> Execution:
@@ -234,29 +247,65 @@ def verify_stage(bag: Path, *, recompute: bool = True) -> Verdict:
 
 
 def verify_content(content: BagContent, agsg: Agsg, *, recompute: bool = True) -> Verdict:
-    """Compute every margin of a run, wherever its messages come from.
+    """Compute every margin of a run, wherever its messages come from; see `judge_content`."""
+    return judge_content(content, agsg, recompute=recompute).verdict
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Judged:
+    """A verdict, and what the recording was held against."""
+
+    verdict: Verdict
+    plan: Plan | NotComparable
+
+
+def judge_content(
+    content: BagContent, agsg: Agsg, *, as_recorded: bool = False, recompute: bool = True
+) -> Judged:
+    """Compute every margin of a run.
 
     Args:
         content: Messages of the run.
         agsg: Graph in them.
+        as_recorded: Judge by the recorded version, limits, tolerances, settings and map, though
+            they are others here.
         recompute: Step the executor over the recorded states, too. Only a benchmark that asks what
             the conditions find by themselves goes without.
+
+    Raises:
+        VerificationError: The grounding is missing, or nothing fits.
     """
     conditions = conditions_from_json(content.world.conditions_json)
     plan = recorded_plan(content.world, agsg)
-    found = recomputed_content(content, agsg) if recompute and isinstance(plan, Plan) else ()
-    return verify(content.trace, content.world, conditions, agsg.spec, plan, found)
+    found: tuple[Finding, ...] = ()
+    # What another version of the executor commands is not known here.
+    if recompute and isinstance(plan, Plan) and not plan.other_version:
+        found = recomputed_content(content, agsg)
+    verdict = verify(
+        content.trace, content.world, conditions, agsg.spec, plan, found, as_recorded=as_recorded
+    )
+    return Judged(verdict=verdict, plan=plan)
 
 
 def recomputed_content(content: BagContent, agsg: Agsg) -> tuple[Finding, ...]:
-    """Return where a run that was made with what is configured here is not the executor's."""
+    """Return where a run of this version of the executor is not the executor's.
+
+    Raises:
+        VerificationError: The recording does not say what it was made with.
+    """
     known = knowledge()
+    basis = GroundedScenario.model_validate_json(agsg.grounding_json).basis
+    if basis is None:
+        raise VerificationError(
+            'the recording does not say with which settings it was made', hint='run it again'
+        )
+    tables = basis.tables()
     return recomputed(
         content.trace,
         content.world,
         agsg,
-        tolerances=known.tolerances,
-        settings=known.settings,
+        tolerances=tables.tolerances,
+        settings=tables.settings,
         parts=known.parts_of(content.world),
     )
 
@@ -264,35 +313,83 @@ def recomputed_content(content: BagContent, agsg: Agsg) -> tuple[Finding, ...]:
 def recorded_plan(world: WorldModel, agsg: Agsg) -> Plan | NotComparable:
     """Return what the request and the grounding of a recording give when worked out anew.
 
-    That says something only with the configuration that the recording was made with: its margins
-    come from the bag alone, whatever is configured here.
+    That is done with the limits, tolerances and settings that it was recorded with; where others
+    are installed here, the plan names each.
 
     Raises:
         VerificationError: The grounding is missing, or does not fit the request.
     """
-    known = knowledge()
-    spec = agsg.spec
     try:
         grounded = GroundedScenario.model_validate_json(agsg.grounding_json)
-        if grounded.configuration != known.configuration:
+        if grounded.basis is None:
             return NotComparable(
-                why='recorded with another version, limits, tolerances or settings than those '
-                'here: conditions, bodies and world are taken as recorded'
+                why='recorded without its version, limits, tolerances and settings, as by an '
+                'older version: conditions, bodies and world are taken as recorded'
             )
-        facts = plan_time(spec, grounded, world.limits).facts
-        derivation = derive_conditions(spec, facts, world.limits, known.tolerances)
-        conditions = judgeable(derivation.conditions, spec, grounded)
-        rebuilt = _rebuilt_world(spec, grounded)
-        roster = build_roster(grounded, known.settings.run.dt_s)
-    except (ValueError, LookupError, AuroraError) as err:
+        try:
+            tables = grounded.basis.tables()
+        except AuroraError as err:
+            return NotComparable(
+                why=f'{err.message}: conditions, bodies and world are taken as recorded'
+            )
+        return _plan(world, agsg, grounded, grounded.basis, tables)
+    except (ValueError, LookupError, ArithmeticError, AuroraError) as err:
         raise VerificationError(
             f'the recorded grounding does not fit the recorded request: {err}',
             hint='run the scenario again',
         ) from err
-    return Plan(conditions=conditions, roster=roster, world=rebuilt, seed=grounded.seed)
 
 
-def _rebuilt_world(spec: ScenarioSpec, grounded: GroundedScenario) -> WorldModel | None:
+def _plan(
+    world: WorldModel, agsg: Agsg, grounded: GroundedScenario, basis: Basis, tables: Tables
+) -> Plan:
+    here = knowledge().basis
+    spec = agsg.spec
+    schedule = plan_time(spec, grounded, tables.limits)
+    derivation = derive_conditions(spec, schedule.facts, tables.limits, tables.tolerances)
+    rebuilt = _rebuilt_world(spec, grounded, tables.limits)
+    foreign = basis.differences(here)
+    if rebuilt is None:
+        name, digest = grounded.map_name, grounded.map_digest
+        foreign = (*foreign, f'map {name} with digest {digest[:12]} (here none such)')
+    return Plan(
+        conditions=judgeable(derivation.conditions, spec, grounded),
+        roster=build_roster(grounded, tables.settings.run.dt_s),
+        world=_as_grounded(world, grounded, tables.limits) if rebuilt is None else rebuilt,
+        seed=grounded.seed,
+        documents=tuple(_documents(world, agsg, grounded, schedule.canonical_json())),
+        version=basis.version,
+        other_version=basis.version != here.version,
+        foreign=foreign,
+        missing=(
+            *_missing(spec, grounded, derivation),
+            *(
+                f'{one.element}: no condition depends on {one.what}'
+                for one in _unjudged(spec, grounded, schedule, tables.limits, tables.tolerances)
+            ),
+        ),
+    )
+
+
+def _documents(
+    world: WorldModel, agsg: Agsg, grounded: GroundedScenario, schedule_json: str
+) -> Iterator[Finding]:
+    """Yield where the recorded documents do not fit each other."""
+    if grounded.basis is not None and grounded.configuration != grounded.basis.sha256:
+        text = 'its digest is not that of the limits, tolerances and settings beside it'
+        yield finding('configuration', 'digest', text)
+    if agsg.conditions_json != world.conditions_json:
+        yield finding('graph', 'conditions', 'graph and world tell of different conditions')
+    if agsg.schedule_json != schedule_json:
+        yield finding('graph', 'schedule', 'not the one that request and grounding give')
+    if agsg.map_name != grounded.map_name:
+        text = f'requested on {agsg.map_name}, grounded on {grounded.map_name}'
+        yield finding('graph', 'map', text)
+
+
+def _rebuilt_world(
+    spec: ScenarioSpec, grounded: GroundedScenario, limits: Limits
+) -> WorldModel | None:
     """Return the world of a grounding, None when its map is not installed here."""
     known = knowledge()
     try:
@@ -303,4 +400,17 @@ def _rebuilt_world(spec: ScenarioSpec, grounded: GroundedScenario) -> WorldModel
         return None
     places = place_positions(spec, map_model, grounded)
     parts = known.parts(grounded.map_name)
-    return build_world(map_model, grounded, known.limits, places, '[]', parts)
+    return build_world(map_model, grounded, limits, places, '[]', parts)
+
+
+def _as_grounded(world: WorldModel, grounded: GroundedScenario, limits: Limits) -> WorldModel:
+    """Return a recorded world with all that the grounding says of it."""
+    return replace(
+        world,
+        map_name=grounded.map_name,
+        map_digest=grounded.map_digest,
+        weather=grounded.weather,
+        time_of_day=grounded.time_of_day,
+        wind=wind_of(grounded),
+        limits=limits,
+    )

@@ -6,17 +6,19 @@ from __future__ import annotations
 
 import json
 from dataclasses import replace
+from typing import Any
 
 import pytest
 
 from aurora_core.agsg.build import build_agsg
 from aurora_core.agsg.graph import Agsg
-from aurora_core.conditions.condition import conditions_from_json
+from aurora_core.conditions.condition import conditions_from_json, conditions_to_json
 from aurora_core.errors import VerificationError
 from aurora_core.execution.plan import Execution
 from aurora_core.grounding.grounded import GroundedScenario
+from aurora_core.knowledge.basis import Basis
 from aurora_core.knowledge.world import WorldModel
-from aurora_core.monitor.plan_check import NotComparable, Plan, plan_findings
+from aurora_core.monitor.plan_check import Held, NotComparable, Plan, held_against, plan_findings
 from aurora_core.pipeline.functions import (
     execution_stage,
     ground_stage,
@@ -55,7 +57,7 @@ def test_what_is_recorded_is_what_the_request_gives(grounded: tuple[Agsg, Execut
     plan = plan_of(execution.world, agsg)
     recorded = conditions_from_json(execution.world.conditions_json)
     assert recorded
-    assert plan.world is not None
+    assert plan.foreign == ()
     assert plan_findings(recorded, execution.roster, execution.world, plan) == ()
 
 
@@ -72,39 +74,168 @@ def test_a_forged_grounding_shows_in_the_conditions(grounded: tuple[Agsg, Execut
     assert 'condition' in {finding.kind for finding in found}
 
 
-def test_limits_of_another_installation_are_named(grounded: tuple[Agsg, Execution]) -> None:
+def regrounded(agsg: Agsg, **changes: object) -> Agsg:
+    """The graph with another grounding, and the digest of its basis in order."""
+    document = json.loads(agsg.grounding_json) | changes
+    if isinstance(document['basis'], dict):
+        document['configuration'] = Basis.model_validate(document['basis']).sha256
+    grounding = GroundedScenario.model_validate_json(json.dumps(document))
+    return altered(agsg, grounding_json=grounding.canonical_json())
+
+
+def basis_of(agsg: Agsg, table: str, **changes: object) -> dict[str, Any]:
+    basis = json.loads(agsg.grounding_json)['basis']
+    if table == 'version':
+        return {**basis, **changes}
+    return {**basis, table: {**basis[table], **changes}}
+
+
+def held(execution: Execution, world: WorldModel, agsg: Agsg, *, as_recorded: bool) -> Held:
+    conditions = conditions_from_json(world.conditions_json)
+    plan = recorded_plan(world, agsg)
+    return held_against(conditions, execution.roster, world, plan, as_recorded=as_recorded)
+
+
+def names(held: Held) -> set[tuple[str, str]]:
+    return {(finding.kind, finding.subject) for finding in held.findings}
+
+
+def test_limits_of_the_world_alone_are_named(grounded: tuple[Agsg, Execution]) -> None:
     agsg, execution = grounded
     limits = type(execution.world.limits).model_validate(
         dict(execution.world.limits) | {'clearance_min_m': 0.1}
     )
     world = replace(execution.world, limits=limits)
-    plan = plan_of(world, agsg)
-    found = plan_findings(plan.conditions, execution.roster, world, plan)
-    assert [(finding.kind, finding.subject) for finding in found] == [('world', 'limits')]
+    for as_recorded in (False, True):
+        found = held(execution, world, agsg, as_recorded=as_recorded)
+        assert names(found) == {('world', 'limits')}
 
 
-def test_with_another_configuration_the_bag_speaks_for_itself(
+@pytest.mark.parametrize('configuration', ['f' * 64, ''])
+def test_a_foreign_digest_does_not_switch_the_derivation_off(
+    grounded: tuple[Agsg, Execution], configuration: str
+) -> None:
+    agsg, execution = grounded
+    document = json.loads(agsg.grounding_json) | {'configuration': configuration}
+    conditions = conditions_from_json(agsg.conditions_json)
+    kept = conditions_to_json(conditions[3:])
+    forged = altered(agsg, grounding_json=json.dumps(document), conditions_json=kept)
+    world = replace(execution.world, conditions_json=kept)
+    for as_recorded in (False, True):
+        found = names(held(execution, world, forged, as_recorded=as_recorded))
+        assert ('configuration', 'digest') in found
+        assert {('condition', c.id) for c in conditions[:3]} <= found
+
+
+def test_what_was_loosened_is_derived_as_recorded_and_named(
     grounded: tuple[Agsg, Execution],
 ) -> None:
     agsg, execution = grounded
-    document = json.loads(agsg.grounding_json)
-    document['configuration'] = 'f' * 64
-    plan = recorded_plan(execution.world, altered(agsg, grounding_json=json.dumps(document)))
-    assert isinstance(plan, NotComparable)
-    assert 'as recorded' in plan.why
+    tight = json.loads(agsg.grounding_json)['basis']['tolerances']['altitude_m']
+    loose = tight | {'absolute': 50.0}
+    forged = regrounded(agsg, basis=basis_of(agsg, 'tolerances', altitude_m=loose))
+    plan = plan_of(execution.world, forged)
+    ours = {c.id: c for c in conditions_from_json(agsg.conditions_json)}
+    changed = [c for c in plan.conditions if c != ours[c.id]]
+    assert changed
+    # With conditions that go with it nothing is left but the difference to what is installed.
+    text = conditions_to_json(plan.conditions)
+    forged = altered(forged, conditions_json=text)
+    world = replace(execution.world, conditions_json=text)
+    found = held(execution, world, forged, as_recorded=False)
+    assert names(found) == {('configuration', 'tolerances.altitude_m.absolute')}
+    assert '50.0 (here' in found.findings[0].text
+    told = held(execution, world, forged, as_recorded=True)
+    assert told.findings == ()
+    assert any('tolerances.altitude_m.absolute 50.0 (here' in note for note in told.notes)
 
 
-def test_a_map_that_is_not_installed_leaves_the_world_as_recorded(
+def test_a_recording_with_other_limits_is_judged_by_them_when_asked_to(
     grounded: tuple[Agsg, Execution],
 ) -> None:
     agsg, execution = grounded
-    elsewhere = altered(
-        agsg, grounding_json=agsg.grounding_json.replace('"downtown"', '"atlantis"')
+    other = regrounded(agsg, basis=basis_of(agsg, 'limits', uav_endurance_s=900.0))
+    plan = plan_of(execution.world, other)
+    text = conditions_to_json(plan.conditions)
+    assert 'at most 900 s' in text
+    world = replace(execution.world, limits=plan.world.limits, conditions_json=text)
+    recorded = altered(other, conditions_json=text)
+    assert names(held(execution, world, recorded, as_recorded=False)) == {
+        ('configuration', 'limits.uav_endurance_s')
+    }
+    assert held(execution, world, recorded, as_recorded=True).findings == ()
+
+
+def test_a_setting_that_is_another_here_is_named(grounded: tuple[Agsg, Execution]) -> None:
+    agsg, execution = grounded
+    run = json.loads(agsg.grounding_json)['basis']['settings']['run'] | {'settle_s': 9.0}
+    other = regrounded(agsg, basis=basis_of(agsg, 'settings', run=run))
+    found = held(execution, execution.world, other, as_recorded=False)
+    assert names(found) == {('configuration', 'settings.run.settle_s')}
+
+
+def test_what_another_version_derives_is_only_told_as_recorded(
+    grounded: tuple[Agsg, Execution],
+) -> None:
+    agsg, execution = grounded
+    other = regrounded(agsg, basis=basis_of(agsg, 'version', version='0.0.9'))
+    kept = conditions_to_json(conditions_from_json(agsg.conditions_json)[1:])
+    other = altered(other, conditions_json=kept)
+    world = replace(execution.world, conditions_json=kept)
+    kinds = {kind for kind, _ in names(held(execution, world, other, as_recorded=False))}
+    assert kinds == {'configuration', 'condition'}
+    told = held(execution, world, other, as_recorded=True)
+    assert told.findings == ()
+    assert any('derives it otherwise: condition' in note for note in told.notes)
+
+
+@pytest.mark.parametrize('basis', [None, 'other entries'])
+def test_without_a_basis_that_can_be_read_nothing_is_claimed(
+    grounded: tuple[Agsg, Execution], basis: str | None
+) -> None:
+    agsg, execution = grounded
+    value = None if basis is None else basis_of(agsg, 'tolerances', of_tomorrow=1.0)
+    older = regrounded(agsg, basis=value)
+    assert isinstance(recorded_plan(execution.world, older), NotComparable)
+    found = held(execution, execution.world, older, as_recorded=False)
+    assert names(found) == {('configuration', 'record')}
+    assert 'as recorded' in found.findings[0].text
+    assert held(execution, execution.world, older, as_recorded=True).findings == ()
+
+
+def test_a_map_that_is_not_installed_is_named_and_the_rest_of_the_world_compared(
+    grounded: tuple[Agsg, Execution],
+) -> None:
+    agsg, execution = grounded
+    digest = '0' * 64
+    elsewhere = regrounded(agsg, map_digest=digest)
+    world = replace(execution.world, map_digest=digest)
+    assert names(held(execution, world, elsewhere, as_recorded=False)) == {
+        ('configuration', 'map')
+    }
+    assert held(execution, world, elsewhere, as_recorded=True).findings == ()
+    foggy = replace(world, weather='fog')
+    for as_recorded in (False, True):
+        found = names(held(execution, foggy, elsewhere, as_recorded=as_recorded))
+        assert ('world', 'weather') in found
+    # The digest changed in one place only.
+    found = names(held(execution, execution.world, elsewhere, as_recorded=True))
+    assert ('world', 'map_digest') in found
+
+
+def test_graph_and_world_have_to_tell_the_same(grounded: tuple[Agsg, Execution]) -> None:
+    agsg, execution = grounded
+    conditions = conditions_from_json(agsg.conditions_json)
+    other = altered(agsg, conditions_json=conditions_to_json(conditions[1:]))
+    assert names(held(execution, execution.world, other, as_recorded=True)) == {
+        ('graph', 'conditions')
+    }
+    schedule = json.loads(agsg.schedule_json)
+    schedule['horizon_s'] += 1.0
+    other = altered(agsg, schedule_json=json.dumps(schedule))
+    assert ('graph', 'schedule') in names(
+        held(execution, execution.world, other, as_recorded=True)
     )
-    assert plan_of(execution.world, elsewhere).world is None
-    digest = execution.world.map_digest
-    older = altered(agsg, grounding_json=agsg.grounding_json.replace(digest, '0' * 64))
-    assert plan_of(execution.world, older).world is None
 
 
 @pytest.mark.parametrize('grounding', ['', '{}', 'nonsense'])
