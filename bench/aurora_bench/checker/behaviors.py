@@ -25,7 +25,7 @@ from aurora_bench.checker.events import happened
 from aurora_bench.checker.numbers import wanted
 from aurora_bench.checker.pairs import approach, follow, overtake, tailgate
 from aurora_bench.checker.paths import way
-from aurora_bench.checker.placements import AT_M
+from aurora_bench.checker.placements import AT_M, at_place
 from aurora_bench.checker.recording import BoolArray
 from aurora_bench.checker.roads import crossings_of, lane_changes
 from aurora_bench.checker.scene import longest_s, runs_of, share
@@ -142,9 +142,7 @@ def _stands(case: Case, kind: str, body: str, targets: list[str]) -> Judged:
         why = f'{body} stands for the first {from_start:.1f} s of {scene.end_s:.1f} s'
         parts = [graded(bool(still.all()), from_start >= limits.STOPPED_S, why)]
         if targets:
-            near = bool(_near(case, body, targets, AT_M[0])[0])
-            possibly = bool(_near(case, body, targets, AT_M[1])[0])
-            parts.append(graded(near, possibly, f'{body} at {targets[0]}: {near}'))
+            parts += [at_place(case, body, t) for t in targets[:1]]
         return all_of(parts)
     longest = longest_s(still, scene.dt_s)
     why = f'{body} at rest for up to {longest:.1f} s'

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import functools
 import itertools
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -25,7 +26,7 @@ from aurora_bench.checker.conditions import condition
 from aurora_bench.checker.links import link
 from aurora_bench.checker.placements import placement
 from aurora_bench.checker.read import read_bag
-from aurora_bench.checker.recording import Recording
+from aurora_bench.checker.recording import Body, Recording
 from aurora_bench.checker.scene import Scene
 from aurora_bench.checker.worlds import agent, count, world
 
@@ -102,7 +103,7 @@ def _bindings(annotation: Annotation, scene: Scene) -> Iterator[Mapping[str, tup
         role = annotation.roles[name]
         free = [
             b.body_id
-            for b in sorted(bodies, key=lambda b: (b.role != role, b.role == 'background'))
+            for b in sorted(bodies, key=functools.partial(_unlikely, annotation, role))
             if b.type_name in annotation.bodies[name] and b.body_id not in taken
         ]
         own = [b for b in free if scene.bodies[b].role != 'background']
@@ -112,6 +113,12 @@ def _bindings(annotation: Annotation, scene: Scene) -> Iterator[Mapping[str, tup
             yield from extend(at + 1, taken | set(choice), {**bound, name: choice})
 
     yield from extend(0, frozenset(), {})
+
+
+def _unlikely(annotation: Annotation, role: str, body: Body) -> tuple[bool, bool, bool]:
+    """Return a key that puts bodies first of which the annotated role is the recorded one."""
+    others = body.role in annotation.roles.values() and body.role != role
+    return (body.role != role if role else others, others, body.role == 'background')
 
 
 def judge(case: Case, requirement: Requirement) -> Judged:

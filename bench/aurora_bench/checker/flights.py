@@ -33,7 +33,9 @@ def corners(xy: FloatArray, tolerance_m: float = CORNER_M) -> list[int]:
     """Return indices at which a path turns (its ends included), by Douglas and Peucker."""
     if len(xy) < 2 or np.ptp(xy, axis=0).max() < tolerance_m:
         return [0]
-    simple = shapely.get_coordinates(shapely.LineString(xy).simplify(tolerance_m, False))
+    simple = shapely.get_coordinates(
+        shapely.LineString(xy).simplify(tolerance_m, preserve_topology=False)
+    )
     found: list[int] = []
     at = 0
     for point in simple:

@@ -182,10 +182,13 @@ def _adjacent(case: Case, requirement: Requirement, body: str, other: str) -> Ju
 
 def _oncoming(case: Case, requirement: Requirement, body: str, other: str) -> Judged:
     heading = _alignment(case, body, other)
-    forward, _ = (float(v[0]) for v in frame(case.scene, body, other))
+    forward, left = (float(v[0]) for v in frame(case.scene, body, other))
     own = way(case.scene, other)
     arc, lateral = project(own, case.scene.xy(body)[:1], own.own_m[:1])
     gap, beside = float(arc[0] - own.own_m[0]), abs(float(lateral[0]))
+    if arc[0] >= own.arc_m[-1] - 1e-6:
+        # Beyond the end of what is known of the way: straight on.
+        gap, beside = forward, abs(left)
     why = f'{body} {gap:.1f} m ahead of {other}, {beside:.1f} m beside its way, '
     why += f'cosine of headings {heading:.2f}'
     # On a curve the headings at the two spots differ; that at the meeting point counts.
@@ -230,9 +233,11 @@ def _to_place(case: Case, requirement: Requirement, body: str, place: str) -> Ju
             return _on_main_road(case, body, why)
         case 'on':
             slack = 1.0 if place.casefold() != 'roadside' else 2.0
-            return graded(outline <= slack, outline <= slack + 4.0, why)
+            return graded(outline <= slack, outline <= slack + 1.5, why)
         case 'at' | 'beside' if scene.places.is_region(place):
-            return graded(outline <= 3.0, outline <= 8.0, why)
+            # The roadside is a strip of its own; by a sidewalk means beside it, too.
+            slack = 1.0 if place.casefold() == 'roadside' else 3.0
+            return graded(outline <= slack, outline <= slack + 3.0, why)
         case 'at' | 'beside':
             # A junction is as wide as its roads: at it means at its edge.
             return graded(outline <= AT_M[0], outline <= AT_M[1], why)
@@ -241,6 +246,14 @@ def _to_place(case: Case, requirement: Requirement, body: str, place: str) -> Ju
             return graded(sure, outline <= NEAR_M[1], why)
         case _:
             return cannot_tell(f'relation {relation!r} to a place: {why}')
+
+
+def at_place(case: Case, body: str, thing: str) -> Judged:
+    """Return whether a body is at a place, or near another body, at t = 0."""
+    if not case.scene.is_body(thing):
+        return _to_place(case, {'relation': 'at'}, body, thing)
+    gap = float(case.scene.distance(body, thing, horizontal=True)[0])
+    return graded(gap <= AT_M[0], gap <= AT_M[1], f'{body} {gap:.1f} m from {thing}')
 
 
 def _on_main_road(case: Case, body: str, why: str) -> Judged:
@@ -279,9 +292,12 @@ def _upstream(case: Case, requirement: Requirement, body: str, place: str) -> Ju
 def _to_spot(line: shapely.LineString, start: float, spot: Spot) -> list[float]:
     """Return the ways to the edge, the middle and the far edge of a spot on the way."""
     point = shapely.Point(spot.x_m, spot.y_m)
-    if line.distance(point) > 25.0:
+    near = line.distance(point) if spot.outline is None else line.distance(spot.outline)
+    if near > (25.0 if spot.outline is None else 6.0):
         return []
-    found = [line.project(point) - start]
+    arc = line.project(point)
+    # The start of a way is the nearest point to all that lies behind it.
+    found = [arc - start] if 1e-6 < arc < line.length - 1e-6 else []
     if spot.outline is not None:
         inside = line.intersection(spot.outline)
         if not inside.is_empty:

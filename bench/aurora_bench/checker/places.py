@@ -58,7 +58,7 @@ class Places:
                 return (*near, *self._junctions())
             case 'crosswalk':
                 crossings = tuple(_spot(p) for _, p in self.world.crossings)
-                near = [s for s in chosen if any(_apart(s, c) <= 15.0 for c in crossings)]
+                near = [s for s in chosen if any(_off(s, c) <= 3.0 for c in crossings)]
                 return (*near, *crossings)
             case 'sidewalk':
                 return tuple(_spot(p) for _, p in self.world.sidewalks)
@@ -152,7 +152,7 @@ class Places:
 
     def _at_junction(self, spot: Spot) -> bool:
         junctions = self._junctions()
-        return not junctions or any(_apart(spot, j) <= 30.0 for j in junctions)
+        return not junctions or any(_off(spot, j) <= 5.0 for j in junctions)
 
     @functools.cache  # noqa: B019
     def _junctions(self) -> tuple[Spot, ...]:
@@ -179,8 +179,9 @@ def _spot(polygon: Any) -> Spot:
     return Spot(float(centre.x), float(centre.y), polygon)
 
 
-def _apart(a: Spot, b: Spot) -> float:
-    return float(np.hypot(a.x_m - b.x_m, a.y_m - b.y_m))
+def _off(spot: Spot, other: Spot) -> float:
+    """Return how far a position is outside of the outline of another spot."""
+    return float(shapely.distance(shapely.Point(spot.x_m, spot.y_m), other.outline))
 
 
 def _nearest_outline(spot: Spot, outlines: list[Any]) -> Any | None:

@@ -1,0 +1,184 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""What bodies do over the run."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+
+def _does(behavior: str, target: str | None = None, **more: Any) -> dict[str, Any]:
+    found = {'kind': 'behavior', 'agent': 'car1', 'behavior': behavior, **more}
+    return found if target is None else {**found, 'target': target}
+
+
+def test_driving_and_standing(make_stage: Any) -> None:
+    moving, still = make_stage(), make_stage()
+    moving.drive('car1', 'car', 8.0)
+    still.drive('car1', 'car', 0.0)
+    for kind in ('drive', 'circulate'):
+        assert moving.says(_does(kind)) == 'holds'
+        assert still.says(_does(kind)) == 'does_not'
+    for kind in ('stop', 'wait', 'park'):
+        assert moving.says(_does(kind)) == 'does_not'
+        assert still.says(_does(kind)) == 'holds'
+    assert moving.says(_does('emergency_run')) == 'cannot_tell'
+    assert still.says(_does('emergency_run')) == 'does_not'
+    assert still.says(_does('park', 'roadside')) == 'cannot_tell'
+    assert still.says(_does('wait', 'intersection')) == 'does_not'
+    assert moving.says(_does('fly')) == 'cannot_tell'
+
+
+@pytest.mark.parametrize(
+    ('driven', 'asked', 'outcome'),
+    [(8.0, 8.0, 'holds'), (8.0, 9.0, 'holds'), (8.0, 9.5, 'does_not'), (20.0, 18.2, 'holds')],
+)
+def test_a_stated_speed_is_driven_where_the_way_is_free(
+    stage: Any, driven: float, asked: float, outcome: str
+) -> None:
+    stage.drive('car1', 'car', driven, x=-490.0)
+    assert stage.says(_does('drive', speed_mps=asked)) == outcome
+
+
+def test_a_stated_speed_behind_a_leader_cannot_be_told(stage: Any) -> None:
+    stage.drive('car1', 'car', 5.0, x=-490.0)
+    stage.drive('bus1', 'bus', 5.0, x=-470.0)
+    assert stage.says(_does('drive', speed_mps=10)) == 'cannot_tell'
+
+
+def test_a_stated_speed_holds_until_an_annotated_action(stage: Any) -> None:
+    stage.drive('car1', 'car', lambda t: np.interp(t, [25, 27], [8, 3]), x=-490.0)
+    slow = {
+        'kind': 'event',
+        'ref': 'e1',
+        'trigger': {'on': 'time', 'at_s': 25},
+        'action': {'do': 'slow', 'agent': 'car1', 'value_mps': 3},
+    }
+    assert stage.says(_does('drive', speed_mps=8)) != 'holds'
+    assert stage.says(_does('drive', speed_mps=8), slow) == 'holds'
+
+
+@pytest.mark.parametrize(
+    ('gap', 'outcome'),
+    [(20.0, 'holds'), (3.0, 'does_not'), (60.0, 'does_not'), (-30.0, 'does_not')],
+)
+def test_following_keeps_a_gap(stage: Any, gap: float, outcome: str) -> None:
+    stage.drive('bus1', 'bus', 8.0, x=0.0)
+    stage.drive('car1', 'car', 8.0, x=-gap - 8.3)
+    assert stage.says(_does('follow', 'bus1')) == outcome
+
+
+@pytest.mark.parametrize(
+    ('gap', 'seconds', 'outcome'),
+    [(7.0, 30, 'holds'), (9.0, 30, 'does_not'), (7.0, 3, 'does_not')],
+)
+def test_tailgating_is_under_a_second(
+    stage: Any, gap: float, seconds: float, outcome: str
+) -> None:
+    far = np.where((stage.t > 10) & (stage.t < 10 + seconds), gap, 30.0)
+    stage.ground('bus1', 'bus', 8.0 * stage.t, -1.65)
+    stage.ground('car1', 'car', 8.0 * stage.t - far - 8.3, -1.65)
+    assert stage.says(_does('tailgate', 'bus1')) == outcome
+
+
+def test_overtaking_is_from_behind_to_ahead(make_stage: Any) -> None:
+    for start, speed, outcome in (
+        (-60.0, 9.0, 'holds'),
+        (-60.0, 5.5, 'does_not'),
+        (30.0, 9.0, 'does_not'),
+    ):
+        stage = make_stage()
+        stage.drive('bus1', 'bus', 5.0, y=-4.95)
+        stage.drive('car1', 'car', speed, x=start)
+        assert stage.says(_does('overtake', 'bus1')) == outcome
+    assert stage.says(_does('overtake')) == 'cannot_tell'
+
+
+def test_approaching(make_stage: Any) -> None:
+    for back, outcome in ((False, 'holds'), (True, 'does_not')):
+        stage = make_stage()
+        stage.drive('car1', 'car', 5.0, back=back)
+        assert stage.says(_does('approach', 'City Hall')) == outcome
+        assert stage.says(_does('drive', 'City Hall')) == outcome
+
+
+def test_braking_slowing_and_yielding(make_stage: Any) -> None:
+    hard, soft = make_stage(), make_stage()
+    hard.drive('car1', 'car', lambda t: np.interp(t, [20, 22], [10, 0]))
+    soft.drive('car1', 'car', lambda t: np.interp(t, [20, 32], [10, 0]))
+    assert hard.says(_does('brake')) == 'holds'
+    assert soft.says(_does('brake')) == 'does_not'
+    assert soft.says(_does('slow')) == 'holds'
+    assert hard.says(_does('yield')) == 'cannot_tell'
+    steady = make_stage()
+    steady.drive('car1', 'car', 10.0)
+    assert steady.says(_does('slow')) == 'does_not'
+    assert steady.says(_does('yield')) == 'does_not'
+
+
+def test_yielding_to_whom(make_stage: Any) -> None:
+    for start, outcome in ((20.0, 'does_not'), (4.0, 'holds')):
+        stage = make_stage()
+        y = np.interp(stage.t, [start, start + 6], [-7.5, 5.0])
+        stage.ground('ped1', 'pedestrian', 100.0, y, heading=(0.0, 1.0))
+        stage.drive('car1', 'car', lambda t: np.interp(t, [5, 8, 12, 14], [8, 4, 4, 8]))
+        assert stage.says(_does('yield', 'ped1')) == outcome
+
+
+def test_crossing_and_walking(make_stage: Any) -> None:
+    stage = make_stage()
+    y = np.interp(stage.t, [20, 29], [-7.5, 5.0])
+    stage.ground('ped1', 'pedestrian', 100.0, y, heading=(0.0, 1.0))
+    cross = {**_does('cross', 'crosswalk'), 'agent': 'ped1'}
+    assert stage.says(cross) == 'holds'
+    assert stage.says({**cross, 'target': 'intersection'}) == 'does_not'
+    away = make_stage()
+    away.ground('ped1', 'pedestrian', 10.0, y, heading=(0.0, 1.0))
+    assert away.says(cross) == 'does_not'
+    walk = {**_does('walk', 'sidewalk'), 'agent': 'ped1'}
+    along = make_stage()
+    along.ground('ped1', 'pedestrian', 1.4 * along.t, 4.5)
+    assert along.says({**walk, 'speed_mps': 1.4}) == 'holds'
+    assert along.says({**walk, 'speed_mps': 3}) == 'does_not'
+    assert along.says(cross) == 'does_not'
+    still = make_stage()
+    still.ground('ped1', 'pedestrian', 0.0, 4.5)
+    assert still.says(walk) == 'does_not'
+    car = make_stage()
+    car.drive('car1', 'car', 2.0)
+    assert car.says(_does('walk')) == 'does_not'
+
+
+def test_changing_lane(make_stage: Any) -> None:
+    for end, outcome in ((-4.95, 'holds'), (-1.65, 'does_not')):
+        stage = make_stage()
+        stage.drive('car1', 'car', 4.0, y=np.interp(stage.t, [20, 22], [-1.65, end]))
+        assert stage.says(_does('change_lane')) == outcome
+        opposite = {'holds': 'does_not', 'does_not': 'holds'}[outcome]
+        assert stage.says(_does('change_lane', negate=True)) == opposite
+
+
+@pytest.mark.parametrize(
+    ('sign', 'kind', 'outcome'),
+    [(1, 'turn_left', 'holds'), (1, 'turn_right', 'does_not'), (-1, 'turn_right', 'holds'),
+     (0, 'turn_left', 'does_not')],
+)  # fmt: skip
+def test_turning_at_the_junction(stage: Any, sign: int, kind: str, outcome: str) -> None:
+    way = 8.0 * stage.t
+    bend = np.clip((way - 290.0) / 15.0, 0.0, 1.0) * np.pi / 2.0 * sign
+    step = np.diff(way, prepend=0.0)
+    stage.ground(
+        'car1', 'car', np.cumsum(step * np.cos(bend)), np.cumsum(step * np.sin(bend)) - 1.65
+    )
+    assert stage.says(_does(kind, 'intersection')) == outcome
+
+
+def test_behaviour_of_or_towards_nobody_does_not_hold(stage: Any) -> None:
+    stage.drive('car1', 'car', 8.0)
+    bus = {'kind': 'agent', 'ref': 'bus1', 'type': 'bus'}
+    assert stage.says(_does('follow', 'bus1'), bus) == 'does_not'
+    assert stage.says({**_does('drive'), 'agent': 'bus1'}, bus) == 'does_not'
+    assert stage.says(_does('drive', 'Atlantis')) == 'cannot_tell'

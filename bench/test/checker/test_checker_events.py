@@ -1,0 +1,353 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Events: when a trigger fires, and what has to follow."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+
+def _event(on: dict[str, Any] | None, do: dict[str, Any] | None, **more: Any) -> dict[str, Any]:
+    found: dict[str, Any] = {'kind': 'event', 'ref': 'e1', **more}
+    if on is not None:
+        found['trigger'] = on
+    if do is not None:
+        found['action'] = do
+    return found
+
+
+AT_20 = {'on': 'time', 'at_s': 20}
+
+
+def _does(do: str, **more: Any) -> dict[str, Any]:
+    return {'do': do, 'agent': 'car1', **more}
+
+
+def _profile(*points: tuple[float, float]) -> Any:
+    times, speeds = zip(*points, strict=True)
+    return lambda t: np.interp(t, times, speeds)
+
+
+@pytest.mark.parametrize(
+    ('profile', 'outcome'),
+    [
+        ([(0, 10), (20.3, 10), (23, 0), (60, 0)], 'holds'),
+        ([(0, 10), (20.3, 10), (23, 0), (24, 0), (30, 8)], 'does_not'),
+        ([(0, 10), (20.3, 10), (23, 2), (60, 2)], 'does_not'),
+        ([(0, 10), (22.5, 10), (25, 0), (60, 0)], 'does_not'),
+        ([(0, 10), (10, 10), (13, 0), (60, 0)], 'holds'),
+        ([(0, 10), (60, 10)], 'does_not'),
+        ([(0, 10), (20.3, 10), (60, 0)], 'cannot_tell'),
+    ],
+)
+def test_stop_is_rest_for_two_seconds(stage: Any, profile: Any, outcome: str) -> None:
+    stage.drive('car1', 'car', _profile(*profile))
+    assert stage.says(_event(AT_20, _does('stop'))) == outcome
+
+
+@pytest.mark.parametrize(
+    ('value', 'end', 'outcome'),
+    [(5.0, 5.0, 'holds'), (5.0, 5.9, 'holds'), (5.0, 6.2, 'does_not'), (None, 6.2, 'does_not'),
+     (None, 4.9, 'holds'), (12.0, 10.0, 'holds')],
+)  # fmt: skip
+def test_slow_to_a_speed_or_to_half(
+    stage: Any, value: float | None, end: float, outcome: str
+) -> None:
+    stage.drive('car1', 'car', _profile((0, 10), (20.3, 10), (23, end), (60, end)))
+    more = {} if value is None else {'value_mps': value}
+    assert stage.says(_event(AT_20, _does('slow', **more))) == outcome
+
+
+@pytest.mark.parametrize(
+    ('value', 'end', 'outcome'),
+    [(14.0, 13.0, 'holds'), (14.0, 12.0, 'does_not'), (None, 14.1, 'holds'),
+     (None, 12.0, 'does_not')],
+)  # fmt: skip
+def test_accelerate(stage: Any, value: float | None, end: float, outcome: str) -> None:
+    stage.drive('car1', 'car', _profile((0, 10), (20.3, 10), (23, end), (60, end)))
+    more = {} if value is None else {'value_mps': value}
+    assert stage.says(_event(AT_20, _does('accelerate', **more))) == outcome
+
+
+@pytest.mark.parametrize(
+    ('seconds', 'outcome'), [(2.0, 'holds'), (4.0, 'cannot_tell'), (12.0, 'does_not')]
+)
+def test_brake_is_hard(stage: Any, seconds: float, outcome: str) -> None:
+    stage.drive('car1', 'car', _profile((0, 10), (20.3, 10), (20.3 + seconds, 0), (60, 0)))
+    assert stage.says(_event(AT_20, _does('brake'))) == outcome
+
+
+@pytest.mark.parametrize(
+    ('start', 'value', 'end', 'outcome'),
+    [
+        (20.2, None, 8.0, 'holds'),
+        (22.0, None, 8.0, 'does_not'),
+        (15.0, None, 8.0, 'does_not'),
+        (20.2, 8.0, 8.0, 'holds'),
+        (20.2, 14.0, 8.0, 'does_not'),
+    ],
+)
+def test_start_is_neither_early_nor_late_nor_slow(
+    stage: Any, start: float, value: float | None, end: float, outcome: str
+) -> None:
+    stage.drive('car1', 'car', _profile((0, 0), (start, 0), (start + 4, end), (60, end)))
+    more = {} if value is None else {'value_mps': value}
+    assert stage.says(_event(AT_20, _does('start', **more))) == outcome
+
+
+def test_start_that_moved_from_the_beginning_does_not_hold(stage: Any) -> None:
+    stage.drive('car1', 'car', 8.0)
+    assert stage.says(_event(AT_20, _does('start'))) == 'does_not'
+    assert stage.says(_event(None, _does('start'))) == 'does_not'
+
+
+@pytest.mark.parametrize(
+    ('at', 'back', 'outcome'),
+    [(20.5, None, 'holds'), (None, None, 'does_not'), (35.0, None, 'does_not'),
+     (10.0, None, 'does_not'), (20.5, 22.6, 'does_not')],
+)  # fmt: skip
+def test_change_of_lane_is_held(
+    stage: Any, at: float | None, back: float | None, outcome: str
+) -> None:
+    lateral = np.full_like(stage.t, -1.65)
+    if at is not None:
+        lateral = np.interp(stage.t, [at, at + 2.0], [-1.65, -4.95])
+    if back is not None:
+        lateral = np.where(
+            stage.t > back, np.interp(stage.t, [back, back + 1], [-4.95, -1.65]), lateral
+        )
+    stage.drive('car1', 'car', 4.0, y=lateral)
+    assert stage.says(_event(AT_20, _does('change_lane'))) == outcome
+
+
+def _walker(stage: Any, start: float, end_y: float = 5.0) -> None:
+    y = np.interp(stage.t, [start, start + 9.0], [-7.5, end_y])
+    stage.ground('ped1', 'pedestrian', 100.0, y, heading=(0.0, 1.0))
+
+
+@pytest.mark.parametrize(
+    ('start', 'end_y', 'outcome'),
+    [(20.3, 5.0, 'holds'), (15.0, 5.0, 'does_not'), (26.0, 5.0, 'does_not'),
+     (20.3, -7.0, 'does_not'), (20.3, 0.0, 'cannot_tell')],
+)  # fmt: skip
+def test_crossing_is_from_kerb_to_kerb(
+    stage: Any, start: float, end_y: float, outcome: str
+) -> None:
+    _walker(stage, start, end_y)
+    assert stage.says(_event(AT_20, {'do': 'cross', 'agent': 'ped1'})) == outcome
+
+
+def test_yield_lets_the_other_pass_first(make_stage: Any) -> None:
+    near = {'on': 'distance_below', 'a': 'car1', 'b': 'ped1', 'value_m': 30}
+    for wait, outcome in ((True, 'holds'), (False, 'does_not')):
+        stage = make_stage()
+        _walker(stage, 10.0)
+        slow = _profile((0, 8), (8, 8), (10, 0), (22, 0), (24, 8), (60, 8))
+        stage.drive('car1', 'car', slow if wait else 8.0, x=10.0 if wait else 0.0)
+        asked = _event(near, _does('yield'))
+        assert stage.says(asked) == outcome
+
+
+def _talk(stage: Any, sent: float, **more: Any) -> None:
+    stage.uav('drone', lambda t: (0, 0, 40))
+    stage.ground('car1', 'car', 50.0, 0.0)
+    stage.message('drone', 'car1', sent, **more)
+
+
+SEND = {'do': 'send_message', 'sender': 'drone', 'receiver': 'car1'}
+
+
+@pytest.mark.parametrize(
+    ('sent', 'latency', 'outcome'),
+    [(20.0, 0.1, 'holds'), (20.9, 0.1, 'holds'), (21.4, 0.1, 'does_not'), (19.0, 0.1, 'does_not'),
+     (20.0, 3.0, 'does_not'), (20.0, None, 'does_not')],
+)  # fmt: skip
+def test_a_message_is_sent_in_time_and_received(
+    stage: Any, sent: float, latency: float | None, outcome: str
+) -> None:
+    _talk(stage, sent, latency=latency, losses=4 if latency is None else 0)
+    assert stage.says(_event(AT_20, SEND)) == outcome
+
+
+def test_a_link_without_retransmissions_may_lose_it(stage: Any) -> None:
+    _talk(stage, 20.0, latency=None, losses=1)
+    link = {
+        'kind': 'link', 'sender': 'drone', 'receiver': 'car1', 'loss': 0.5, 'retransmissions': 0,
+    }  # fmt: skip
+    assert stage.says(_event(AT_20, SEND), link) == 'holds'
+    assert stage.says(_event(AT_20, SEND)) == 'does_not'
+
+
+def test_a_message_from_the_ground_does_not_hold(stage: Any) -> None:
+    stage.uav('drone', lambda t: (0, 0, 40), start_s=30.0)
+    stage.ground('car1', 'car', 50.0, 0.0)
+    stage.message('drone', 'car1', 0.1)
+    assert stage.says(_event({'on': 'time', 'at_s': 0}, SEND)) == 'does_not'
+
+
+def test_distance_fires_when_it_is_crossed(make_stage: Any) -> None:
+    on = {'on': 'distance_below', 'a': 'car1', 'b': 'bus1', 'value_m': 30}
+    for sent, outcome in ((25.0, 'holds'), (22.0, 'does_not'), (29.0, 'does_not')):
+        stage = make_stage()
+        stage.drive('car1', 'car', 4.0, x=-130.0)
+        stage.ground('bus1', 'bus', 0.0, -1.65)
+        stage.ground('rsu1', 'rsu', 0.0, 8.0)
+        stage.message('rsu1', 'car1', sent)
+        asked = _event(on, {'do': 'send_message', 'sender': 'rsu1', 'receiver': 'car1'})
+        assert stage.says(asked) == outcome
+
+
+def test_a_trigger_that_never_fires_does_not_hold(stage: Any) -> None:
+    stage.drive('car1', 'car', 4.0)
+    stage.ground('bus1', 'bus', -100.0, 20.0)
+    on = {'on': 'distance_below', 'a': 'car1', 'b': 'bus1', 'value_m': 30}
+    asked = _event(on, _does('brake'))
+    assert stage.says(asked) == 'does_not'
+    assert stage.says({**asked, 'negate': True}) == 'holds'
+    assert stage.says(_event({**on, 'b': 'Atlantis'}, _does('brake'))) == 'cannot_tell'
+    assert stage.says(_event({'on': 'full_moon'}, _does('brake'))) == 'cannot_tell'
+
+
+@pytest.mark.parametrize(
+    'trigger',
+    [
+        {'on': 'distance_above', 'a': 'car1', 'b': 'bus1', 'value_m': 80},
+        {'on': 'speed_above', 'who': 'car1', 'value_mps': 8},
+        {'on': 'altitude_reached', 'uav': 'drone', 'value_m': 50},
+        {'on': 'visible', 'observer': 'drone', 'target': 'bus1'},
+        {'on': 'arrives', 'who': 'car1', 'place': 'City Hall'},
+        {'on': 'mission_done', 'uav': 'drone'},
+        {'on': 'battery_below', 'uav': 'drone', 'value': 0.98},
+        {'on': 'message_received', 'by': 'car1', 'from': 'drone'},
+    ],
+)
+def test_every_trigger_fires_at_its_time(stage: Any, trigger: dict[str, Any]) -> None:
+    """The bus starts when it happens; the same scene with a bus that starts late does not hold."""
+    t = stage.t
+    gain = np.interp(t, [29, 31], [4, 12])
+    stage.drive('car1', 'car', gain, x=0.0)
+    car = np.concatenate([[0.0], np.cumsum(gain[1:] * 0.1)])
+    stage.uav(
+        'drone',
+        lambda t: (210.0, np.where(t < 40, 15.0, -70.0), np.interp(t, [20, 30], [30, 55])),
+        ends=(45.0,),
+    )
+    stage.message('drone', 'car1', 29.9)
+    when = {
+        'distance_above': float(t[np.flatnonzero(np.hypot(car + 60.0, 40.0) > 80.0)[0]]),
+        'speed_above': 30.0,
+        'altitude_reached': 27.6,
+        'visible': 40.0,
+        'arrives': float(t[np.abs(car - 210.0).argmin()]),
+        'mission_done': 45.0,
+        'battery_below': 30.0,
+        'message_received': 30.0,
+    }[trigger['on']]
+    if trigger['on'] == 'battery_below':
+        trigger = {**trigger, 'value': 1.0 - (30.0 - 0.1) / 1500.0}
+    x = np.full_like(t, -60.0)
+    if trigger['on'] == 'visible':
+        # Behind the tower at (40 to 60, 20 to 40) until the UAV has moved.
+        x = np.full_like(t, -5.0)
+    for late, outcome in ((0.4, 'holds'), (9.0, 'does_not')):
+        begun = np.maximum(t - (when + late), 0.0)
+        again = type(stage)()
+        again._ground, again._uavs, again._ledger = (
+            list(stage._ground), list(stage._uavs), list(stage._ledger),
+        )  # fmt: skip
+        y = 38.35
+        if trigger['on'] == 'visible':
+            y = 40.0
+        again.ground('bus1', 'bus', x - 2.0 * begun, y)
+        asked = _event(trigger, {'do': 'start', 'agent': 'bus1'})
+        assert again.says(asked) == outcome, (trigger['on'], again.answer(asked).why)
+
+
+def test_occluded_and_slower_than(stage: Any) -> None:
+    stage.ground('bus1', 'bus', 50.0, 0.0)
+    stage.uav('drone', lambda t: (50, np.where(t < 30, -60, 100), 30))
+    stage.drive('car1', 'car', _profile((0, 8), (29, 8), (32, 0), (60, 0)), x=-200.0)
+    lost = {'on': 'occluded', 'observer': 'drone', 'target': 'bus1'}
+    assert stage.says(_event(lost, _does('stop'))) == 'holds'
+    assert stage.says(_event(lost, _does('accelerate'))) == 'does_not'
+    assert (
+        stage.says(_event({'on': 'speed_below', 'who': 'car1', 'value_mps': 7.0}, None)) == 'holds'
+    )
+    climb = {'do': 'ascend', 'uav': 'drone', 'altitude_m': 60}
+    assert stage.says(_event(lost, climb)) == 'does_not'
+
+
+@pytest.mark.parametrize(('top', 'outcome'), [(60.0, 'holds'), (55.0, 'does_not')])
+def test_ascend(stage: Any, top: float, outcome: str) -> None:
+    stage.uav('drone', lambda t: (0, 0, np.interp(t, [20.5, 28], [40, top])))
+    climb = {'do': 'ascend', 'uav': 'drone', 'altitude_m': 60}
+    assert stage.says(_event(AT_20, climb)) == outcome
+    assert stage.says(_event({'on': 'time', 'at_s': 40}, climb)) == (
+        'holds' if top == 60.0 else 'does_not'
+    )
+
+
+def test_land_return_and_change_of_mission(stage: Any) -> None:
+    stage.uav('drone', lambda t: (np.where(t < 30, 210, 0), np.where(t < 30, 15, 0), 40),
+              ends=(30.0, 45.0))  # fmt: skip
+    land = {'do': 'land', 'uav': 'drone'}
+    assert stage.says(_event({'on': 'mission_done', 'uav': 'drone'}, land)) == 'holds'
+    assert stage.says(_event({'on': 'time', 'at_s': 45}, land)) == 'holds'
+    assert stage.says(_event({'on': 'time', 'at_s': 30}, land)) == 'does_not'
+    home = {'do': 'return_home', 'uav': 'drone'}
+    assert stage.says(_event({'on': 'time', 'at_s': 45}, home)) == 'does_not'
+    change = {'do': 'change_mission', 'uav': 'drone', 'mode': 'hover', 'altitude_m': 40}
+    at_30 = {'on': 'time', 'at_s': 30}
+    assert stage.says(_event(at_30, change)) == 'holds'
+    assert stage.says(_event(at_30, {**change, 'altitude_m': 60})) == 'does_not'
+    assert stage.says(_event(AT_20, change)) == 'does_not'
+
+
+def test_a_delay_and_a_chain_count_from_completion(make_stage: Any) -> None:
+    first = _event(AT_20, _does('stop'))
+    then = _event(
+        {'on': 'event_done', 'event': 'e1', 'after_s': 5},
+        {'do': 'start', 'agent': 'bus1'},
+        ref='e2',
+    )
+    order = {'kind': 'order', 'first': 'e1', 'then': 'e2'}
+
+    def played(start: float) -> Any:
+        stage = make_stage()
+        stage.drive('car1', 'car', _profile((0, 10), (20, 10), (23, 0), (60, 0)))
+        stage.drive('bus1', 'bus', _profile((0, 0), (start, 0), (start + 4, 8)), x=-100)
+        return stage
+
+    delayed = {**_event(AT_20, {'do': 'start', 'agent': 'bus1'}, ref='e3'), 'delay_s': 8}
+    for start, outcome in ((28.3, 'holds'), (25.0, 'does_not'), (33.0, 'does_not')):
+        assert played(start).says(then, first) == outcome
+        assert played(start).says(delayed, first) == outcome
+    stage = played(28.3)
+    assert stage.says(order, first, then) == 'holds'
+    assert stage.says({**order, 'within_s': 3}, first, then) == 'does_not'
+    assert stage.says({**order, 'first': 'e2', 'then': 'e1'}, first, then) == 'does_not'
+    assert stage.says({**order, 'then': 'e9'}, first, then) == 'cannot_tell'
+
+
+def test_the_time_of_an_event(stage: Any) -> None:
+    stage.drive('car1', 'car', _profile((0, 10), (20, 10), (23, 0), (60, 0)))
+    stop = _event(None, _does('stop'))
+    early = {'kind': 'condition', 'quantity': 'event_time', 'of': ['e1'], 'op': '<=', 'value': 24}
+    assert stage.says(early, stop) == 'holds'
+    assert stage.says({**early, 'value': 15}, stop) == 'does_not'
+    assert stage.says({**early, 'of': ['e7']}, stop) == 'cannot_tell'
+
+
+def test_events_that_wait_for_each_other_end(stage: Any) -> None:
+    stage.drive('car1', 'car', 5.0)
+    one = _event({'on': 'event_done', 'event': 'e2'}, _does('stop'))
+    two = _event({'on': 'event_done', 'event': 'e1'}, _does('brake'), ref='e2')
+    assert stage.says(one, two) == 'cannot_tell'
+
+
+def test_an_event_of_a_body_that_is_not_there_does_not_hold(stage: Any) -> None:
+    bus = {'kind': 'agent', 'ref': 'bus1', 'type': 'bus'}
+    assert stage.says(_event(AT_20, {'do': 'stop', 'agent': 'bus1'}), bus) == 'does_not'

@@ -1,0 +1,255 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Hovering, tracking and routes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+import pytest
+
+HOVER = {
+    'kind': 'mission',
+    'ref': 'm1',
+    'uav': 'drone',
+    'mode': 'hover',
+    'target': 'City Hall',
+    'altitude_m': 50,
+    'duration_s': 40,
+}
+TRACK = {
+    'kind': 'mission',
+    'ref': 'm1',
+    'uav': 'drone',
+    'mode': 'track',
+    'target': 'car1',
+    'altitude_m': 40,
+    'standoff_m': 30,
+}
+Motion = Callable[[Any], tuple[Any, Any, Any]]
+
+
+def _route(points: Sequence[tuple[float, float]], z: float, speed: float, start: float) -> Motion:
+    """Fly from point to point from a time on."""
+    legs = np.linalg.norm(np.diff(np.array(points), axis=0), axis=1)
+    marks = start + np.concatenate([[0.0], np.cumsum(legs)]) / speed
+
+    def motion(t: Any) -> tuple[Any, Any, Any]:
+        xs, ys = zip(*points, strict=True)
+        return np.interp(t, marks, xs), np.interp(t, marks, ys), z
+
+    return motion
+
+
+@pytest.mark.parametrize(
+    ('change', 'outcome'),
+    [
+        ({}, 'holds'),
+        ({'altitude_m': 51.9}, 'holds'),
+        ({'altitude_m': 52.1}, 'does_not'),
+        ({'duration_s': 40.8}, 'holds'),
+        ({'duration_s': 42}, 'does_not'),
+        ({'target': 'intersection'}, 'does_not'),
+        ({'target': 'Atlantis'}, 'cannot_tell'),
+        ({'mode': 'track', 'target': 'City Hall'}, 'cannot_tell'),
+    ],
+)
+def test_a_hover_is_where_as_high_and_as_long_as_asked(
+    stage: Any, change: dict[str, Any], outcome: str
+) -> None:
+    stage.uav('drone', lambda t: (210, 15, 50))
+    assert stage.says({**HOVER, **change}) == outcome
+
+
+def test_a_hover_beside_its_place_does_not_hold(stage: Any) -> None:
+    stage.uav('drone', lambda t: (210, -2, 50))
+    assert stage.says({**HOVER, 'target': 'City Hall'}) == 'does_not'
+
+
+@pytest.mark.parametrize(('drift', 'outcome'), [(1.5, 'holds'), (6.0, 'does_not')])
+def test_a_hover_stays(stage: Any, drift: float, outcome: str) -> None:
+    stage.uav('drone', lambda t: (210 + drift * (np.abs(t - 35) < 2), 15, 50))
+    assert stage.says({**HOVER, 'duration_s': 40}) == outcome
+
+
+def test_altitude_of_a_range_is_judged_by_the_range(stage: Any) -> None:
+    stage.uav('drone', lambda t: (210, 15, 43))
+    asked = {**HOVER, 'id': 'm', 'altitude_m': 40}
+    assert stage.says(asked) == 'does_not'
+    assert stage.says(asked, variation={'m.altitude_m': [36, 44]}) == 'holds'
+    assert stage.says(asked, variation={'m.altitude_m': [36, 42]}) == 'does_not'
+
+
+def test_a_hover_out_of_sight_of_its_target_does_not_hold(stage: Any) -> None:
+    stage.uav('drone', lambda t: (210, 15, 80))
+    stage.world = type(stage.world)(
+        **{
+            **{f: getattr(stage.world, f) for f in stage.world.__dataclass_fields__},
+            'weather': 'fog',
+        }
+    )
+    assert stage.says({**HOVER, 'altitude_m': 80}) == 'does_not'
+
+
+def test_a_flight_that_the_recording_cuts_has_no_duration(stage: Any) -> None:
+    stage.uav('drone', lambda t: (210, 15, 50), ends=(60.1,), lands=False)
+    assert stage.says({**HOVER, 'duration_s': 40}) == 'cannot_tell'
+    assert stage.says({**HOVER, 'duration_s': 80}) == 'does_not'
+
+
+def _tracking(stage: Any, offset: Any, height: Any = 40.0) -> None:
+    stage.drive('car1', 'car', 8.0)
+    stage.uav('drone', lambda t: (8.0 * t - offset, -1.65, height))
+
+
+@pytest.mark.parametrize(
+    ('offset', 'outcome'),
+    [(30.0, 'holds'), (34.9, 'holds'), (35.2, 'does_not'), (24.0, 'does_not')],
+)
+def test_tracking_keeps_the_asked_standoff(stage: Any, offset: float, outcome: str) -> None:
+    _tracking(stage, offset)
+    assert stage.says(TRACK) == outcome
+
+
+@pytest.mark.parametrize(('lost', 'outcome'), [(7.0, 'holds'), (9.0, 'does_not')])
+def test_tracking_may_be_lost_for_a_fifth_of_the_time(
+    stage: Any, lost: float, outcome: str
+) -> None:
+    stage.drive('car1', 'car', 8.0)
+    away = lambda t: 30.0 + 30.0 * ((t > 20.0) & (t < 20.0 + lost))  # noqa: E731
+    stage.uav('drone', lambda t: (8.0 * t - away(t), -1.65, 40.0))
+    assert stage.says(TRACK) == outcome
+
+
+def test_tracking_behind_is_not_ahead(stage: Any) -> None:
+    _tracking(stage, 30.0)
+    assert stage.says({**TRACK, 'side': 'behind'}) == 'holds'
+    assert stage.says({**TRACK, 'side': 'ahead'}) == 'does_not'
+
+
+def test_standing_still_is_not_tracking(stage: Any) -> None:
+    stage.drive('car1', 'car', 8.0)
+    stage.uav('drone', lambda t: (100, 0, 40))
+    without = {k: v for k, v in TRACK.items() if k != 'standoff_m'}
+    assert stage.says(without) == 'does_not'
+
+
+def test_a_mission_of_a_uav_that_is_not_there_does_not_hold(stage: Any) -> None:
+    stage.drive('car1', 'car', 8.0)
+    assert stage.says(TRACK, {'kind': 'uav', 'ref': 'drone'}) == 'does_not'
+
+
+RECTANGLE = {
+    'kind': 'mission',
+    'ref': 'm1',
+    'uav': 'drone',
+    'mode': 'navigate',
+    'pattern': 'rectangle',
+    'altitude_m': 40,
+}
+
+
+def _flies(stage: Any, points: Sequence[tuple[float, float]], speed: float = 10.0) -> None:
+    stage.uav('drone', _route(points, 40.0, speed, 12.0), ends=(58.0,))
+
+
+@pytest.mark.parametrize(
+    ('size', 'outcome'),
+    [([120, 80], 'holds'), ([80, 120], 'holds'), ([100, 80], 'does_not'), ([140, 80], 'does_not')],
+)
+def test_a_rectangle_has_its_size(stage: Any, size: list[int], outcome: str) -> None:
+    round_trip = [(0, -30), (0, 0), (120, 0), (120, 80), (0, 80), (0, 0)]
+    _flies(stage, round_trip)
+    assert stage.says({**RECTANGLE, 'size_m': size}) == outcome
+
+
+def test_a_rectangle_left_open_does_not_hold(stage: Any) -> None:
+    _flies(stage, [(0, 0), (120, 0), (120, 80), (0, 80)])
+    assert stage.says({**RECTANGLE, 'size_m': [120, 80]}) == 'does_not'
+
+
+def test_a_rectangle_is_centred_on_its_place(make_stage: Any) -> None:
+    for x, outcome in ((150.0, 'holds'), (180.0, 'does_not')):
+        stage = make_stage()
+        corners = [(x, -25), (x + 120, -25), (x + 120, 55), (x, 55), (x, -25)]
+        _flies(stage, [(float(a), float(b)) for a, b in corners])
+        asked = {**RECTANGLE, 'size_m': [120, 80], 'target': 'City Hall'}
+        assert stage.says(asked) == outcome
+
+
+@pytest.mark.parametrize(('speed', 'outcome'), [(9.2, 'holds'), (10.8, 'holds'), (12, 'does_not')])
+def test_the_legs_are_flown_at_the_speed(stage: Any, speed: float, outcome: str) -> None:
+    _flies(stage, [(0, 0), (120, 0), (120, 80), (0, 80), (0, 0)], speed)
+    assert stage.says({**RECTANGLE, 'size_m': [120, 80], 'speed_mps': 10}) == outcome
+
+
+def test_a_line_and_a_lawnmower(make_stage: Any) -> None:
+    line = {**RECTANGLE, 'pattern': 'line'}
+    stage = make_stage()
+    _flies(stage, [(0, 30), (0, 0), (300, 0)])
+    assert stage.says({**line, 'size_m': [300, 0]}) == 'holds'
+    assert stage.says({**line, 'size_m': [270, 0]}) == 'does_not'
+    mower = {**RECTANGLE, 'pattern': 'lawnmower'}
+    stage = make_stage()
+    legs = [(0, 0), (100, 0), (100, 20), (0, 20), (0, 40), (100, 40)]
+    _flies(stage, [(float(a), float(b)) for a, b in legs])
+    assert stage.says({**mower, 'size_m': [100, 40]}) == 'holds'
+    assert stage.says({**mower, 'size_m': [200, 40]}) == 'does_not'
+
+
+@pytest.mark.parametrize(
+    ('turned', 'radius', 'outcome'),
+    [(1.0, 60, 'holds'), (0.8, 60, 'does_not'), (1.0, 75, 'does_not'), (1.0, 65, 'holds')],
+)
+def test_an_orbit(stage: Any, turned: float, radius: float, outcome: str) -> None:
+    def motion(t: Any) -> tuple[Any, Any, Any]:
+        angle = np.clip((t - 12.0) / 45.0, 0.0, 1.0) * 2.0 * np.pi * turned
+        return 210 + 60 * np.cos(angle), 15 + 60 * np.sin(angle), 40.0
+
+    stage.uav('drone', motion, ends=(58.0,))
+    asked = {**RECTANGLE, 'pattern': 'orbit', 'radius_m': radius, 'target': 'City Hall'}
+    assert stage.says(asked) == outcome
+
+
+def test_waypoints_in_line_cannot_be_told(stage: Any) -> None:
+    _flies(stage, [(0, 0), (100, 0), (100, 80), (200, 80)])
+    asked = {**RECTANGLE, 'pattern': 'waypoints'}
+    assert stage.says({**asked, 'waypoint_count': 3}) == 'holds'
+    assert stage.says({**asked, 'waypoint_count': 5}) == 'cannot_tell'
+
+
+def test_a_place_to_be_avoided(stage: Any) -> None:
+    _flies(stage, [(0, 0), (180, 0), (180, 80), (0, 80), (0, 0)], 12.0)
+    route = {**RECTANGLE, 'size_m': [180, 80]}
+    assert stage.says({**route, 'avoid': ['City Hall'], 'avoid_m': 15}) == 'holds'
+    assert stage.says({**route, 'avoid': ['City Hall'], 'avoid_m': 40}) == 'does_not'
+
+
+def test_two_missions_are_two_flights_in_their_order(stage: Any) -> None:
+    def motion(t: Any) -> tuple[Any, Any, Any]:
+        return 210, 15, np.where(t < 30.0, 30.0, 60.0)
+
+    stage.uav('drone', motion, ends=(30.0, 50.0))
+    low = {**HOVER, 'ref': 'low', 'altitude_m': 30, 'duration_s': 20}
+    high = {**HOVER, 'ref': 'high', 'altitude_m': 60, 'duration_s': 20}
+    order = {'kind': 'order', 'first': 'low', 'then': 'high'}
+    assert stage.says(low, high) == 'holds'
+    assert stage.says(high, low) == 'holds'
+    assert stage.says(order, low, high) == 'holds'
+    assert stage.says({**order, 'first': 'high', 'then': 'low'}, low, high) == 'does_not'
+    twice = {**low, 'ref': 'again'}
+    assert stage.outcomes(low, twice, high) == ['holds', 'does_not', 'holds']
+
+
+def test_a_mission_is_judged_until_an_annotated_climb(stage: Any) -> None:
+    stage.uav('drone', lambda t: (210, 15, np.interp(t, [30, 35], [50, 70])))
+    climb = {
+        'kind': 'event',
+        'ref': 'e1',
+        'trigger': {'on': 'time', 'at_s': 30},
+        'action': {'do': 'ascend', 'uav': 'drone', 'altitude_m': 70},
+    }
+    assert stage.says(HOVER) == 'does_not'
+    assert stage.says(HOVER, climb) == 'holds'
