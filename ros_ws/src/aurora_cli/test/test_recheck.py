@@ -89,6 +89,7 @@ def test_the_recheck_knows_nothing_of_the_checker_but_its_document() -> None:
     }
     assert used == {
         'aurora_core.feasibility.verdict',
+        'aurora_core.files',
         'aurora_core.knowledge.config_files',
         'aurora_core.spec.vocabulary',
     }
