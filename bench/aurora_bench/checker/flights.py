@@ -217,7 +217,7 @@ def over_road(xy: FloatArray, places: Places) -> Judged:
             inside = shapely.distance(road, shapely.points(points)) <= limits.WAYPOINT_M
             shares.append(float(np.mean(inside)))
     best = max(shares, default=0.0)
-    return graded(best >= 0.9, best >= 0.5, f'{best:.0%} of the best leg lies over a carriageway')
+    return graded(best >= 0.9, best >= 0.75, f'{best:.0%} of the best leg lies over a carriageway')
 
 
 def centred(centre: FloatArray | None, places: Places, name: str) -> Judged:

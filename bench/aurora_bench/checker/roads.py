@@ -107,7 +107,8 @@ def passed_first(case: Case, first: str, second: str) -> tuple[bool, float] | No
         point = np.array(geometry.centroid.coords[0])
         time_a = int(np.linalg.norm(a - point, axis=1).argmin())
         time_b = int(np.linalg.norm(b - point, axis=1).argmin())
-        if abs(time_a - time_b) * step * scene.dt_s < 60.0:
+        # Who is past the point from the start has not passed it before the other.
+        if time_a and abs(time_a - time_b) * step * scene.dt_s < 60.0:
             return time_a < time_b, float(time_a * step * scene.dt_s)
     return None
 

@@ -67,7 +67,7 @@ class Stage:
     """
 
     def __init__(self, seconds: float = 60.0) -> None:
-        self.t: Array = np.arange(round(seconds / DT_S) + 1) * DT_S
+        self.t: Array = np.arange(round(seconds / DT_S) + 1, dtype=np.float64) * DT_S
         self.world = a_world()
         self._ground: list[tuple[Body, Array]] = []
         self._uavs: list[tuple[Body, Array, Array]] = []

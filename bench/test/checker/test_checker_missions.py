@@ -118,8 +118,8 @@ def test_tracking_may_be_lost_for_a_fifth_of_the_time(
     stage: Any, lost: float, outcome: str
 ) -> None:
     stage.drive('car1', 'car', 8.0)
-    away = lambda t: 30.0 + 30.0 * ((t > 20.0) & (t < 20.0 + lost))  # noqa: E731
-    stage.uav('drone', lambda t: (8.0 * t - away(t), -1.65, 40.0))
+    away = 30.0 + 30.0 * ((stage.t > 20.0) & (stage.t < 20.0 + lost))
+    stage.uav('drone', lambda t: (8.0 * t - away, -1.65, 40.0))
     assert stage.says(TRACK) == outcome
 
 
@@ -211,6 +211,15 @@ def test_an_orbit(stage: Any, turned: float, radius: float, outcome: str) -> Non
     stage.uav('drone', motion, ends=(58.0,))
     asked = {**RECTANGLE, 'pattern': 'orbit', 'radius_m': radius, 'target': 'City Hall'}
     assert stage.says(asked) == outcome
+
+
+@pytest.mark.parametrize(('y', 'outcome'), [(-1.65, 'holds'), (60.0, 'does_not')])
+def test_a_line_over_the_main_road_lies_over_a_carriageway(
+    stage: Any, y: float, outcome: str
+) -> None:
+    _flies(stage, [(-200, y), (200, y)])
+    line = {**RECTANGLE, 'pattern': 'line', 'size_m': [400, 0], 'target': 'main_road'}
+    assert stage.says(line) == outcome
 
 
 def test_waypoints_in_line_cannot_be_told(stage: Any) -> None:
