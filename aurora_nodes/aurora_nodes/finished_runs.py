@@ -27,13 +27,18 @@ class FinishedRun:
 
 
 def read_finished(root: Path, run_id: str) -> FinishedRun | None:
-    """Return a finished run, None when there is none (or its report cannot be read)."""
+    """Return a finished run, None when there is none.
+
+    Nor is there one when its report cannot be read, or is of another run.
+    """
     if not is_run_id(run_id):
         return None
     folder = root / run_id
     try:
         text = read_text(folder / REPORT, DOCUMENT_BYTES)
         report = json.loads(text)
+        if report['run_id'] != run_id:
+            return None
         return FinishedRun(
             run_id=run_id,
             run_dir=folder,

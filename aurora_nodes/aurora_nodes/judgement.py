@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from aurora_core.monitor.verdict import Finding, Verdict, VerdictStatus
 from aurora_core.pipeline.functions import graph_of, verify_content
-from aurora_core.report.verify_report import compare
+from aurora_core.report.comparison import compare
 from aurora_core.trace.bag_reader import BagContent
 from aurora_core.trace.hashing import trace_sha256
 

@@ -29,16 +29,12 @@ from rich.console import Console
 
 from aurora_core.errors import AuroraError, BagError, VerificationError
 from aurora_core.monitor.verdict import Verdict
-from aurora_core.report.find_bag import find_bag
+from aurora_core.pipeline.functions import graph_of
+from aurora_core.pipeline.verify_run import report_beside
+from aurora_core.report.comparison import Comparison, Difference, compare
+from aurora_core.report.find_bag import FoundBag, find_bag
 from aurora_core.report.status import ExitCode
 from aurora_core.report.terminal import print_verify
-from aurora_core.report.verify_report import (
-    Comparison,
-    Difference,
-    VerifyReport,
-    compare,
-    verify_exit_code,
-)
 from aurora_core.trace.bag_reader import content_of, read_stored
 from aurora_core.trace.definitions import message_definitions
 from aurora_msgs.msg import Verdict as VerdictMessage
@@ -93,7 +89,7 @@ def _options(arguments: Sequence[str]) -> argparse.Namespace:
     if options.rate is None and options.no_monitor:
         options.rate = 1.0
     try:
-        options.bag = find_bag(options.bag, options.iteration).bag
+        options.found = find_bag(options.bag, options.iteration)
     except BagError as err:
         parser.error(err.message)
     return options
@@ -105,7 +101,8 @@ def _replay(options: argparse.Namespace) -> ExitCode:
     Raises:
         AuroraError: The bag holds nothing to replay, or the replay could not be brought to an end.
     """
-    bag = read_stored(options.bag, message_definitions())
+    found: FoundBag = options.found
+    bag = read_stored(found.bag, message_definitions())
     content = content_of(bag.messages, bag.damage, where=str(bag.folder))
     plan = plan_replay(bag, content)
     # Beforehand: nothing is published of a bag with which no verdict could be compared.
@@ -128,16 +125,18 @@ def _replay(options: argparse.Namespace) -> ExitCode:
     )
     if judged is None or heard is None:
         return ExitCode.BROKEN if plan.damage else ExitCode.OK
-    report = _report(str(bag.folder), content.trace.ticks, judged, heard)
+    compared = _compared(judged, heard)
+    agsg = graph_of(content, str(bag.folder))
+    report = report_beside(found, content, agsg, judged.verdict, compared)
     if options.json:
         text = json.dumps(report.model_dump(mode='json'), indent=2, ensure_ascii=False)
         sys.stdout.write(f'{text}\n')
     else:
         print_verify(report, Console(file=sys.stdout))
-    return verify_exit_code(report)
+    return report.outcome.exit_code
 
 
-def _report(bag: str, ticks: int, judged: Judgement, heard: VerdictMessage) -> VerifyReport:
+def _compared(judged: Judgement, heard: VerdictMessage) -> Comparison:
     """Hold the monitor's verdict against the bag's.
 
     Raises:
@@ -150,22 +149,16 @@ def _report(bag: str, ticks: int, judged: Judgement, heard: VerdictMessage) -> V
             f'the monitor published a verdict that is not valid: {err}'
         ) from err
     recorded = compare(live, judged.verdict, _HEARD_LIVE)
-    if heard.trace_sha256 != judged.trace_sha256:
-        differs = Difference(
-            condition='trace',
-            recorded=None,
-            recomputed=None,
-            what=f'trace hash {heard.trace_sha256} instead of {judged.trace_sha256}',
-        )
-        recorded = Comparison(
-            file=recorded.file, equal=False, differences=(*recorded.differences, differs)
-        )
-    return VerifyReport(
-        bag=bag,
-        ticks=ticks,
-        trace_sha256=judged.trace_sha256,
-        verdict=judged.verdict,
-        recorded=recorded,
+    if heard.trace_sha256 == judged.trace_sha256:
+        return recorded
+    differs = Difference(
+        condition='trace',
+        recorded=None,
+        recomputed=None,
+        what=f'trace hash {heard.trace_sha256} instead of {judged.trace_sha256}',
+    )
+    return Comparison(
+        file=recorded.file, equal=False, differences=(*recorded.differences, differs)
     )
 
 

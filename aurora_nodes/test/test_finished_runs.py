@@ -21,7 +21,8 @@ def write(root: Path, run_id: str, text: str) -> None:
 
 def test_finished_runs_newest_first(tmp_path: Path) -> None:
     for run_id in (OLD, NEW):
-        write(tmp_path, run_id, json.dumps({'status': 'verified', 'prompt': run_id}))
+        report = {'run_id': run_id, 'status': 'verified', 'prompt': run_id}
+        write(tmp_path, run_id, json.dumps(report))
     (tmp_path / 'notes').mkdir()
     runs = list(list_finished(tmp_path))
     assert [run.run_id for run in runs] == [NEW, OLD]
@@ -30,7 +31,14 @@ def test_finished_runs_newest_first(tmp_path: Path) -> None:
     assert read_finished(tmp_path, OLD) == runs[1]
 
 
-@pytest.mark.parametrize('text', ['', '[]', '{"status": "verified"}', '"x"'])
+def test_the_report_of_another_run_is_none_of_this(tmp_path: Path) -> None:
+    report = {'run_id': NEW, 'status': 'verified', 'prompt': 'A drone hovers.'}
+    write(tmp_path, OLD, json.dumps(report))
+    assert read_finished(tmp_path, OLD) is None
+    assert list(list_finished(tmp_path)) == []
+
+
+@pytest.mark.parametrize('text', ['', '[]', '{"status": "verified"}', '"x"', '[' * 100_000])
 def test_a_report_that_cannot_be_read_is_no_finished_run(tmp_path: Path, text: str) -> None:
     write(tmp_path, OLD, text)
     assert read_finished(tmp_path, OLD) is None

@@ -25,7 +25,8 @@ from aurora_core.pipeline.functions import (
     recorded_plan,
     verify_content,
 )
-from aurora_core.report.recorded_trace import believed
+from aurora_core.report.doubts import doubted, trace_doubts
+from aurora_core.report.run_folder import REPORT
 from aurora_core.trace.bag_content import BagContent
 from aurora_core.trace.bag_metadata import METADATA
 from aurora_core.trace.definitions import MessageDefinitions
@@ -84,9 +85,9 @@ def unstamped_in_memory(mutant: Mutant, definitions: MessageDefinitions) -> Judg
             message.sha256 = mutant.base.agsg.sha256
             agsg = read_agsg(message, derived)
         sha256 = trace_sha256(mutant.trace, mutant.world)
-        trace = believed(mutant.trace, sha256, mutant.base.reported)
-        content = BagContent(trace=trace, world=mutant.world, agsg_message=None)
-        return verify_content(content, agsg, recompute=False)
+        content = BagContent(trace=mutant.trace, world=mutant.world, agsg_message=None)
+        found = verify_content(content, agsg, recompute=False)
+        return doubted(found, trace_doubts(found, sha256, mutant.base.reported.sha256, REPORT))
 
     return _judged(verdict)
 

@@ -78,6 +78,14 @@ Plots = Annotated[
     Path | None,
     typer.Option(metavar='DIR', help='Draw each condition over time into this folder (PNG, SVG).'),
 ]
+AsRecorded = Annotated[
+    bool,
+    typer.Option(
+        '--as-recorded',
+        help='Judge by the version, limits, tolerances and map that it was recorded with, though '
+        'others are installed here.',
+    ),
+]
 Anything = {'allow_extra_args': True, 'ignore_unknown_options': True}
 
 
@@ -169,14 +177,17 @@ def verify_bag(
     run_or_bag: RunOrBag,
     iteration: Iteration = None,
     plots: Plots = None,
+    as_recorded: AsRecorded = False,
     as_json: Json = False,
 ) -> None:
-    """Recompute every margin from the bag alone, and compare with the record."""
+    """Recompute every margin from the bag alone, and hold the bag against its run folder."""
 
     def command() -> int:
         from aurora_cli.commands.verify import verify_command
 
-        return verify_command(run_or_bag, iteration, plots, as_json=as_json)
+        return verify_command(
+            run_or_bag, iteration, plots, as_recorded=as_recorded, as_json=as_json
+        )
 
     _finish(command, as_json=as_json)
 

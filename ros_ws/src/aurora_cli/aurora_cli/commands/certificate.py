@@ -13,7 +13,8 @@ from aurora_cli.output import answer_console, print_json
 from aurora_cli.recheck import Outcome, recheck
 from aurora_core.errors import ReportError
 from aurora_core.feasibility.verdict import Certificate
-from aurora_core.files import DOCUMENT_BYTES, read_json, read_text
+from aurora_core.files import DOCUMENT_BYTES, read_bytes, read_json, read_text
+from aurora_core.report.run_folder import PROMPT, is_run_id
 from aurora_core.report.terminal import headline, line
 
 _REFUTED = 1
@@ -29,10 +30,12 @@ def certificate_command(file: Path, *, as_json: bool) -> int:
     """Check every certificate in a file and return the exit code.
 
     Raises:
-        ReportError: The file cannot be read, or holds no certificate.
+        ReportError: The file cannot be read, holds no certificate, or is of another run than the
+            folder that it lies in.
     """
     path = file / 'report.json' if file.is_dir() else file
     document = _read(path)
+    _check_run(path, document)
     proofs = _certificates(document, path)
     spec = _spec_beside(path, document)
     findings = [recheck(proof, spec) for proof in proofs]
@@ -77,6 +80,30 @@ def _read(path: Path) -> Any:
             f'{path} cannot be read as JSON: {err}',
             hint='name feasibility.<k>.json or report.json of a run, or a run folder',
         ) from err
+
+
+def _check_run(path: Path, document: Any) -> None:
+    """Refuse the report of a run in the folder of another one: beside it lies another request.
+
+    Raises:
+        ReportError: It is one.
+    """
+    if not isinstance(document, dict) or not {'run_id', 'prompt'} <= document.keys():
+        return
+    name = path.absolute().parent.name
+    prompt = path.with_name(PROMPT)
+    of_another = is_run_id(name) and document['run_id'] != name
+    if of_another or (
+        prompt.is_file() and read_bytes(prompt, DOCUMENT_BYTES) != _bytes(document['prompt'])
+    ):
+        raise ReportError(
+            f'{path} is of run {document["run_id"]}, which is not the one of its folder',
+            hint='name the folder of that run',
+        )
+
+
+def _bytes(text: object) -> bytes:
+    return str(text).encode('utf-8', 'surrogatepass')
 
 
 def _certificates(document: Any, path: Path) -> tuple[Certificate, ...]:

@@ -4,12 +4,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from aurora_cli.bags import find_bag
 from aurora_cli.output import answer_console, print_json, quiet_stdout
 from aurora_core.agsg.build import derived
 from aurora_core.agsg.message import read_agsg
-from aurora_core.conditions.condition import conditions_from_json
-from aurora_core.monitor.verify import verify
+from aurora_core.pipeline.verify_run import verify_found
 from aurora_core.report.diff_report import DiffRun, diff_exit_code, diff_report
 from aurora_core.report.diff_terminal import print_diff
 from aurora_core.trace.bag_reader import read_bag
@@ -33,12 +34,18 @@ def diff_command(first: str, second: str, iteration: int | None, *, as_json: boo
 
 
 def _read(run_or_bag: str, iteration: int | None) -> DiffRun:
-    bag = find_bag(run_or_bag, iteration).bag
-    content = read_bag(bag, message_definitions())
+    found = find_bag(run_or_bag, iteration)
+    content = read_bag(found.bag, message_definitions())
     agsg = verdict = None
     if content.agsg_message is not None:
         agsg = read_agsg(content.agsg_message, derived)
         if content.trace.ticks:
-            conditions = conditions_from_json(content.world.conditions_json)
-            verdict = verify(content.trace, content.world, conditions, agsg.spec)
-    return DiffRun(bag=str(bag), content=content, agsg=agsg, verdict=verdict)
+            verified = verify_found(found, content, agsg, as_recorded=True)
+            verdict = verified.verdict
+            if verified.run is not None and verified.run.doubts:
+                # Compared all the same, but as what it is.
+                note = '; '.join(doubt.text for doubt in verified.run.doubts)
+                note = f'{content.trace.integrity_note}; {note}'.removeprefix('; ')
+                trace = replace(content.trace, integrity=verdict.integrity, integrity_note=note)
+                content = replace(content, trace=trace)
+    return DiffRun(bag=str(found.bag), content=content, agsg=agsg, verdict=verdict)

@@ -4,22 +4,28 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
-
-from pydantic import ValidationError
 
 from aurora_cli.bags import find_bag
 from aurora_cli.files import write_file
 from aurora_cli.output import UsageProblem, print_json, quiet_stdout, say
-from aurora_core.conditions.condition import conditions_from_json
-from aurora_core.files import DOCUMENT_BYTES, read_bytes
-from aurora_core.monitor.verify import verify
 from aurora_core.pipeline.functions import load_bag
+from aurora_core.pipeline.verify_run import verify_found
+from aurora_core.report.find_bag import FoundBag
 from aurora_core.report.picture.caption import Caption
 from aurora_core.report.picture.draw import draw_picture, png_bytes, svg_bytes
+from aurora_core.report.run_documents import read_document
 from aurora_core.report.run_folder import REPORT
 from aurora_core.report.run_report import RunReport
+from aurora_core.report.status import Status
+from aurora_core.report.verify_report import VerifyOutcome, VerifyReport
 
+_STATUS = {
+    VerifyOutcome.VERIFIED: Status.VERIFIED,
+    VerifyOutcome.MARGINS_HOLD: Status.INCOMPLETE,
+    VerifyOutcome.VIOLATED: Status.VIOLATED,
+}
 _WRITERS = {'.png': png_bytes, '.svg': svg_bytes}
 
 
@@ -36,16 +42,7 @@ def picture_command(run_or_bag: str, output: Path, iteration: int | None, *, as_
     found = find_bag(run_or_bag, iteration)
     with quiet_stdout():
         content, agsg = load_bag(found.bag)
-        report = _report(found.run) if found.run is not None else None
-        # The report tells of the last iteration; an earlier bag speaks for itself.
-        if report is not None and (report.trace is None or report.trace.bag != found.bag.name):
-            report = None
-        if report is not None:
-            caption = Caption.of_report(report)
-        else:
-            conditions = conditions_from_json(content.world.conditions_json)
-            verdict = verify(content.trace, content.world, conditions, agsg.spec)
-            caption = Caption.of_verdict(agsg.spec.prompt, verdict)
+        caption = _caption(verify_found(found, content, agsg), found)
         figure = draw_picture(content.trace, content.world, caption, spec=agsg.spec)
         write_file(output, writer(figure))
     if as_json:
@@ -55,8 +52,17 @@ def picture_command(run_or_bag: str, output: Path, iteration: int | None, *, as_
     return 0
 
 
-def _report(run: Path) -> RunReport | None:
-    try:
-        return RunReport.model_validate_json(read_bytes(run / REPORT, DOCUMENT_BYTES))
-    except (OSError, ValidationError):
-        return None
+def _caption(verified: VerifyReport, found: FoundBag) -> Caption:
+    """Return the words of the run when the bag is the one it was judged by, else the bag's."""
+    run = verified.run
+    if run is not None and found.run is not None and not run.doubts:
+        report = read_document(found.run / REPORT, RunReport)
+        # The report tells of the last iteration; an earlier bag speaks for itself.
+        if (
+            isinstance(report, RunReport)
+            and report.trace is not None
+            and report.trace.sha256 == verified.trace_sha256
+        ):
+            return Caption.of_report(report)
+    caption = Caption.of_verdict(verified.prompt, verified.verdict)
+    return replace(caption, status=_STATUS.get(verified.outcome, Status.INCONCLUSIVE))

@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 from pathlib import Path
 
 from aurora_cli.bags import find_bag
@@ -16,23 +15,19 @@ from aurora_core.conditions.condition import conditions_from_json
 from aurora_core.errors import ReportError
 from aurora_core.monitor.signals_for_plot import signals_for_plot
 from aurora_core.monitor.verdict import Verdict
-from aurora_core.pipeline.functions import load_bag, verify_content
-from aurora_core.report.recorded_trace import believed, recorded_trace
-from aurora_core.report.run_folder import StageFile
+from aurora_core.pipeline.functions import load_bag
+from aurora_core.pipeline.verify_run import verify_found
 from aurora_core.report.terminal import print_verify
-from aurora_core.report.verify_report import (
-    Comparison,
-    VerifyReport,
-    compare,
-    read_recorded,
-    verify_exit_code,
-)
 from aurora_core.trace.bag_reader import BagContent
-from aurora_core.trace.hashing import trace_sha256
 
 
 def verify_command(
-    run_or_bag: str, iteration: int | None, plots: Path | None, *, as_json: bool
+    run_or_bag: str,
+    iteration: int | None,
+    plots: Path | None,
+    *,
+    as_recorded: bool,
+    as_json: bool,
 ) -> int:
     """Verify a bag and return the exit code.
 
@@ -40,6 +35,8 @@ def verify_command(
         run_or_bag: What to verify.
         iteration: Repair iteration of a run.
         plots: Folder for a picture of each condition over time, None for none.
+        as_recorded: Judge by the recorded version, limits, tolerances, settings and map, though
+            they are others here.
         as_json: Print one JSON document.
 
     Raises:
@@ -49,31 +46,14 @@ def verify_command(
     found = find_bag(run_or_bag, iteration)
     with quiet_stdout():
         content, agsg = load_bag(found.bag)
-        trace = content.trace
-        sha256 = trace_sha256(trace, content.world)
-        if found.run is not None:
-            trace = believed(trace, sha256, recorded_trace(found.run, found.bag.name))
-        verdict = verify_content(replace(content, trace=trace), agsg)
-        recorded: Comparison | None = None
-        if found.run is not None and found.iteration is not None:
-            name = StageFile.VERDICT.name_at(found.iteration)
-            written = read_recorded(found.run / name)
-            if written is not None:
-                recorded = compare(written, verdict, name)
-        report = VerifyReport(
-            bag=str(found.bag),
-            ticks=trace.ticks,
-            trace_sha256=sha256,
-            verdict=verdict,
-            recorded=recorded,
-        )
+        report = verify_found(found, content, agsg, as_recorded=as_recorded)
         if plots is not None:
-            _write_plots(replace(content, trace=trace), agsg, verdict, plots)
+            _write_plots(content, agsg, report.verdict, plots)
     if as_json:
         print_json(report)
     else:
         print_verify(report, answer_console())
-    return int(verify_exit_code(report))
+    return int(report.outcome.exit_code)
 
 
 def _write_plots(content: BagContent, agsg: Agsg, verdict: Verdict, folder: Path) -> None:

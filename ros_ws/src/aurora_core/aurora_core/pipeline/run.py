@@ -34,7 +34,7 @@ from aurora_core.report.run_folder import (
     RunFolder,
     StageFile,
 )
-from aurora_core.report.run_report import RunReport
+from aurora_core.report.run_report import BagReport, RunReport
 
 _LOG = logging.getLogger(__name__)
 
@@ -156,6 +156,14 @@ class _Run:
         with self.stage('execute'):
             result = self.stages.execute(graph, bag, self.request, inner)
             self.note(execution=self._execution(result, bag.name), iterations=iteration + 1)
+            made = BagReport(
+                bag=bag.name,
+                iteration=iteration,
+                ticks=result.ticks,
+                trace_sha256=result.trace_sha256,
+                graph_sha256=graph.sha256,
+            )
+            self.note(bags=(*self.facts.bags, made))
         if result.outcome == 'cancelled':
             raise _Cancelled
         with self.stage('verify'):
@@ -197,7 +205,8 @@ def run(
         KeyboardInterrupt: Never: an interrupt becomes the status `cancelled`.
     """
     folder.create()
-    folder.write_json(MANIFEST, {**manifest, 'request': request.model_dump(mode='json')})
+    asked = request.model_dump(mode='json')
+    folder.write_json(MANIFEST, {**manifest, 'run_id': folder.run_id, 'request': asked})
     folder.write_text(PROMPT, request.prompt)
     facts = RunFacts(
         run_id=folder.run_id,

@@ -68,6 +68,7 @@ def build_report(facts: RunFacts) -> RunReport:
         timing=dict(facts.timing),
         cost=_cost(facts),
         trace=_trace(facts),
+        bags=facts.bags,
         question=facts.parse.question if facts.parse is not None else None,
         error=_error(facts),
         faults=facts.faults,

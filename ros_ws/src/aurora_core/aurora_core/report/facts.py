@@ -15,7 +15,7 @@ from aurora_core.grounding.outcome import GroundingOutcome
 from aurora_core.knowledge.limits import Limits
 from aurora_core.monitor.verdict import Verdict
 from aurora_core.parsing.outcome import ParseOutcome
-from aurora_core.report.run_report import RepairReport
+from aurora_core.report.run_report import BagReport, RepairReport
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -47,6 +47,8 @@ class RunFacts:
         feasibility: The last verdict of the check.
         grounding: Graph or failure, and what cannot be executed or judged yet.
         agsg: The graph that was executed last; the one of `grounding` when omitted.
+        execution: The last one.
+        bags: Of all executions.
         verdict: The last verdict.
         cancelled: The user stopped the run.
         error: What broke.
@@ -69,6 +71,7 @@ class RunFacts:
     grounding: GroundingOutcome | None = None
     agsg: Agsg | None = None
     execution: ExecutionFacts | None = None
+    bags: tuple[BagReport, ...] = ()
     verdict: Verdict | None = None
     cancelled: bool = False
     error: AuroraError | None = None

@@ -9,10 +9,14 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from aurora_core.errors import BagError
+from aurora_core.report.run_folder import MANIFEST, PROMPT, REPORT, StageFile, is_run_id
 from aurora_core.trace.bag_metadata import METADATA
 
-_BAG = re.compile(r'bag\.(\d+)')
+# As `RunFolder.bag_path` writes it: no leading zeroes, no digits of other scripts.
+_BAG = re.compile(r'bag\.(0|[1-9][0-9]{0,8})')
 _DEFAULT_ROOT = Path('runs')
+# One of these beside a bag, or the name of the folder, makes it a run folder.
+_OF_A_RUN = (MANIFEST, PROMPT, REPORT, *(f'{stage.value}.*.json' for stage in StageFile))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -22,7 +26,8 @@ class FoundBag:
     Attributes:
         bag: Folder (or file) of the bag.
         run: Run folder, None for a bag that lies alone.
-        iteration: Which one, None for a bag that lies alone.
+        iteration: Which one, None for a bag that lies alone, or that lies in a run folder under a
+            name that no bag of a run has.
     """
 
     bag: Path
@@ -55,10 +60,15 @@ def find_bag(text: str, iteration: int | None) -> FoundBag:
         if iteration is not None and (match is None or int(match[1]) != iteration):
             raise BagError(f'--iteration {iteration} does not fit the bag {path}')
         parent = folder.absolute().parent
-        run = parent if match is not None and (parent / 'manifest.json').exists() else None
+        run = parent if _is_run(parent) else None
         number = int(match[1]) if match is not None and run is not None else None
         return FoundBag(bag=path, run=run, iteration=number)
     return _in_run(path, iteration)
+
+
+def _is_run(folder: Path) -> bool:
+    """Tell whether a folder is that of a run: what is left of one still is."""
+    return is_run_id(folder.name) or any(True for name in _OF_A_RUN for _ in folder.glob(name))
 
 
 def _in_run(path: Path, iteration: int | None) -> FoundBag:

@@ -22,8 +22,13 @@ class _Lenient(BaseModel):
 
 
 class ManifestRequest(_Lenient):
-    """The part of the request that a report repeats."""
+    """The part of the request that a report repeats.
 
+    Attributes:
+        prompt: As typed.
+    """
+
+    prompt: str | None = None
     engine: str = 'local'
     model: str = 'offline'
     map_name: str = 'downtown'
@@ -35,11 +40,13 @@ class Manifest(_Lenient):
     """The manifest as it is read again.
 
     Attributes:
+        run_id: '' in manifests of older versions.
         started_utc: ISO 8601.
         process: Who writes the run.
     """
 
     schema_version: int = MANIFEST_VERSION
+    run_id: str = ''
     started_utc: str = ''
     process: ProcessIdentity
     versions: dict[str, str] = Field(default_factory=dict)

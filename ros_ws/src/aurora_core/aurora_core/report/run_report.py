@@ -168,6 +168,23 @@ class TraceReport(Document):
     verdict: VerdictStatus | None = None
 
 
+class BagReport(Document):
+    """One of the bags of a run, by which it is told from every other.
+
+    Attributes:
+        bag: Folder of the bag, relative to the run folder when it is inside.
+        iteration: Repair iteration.
+        trace_sha256: Trace hash (hex).
+        graph_sha256: Digest (hex) of the graph that was executed.
+    """
+
+    bag: str
+    iteration: int
+    ticks: int
+    trace_sha256: str
+    graph_sha256: str
+
+
 class Digests(Document):
     """sha256 (hex) of what the run was made from; '' for what it did not reach."""
 
@@ -191,6 +208,8 @@ class RunReport(Document):
 
     Attributes:
         summary: Why the status is what it is, one or two sentences.
+        bags: Every bag of the run in the order of the iterations; None in reports of older
+            versions.
         clauses: Every clause of the prompt.
         conditions: Every success condition with its margin.
         timing: Wall seconds by stage.
@@ -217,6 +236,7 @@ class RunReport(Document):
     timing: dict[str, FiniteFloat] = Field(default_factory=dict)
     cost: Cost = Cost()
     trace: TraceReport | None = None
+    bags: tuple[BagReport, ...] | None = None
     question: str | None = None
     error: ErrorReport | None = None
     faults: tuple[Fault, ...] = ()

@@ -11,7 +11,6 @@ from rich.console import Console
 from rich.markup import escape as escape_markup
 from rich.table import Table
 
-from aurora_core.monitor.verdict import VerdictStatus
 from aurora_core.report.check_report import CheckReport, CheckResult
 from aurora_core.report.run_report import (
     ClauseReport,
@@ -21,7 +20,7 @@ from aurora_core.report.run_report import (
 )
 from aurora_core.report.status import Status
 from aurora_core.report.summary import margin_value
-from aurora_core.report.verify_report import VerifyReport
+from aurora_core.report.verify_report import VerifyOutcome, VerifyReport
 from aurora_core.report.visible import one_line
 
 _COLOURS = {
@@ -44,10 +43,13 @@ _CHECK_COLOURS = {
     CheckResult.ERROR: 'red',
 }
 
-_VERDICT_COLOURS = {
-    VerdictStatus.VERIFIED: 'green',
-    VerdictStatus.VIOLATED: 'red',
-    VerdictStatus.INCONCLUSIVE: 'yellow',
+_VERIFY_COLOURS = {
+    VerifyOutcome.VERIFIED: 'green',
+    VerifyOutcome.MARGINS_HOLD: 'yellow',
+    VerifyOutcome.VIOLATED: 'red',
+    VerifyOutcome.INCONCLUSIVE: 'yellow',
+    VerifyOutcome.HOLDS_AS_RECORDED: 'yellow',
+    VerifyOutcome.VIOLATED_AS_RECORDED: 'red',
 }
 
 Row = tuple[str, ...]
@@ -238,14 +240,7 @@ def _question_and_error(report: RunReport | CheckReport, console: Console) -> No
 def print_verify(report: VerifyReport, console: Console) -> None:
     """Print recomputed margins and whether they are the recorded ones."""
     verdict = report.verdict
-    held = sum(result.satisfied for result in verdict.results)
-    headline(
-        console,
-        verdict.status.value,
-        _VERDICT_COLOURS[verdict.status],
-        f'{held} of {len(verdict.results)} conditions hold, recomputed from the bag alone '
-        f'({report.ticks} ticks, {verdict.integrity.value}).',
-    )
+    headline(console, report.outcome.heading, _VERIFY_COLOURS[report.outcome], report.summary)
     print_table(
         'Margins',
         ('', 'condition', 'margin', 'at'),
@@ -266,10 +261,15 @@ def print_verify(report: VerifyReport, console: Console) -> None:
         line(console, f'note     {note}')
     for finding in verdict.cross_check:
         line(console, f'disagreement at {finding.time_s:.2f} s: {finding.text}')
+    for clause in report.unread:
+        why = f' ({clause.note})' if clause.note else ''
+        line(console, f'{clause.status.value.replace("_", " "):12} “{clause.text}”{why}')
+    line(console, f'prompt   {report.prompt}')
     line(console, f'trace    {report.trace_sha256}')
     recorded = report.recorded
     if recorded is None:
-        line(console, 'record   none: the bag was verified by itself')
+        alone = 'the bag was verified by itself' if report.run is None else 'there is none to read'
+        line(console, f'record   none: {alone}')
     elif recorded.equal:
         line(console, f'record   {recorded.file}: every margin is the same to the last bit')
     else:

@@ -30,10 +30,13 @@ from aurora_core.knowledge.world import (
 from aurora_core.monitor.verdict import ConditionResult, Reason, Verdict, VerdictStatus
 from aurora_core.parsing.outcome import ParseOutcome
 from aurora_core.report.facts import ExecutionFacts, RunFacts
+from aurora_core.report.run_check import JudgedBag
+from aurora_core.report.run_report import ClauseReport
 from aurora_core.spec.parameter import Parameter, Provenance, Span, Unit
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import Clause, GroundAgent, ScenarioSpec, Uav, UavMission
 from aurora_core.spec.vocabulary import AgentType, ClauseStatus, MissionMode
+from aurora_core.trace.bag_content import BagContent
 from aurora_core.trace.layout import (
     GROUND_WIDTH,
     UAV_COMMAND_WIDTH,
@@ -162,6 +165,20 @@ def make_graph(*conditions: Condition, spec: ScenarioSpec | None = None) -> Agsg
             '"realised":40.0,"requested":40.0}]}'
         ),
         conditions_json=conditions_to_json(conditions or (make_condition(),)),
+    )
+
+
+def make_judged(verdict: Verdict, *clauses: ClauseReport) -> JudgedBag:
+    """A bag as it was judged by itself; with one encoded clause unless others are given."""
+    text = ClauseReport(
+        text='at 40 meters', span=Span(start=29, end=41), status=ClauseStatus.ENCODED
+    )
+    return JudgedBag(
+        content=BagContent(trace=make_trace(30), world=make_world(), agsg_message=None),
+        agsg=make_graph(),
+        trace_sha256='a' * 64,
+        verdict=verdict,
+        clauses=clauses or (text,),
     )
 
 
@@ -316,6 +333,7 @@ def make() -> SimpleNamespace:
         'verdict': make_verdict,
         'graph': make_graph,
         'facts': make_facts,
+        'judged': make_judged,
         'trace': make_trace,
         'world': make_world,
     }

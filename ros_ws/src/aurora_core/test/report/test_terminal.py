@@ -14,8 +14,10 @@ from aurora_core.grounding.outcome import GroundingOutcome
 from aurora_core.monitor.verdict import Finding
 from aurora_core.report.build import build_report
 from aurora_core.report.check_report import build_check
+from aurora_core.report.comparison import compare
 from aurora_core.report.terminal import print_check, print_report, print_verify
-from aurora_core.report.verify_report import VerifyReport, compare
+from aurora_core.report.verify_report import verify_report
+from aurora_core.spec.vocabulary import ClauseStatus
 
 
 def _plain() -> Console:
@@ -89,13 +91,8 @@ def test_verify_says_whether_the_record_is_the_same(make: SimpleNamespace) -> No
     texts = []
     for recorded in (None, verdict, other):
         console = _plain()
-        report = VerifyReport(
-            bag='b',
-            ticks=3,
-            trace_sha256='c' * 64,
-            verdict=verdict,
-            recorded=compare(recorded, verdict, 'v') if recorded is not None else None,
-        )
+        beside = compare(recorded, verdict, 'v') if recorded is not None else None
+        report = verify_report('b', make.judged(verdict), recorded=beside)
         print_verify(report, console)
         texts.append(_text(console))
     assert 'verified by itself' in texts[0]
@@ -104,3 +101,17 @@ def test_verify_says_whether_the_record_is_the_same(make: SimpleNamespace) -> No
     assert 'recorded 0.25, recomputed 0.2' in texts[2]
     assert 'not seen' in texts[0]
     assert 'a note' in texts[0]
+
+
+def test_verify_begins_with_what_it_claims_and_quotes_what_is_not_encoded(
+    make: SimpleNamespace,
+) -> None:
+    console = _plain()
+    read = make.judged(make.verdict()).clauses[0]
+    lost = read.model_copy(update={'status': ClauseStatus.NOT_ENCODED, 'note': 'cannot turn'})
+    print_verify(verify_report('b', make.judged(make.verdict(), read, lost)), console)
+    first, *rest = _text(console).splitlines()
+    assert first.startswith('MARGINS HOLD  ')
+    assert '“at 40 meters”' in first
+    assert any('not encoded' in row and '(cannot turn)' in row for row in rest)
+    assert f'prompt   {make.prompt}' in rest

@@ -1,0 +1,103 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Verify a bag and, where it lies in a run folder, that it is the one of that run."""
+
+from __future__ import annotations
+
+from aurora_core.agsg.graph import Agsg
+from aurora_core.conditions.condition import conditions_from_json
+from aurora_core.grounding.outcome import GroundingOutcome
+from aurora_core.monitor.plan_check import NotComparable, Plan, plan_findings
+from aurora_core.monitor.verdict import Verdict
+from aurora_core.parsing.outcome import ParseOutcome
+from aurora_core.pipeline.functions import Judged, judge_content, recorded_plan
+from aurora_core.report.clauses import clause_reports
+from aurora_core.report.comparison import Comparison
+from aurora_core.report.facts import RunFacts
+from aurora_core.report.find_bag import FoundBag
+from aurora_core.report.run_check import JudgedBag, check_run
+from aurora_core.report.run_report import ClauseReport
+from aurora_core.report.verify_report import AsRecorded, VerifyReport, verify_report
+from aurora_core.trace.bag_content import BagContent
+from aurora_core.trace.hashing import trace_sha256
+
+
+def verify_found(
+    found: FoundBag, content: BagContent, agsg: Agsg, *, as_recorded: bool = False
+) -> VerifyReport:
+    """Judge a bag by itself, then hold it against the run folder that it lies in.
+
+    Args:
+        found: Where it lies.
+        content: What it holds.
+        agsg: Graph in it.
+        as_recorded: See `judge_content`.
+
+    Raises:
+        VerificationError: The bag holds nothing that could be judged.
+    """
+    judged = judge_content(content, agsg, as_recorded=as_recorded)
+    foreign = _foreign_to(judged, content) if as_recorded else None
+    bag = _judged_bag(content, agsg, judged.verdict, judged.plan)
+    if found.run is None:
+        return verify_report(str(found.bag), bag, as_recorded=foreign)
+    run, recorded = check_run(found.run, found.iteration, bag)
+    return verify_report(str(found.bag), bag, run=run, recorded=recorded, as_recorded=foreign)
+
+
+def report_beside(
+    found: FoundBag, content: BagContent, agsg: Agsg, verdict: Verdict, heard: Comparison
+) -> VerifyReport:
+    """Return the report about a bag whose verdict was held against one heard live.
+
+    Args:
+        found: Where it lies.
+        content: What it holds.
+        agsg: Graph in it.
+        verdict: Of the bag by itself.
+        heard: The other verdict against it.
+
+    Raises:
+        VerificationError: The bag holds nothing that could be judged.
+    """
+    bag = _judged_bag(content, agsg, verdict, recorded_plan(content.world, agsg))
+    run = None if found.run is None else check_run(found.run, found.iteration, bag)[0]
+    return verify_report(str(found.bag), bag, run=run, recorded=heard)
+
+
+def _judged_bag(
+    content: BagContent, agsg: Agsg, verdict: Verdict, plan: Plan | NotComparable
+) -> JudgedBag:
+    return JudgedBag(
+        content=content,
+        agsg=agsg,
+        trace_sha256=trace_sha256(content.trace, content.world),
+        verdict=verdict,
+        clauses=_clauses(agsg, () if isinstance(plan, NotComparable) else plan.missing),
+    )
+
+
+def _clauses(agsg: Agsg, missing: tuple[str, ...]) -> tuple[ClauseReport, ...]:
+    """Return what became of every clause, as the report of a run tells it."""
+    return clause_reports(
+        RunFacts(
+            run_id='',
+            prompt=agsg.spec.prompt,
+            parse=ParseOutcome(spec=agsg.spec),
+            grounding=GroundingOutcome(agsg=agsg, unsupported=missing),
+        )
+    )
+
+
+def _foreign_to(judged: Judged, content: BagContent) -> AsRecorded | None:
+    """Return by what it was judged, None when that is what is installed."""
+    plan = judged.plan
+    if isinstance(plan, NotComparable):
+        return AsRecorded(version='', differs=(plan.why,))
+    if not plan.foreign:
+        return None
+    otherwise = 0
+    if plan.other_version:
+        conditions = conditions_from_json(content.world.conditions_json)
+        otherwise = len(plan_findings(conditions, content.trace.roster, content.world, plan))
+    return AsRecorded(version=plan.version, differs=plan.foreign, otherwise=otherwise)

@@ -1,0 +1,338 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""A bag in a run folder against everything else in the folder: is it the one of that run?
+
+A bag proves its own margins, not whose they are. Run id, prompt, map, seed, limits, faults, the
+documents of its iteration, trace hash and verdict have to be those of the folder. Who rewrites all
+of these in agreement is not found: that would take a signature.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from aurora_core.agsg.graph import Agsg
+from aurora_core.grounding.grounded import GroundedScenario
+from aurora_core.monitor.verdict import Verdict, VerdictStatus
+from aurora_core.parsing.idle_uavs import hovering
+from aurora_core.report.comparison import Comparison, compare
+from aurora_core.report.doubts import Doubt, altered, trace_doubts, unknown
+from aurora_core.report.manifest import Manifest
+from aurora_core.report.run_documents import Unreadable, read_document, read_stored
+from aurora_core.report.run_folder import MANIFEST, PROMPT, REPORT, StageFile, is_run_id
+from aurora_core.report.run_report import BagReport, ClauseReport, RunReport, TraceReport
+from aurora_core.report.status import Status
+from aurora_core.spec.parameter import Document
+from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.spec.vocabulary import ClauseStatus
+from aurora_core.trace.bag_content import BagContent
+from aurora_core.trace.records import ScenarioEventKind
+from aurora_core.trace.trace import Integrity
+
+_SHOWN = 40
+
+
+class RunCheck(Document):
+    """What a run folder says of a bag in it.
+
+    Attributes:
+        run_id: As the report has it, else the name of the folder.
+        status: Of the report, None when it cannot be believed to be the one of this run.
+        doubts: Why the bag cannot be believed to be the one of this run.
+    """
+
+    run_id: str
+    status: Status | None
+    doubts: tuple[Doubt, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class JudgedBag:
+    """A bag, and what was found out about it from itself alone.
+
+    Attributes:
+        content: What it holds.
+        agsg: Graph in it.
+        trace_sha256: Trace hash (hex).
+        verdict: Of the bag.
+        clauses: Of the prompt in it, with what became of each.
+    """
+
+    content: BagContent
+    agsg: Agsg
+    trace_sha256: str
+    verdict: Verdict
+    clauses: tuple[ClauseReport, ...]
+
+
+def unread(clauses: Sequence[ClauseReport]) -> tuple[ClauseReport, ...]:
+    """Return the clauses that make a run incomplete."""
+    fine = (ClauseStatus.ENCODED, ClauseStatus.NO_REQUIREMENT)
+    return tuple(clause for clause in clauses if clause.status not in fine)
+
+
+def check_run(
+    run: Path, iteration: int | None, bag: JudgedBag
+) -> tuple[RunCheck, Comparison | None]:
+    """Hold a bag against the run folder that it lies in.
+
+    Args:
+        run: Run folder.
+        iteration: Of the bag, None when its name is not that of a bag of the run.
+        bag: The bag.
+
+    Returns:
+        What the folder says, and its verdict against the one of the bag, when it has one.
+    """
+    manifest = read_document(run / MANIFEST, Manifest)
+    report = read_document(run / REPORT, RunReport)
+    run_id = _run_id(run, manifest, report)
+    # A report of another run says nothing of this one.
+    foreign = isinstance(report, RunReport) and report.run_id != run_id
+    own = report if isinstance(report, RunReport) and not foreign else None
+    doubts = list(_identity(run_id, manifest, report, str(bag.content.agsg_message.run_id)))
+    doubts += _prompts(run, manifest, report, bag.agsg.spec.prompt)
+    if isinstance(manifest, Manifest):
+        doubts += _asked(manifest, own, bag)
+    comparison: Comparison | None = None
+    if iteration is None:
+        doubts.append(altered('it lies in a run folder, but has not the name of a bag of the run'))
+    else:
+        doubts += _stages(run, iteration, bag)
+        found, comparison = _verdict(run, iteration, bag)
+        doubts += found
+        if own is not None:
+            doubts += _report(run, own, iteration, bag)
+    check = RunCheck(
+        run_id=run_id, status=None if own is None else own.status, doubts=tuple(doubts)
+    )
+    return check, comparison
+
+
+def _run_id(run: Path, manifest: Manifest | Unreadable, report: RunReport | Unreadable) -> str:
+    """Return whose folder it is: a folder may be renamed, a name that is a run id says it."""
+    name = run.absolute().name
+    if is_run_id(name):
+        return name
+    if isinstance(manifest, Manifest) and manifest.run_id:
+        return manifest.run_id
+    return report.run_id if isinstance(report, RunReport) else ''
+
+
+def _identity(
+    run_id: str, manifest: Manifest | Unreadable, report: RunReport | Unreadable, recorded: str
+) -> Iterator[Doubt]:
+    if isinstance(manifest, Unreadable):
+        yield unknown(manifest.why)
+    elif manifest.run_id not in ('', run_id):
+        yield altered(f'{MANIFEST} is of run {_short(manifest.run_id)}, not of {run_id}')
+    if isinstance(report, Unreadable):
+        why = ': the run was not finished, or its report was taken away' * report.missing
+        yield unknown(f'{report.why}{why}')
+    elif report.run_id != run_id:
+        yield unknown(f'{REPORT} is of run {_short(report.run_id)}, not of {run_id}')
+    if run_id and recorded != run_id:
+        yield altered(f'the bag is of run {_short(recorded)}, not of {run_id}')
+
+
+def _differs(where: str, what: str, there: object, recorded: object) -> Iterator[Doubt]:
+    if there != recorded:
+        told = [_short(value) for value in (there, recorded)]
+        yield altered(f'{where} has {what} {told[0]}, the bag {told[1]}')
+
+
+def _short(value: object) -> str:
+    text = str(value)
+    return text if len(text) <= _SHOWN else f'{text[:_SHOWN]}...'
+
+
+def _prompts(
+    run: Path, manifest: Manifest | Unreadable, report: RunReport | Unreadable, prompt: str
+) -> Iterator[Doubt]:
+    stored = read_stored(run / PROMPT)
+    if isinstance(stored, Unreadable):
+        yield unknown(stored.why)
+    elif stored != prompt.encode('utf-8', 'surrogatepass'):
+        yield from _differs(PROMPT, 'the prompt', stored.decode('utf-8', 'replace'), prompt)
+    if not isinstance(manifest, Unreadable):
+        if manifest.request.prompt is None:
+            yield unknown(f'{MANIFEST} does not tell the prompt')
+        else:
+            yield from _differs(MANIFEST, 'the prompt', manifest.request.prompt, prompt)
+    if not isinstance(report, Unreadable):
+        yield from _differs(REPORT, 'the prompt', report.prompt, prompt)
+
+
+def _asked(manifest: Manifest, report: RunReport | None, bag: JudgedBag) -> Iterator[Doubt]:
+    """Compare what was asked for with the bag and the report."""
+    request = manifest.request
+    for name in ('map_name', 'seed', 'engine', 'faults'):
+        if name not in request.model_fields_set:
+            yield unknown(f'{MANIFEST} does not tell {name}')
+    yield from _differs(MANIFEST, 'the map', request.map_name, bag.agsg.map_name)
+    yield from _differs(MANIFEST, 'the seed', request.seed, _grounded(bag).seed)
+    if report is not None:
+        for what, asked, told in (
+            ('engine', request.engine, report.engine),
+            ('injected faults', request.faults, report.faults),
+        ):
+            if asked != told:
+                yield altered(f'{MANIFEST} and {REPORT} differ in the {what}')
+
+
+def _grounded(bag: JudgedBag) -> GroundedScenario:
+    return GroundedScenario.model_validate_json(bag.agsg.grounding_json)
+
+
+def _stages(run: Path, iteration: int, bag: JudgedBag) -> Iterator[Doubt]:
+    """Compare the documents of the stages with the graph in the bag."""
+    agsg = bag.agsg
+    if agsg.iteration != iteration:
+        yield altered(f'the graph in the bag is of iteration {agsg.iteration}')
+    name = StageFile.AGSG.name_at(iteration)
+    graph = read_document(run / name, Agsg)
+    if isinstance(graph, Unreadable):
+        yield unknown(graph.why)
+    elif graph != agsg:
+        yield altered(f'{name} is not the graph in the bag')
+    name = StageFile.SPEC.name_at(iteration)
+    spec = read_document(run / name, ScenarioSpec)
+    if isinstance(spec, Unreadable):
+        yield unknown(spec.why)
+    elif not _same_request(spec, agsg.spec):
+        yield altered(f'{name} is not the request in the bag')
+    for stage, text in (
+        (StageFile.GROUNDING, agsg.grounding_json),
+        (StageFile.SCHEDULE, agsg.schedule_json),
+    ):
+        name = stage.name_at(iteration)
+        stored = read_stored(run / name)
+        if isinstance(stored, Unreadable):
+            yield unknown(stored.why)
+        elif stored != text.encode('utf-8'):
+            yield altered(f'{name} is not the {stage.value} in the bag')
+
+
+def _same_request(parsed: ScenarioSpec, grounded: ScenarioSpec) -> bool:
+    """Tell whether a request is what became of another one before it was grounded."""
+    try:
+        return hovering(parsed) == grounded
+    except ValueError:
+        return False
+
+
+def _verdict(
+    run: Path, iteration: int, bag: JudgedBag
+) -> tuple[tuple[Doubt, ...], Comparison | None]:
+    """Compare the verdict of the run with the one of the bag, bit by bit."""
+    name = StageFile.VERDICT.name_at(iteration)
+    recorded = read_document(run / name, Verdict)
+    if isinstance(recorded, Unreadable):
+        return (unknown(recorded.why),), None
+    return (), compare(recorded, bag.verdict, name)
+
+
+def _report(run: Path, report: RunReport, iteration: int, bag: JudgedBag) -> Iterator[Doubt]:
+    """Compare a report with a bag of its run."""
+    name = f'bag.{iteration}'
+    listed = report.bags
+    if listed is None:
+        # Of an older version: it tells of the last bag alone.
+        trace = report.trace
+        listed = () if trace is None else (_of_trace(trace, report.digests.agsg, iteration),)
+        if not any(entry.bag == name for entry in listed):
+            yield unknown(f'{REPORT} is of an older version and tells nothing of {name}')
+    elif not listed:
+        yield unknown(f'{REPORT} tells of no bag: the run ended before one was finished')
+    elif not any(entry.bag == name for entry in listed):
+        names = ', '.join(entry.bag for entry in listed)
+        yield altered(f'{REPORT} lists no {name}; the bags of the run are: {names}')
+    for entry in listed:
+        if entry.bag == name:
+            yield from trace_doubts(bag.verdict, bag.trace_sha256, entry.trace_sha256, REPORT)
+            yield from _differs(
+                f'{REPORT}, {name},', 'the graph', entry.graph_sha256, bag.agsg.sha256
+            )
+    yield from _request(report, bag)
+    if listed and listed[-1].bag == name:
+        yield from _last(report, listed[-1], bag)
+    elif listed and not (run / listed[-1].bag).exists():
+        yield unknown(f'{listed[-1].bag}, by which the run was judged, is missing')
+
+
+def _of_trace(trace: TraceReport, graph_sha256: str, iteration: int) -> BagReport:
+    return BagReport(
+        bag=trace.bag,
+        iteration=iteration,
+        ticks=trace.ticks,
+        trace_sha256=trace.sha256,
+        graph_sha256=graph_sha256,
+    )
+
+
+def _request(report: RunReport, bag: JudgedBag) -> Iterator[Doubt]:
+    """Compare what a report says that was asked for with what the bag was made from."""
+    world, grounded = bag.content.world, _grounded(bag)
+    prompt = bag.agsg.spec.prompt.encode('utf-8', 'surrogatepass')
+    for what, told, recorded in (
+        ('the map', report.map, bag.agsg.map_name),
+        ('the digest of the map', report.digests.map, world.map_digest),
+        ('the seed', report.seed, grounded.seed),
+        ('the digest of the prompt', report.digests.prompt, hashlib.sha256(prompt).hexdigest()),
+    ):
+        yield from _differs(REPORT, what, told, recorded)
+    if report.limits != world.limits:
+        yield altered(f'{REPORT} has other limits than the bag')
+    version = report.versions.get('aurora')
+    if grounded.basis is not None and version is not None:
+        yield from _differs(REPORT, 'the version', version, grounded.basis.version)
+    known = {(fault.subject, fault.kind) for fault in report.faults}
+    for subject, kind in sorted(_injected(bag) - known):
+        yield altered(f'{REPORT} tells of no injected fault {kind} on {subject}')
+
+
+def _injected(bag: JudgedBag) -> set[tuple[str, str]]:
+    # A detail begins with the kind of the fault.
+    events = bag.content.trace.events
+    return {
+        (e.subject, e.detail.partition(' ')[0])
+        for e in events
+        if e.kind is ScenarioEventKind.FAULT
+    }
+
+
+def _last(report: RunReport, entry: BagReport, bag: JudgedBag) -> Iterator[Doubt]:
+    """Compare what a report claims with the bag that it was judged by."""
+    trace = report.trace
+    if trace is None or (trace.bag, trace.sha256) != (entry.bag, entry.trace_sha256):
+        yield altered(f'{REPORT} contradicts itself about {entry.bag}')
+    spec = hashlib.sha256(bag.agsg.spec.canonical_json().encode('utf-8')).hexdigest()
+    yield from _differs(REPORT, 'the digest of the request', report.digests.spec, spec)
+    yield from _differs(REPORT, 'the digest of the graph', report.digests.agsg, bag.agsg.sha256)
+    if [(c.text, c.status) for c in report.clauses] != [(c.text, c.status) for c in bag.clauses]:
+        yield altered(f'{REPORT} has other clauses than the bag gives')
+    if bag.verdict.integrity is not Integrity.INTACT or report.status in _CLAIMS_NOTHING:
+        return
+    rows = {row.id: (row.margin, row.satisfied) for row in report.conditions}
+    if rows != {r.id: (r.margin, r.satisfied) for r in bag.verdict.results}:
+        yield altered(f'{REPORT} has other conditions or margins than the bag gives')
+    allowed = _MAY_CLAIM.get(bag.verdict.status, frozenset())
+    if report.status not in allowed:
+        yield altered(
+            f'{REPORT} says {report.status.value}, the bag shows {bag.verdict.status.value}'
+        )
+    if report.status is Status.VERIFIED and (unread(bag.clauses) or not bag.clauses):
+        yield altered(f'{REPORT} says verified, but not all of the prompt is encoded')
+
+
+_CLAIMS_NOTHING = (Status.ERROR, Status.CANCELLED, Status.INCONCLUSIVE)
+_HOLDS = frozenset({Status.VERIFIED, Status.VERIFIED_AS_EDITED, Status.INCOMPLETE})
+_MAY_CLAIM = {
+    VerdictStatus.VERIFIED: _HOLDS,
+    VerdictStatus.VIOLATED: frozenset({Status.VIOLATED}),
+    # What cannot be decided here may have been decided by another configuration.
+    VerdictStatus.INCONCLUSIVE: _HOLDS | {Status.VIOLATED},
+}
