@@ -11,6 +11,16 @@ from aurora_bench.checker.answers import CheckerError
 from aurora_bench.checker.scene import Scene
 
 Requirement = Mapping[str, Any]
+# Without these a requirement of the kind says nothing.
+NEEDED = {
+    'condition': ('quantity', 'of', 'op', 'value'),
+    'placement': ('agent', 'relation'),
+    'behavior': ('agent', 'behavior'),
+    'mission': ('uav', 'mode'),
+    'world': ('field', 'value'),
+    'link': ('sender', 'receiver'),
+    'order': ('first', 'then'),
+}
 Binding = Mapping[str, tuple[str, ...]]
 
 
@@ -30,8 +40,13 @@ class Annotation:
             raise CheckerError('the prompt has no list of requirements; see the prompt format')
         self.requirements: tuple[Requirement, ...] = tuple(found)
         for requirement in self.flat():
-            if not isinstance(requirement.get('kind'), str):
-                raise CheckerError(f'a requirement has no kind: {dict(requirement)}')
+            lacks = [
+                f
+                for f in ('kind', *NEEDED.get(str(requirement.get('kind')), ()))
+                if requirement.get(f) is None
+            ]
+            if lacks:
+                raise CheckerError(f'a requirement has no {lacks[0]}: {dict(requirement)}')
         variation = prompt.get('variation') or {}
         self.variation: Mapping[str, Any] = variation if isinstance(variation, Mapping) else {}
         self.events = self._named('event')

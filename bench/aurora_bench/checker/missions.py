@@ -22,6 +22,7 @@ from aurora_bench.checker.answers import (
 )
 from aurora_bench.checker.flight import Flight, altitude, avoided, leg_speed, level_of
 from aurora_bench.checker.numbers import wanted
+from aurora_bench.checker.places import GENERAL
 from aurora_bench.checker.recording import BoolArray, FloatArray
 from aurora_bench.checker.routes import navigate
 from aurora_bench.checker.scene import share
@@ -147,31 +148,33 @@ def _hover(flight: Flight, requirement: Mapping[str, Any]) -> Judged:
 
 
 def _over(flight: Flight, requirement: Mapping[str, Any], point: FloatArray, tick: int) -> Judged:
+    """Return whether the hover point is over its target, or at the stated distance from it."""
     scene = flight.scene
     asked = wanted(requirement, 'standoff_m', flight.variation, limits.STANDOFF)
     readings = []
     for target in flight.targets:
         if scene.is_body(target):
-            gaps = [
-                float(np.linalg.norm(scene.xy(target)[t] - point))
-                for t in (0, tick, min(flight.ticks.stop, scene.recording.ticks) - 1)
-            ]
+            last = min(flight.ticks.stop, scene.recording.ticks) - 1
+            gaps = [float(np.linalg.norm(scene.xy(target)[t] - point)) for t in (0, tick, last)]
+            inside = False
         elif scene.places.known(target):
+            # Any junction, any crossing is one; the position that the run chose is one as well.
+            spots = scene.places.spots(target)
             gaps = [float(scene.places.distance(target, point[None])[0])]
-            if asked is None:
-                gaps.append(float(scene.places.outline_distance(target, point[None])[0]))
-                # Any junction, any crossing is one; the run's own choice comes first.
-                spots = scene.places.spots(target)
-                gaps += [float(np.linalg.norm(s.xy - point)) for s in spots]
+            gaps += [float(np.linalg.norm(s.xy - point)) for s in spots]
+            inside = float(scene.places.outline_distance(target, point[None])[0]) <= 1.0
         else:
             readings.append(cannot_tell(f'no place {target!r} in the recorded world'))
             continue
         if asked is not None:
-            ok = any(asked.off(g) <= asked.slack for g in gaps)
-            why = f'{gaps[0]:.1f} m from {target}, asked {asked.text()} m'
-        else:
-            ok, why = min(gaps) <= limits.CENTRED_M, f'{min(gaps):.1f} m from {target}'
-        readings.append(decide(ok, why))
+            best = min(gaps, key=asked.off)
+            why = f'{best:.1f} m from {target}, asked {asked.text()} m'
+            readings.append(decide(asked.off(best) <= asked.slack, why))
+            continue
+        near = min(gaps) <= limits.CENTRED_M
+        # Over the roof of a building is over it; the far corner of a junction is in doubt.
+        roof = inside and target.casefold() not in GENERAL
+        readings.append(graded(near or roof, inside, f'{min(gaps):.1f} m from {target}'))
     return any_of(readings)
 
 
@@ -222,7 +225,7 @@ def _track_one(flight: Flight, requirement: Mapping[str, Any], target: str) -> J
     good, away, word = tracked(flight, requirement, target)
     hits = np.flatnonzero(good[flight.ticks])
     if not len(hits):
-        nearest = float(np.nanmin(away[flight.ticks])) if len(away) else np.nan
+        nearest = float(np.fmin.reduce(away[flight.ticks]))
         return does_not(f'{target} is never tracked at {word}; nearest {nearest:.1f} m')
     start = flight.segment.start + int(hits[0])
     window = slice(start, flight.ticks.stop)
@@ -246,7 +249,8 @@ def _middle_standoff(flight: Flight, requirement: Mapping[str, Any], away: Float
     asked = wanted(requirement, 'standoff_m', flight.variation, limits.STANDOFF)
     if asked is None or asked.slack == 0.0:
         return holds('')
-    middle = float(np.nanmedian(away))
+    known = away[np.isfinite(away)]
+    middle = float(np.median(known)) if len(known) else np.nan
     return decide(asked.counts(middle), f'median distance {middle:.1f} m, {asked.text()} m')
 
 

@@ -285,8 +285,7 @@ def _upstream(case: Case, requirement: Requirement, body: str, place: str) -> Ju
         return graded(ahead[0] <= AHEAD_MOST_M, True, why)
     # The edge, the middle and the far side of a place are all called by its name.
     fits = any(asked.counts(g) for g in ahead[:6])
-    between = ahead[0] <= asked.high + 15.0 and ahead[min(5, len(ahead) - 1)] >= asked.low - 15.0
-    return graded(fits, between, f'{why}, asked {asked.text()} m')
+    return decide(fits, f'{why}, asked {asked.text()} m')
 
 
 def _to_spot(line: shapely.LineString, start: float, spot: Spot) -> list[float]:

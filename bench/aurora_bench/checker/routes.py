@@ -125,7 +125,7 @@ def _goes_there(flight: Flight, xy: FloatArray) -> Judged:
             away = scene.places.outline_distance(target, xy)
         else:
             continue
-        least = float(np.nanmin(away))
+        least = float(np.fmin.reduce(away))
         readings.append(decide(least <= limits.CENTRED_M, f'within {least:.1f} m of {target}'))
     return any_of(readings) if readings else cannot_tell('a route of unknown shape')
 

@@ -130,7 +130,7 @@ def _distance(case: Case, trigger: Mapping[str, Any]) -> Fired:
     with np.errstate(invalid='ignore'):
         near = np.fmin.reduce(rows) if below else np.fmax.reduce(rows)
         true = near < value if below else near > value
-    extreme = float(np.nanmin(near) if below else np.nanmax(near))
+    extreme = float(np.fmin.reduce(near) if below else np.fmax.reduce(near))
     word = 'least' if below else 'greatest'
     return Fired(edges(case, true), why=f'{word} distance {extreme:.2f} m, {value:g} m')
 
@@ -175,7 +175,7 @@ def _arrives(case: Case, trigger: Mapping[str, Any]) -> Fired:
                 away = scene.distance(who, goal, horizontal=True)
             else:
                 away = scene.places.outline_distance(goal, scene.xy(who))
-            least = min(least, float(np.nanmin(away)))
+            least = float(np.fmin(least, np.fmin.reduce(away)))
             with np.errstate(invalid='ignore'):
                 near = away <= ARRIVED_FROM_M
             for a, b in runs_of(near):

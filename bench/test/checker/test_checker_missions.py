@@ -63,6 +63,20 @@ def test_a_hover_is_where_as_high_and_as_long_as_asked(
     assert stage.says({**HOVER, **change}) == outcome
 
 
+def test_a_hover_over_a_roof_a_junction_and_its_edge(make_stage: Any) -> None:
+    for x, y, target, outcome in (
+        (217, 38, 'City Hall', 'holds'),
+        (300, 4, 'intersection', 'holds'),
+        (312, 4, 'intersection', 'cannot_tell'),
+        (330, 4, 'intersection', 'does_not'),
+        (100, 0, 'crosswalk', 'holds'),
+        (120, 0, 'crosswalk', 'does_not'),
+    ):
+        stage = make_stage()
+        stage.uav('drone', lambda t, x=x, y=y: (x, y, 110))
+        assert stage.says({**HOVER, 'target': target, 'altitude_m': 110}) == outcome
+
+
 def test_a_hover_beside_its_place_does_not_hold(stage: Any) -> None:
     stage.uav('drone', lambda t: (210, -2, 50))
     assert stage.says({**HOVER, 'target': 'City Hall'}) == 'does_not'

@@ -142,3 +142,6 @@ def test_a_prompt_without_requirements_is_refused(stage: Any) -> None:
         check_recording(stage.recording(), {'id': 'x'})
     with pytest.raises(CheckerError, match='kind'):
         check_recording(stage.recording(), {'requirements': [{'id': 'r1'}]})
+    half = {'id': 'r1', 'kind': 'condition', 'quantity': 'speed', 'of': ['car1']}
+    with pytest.raises(CheckerError, match='no op'):
+        check_recording(stage.recording(), {'requirements': [half]})
