@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 from aurora_core.spec.parameter import Bound, Provenance, Unit
 from aurora_core.spec.requirements import STATED_QUANTITIES
 from aurora_core.spec.scenario import AgentAction, ScenarioSpec
+from aurora_core.spec.seed import SEED_MAX
 from aurora_core.spec.vocabulary import (
     AgentType,
     BehaviorKind,
@@ -139,7 +140,7 @@ class _Scene:
             'time_of_day_span': self.span()['span'],
             'traffic_density': self.maybe(st.sampled_from(TrafficDensity)),
             'duration_s': self.maybe_number(Unit.SECOND),
-            'seed': self.maybe(st.integers(0, 2**63)),
+            'seed': self.maybe(st.integers(0, SEED_MAX)),
             **self.span(),
         }
 
