@@ -215,7 +215,9 @@ class _SeeingEverything:
         return replace(output, sights=tuple(replace(s, visible=True) for s in output.sights))
 
 
-def _runner(kind: type[EventRunner]) -> Sabotage:
+def with_runner(kind: type[EventRunner]) -> Sabotage:
+    """Return the sabotage that runs the events otherwise."""
+
     def sabotage(executor: ScenarioExecutor) -> Stepper:
         s = executor._setup
         executor._runner = kind(
@@ -226,9 +228,11 @@ def _runner(kind: type[EventRunner]) -> Sabotage:
     return sabotage
 
 
-def _machine(
+def with_machines(
     kind: type[MissionMachine] = MissionMachine, plan: Callable[[UavPlan], UavPlan] = lambda p: p
 ) -> Sabotage:
+    """Return the sabotage that flies otherwise, or another plan than the one grounded."""
+
     def sabotage(executor: ScenarioExecutor) -> Stepper:
         machines = tuple(kind(plan(m.plan), m._settings, m._dt) for m in executor._setup.machines)
         return ScenarioExecutor(replace(executor._setup, machines=machines))
@@ -236,7 +240,9 @@ def _machine(
     return sabotage
 
 
-def _link(kind: type[MessageLink], **settings: str) -> Sabotage:
+def with_links(kind: type[MessageLink], **settings: str) -> Sabotage:
+    """Return the sabotage that carries messages otherwise, or between others."""
+
     def sabotage(executor: ScenarioExecutor) -> Stepper:
         links = tuple(
             kind(replace(k.settings, **settings), k._dt, k._generator, k._loss_at)  # type: ignore[arg-type]
@@ -300,63 +306,63 @@ def _planted(name: str, prompt: str, sabotage: Sabotage, *names: str) -> Planted
 
 
 PLANTED = (
-    _planted('trigger late by 1 s', 'tailgate', _runner(_LateRunner), 'finding:event'),
+    _planted('trigger late by 1 s', 'tailgate', with_runner(_LateRunner), 'finding:event'),
     _planted(
         'trigger early',
         'tailgate',
-        _runner(_EarlyRunner),
+        with_runner(_EarlyRunner),
         'finding:event',
         'condition:e1.not_before',
     ),
     _planted(
         'alert of what was never seen',
         _UNSEEN,
-        _runner(_BlindRunner),
+        with_runner(_BlindRunner),
         'finding:event',
         'condition:e1.actor_visible',
     ),
-    _planted('event done twice', 'tailgate', _runner(_RepeatingRunner), 'finding:event'),
-    _planted('delivery forged', 'loss', _link(_ForgingLink), 'finding:message'),
-    _planted('delivery never recorded', 'tailgate', _link(_SilentLink), 'finding:message'),
+    _planted('event done twice', 'tailgate', with_runner(_RepeatingRunner), 'finding:event'),
+    _planted('delivery forged', 'loss', with_links(_ForgingLink), 'finding:message'),
+    _planted('delivery never recorded', 'tailgate', with_links(_SilentLink), 'finding:message'),
     _planted(
         'retransmission missing',
         'loss',
-        _link(_GivingUpLink),
+        with_links(_GivingUpLink),
         'finding:message',
         'condition:e1.delivered',
     ),
     _planted(
         'message to another receiver',
         'tailgate',
-        _link(MessageLink, receiver='van1'),
+        with_links(MessageLink, receiver='van1'),
         'finding:message',
     ),
     _planted('sight through buildings', 'circle', _SeeingEverything, 'finding:sight'),
     _planted(
         'mission skipped',
         'two missions',
-        _machine(_SkippingMachine),
+        with_machines(_SkippingMachine),
         'condition:m1.order',
         'condition:m1.completed',
     ),
     _planted(
         'altitude too low',
         'hover',
-        _machine(plan=_lower),
+        with_machines(plan=_lower),
         'condition:m1.order',
         'condition:m1.altitude',
     ),
-    _planted('landing skipped', 'hover', _machine(_FloatingMachine), 'condition:uav1.landed'),
+    _planted('landing skipped', 'hover', with_machines(_FloatingMachine), 'condition:uav1.landed'),
     _planted(
         'another target tracked',
         'convoy',
-        _machine(plan=_after_the_ambulance),
+        with_machines(plan=_after_the_ambulance),
         'condition:m1.tracked',
     ),
     _planted(
         'capture taken too early',
         'landmark',
-        _machine(_HastyMachine),
+        with_machines(_HastyMachine),
         'condition:m1.completed',
         'condition:m1.duration',
     ),
