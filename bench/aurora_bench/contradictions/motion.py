@@ -186,7 +186,7 @@ def in_order(base: Recording, order: Sequence[int], speed_up: float = 1.0) -> Tr
     uav = trace.uav[ticks].copy()
     if speed_up != 1.0:
         faster = np.diff(ticks, append=ticks[-1] + 1) > 1
-        uav[np.ix_(faster, range(uav.shape[1]), range(*_VELOCITY.indices(99)))] *= speed_up
+        uav[faster, :, _VELOCITY] *= speed_up
     return replace(
         trace,
         ground=trace.ground[ticks],
