@@ -38,15 +38,14 @@ def measure_completion_delay(context: Context, condition: Condition) -> Evaluati
     """Seconds from when an action is due to its completion, beyond those that it needs.
 
     It needs the change of speed divided by what the agent can do. An action without a trigger is
-    due when it begins to show.
+    never late: it has to be complete at some time.
     """
     event_id, action = _event(context, condition)
     times = context.events
     due = times.due_tick(event_id)
-    if due is None:
-        asked = times.event(event_id)
-        untold = asked is not None and asked.trigger is None
-        due = times.action_tick(event_id, 0) if untold else None
+    asked = times.event(event_id)
+    if asked is not None and asked.trigger is None:
+        return _at_some_time(context, condition, event_id)
     if due is None or due >= context.view.ticks:
         return never_happened(context, condition, f'{event_id} was never due')
     gone = context.gone(condition, np.array([due], dtype=np.intp))
@@ -82,6 +81,14 @@ def measure_completion_delay(context: Context, condition: Condition) -> Evaluati
         story = f'{begin}; the run was over before it was complete'
         return at_tick(due, late_s, story, ground_topics(condition))
     return context.short(condition)
+
+
+def _at_some_time(context: Context, condition: Condition, event_id: str) -> Evaluation:
+    done = context.events.completion_tick(event_id)
+    if done is None:
+        return never_happened(context, condition, f'{event_id} was never complete')
+    story = f'{event_id} was complete at {context.time_s(done):.2f} s'
+    return at_tick(done, 0.0, story, ground_topics(condition))
 
 
 def measure_speed_before_event(context: Context, condition: Condition) -> Evaluation:

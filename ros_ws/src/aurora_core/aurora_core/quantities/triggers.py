@@ -155,7 +155,11 @@ class EventTimes:
             ]
             return min(sent, default=None)
         if isinstance(event.action, AgentAction):
-            return self._agent_action(event.action, start, begins_there=begins_there)
+            # Without a trigger it has to be seen: who stands all along has not stopped.
+            done = event.trigger is not None
+            return self._agent_action(
+                event.action, start, begins_there=begins_there, may_hold=done
+            )
         return self._uav_action(event.action, start)
 
     def _uav_action(self, action: UavAction, start: int) -> int | None:
@@ -175,12 +179,19 @@ class EventTimes:
         tick = None if flight is None else flight.landing_tick
         return tick if tick is not None and tick >= start else None
 
-    def _agent_action(self, action: AgentAction, start: int, *, begins_there: bool) -> int | None:
+    def _agent_action(
+        self, action: AgentAction, start: int, *, begins_there: bool, may_hold: bool
+    ) -> int | None:
         body = self.view.body(action.agent)
         speed = motion.speed(self.view, body)
         rules = self.rules.actions
-        standing = start < self.view.ticks and self.view.present(action.agent)[start]
-        if rules is not None and standing and holds_already(action, float(speed[start]), rules):
+        there = start < self.view.ticks and self.view.present(action.agent)[start]
+        if (
+            may_hold
+            and rules is not None
+            and there
+            and holds_already(action, float(speed[start]), rules)
+        ):
             return start
         if action.do == 'start' and rules is not None:
             return first_tick(speed > rules.start_mps, start)

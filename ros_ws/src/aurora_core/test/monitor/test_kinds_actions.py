@@ -165,6 +165,14 @@ def _never_due(do: str, end_mps: float, value_mps: float | None = None) -> Case:
     return _later(_to(do, end_mps, value_mps), trigger={'on': 'time', 'at_s': at_s})
 
 
+def _untold(case: Case) -> Case:
+    return _later(case, trigger=None)
+
+
+def _stands() -> Case:
+    return _car('stop', np.zeros(T), AT_S)
+
+
 def _after_2_s(case: Case) -> Case:
     return _later(case, delay_s=number(2.0, Unit.SECOND, explicit=True))
 
@@ -260,6 +268,12 @@ COMPLETED = (
     # There was no time left for it.
     Row(id='e1.completed', make=lambda: _to('stop', 1.0), margin=-0.05, what='stop-short'),
     Row(id='e1.completed', make=lambda: _never_due('stop', 0.0), reason=NEVER),
+    # Without a trigger it may come at any time, but who stands all along has not stopped.
+    Row(id='e1.completed', make=lambda: _untold(_to('stop', 0.0)), margin=2.0, what='untold'),
+    Row(id='e1.completed', make=lambda: _untold(_stands()), reason=NEVER, what='stands'),
+    Row(id='e1.happens', make=lambda: _untold(_stands()), reason=NEVER, what='stands'),
+    # Who stands when it is told to stop has nothing to do.
+    Row(id='e1.within', make=_stands, margin=1.0, what='stands'),
 )
 # It has to stand until 15 s, or from when it has stopped until it is to start again.
 SET_OFF = (
