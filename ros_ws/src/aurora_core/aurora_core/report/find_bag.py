@@ -54,16 +54,21 @@ def find_bag(text: str, iteration: int | None) -> FoundBag:
         path = path.parent
     is_named = not path.is_dir()
     folder = path.parent if is_named else path
-    match = _BAG.fullmatch(folder.absolute().name)
+    place = _place(folder)
+    match = _BAG.fullmatch(place.name)
     # What is named is the bag, whatever it is or holds: its reader says what is wrong with it.
     if is_named or any(path.glob('*.mcap')):
         if iteration is not None and (match is None or int(match[1]) != iteration):
             raise BagError(f'--iteration {iteration} does not fit the bag {path}')
-        parent = folder.absolute().parent
-        run = parent if _is_run(parent) else None
+        run = place.parent if _is_run(place.parent) else None
         number = int(match[1]) if match is not None and run is not None else None
         return FoundBag(bag=path, run=run, iteration=number)
     return _in_run(path, iteration)
+
+
+def _place(folder: Path) -> Path:
+    """Return where a folder lies, under the name that it was called by unless that has none."""
+    return folder.resolve() if '..' in folder.parts else folder.absolute()
 
 
 def _is_run(folder: Path) -> bool:
@@ -83,4 +88,4 @@ def _in_run(path: Path, iteration: int | None) -> FoundBag:
     if wanted not in numbers:
         shown = ', '.join(str(number) for number in numbers)
         raise BagError(f'{path} has no iteration {wanted}; it has {shown}')
-    return FoundBag(bag=path / f'bag.{wanted}', run=path, iteration=wanted)
+    return FoundBag(bag=path / f'bag.{wanted}', run=_place(path), iteration=wanted)
