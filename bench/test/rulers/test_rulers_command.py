@@ -126,7 +126,10 @@ def test_ctrl_c_keeps_what_is_finished_and_resume_does_the_rest(
     with monkeypatch.context() as patch:
         patch.setattr('tempfile.tempdir', str(temporary))
         patch.setattr(Progress, 'step', step_and_interrupt)
+        # Ignored where the tests run in the background.
+        before = signal.signal(signal.SIGINT, signal.default_int_handler)
         assert measure(cheap, [str(file), '--results', str(parts)]) == 130
+        signal.signal(signal.SIGINT, before)
     assert not multiprocessing.active_children()
     assert list(temporary.iterdir()) == []
     assert not (parts / 'realise.json').exists()

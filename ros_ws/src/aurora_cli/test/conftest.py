@@ -5,9 +5,10 @@
 from __future__ import annotations
 
 import json
+import signal
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -65,3 +66,15 @@ def finished(tmp_path_factory: pytest.TempPathFactory) -> SimpleNamespace:
     report = json.loads(done.stdout)
     folder = home / 'runs' / report['run_id']
     return SimpleNamespace(home=home, folder=folder, report=report, process=done)
+
+
+@pytest.fixture(autouse=True)
+def _signals_as_in_a_terminal() -> Iterator[None]:
+    """Heed SIGINT and SIGHUP, also where the tests run behind nohup or in the background."""
+    before = {
+        signal.SIGINT: signal.signal(signal.SIGINT, signal.default_int_handler),
+        signal.SIGHUP: signal.signal(signal.SIGHUP, signal.SIG_DFL),
+    }
+    yield
+    for number, handler in before.items():
+        signal.signal(number, handler)
