@@ -23,6 +23,10 @@ STEPS = 2
 SHOWS_MPS = 0.2
 # What a type can do in the weather is not recorded; who brakes less than this brakes too little.
 LEAST_BRAKE_MPS2 = 1.5
+# Who brakes already, and then brakes so much harder, has begun anew.
+HARDER_MPS2 = 1.0
+# What time steps and the averaging of speeds may add to a time in which nothing changes.
+IDLE_DOUBT_S = 0.5
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,6 +121,15 @@ def _slowing(case: Case, agent: str) -> BoolArray:
     return np.asarray(case.scene.acceleration(agent) < -SHOWS_MPS)
 
 
+def _idle_too_long(case: Case, slowing: BoolArray, onset: int, done: int) -> bool:
+    """Return whether an action that slows somebody down is late whatever his type can do.
+
+    A type needs no longer for it than he was slowing down: all other time is over and above that.
+    """
+    idle_s = float(np.count_nonzero(~slowing[onset:done])) * case.scene.dt_s
+    return idle_s > limits.ACTION_DONE_S + IDLE_DOUBT_S
+
+
 def _stop(case: Case, agent: str, window: Window) -> Acted:
     scene = case.scene
     still = (scene.speed(agent) < limits.STOPPED_MPS) & scene.present(agent)
@@ -153,13 +166,25 @@ def _stop(case: Case, agent: str, window: Window) -> Acted:
     gap = scene.speed(agent)[onset : after[0]]
     again = bool((np.maximum.accumulate(gap[::-1])[::-1] > gap[0] + 2.0).any())
     why = f'{agent} slows down at {start:.2f} s and stands from {end:.2f} s'
-    return Acted(graded(took <= bound and not again, not again, why), start, end)
+    possibly = not again and not _idle_too_long(case, _slowing(case, agent), onset, after[0])
+    return Acted(graded(took <= bound and possibly, possibly, why), start, end)
 
 
 def _reach(
-    case: Case, agent: str, window: Window, shows: BoolArray, there: BoolArray, what: str
+    case: Case,
+    agent: str,
+    window: Window,
+    shows: BoolArray,
+    there: BoolArray,
+    what: str,
+    *,
+    slows: bool = False,
 ) -> Acted:
-    """Return whether something sets in within the window and a speed is reached after it."""
+    """Return whether something sets in within the window and a speed is reached after it.
+
+    Args:
+        slows: Nothing ahead can hold it up, as it can who is to gain speed.
+    """
     scene = case.scene
     onset = _onset(case, shows, window)
     if onset is None:
@@ -172,7 +197,9 @@ def _reach(
     why = f'{agent} begins at {start:.2f} s, {what} by {done:.2f} s'
     # The type's acceleration is not recorded: 0.5 m/s^2 is the slowest that counts.
     change = abs(float(scene.speed(agent)[onset + reached[0]] - scene.speed(agent)[onset]))
-    return Acted(graded(done - start <= change / 0.5 + 2.0, True, why), start, done)
+    soon = done - start <= change / 0.5 + limits.ACTION_DONE_S
+    late = slows and _idle_too_long(case, shows, onset, onset + int(reached[0]))
+    return Acted(graded(soon and not late, not late, why), start, done)
 
 
 def _slow(case: Case, agent: str, window: Window, value: float | None) -> Acted:
@@ -200,7 +227,7 @@ def _slow(case: Case, agent: str, window: Window, value: float | None) -> Acted:
     else:
         there = speed <= speed[scene.tick(window.early_s)] / 2.0 + 1e-9
         what = f'slow to half of {speed[scene.tick(window.early_s)]:.2f} m/s'
-    return _reach(case, agent, window, _slowing(case, agent), there, what)
+    return _reach(case, agent, window, _slowing(case, agent), there, what, slows=True)
 
 
 def _accelerate(case: Case, agent: str, window: Window, value: float | None) -> Acted:
@@ -216,12 +243,30 @@ def _accelerate(case: Case, agent: str, window: Window, value: float | None) -> 
     return _reach(case, agent, window, gaining, speed >= goal - 0.05, f'reach {goal:.2f} m/s')
 
 
+def _hardest(case: Case, agent: str, first: int, stop: int) -> float:
+    """Return the hardest deceleration of some ticks, m/s^2: of the speeds or as recorded."""
+    recorded = -case.scene.recording.ground[:, case.scene.bodies[agent].row, 5]
+    shown = -case.scene.acceleration(agent)
+    return float(max(shown[first:stop].max(initial=0.0), recorded[first:stop].max(initial=0.0)))
+
+
+def _braking_anew(case: Case, agent: str, window: Window) -> BoolArray:
+    """Return when somebody slows down, without what only goes on when the window begins."""
+    slowing = _slowing(case, agent)
+    first, _ = _ticks(case, window)
+    for a, b in runs_of(slowing):
+        before, inside = _hardest(case, agent, a, first), _hardest(case, agent, first, b)
+        if a < first < b and inside <= before + HARDER_MPS2:
+            slowing[a:b] = False
+    return slowing
+
+
 def _brake(case: Case, agent: str, window: Window, value: float | None) -> Acted:
     scene = case.scene
-    slowing = _slowing(case, agent)
+    slowing = _slowing(case, agent) if window.free else _braking_anew(case, agent, window)
     onset = _onset(case, slowing, window)
     if onset is None:
-        return _never(case, window, f'{agent} does not brake')
+        return _never(case, window, f'{agent} does not begin to brake')
     end = onset
     hardest = 0.0
     runs = [
@@ -229,14 +274,8 @@ def _brake(case: Case, agent: str, window: Window, value: float | None) -> Acted
         for a, b in runs_of(slowing)
         if b > onset and (window.free or a <= _ticks(case, window)[1])
     ]
-    recorded = -scene.recording.ground[:, scene.bodies[agent].row, 5]
     for a, b in runs:
-        hard = float(
-            max(
-                (-scene.acceleration(agent)[max(a, onset) : b]).max(initial=0.0),
-                recorded[max(a, onset) : b].max(initial=0.0),
-            )
-        )
+        hard = _hardest(case, agent, max(a, onset), b)
         if hard > hardest:
             hardest, end = hard, b
         if hard >= limits.BRAKE_MPS2 * (1.0 - limits.REALISED_SHARE):

@@ -133,6 +133,12 @@ def _hover(flight: Flight, requirement: Mapping[str, Any]) -> Judged:
     if early is None or late is None:
         level, _ = level_of(flight, requirement)
         return does_not(f'never settles near its hover point at {level:.1f} m')
+    asked = wanted(requirement, 'duration_s', flight.variation, limits.DURATION)
+    if asked is not None and flight.segment.closed:
+        # A capture that leaves less than the stated duration is none that all the rest may count
+        # from.
+        last = flight.segment.end - round(asked.low / scene.dt_s)
+        late = max(early, min(late, last))
     point = _hover_point(flight)
     limit = limits.HOVER_DRIFT_WIND_M if scene.windy else limits.HOVER_DRIFT_CALM_M
     away = np.linalg.norm(scene.xy(flight.uav)[late : flight.ticks.stop] - point, axis=1)

@@ -41,6 +41,8 @@ def _profile(*points: tuple[float, float]) -> Any:
         ([(0, 10), (10, 10), (13, 0), (60, 0)], 'holds'),
         ([(0, 10), (60, 10)], 'does_not'),
         ([(0, 10), (20.3, 10), (60, 0)], 'cannot_tell'),
+        ([(0, 10), (20.3, 10), (23, 2), (24.5, 2), (25, 0), (60, 0)], 'holds'),
+        ([(0, 10), (20.3, 10), (23, 2), (50, 2), (51, 0), (60, 0)], 'does_not'),
     ],
 )
 def test_stop_is_rest_for_two_seconds(stage: Any, profile: Any, outcome: str) -> None:
@@ -61,6 +63,13 @@ def test_slow_to_a_speed_or_to_half(
     assert stage.says(_event(AT_20, _does('slow', **more))) == outcome
 
 
+@pytest.mark.parametrize('do', [{'do': 'slow', 'value_mps': 4.0}, {'do': 'slow'}])
+def test_slow_is_not_done_by_what_comes_long_after(stage: Any, do: dict[str, Any]) -> None:
+    """Half way at first, and there only twenty seconds later."""
+    stage.drive('car1', 'car', _profile((0, 10), (20.3, 10), (22, 7), (42, 7), (44, 4), (60, 4)))
+    assert stage.says(_event(AT_20, {**do, 'agent': 'car1'})) == 'does_not'
+
+
 @pytest.mark.parametrize(
     ('value', 'end', 'outcome'),
     [(14.0, 13.0, 'holds'), (14.0, 12.0, 'does_not'), (None, 14.1, 'holds'),
@@ -77,6 +86,22 @@ def test_accelerate(stage: Any, value: float | None, end: float, outcome: str) -
 )
 def test_brake_is_hard(stage: Any, seconds: float, outcome: str) -> None:
     stage.drive('car1', 'car', _profile((0, 10), (20.3, 10), (20.3 + seconds, 0), (60, 0)))
+    assert stage.says(_event(AT_20, _does('brake'))) == outcome
+
+
+@pytest.mark.parametrize(
+    ('profile', 'outcome'),
+    [
+        # Begun before, and only goes on when it is due.
+        ([(0, 15), (18.5, 15), (21.5, 0), (60, 0)], 'does_not'),
+        # Slower already for the traffic, and harder from then on.
+        ([(0, 15), (18.5, 15), (20.3, 13), (22.5, 0), (60, 0)], 'holds'),
+        # Twice: the later one is meant.
+        ([(0, 15), (16, 15), (17, 10), (20.3, 10), (22.0, 0), (60, 0)], 'holds'),
+    ],
+)
+def test_brake_begins_when_it_is_due(stage: Any, profile: Any, outcome: str) -> None:
+    stage.drive('car1', 'car', _profile(*profile))
     assert stage.says(_event(AT_20, _does('brake'))) == outcome
 
 

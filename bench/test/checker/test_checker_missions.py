@@ -96,6 +96,21 @@ def test_altitude_of_a_range_is_judged_by_the_range(stage: Any) -> None:
     assert stage.says(asked, variation={'m.altitude_m': [36, 42]}) == 'does_not'
 
 
+def test_altitude_counts_as_long_as_the_duration_does(stage: Any) -> None:
+    """It drifts in slowly, and is high up for half of the time that counts as its hover."""
+    stage.uav(
+        'drone',
+        lambda t: (
+            210 + np.interp(t, [10, 30], [2.3, 1.2]) * (t < 30),
+            15,
+            np.interp(t, [14, 16, 28, 30], [50, 58, 58, 50]),
+        ),
+    )
+    asked = {**HOVER, 'duration_s': 40}
+    assert stage.says(asked) == 'does_not'
+    assert stage.says({**asked, 'duration_s': 20}) == 'holds'
+
+
 def test_a_hover_out_of_sight_of_its_target_does_not_hold(stage: Any) -> None:
     stage.uav('drone', lambda t: (210, 15, 80))
     stage.world = type(stage.world)(
