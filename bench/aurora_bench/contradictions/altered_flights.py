@@ -104,7 +104,7 @@ FLIGHTS: tuple[Altered, ...] = (
         'first hover 8 m higher than asked',
         'sequence',
         'r3',
-        _of('m1', motion.raised, 8.0, 8.0),
+        _of('m1', motion.raised, 8.0, 9.0),
         'm1.altitude',
     ),
     _flight(
