@@ -60,6 +60,7 @@ def test_requirements_and_conditions_that_are_named_exist(request_name: str) -> 
     spec = parse_stage(annotated['prompt'], 'downtown', 1).spec
     assert spec is not None
     grounded = ground_stage(build_agsg(spec), 1).agsg
+    assert grounded is not None
     conditions = {row['id'] for row in json.loads(grounded.conditions_json)}
     for case in CASES:
         if case.request == request_name:
