@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """More executors with planted bugs: each does something else than a number in the request says.
 
-What they tell is true of what they do: no claim is forged, only the request is not met.
+Most tell truly what they do: only the request is not met. Those that begin too early believe in
+their trigger, and those that send nothing believe that they did.
 """
 
 from __future__ import annotations
