@@ -90,7 +90,7 @@ def parse_offline(prompt: str, context: ParseContext) -> ParseOutcome:
     if scene.questions:
         question = ' '.join(dict.fromkeys(scene.questions))
         return ParseOutcome(question=question, clauses=scene.finished_clauses())
-    close_scene(scene, read.told.atoms)
+    close_scene(scene, read.told.atoms, read.resolver)
     spec = _build(scene)
     lost = unaccounted(
         spec,

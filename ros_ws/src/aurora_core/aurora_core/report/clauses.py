@@ -65,10 +65,15 @@ def _report(clause: Clause, missing: dict[str, str]) -> ClauseReport:
     if clause.note:
         notes.insert(0, clause.note)
     lost = any(name in missing for name in clause.ids)
+    status = ClauseStatus.NOT_ENCODED if lost else clause.status
+    if status is ClauseStatus.ENCODED and not clause.ids:
+        # It became nothing that a condition could be about.
+        status = ClauseStatus.NOT_JUDGED
+        notes.append('nothing of the scenario stands for it')
     return ClauseReport(
         text=clause.text,
         span=clause.span,
-        status=ClauseStatus.NOT_ENCODED if lost else clause.status,
+        status=status,
         ids=clause.ids,
         note='; '.join(notes),
     )

@@ -69,3 +69,16 @@ def test_who_is_told_of_behind_a_place_is_not_lost_in_silence() -> None:
     outcome = parse_offline(prompt, ParseContext(landmark_names=('City Hall',)))
     unread = [c.text for c in outcome.clauses if c.status is ClauseStatus.NOT_ENCODED]
     assert unread == ['City Hall, where']
+
+
+@pytest.mark.parametrize(
+    ('prompt', 'kinds'),
+    [
+        ('There is no truck in the scene. A drone tracks a bus.', [('truck', 0.0)]),
+        ('A drone tracks a bus; there are no other vehicles.', [('vehicle', 1.0)]),
+    ],
+)
+def test_what_is_denied_closes_the_scene(prompt: str, kinds: list[tuple[str, float]]) -> None:
+    spec = parse_offline(prompt, ParseContext()).spec
+    assert spec is not None
+    assert [(count.kind, count.value.value) for count in spec.counts] == kinds

@@ -144,6 +144,16 @@ def honest_reading(spec: ScenarioSpec) -> dict[str, Any]:
             }
             for c in spec.conditions
         ],
+        'counts': [
+            {
+                'id': c.id,
+                'kind': str(c.kind),
+                'value': number(c.value)
+                or {'value': c.value.value, 'unit': c.value.unit.value, 'provenance': 'inferred'},
+                'quote': quote(c.span),
+            }
+            for c in spec.counts
+        ],
         'clauses': [
             {
                 'quote': c.text,
