@@ -146,6 +146,9 @@ class ReplayNode(AuroraNode):
         self.heartbeat.busy(self._plan.run_number)
         if monitored:
             self._tell(SyncStatus.LOADED)
+            # Who has not discovered us yet would hear only the next one of these.
+            limit = Duration(nanoseconds=int(self._settings.monitor_limit_s * 1e9))
+            self._status_outlet.wait_for_all_acked(limit)
         for document in self._plan.documents:
             self._send(document)
         if monitored:
@@ -156,7 +159,7 @@ class ReplayNode(AuroraNode):
             self._check()
             if rate is not None:
                 due_s = began_s + min(tick, self._plan.last_tick) * self._plan.dt_s / rate
-                self._await(lambda: self._running != '', until_s=due_s)
+                self._await(self._is_occupied, until_s=due_s)
             if monitored and sent:
                 self._await_acknowledged(min(sent.values()) - self._settings.credit_ticks)
             if tick <= self._plan.last_tick:
@@ -259,9 +262,10 @@ class ReplayNode(AuroraNode):
         Raises:
             ExecutionError: The replay cannot go on.
         """
-        if self._running:
+        # Not only its clock: a run does not begin while we publish.
+        if self._is_occupied():
             raise ExecutionError(
-                f'gave way to a run that began: {self._running}',
+                f'gave way to a run that began: {self._occupant()}',
                 component=_COMPONENT,
                 hint='replay again when it has ended',
             )
