@@ -7,6 +7,7 @@ from __future__ import annotations
 import os
 import shutil
 import time
+from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
@@ -32,7 +33,7 @@ from aurora_core.spec.scenario import ScenarioSpec
 
 
 @dataclass(kw_only=True)
-class RunWork:
+class RunWork(ABC):
     """How trials are run; sent to every worker.
 
     Attributes:
@@ -73,9 +74,9 @@ class RunWork:
         self._seconds['processor'] = time.process_time() - cpu_begin
         return result.model_copy(update={'seconds': self._seconds})
 
+    @abstractmethod
     def judge(self, trial: Trial, place: Path) -> JudgedTrial:
         """Run a trial into a folder and judge it."""
-        raise NotImplementedError
 
     def ran(self, request: RunRequest, place: Path, stages: WatchedStages) -> _Ran:
         """Run a request into a folder and remember how long its stages took."""
