@@ -62,10 +62,14 @@ def _with_clause(reference: Mapping[str, Any]) -> ScenarioSpec:
     """Return a stored reference as a specification.
 
     A run whose prompt is not divided into clauses counts as incomplete. The reference is built
-    from all requirements, so that the prompt as a whole is what it encodes.
+    from all requirements, so that the prompt as a whole became every element.
     """
     prompt = reference['prompt']
-    clause = {'text': prompt, 'span': {'start': 0, 'end': len(prompt)}, 'status': 'encoded'}
+    elements = [e['id'] for part in reference.values() if isinstance(part, list) for e in part]
+    clause = {
+        'text': prompt, 'span': {'start': 0, 'end': len(prompt)}, 'status': 'encoded',
+        'ids': sorted(elements),
+    }  # fmt: skip
     return ScenarioSpec.model_validate({**reference, 'clauses': [clause]})
 
 
