@@ -26,7 +26,7 @@ from aurora_core.errors import AuroraError
 from aurora_core.pipeline.functions import execution_stage
 from aurora_core.trace.bag_reader import read_bag
 from aurora_core.trace.definitions import message_definitions
-from aurora_core.trace.hashing import trace_sha256
+from aurora_core.trace.hashing import trace_hashes
 from aurora_msgs.action import ExecuteScenario
 from aurora_nodes.run_driver import Done, ExecutorSettings, Order, RunDriver
 from aurora_nodes.tick_path import TickPath
@@ -135,7 +135,9 @@ class ExecutorNode(ManagedNode):
         result.outcome = done.outcome
         if done.outcome != 'cancelled':
             content = read_bag(done.bag, message_definitions())
-            result.trace_sha256 = trace_sha256(content.trace, content.world)
+            hashes = trace_hashes(content.trace, content.world)
+            result.trace_sha256 = hashes.trace_sha256
+            result.motion_sha256 = hashes.motion_sha256
 
 
 class _Orphaned:

@@ -135,6 +135,7 @@ class RosStages:
             'bag': result.bag_uri,
             'ticks': result.ticks,
             'trace_sha256': result.trace_sha256,
+            'motion_sha256': result.motion_sha256,
             'outcome': result.outcome,
         }
         try:

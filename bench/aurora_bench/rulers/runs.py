@@ -102,6 +102,7 @@ class RunWork(ABC):
             summary=report.summary,
             said=said,
             trace_sha256=report.trace.sha256 if report.trace is not None else '',
+            motion_sha256=report.trace.motion_sha256 if report.trace is not None else '',
         )
 
     def _checked(self, trial: Trial, ran: _Ran) -> tuple[tuple[Said, ...], Found | None]:

@@ -59,6 +59,7 @@ class JudgedTrial(Document):
         summary: What the run's report says.
         said: The checker's answers; () for a run that is not verified.
         trace_sha256: '' without a trace.
+        motion_sha256: '' without a trace.
         seconds: Wall seconds by stage.
     """
 
@@ -74,6 +75,7 @@ class JudgedTrial(Document):
     summary: str = ''
     said: tuple[Said, ...] = ()
     trace_sha256: str = ''
+    motion_sha256: str = ''
     seconds: Mapping[str, FiniteFloat] = {}
 
     @property

@@ -44,7 +44,7 @@ def verified(monkeypatch: pytest.MonkeyPatch) -> None:
         bag = folder.bag_path(0)
         bag.mkdir()
         (bag / 'metadata.yaml').write_text('')
-        trace = SimpleNamespace(bag=bag.name, sha256='ab')
+        trace = SimpleNamespace(bag=bag.name, sha256='ab', motion_sha256='cd')
         timing = {'execute': 1.0}
         return SimpleNamespace(status=Status.VERIFIED, summary='', trace=trace, timing=timing)
 

@@ -23,7 +23,7 @@ from aurora_core.ports.simulators import AirSimulator, FloatArray, GroundSimulat
 from aurora_core.trace import messages
 from aurora_core.trace.bag_writer import BagWriter
 from aurora_core.trace.definitions import MessageDefinitions
-from aurora_core.trace.hashing import trace_sha256
+from aurora_core.trace.hashing import trace_hashes
 from aurora_core.trace.messages import MessageBuilder, time_ns
 from aurora_core.trace.messages_world import world_message
 from aurora_core.trace.tick_encoding import TickEncoder
@@ -153,11 +153,13 @@ def run_lockstep(
             ground.close()
             air.close()
     trace = collected.trace()
+    hashes = trace_hashes(trace, execution.world)
     return ExecutionResult.model_validate(
         {
             'bag': bag_directory,
             'ticks': trace.ticks,
-            'trace_sha256': trace_sha256(trace, execution.world),
+            'trace_sha256': hashes.trace_sha256,
+            'motion_sha256': hashes.motion_sha256,
             'outcome': outcome,
         }
     )

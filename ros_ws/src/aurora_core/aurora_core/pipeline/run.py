@@ -173,7 +173,11 @@ class _Run:
 
     def _execution(self, result: ExecutionResult, name: str) -> ExecutionFacts:
         return ExecutionFacts(
-            bag=name, ticks=result.ticks, dt_s=self._dt_s, trace_sha256=result.trace_sha256
+            bag=name,
+            ticks=result.ticks,
+            dt_s=self._dt_s,
+            trace_sha256=result.trace_sha256,
+            motion_sha256=result.motion_sha256,
         )
 
 

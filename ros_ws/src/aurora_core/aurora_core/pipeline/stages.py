@@ -62,12 +62,14 @@ class ExecutionResult(Document):
         bag: Folder of the rosbag2 bag.
         ticks: Number of recorded ticks.
         trace_sha256: Trace hash (hex).
+        motion_sha256: The same without the world and its conditions (hex).
         outcome: finished, horizon or cancelled.
     """
 
     bag: Path
     ticks: int
     trace_sha256: str
+    motion_sha256: str
     outcome: Literal['finished', 'horizon', 'cancelled']
 
 

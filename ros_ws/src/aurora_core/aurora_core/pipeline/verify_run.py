@@ -19,7 +19,7 @@ from aurora_core.report.run_check import JudgedBag, check_run
 from aurora_core.report.run_report import ClauseReport
 from aurora_core.report.verify_report import AsRecorded, VerifyReport, verify_report
 from aurora_core.trace.bag_content import BagContent
-from aurora_core.trace.hashing import trace_sha256
+from aurora_core.trace.hashing import trace_hashes
 
 
 def verify_found(
@@ -71,7 +71,7 @@ def _judged_bag(
     return JudgedBag(
         content=content,
         agsg=agsg,
-        trace_sha256=trace_sha256(content.trace, content.world),
+        hashes=trace_hashes(content.trace, content.world),
         verdict=verdict,
         clauses=_clauses(agsg, () if isinstance(plan, NotComparable) else plan.missing),
     )

@@ -180,6 +180,7 @@ def _trace(facts: RunFacts) -> TraceReport | None:
         bag=execution.bag,
         ticks=execution.ticks,
         sha256=execution.trace_sha256,
+        motion_sha256=execution.motion_sha256,
         integrity=verdict.integrity if verdict is not None else Integrity.UNKNOWN,
         notes=verdict.notes if verdict is not None else (),
         cross_check=verdict.cross_check if verdict is not None else (),

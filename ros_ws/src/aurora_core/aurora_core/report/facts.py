@@ -27,12 +27,14 @@ class ExecutionFacts:
         ticks: Number of recorded ticks.
         dt_s: Time step.
         trace_sha256: Trace hash (hex).
+        motion_sha256: The same without the world and its conditions (hex).
     """
 
     bag: str
     ticks: int
     dt_s: float
     trace_sha256: str
+    motion_sha256: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -29,6 +29,7 @@ from aurora_core.spec.parameter import Document
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.spec.vocabulary import ClauseStatus
 from aurora_core.trace.bag_content import BagContent
+from aurora_core.trace.hashing import TraceHashes
 from aurora_core.trace.records import ScenarioEventKind
 from aurora_core.trace.trace import Integrity
 
@@ -56,14 +57,14 @@ class JudgedBag:
     Attributes:
         content: What it holds.
         agsg: Graph in it.
-        trace_sha256: Trace hash (hex).
+        hashes: Of its trace.
         verdict: Of the bag.
         clauses: Of the prompt in it, with what became of each.
     """
 
     content: BagContent
     agsg: Agsg
-    trace_sha256: str
+    hashes: TraceHashes
     verdict: Verdict
     clauses: tuple[ClauseReport, ...]
 
@@ -252,7 +253,8 @@ def _report(run: Path, report: RunReport, iteration: int, bag: JudgedBag) -> Ite
         yield altered(f'{REPORT} lists no {name}; the bags of the run are: {names}')
     for entry in listed:
         if entry.bag == name:
-            yield from trace_doubts(bag.verdict, bag.trace_sha256, entry.trace_sha256, REPORT)
+            hashes = bag.hashes
+            yield from trace_doubts(bag.verdict, hashes.trace_sha256, entry.trace_sha256, REPORT)
             yield from _differs(
                 f'{REPORT}, {name},', 'the graph', entry.graph_sha256, bag.agsg.sha256
             )

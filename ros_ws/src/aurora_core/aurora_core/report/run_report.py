@@ -152,6 +152,8 @@ class TraceReport(Document):
         bag: Folder of the bag, relative to the run folder when it is inside.
         ticks: Number of recorded ticks.
         sha256: Trace hash (hex).
+        motion_sha256: Hash (hex) of roster, states, commands, links, sight and events alone; '' in
+            reports of older versions.
         integrity: State of the recording, apart from the margins.
         notes: What is damaged, for people.
         cross_check: Where the executor's record and the recomputation disagree.
@@ -162,6 +164,7 @@ class TraceReport(Document):
     bag: str
     ticks: int
     sha256: str
+    motion_sha256: str = ''
     integrity: Integrity
     notes: tuple[str, ...] = ()
     cross_check: tuple[Finding, ...] = ()

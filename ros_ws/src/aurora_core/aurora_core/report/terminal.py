@@ -76,6 +76,8 @@ def print_report(report: RunReport, console: Console, folder: Path | None = None
     if report.trace is not None:
         trace = report.trace
         line(console, f'trace    {trace.sha256} ({trace.ticks} ticks, {trace.integrity.value})')
+        if trace.motion_sha256:
+            line(console, f'motion   {trace.motion_sha256}')
         for finding in trace.cross_check:
             line(console, f'disagreement at {finding.time_s:.2f} s: {finding.text}')
     if folder is not None:
@@ -266,6 +268,7 @@ def print_verify(report: VerifyReport, console: Console) -> None:
         line(console, f'{clause.status.value.replace("_", " "):12} “{clause.text}”{why}')
     line(console, f'prompt   {report.prompt}')
     line(console, f'trace    {report.trace_sha256}')
+    line(console, f'motion   {report.motion_sha256}')
     recorded = report.recorded
     if recorded is None:
         alone = 'the bag was verified by itself' if report.run is None else 'there is none to read'

@@ -91,6 +91,7 @@ class VerifyReport(Document):
     prompt: str
     ticks: int
     trace_sha256: str
+    motion_sha256: str
     verdict: Verdict
     recorded: Comparison | None = None
     run: RunCheck | None = None
@@ -122,7 +123,8 @@ def verify_report(
         summary='',
         prompt=bag.agsg.spec.prompt,
         ticks=bag.content.trace.ticks,
-        trace_sha256=bag.trace_sha256,
+        trace_sha256=bag.hashes.trace_sha256,
+        motion_sha256=bag.hashes.motion_sha256,
         verdict=verdict,
         recorded=recorded,
         run=run,

@@ -1,16 +1,19 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""The trace hash: sha256 over decoded values in one canonical encoding.
+"""The trace hash and the motion hash: sha256 over decoded values in one canonical encoding.
 
-Covered: roster, world, states, commands, comm, sensing and events, ordered by tick, topic, id.
-Not covered: run id, wall times, heartbeat, diagnostics, margins. float64 little-endian, integers
-as int64 little-endian, strings UTF-8 with their length in front.
+The trace hash covers roster, world, states, commands, comm, sensing and events, ordered by tick,
+topic, id; the motion hash the same without the world, which holds the conditions' texts: it tells
+whether anybody moved, sent or saw otherwise. Neither covers run id, wall times, heartbeat,
+diagnostics, margins. float64 little-endian, integers as int64 little-endian, strings UTF-8 with
+their length in front.
 """
 
 from __future__ import annotations
 
 import hashlib
 import struct
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -27,12 +30,43 @@ _EMPTY_TUPLE = b't' + bytes(8)
 _DOUBLE = struct.Struct('<d')
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TraceHashes:
+    """What a run is told by.
+
+    Attributes:
+        trace_sha256: Trace hash (hex).
+        motion_sha256: Motion hash (hex).
+    """
+
+    trace_sha256: str
+    motion_sha256: str
+
+
 class _Encoder:
-    """Feeds a sha256 with typed, self-delimiting values."""
+    """Feeds digests with typed, self-delimiting values, encoded once."""
 
     def __init__(self) -> None:
-        self._digest = hashlib.sha256()
+        self._digests = [hashlib.sha256()]
         self._buffer = bytearray()
+
+    def fork(self) -> None:
+        """From now on a second digest takes what the first one takes, from the same beginning."""
+        self._flush()
+        self._digests.append(self._digests[0].copy())
+
+    def only_first(self, value: object) -> None:
+        """Add a value that the second digest does not take."""
+        self._flush()
+        digests, self._digests = self._digests, self._digests[:1]
+        self.add(value)
+        self._flush()
+        self._digests = digests
+
+    def _flush(self) -> None:
+        for digest in self._digests:
+            digest.update(self._buffer)
+        self._buffer.clear()
 
     def add(self, value: object) -> None:
         buffer = self._buffer
@@ -41,8 +75,7 @@ class _Encoder:
             buffer += b'a' + array.size.to_bytes(8, 'little')
             buffer += array.tobytes()
             if len(buffer) > _PIECE_BYTES:
-                self._digest.update(buffer)
-                buffer.clear()
+                self._flush()
         elif isinstance(value, str):
             data = value.encode('utf-8')
             buffer += b's' + len(data).to_bytes(8, 'little') + data
@@ -60,24 +93,29 @@ class _Encoder:
         else:
             raise TypeError(f'cannot encode {type(value).__name__}')
 
-    def hexdigest(self) -> str:
-        self._digest.update(self._buffer)
-        self._buffer.clear()
-        return self._digest.hexdigest()
+    def hexdigests(self) -> tuple[str, ...]:
+        self._flush()
+        return tuple(digest.hexdigest() for digest in self._digests)
 
 
 def world_sha256(world: WorldModel) -> str:
     """Return the digest (hex) of a world."""
     encoder = _Encoder()
     encoder.add(_world_values(world))
-    return encoder.hexdigest()
+    return encoder.hexdigests()[0]
 
 
 def trace_sha256(trace: Trace, world: WorldModel) -> str:
     """Return the trace hash (hex)."""
+    return trace_hashes(trace, world).trace_sha256
+
+
+def trace_hashes(trace: Trace, world: WorldModel) -> TraceHashes:
+    """Return the trace hash and the motion hash."""
     encoder = _Encoder()
     encoder.add(_roster_values(trace.roster))
-    encoder.add(_world_values(world))
+    encoder.fork()
+    encoder.only_first(_world_values(world))
     links: dict[int, list[object]] = {}
     sights: dict[int, list[object]] = {}
     events: dict[int, list[object]] = {}
@@ -119,7 +157,8 @@ def trace_sha256(trace: Trace, world: WorldModel) -> str:
         encoder.add(sights.get(tick, ()))
         encoder.add(trace.uav_commands[tick])
         encoder.add(trace.uav[tick])
-    return encoder.hexdigest()
+    whole, motion = encoder.hexdigests()
+    return TraceHashes(trace_sha256=whole, motion_sha256=motion)
 
 
 def _roster_values(roster: Roster) -> object:

@@ -37,6 +37,7 @@ from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import Clause, GroundAgent, ScenarioSpec, Uav, UavMission
 from aurora_core.spec.vocabulary import AgentType, ClauseStatus, MissionMode
 from aurora_core.trace.bag_content import BagContent
+from aurora_core.trace.hashing import TraceHashes
 from aurora_core.trace.layout import (
     GROUND_WIDTH,
     UAV_COMMAND_WIDTH,
@@ -176,7 +177,7 @@ def make_judged(verdict: Verdict, *clauses: ClauseReport) -> JudgedBag:
     return JudgedBag(
         content=BagContent(trace=make_trace(30), world=make_world(), agsg_message=None),
         agsg=make_graph(),
-        trace_sha256='a' * 64,
+        hashes=TraceHashes(trace_sha256='a' * 64, motion_sha256='b' * 64),
         verdict=verdict,
         clauses=clauses or (text,),
     )
@@ -189,7 +190,9 @@ def make_facts(**changes: Any) -> RunFacts:
         'prompt': PROMPT,
         'parse': ParseOutcome(spec=make_spec(), clauses=make_spec().clauses),
         'grounding': GroundingOutcome(agsg=make_graph()),
-        'execution': ExecutionFacts(bag='bag.0', ticks=1201, dt_s=DT_S, trace_sha256='a' * 64),
+        'execution': ExecutionFacts(
+            bag='bag.0', ticks=1201, dt_s=DT_S, trace_sha256='a' * 64, motion_sha256='b' * 64
+        ),
         'verdict': make_verdict(),
         'timing': {'parse': 0.01, 'execute': 1.5},
         'iterations': 1,

@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 from aurora_core.knowledge.world import SurfaceKind
-from aurora_core.trace.hashing import _Encoder, trace_sha256, world_sha256
+from aurora_core.trace.hashing import _Encoder, trace_hashes, trace_sha256, world_sha256
 from aurora_core.trace.layout import GroundCommandKind
 from aurora_core.trace.records import LinkEventKind, LossReason, ScenarioEventKind
 from aurora_core.trace.trace import Integrity, Trace
@@ -60,12 +60,14 @@ def test_every_field_of_every_record_counts(
     make_trace: Callable[..., Trace], make_world: Callable[..., Any]
 ) -> None:
     trace, world = make_trace(), make_world()
-    seen = {trace_sha256(trace, world): 'original'}
+    first = trace_hashes(trace, world)
+    seen = {first.trace_sha256: 'original', first.motion_sha256: 'motion of the original'}
 
     def check(name: str, changed: Trace) -> None:
-        digest = trace_sha256(changed, world)
-        assert digest not in seen, (name, seen.get(digest))
-        seen[digest] = name
+        hashes = trace_hashes(changed, world)
+        for digest in (hashes.trace_sha256, hashes.motion_sha256):
+            assert digest not in seen, (name, seen.get(digest))
+            seen[digest] = name
 
     for name, record in _variants(trace.links[1]):
         check(f'link {name}', replace(trace, links=(trace.links[0], record, trace.links[2])))
@@ -116,6 +118,16 @@ def test_every_field_of_the_world_counts(make_world: Callable[..., Any]) -> None
     check('limits', replace(world, limits=limits))
 
 
+def test_the_motion_is_the_same_in_another_world(
+    make_trace: Callable[..., Trace], make_world: Callable[..., Any]
+) -> None:
+    trace, world = make_trace(), make_world()
+    told = replace(world, conditions_json='[{}]')
+    before, after = trace_hashes(trace, world), trace_hashes(trace, told)
+    assert before.motion_sha256 == after.motion_sha256
+    assert before.trace_sha256 != after.trace_sha256
+
+
 def test_what_is_not_covered_does_not_count(
     make_trace: Callable[..., Trace], make_world: Callable[..., Any]
 ) -> None:
@@ -150,7 +162,7 @@ def test_hash_is_the_same_on_every_machine() -> None:
         (b's', 1, b'x'),
     ):
         expected.update(tag + struct.pack('<Q', size) + data)
-    assert encoder.hexdigest() == expected.hexdigest()
+    assert encoder.hexdigests()[0] == expected.hexdigest()
 
 
 def test_neighbouring_values_do_not_run_together() -> None:
@@ -158,7 +170,7 @@ def test_neighbouring_values_do_not_run_together() -> None:
         encoder = _Encoder()
         for value in values:
             encoder.add(value)
-        return encoder.hexdigest()
+        return encoder.hexdigests()[0]
 
     assert digest('ab', 'c') != digest('a', 'bc')
     assert digest((1, 2), ()) != digest((1,), (2,))
