@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from aurora_core.monitor.verdict import Finding, Verdict, VerdictStatus
+from aurora_core.outcomes.verdict import Finding, Verdict, VerdictStatus
 from aurora_core.pipeline.functions import graph_of, verify_content
 from aurora_core.report.comparison import compare
 from aurora_core.trace.bag_reader import BagContent

@@ -19,7 +19,7 @@ from rclpy.exceptions import InvalidHandle
 from rclpy.impl.implementation_singleton import rclpy_implementation
 
 from aurora_core.errors import AuroraError, VerificationError
-from aurora_core.monitor.verdict import Verdict, VerdictStatus
+from aurora_core.outcomes.verdict import Verdict, VerdictStatus
 from aurora_core.trace.bag_reader import read_bag
 from aurora_core.trace.definitions import message_definitions
 from aurora_core.trace.trace import Integrity

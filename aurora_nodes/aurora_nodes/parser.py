@@ -14,7 +14,7 @@ from rclpy.callback_groups import ReentrantCallbackGroup
 
 from aurora_core.agsg.build import build_agsg
 from aurora_core.errors import ExecutionError
-from aurora_core.parsing.outcome import ParseOutcome
+from aurora_core.outcomes.parse import ParseOutcome
 from aurora_core.pipeline.functions import knowledge
 from aurora_core.pipeline.stages import RunRequest
 from aurora_llm.parse import read_prompt

@@ -28,7 +28,7 @@ from rclpy.utilities import remove_ros_args, try_shutdown
 from rich.console import Console
 
 from aurora_core.errors import AuroraError, BagError, VerificationError
-from aurora_core.monitor.verdict import Verdict
+from aurora_core.outcomes.verdict import Verdict
 from aurora_core.pipeline.functions import graph_of
 from aurora_core.pipeline.verify_run import report_beside
 from aurora_core.report.comparison import Comparison, Difference, compare

@@ -11,16 +11,16 @@ from typing import Any, TypeVar
 
 from pydantic import ValidationError
 
-from aurora_core.agsg.graph import Agsg
+from aurora_core.document import Document
 from aurora_core.errors import ExecutionError
-from aurora_core.feasibility.verdict import FeasibilityVerdict
-from aurora_core.grounding.outcome import GroundingOutcome
-from aurora_core.monitor.verdict import Verdict
-from aurora_core.parsing.outcome import ParseOutcome
+from aurora_core.outcomes.agsg import Agsg
+from aurora_core.outcomes.feasibility import FeasibilityVerdict
+from aurora_core.outcomes.grounding import GroundingOutcome
+from aurora_core.outcomes.parse import ParseOutcome
+from aurora_core.outcomes.schedule import Schedule
+from aurora_core.outcomes.verdict import Verdict
 from aurora_core.pipeline.stages import ExecutionResult, RunControl, RunRequest
 from aurora_core.ports.language_model import ModelCall
-from aurora_core.spec.parameter import Document
-from aurora_core.temporal.schedule import Schedule
 from aurora_msgs.action import ExecuteScenario
 from aurora_msgs.srv import Check, GroundScenario, ParsePrompt, VerifyTrace
 from aurora_nodes.attendance import Attendance

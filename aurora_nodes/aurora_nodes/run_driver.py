@@ -13,9 +13,9 @@ from typing import Any
 from rclpy.exceptions import InvalidHandle
 from rclpy.impl.implementation_singleton import rclpy_implementation
 
-from aurora_core.agsg.graph import Agsg
 from aurora_core.errors import AuroraError, ExecutionError, ParticipantSilentError
 from aurora_core.execution.plan import Execution
+from aurora_core.outcomes.agsg import Agsg
 from aurora_msgs.msg import RunEnd
 from aurora_msgs.srv import LoadSync, StartRecording, StartSync, StopRecording, StopSync
 from aurora_nodes.tick_path import ActiveRun, TickPath

@@ -10,7 +10,7 @@ import pytest
 
 pytest.importorskip('rclpy')
 
-from aurora_core.monitor.verdict import ConditionResult, Verdict, VerdictStatus
+from aurora_core.outcomes.verdict import ConditionResult, Verdict, VerdictStatus
 from aurora_core.spec.parameter import Provenance
 from aurora_core.trace.trace import Integrity
 from aurora_nodes.judgement import Judgement, LiveOutcome, reconcile

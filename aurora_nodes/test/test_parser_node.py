@@ -16,7 +16,7 @@ import pytest
 pytest.importorskip('rclpy')
 
 from aurora_core.errors import AuroraError
-from aurora_core.parsing.outcome import ParseOutcome
+from aurora_core.outcomes.parse import ParseOutcome
 from aurora_core.ports.language_model import ModelCall
 from aurora_llm.testing.model_server import ModelServer, Turn
 from aurora_ros import interfaces as on

@@ -14,8 +14,8 @@ from pathlib import Path
 
 from pydantic import FiniteFloat
 
+from aurora_core.document import Document
 from aurora_core.report.versions import product_versions
-from aurora_core.spec.parameter import Document
 
 # Packages beside the product's own list that decide how fast something runs.
 _PACKAGES = ('ros-jazzy-rclpy', 'ros-jazzy-rmw-fastrtps-cpp', 'pymavlink', 'mcap', 'numba')

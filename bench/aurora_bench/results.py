@@ -23,9 +23,9 @@ from pathlib import Path
 from typing import Any
 
 from aurora_bench.machine import Machine, machine_facts
+from aurora_core.document import Document
 from aurora_core.errors import AuroraError
 from aurora_core.report.run_folder import json_text
-from aurora_core.spec.parameter import Document
 
 RESULTS_VERSION = 1
 

@@ -15,7 +15,7 @@ from aurora_bench.prompts.documents import read_documents
 from aurora_bench.prompts.format import AnnotatedPrompt, beyond
 from aurora_bench.prompts.reading import read_prompts
 from aurora_bench.results import ResultsError
-from aurora_core.spec.parameter import Document
+from aurora_core.document import Document
 
 
 class PromptFile(Document):

@@ -17,8 +17,8 @@ from typing import Any, Self
 
 from pydantic import ValidationError
 
+from aurora_core.document import Document
 from aurora_core.errors import AuroraError
-from aurora_core.spec.parameter import Document
 
 JOURNAL_VERSION = 1
 _ENDING = '.journal.jsonl'

@@ -26,8 +26,8 @@ from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
 from typing import Any, Protocol, TypeVar
 
+from aurora_core.document import Document
 from aurora_core.errors import AuroraError
-from aurora_core.spec.parameter import Document
 
 # Loading takes seconds; a machine with much other work gets time.
 _PREPARE_LIMIT_S = 300.0

@@ -19,7 +19,7 @@ from aurora_bench.mutation.bag import write_bag
 from aurora_bench.mutation.recording import Recording, record
 from aurora_bench.progress import Progress
 from aurora_core.errors import AuroraError
-from aurora_core.monitor.verdict import Reason
+from aurora_core.outcomes.verdict import Reason
 from aurora_core.pipeline.functions import verify_stage
 from aurora_core.trace.definitions import message_definitions
 from aurora_system_tests.local_runs import run_prompt

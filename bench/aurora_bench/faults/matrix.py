@@ -14,7 +14,7 @@ from typing import Any
 
 from aurora_bench.faults.client import Client, Run, trace_hash
 from aurora_bench.faults.live_graph import NAMES, CampaignError, LiveGraph, wait_for
-from aurora_core.spec.parameter import Document
+from aurora_core.document import Document
 
 PROMPT = (
     'A drone ascends to 40 meters and then follows a motorcycle as it drives through the streets.'

@@ -7,7 +7,7 @@ from __future__ import annotations
 from aurora_bench.faults.client import Client, trace_hash
 from aurora_bench.faults.live_graph import LiveGraph
 from aurora_bench.progress import Progress
-from aurora_core.spec.parameter import Document
+from aurora_core.document import Document
 
 PROMPTS = (
     'A drone ascends to 40 meters and then follows a motorcycle as it drives through the streets.',

@@ -9,7 +9,7 @@ import time
 from enum import StrEnum
 
 from aurora_bench.faults.live_graph import CALL_LIMIT_S, LiveGraph
-from aurora_core.spec.parameter import Document
+from aurora_core.document import Document
 
 
 class Ending(StrEnum):

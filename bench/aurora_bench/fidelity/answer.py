@@ -5,12 +5,12 @@
 from __future__ import annotations
 
 from aurora_core.agsg.build import build_agsg
+from aurora_core.document import Document
 from aurora_core.errors import AuroraError, ConfigError
-from aurora_core.feasibility.verdict import Feasibility
+from aurora_core.outcomes.feasibility import Feasibility
 from aurora_core.pipeline.functions import check_stage, knowledge
 from aurora_core.pipeline.stages import RunRequest
 from aurora_core.report.build import refusal_certificate
-from aurora_core.spec.parameter import Document
 from aurora_core.spec.scenario import Clause, ScenarioSpec
 from aurora_llm.parse import read_prompt
 

@@ -15,10 +15,10 @@ from aurora_bench.campaign.journal import Journal
 from aurora_bench.campaign.pool import Lost, run_tasks
 from aurora_bench.fidelity.answer import Answer, answer
 from aurora_bench.prompts.format import AnnotatedPrompt
+from aurora_core.document import Document
 from aurora_core.errors import ConfigError
 from aurora_core.pipeline.functions import knowledge
 from aurora_core.pipeline.stages import RunRequest
-from aurora_core.spec.parameter import Document
 
 
 class Question(Document):

@@ -11,7 +11,7 @@ from typing import Any
 
 from aurora_bench.fidelity.answer import Answer
 from aurora_bench.prompts.format import AnnotatedPrompt
-from aurora_core.spec.parameter import Document
+from aurora_core.document import Document
 
 # Where a thing was read, how sure it is and what it is called: not part of what is asked for.
 _WORDING = frozenset(

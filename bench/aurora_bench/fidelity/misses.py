@@ -11,7 +11,7 @@ from aurora_bench.fidelity.answer import Answer
 from aurora_bench.fidelity.evidence import evidence, speaks_of
 from aurora_bench.fidelity.score import PromptScore
 from aurora_bench.prompts.format import AnnotatedPrompt
-from aurora_core.spec.parameter import Document
+from aurora_core.document import Document
 from aurora_core.spec.scenario import Clause
 from aurora_core.spec.vocabulary import ClauseStatus
 

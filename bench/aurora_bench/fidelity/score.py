@@ -61,7 +61,7 @@ from aurora_bench.prompts.format import (
     WorldRequirement,
     flat,
 )
-from aurora_core.spec.parameter import Document
+from aurora_core.document import Document
 from aurora_core.spec.scenario import Event, ScenarioSpec
 
 # A requirement that is wholly met outweighs any number of single fields.

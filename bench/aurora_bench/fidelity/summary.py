@@ -17,7 +17,7 @@ from aurora_bench.fidelity.wilson import Share
 from aurora_bench.prompts.format import AnnotatedPrompt
 from aurora_bench.prompts.statistics import style
 from aurora_bench.results import Cell, Table
-from aurora_core.spec.parameter import Document
+from aurora_core.document import Document
 from aurora_core.spec.vocabulary import ClauseStatus
 
 

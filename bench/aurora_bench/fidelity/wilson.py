@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 
-from aurora_core.spec.parameter import Document
+from aurora_core.document import Document
 
 # Two-sided 95 % quantile of the normal distribution.
 _Z = 1.959963984540054

@@ -16,13 +16,13 @@ from typing import Any
 from aurora_bench.fuzz import prompts as of_prompts
 from aurora_bench.fuzz import replies as of_replies
 from aurora_bench.fuzz.judge import faults
+from aurora_core.document import Document
 from aurora_core.errors import PromptError
+from aurora_core.outcomes.parse import ParseContext, ParseOutcome
 from aurora_core.parsing.lexicon import read_data
 from aurora_core.parsing.llm.check import judge
 from aurora_core.parsing.llm.facts import PromptFacts
-from aurora_core.parsing.outcome import ParseContext, ParseOutcome
 from aurora_core.parsing.parser import parse_offline
-from aurora_core.spec.parameter import Document
 
 # Processor seconds for one text, on any machine of the last ten years; above it counts as a hang.
 LIMIT_S = 10.0

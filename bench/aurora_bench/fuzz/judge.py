@@ -14,7 +14,7 @@ from collections.abc import Iterator, Mapping
 from pydantic import BaseModel
 
 from aurora_bench.prompts.numerals import stated_numbers
-from aurora_core.parsing.outcome import ParseOutcome
+from aurora_core.outcomes.parse import ParseOutcome
 from aurora_core.spec.parameter import Parameter, Provenance, Span
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.spec.vocabulary import ClauseStatus

@@ -6,14 +6,14 @@ from __future__ import annotations
 
 from aurora_core.agsg.build import build_agsg
 from aurora_core.agsg.judged import paths_stated, unjudged
-from aurora_core.conditions.condition import Condition
+from aurora_core.conditions.capabilities import judgeable
 from aurora_core.conditions.derive import derive_conditions
-from aurora_core.execution.capabilities import judgeable
-from aurora_core.grounding.grounded import GroundedScenario
+from aurora_core.document import Document
+from aurora_core.outcomes.condition import Condition
+from aurora_core.outcomes.grounded import GroundedScenario
+from aurora_core.outcomes.schedule import Schedule
 from aurora_core.pipeline.functions import ground_stage, knowledge, parse_stage
-from aurora_core.spec.parameter import Document
 from aurora_core.spec.scenario import ScenarioSpec
-from aurora_core.temporal.schedule import Schedule
 
 
 class Asked(Document):

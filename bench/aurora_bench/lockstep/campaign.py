@@ -15,7 +15,7 @@ from aurora_bench.lockstep.figures import Engine, Measured, RunFigures
 from aurora_bench.lockstep.scenarios import Configuration, grounded
 from aurora_bench.machine import busy_share
 from aurora_bench.progress import Progress
-from aurora_core.agsg.graph import Agsg
+from aurora_core.outcomes.agsg import Agsg
 from aurora_core.pipeline.functions import verify_stage
 
 if TYPE_CHECKING:

@@ -10,7 +10,7 @@ from typing import Literal
 
 from pydantic import FiniteFloat
 
-from aurora_core.spec.parameter import Document
+from aurora_core.document import Document
 
 Engine = Literal['local', 'ros']
 

@@ -13,9 +13,9 @@ from pathlib import Path
 from aurora_bench.lockstep.figures import AIR, EXECUTOR, RECORDER, SUMO, RunFigures
 from aurora_bench.lockstep.scenarios import SEED
 from aurora_cli.local_run import run_lockstep
-from aurora_core.agsg.graph import Agsg
 from aurora_core.execution.plan import Execution
 from aurora_core.execution.step_output import StepOutput, Stepper
+from aurora_core.outcomes.agsg import Agsg
 from aurora_core.pipeline.functions import execution_stage
 from aurora_core.pipeline.stages import RunControl
 from aurora_core.ports.simulators import AirLoad, AirSimulator, FloatArray, GroundLoad

@@ -18,11 +18,11 @@ from aurora_bench.lockstep.graph import Graph
 from aurora_bench.lockstep.processes import cpu_by_name
 from aurora_bench.lockstep.scenarios import SEED
 from aurora_bench.results import ResultsError
-from aurora_core.agsg.graph import Agsg
 from aurora_core.errors import AuroraError
+from aurora_core.outcomes.agsg import Agsg
+from aurora_core.outcomes.schedule import Schedule
 from aurora_core.pipeline.functions import execution_stage, knowledge
 from aurora_core.pipeline.stages import RunRequest
-from aurora_core.temporal.schedule import Schedule
 from aurora_msgs.action import ExecuteScenario
 from aurora_msgs.msg import SyncStatus
 from aurora_ros import interfaces as on

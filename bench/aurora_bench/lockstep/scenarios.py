@@ -13,9 +13,9 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from aurora_core.agsg.build import build_agsg
-from aurora_core.agsg.graph import Agsg
 from aurora_core.errors import AuroraError
-from aurora_core.feasibility.verdict import Feasibility
+from aurora_core.outcomes.agsg import Agsg
+from aurora_core.outcomes.feasibility import Feasibility
 from aurora_core.pipeline.functions import check_stage, ground_stage, knowledge, parse_stage
 from aurora_core.spec.parameter import Provenance
 from aurora_core.spec.scenario import ScenarioSpec

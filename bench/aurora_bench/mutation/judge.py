@@ -18,7 +18,7 @@ from aurora_core.agsg.build import derived
 from aurora_core.agsg.message import agsg_message, read_agsg
 from aurora_core.errors import AuroraError
 from aurora_core.monitor.plan_check import Plan
-from aurora_core.monitor.verdict import Verdict
+from aurora_core.outcomes.verdict import Verdict
 from aurora_core.pipeline.functions import (
     load_bag,
     recomputed_content,

@@ -8,8 +8,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 from aurora_bench.mutation.recording import Recording
-from aurora_core.agsg.graph import Agsg
 from aurora_core.knowledge.world import WorldModel
+from aurora_core.outcomes.agsg import Agsg
 from aurora_core.trace.records import EventRecord, LinkRecord
 from aurora_core.trace.trace import Trace
 

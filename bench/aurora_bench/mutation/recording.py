@@ -13,9 +13,9 @@ from pathlib import Path
 import numpy as np
 
 from aurora_cli.local_engine import LocalStages
-from aurora_core.agsg.graph import Agsg
 from aurora_core.errors import AuroraError
 from aurora_core.knowledge.world import WorldModel
+from aurora_core.outcomes.agsg import Agsg
 from aurora_core.pipeline.functions import load_bag
 from aurora_core.pipeline.stages import Stages
 from aurora_core.report.run_report import TraceReport

@@ -10,10 +10,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from aurora_core.conditions.condition import Condition
 from aurora_core.knowledge.world import WorldModel
 from aurora_core.monitor.online import OnlineMonitor
 from aurora_core.monitor.verify import verify
+from aurora_core.outcomes.condition import Condition
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.stl.formula import predicates
 from aurora_core.stl.online import OnlineRobustness

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from enum import StrEnum
 
-from aurora_core.spec.parameter import Document
+from aurora_core.document import Document
 
 
 class Rule(StrEnum):

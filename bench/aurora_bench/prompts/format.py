@@ -14,7 +14,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, FiniteFloat, NonNegativeInt, StrictBool, StringConstraints
 
-from aurora_core.spec.parameter import Document
+from aurora_core.document import Document
 from aurora_core.spec.vocabulary import (
     AgentType,
     BehaviorKind,

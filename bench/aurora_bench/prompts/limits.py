@@ -18,9 +18,9 @@ from aurora_bench.prompts.format import (
     WorldRequirement,
     flat,
 )
+from aurora_core.document import Document
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Limits
-from aurora_core.spec.parameter import Document
 
 # "At or just inside": within a tenth of the limit, or of the least value for lower limits.
 _NEAR = 0.10

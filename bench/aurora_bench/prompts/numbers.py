@@ -19,7 +19,7 @@ from aurora_bench.prompts.format import (
     flat,
 )
 from aurora_bench.prompts.numerals import Dimension, StatedNumber, stated_numbers
-from aurora_core.spec.parameter import Document
+from aurora_core.document import Document
 
 # Rounding in an annotation, e.g. 500 ft as 152.4 m.
 _RELATIVE = 0.005

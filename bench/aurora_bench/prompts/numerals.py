@@ -11,7 +11,7 @@ from __future__ import annotations
 import re
 from enum import StrEnum
 
-from aurora_core.spec.parameter import Document
+from aurora_core.document import Document
 
 
 class Dimension(StrEnum):

@@ -10,10 +10,10 @@ from collections.abc import Callable, Sequence
 from pydantic import NonNegativeFloat
 
 from aurora_bench.retrieval.queries import Query
+from aurora_core.document import Document
 from aurora_core.retrieval.ranking import MakeRanker
 from aurora_core.retrieval.record import Record
 from aurora_core.retrieval.retriever import Retriever
-from aurora_core.spec.parameter import Document
 
 DEPTHS = (1, 3, 5)
 

@@ -9,11 +9,12 @@ from importlib.resources import files
 import yaml
 
 from aurora_bench.results import ResultsError
+from aurora_core.document import Document
+from aurora_core.outcomes.retrieval import RecordKind
 from aurora_core.pipeline.background import map_records
 from aurora_core.pipeline.functions import knowledge
 from aurora_core.retrieval.episodes import Episode
-from aurora_core.retrieval.record import Record, RecordKind
-from aurora_core.spec.parameter import Document
+from aurora_core.retrieval.record import Record
 
 MAP = 'downtown'
 KINDS = (RecordKind.ASSET, RecordKind.SPAWN, RecordKind.EPISODE)

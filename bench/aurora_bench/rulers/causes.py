@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from aurora_bench.rulers.trial import Cause
-from aurora_core.grounding.outcome import GroundingOutcome
+from aurora_core.outcomes.grounding import GroundingOutcome
 from aurora_core.report.run_report import ConditionReport, RunReport
 from aurora_core.report.status import Status
 from aurora_core.spec.vocabulary import ClauseStatus

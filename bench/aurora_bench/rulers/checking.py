@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Literal, Protocol
 
-from aurora_core.spec.parameter import Document
+from aurora_core.document import Document
 
 _CHECKER = 'aurora_bench.checker'
 

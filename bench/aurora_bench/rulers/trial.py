@@ -12,7 +12,7 @@ from pydantic import FiniteFloat
 
 from aurora_bench.prompts.format import AnnotatedPrompt, Category, Feasibility
 from aurora_bench.rulers.checking import Said
-from aurora_core.spec.parameter import Document
+from aurora_core.document import Document
 
 
 class Cause(StrEnum):

@@ -5,9 +5,9 @@
 from __future__ import annotations
 
 from aurora_cli.local_engine import LocalStages
-from aurora_core.agsg.graph import Agsg
-from aurora_core.grounding.outcome import GroundingOutcome
-from aurora_core.parsing.outcome import ParseOutcome
+from aurora_core.outcomes.agsg import Agsg
+from aurora_core.outcomes.grounding import GroundingOutcome
+from aurora_core.outcomes.parse import ParseOutcome
 from aurora_core.pipeline.stages import RunRequest
 from aurora_core.spec.scenario import ScenarioSpec
 

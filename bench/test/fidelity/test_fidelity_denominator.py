@@ -12,7 +12,7 @@ from aurora_bench.fidelity.answer import Answer
 from aurora_bench.fidelity.denominator import beyond, final_landings
 from aurora_bench.fidelity.score import score
 from aurora_bench.prompts.format import AnnotatedPrompt, MissionRequirement
-from aurora_core.spec.parameter import Document
+from aurora_core.document import Document
 from aurora_core.spec.scenario import ScenarioSpec
 
 Doc = dict[str, Any]

@@ -16,7 +16,7 @@ from aurora_bench.fuzz.judge import faults
 from aurora_bench.fuzz.prompts import MUTATIONS, mutated
 from aurora_bench.prompts.reading import read_prompts
 from aurora_bench.prompts.shipped import first_files
-from aurora_core.parsing.outcome import ParseContext, ParseOutcome
+from aurora_core.outcomes.parse import ParseContext, ParseOutcome
 from aurora_core.parsing.parser import parse_offline
 from aurora_core.spec.vocabulary import ClauseStatus
 

@@ -15,10 +15,10 @@ from aurora_bench.lockstep.scenarios import (
     grounded,
     specification,
 )
-from aurora_core.agsg.graph import Agsg
-from aurora_core.grounding.grounded import GroundedScenario
+from aurora_core.outcomes.agsg import Agsg
+from aurora_core.outcomes.grounded import GroundedScenario
+from aurora_core.outcomes.schedule import Schedule
 from aurora_core.pipeline.functions import execution_stage
-from aurora_core.temporal.schedule import Schedule
 from aurora_core.trace.layout import GroundColumn
 from aurora_sumo_bridge.sumo_client import SumoClient
 

@@ -18,7 +18,7 @@ from aurora_bench.prompts.reference_names import NotExpressibleError
 from aurora_bench.prompts.reference_spec import main, reference_spec
 from aurora_bench.prompts.shipped import Split, prompt_file
 from aurora_core.agsg.build import build_agsg
-from aurora_core.feasibility.verdict import Feasibility
+from aurora_core.outcomes.feasibility import Feasibility
 from aurora_core.pipeline.functions import check_stage, knowledge
 from aurora_core.spec.prohibitions import ForbiddenAgent, ForbiddenBehavior
 from aurora_core.spec.scenario import ScenarioSpec, UavAction

@@ -12,8 +12,7 @@ from aurora_bench.prompts.format import AnnotatedPrompt
 from aurora_bench.rulers.causes import cause_of
 from aurora_bench.rulers.runs import refusal_cause
 from aurora_bench.rulers.trial import Cause
-from aurora_core.agsg.judged import Unjudged
-from aurora_core.grounding.outcome import GroundingFailure, GroundingOutcome
+from aurora_core.outcomes.grounding import GroundingFailure, GroundingOutcome, Unjudged
 from aurora_core.report.run_report import RunReport
 
 Doc = dict[str, Any]

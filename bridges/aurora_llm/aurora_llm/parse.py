@@ -8,8 +8,8 @@ import time
 from collections.abc import Callable
 from pathlib import Path
 
+from aurora_core.outcomes.parse import ParseOutcome
 from aurora_core.parsing.llm.dialogue import parse_with_models
-from aurora_core.parsing.outcome import ParseOutcome
 from aurora_core.pipeline.background import background
 from aurora_core.pipeline.functions import knowledge, parse_context, parse_stage
 from aurora_core.pipeline.stages import RunRequest

@@ -9,12 +9,12 @@ from pathlib import Path
 import yaml
 from pydantic import Field, NonNegativeFloat, PositiveFloat, PositiveInt, ValidationError
 
+from aurora_core.document import Document
 from aurora_core.errors import ConfigError
 from aurora_core.files import CONFIG_BYTES, read_text
 from aurora_core.knowledge.config_files import config_path
 from aurora_core.ports.model_name import RECORDED, check_no_secret, without_secrets
 from aurora_core.retrieval.background import Amounts
-from aurora_core.spec.parameter import Document
 
 OFFLINE = 'offline'
 _MOST_ATTEMPTS = 10

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from aurora_core.errors import ConfigError
-from aurora_core.parsing.outcome import ParseOutcome
+from aurora_core.outcomes.parse import ParseOutcome
 from aurora_core.pipeline.functions import knowledge
 from aurora_core.pipeline.stages import RunRequest
 from aurora_llm.parse import check_model_name, read_prompt

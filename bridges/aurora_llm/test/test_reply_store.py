@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from aurora_core.errors import ConfigError
-from aurora_core.parsing.outcome import ParseOutcome
+from aurora_core.outcomes.parse import ParseOutcome
 from aurora_core.pipeline.stages import RunRequest
 from aurora_core.ports.language_model import LanguageModel
 from aurora_llm.parse import read_prompt

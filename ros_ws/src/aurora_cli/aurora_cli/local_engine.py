@@ -6,12 +6,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from aurora_core.agsg.graph import Agsg
 from aurora_core.execution.plan import Execution
-from aurora_core.feasibility.verdict import FeasibilityVerdict
-from aurora_core.grounding.outcome import GroundingOutcome
-from aurora_core.monitor.verdict import Verdict
-from aurora_core.parsing.outcome import ParseOutcome
+from aurora_core.outcomes.agsg import Agsg
+from aurora_core.outcomes.feasibility import FeasibilityVerdict
+from aurora_core.outcomes.grounding import GroundingOutcome
+from aurora_core.outcomes.parse import ParseOutcome
+from aurora_core.outcomes.verdict import Verdict
 from aurora_core.pipeline import functions
 from aurora_core.pipeline.stages import ExecutionResult, RunControl, RunRequest
 from aurora_core.trace.definitions import message_definitions

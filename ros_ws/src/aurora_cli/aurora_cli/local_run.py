@@ -14,10 +14,10 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from aurora_cli.local_trace import TraceCollector
-from aurora_core.agsg.graph import Agsg
 from aurora_core.agsg.message import agsg_message
 from aurora_core.execution.plan import Execution
 from aurora_core.execution.step_output import StepOutput
+from aurora_core.outcomes.agsg import Agsg
 from aurora_core.pipeline.stages import ExecutionResult, RunControl
 from aurora_core.ports.simulators import AirSimulator, FloatArray, GroundSimulator
 from aurora_core.trace import messages

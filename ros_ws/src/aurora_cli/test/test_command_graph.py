@@ -9,7 +9,7 @@ import pytest
 
 from aurora_cli.main import run_command_line
 from aurora_core.agsg.export import spec_from_graphml
-from aurora_core.agsg.graph import Agsg
+from aurora_core.outcomes.agsg import Agsg
 
 PROMPT = (
     'A van tailgates the ego car closely, closing from 45 meters; a tracking drone alerts the '

@@ -11,7 +11,7 @@ import pytest
 
 from aurora_cli.local_engine import LocalStages
 from aurora_core.agsg.build import build_agsg
-from aurora_core.agsg.graph import Agsg
+from aurora_core.outcomes.agsg import Agsg
 from aurora_core.pipeline.functions import knowledge
 from aurora_core.pipeline.stages import RunControl, RunRequest
 from aurora_core.trace.bag_reader import read_bag

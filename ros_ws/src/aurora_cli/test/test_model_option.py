@@ -11,7 +11,7 @@ from collections.abc import Callable
 from pathlib import Path
 from types import SimpleNamespace
 
-from aurora_core.parsing.outcome import ParseContext
+from aurora_core.outcomes.parse import ParseContext
 from aurora_core.parsing.parser import parse_offline
 from aurora_llm.testing.model_server import ModelServer, Turn
 

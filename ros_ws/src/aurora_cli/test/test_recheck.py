@@ -9,11 +9,11 @@ from typing import Any
 
 import pytest
 
-import aurora_cli.recheck
+import aurora_core.recheck
 from aurora_cli.main import run_command_line
-from aurora_cli.recheck import Outcome, recheck
-from aurora_core.feasibility.verdict import Certificate
 from aurora_core.knowledge.map_model import load_map
+from aurora_core.outcomes.feasibility import Certificate
+from aurora_core.recheck import Outcome, recheck
 from aurora_core.spec.parameter import Span
 
 PROMPT = 'A drone hovers at 500 meters.'
@@ -80,7 +80,7 @@ def test_an_unknown_kind_is_neither_valid_nor_refuted() -> None:
 
 
 def test_the_recheck_knows_nothing_of_the_checker_but_its_document() -> None:
-    folder = Path(aurora_cli.recheck.__file__).parent
+    folder = Path(aurora_core.recheck.__file__).parent
     used = {
         node.module
         for file in folder.glob('*.py')
@@ -88,7 +88,7 @@ def test_the_recheck_knows_nothing_of_the_checker_but_its_document() -> None:
         if isinstance(node, ast.ImportFrom) and (node.module or '').startswith('aurora_core')
     }
     assert used == {
-        'aurora_core.feasibility.verdict',
+        'aurora_core.outcomes.feasibility',
         'aurora_core.files',
         'aurora_core.knowledge.config_files',
         'aurora_core.spec.vocabulary',

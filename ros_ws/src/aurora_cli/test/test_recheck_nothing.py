@@ -8,10 +8,10 @@ from typing import Any
 
 import pytest
 
-from aurora_cli.recheck import recheck
 from aurora_core.agsg.build import build_agsg
-from aurora_core.feasibility.verdict import Feasibility, Rule
+from aurora_core.outcomes.feasibility import Feasibility, Rule
 from aurora_core.pipeline.functions import check_stage, ground_stage, parse_stage
+from aurora_core.recheck import recheck
 from aurora_core.spec.scenario import ScenarioSpec
 
 ORBIT = 'A drone orbits City Hall at a radius of'

@@ -12,14 +12,14 @@ from typing import Any
 
 import pytest
 
-from aurora_cli.recheck import recheck
 from aurora_core.feasibility.times import check_times
-from aurora_core.feasibility.verdict import Certificate, Rule
 from aurora_core.knowledge.config_files import config_path
 from aurora_core.knowledge.limits import load_limits, load_tolerances
 from aurora_core.knowledge.map_model import load_map
-from aurora_core.parsing.outcome import ParseContext
+from aurora_core.outcomes.feasibility import Certificate, Rule
+from aurora_core.outcomes.parse import ParseContext
 from aurora_core.parsing.parser import parse_offline
+from aurora_core.recheck import recheck
 from aurora_core.spec.scenario import ScenarioSpec
 
 Call = Callable[..., SimpleNamespace]

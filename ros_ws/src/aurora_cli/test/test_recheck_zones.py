@@ -12,13 +12,13 @@ from typing import Any
 import pytest
 import shapely
 
-from aurora_cli.recheck import Outcome, recheck
 from aurora_core.feasibility.zones import check_zones
 from aurora_core.knowledge.config_files import config_path
 from aurora_core.knowledge.limits import load_limits, load_tolerances
 from aurora_core.knowledge.map_model import load_map
-from aurora_core.parsing.outcome import ParseContext
+from aurora_core.outcomes.parse import ParseContext
 from aurora_core.parsing.parser import parse_offline
+from aurora_core.recheck import Outcome, recheck
 from aurora_core.spec.scenario import ScenarioSpec
 
 LIMITS = load_limits(config_path('limits.json'))

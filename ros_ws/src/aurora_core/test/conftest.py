@@ -14,14 +14,14 @@ import pytest
 from hypothesis.strategies import SearchStrategy
 
 from aurora_core.grounding.ground import Grounder
-from aurora_core.grounding.grounded import GroundedScenario
-from aurora_core.grounding.outcome import GroundingFailure
 from aurora_core.knowledge.agent_types import AgentTypeRecord, load_agent_types
 from aurora_core.knowledge.config_files import config_path
 from aurora_core.knowledge.limits import Limits, Tolerances, load_limits, load_tolerances
 from aurora_core.knowledge.map_model import MapModel, load_map
 from aurora_core.knowledge.settings import Settings, load_settings
-from aurora_core.parsing.outcome import ParseContext
+from aurora_core.outcomes.grounded import GroundedScenario
+from aurora_core.outcomes.grounding import GroundingFailure
+from aurora_core.outcomes.parse import ParseContext
 from aurora_core.parsing.parser import parse_offline
 from aurora_core.spec.parameter import Bound, Parameter, Provenance, Span, Unit
 from aurora_core.spec.scenario import ScenarioSpec

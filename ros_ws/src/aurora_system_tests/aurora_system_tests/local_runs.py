@@ -9,7 +9,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from aurora_cli.clock import MonotonicClock
-from aurora_core.monitor.verdict import Verdict
+from aurora_core.outcomes.verdict import Verdict
 from aurora_core.pipeline.run import run
 from aurora_core.pipeline.stages import RunControl, RunRequest, Stages
 from aurora_core.report.run_folder import RunFolder, new_run_id

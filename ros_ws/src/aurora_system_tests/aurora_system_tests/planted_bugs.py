@@ -12,7 +12,6 @@ import numpy as np
 import numpy.typing as npt
 
 from aurora_cli.local_engine import LocalStages
-from aurora_core.agsg.graph import Agsg
 from aurora_core.comm.link import MessageLink, Path
 from aurora_core.execution.events import EventRunner, Note
 from aurora_core.execution.observe import Observation
@@ -21,7 +20,8 @@ from aurora_core.execution.scenario_executor import ScenarioExecutor
 from aurora_core.execution.step_output import StepOutput, Stepper
 from aurora_core.mission.machine import MissionMachine, TargetMotion
 from aurora_core.mission.plan import MissionPlan, UavPlan
-from aurora_core.monitor.verdict import Verdict
+from aurora_core.outcomes.agsg import Agsg
+from aurora_core.outcomes.verdict import Verdict
 from aurora_core.pipeline.functions import verify_stage
 from aurora_core.pipeline.stages import RunRequest
 from aurora_core.spec.scenario import DistanceTrigger, Event

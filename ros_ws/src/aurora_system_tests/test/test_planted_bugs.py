@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from aurora_core.monitor.verdict import VerdictStatus
+from aurora_core.outcomes.verdict import VerdictStatus
 from aurora_core.pipeline.functions import verify_stage
 from aurora_system_tests.local_runs import names_of, run_prompt
 from aurora_system_tests.planted_bugs import (

@@ -10,10 +10,10 @@ from typing import Any
 from pydantic import ValidationError
 
 from aurora_cli.output import answer_console, print_json
-from aurora_cli.recheck import Outcome, recheck
 from aurora_core.errors import ReportError
-from aurora_core.feasibility.verdict import Certificate
 from aurora_core.files import DOCUMENT_BYTES, read_bytes, read_json, read_text
+from aurora_core.outcomes.feasibility import Certificate
+from aurora_core.recheck import Outcome, recheck
 from aurora_core.report.run_folder import PROMPT, is_run_id
 from aurora_core.report.terminal import headline, line
 

@@ -11,7 +11,7 @@ from aurora_cli.prompt_input import prompt_bytes
 from aurora_cli.requests import RunOptions, checked, unreadable, with_prompt
 from aurora_core.agsg.build import build_agsg
 from aurora_core.errors import AuroraError, PromptError
-from aurora_core.feasibility.verdict import Feasibility
+from aurora_core.outcomes.feasibility import Feasibility
 from aurora_core.pipeline import functions
 from aurora_core.pipeline.stages import RunRequest
 from aurora_core.report.check_report import build_check, check_exit_code

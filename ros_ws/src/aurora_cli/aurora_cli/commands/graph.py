@@ -24,11 +24,11 @@ from aurora_cli.prompt_input import prompt_bytes
 from aurora_cli.requests import RunOptions, checked, with_prompt
 from aurora_core.agsg.build import build_agsg
 from aurora_core.agsg.export import TEXT_WRITERS
-from aurora_core.agsg.graph import Agsg
 from aurora_core.agsg.influence import Influence, conditions_affected, parameters_affecting
 from aurora_core.errors import PromptError, SpecError
-from aurora_core.feasibility.verdict import Feasibility
 from aurora_core.files import DOCUMENT_BYTES, read_bytes
+from aurora_core.outcomes.agsg import Agsg
+from aurora_core.outcomes.feasibility import Feasibility
 from aurora_core.pipeline import functions
 from aurora_core.pipeline.stages import RunRequest
 from aurora_core.report.run_folder import StageFile, is_run_id

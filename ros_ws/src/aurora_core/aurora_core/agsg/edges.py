@@ -11,9 +11,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from aurora_core.agsg.families import family_of_prohibition, family_of_quantity
-from aurora_core.agsg.graph import AgsgEdge, EdgeType
-from aurora_core.conditions.condition import Condition
-from aurora_core.conditions.events import actor_of
+from aurora_core.outcomes.agsg import AgsgEdge, EdgeType
+from aurora_core.outcomes.condition import Condition
+from aurora_core.spec.events import actor_of
 from aurora_core.spec.reference import ENVIRONMENT_ID, is_place
 from aurora_core.spec.scenario import (
     Event,

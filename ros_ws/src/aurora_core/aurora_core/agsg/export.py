@@ -16,9 +16,9 @@ from types import MappingProxyType
 
 import networkx as nx
 
-from aurora_core.agsg.graph import Agsg, AgsgNode, AgsgParameter, EdgeType, NodeType
 from aurora_core.agsg.network import network, spec_of
 from aurora_core.errors import SpecError
+from aurora_core.outcomes.agsg import Agsg, AgsgNode, AgsgParameter, EdgeType, NodeType
 from aurora_core.spec.parameter import Unit
 from aurora_core.spec.scenario import ScenarioSpec
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from aurora_core.agsg.graph import EdgeType
+from aurora_core.outcomes.agsg import EdgeType
 from aurora_core.spec.prohibitions import Prohibition
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.requirements import StatedCondition

@@ -16,11 +16,12 @@ from typing import Any
 
 import networkx as nx
 
-from aurora_core.agsg.graph import Agsg, EdgeType, NodeType
 from aurora_core.agsg.parameters import element_of
-from aurora_core.conditions.condition import Condition, conditions_from_json
+from aurora_core.document import Document
 from aurora_core.errors import SpecError
-from aurora_core.spec.parameter import Document, Provenance
+from aurora_core.outcomes.agsg import Agsg, EdgeType, NodeType
+from aurora_core.outcomes.condition import Condition, conditions_from_json
+from aurora_core.spec.parameter import Provenance
 
 _OWN_FAMILY, _OTHER_FAMILY = 1, 2
 # What repair may move comes first, what the prompt states last.

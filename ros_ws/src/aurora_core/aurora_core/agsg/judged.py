@@ -23,9 +23,10 @@ from pydantic import BaseModel, ValidationError
 from pydantic.fields import FieldInfo
 
 from aurora_core.agsg.parameters import element_of, item_path
-from aurora_core.conditions.condition import Condition
 from aurora_core.errors import AuroraError
-from aurora_core.spec.parameter import Bound, Document, Parameter, Provenance, Span
+from aurora_core.outcomes.condition import Condition
+from aurora_core.outcomes.grounding import Unjudged
+from aurora_core.spec.parameter import Bound, Parameter, Provenance, Span
 from aurora_core.spec.reference import is_place
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.spec.vocabulary import Place
@@ -49,22 +50,6 @@ NO_CHOICE = frozenset(
         'seed',
     }
 )
-
-
-class Unjudged(Document):
-    """A stated value or choice that no condition depends on.
-
-    Attributes:
-        element: Id in the specification, `world` for the environment.
-        path: Where it stands in the specification.
-        what: For people.
-        span: Where the prompt states it, None where that is not known.
-    """
-
-    element: str
-    path: str
-    what: str
-    span: Span | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -9,8 +9,8 @@ import math
 from collections.abc import Callable
 from typing import Any
 
-from aurora_core.agsg.graph import Agsg, AgsgParameter, EdgeType, NodeType, Stage
 from aurora_core.errors import SpecError, VerificationError
+from aurora_core.outcomes.agsg import Agsg, AgsgParameter, EdgeType, NodeType, Stage
 from aurora_core.spec.parameter import Provenance
 from aurora_core.spec.scenario import ScenarioSpec
 

@@ -16,9 +16,9 @@ from typing import Any
 import networkx as nx
 from pydantic import BaseModel
 
-from aurora_core.agsg.graph import Agsg
 from aurora_core.agsg.parameters import item_path, owner_of, walk
 from aurora_core.errors import SpecError
+from aurora_core.outcomes.agsg import Agsg
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.reference import ENVIRONMENT_ID
 from aurora_core.spec.scenario import ScenarioSpec

@@ -6,8 +6,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from aurora_core.agsg.graph import AgsgNode, NodeType
-from aurora_core.conditions.condition import Condition
+from aurora_core.outcomes.agsg import AgsgNode, NodeType
+from aurora_core.outcomes.condition import Condition
 from aurora_core.spec.prohibitions import (
     ForbiddenAgent,
     ForbiddenBehavior,

@@ -20,7 +20,7 @@ from aurora_core.conditions.build import (
     number,
     stated_by,
 )
-from aurora_core.conditions.condition import Condition, Window
+from aurora_core.outcomes.condition import Condition, Window
 from aurora_core.spec.events import bodies_of, sets_off
 from aurora_core.spec.parameter import Parameter, Provenance
 from aurora_core.spec.quantity import QuantityName

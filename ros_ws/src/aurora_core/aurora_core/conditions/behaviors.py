@@ -8,8 +8,8 @@ from collections.abc import Callable, Iterator
 
 from aurora_core.conditions import own_behaviors, pair_behaviors
 from aurora_core.conditions.build import Inputs, Source, Underivable
-from aurora_core.conditions.condition import Condition
 from aurora_core.conditions.driving_speed import speed_conditions
+from aurora_core.outcomes.condition import Condition
 from aurora_core.spec.scenario import Behavior, GroundAgent
 from aurora_core.spec.vocabulary import BehaviorKind
 

@@ -6,11 +6,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from aurora_core.conditions.condition import Arguments, Condition, Op, Window
-from aurora_core.conditions.plan_facts import AgentFacts, MissionFacts, PlanFacts
+from aurora_core.document import Document
 from aurora_core.knowledge.limits import Limits, Tolerance, Tolerances
+from aurora_core.outcomes.condition import Arguments, Condition, Op, Window
+from aurora_core.outcomes.schedule import AgentFacts, MissionFacts, PlanFacts
 from aurora_core.quantities.actions import action_rules
-from aurora_core.spec.parameter import Bound, Document, Parameter, Provenance, Span
+from aurora_core.spec.parameter import Bound, Parameter, Provenance, Span
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import GroundAgent, ScenarioSpec
 from aurora_core.spec.vocabulary import AgentType

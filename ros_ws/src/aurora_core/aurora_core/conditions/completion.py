@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from aurora_core.conditions.build import Inputs, Source, Target, condition, number
-from aurora_core.conditions.condition import Condition, MissionArguments, Window
+from aurora_core.outcomes.condition import Condition, MissionArguments, Window
 from aurora_core.spec.quantity import QuantityName
 
 

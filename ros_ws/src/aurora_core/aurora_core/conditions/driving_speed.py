@@ -15,7 +15,7 @@ from aurora_core.conditions.build import (
     condition,
     number,
 )
-from aurora_core.conditions.condition import Condition, Window
+from aurora_core.outcomes.condition import Condition, Window
 from aurora_core.spec.parameter import Bound, Provenance
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import Behavior, GroundAgent

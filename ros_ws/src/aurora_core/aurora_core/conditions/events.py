@@ -18,7 +18,6 @@ from aurora_core.conditions.build import (
     number_target,
     stated_by,
 )
-from aurora_core.conditions.condition import Condition, MissionArguments, Window
 from aurora_core.conditions.links import (
     delivery_deadline_s,
     is_needed,
@@ -28,20 +27,17 @@ from aurora_core.conditions.links import (
     ratio_condition,
 )
 from aurora_core.conditions.missions import mission_arguments
-from aurora_core.spec.events import sets_off
+from aurora_core.outcomes.condition import Condition, MissionArguments, Window
+from aurora_core.spec.events import actor_of, sets_off
 from aurora_core.spec.parameter import Bound, Parameter, Provenance
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import (
     AgentAction,
-    ArrivalTrigger,
-    DistanceTrigger,
     Event,
     Link,
     SendMessage,
-    SpeedTrigger,
     TimeTrigger,
     UavAction,
-    VisibilityTrigger,
 )
 from aurora_core.spec.vocabulary import MissionMode
 
@@ -58,24 +54,6 @@ def _binds_before(inputs: Inputs, event: Event) -> bool:
     if not isinstance(action, AgentAction) or action.do not in _NOT_BEFORE:
         return False
     return action.do != 'start' or sets_off(inputs.spec.events, action.agent) == event
-
-
-def actor_of(event: Event) -> str | None:
-    """Return the body whose behaviour triggers an event, None when there is no such body.
-
-    Of a distance it is the one that is not told about it.
-    """
-    trigger = event.trigger
-    match trigger:
-        case DistanceTrigger():
-            told = event.action.receiver if isinstance(event.action, SendMessage) else None
-            return trigger.b if trigger.a == told else trigger.a
-        case SpeedTrigger() | ArrivalTrigger():
-            return trigger.who
-        case VisibilityTrigger():
-            return trigger.target if trigger.on == 'visible' else None
-        case _:
-            return None
 
 
 def event_conditions(inputs: Inputs) -> Iterator[Condition | Underivable]:

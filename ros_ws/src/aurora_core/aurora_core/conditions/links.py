@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from aurora_core.conditions.build import Inputs, Source, Target, condition, number
-from aurora_core.conditions.condition import Condition, Window
+from aurora_core.outcomes.condition import Condition, Window
 from aurora_core.spec.parameter import Parameter, Provenance
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import Link, MessageTrigger, ScenarioSpec

@@ -18,22 +18,15 @@ from aurora_core.conditions.build import (
     stated_by,
 )
 from aurora_core.conditions.completion import completed_condition, landed_condition
-from aurora_core.conditions.condition import Condition, MissionArguments, Window
-from aurora_core.conditions.plan_facts import MissionFacts
 from aurora_core.conditions.routes import route_conditions
 from aurora_core.errors import VerificationError
-from aurora_core.knowledge.limits import Limits, Tolerances
+from aurora_core.knowledge.limits import hover_drift_limit_m
+from aurora_core.outcomes.condition import Condition, MissionArguments, Window
+from aurora_core.outcomes.schedule import MissionFacts
 from aurora_core.spec.parameter import Bound, Parameter, Provenance
 from aurora_core.spec.quantity import QuantityName
-from aurora_core.spec.scenario import ScenarioSpec, UavMission
+from aurora_core.spec.scenario import UavMission
 from aurora_core.spec.vocabulary import MissionMode
-
-
-def hover_drift_limit_m(spec: ScenarioSpec, limits: Limits, tolerances: Tolerances) -> float:
-    """Return the drift allowed while hovering: more in wind."""
-    weather = spec.world.weather.value
-    windy = limits.wind_mean_mps[weather] > 0.0 or limits.wind_gust_mps[weather] > 0.0
-    return tolerances.hover_drift_wind_m if windy else tolerances.hover_drift_calm_m
 
 
 def mission_arguments(inputs: Inputs, mission: UavMission) -> MissionArguments:
@@ -63,7 +56,7 @@ def mission_arguments(inputs: Inputs, mission: UavMission) -> MissionArguments:
     track = mission.mode is MissionMode.TRACK
     hover = mission.mode is MissionMode.HOVER
     horizontal = (
-        hover_drift_limit_m(inputs.spec, inputs.limits, tolerances)
+        hover_drift_limit_m(inputs.spec.world.weather.value, inputs.limits, tolerances)
         if hover
         else tolerances.waypoint_horizontal_m
     )
@@ -294,7 +287,7 @@ def _visible(
 def _hover(
     inputs: Inputs, mission: UavMission, arguments: MissionArguments, source: Source
 ) -> Iterator[Condition | Underivable]:
-    limit = hover_drift_limit_m(inputs.spec, inputs.limits, inputs.tolerances)
+    limit = hover_drift_limit_m(inputs.spec.world.weather.value, inputs.limits, inputs.tolerances)
     yield condition(
         id=f'{mission.id}.drift',
         sentence=f'{mission.uav} stays within {number(limit)} m of its hover point',

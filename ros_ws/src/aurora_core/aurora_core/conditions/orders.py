@@ -7,8 +7,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from aurora_core.conditions.build import Inputs, Source, Target, Underivable, condition, number
-from aurora_core.conditions.condition import Condition, Window
 from aurora_core.conditions.missions import mission_arguments
+from aurora_core.outcomes.condition import Condition, Window
 from aurora_core.spec.parameter import Provenance
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import AgentAction, Event, Order, UavMission

@@ -14,7 +14,7 @@ from aurora_core.conditions.build import (
     number,
     number_target,
 )
-from aurora_core.conditions.condition import Condition, Window
+from aurora_core.outcomes.condition import Condition, Window
 from aurora_core.spec.parameter import Provenance
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import Behavior, GroundAgent

@@ -17,9 +17,9 @@ from aurora_core.conditions.build import (
     number_target,
     stated_by,
 )
-from aurora_core.conditions.condition import Condition, MissionArguments, Point3, Window
 from aurora_core.errors import VerificationError
 from aurora_core.geometry.kernel import norm2
+from aurora_core.outcomes.condition import Condition, MissionArguments, Point3, Window
 from aurora_core.quantities.waypoints import extent, has_shape
 from aurora_core.spec.parameter import Bound, Parameter, Provenance
 from aurora_core.spec.quantity import QuantityName

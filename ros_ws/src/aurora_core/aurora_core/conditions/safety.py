@@ -12,8 +12,8 @@ from collections.abc import Iterator
 from itertools import combinations
 
 from aurora_core.conditions.build import Inputs, Source, Target, condition, number
-from aurora_core.conditions.condition import Condition, Window
 from aurora_core.conditions.missions import mission_arguments
+from aurora_core.outcomes.condition import Condition, Window
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.vocabulary import AgentType
 

@@ -15,8 +15,8 @@ from aurora_core.conditions.build import (
     number_target,
     stated_by,
 )
-from aurora_core.conditions.condition import Condition, Window
 from aurora_core.knowledge.limits import Tolerance
+from aurora_core.outcomes.condition import Condition, Window
 from aurora_core.spec.parameter import Parameter, Provenance, Span
 from aurora_core.spec.prohibitions import ForbiddenAgent
 from aurora_core.spec.quantity import QuantityName

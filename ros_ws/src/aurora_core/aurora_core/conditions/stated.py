@@ -8,7 +8,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from aurora_core.conditions.build import Inputs, Target, Underivable, condition, number
-from aurora_core.conditions.condition import Condition, MissionArguments, Window
 from aurora_core.conditions.missions import mission_arguments
 from aurora_core.conditions.stated_flight import FLIGHT_QUANTITIES, stated_flight
 from aurora_core.conditions.stated_links import LINK_QUANTITIES, stated_link
@@ -21,6 +20,7 @@ from aurora_core.conditions.stated_values import (
     target_of,
     value_of,
 )
+from aurora_core.outcomes.condition import Condition, MissionArguments, Window
 from aurora_core.spec.parameter import Bound
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import StatedCondition, UavMission, is_place

@@ -12,7 +12,6 @@ from aurora_core.conditions.completion import (
     deadline_condition,
     landed_condition,
 )
-from aurora_core.conditions.condition import Condition, Window
 from aurora_core.conditions.missions import mission_arguments
 from aurora_core.conditions.stated_values import (
     CannotSayError,
@@ -24,6 +23,7 @@ from aurora_core.conditions.stated_values import (
     target_of,
     value_of,
 )
+from aurora_core.outcomes.condition import Condition, Window
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import StatedCondition
 from aurora_core.spec.vocabulary import MissionMode

@@ -7,7 +7,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from aurora_core.conditions.build import Inputs, Target, condition
-from aurora_core.conditions.condition import Condition, Window
 from aurora_core.conditions.links import delivery_deadline_s, link_between
 from aurora_core.conditions.stated_values import (
     CannotSayError,
@@ -17,6 +16,7 @@ from aurora_core.conditions.stated_values import (
     source_of,
     target_of,
 )
+from aurora_core.outcomes.condition import Condition, Window
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import StatedCondition
 

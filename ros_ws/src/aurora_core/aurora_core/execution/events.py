@@ -8,7 +8,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from aurora_core.comm.link import MessageLink, whole_ticks
-from aurora_core.conditions.events import actor_of
 from aurora_core.execution.observe import Observation
 from aurora_core.execution.triggers import Progress, holds
 from aurora_core.mission.machine import MissionMachine
@@ -18,6 +17,7 @@ from aurora_core.quantities.actions import (
     is_complete,
     takes_time,
 )
+from aurora_core.spec.events import actor_of
 from aurora_core.spec.scenario import (
     AgentAction,
     Event,

@@ -13,8 +13,8 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, FiniteFloat, ValidationError, model_validator
 
+from aurora_core.document import Document
 from aurora_core.errors import ExecutionError
-from aurora_core.spec.parameter import Document
 
 # Two numbers as JSON are never longer.
 _LONGEST = 100

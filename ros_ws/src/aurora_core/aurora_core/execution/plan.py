@@ -7,7 +7,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from aurora_core.agsg.graph import Agsg
 from aurora_core.comm.link import LinkSettings, MessageLink, link_stream
 from aurora_core.errors import ExecutionError
 from aurora_core.execution.fault_port import FaultPort, loss_with_faults
@@ -16,7 +15,6 @@ from aurora_core.execution.map_parts import MapParts, map_parts
 from aurora_core.execution.scenario_executor import ExecutionSetup, ScenarioExecutor
 from aurora_core.execution.step_output import Stepper
 from aurora_core.grounding.airspace import Airspace
-from aurora_core.grounding.grounded import GroundedAgent, GroundedScenario
 from aurora_core.grounding.places import place_positions
 from aurora_core.knowledge.config_files import config_path
 from aurora_core.knowledge.limits import Limits, Tolerances
@@ -25,11 +23,13 @@ from aurora_core.knowledge.settings import Settings
 from aurora_core.knowledge.world import NamedPlace, Wind, WorldModel
 from aurora_core.mission.machine import MissionMachine
 from aurora_core.mission.setpoint import FlightSettings
+from aurora_core.outcomes.agsg import Agsg
+from aurora_core.outcomes.grounded import GroundedAgent, GroundedScenario
+from aurora_core.outcomes.schedule import Schedule
 from aurora_core.ports.simulators import AirLoad, GroundAgentLoad, GroundLoad, UavHome
 from aurora_core.quantities.actions import action_rules
 from aurora_core.quantities.world_geometry import WorldGeometry
 from aurora_core.spec.scenario import Link, ScenarioSpec, SendMessage
-from aurora_core.temporal.schedule import Schedule
 from aurora_core.trace.roster import Roster, RosterEntry
 
 # Raised whenever the same states give other commands or records than before: what was recorded

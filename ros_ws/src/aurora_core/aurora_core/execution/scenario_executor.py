@@ -21,8 +21,8 @@ from aurora_core.execution.landing import PATIENCE_S, landing_spot
 from aurora_core.execution.observe import Observation
 from aurora_core.execution.step_output import StepOutput
 from aurora_core.grounding.airspace import Airspace
-from aurora_core.grounding.grounded import GroundedAgent, ReleaseOn
 from aurora_core.mission.machine import MissionMachine
+from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
 from aurora_core.quantities.actions import ActionRules
 from aurora_core.quantities.instant_sight import InstantSight
 from aurora_core.quantities.world_geometry import WorldGeometry

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from aurora_core.feasibility.verdict import Certificate, Fact, Rule
+from aurora_core.outcomes.feasibility import Certificate, Fact, Rule
 from aurora_core.spec.parameter import Parameter, Span
 
 

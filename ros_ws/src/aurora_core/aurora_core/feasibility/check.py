@@ -11,11 +11,11 @@ from aurora_core.feasibility.geometry import check_geometry
 from aurora_core.feasibility.places import check_placements
 from aurora_core.feasibility.signs import check_signs
 from aurora_core.feasibility.times import check_times
-from aurora_core.feasibility.verdict import Certificate, Feasibility, FeasibilityVerdict, Rule
 from aurora_core.feasibility.zones import check_zones
 from aurora_core.knowledge.agent_types import AgentTypeRecord, top_speed_mps
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_model import MapModel
+from aurora_core.outcomes.feasibility import Certificate, Feasibility, FeasibilityVerdict, Rule
 from aurora_core.spec.parameter import Bound, Parameter, Provenance, Unit
 from aurora_core.spec.scenario import (
     AgentAction,

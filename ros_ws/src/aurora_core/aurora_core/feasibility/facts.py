@@ -5,8 +5,8 @@
 from __future__ import annotations
 
 from aurora_core.feasibility.stated import is_stated
-from aurora_core.feasibility.verdict import Fact, FactSource
 from aurora_core.knowledge.limits import Limits, Tolerance, Tolerances
+from aurora_core.outcomes.feasibility import Fact, FactSource
 from aurora_core.spec.parameter import Parameter
 
 

@@ -10,8 +10,8 @@ from collections.abc import Iterator, Sequence
 from aurora_core.feasibility.certificates import beyond, contradiction
 from aurora_core.feasibility.facts import limit_facts, says, tolerance_facts
 from aurora_core.feasibility.stated import is_stated, least, most
-from aurora_core.feasibility.verdict import Certificate, Fact, Rule
 from aurora_core.knowledge.limits import Limits, Tolerances
+from aurora_core.outcomes.feasibility import Certificate, Fact, Rule
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import (

@@ -14,7 +14,6 @@ import numpy as np
 from aurora_core.errors import MapError
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.convoy import STILL, SceneSplit
-from aurora_core.grounding.grounded import GroundedAgent, ReleaseOn
 from aurora_core.grounding.pace import (
     Encounter,
     convoy_pace_mps,
@@ -31,6 +30,7 @@ from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.net_types import Lane
 from aurora_core.knowledge.route_path import RoutePath
 from aurora_core.knowledge.settings import Settings
+from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
 from aurora_core.spec.events import sets_off
 from aurora_core.spec.scenario import GroundAgent, ScenarioSpec, TimeTrigger, UavMission
 from aurora_core.spec.vocabulary import BehaviorKind, MissionMode, Place

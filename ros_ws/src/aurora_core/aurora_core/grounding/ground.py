@@ -11,14 +11,11 @@ from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from aurora_core.conditions.missions import hover_drift_limit_m
 from aurora_core.grounding.agents import AgentPlacer
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.grounding.choices import chosen
 from aurora_core.grounding.convoy import SceneSplit, split_scene
 from aurora_core.grounding.flights import FlightPlanner, PlannedFlight, Rejected
-from aurora_core.grounding.grounded import AnchorScore, GroundedScenario
-from aurora_core.grounding.outcome import GroundingFailure
 from aurora_core.grounding.pace import watched_speed_mps
 from aurora_core.grounding.realised import realised_values
 from aurora_core.grounding.sites import Site, sites, tied_way_m
@@ -26,10 +23,12 @@ from aurora_core.grounding.spots import SpotFinder
 from aurora_core.grounding.time_need import horizon_s
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.basis import Basis
-from aurora_core.knowledge.limits import Limits, Tolerances
+from aurora_core.knowledge.limits import Limits, Tolerances, hover_drift_limit_m
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.settings import Settings
 from aurora_core.mission.plan import UavPlan
+from aurora_core.outcomes.grounded import AnchorScore, GroundedScenario
+from aurora_core.outcomes.grounding import GroundingFailure
 from aurora_core.ports.random_streams import stream
 from aurora_core.spec.scenario import ScenarioSpec
 
@@ -100,7 +99,9 @@ class Grounder:
             sensing_range_m=self._limits.sensing_range(
                 spec.world.weather.value, spec.world.time_of_day.value
             ),
-            hover_drift_m=hover_drift_limit_m(spec, self._limits, self._tolerances),
+            hover_drift_m=hover_drift_limit_m(
+                spec.world.weather.value, self._limits, self._tolerances
+            ),
         )
         run_m = horizon_s(spec, self._limits) * self._drive_speed(spec, split) + 300.0
         ranked = self._ranked_sites(spec, split, run_m)

@@ -10,8 +10,8 @@ import shapely
 
 from aurora_core.geometry.kernel import norm2
 from aurora_core.geometry.polyline import Polyline
-from aurora_core.grounding.grounded import GroundedScenario
 from aurora_core.knowledge.map_model import MapModel
+from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.spec.vocabulary import Place
 

@@ -5,8 +5,8 @@
 from __future__ import annotations
 
 from aurora_core.geometry.kernel import norm2
-from aurora_core.grounding.grounded import GroundedAgent, RealisedValue
 from aurora_core.mission.plan import UavPlan
+from aurora_core.outcomes.grounded import GroundedAgent, RealisedValue
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.scenario import ScenarioSpec
 

@@ -14,10 +14,10 @@ from typing import Self
 
 from pydantic import JsonValue, ValidationError
 
+from aurora_core.document import Document
 from aurora_core.errors import ConfigError
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.settings import Settings
-from aurora_core.spec.parameter import Document
 
 Table = dict[str, JsonValue]
 

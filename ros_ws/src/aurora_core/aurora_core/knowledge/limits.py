@@ -161,6 +161,12 @@ class Tolerances(_Table):
 _T = TypeVar('_T', bound=_Table)
 
 
+def hover_drift_limit_m(weather: str, limits: Limits, tolerances: Tolerances) -> float:
+    """Return the drift allowed while hovering in a weather: more in wind."""
+    windy = limits.wind_mean_mps[weather] > 0.0 or limits.wind_gust_mps[weather] > 0.0
+    return tolerances.hover_drift_wind_m if windy else tolerances.hover_drift_calm_m
+
+
 def load_limits(path: Path) -> Limits:
     """Read `limits.json`.
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from pydantic import FiniteFloat
 
-from aurora_core.spec.parameter import Document
+from aurora_core.document import Document
 from aurora_core.spec.vocabulary import MissionMode
 
 Point3 = tuple[FiniteFloat, FiniteFloat, FiniteFloat]

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from aurora_core.monitor.evaluation import Context
-from aurora_core.monitor.verdict import Finding
+from aurora_core.outcomes.verdict import Finding
 from aurora_core.quantities.view import Body
 from aurora_core.spec.scenario import AgentAction, SendMessage
 from aurora_core.trace.layout import UavCommandColumn, UavPhase

@@ -8,11 +8,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from aurora_core.conditions.condition import Condition
 from aurora_core.monitor.claim_check import claim_findings
 from aurora_core.monitor.evaluation import Context
 from aurora_core.monitor.motion_check import motion_findings
-from aurora_core.monitor.verdict import Finding
+from aurora_core.outcomes.condition import Condition
+from aurora_core.outcomes.verdict import Finding
 from aurora_core.quantities.kernels import distance_3d
 from aurora_core.quantities.ledger import ledger_disagreements
 from aurora_core.quantities.ticks import first_tick, whole_ticks

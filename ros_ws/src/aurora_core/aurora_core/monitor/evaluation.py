@@ -12,9 +12,9 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
-from aurora_core.conditions.condition import Condition, MissionArguments, Window
 from aurora_core.errors import VerificationError
-from aurora_core.monitor.verdict import Reason
+from aurora_core.outcomes.condition import Condition, MissionArguments, Window
+from aurora_core.outcomes.verdict import Reason
 from aurora_core.quantities import motion
 from aurora_core.quantities.ledger import LinkModel, Message, messages
 from aurora_core.quantities.phases import (

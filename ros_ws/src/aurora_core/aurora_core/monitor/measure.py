@@ -6,7 +6,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from aurora_core.conditions.condition import Condition
 from aurora_core.errors import VerificationError
 from aurora_core.monitor import (
     measure_actions,
@@ -23,6 +22,7 @@ from aurora_core.monitor import (
     measure_yielding,
 )
 from aurora_core.monitor.evaluation import Context, Evaluation
+from aurora_core.outcomes.condition import Condition
 from aurora_core.spec.quantity import QuantityName as Q
 
 _MEASURES: dict[Q, Callable[[Context, Condition], Evaluation]] = {

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from aurora_core.conditions.condition import Condition
 from aurora_core.errors import VerificationError
 from aurora_core.monitor.evaluation import (
     Context,
@@ -18,7 +17,8 @@ from aurora_core.monitor.evaluation import (
     ground_topics,
 )
 from aurora_core.monitor.measure_events import never_happened, trigger_story
-from aurora_core.monitor.verdict import Reason
+from aurora_core.outcomes.condition import Condition
+from aurora_core.outcomes.verdict import Reason
 from aurora_core.quantities import motion
 from aurora_core.quantities.actions import ends_with_mps
 from aurora_core.quantities.ticks import whole_ticks

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from aurora_core.conditions.condition import Condition
 from aurora_core.errors import VerificationError
 from aurora_core.monitor.evaluation import (
     Context,
@@ -16,7 +15,8 @@ from aurora_core.monitor.evaluation import (
     Missing,
     at_tick,
 )
-from aurora_core.monitor.verdict import Reason
+from aurora_core.outcomes.condition import Condition
+from aurora_core.outcomes.verdict import Reason
 from aurora_core.quantities.ledger import LinkModel, Message, binomial_interval
 from aurora_core.quantities.ticks import whole_ticks
 from aurora_core.spec.scenario import DistanceTrigger

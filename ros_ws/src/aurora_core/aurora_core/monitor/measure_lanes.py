@@ -8,7 +8,6 @@ from itertools import pairwise
 
 import numpy as np
 
-from aurora_core.conditions.condition import Condition
 from aurora_core.monitor.evaluation import (
     Context,
     Evaluation,
@@ -17,7 +16,8 @@ from aurora_core.monitor.evaluation import (
     at_tick,
     ground_topics,
 )
-from aurora_core.monitor.verdict import Reason
+from aurora_core.outcomes.condition import Condition
+from aurora_core.outcomes.verdict import Reason
 from aurora_core.quantities import motion
 from aurora_core.quantities.lanes import (
     NO_LANE,

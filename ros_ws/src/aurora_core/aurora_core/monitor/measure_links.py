@@ -8,9 +8,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from aurora_core.conditions.condition import Condition
 from aurora_core.monitor.evaluation import Context, Evaluation, Measured, Missing, at_tick
 from aurora_core.monitor.measure_events import link_model, never_happened
+from aurora_core.outcomes.condition import Condition
 from aurora_core.quantities import motion
 from aurora_core.quantities.ledger import Message
 from aurora_core.trace.records import LossReason

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from aurora_core.conditions.condition import Condition
 from aurora_core.knowledge.world import SurfaceKind
 from aurora_core.monitor.evaluation import (
     Context,
@@ -16,7 +15,8 @@ from aurora_core.monitor.evaluation import (
     at_tick,
     ground_topics,
 )
-from aurora_core.monitor.verdict import Reason
+from aurora_core.outcomes.condition import Condition
+from aurora_core.outcomes.verdict import Reason
 from aurora_core.quantities import motion
 from aurora_core.quantities.angle import compass_bearing_deg
 from aurora_core.quantities.kernels import distance_2d

@@ -9,7 +9,6 @@ from itertools import combinations
 
 import numpy as np
 
-from aurora_core.conditions.condition import Condition
 from aurora_core.errors import VerificationError
 from aurora_core.monitor.evaluation import (
     BoolArray,
@@ -24,7 +23,8 @@ from aurora_core.monitor.evaluation import (
 from aurora_core.monitor.measure_actions import measure_speed_before_event
 from aurora_core.monitor.measure_manoeuvres import measure_greatest_drop
 from aurora_core.monitor.shares import share_of
-from aurora_core.monitor.verdict import Reason
+from aurora_core.outcomes.condition import Condition
+from aurora_core.outcomes.verdict import Reason
 from aurora_core.quantities import contact, free_road, motion
 from aurora_core.quantities.kernels import bound_error, distance_2d
 from aurora_core.quantities.ticks import first_tick

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from aurora_core.conditions.condition import Condition
 from aurora_core.conditions.placements import RELATION_WORDS
 from aurora_core.errors import VerificationError
 from aurora_core.monitor.evaluation import (
@@ -22,7 +21,8 @@ from aurora_core.monitor.evaluation import (
 )
 from aurora_core.monitor.place_slack import before_place, place_slack
 from aurora_core.monitor.shares import share_of
-from aurora_core.monitor.verdict import Reason
+from aurora_core.outcomes.condition import Condition
+from aurora_core.outcomes.verdict import Reason
 from aurora_core.quantities import motion
 from aurora_core.quantities.angle import bearing_error_deg, compass_bearing_deg
 from aurora_core.quantities.ticks import first_tick

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from aurora_core.conditions.condition import Condition, MissionArguments
 from aurora_core.errors import VerificationError
 from aurora_core.knowledge.world import SurfaceKind
 from aurora_core.monitor.evaluation import (
@@ -18,7 +17,8 @@ from aurora_core.monitor.evaluation import (
     at_tick,
 )
 from aurora_core.monitor.shares import share_of
-from aurora_core.monitor.verdict import Reason
+from aurora_core.outcomes.condition import Condition, MissionArguments
+from aurora_core.outcomes.verdict import Reason
 from aurora_core.quantities import motion
 from aurora_core.quantities.kernels import bound_error, distance_2d
 from aurora_core.quantities.waypoints import (

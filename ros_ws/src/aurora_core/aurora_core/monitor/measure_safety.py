@@ -7,8 +7,8 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from aurora_core.conditions.condition import Condition
 from aurora_core.monitor.evaluation import Context, Evaluation, FloatArray, Measured, Missing
+from aurora_core.outcomes.condition import Condition
 from aurora_core.quantities import contact, motion
 
 

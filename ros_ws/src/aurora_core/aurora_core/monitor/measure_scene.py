@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from aurora_core.conditions.condition import Condition
 from aurora_core.monitor.evaluation import (
     Context,
     Evaluation,
@@ -15,6 +14,7 @@ from aurora_core.monitor.evaluation import (
     Missing,
     at_tick,
 )
+from aurora_core.outcomes.condition import Condition
 from aurora_core.spec.vocabulary import Role
 
 

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from aurora_core.conditions.condition import Condition
 from aurora_core.monitor.evaluation import (
     Context,
     Evaluation,
@@ -21,7 +20,8 @@ from aurora_core.monitor.evaluation import (
     ground_topics,
 )
 from aurora_core.monitor.measure_actions import measure_passed_after
-from aurora_core.monitor.verdict import Reason
+from aurora_core.outcomes.condition import Condition
+from aurora_core.outcomes.verdict import Reason
 from aurora_core.quantities import motion
 from aurora_core.quantities.ticks import first_tick
 

@@ -6,9 +6,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from aurora_core.conditions.condition import Condition
 from aurora_core.knowledge.world import SurfaceKind
 from aurora_core.monitor.evaluation import Context, FloatArray
+from aurora_core.outcomes.condition import Condition
 from aurora_core.quantities import motion
 from aurora_core.quantities.lanes import edge_of, edges_with_several_lanes, inside_lanes_m
 from aurora_core.quantities.routes import planned_route

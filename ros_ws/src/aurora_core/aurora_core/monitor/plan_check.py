@@ -14,9 +14,9 @@ from typing import Any
 
 import numpy as np
 
-from aurora_core.conditions.condition import Condition
 from aurora_core.knowledge.world import WorldModel
-from aurora_core.monitor.verdict import Finding
+from aurora_core.outcomes.condition import Condition
+from aurora_core.outcomes.verdict import Finding
 from aurora_core.trace.roster import Roster, RosterEntry
 
 # Both worlds hold the conditions, which are compared one by one.

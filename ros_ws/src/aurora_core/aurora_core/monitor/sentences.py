@@ -4,9 +4,9 @@
 
 from __future__ import annotations
 
-from aurora_core.conditions.condition import Condition
 from aurora_core.monitor.evaluation import Context, Measured
-from aurora_core.monitor.verdict import Reason
+from aurora_core.outcomes.condition import Condition
+from aurora_core.outcomes.verdict import Reason
 
 _OPS = {
     '>=': 'at least',

@@ -9,11 +9,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from aurora_core.conditions.condition import Condition
 from aurora_core.knowledge.world import WorldModel
 from aurora_core.monitor.evaluation import BoolArray, Context, FloatArray, Measured
 from aurora_core.monitor.measure import measure
 from aurora_core.monitor.verify import judged_formula, sampled
+from aurora_core.outcomes.condition import Condition
 from aurora_core.quantities.view import RunView
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.stl.formula import predicates

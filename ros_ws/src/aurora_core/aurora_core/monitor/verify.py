@@ -6,7 +6,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from aurora_core.conditions.condition import Condition
 from aurora_core.errors import VerificationError
 from aurora_core.knowledge.world import WorldModel
 from aurora_core.monitor.chance_check import chance_findings
@@ -15,7 +14,8 @@ from aurora_core.monitor.evaluation import Context, Measured, Missing
 from aurora_core.monitor.measure import measure
 from aurora_core.monitor.plan_check import Held, NotComparable, Plan, held_against
 from aurora_core.monitor.sentences import explain, explain_missing
-from aurora_core.monitor.verdict import ConditionResult, Finding, Reason, Verdict, VerdictStatus
+from aurora_core.outcomes.condition import Condition
+from aurora_core.outcomes.verdict import ConditionResult, Finding, Reason, Verdict, VerdictStatus
 from aurora_core.quantities.ticks import whole_ticks
 from aurora_core.quantities.view import RunView
 from aurora_core.spec.scenario import ScenarioSpec

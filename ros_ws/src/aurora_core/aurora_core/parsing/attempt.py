@@ -7,8 +7,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from aurora_core.outcomes.parse import ParseContext
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
-from aurora_core.parsing.outcome import ParseContext
 from aurora_core.parsing.reader import Reader
 from aurora_core.parsing.resolver import Resolver
 from aurora_core.parsing.rewriting.rewrite import Rewritten, rewrite

@@ -31,13 +31,13 @@ from __future__ import annotations
 from pydantic import ValidationError
 
 from aurora_core.errors import SpecError
+from aurora_core.outcomes.parse import ParseContext, ParseOutcome, Refusal, RefusalKind
 from aurora_core.parsing.assemble import build
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
 from aurora_core.parsing.attempt import attempt
 from aurora_core.parsing.closing import close_scene
 from aurora_core.parsing.coverage import in_no_clause, unaccounted
 from aurora_core.parsing.landmarks import landmark_phrases
-from aurora_core.parsing.outcome import ParseContext, ParseOutcome, Refusal, RefusalKind
 from aurora_core.parsing.scene import ClauseDraft, Scene
 from aurora_core.parsing.second_look import second_look
 from aurora_core.parsing.tagging import tag

@@ -6,11 +6,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from aurora_core.outcomes.parse import Refusal, RefusalKind
 from aurora_core.parsing.atoms import Determiner, NounKind, NounPhrase
 from aurora_core.parsing.in_line import SIDES, front_or_rear
 from aurora_core.parsing.landmarks import landmark_words
 from aurora_core.parsing.lexicon import Lexicon, shipped_lexicon
-from aurora_core.parsing.outcome import Refusal, RefusalKind
 from aurora_core.parsing.pronouns import Fits, PronounResolver, anything
 from aurora_core.parsing.scene import Entity, Scene
 from aurora_core.spec.parameter import Span

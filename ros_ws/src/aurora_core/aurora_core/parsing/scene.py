@@ -6,8 +6,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from aurora_core.outcomes.parse import ParseContext, Refusal
 from aurora_core.parsing.atoms import NounPhrase
-from aurora_core.parsing.outcome import ParseContext, Refusal
 from aurora_core.spec.parameter import Parameter, Span
 from aurora_core.spec.scenario import (
     Behavior,

@@ -6,9 +6,10 @@ from __future__ import annotations
 
 from functools import lru_cache
 
+from aurora_core.document import Document
 from aurora_core.parsing.lexicon import read_data
 from aurora_core.parsing.measures import ANGLE, COUNT, LENGTH, RATIO, SPEED, TIME, Measure
-from aurora_core.spec.parameter import Bound, Document, Parameter, Provenance, Span, Unit
+from aurora_core.spec.parameter import Bound, Parameter, Provenance, Span, Unit
 
 _DIMENSIONS = {
     Unit.METRE: (LENGTH, COUNT),

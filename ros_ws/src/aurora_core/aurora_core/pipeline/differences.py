@@ -11,7 +11,7 @@ from typing import TypeVar
 import numpy as np
 import numpy.typing as npt
 
-from aurora_core.monitor.verdict import Finding
+from aurora_core.outcomes.verdict import Finding
 from aurora_core.trace.commands import GroundCommand
 from aurora_core.trace.layout import UavCommandColumn
 from aurora_core.trace.records import EventRecord, LinkRecord, SightRecord

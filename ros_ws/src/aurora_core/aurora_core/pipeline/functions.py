@@ -11,17 +11,11 @@ from pathlib import Path
 from typing import Any
 
 from aurora_core.agsg.build import build_agsg, derived
-from aurora_core.agsg.graph import Agsg, Stage
-from aurora_core.agsg.judged import Unjudged, unjudged
+from aurora_core.agsg.judged import unjudged
 from aurora_core.agsg.message import read_agsg
-from aurora_core.conditions.condition import (
-    Condition,
-    conditions_from_json,
-    conditions_to_json,
-)
+from aurora_core.conditions.capabilities import judgeable, unsupported
 from aurora_core.conditions.derive import Derivation, derive_conditions
 from aurora_core.errors import AuroraError, VerificationError
-from aurora_core.execution.capabilities import judgeable, unsupported
 from aurora_core.execution.faults import Fault
 from aurora_core.execution.map_parts import MapParts, map_parts
 from aurora_core.execution.plan import (
@@ -33,10 +27,7 @@ from aurora_core.execution.plan import (
     wind_of,
 )
 from aurora_core.feasibility.check import check_request
-from aurora_core.feasibility.verdict import FeasibilityVerdict
 from aurora_core.grounding.ground import Grounder
-from aurora_core.grounding.grounded import GroundedScenario
-from aurora_core.grounding.outcome import GroundingFailure, GroundingOutcome
 from aurora_core.grounding.places import place_positions
 from aurora_core.knowledge.agent_types import load_agent_types
 from aurora_core.knowledge.basis import Basis, Tables
@@ -46,15 +37,25 @@ from aurora_core.knowledge.map_model import MapModel, load_map
 from aurora_core.knowledge.settings import Settings, load_settings
 from aurora_core.knowledge.world import WorldModel
 from aurora_core.monitor.plan_check import NotComparable, Plan, finding
-from aurora_core.monitor.verdict import Finding, Verdict
 from aurora_core.monitor.verify import verify
+from aurora_core.outcomes.agsg import Agsg, Stage
+from aurora_core.outcomes.condition import (
+    Condition,
+    conditions_from_json,
+    conditions_to_json,
+)
+from aurora_core.outcomes.feasibility import FeasibilityVerdict
+from aurora_core.outcomes.grounded import GroundedScenario
+from aurora_core.outcomes.grounding import GroundingFailure, GroundingOutcome, Unjudged
+from aurora_core.outcomes.parse import ParseContext, ParseOutcome
+from aurora_core.outcomes.schedule import Schedule
+from aurora_core.outcomes.verdict import Finding, Verdict
 from aurora_core.parsing.idle_uavs import hovering
-from aurora_core.parsing.outcome import ParseContext, ParseOutcome
 from aurora_core.parsing.parser import parse_offline
 from aurora_core.pipeline.recompute import recomputed
 from aurora_core.report.versions import AURORA_VERSION
 from aurora_core.spec.scenario import ScenarioSpec
-from aurora_core.temporal.schedule import Schedule, plan_time
+from aurora_core.temporal.schedule import plan_time
 from aurora_core.trace.bag_reader import BagContent, read_bag
 from aurora_core.trace.definitions import message_definitions
 

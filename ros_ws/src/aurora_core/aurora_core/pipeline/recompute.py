@@ -11,18 +11,18 @@ from __future__ import annotations
 
 import numpy as np
 
-from aurora_core.agsg.graph import Agsg
 from aurora_core.errors import AuroraError
 from aurora_core.execution.faults import Fault, read_fault
 from aurora_core.execution.map_parts import MapParts
 from aurora_core.execution.plan import EXECUTOR_VERSION, build_stepper
 from aurora_core.execution.step_output import Stepper
 from aurora_core.grounding.airspace import Airspace
-from aurora_core.grounding.grounded import GroundedScenario
 from aurora_core.knowledge.limits import Tolerances
 from aurora_core.knowledge.settings import Settings
 from aurora_core.knowledge.world import WorldModel
-from aurora_core.monitor.verdict import Finding
+from aurora_core.outcomes.agsg import Agsg
+from aurora_core.outcomes.grounded import GroundedScenario
+from aurora_core.outcomes.verdict import Finding
 from aurora_core.pipeline.differences import Again, differences
 from aurora_core.quantities.world_geometry import WorldGeometry
 from aurora_core.trace.commands import GroundCommand

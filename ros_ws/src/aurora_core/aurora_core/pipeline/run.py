@@ -16,9 +16,9 @@ from types import MappingProxyType
 from typing import Any
 
 from aurora_core.agsg.build import build_agsg
-from aurora_core.agsg.graph import Agsg
 from aurora_core.errors import AuroraError
-from aurora_core.feasibility.verdict import Feasibility
+from aurora_core.outcomes.agsg import Agsg
+from aurora_core.outcomes.feasibility import Feasibility
 from aurora_core.pipeline.functions import knowledge
 from aurora_core.pipeline.history import remember
 from aurora_core.pipeline.stages import ExecutionResult, RunControl, RunRequest, Stages

@@ -15,14 +15,14 @@ from typing import Annotated, Literal, Protocol
 
 from pydantic import AfterValidator, ConfigDict
 
-from aurora_core.agsg.graph import Agsg
+from aurora_core.document import Document
 from aurora_core.execution.faults import Fault
-from aurora_core.feasibility.verdict import FeasibilityVerdict
-from aurora_core.grounding.outcome import GroundingOutcome
-from aurora_core.monitor.verdict import Verdict
-from aurora_core.parsing.outcome import ParseOutcome
+from aurora_core.outcomes.agsg import Agsg
+from aurora_core.outcomes.feasibility import FeasibilityVerdict
+from aurora_core.outcomes.grounding import GroundingOutcome
+from aurora_core.outcomes.parse import ParseOutcome
+from aurora_core.outcomes.verdict import Verdict
 from aurora_core.ports.model_name import check_no_secret
-from aurora_core.spec.parameter import Document
 from aurora_core.spec.seed import Seed
 
 

@@ -4,12 +4,12 @@
 
 from __future__ import annotations
 
-from aurora_core.agsg.graph import Agsg
-from aurora_core.conditions.condition import conditions_from_json
-from aurora_core.grounding.outcome import GroundingOutcome
 from aurora_core.monitor.plan_check import NotComparable, Plan, plan_findings
-from aurora_core.monitor.verdict import Verdict
-from aurora_core.parsing.outcome import ParseOutcome
+from aurora_core.outcomes.agsg import Agsg
+from aurora_core.outcomes.condition import conditions_from_json
+from aurora_core.outcomes.grounding import GroundingOutcome
+from aurora_core.outcomes.parse import ParseOutcome
+from aurora_core.outcomes.verdict import Verdict
 from aurora_core.pipeline.functions import Judged, judge_content, recorded_plan
 from aurora_core.report.clauses import clause_reports
 from aurora_core.report.comparison import Comparison

@@ -11,7 +11,7 @@ from typing import Any, Literal, Protocol
 
 from pydantic import FiniteFloat, NonNegativeFloat, NonNegativeInt
 
-from aurora_core.spec.parameter import Document
+from aurora_core.document import Document
 
 
 class Message(Document):

@@ -15,9 +15,10 @@ import numpy as np
 import numpy.typing as npt
 from pydantic import FiniteFloat
 
+from aurora_core.document import Document
 from aurora_core.knowledge.limits import Tolerances
 from aurora_core.spec.events import AgentAction
-from aurora_core.spec.parameter import Bound, Document
+from aurora_core.spec.parameter import Bound
 
 FloatArray = npt.NDArray[np.float64]
 BoolArray = npt.NDArray[np.bool_]

@@ -8,10 +8,10 @@ import hashlib
 import json
 import math
 
-from aurora_core.agsg.graph import Agsg
-from aurora_core.conditions.condition import Condition, conditions_from_json
-from aurora_core.feasibility.verdict import Certificate, Feasibility, FeasibilityVerdict
-from aurora_core.parsing.outcome import ParseOutcome, Refusal
+from aurora_core.outcomes.agsg import Agsg
+from aurora_core.outcomes.condition import Condition, conditions_from_json
+from aurora_core.outcomes.feasibility import Certificate, Feasibility, FeasibilityVerdict
+from aurora_core.outcomes.parse import ParseOutcome, Refusal
 from aurora_core.report.clauses import clause_reports
 from aurora_core.report.facts import RunFacts
 from aurora_core.report.judged import condition_reports, is_undecided

@@ -9,15 +9,15 @@ from typing import Literal
 
 from pydantic import FiniteFloat
 
-from aurora_core.conditions.condition import conditions_from_json
-from aurora_core.feasibility.verdict import Feasibility, FeasibilityVerdict
+from aurora_core.document import Document
+from aurora_core.outcomes.condition import conditions_from_json
+from aurora_core.outcomes.feasibility import Feasibility, FeasibilityVerdict
+from aurora_core.outcomes.schedule import Schedule
 from aurora_core.report.build import build_report
 from aurora_core.report.facts import RunFacts
 from aurora_core.report.run_report import ClauseReport, ErrorReport, RealisedReport
 from aurora_core.report.status import ExitCode, Status
-from aurora_core.spec.parameter import Document
 from aurora_core.spec.scenario import ScenarioSpec
-from aurora_core.temporal.schedule import Schedule
 
 
 class CheckResult(StrEnum):

@@ -4,8 +4,8 @@
 
 from __future__ import annotations
 
-from aurora_core.agsg.judged import Unjudged
-from aurora_core.parsing.outcome import ParseOutcome
+from aurora_core.outcomes.grounding import Unjudged
+from aurora_core.outcomes.parse import ParseOutcome
 from aurora_core.report.facts import RunFacts
 from aurora_core.report.run_report import ClauseReport
 from aurora_core.spec.parameter import Span

@@ -6,9 +6,9 @@ from __future__ import annotations
 
 from pydantic import FiniteFloat
 
-from aurora_core.monitor.verdict import ConditionResult, Verdict
+from aurora_core.document import Document
 from aurora_core.monitor.verify import verdict_status
-from aurora_core.spec.parameter import Document
+from aurora_core.outcomes.verdict import ConditionResult, Verdict
 
 
 class Difference(Document):

@@ -13,11 +13,11 @@ from typing import Any, Literal
 import numpy as np
 from pydantic import FiniteFloat
 
-from aurora_core.agsg.graph import Agsg
+from aurora_core.document import Document
 from aurora_core.knowledge.world import WorldModel
-from aurora_core.monitor.verdict import Verdict
+from aurora_core.outcomes.agsg import Agsg
+from aurora_core.outcomes.verdict import Verdict
 from aurora_core.report.status import ExitCode
-from aurora_core.spec.parameter import Document
 from aurora_core.trace.bag_content import BagContent
 from aurora_core.trace.compare import Value, ValueDifference, compare_traces
 from aurora_core.trace.hashing import trace_sha256

@@ -6,8 +6,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from aurora_core.monitor.verdict import Verdict, VerdictStatus
-from aurora_core.spec.parameter import Document
+from aurora_core.document import Document
+from aurora_core.outcomes.verdict import Verdict, VerdictStatus
 from aurora_core.trace.bag_content import worst
 from aurora_core.trace.trace import Integrity
 

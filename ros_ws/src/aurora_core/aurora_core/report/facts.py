@@ -7,14 +7,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from aurora_core.agsg.graph import Agsg
 from aurora_core.errors import AuroraError
 from aurora_core.execution.faults import Fault
-from aurora_core.feasibility.verdict import FeasibilityVerdict
-from aurora_core.grounding.outcome import GroundingOutcome
 from aurora_core.knowledge.limits import Limits
-from aurora_core.monitor.verdict import Verdict
-from aurora_core.parsing.outcome import ParseOutcome
+from aurora_core.outcomes.agsg import Agsg
+from aurora_core.outcomes.feasibility import FeasibilityVerdict
+from aurora_core.outcomes.grounding import GroundingOutcome
+from aurora_core.outcomes.parse import ParseOutcome
+from aurora_core.outcomes.verdict import Verdict
 from aurora_core.report.run_report import BagReport, RepairReport
 
 

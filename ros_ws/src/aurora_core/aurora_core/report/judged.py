@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from aurora_core.monitor.verdict import ConditionResult, Verdict, VerdictStatus
+from aurora_core.outcomes.verdict import ConditionResult, Verdict, VerdictStatus
 from aurora_core.report.run_report import ClauseReport, ConditionReport
 from aurora_core.spec.parameter import Span
 from aurora_core.trace.trace import Integrity

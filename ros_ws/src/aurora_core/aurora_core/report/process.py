@@ -7,7 +7,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from aurora_core.spec.parameter import Document
+from aurora_core.document import Document
 
 
 class ProcessIdentity(Document):

@@ -14,9 +14,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from aurora_core.agsg.graph import Agsg
-from aurora_core.grounding.grounded import GroundedScenario
-from aurora_core.monitor.verdict import Verdict, VerdictStatus
+from aurora_core.document import Document
+from aurora_core.outcomes.agsg import Agsg
+from aurora_core.outcomes.grounded import GroundedScenario
+from aurora_core.outcomes.verdict import Verdict, VerdictStatus
 from aurora_core.parsing.idle_uavs import hovering
 from aurora_core.report.comparison import Comparison, compare
 from aurora_core.report.doubts import Doubt, altered, trace_doubts, unknown
@@ -25,7 +26,6 @@ from aurora_core.report.run_documents import Unreadable, read_document, read_sto
 from aurora_core.report.run_folder import MANIFEST, PROMPT, REPORT, StageFile, is_run_id
 from aurora_core.report.run_report import BagReport, ClauseReport, RunReport, TraceReport
 from aurora_core.report.status import Status
-from aurora_core.spec.parameter import Document
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.spec.vocabulary import ClauseStatus
 from aurora_core.trace.bag_content import BagContent

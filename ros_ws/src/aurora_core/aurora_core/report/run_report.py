@@ -9,12 +9,13 @@ from typing import Literal
 
 from pydantic import Field, FiniteFloat
 
+from aurora_core.document import Document
 from aurora_core.execution.faults import Fault
-from aurora_core.feasibility.verdict import FeasibilityVerdict
 from aurora_core.knowledge.limits import Limits
-from aurora_core.monitor.verdict import Finding, Reason, VerdictStatus
+from aurora_core.outcomes.feasibility import FeasibilityVerdict
+from aurora_core.outcomes.verdict import Finding, Reason, VerdictStatus
 from aurora_core.report.status import Status
-from aurora_core.spec.parameter import Document, Provenance, Span
+from aurora_core.spec.parameter import Provenance, Span
 from aurora_core.spec.vocabulary import ClauseStatus
 from aurora_core.trace.trace import Integrity
 

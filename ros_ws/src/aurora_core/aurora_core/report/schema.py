@@ -14,14 +14,14 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from aurora_core.agsg.graph import Agsg
-from aurora_core.feasibility.verdict import FeasibilityVerdict
-from aurora_core.monitor.verdict import VERDICT_VERSION, Verdict
+from aurora_core.document import OMITTED
+from aurora_core.outcomes.agsg import Agsg
+from aurora_core.outcomes.feasibility import FeasibilityVerdict
+from aurora_core.outcomes.verdict import VERDICT_VERSION, Verdict
 from aurora_core.report.check_report import CheckReport
 from aurora_core.report.diff_report import DiffReport
 from aurora_core.report.run_report import RunReport
 from aurora_core.report.verify_report import VerifyReport
-from aurora_core.spec.parameter import OMITTED
 from aurora_core.spec.scenario import ScenarioSpec
 
 _DIALECT = 'https://json-schema.org/draft/2020-12/schema'

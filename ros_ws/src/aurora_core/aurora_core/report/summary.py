@@ -4,8 +4,8 @@
 
 from __future__ import annotations
 
-from aurora_core.grounding.outcome import GroundingOutcome
-from aurora_core.monitor.verdict import Reason
+from aurora_core.outcomes.grounding import GroundingOutcome
+from aurora_core.outcomes.verdict import Reason
 from aurora_core.report.run_report import ConditionReport, RunReport
 from aurora_core.report.status import Status
 from aurora_core.trace.trace import Integrity

@@ -8,13 +8,13 @@ from collections.abc import Sequence
 from enum import StrEnum
 from typing import Literal
 
-from aurora_core.monitor.verdict import Reason, Verdict, VerdictStatus
+from aurora_core.document import Document
+from aurora_core.outcomes.verdict import Reason, Verdict, VerdictStatus
 from aurora_core.report.comparison import Comparison
 from aurora_core.report.doubts import doubted
 from aurora_core.report.run_check import JudgedBag, RunCheck, unread
 from aurora_core.report.run_report import ClauseReport
 from aurora_core.report.status import ExitCode, Status
-from aurora_core.spec.parameter import Document
 from aurora_core.trace.trace import Integrity
 
 _SHOWN = 3

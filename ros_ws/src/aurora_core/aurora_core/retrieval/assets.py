@@ -10,7 +10,8 @@ from pydantic import JsonValue
 
 from aurora_core.knowledge.agent_types import AgentTypeRecord, top_speed_mps
 from aurora_core.knowledge.limits import Limits
-from aurora_core.retrieval.record import Record, RecordKind
+from aurora_core.outcomes.retrieval import RecordKind
+from aurora_core.retrieval.record import Record
 from aurora_core.spec.vocabulary import AgentType, TimeOfDay, Weather
 
 UAV_ID = 'uav'

@@ -9,9 +9,9 @@ from collections.abc import Sequence
 
 from pydantic import NonNegativeInt, PositiveFloat
 
-from aurora_core.retrieval.hits import Retrieval
-from aurora_core.retrieval.record import Record, RecordKind
-from aurora_core.spec.parameter import Document
+from aurora_core.document import Document
+from aurora_core.outcomes.retrieval import RecordKind, Retrieval
+from aurora_core.retrieval.record import Record
 
 
 class Amounts(Document):

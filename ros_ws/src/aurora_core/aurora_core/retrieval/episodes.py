@@ -10,10 +10,11 @@ from pathlib import Path
 
 from pydantic import FiniteFloat, ValidationError
 
+from aurora_core.document import Document
 from aurora_core.errors import ConfigError
 from aurora_core.files import DOCUMENT_BYTES, read_bytes
-from aurora_core.retrieval.record import Record, RecordKind
-from aurora_core.spec.parameter import Document
+from aurora_core.outcomes.retrieval import RecordKind
+from aurora_core.retrieval.record import Record
 
 _NAME = re.compile(r'[A-Za-z0-9][A-Za-z0-9_-]*')
 _VERIFIED = 'verified'

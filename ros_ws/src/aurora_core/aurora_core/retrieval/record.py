@@ -6,20 +6,11 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterable
-from enum import StrEnum
 
 from pydantic import JsonValue
 
-from aurora_core.spec.parameter import Document
-
-
-class RecordKind(StrEnum):
-    """What a record is about; selection is made within each kind that is not a registry."""
-
-    REGISTRY = 'registry'  # always shown
-    ASSET = 'asset'
-    SPAWN = 'spawn'
-    EPISODE = 'episode'
+from aurora_core.document import Document
+from aurora_core.outcomes.retrieval import RecordKind
 
 
 class Record(Document):

@@ -6,9 +6,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from aurora_core.retrieval.hits import Hit, Retrieval
+from aurora_core.outcomes.retrieval import Hit, RecordKind, Retrieval
 from aurora_core.retrieval.ranking import MakeRanker, fuse, ranks
-from aurora_core.retrieval.record import Record, RecordKind, corpus_sha256
+from aurora_core.retrieval.record import Record, corpus_sha256
 
 _KEPT = 10  # per kind, in what is archived
 

@@ -14,7 +14,8 @@ from pydantic import JsonValue
 
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.net_types import Crossing, Junction, Lane
-from aurora_core.retrieval.record import Record, RecordKind
+from aurora_core.outcomes.retrieval import RecordKind
+from aurora_core.retrieval.record import Record
 
 _CAR = 'passenger'
 _MAP_FILES = 'maps'

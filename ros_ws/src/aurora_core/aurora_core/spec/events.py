@@ -183,3 +183,21 @@ def bodies_of(event: Event) -> frozenset[str]:
     names = ('a', 'b', 'uav', 'observer', 'target', 'who', 'by', 'sender', 'receiver', 'agent')
     found = {getattr(part, name, None) for part in (event.trigger, event.action) for name in names}
     return frozenset(n for n in found if n is not None and not is_place(n))
+
+
+def actor_of(event: Event) -> str | None:
+    """Return the body whose behaviour triggers an event, None when there is no such body.
+
+    Of a distance it is the one that is not told about it.
+    """
+    trigger = event.trigger
+    match trigger:
+        case DistanceTrigger():
+            told = event.action.receiver if isinstance(event.action, SendMessage) else None
+            return trigger.b if trigger.a == told else trigger.a
+        case SpeedTrigger() | ArrivalTrigger():
+            return trigger.who
+        case VisibilityTrigger():
+            return trigger.target if trigger.on == 'visible' else None
+        case _:
+            return None

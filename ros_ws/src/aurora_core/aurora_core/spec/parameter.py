@@ -5,31 +5,11 @@
 from __future__ import annotations
 
 from enum import StrEnum
-from typing import Any, Self
+from typing import Self
 
-from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, model_validator
+from pydantic import FiniteFloat, model_validator
 
-# In the JSON schema: the field is left out of a document when it has its default.
-OMITTED = 'x-omitted-when-default'
-
-
-class Document(BaseModel):
-    """Base of every value in the specification: frozen, closed, keyword-only."""
-
-    model_config = ConfigDict(frozen=True, extra='forbid', allow_inf_nan=False)
-
-
-def omitted(default: object) -> Any:
-    """Return a field that is left out of documents when it has its default.
-
-    For what was added after documents were written: digests of specifications that do not use it
-    stay what they were.
-    """
-    return Field(
-        default=default,
-        exclude_if=lambda value: bool(value == default),
-        json_schema_extra={OMITTED: True},
-    )
+from aurora_core.document import Document
 
 
 class Provenance(StrEnum):

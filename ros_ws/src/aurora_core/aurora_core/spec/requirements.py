@@ -10,7 +10,8 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from aurora_core.spec.parameter import Document, Element, Parameter, Span, Unit
+from aurora_core.document import Document
+from aurora_core.spec.parameter import Element, Parameter, Span, Unit
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.reference import Id, PlaceRef
 from aurora_core.spec.vocabulary import AgentType, ClauseStatus

@@ -13,6 +13,7 @@ from typing import Literal, Self
 
 from pydantic import model_validator
 
+from aurora_core.document import Document, omitted
 from aurora_core.spec.checks import check
 from aurora_core.spec.events import (
     AgentAction,
@@ -32,7 +33,6 @@ from aurora_core.spec.events import (
     VisibilityTrigger,
     bodies_of,
 )
-from aurora_core.spec.parameter import Document, omitted
 from aurora_core.spec.prohibitions import Prohibition
 from aurora_core.spec.reference import Id, PlaceRef, is_place
 from aurora_core.spec.requirements import Clause, Order, SceneCount, StatedCondition

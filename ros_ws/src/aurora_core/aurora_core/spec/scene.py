@@ -8,7 +8,8 @@ from typing import Self
 
 from pydantic import model_validator
 
-from aurora_core.spec.parameter import Element, Parameter, Span, omitted
+from aurora_core.document import omitted
+from aurora_core.spec.parameter import Element, Parameter, Span
 from aurora_core.spec.reference import Id, PlaceRef
 from aurora_core.spec.seed import Seed
 from aurora_core.spec.vocabulary import (

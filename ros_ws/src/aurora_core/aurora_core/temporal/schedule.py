@@ -4,43 +4,15 @@
 
 from __future__ import annotations
 
-import json
-
-from pydantic import FiniteFloat
-
-from aurora_core.conditions.plan_facts import AgentFacts, MissionFacts, PlanFacts
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.choices import chosen
-from aurora_core.grounding.grounded import GroundedScenario
 from aurora_core.grounding.time_need import horizon_s
 from aurora_core.knowledge.limits import Limits
 from aurora_core.mission.plan import MissionPlan, UavPlan
-from aurora_core.spec.parameter import Document
+from aurora_core.outcomes.grounded import GroundedScenario
+from aurora_core.outcomes.schedule import AgentFacts, MissionFacts, PlanFacts, Schedule
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.spec.vocabulary import MissionMode
-
-SCHEDULE_VERSION = 1
-
-
-class Schedule(Document):
-    """When things have to be done.
-
-    Attributes:
-        horizon_s: Hard end of the run.
-        stated_horizon: The prompt states the duration: the run lasts exactly that long.
-        facts: What conditions quote.
-    """
-
-    schema_version: int = SCHEDULE_VERSION
-    horizon_s: FiniteFloat
-    stated_horizon: bool
-    facts: PlanFacts
-
-    def canonical_json(self) -> str:
-        """Return the byte-exact JSON text that travels in the graph."""
-        return json.dumps(
-            self.model_dump(mode='json'), sort_keys=True, separators=(',', ':'), ensure_ascii=False
-        )
 
 
 def plan_time(spec: ScenarioSpec, grounded: GroundedScenario, limits: Limits) -> Schedule:

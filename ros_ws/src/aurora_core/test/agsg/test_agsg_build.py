@@ -10,8 +10,8 @@ import pytest
 
 from aurora_core.agsg.build import build_agsg, derived
 from aurora_core.agsg.families import family_of_quantity
-from aurora_core.agsg.graph import Agsg, EdgeType, NodeType
-from aurora_core.grounding.grounded import GroundedScenario
+from aurora_core.outcomes.agsg import Agsg, EdgeType, NodeType
+from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.spec.parameter import Parameter, Provenance
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.reference import ENVIRONMENT_ID

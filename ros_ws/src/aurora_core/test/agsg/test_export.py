@@ -24,8 +24,8 @@ from aurora_core.agsg.export import (
     spec_from_graphml,
     value_text,
 )
-from aurora_core.agsg.graph import Agsg
 from aurora_core.errors import SpecError
+from aurora_core.outcomes.agsg import Agsg
 from aurora_core.spec.parameter import Unit
 from aurora_core.spec.scenario import ScenarioSpec
 

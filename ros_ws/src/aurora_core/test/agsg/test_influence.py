@@ -9,9 +9,9 @@ from collections.abc import Callable
 import pytest
 
 from aurora_core.agsg.build import build_agsg
-from aurora_core.agsg.graph import Agsg, NodeType
 from aurora_core.agsg.influence import conditions_affected, parameters_affecting
 from aurora_core.errors import SpecError
+from aurora_core.outcomes.agsg import Agsg, NodeType
 from aurora_core.spec.scenario import ScenarioSpec
 
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 import pytest
 
 from aurora_core.agsg.build import build_agsg
-from aurora_core.agsg.judged import Unjudged
+from aurora_core.outcomes.grounding import Unjudged
 from aurora_core.pipeline.functions import ground_stage, parse_stage
 from aurora_core.spec.scenario import ScenarioSpec
 

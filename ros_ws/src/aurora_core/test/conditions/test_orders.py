@@ -10,9 +10,9 @@ from typing import Any
 import pytest
 
 from aurora_core.conditions.build import Inputs, Underivable
-from aurora_core.conditions.condition import Condition
 from aurora_core.conditions.orders import order_conditions
-from aurora_core.conditions.plan_facts import MissionFacts
+from aurora_core.outcomes.condition import Condition
+from aurora_core.outcomes.schedule import MissionFacts
 from aurora_core.spec.parameter import Unit
 from aurora_core.spec.scenario import Uav
 from aurora_core.spec.vocabulary import MissionMode

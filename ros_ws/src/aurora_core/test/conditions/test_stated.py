@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 
-from aurora_core.conditions.condition import Condition, Window
 from aurora_core.conditions.derive import Derivation, derive_conditions
+from aurora_core.outcomes.condition import Condition, Window
 from aurora_core.spec.parameter import Span, Unit
 from aurora_core.spec.requirements import STATED_QUANTITIES
 

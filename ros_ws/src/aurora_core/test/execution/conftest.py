@@ -17,7 +17,6 @@ from aurora_core.execution.faults import Fault
 from aurora_core.execution.scenario_executor import ExecutionSetup, ScenarioExecutor
 from aurora_core.execution.step_output import StepOutput
 from aurora_core.grounding.airspace import Airspace
-from aurora_core.grounding.grounded import GroundedAgent, ReleaseOn
 from aurora_core.knowledge.config_files import config_path
 from aurora_core.knowledge.limits import load_limits, load_tolerances
 from aurora_core.knowledge.map_types import Building
@@ -25,6 +24,7 @@ from aurora_core.knowledge.world import NamedPlace, Wind, WorldModel
 from aurora_core.mission.machine import MissionMachine
 from aurora_core.mission.plan import MissionPlan, UavPlan
 from aurora_core.mission.setpoint import FlightSettings
+from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
 from aurora_core.ports.random_streams import stream
 from aurora_core.quantities.actions import action_rules
 from aurora_core.quantities.world_geometry import WorldGeometry

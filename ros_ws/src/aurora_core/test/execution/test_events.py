@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 
-from aurora_core.grounding.grounded import ReleaseOn
 from aurora_core.knowledge.map_types import Building
+from aurora_core.outcomes.grounded import ReleaseOn
 from aurora_core.spec.parameter import Parameter, Provenance, Unit
 from aurora_core.spec.scenario import (
     AgentAction,

@@ -14,7 +14,7 @@ from pydantic import ValidationError
 from aurora_core.errors import ExecutionError
 from aurora_core.execution.fault_port import loss_with_faults
 from aurora_core.execution.faults import Fault
-from aurora_core.grounding.grounded import ReleaseOn
+from aurora_core.outcomes.grounded import ReleaseOn
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.scenario import AgentAction, Event, SendMessage, TimeTrigger
 from aurora_core.trace.layout import GroundCommandKind, UavCommandColumn, UavMode

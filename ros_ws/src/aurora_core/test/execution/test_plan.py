@@ -14,7 +14,6 @@ import pytest
 import shapely
 
 from aurora_core.agsg.build import build_agsg
-from aurora_core.agsg.graph import Agsg, Stage
 from aurora_core.errors import ExecutionError
 from aurora_core.execution.faults import Fault, read_fault
 from aurora_core.execution.plan import (
@@ -25,12 +24,13 @@ from aurora_core.execution.plan import (
 )
 from aurora_core.execution.step_output import StepOutput
 from aurora_core.geometry.polyline import Polyline
-from aurora_core.grounding.grounded import GroundedScenario
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.settings import Settings
 from aurora_core.knowledge.world import SurfaceKind
+from aurora_core.outcomes.agsg import Agsg, Stage
+from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.temporal.schedule import plan_time
 from aurora_core.trace.hashing import trace_sha256

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from aurora_core.grounding.grounded import ReleaseOn
 from aurora_core.knowledge.map_types import Building
+from aurora_core.outcomes.grounded import ReleaseOn
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.scenario import Event, SendMessage, TimeTrigger
 from aurora_core.trace.layout import GroundCommandKind, UavCommandColumn, UavMode, UavPhase

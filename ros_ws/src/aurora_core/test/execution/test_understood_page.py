@@ -11,8 +11,8 @@ from typing import Any, cast, get_args
 
 import pytest
 
-from aurora_core.execution.capabilities import unsupported
-from aurora_core.grounding.grounded import GroundedScenario
+from aurora_core.conditions.capabilities import unsupported
+from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.spec.requirements import STATED_QUANTITIES
 from aurora_core.spec.scenario import (
     AgentAction,

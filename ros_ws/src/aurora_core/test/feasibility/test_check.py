@@ -11,9 +11,9 @@ from typing import Any
 import pytest
 
 from aurora_core.feasibility.check import check_limits
-from aurora_core.feasibility.verdict import Certificate, Feasibility
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Limits
+from aurora_core.outcomes.feasibility import Certificate, Feasibility
 from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.scenario import (
     AgentAction,

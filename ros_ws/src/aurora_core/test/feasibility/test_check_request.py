@@ -7,12 +7,12 @@ from __future__ import annotations
 import pytest
 
 from aurora_core.feasibility.check import check_request
-from aurora_core.feasibility.verdict import Feasibility, FeasibilityVerdict
 from aurora_core.knowledge.agent_types import load_agent_types
 from aurora_core.knowledge.config_files import config_path
 from aurora_core.knowledge.limits import load_limits, load_tolerances
 from aurora_core.knowledge.map_model import load_map
-from aurora_core.parsing.outcome import ParseContext
+from aurora_core.outcomes.feasibility import Feasibility, FeasibilityVerdict
+from aurora_core.outcomes.parse import ParseContext
 from aurora_core.parsing.parser import parse_offline
 
 REFUSED = (

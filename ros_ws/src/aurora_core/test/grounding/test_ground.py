@@ -14,8 +14,6 @@ import shapely
 
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.grounding.ground import Grounder
-from aurora_core.grounding.grounded import GroundedAgent, GroundedScenario, ReleaseOn
-from aurora_core.grounding.outcome import GroundingFailure
 from aurora_core.grounding.routes import RouteFinder
 from aurora_core.grounding.time_need import horizon_s
 from aurora_core.knowledge.agent_types import AgentTypeRecord
@@ -23,6 +21,8 @@ from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.settings import Settings
 from aurora_core.mission.plan import MissionPlan
+from aurora_core.outcomes.grounded import GroundedAgent, GroundedScenario, ReleaseOn
+from aurora_core.outcomes.grounding import GroundingFailure
 from aurora_core.spec.parameter import Provenance
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.spec.vocabulary import MissionMode

@@ -7,9 +7,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from itertools import combinations
 
-from aurora_core.grounding.grounded import GroundedScenario
 from aurora_core.grounding.layers import layered
 from aurora_core.knowledge.limits import Limits
+from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.scenario import GroundAgent, ScenarioSpec, Uav, UavMission
 from aurora_core.spec.vocabulary import AgentType, MissionMode

@@ -11,7 +11,6 @@ import pytest
 import shapely
 
 from aurora_core.errors import MapError
-from aurora_core.grounding.grounded import GroundedScenario
 from aurora_core.grounding.places import (
     intersection_point,
     landmark_point,
@@ -19,6 +18,7 @@ from aurora_core.grounding.places import (
     road_point,
 )
 from aurora_core.knowledge.map_model import MapModel
+from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.spec.scenario import ScenarioSpec
 
 Maps = Callable[[str], MapModel]

@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 
 from aurora_core.grounding.airspace import Airspace
-from aurora_core.grounding.grounded import GroundedScenario
 from aurora_core.grounding.starts import uncrossed
 from aurora_core.knowledge.map_types import Building
 from aurora_core.mission.plan import UavPlan
+from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.spec.scenario import ScenarioSpec
 
 Point = tuple[float, float, float]

@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 
 from aurora_core.geometry.polyline import Polyline
-from aurora_core.grounding.grounded import GroundedScenario, ReleaseOn
 from aurora_core.grounding.places import place_positions
 from aurora_core.knowledge.limits import Limits
 from aurora_core.knowledge.map_model import MapModel
+from aurora_core.outcomes.grounded import GroundedScenario, ReleaseOn
 from aurora_core.spec.scenario import ScenarioSpec
 
 Read = Callable[..., ScenarioSpec]

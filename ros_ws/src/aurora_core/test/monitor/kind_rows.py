@@ -20,9 +20,9 @@ import pytest
 from trace_builder import LIMITS, TOLERANCES, number
 from trace_cases import Case, judge, result, spec
 
-from aurora_core.conditions.condition import Condition
 from aurora_core.conditions.derive import derive_conditions
-from aurora_core.monitor.verdict import Reason
+from aurora_core.outcomes.condition import Condition
+from aurora_core.outcomes.verdict import Reason
 from aurora_core.spec.parameter import Unit
 from aurora_core.trace.trace import Trace
 

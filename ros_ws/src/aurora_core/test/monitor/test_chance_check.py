@@ -12,8 +12,8 @@ import pytest
 from aurora_core.comm.link import link_stream
 from aurora_core.conditions.derive import derive_conditions
 from aurora_core.monitor.plan_check import Plan
-from aurora_core.monitor.verdict import Finding, VerdictStatus
 from aurora_core.monitor.verify import verify
+from aurora_core.outcomes.verdict import Finding, VerdictStatus
 from aurora_core.spec.parameter import Unit
 from aurora_core.trace.records import ScenarioEventKind
 

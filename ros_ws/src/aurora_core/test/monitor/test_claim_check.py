@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from aurora_core.monitor.verdict import VerdictStatus
+from aurora_core.outcomes.verdict import VerdictStatus
 from aurora_core.spec.scenario import AgentAction
 from aurora_core.trace.layout import UavCommandColumn, UavPhase
 from aurora_core.trace.records import LinkEventKind, ScenarioEventKind

@@ -16,9 +16,9 @@ from kind_rows import Row
 from trace_builder import Flight, FloatArray, flight, number, world
 from trace_cases import Case, facts_of, ground_case, hover_case, mission, spec
 
-from aurora_core.conditions.plan_facts import MissionFacts
 from aurora_core.knowledge.world import CentreLine
-from aurora_core.monitor.verdict import Reason
+from aurora_core.outcomes.schedule import MissionFacts
+from aurora_core.outcomes.verdict import Reason
 from aurora_core.spec.parameter import Unit
 from aurora_core.spec.scenario import Behavior
 from aurora_core.spec.vocabulary import BehaviorKind, MissionMode

@@ -14,9 +14,9 @@ import numpy as np
 import pytest
 from kind_rows import Outcome, Row, all_rows, kind_of, trace_part
 
-from aurora_core.conditions.condition import Condition
 from aurora_core.monitor.online import OnlineMonitor
-from aurora_core.monitor.verdict import Reason
+from aurora_core.outcomes.condition import Condition
+from aurora_core.outcomes.verdict import Reason
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import AgentAction, ScenarioSpec, SendMessage, UavAction
 from aurora_core.spec.vocabulary import BehaviorKind, Relation

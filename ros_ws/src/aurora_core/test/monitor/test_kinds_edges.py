@@ -12,7 +12,7 @@ from kind_rows import Row, cut, done_at, gone, grounded, stated
 from trace_builder import flight
 from trace_cases import Case, convoy_case, hover_case, judge, result, survey_case, tailgate_case
 
-from aurora_core.monitor.verdict import Reason, VerdictStatus
+from aurora_core.outcomes.verdict import Reason, VerdictStatus
 
 # See test_kinds_missions.py.
 HOVER_CAPTURED = 165

@@ -16,9 +16,9 @@ from kind_rows import Row, cut
 from trace_builder import number, world
 from trace_cases import Case, facts_of, message, mission, spec, tailgate_case
 
-from aurora_core.conditions.plan_facts import MissionFacts
 from aurora_core.knowledge.world import NamedPlace
-from aurora_core.monitor.verdict import Reason
+from aurora_core.outcomes.schedule import MissionFacts
+from aurora_core.outcomes.verdict import Reason
 from aurora_core.spec.parameter import Unit
 from aurora_core.spec.vocabulary import MissionMode
 

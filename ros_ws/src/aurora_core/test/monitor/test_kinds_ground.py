@@ -13,7 +13,7 @@ from trace_builder import FloatArray, number
 from trace_cases import Case, convoy_case, ground_case, spec, tailgate_case
 
 from aurora_core.knowledge.world import CentreLine
-from aurora_core.monitor.verdict import Reason
+from aurora_core.outcomes.verdict import Reason
 from aurora_core.spec.parameter import Unit
 from aurora_core.spec.scenario import Behavior, Placement
 from aurora_core.spec.vocabulary import BehaviorKind as B

@@ -16,7 +16,7 @@ from trace_builder import FloatArray
 from trace_cases import Case, ground_case
 
 from aurora_core.knowledge.world import CentreLine
-from aurora_core.monitor.verdict import Reason
+from aurora_core.outcomes.verdict import Reason
 from aurora_core.spec.scenario import Behavior
 from aurora_core.spec.vocabulary import BehaviorKind as B
 

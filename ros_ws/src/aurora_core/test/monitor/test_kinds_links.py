@@ -14,7 +14,7 @@ from kind_rows import Row, cut
 from trace_builder import number
 from trace_cases import Case, spec, tailgate_case
 
-from aurora_core.monitor.verdict import Reason
+from aurora_core.outcomes.verdict import Reason
 from aurora_core.spec.parameter import Unit
 from aurora_core.trace.records import LinkEventKind, LossReason
 

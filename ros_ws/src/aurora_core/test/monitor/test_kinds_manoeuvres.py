@@ -11,7 +11,7 @@ from kind_rows import Row, gone
 from trace_builder import world
 from trace_cases import Case, ground_case
 
-from aurora_core.monitor.verdict import Reason
+from aurora_core.outcomes.verdict import Reason
 from aurora_core.spec.scenario import Behavior
 from aurora_core.spec.vocabulary import BehaviorKind as B
 

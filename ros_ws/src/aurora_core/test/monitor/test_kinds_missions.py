@@ -13,7 +13,7 @@ from kind_rows import Row, cut, gone, grounded
 from trace_builder import TOLERANCES, building, flight, number, world
 from trace_cases import Case, convoy_case, hover_case, spec
 
-from aurora_core.monitor.verdict import Reason
+from aurora_core.outcomes.verdict import Reason
 from aurora_core.spec.parameter import Unit
 from aurora_core.trace.layout import UavCommandColumn, UavPhase
 

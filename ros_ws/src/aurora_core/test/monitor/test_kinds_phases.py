@@ -13,9 +13,9 @@ from kind_rows import Row, grounded, stated
 from trace_builder import Run, building, driver, flight, number, world
 from trace_cases import Case, agent, facts_of, hover_case, mission, spec
 
-from aurora_core.conditions.plan_facts import MissionFacts
 from aurora_core.knowledge.world import NamedPlace
-from aurora_core.monitor.verdict import Reason
+from aurora_core.outcomes.schedule import MissionFacts
+from aurora_core.outcomes.verdict import Reason
 from aurora_core.spec.parameter import Span
 from aurora_core.spec.scenario import Uav, UavMission
 from aurora_core.spec.vocabulary import MissionMode

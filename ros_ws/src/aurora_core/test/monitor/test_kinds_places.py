@@ -16,7 +16,7 @@ from trace_builder import box_ring, number
 from trace_cases import Case, ground_case, spec
 
 from aurora_core.knowledge.world import CentreLine, NamedPlace, Surface, SurfaceKind
-from aurora_core.monitor.verdict import Reason
+from aurora_core.outcomes.verdict import Reason
 from aurora_core.spec.scenario import Behavior, Placement
 from aurora_core.spec.vocabulary import BehaviorKind, Relation
 

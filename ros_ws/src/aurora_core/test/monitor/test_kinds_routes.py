@@ -15,8 +15,8 @@ from kind_rows import Row, gone, grounded
 from trace_builder import DT_S, Run, flight, number, world
 from trace_cases import Case, facts_of, mission, spec, survey_case
 
-from aurora_core.conditions.plan_facts import MissionFacts
-from aurora_core.monitor.verdict import Reason
+from aurora_core.outcomes.schedule import MissionFacts
+from aurora_core.outcomes.verdict import Reason
 from aurora_core.spec.parameter import Unit
 from aurora_core.spec.scenario import Uav
 from aurora_core.spec.vocabulary import MissionMode, Pattern

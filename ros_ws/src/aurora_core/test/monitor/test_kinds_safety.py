@@ -14,7 +14,7 @@ from kind_rows import Row, cut, gone, grounded
 from trace_builder import building, flight, world, zone
 from trace_cases import Case, agent, ground_case, hover_case, spec
 
-from aurora_core.monitor.verdict import Reason
+from aurora_core.outcomes.verdict import Reason
 from aurora_core.spec.scenario import Behavior
 from aurora_core.spec.vocabulary import BehaviorKind
 from aurora_core.trace.layout import UavColumn, UavCommandColumn

@@ -15,7 +15,7 @@ from kind_rows import Row, cut, gone
 from trace_builder import driver, number
 from trace_cases import Case, ground_case, hover_case, spec
 
-from aurora_core.monitor.verdict import Reason
+from aurora_core.outcomes.verdict import Reason
 from aurora_core.spec.parameter import Bound, Unit
 from aurora_core.spec.scenario import Behavior
 from aurora_core.spec.vocabulary import BehaviorKind

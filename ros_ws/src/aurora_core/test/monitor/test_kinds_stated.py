@@ -15,7 +15,7 @@ import pytest
 from kind_rows import Row, cut, done_at, gone, grounded, stated
 from trace_cases import Case, convoy_case, ground_case, hover_case, survey_case, tailgate_case
 
-from aurora_core.monitor.verdict import Reason
+from aurora_core.outcomes.verdict import Reason
 from aurora_core.spec.scenario import Behavior
 from aurora_core.spec.vocabulary import BehaviorKind
 

@@ -16,7 +16,7 @@ from kind_rows import Row, cut, gone, grounded, stated
 from trace_builder import number
 from trace_cases import Case, ground_case, hover_case, message, spec, survey_case, tailgate_case
 
-from aurora_core.monitor.verdict import Reason
+from aurora_core.outcomes.verdict import Reason
 from aurora_core.spec.parameter import Unit
 from aurora_core.spec.scenario import Behavior
 from aurora_core.spec.vocabulary import BehaviorKind

@@ -9,7 +9,7 @@ from types import ModuleType
 import numpy as np
 import pytest
 
-from aurora_core.monitor.verdict import VerdictStatus
+from aurora_core.outcomes.verdict import VerdictStatus
 from aurora_core.trace.layout import UavColumn
 
 

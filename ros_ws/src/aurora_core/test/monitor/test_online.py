@@ -12,10 +12,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from aurora_core.conditions.condition import Condition
 from aurora_core.conditions.derive import derive_conditions
 from aurora_core.monitor.online import OnlineMonitor, Outlook
 from aurora_core.monitor.verify import verify
+from aurora_core.outcomes.condition import Condition
 from aurora_core.spec.scenario import Behavior
 from aurora_core.spec.vocabulary import BehaviorKind
 from aurora_core.stl.online import OnlineVerdict

@@ -11,12 +11,12 @@ from typing import Any
 
 import pytest
 
-from aurora_core.conditions.condition import Condition
 from aurora_core.conditions.derive import derive_conditions
 from aurora_core.knowledge.limits import Limits
 from aurora_core.monitor.plan_check import Plan, plan_findings
-from aurora_core.monitor.verdict import VerdictStatus
 from aurora_core.monitor.verify import verify
+from aurora_core.outcomes.condition import Condition
+from aurora_core.outcomes.verdict import VerdictStatus
 
 Recorded = dict[str, Any]
 

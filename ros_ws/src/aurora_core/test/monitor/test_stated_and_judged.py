@@ -16,8 +16,8 @@ from pydantic import BaseModel
 from trace_builder import LIMITS, TOLERANCES
 
 from aurora_core.agsg.judged import NO_CHOICE, conditions_depending, paths_stated
-from aurora_core.conditions.condition import Condition
 from aurora_core.conditions.derive import derive_conditions
+from aurora_core.outcomes.condition import Condition
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.scenario import ScenarioSpec
 

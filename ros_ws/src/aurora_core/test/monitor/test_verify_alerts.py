@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from aurora_core.monitor.verdict import Reason, VerdictStatus
+from aurora_core.outcomes.verdict import Reason, VerdictStatus
 from aurora_core.spec.parameter import Unit
 from aurora_core.trace.records import ScenarioEventKind
 

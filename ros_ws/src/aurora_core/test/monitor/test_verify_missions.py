@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from aurora_core.errors import VerificationError
-from aurora_core.monitor.verdict import Reason, VerdictStatus
+from aurora_core.outcomes.verdict import Reason, VerdictStatus
 from aurora_core.spec.parameter import Bound, Unit
 from aurora_core.trace.layout import UavCommandColumn, UavPhase
 

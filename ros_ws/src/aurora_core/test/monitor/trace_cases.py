@@ -21,10 +21,10 @@ from trace_builder import (
 )
 
 from aurora_core.conditions.derive import derive_conditions
-from aurora_core.conditions.plan_facts import MissionFacts, PlanFacts
 from aurora_core.knowledge.world import WorldModel
-from aurora_core.monitor.verdict import ConditionResult, Verdict
 from aurora_core.monitor.verify import verify
+from aurora_core.outcomes.schedule import MissionFacts, PlanFacts
+from aurora_core.outcomes.verdict import ConditionResult, Verdict
 from aurora_core.spec.parameter import Unit
 from aurora_core.spec.scenario import (
     Behavior,

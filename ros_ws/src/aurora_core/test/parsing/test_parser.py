@@ -12,7 +12,7 @@ import pytest
 import yaml
 
 from aurora_core.errors import PromptError
-from aurora_core.parsing.outcome import ParseContext, RefusalKind
+from aurora_core.outcomes.parse import ParseContext, RefusalKind
 from aurora_core.parsing.parser import parse_offline
 from aurora_core.spec.parameter import Provenance
 from aurora_core.spec.vocabulary import AgentType, ClauseStatus

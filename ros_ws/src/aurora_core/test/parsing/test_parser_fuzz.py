@@ -17,7 +17,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from aurora_core.errors import PromptError
-from aurora_core.parsing.outcome import ParseContext, ParseOutcome
+from aurora_core.outcomes.parse import ParseContext, ParseOutcome
 from aurora_core.parsing.parser import parse_offline
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.spec.vocabulary import ClauseStatus

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 import yaml
 
-from aurora_core.parsing.outcome import ParseContext, ParseOutcome
+from aurora_core.outcomes.parse import ParseContext, ParseOutcome
 from aurora_core.parsing.parser import parse_offline
 from aurora_core.spec.parameter import Bound, Parameter, Provenance
 from aurora_core.spec.scenario import GroundAgent, ScenarioSpec, UavMission

@@ -8,11 +8,11 @@ from collections.abc import Sequence
 
 import pytest
 
+from aurora_core.outcomes.parse import ParseContext
 from aurora_core.parsing import second_look
 from aurora_core.parsing.atoms import Atom
 from aurora_core.parsing.attempt import Attempt, attempt
 from aurora_core.parsing.landmarks import landmark_phrases
-from aurora_core.parsing.outcome import ParseContext
 from aurora_core.parsing.parser import parse_offline
 from aurora_core.parsing.tagging import tag
 from aurora_core.parsing.tokens import tokenize

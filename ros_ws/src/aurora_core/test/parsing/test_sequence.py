@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import pytest
 
-from aurora_core.parsing.outcome import ParseContext
+from aurora_core.outcomes.parse import ParseContext
 from aurora_core.parsing.parser import parse_offline
 from aurora_core.spec.scenario import EventDoneTrigger, MessageTrigger, VisibilityTrigger
 

@@ -13,9 +13,9 @@ import pytest
 
 from aurora_core.conditions.derive import derive_conditions
 from aurora_core.feasibility.check import check_limits
-from aurora_core.grounding.grounded import GroundedScenario
 from aurora_core.knowledge.config_files import ENVIRONMENT_VARIABLE, config_root
-from aurora_core.parsing.outcome import ParseContext
+from aurora_core.outcomes.grounded import GroundedScenario
+from aurora_core.outcomes.parse import ParseContext
 from aurora_core.parsing.parser import parse_offline
 from aurora_core.parsing.values import default
 from aurora_core.pipeline.background import background, map_records, registries

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from aurora_core.execution.faults import Fault
-from aurora_core.parsing.outcome import ParseContext
+from aurora_core.outcomes.parse import ParseContext
 from aurora_core.parsing.parser import parse_offline
 from aurora_core.pipeline.history import history_of, remember
 from aurora_core.pipeline.stages import RunRequest

@@ -14,12 +14,12 @@ import numpy as np
 import pytest
 
 from aurora_core.agsg.build import build_agsg
-from aurora_core.agsg.graph import Agsg
 from aurora_core.execution.faults import Fault
 from aurora_core.execution.plan import EXECUTOR_VERSION, Execution
-from aurora_core.grounding.grounded import GroundedScenario
 from aurora_core.knowledge.world import WorldModel
-from aurora_core.monitor.verdict import Finding, VerdictStatus
+from aurora_core.outcomes.agsg import Agsg
+from aurora_core.outcomes.grounded import GroundedScenario
+from aurora_core.outcomes.verdict import Finding, VerdictStatus
 from aurora_core.pipeline.functions import (
     execution_stage,
     ground_stage,

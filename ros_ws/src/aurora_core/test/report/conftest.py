@@ -12,10 +12,7 @@ import numpy as np
 import pytest
 
 from aurora_core.agsg.build import build_agsg
-from aurora_core.agsg.graph import Agsg, Stage
 from aurora_core.conditions.build import Source, Target, condition
-from aurora_core.conditions.condition import Arguments, Condition, Window, conditions_to_json
-from aurora_core.grounding.outcome import GroundingOutcome
 from aurora_core.knowledge.config_files import config_path
 from aurora_core.knowledge.limits import load_limits
 from aurora_core.knowledge.map_types import Building, NoFlyZone
@@ -27,8 +24,11 @@ from aurora_core.knowledge.world import (
     Wind,
     WorldModel,
 )
-from aurora_core.monitor.verdict import ConditionResult, Reason, Verdict, VerdictStatus
-from aurora_core.parsing.outcome import ParseOutcome
+from aurora_core.outcomes.agsg import Agsg, Stage
+from aurora_core.outcomes.condition import Arguments, Condition, Window, conditions_to_json
+from aurora_core.outcomes.grounding import GroundingOutcome
+from aurora_core.outcomes.parse import ParseOutcome
+from aurora_core.outcomes.verdict import ConditionResult, Reason, Verdict, VerdictStatus
 from aurora_core.report.facts import ExecutionFacts, RunFacts
 from aurora_core.report.run_check import JudgedBag
 from aurora_core.report.run_report import ClauseReport

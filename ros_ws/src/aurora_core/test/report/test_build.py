@@ -10,10 +10,10 @@ import pytest
 from pydantic import ValidationError
 
 from aurora_core.errors import ExecutionError
-from aurora_core.feasibility.verdict import Certificate, Feasibility, FeasibilityVerdict
-from aurora_core.grounding.outcome import GroundingFailure, GroundingOutcome
-from aurora_core.monitor.verdict import Finding, Reason, VerdictStatus
-from aurora_core.parsing.outcome import ParseOutcome, Refusal, RefusalKind
+from aurora_core.outcomes.feasibility import Certificate, Feasibility, FeasibilityVerdict
+from aurora_core.outcomes.grounding import GroundingFailure, GroundingOutcome
+from aurora_core.outcomes.parse import ParseOutcome, Refusal, RefusalKind
+from aurora_core.outcomes.verdict import Finding, Reason, VerdictStatus
 from aurora_core.report.build import build_report
 from aurora_core.report.run_report import RunReport
 from aurora_core.report.status import Status

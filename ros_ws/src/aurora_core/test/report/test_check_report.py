@@ -7,9 +7,9 @@ from types import SimpleNamespace
 import pytest
 
 from aurora_core.errors import MapError
-from aurora_core.feasibility.verdict import Certificate, Feasibility, FeasibilityVerdict
-from aurora_core.grounding.outcome import GroundingFailure, GroundingOutcome
-from aurora_core.parsing.outcome import ParseOutcome
+from aurora_core.outcomes.feasibility import Certificate, Feasibility, FeasibilityVerdict
+from aurora_core.outcomes.grounding import GroundingFailure, GroundingOutcome
+from aurora_core.outcomes.parse import ParseOutcome
 from aurora_core.report.check_report import CheckResult, build_check, check_exit_code
 from aurora_core.report.facts import RunFacts
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from types import SimpleNamespace
 
-from aurora_core.grounding.outcome import GroundingOutcome
+from aurora_core.outcomes.grounding import GroundingOutcome
 from aurora_core.report.clauses import clause_reports
 from aurora_core.spec.vocabulary import ClauseStatus
 

@@ -6,7 +6,7 @@ import math
 from pathlib import Path
 from types import SimpleNamespace
 
-from aurora_core.monitor.verdict import Finding, Verdict, VerdictStatus
+from aurora_core.outcomes.verdict import Finding, Verdict, VerdictStatus
 from aurora_core.report.comparison import compare
 from aurora_core.report.run_documents import read_document
 from aurora_core.report.run_folder import json_text

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from types import SimpleNamespace
 
-from aurora_core.monitor.verdict import VerdictStatus
+from aurora_core.outcomes.verdict import VerdictStatus
 from aurora_core.report.doubts import altered, doubted, trace_doubts, unknown
 from aurora_core.trace.trace import Integrity
 

@@ -10,8 +10,8 @@ import pytest
 
 from aurora_core.errors import ExecutionError
 from aurora_core.execution.faults import Fault
-from aurora_core.grounding.outcome import GroundingOutcome
-from aurora_core.parsing.outcome import ParseOutcome, Refusal, RefusalKind
+from aurora_core.outcomes.grounding import GroundingOutcome
+from aurora_core.outcomes.parse import ParseOutcome, Refusal, RefusalKind
 from aurora_core.report.build import build_report
 from aurora_core.report.html import number, report_html
 from aurora_core.spec.parameter import Span

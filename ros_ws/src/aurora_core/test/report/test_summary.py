@@ -6,8 +6,8 @@ from types import SimpleNamespace
 
 import pytest
 
-from aurora_core.grounding.outcome import GroundingOutcome
-from aurora_core.monitor.verdict import Reason
+from aurora_core.outcomes.grounding import GroundingOutcome
+from aurora_core.outcomes.verdict import Reason
 from aurora_core.report.build import build_report
 from aurora_core.report.summary import margin_value
 

@@ -10,8 +10,8 @@ import pytest
 from rich.console import Console
 
 from aurora_core.execution.faults import Fault
-from aurora_core.grounding.outcome import GroundingOutcome
-from aurora_core.monitor.verdict import Finding
+from aurora_core.outcomes.grounding import GroundingOutcome
+from aurora_core.outcomes.verdict import Finding
 from aurora_core.report.build import build_report
 from aurora_core.report.check_report import build_check
 from aurora_core.report.comparison import compare

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from aurora_core.monitor.verdict import Finding, VerdictStatus
+from aurora_core.outcomes.verdict import Finding, VerdictStatus
 from aurora_core.report.comparison import compare
 from aurora_core.report.doubts import Doubt, altered, unknown
 from aurora_core.report.run_check import RunCheck

@@ -9,8 +9,9 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
+from aurora_core.outcomes.retrieval import RecordKind
 from aurora_core.retrieval.ranking import FloatArray, LexicalRanker
-from aurora_core.retrieval.record import Record, RecordKind
+from aurora_core.retrieval.record import Record
 from aurora_core.retrieval.retriever import Retriever
 
 MOST = {RecordKind.ASSET: 1, RecordKind.SPAWN: 2}

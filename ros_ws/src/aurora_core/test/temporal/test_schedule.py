@@ -9,10 +9,11 @@ from math import sqrt
 
 import pytest
 
-from aurora_core.grounding.grounded import GroundedScenario
 from aurora_core.knowledge.limits import Limits
+from aurora_core.outcomes.grounded import GroundedScenario
+from aurora_core.outcomes.schedule import Schedule
 from aurora_core.spec.scenario import ScenarioSpec
-from aurora_core.temporal.schedule import Schedule, plan_time
+from aurora_core.temporal.schedule import plan_time
 
 Read = Callable[..., ScenarioSpec]
 Ground = Callable[..., GroundedScenario]

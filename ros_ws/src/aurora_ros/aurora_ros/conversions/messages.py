@@ -17,11 +17,11 @@ import numpy as np
 from pydantic import ValidationError
 
 from aurora_core.agsg.build import derived
-from aurora_core.agsg.graph import Agsg
 from aurora_core.agsg.message import agsg_message as core_agsg_message
 from aurora_core.agsg.message import read_agsg
 from aurora_core.errors import SpecError
 from aurora_core.knowledge.world import WorldModel
+from aurora_core.outcomes.agsg import Agsg
 from aurora_core.trace.definitions import MessageDefinitions
 from aurora_core.trace.messages import MessageBuilder
 from aurora_core.trace.messages_world import world_message as core_world_message

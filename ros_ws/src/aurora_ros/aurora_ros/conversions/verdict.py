@@ -7,9 +7,9 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from aurora_core.conditions.condition import Condition
 from aurora_core.monitor.online import Outlook
-from aurora_core.monitor.verdict import ConditionResult, Verdict
+from aurora_core.outcomes.condition import Condition
+from aurora_core.outcomes.verdict import ConditionResult, Verdict
 from aurora_core.stl.online import OnlineVerdict
 from aurora_msgs.msg import ConditionMargin, Margins
 from aurora_msgs.msg import Verdict as VerdictMessage

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 from pydantic import ValidationError
 
+from aurora_core.outcomes.parse import ParseOutcome, Refusal, RefusalKind
 from aurora_core.parsing.assemble import build
 from aurora_core.parsing.atoms import Atom, NounKind
 from aurora_core.parsing.llm.actors import Anchors, check_missing
@@ -26,7 +27,6 @@ from aurora_core.parsing.llm.places import check_places, check_world
 from aurora_core.parsing.llm.reading import Reading
 from aurora_core.parsing.llm.scene_builder import build_scene
 from aurora_core.parsing.llm.wording import Wording
-from aurora_core.parsing.outcome import ParseOutcome, Refusal, RefusalKind
 from aurora_core.parsing.parser import parse_offline
 from aurora_core.parsing.rules import settle
 from aurora_core.parsing.scene import ClauseDraft, Scene

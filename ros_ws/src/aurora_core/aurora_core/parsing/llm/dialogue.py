@@ -6,11 +6,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
+from aurora_core.outcomes.parse import ParseContext, ParseOutcome
 from aurora_core.parsing.llm.check import judge
 from aurora_core.parsing.llm.extract import MAX_REPLY_CHARACTERS
 from aurora_core.parsing.llm.facts import PromptFacts
 from aurora_core.parsing.llm.request import first_request, with_feedback
-from aurora_core.parsing.outcome import ParseContext, ParseOutcome
 from aurora_core.parsing.text import check_prompt_text
 from aurora_core.ports.language_model import (
     FailureKind,

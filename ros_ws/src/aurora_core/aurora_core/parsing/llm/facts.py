@@ -10,10 +10,10 @@ from __future__ import annotations
 
 import re
 
+from aurora_core.outcomes.parse import ParseContext
 from aurora_core.parsing.atoms import ACTORS, Atom, AtomKind, NounKind
 from aurora_core.parsing.landmarks import landmark_phrases
 from aurora_core.parsing.measures import Measure
-from aurora_core.parsing.outcome import ParseContext
 from aurora_core.parsing.tagging import tag
 from aurora_core.parsing.tokens import tokenize
 from aurora_core.spec.parameter import Span

@@ -12,7 +12,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field, FiniteFloat, StringConstraints
 
-from aurora_core.spec.parameter import Document, Unit
+from aurora_core.document import Document
+from aurora_core.spec.parameter import Unit
 from aurora_core.spec.vocabulary import (
     AgentType,
     BehaviorKind,

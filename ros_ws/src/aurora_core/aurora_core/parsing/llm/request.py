@@ -9,13 +9,13 @@ from collections.abc import Sequence
 from functools import lru_cache
 from typing import Any
 
+from aurora_core.document import Document
 from aurora_core.parsing.lexicon import read_data
 from aurora_core.parsing.llm.facts import PromptFacts
 from aurora_core.parsing.llm.reading import Reading
 from aurora_core.parsing.tokens import TokenKind, tokenize
 from aurora_core.ports.language_model import Message, ModelRequest
 from aurora_core.retrieval.background import Background
-from aurora_core.spec.parameter import Document
 from aurora_core.spec.vocabulary import AgentType, Place
 
 # A large map has more named places than a prompt could mean.

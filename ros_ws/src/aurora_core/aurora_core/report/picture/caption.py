@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Self
 
-from aurora_core.monitor.verdict import ConditionResult, Verdict, VerdictStatus
+from aurora_core.outcomes.verdict import ConditionResult, Verdict, VerdictStatus
 from aurora_core.report.run_report import ConditionReport, RunReport
 from aurora_core.report.status import Status
 from aurora_core.report.summary import margin_value

@@ -15,7 +15,7 @@ from matplotlib.figure import Figure
 from aurora_core.monitor.evaluation import FloatArray
 from aurora_core.monitor.sentences import quantity_text
 from aurora_core.monitor.signals_for_plot import PlotSignal
-from aurora_core.monitor.verdict import ConditionResult
+from aurora_core.outcomes.verdict import ConditionResult
 from aurora_core.report.picture import style
 from aurora_core.report.status import Status
 

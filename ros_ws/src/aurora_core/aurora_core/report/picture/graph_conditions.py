@@ -15,7 +15,7 @@ from matplotlib.axes import Axes
 from matplotlib.patches import FancyBboxPatch
 
 from aurora_core.agsg.export import EDGE_COLOURS, NODE_COLOURS
-from aurora_core.agsg.graph import Agsg, AgsgNode, EdgeType, NodeType
+from aurora_core.outcomes.agsg import Agsg, AgsgNode, EdgeType, NodeType
 from aurora_core.report.picture import style
 from aurora_core.report.picture.graph_edges import DASHES
 from aurora_core.report.picture.graph_nodes import outline, parameter_row

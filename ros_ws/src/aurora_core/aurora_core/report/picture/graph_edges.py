@@ -13,7 +13,7 @@ from matplotlib.patches import PathPatch, Polygon
 from matplotlib.path import Path
 
 from aurora_core.agsg.export import EDGE_COLOURS
-from aurora_core.agsg.graph import EdgeType
+from aurora_core.outcomes.agsg import EdgeType
 from aurora_core.report.picture import style
 from aurora_core.report.picture.graph_layout import Point
 from aurora_core.report.picture.graph_text import text_width

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.patches import FancyBboxPatch, Patch, Polygon
 
 from aurora_core.agsg.export import NODE_COLOURS, parameter_name, value_text
-from aurora_core.agsg.graph import AgsgNode, AgsgParameter, NodeType
+from aurora_core.outcomes.agsg import AgsgNode, AgsgParameter, NodeType
 from aurora_core.report.picture import style
 from aurora_core.report.picture.graph_text import text_width, wrapped
 from aurora_core.spec.parameter import Provenance

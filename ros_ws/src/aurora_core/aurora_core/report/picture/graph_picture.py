@@ -12,7 +12,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from aurora_core.agsg.export import EDGE_COLOURS
-from aurora_core.agsg.graph import Agsg, AgsgEdge, EdgeType, NodeType
+from aurora_core.outcomes.agsg import Agsg, AgsgEdge, EdgeType, NodeType
 from aurora_core.report.picture import style
 from aurora_core.report.picture.graph_conditions import (
     Entry,

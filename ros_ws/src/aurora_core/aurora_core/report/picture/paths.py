@@ -12,7 +12,7 @@ from matplotlib.colors import LinearSegmentedColormap, Normalize
 from matplotlib.patches import FancyArrowPatch
 from matplotlib.patheffects import withStroke
 
-from aurora_core.conditions.condition import Condition
+from aurora_core.outcomes.condition import Condition
 from aurora_core.report.picture import style
 from aurora_core.report.picture.furniture import number_badge
 from aurora_core.report.picture.placing import Placer

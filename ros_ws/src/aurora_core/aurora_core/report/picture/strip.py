@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 from matplotlib.axes import Axes
 
-from aurora_core.conditions.condition import Condition
+from aurora_core.outcomes.condition import Condition
 from aurora_core.report.picture import style
 from aurora_core.report.picture.furniture import number_badge
 from aurora_core.report.picture.story import Moment

@@ -11,9 +11,9 @@ from typing import Any
 
 import pytest
 
+from aurora_core.outcomes.parse import ParseContext
 from aurora_core.parsing.llm.check import Judgement, judge
 from aurora_core.parsing.llm.facts import PromptFacts
-from aurora_core.parsing.outcome import ParseContext
 
 CONTEXT = ParseContext(landmark_names=('clock_tower',))
 PROMPT = (

@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 
+from aurora_core.outcomes.parse import RefusalKind
 from aurora_core.parsing.llm.check import Judgement
-from aurora_core.parsing.outcome import RefusalKind
 from aurora_core.spec.parameter import Bound, Provenance
 from aurora_core.spec.vocabulary import ClauseStatus
 

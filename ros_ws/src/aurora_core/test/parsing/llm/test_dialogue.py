@@ -9,8 +9,8 @@ from collections.abc import Sequence
 import pytest
 
 from aurora_core.errors import PromptError
+from aurora_core.outcomes.parse import ParseContext, ParseOutcome
 from aurora_core.parsing.llm.dialogue import parse_with_models
-from aurora_core.parsing.outcome import ParseContext, ParseOutcome
 from aurora_core.ports.language_model import (
     FailureKind,
     ModelFailure,

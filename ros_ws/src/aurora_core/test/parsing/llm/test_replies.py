@@ -10,10 +10,10 @@ from typing import Any
 import pytest
 import yaml
 
+from aurora_core.outcomes.parse import ParseContext
 from aurora_core.parsing.llm.check import judge
 from aurora_core.parsing.llm.facts import PromptFacts
 from aurora_core.parsing.llm.request import Example, examples
-from aurora_core.parsing.outcome import ParseContext
 from aurora_core.parsing.parser import parse_offline
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.spec.vocabulary import ClauseStatus

@@ -6,9 +6,9 @@ from __future__ import annotations
 
 import json
 
+from aurora_core.outcomes.parse import ParseContext
 from aurora_core.parsing.llm.facts import PromptFacts
 from aurora_core.parsing.llm.request import examples, first_request
-from aurora_core.parsing.outcome import ParseContext
 from aurora_core.spec.vocabulary import AgentType
 
 

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from aurora_core.monitor.evaluation import FloatArray
 from aurora_core.monitor.signals_for_plot import PlotSignal
-from aurora_core.monitor.verdict import ConditionResult
+from aurora_core.outcomes.verdict import ConditionResult
 from aurora_core.report.picture.condition_plot import draw_condition
 from aurora_core.report.picture.draw import png_bytes, svg_bytes
 from aurora_core.spec.parameter import Provenance

@@ -4,9 +4,25 @@
 
 from __future__ import annotations
 
-from aurora_core.agsg.graph import Agsg
-from aurora_core.agsg.judged import Unjudged
-from aurora_core.spec.parameter import Document
+from aurora_core.document import Document
+from aurora_core.outcomes.agsg import Agsg
+from aurora_core.spec.parameter import Span
+
+
+class Unjudged(Document):
+    """A stated value or choice that no condition depends on.
+
+    Attributes:
+        element: Id in the specification, `world` for the environment.
+        path: Where it stands in the specification.
+        what: For people.
+        span: Where the prompt states it, None where that is not known.
+    """
+
+    element: str
+    path: str
+    what: str
+    span: Span | None = None
 
 
 class GroundingFailure(Document):

@@ -9,10 +9,10 @@ from typing import Any
 
 import pytest
 
+from aurora_core.conditions.capabilities import judgeable, unsupported
 from aurora_core.conditions.derive import derive_conditions
-from aurora_core.execution.capabilities import judgeable, unsupported
-from aurora_core.grounding.grounded import GroundedScenario
 from aurora_core.knowledge.limits import Limits, Tolerances
+from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.temporal.schedule import plan_time
 

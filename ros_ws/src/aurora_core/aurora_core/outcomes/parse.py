@@ -6,9 +6,10 @@ from __future__ import annotations
 
 from enum import StrEnum
 
+from aurora_core.document import Document
+from aurora_core.outcomes.retrieval import Retrieval
 from aurora_core.ports.language_model import ModelCall
-from aurora_core.retrieval.hits import Retrieval
-from aurora_core.spec.parameter import Document, Span
+from aurora_core.spec.parameter import Span
 from aurora_core.spec.scenario import Clause, ScenarioSpec
 
 

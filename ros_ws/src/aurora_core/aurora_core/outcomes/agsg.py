@@ -11,7 +11,8 @@ from __future__ import annotations
 import hashlib
 from enum import StrEnum
 
-from aurora_core.spec.parameter import Document, Provenance, Span, Unit
+from aurora_core.document import Document
+from aurora_core.spec.parameter import Provenance, Span, Unit
 from aurora_core.spec.scenario import ScenarioSpec
 
 

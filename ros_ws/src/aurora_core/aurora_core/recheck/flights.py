@@ -7,9 +7,9 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from aurora_cli.recheck.finding import Step
-from aurora_cli.recheck.request import Request, left_open, stated
-from aurora_core.feasibility.verdict import Certificate
+from aurora_core.outcomes.feasibility import Certificate
+from aurora_core.recheck.finding import Step
+from aurora_core.recheck.request import Request, left_open, stated
 
 # What is looked at stands at most this high above the ground.
 _TOP_OF_TARGET_M = 2.0

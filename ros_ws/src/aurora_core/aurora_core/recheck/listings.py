@@ -6,9 +6,9 @@ from __future__ import annotations
 
 import re
 
-from aurora_cli.recheck.finding import Step
-from aurora_cli.recheck.request import read_config
-from aurora_core.feasibility.verdict import Certificate
+from aurora_core.outcomes.feasibility import Certificate
+from aurora_core.recheck.finding import Step
+from aurora_core.recheck.request import read_config
 from aurora_core.spec.vocabulary import AgentType
 
 

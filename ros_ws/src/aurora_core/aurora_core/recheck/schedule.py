@@ -6,9 +6,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from aurora_cli.recheck.finding import Step
-from aurora_cli.recheck.request import Request, left_open, stated
-from aurora_core.feasibility.verdict import Certificate
+from aurora_core.outcomes.feasibility import Certificate
+from aurora_core.recheck.finding import Step
+from aurora_core.recheck.request import Request, left_open, stated
 
 
 def _soonest(request: Request, number: Any) -> float:

@@ -9,9 +9,10 @@ from enum import StrEnum
 
 from pydantic import FiniteFloat
 
+from aurora_core.document import Document
 from aurora_core.knowledge.basis import Basis
 from aurora_core.mission.plan import UavPlan
-from aurora_core.spec.parameter import Document, Provenance
+from aurora_core.spec.parameter import Provenance
 
 GROUNDING_VERSION = 1
 

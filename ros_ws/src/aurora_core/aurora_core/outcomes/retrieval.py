@@ -4,10 +4,20 @@
 
 from __future__ import annotations
 
+from enum import StrEnum
+
 from pydantic import FiniteFloat
 
-from aurora_core.retrieval.record import RecordKind
-from aurora_core.spec.parameter import Document
+from aurora_core.document import Document
+
+
+class RecordKind(StrEnum):
+    """What a record is about; selection is made within each kind that is not a registry."""
+
+    REGISTRY = 'registry'  # always shown
+    ASSET = 'asset'
+    SPAWN = 'spawn'
+    EPISODE = 'episode'
 
 
 class Hit(Document):

@@ -10,7 +10,8 @@ from typing import Self
 
 from pydantic import FiniteFloat, model_validator
 
-from aurora_core.spec.parameter import Document, Provenance, Span
+from aurora_core.document import Document
+from aurora_core.spec.parameter import Provenance, Span
 from aurora_core.trace.trace import Integrity
 
 VERDICT_VERSION = 1

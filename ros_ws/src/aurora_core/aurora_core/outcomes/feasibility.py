@@ -8,7 +8,8 @@ from enum import StrEnum
 
 from pydantic import FiniteFloat
 
-from aurora_core.spec.parameter import Document, Span, omitted
+from aurora_core.document import Document, omitted
+from aurora_core.spec.parameter import Span
 
 
 class Feasibility(StrEnum):

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""The facts of a grounded plan that conditions quote: horizon, waypoints, hover points, agents.
+"""The schedule of a grounded plan, and its facts that conditions quote.
 
 Grounding fills them in; conditions are derived from the specification and these facts before the
 run and travel in the bag, so nothing that happens later can move a threshold.
@@ -8,10 +8,14 @@ run and travel in the bag, so nothing that happens later can move a threshold.
 
 from __future__ import annotations
 
+import json
+
 from pydantic import FiniteFloat
 
-from aurora_core.spec.parameter import Document
+from aurora_core.document import Document
 from aurora_core.spec.vocabulary import MissionMode
+
+SCHEDULE_VERSION = 1
 
 Point3 = tuple[FiniteFloat, FiniteFloat, FiniteFloat]
 
@@ -67,3 +71,24 @@ class PlanFacts(Document):
     horizon_s: FiniteFloat
     missions: tuple[MissionFacts, ...] = ()
     agents: tuple[AgentFacts, ...] = ()
+
+
+class Schedule(Document):
+    """When things have to be done.
+
+    Attributes:
+        horizon_s: Hard end of the run.
+        stated_horizon: The prompt states the duration: the run lasts exactly that long.
+        facts: What conditions quote.
+    """
+
+    schema_version: int = SCHEDULE_VERSION
+    horizon_s: FiniteFloat
+    stated_horizon: bool
+    facts: PlanFacts
+
+    def canonical_json(self) -> str:
+        """Return the byte-exact JSON text that travels in the graph."""
+        return json.dumps(
+            self.model_dump(mode='json'), sort_keys=True, separators=(',', ':'), ensure_ascii=False
+        )

@@ -15,9 +15,9 @@ from typing import Any
 
 from shapely.geometry import Point, shape
 
-from aurora_cli.recheck.finding import Step
-from aurora_cli.recheck.request import Request, left_open, stated
-from aurora_core.feasibility.verdict import Certificate
+from aurora_core.outcomes.feasibility import Certificate
+from aurora_core.recheck.finding import Step
+from aurora_core.recheck.request import Request, left_open, stated
 
 _PIECE_M = 0.25
 _RAYS = 720

@@ -7,10 +7,10 @@ from __future__ import annotations
 import math
 from typing import Any, TypeGuard
 
-from aurora_cli.recheck.finding import Step
-from aurora_core.feasibility.verdict import Certificate, Fact, FactSource
 from aurora_core.files import MAP_BYTES, read_json
 from aurora_core.knowledge.config_files import config_path
+from aurora_core.outcomes.feasibility import Certificate, Fact, FactSource
+from aurora_core.recheck.finding import Step
 
 # "about" widens a relative tolerance to a tenth.
 _ABOUT = 0.10

@@ -11,10 +11,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from aurora_core.conditions.behaviors import behavior_id
-from aurora_core.conditions.condition import Condition
 from aurora_core.conditions.placements import placement_id
 from aurora_core.grounding.convoy import can_be_placed
-from aurora_core.grounding.grounded import GroundedScenario
+from aurora_core.outcomes.condition import Condition
+from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.spec.scenario import (
     Event,
     EventDoneTrigger,

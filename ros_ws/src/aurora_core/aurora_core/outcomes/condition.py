@@ -14,11 +14,12 @@ from typing import Literal, Self
 
 from pydantic import FiniteFloat, TypeAdapter, ValidationError, model_validator
 
+from aurora_core.document import Document, omitted
 from aurora_core.errors import VerificationError
 from aurora_core.quantities.actions import ActionRules
 from aurora_core.quantities.kernels import TrackRule
 from aurora_core.quantities.phases import CaptureRule
-from aurora_core.spec.parameter import Bound, Document, Provenance, Span, omitted
+from aurora_core.spec.parameter import Bound, Provenance, Span
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.vocabulary import MissionMode, Relation
 from aurora_core.stl.formula import predicates

@@ -13,12 +13,12 @@ from collections.abc import Callable, Mapping
 from types import MappingProxyType
 from typing import Any
 
-from aurora_cli.recheck import flights, places, schedule, zones
-from aurora_cli.recheck.finding import Finding, Outcome, Step, finding
-from aurora_cli.recheck.limits import by_limit, by_sign
-from aurora_cli.recheck.listings import by_listing
-from aurora_cli.recheck.request import Request, fact_holds, quoted
-from aurora_core.feasibility.verdict import Certificate, Rule
+from aurora_core.outcomes.feasibility import Certificate, Rule
+from aurora_core.recheck import flights, places, schedule, zones
+from aurora_core.recheck.finding import Finding, Outcome, Step, finding
+from aurora_core.recheck.limits import by_limit, by_sign
+from aurora_core.recheck.listings import by_listing
+from aurora_core.recheck.request import Request, fact_holds, quoted
 
 __all__ = ['Finding', 'Outcome', 'recheck']
 

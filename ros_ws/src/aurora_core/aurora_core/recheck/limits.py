@@ -6,9 +6,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from aurora_cli.recheck.finding import Step
-from aurora_cli.recheck.request import node_at, quoted, read_config
-from aurora_core.feasibility.verdict import Certificate
+from aurora_core.outcomes.feasibility import Certificate
+from aurora_core.recheck.finding import Step
+from aurora_core.recheck.request import node_at, quoted, read_config
 
 # Limit name of a certificate -> (key in limits.json of its lower end, of its upper end).
 _LIMITS: dict[str, tuple[str | None, str]] = {
