@@ -31,11 +31,15 @@ IDLE_DOUBT_S = 0.5
 
 @dataclass(frozen=True, slots=True)
 class Acted:
-    """What became of an action: `start_s` and `done_s` where they are known."""
+    """What became of an action: `start_s` and `done_s` where they are known.
+
+    `done_from_s`: from then on it may be said to be done, where that is not one moment.
+    """
 
     judged: Judged
     start_s: float | None = None
     done_s: float | None = None
+    done_from_s: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -288,7 +292,12 @@ def _brake(case: Case, agent: str, window: Window, value: float | None) -> Acted
         slack = limits.tolerance(limits.SPEED, value)
         if not (np.abs(scene.speed(agent)[onset:] - value) <= slack).any():
             judged = does_not(f'{why}, but never to {value:g} m/s')
-    return Acted(judged, start, done)
+    # Who brakes has done so once he brakes hard enough, and at the latest when he stops doing so.
+    least = limits.BRAKE_MPS2 * (1.0 - limits.REALISED_SHARE)
+    hard = (t for t in range(onset, end) if _hardest(case, agent, t, t + 1) >= least)
+    return Acted(
+        judged, start, done, done_from_s=float(scene.times[min(next(hard, end), len(slowing) - 1)])
+    )
 
 
 def _start(case: Case, agent: str, window: Window, value: float | None) -> Acted:

@@ -35,6 +35,11 @@ class Happened:
     judged: Judged
     start_s: float | None = None
     done_s: float | None = None
+    done_from_s: float | None = None
+
+
+def _became(judged: Judged, acted: Acted) -> Happened:
+    return Happened(judged, acted.start_s, acted.done_s, acted.done_from_s)
 
 
 def happened(case: Case, requirement: Requirement) -> Happened:
@@ -59,7 +64,7 @@ def _happened(case: Case, requirement: Requirement) -> Happened:
         if not action:
             return Happened(cannot_tell('an event without trigger and action'))
         acted = _act(case, requirement, action, Window(0.0, case.scene.end_s, free=True))
-        return Happened(acted.judged, acted.start_s, acted.done_s)
+        return _became(acted.judged, acted)
     when = fired(case, trigger, lambda event: _done(case, event))
     if when.unclear:
         return Happened(cannot_tell(when.unclear))
@@ -108,7 +113,7 @@ def _answered(
         best = (doubtful or tried)[0]
         at = usable[tried.index(best)]
         why = f'trigger at {at.late_s:.2f} s: {best.judged.why}'
-        return Happened(Judged(best.judged.outcome, why), best.start_s, best.done_s)
+        return _became(Judged(best.judged.outcome, why), best)
     k = good[0]
     best, at = tried[k], usable[k]
     why = f'trigger at {at.late_s:.2f} s: {best.judged.why}'
@@ -116,9 +121,9 @@ def _answered(
     firsts = sum(1 for i in instants if i.late_s <= case.scene.dt_s)
     firsts += sum(1 for i in instants if i.late_s < ready)
     if trigger.get('on') in HAPPENINGS or k <= firsts:
-        return Happened(holds(why), best.start_s, best.done_s)
+        return _became(holds(why), best)
     first = f'not at the first time ({usable[0].late_s:.2f} s: {tried[0].judged.why})'
-    return Happened(cannot_tell(f'{why}, {first}'), best.start_s, best.done_s)
+    return _became(cannot_tell(f'{why}, {first}'), best)
 
 
 def _ready_s(case: Case, requirement: Requirement, action: Mapping[str, Any]) -> float:
@@ -144,7 +149,8 @@ def _ready_s(case: Case, requirement: Requirement, action: Mapping[str, Any]) ->
 def _done(case: Case, event: str) -> Fired:
     found = happened(case, case.annotation.events[event])
     if found.done_s is not None:
-        return Fired((Instant(found.done_s, found.done_s),), why=found.judged.why)
+        early = found.done_s if found.done_from_s is None else found.done_from_s
+        return Fired((Instant(early, found.done_s),), why=found.judged.why)
     if found.judged.outcome is Outcome.CANNOT_TELL:
         return Fired(unclear=f'{event}: {found.judged.why}')
     if found.start_s is not None and found.judged.outcome is Outcome.HOLDS:
@@ -185,7 +191,13 @@ def _together(parts: list[Acted]) -> Acted:
     ends = [p.done_s for p in parts]
     known = [e for e in ends if e is not None]
     done = max(known) if known and len(known) == len(ends) else None
-    return Acted(all_of([p.judged for p in parts]), min(starts, default=None), done)
+    early = [p.done_s if p.done_from_s is None else p.done_from_s for p in parts]
+    return Acted(
+        all_of([p.judged for p in parts]),
+        min(starts, default=None),
+        done,
+        done_from_s=max((e for e in early if e is not None), default=None),
+    )
 
 
 def _others(case: Case, requirement: Requirement, agents: tuple[str, ...]) -> tuple[str, ...]:

@@ -211,9 +211,22 @@ def _speed(case: Case, trigger: Mapping[str, Any]) -> Fired:
         speed = scene.speed(who)
         true = (speed < limit if below else speed > limit) & scene.present(who)
         extreme.append(float(speed.min() if below else speed.max()))
-        found += edges(case, true)
+        fallen = edges(case, true)
+        if below and value is None:
+            # "When it stops" names no speed: any moment from where it slows down may be meant.
+            fallen = tuple(Instant(_slows_from(case, speed, i.late_s), i.late_s) for i in fallen)
+        found += fallen
     shown = [round(e, 2) for e in extreme]
     return Fired(_sorted(found), why=f'{shown} m/s against {limit:g}')
+
+
+def _slows_from(case: Case, speed: FloatArray, end_s: float) -> float:
+    """Return the time (s) from which a speed (ticks,) only falls until a time."""
+    times = case.scene.times
+    tick = int(np.searchsorted(times, end_s))
+    while tick > 0 and speed[tick - 1] > speed[tick]:
+        tick -= 1
+    return float(times[tick])
 
 
 def _battery(case: Case, trigger: Mapping[str, Any]) -> Fired:

@@ -376,3 +376,37 @@ def test_events_that_wait_for_each_other_end(stage: Any) -> None:
 def test_an_event_of_a_body_that_is_not_there_does_not_hold(stage: Any) -> None:
     bus = {'kind': 'agent', 'ref': 'bus1', 'type': 'bus'}
     assert stage.says(_event(AT_20, {'do': 'stop', 'agent': 'bus1'}), bus) == 'does_not'
+
+
+@pytest.mark.parametrize(
+    ('sent', 'outcome'), [(22.0, 'holds'), (23.5, 'holds'), (27.0, 'does_not')]
+)
+def test_braking_is_done_once_it_is_hard_or_when_it_ends(
+    stage: Any, sent: float, outcome: str
+) -> None:
+    stage.drive('car1', 'car', _profile((0, 15), (20.5, 15), (23.5, 0), (60, 0)), x=-200.0)
+    stage.ground('van1', 'van', 0.0, 20.0)
+    stage.message('car1', 'van1', sent)
+    brake = {'id': 'r1', **_event(None, _does('brake')), 'ref': 'e1'}
+    tells = {
+        **_event({'on': 'event_done', 'event': 'e1'}, None), 'id': 'r2', 'ref': 'e2',
+        'action': {'do': 'send_message', 'sender': 'car1', 'receiver': 'van1'},
+    }  # fmt: skip
+    answer = stage.answer(tells, brake)
+    assert answer.outcome.value == outcome, answer.why
+
+
+@pytest.mark.parametrize(
+    ('sent', 'outcome'), [(21.5, 'holds'), (23.6, 'holds'), (12.0, 'does_not')]
+)
+def test_when_somebody_stops_is_from_where_it_slows_down(
+    stage: Any, sent: float, outcome: str
+) -> None:
+    stage.drive('car1', 'car', _profile((0, 15), (20.5, 15), (23.5, 0), (60, 0)), x=-200.0)
+    stage.ground('van1', 'van', 0.0, 20.0)
+    stage.message('car1', 'van1', sent)
+    tells = _event(
+        {'on': 'speed_below', 'who': 'car1'},
+        {'do': 'send_message', 'sender': 'car1', 'receiver': 'van1'},
+    )
+    assert stage.says(tells) == outcome

@@ -79,7 +79,7 @@ def route_conditions(
             source=stated_by(source, count),
             every_sample=False,
         )
-    if mission.over_streets:
+    if mission.over_a_road:
         share = inputs.tolerances.over_carriageway_share
         yield condition(
             id=f'{mission.id}.over_streets',

@@ -421,7 +421,7 @@ class FlightPlanner:
                 if clearance < self._settings.clearance_m:
                     continue
                 over = self._over_street(placed)
-                if mission.over_streets and over < self._leg_share:
+                if mission.over_a_road and over < self._leg_share:
                     continue
                 if best is None or over > best.over_street:
                     plan = MissionPlan(

@@ -18,6 +18,7 @@ from aurora_core.spec.vocabulary import (
     LinkOcclusion,
     MissionMode,
     Pattern,
+    Place,
     Relation,
     Role,
     TimeOfDay,
@@ -105,7 +106,7 @@ class UavMission(Element):
         duration_s: Of the mission phase alone.
         dwell_s: How long the UAV stays at each waypoint of a route.
         size_m: Pattern size (length, width), metres.
-        over_streets: "over the streets": at least one leg lies over a carriageway.
+        over_streets: "over the streets"; see `over_a_road`.
         ends_in_flight: The request does not end with a landing.
     """
 
@@ -127,6 +128,16 @@ class UavMission(Element):
     over_streets: bool = False
     ends_in_flight: bool = False
     span: Span | None = None
+
+    @property
+    def over_a_road(self) -> bool:
+        """Tell whether at least one leg has to lie over a carriageway.
+
+        "Over the streets", and any pattern with legs over the main road: a road is no point that
+        it would do to be centred on.
+        """
+        straight = self.pattern not in (None, Pattern.ORBIT)
+        return self.over_streets or (straight and self.target == Place.MAIN_ROAD.value)
 
     @model_validator(mode='after')
     def _mode_has_its_fields(self) -> Self:

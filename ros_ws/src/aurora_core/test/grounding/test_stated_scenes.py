@@ -9,6 +9,7 @@ from itertools import combinations
 
 import numpy as np
 import pytest
+import shapely
 
 from aurora_core.geometry.polyline import Polyline
 from aurora_core.grounding.places import place_positions
@@ -86,3 +87,14 @@ def test_a_bus_stands_at_its_distance_before_the_intersection(
     along_m, aside_m = Polyline(bus.route_xy_m).project(*centre)
     assert along_m == pytest.approx(distance_m, abs=0.01)
     assert abs(aside_m) <= 8.0
+
+
+@pytest.mark.parametrize('length_m', [120, 600])
+def test_a_line_over_the_main_road_lies_over_a_carriageway(
+    grounded: Callable[[str], GroundedScenario], map_of: Callable[[str], MapModel], length_m: int
+) -> None:
+    found = grounded(f'A drone patrols a {length_m} m line over the main road at 50 m.')
+    start, end = (point[:2] for point in found.uavs[0].missions[0].waypoints)
+    leg = shapely.LineString([start, end])
+    surface = map_of('downtown').network.carriageway
+    assert float(leg.intersection(surface).length) >= 0.8 * length_m
