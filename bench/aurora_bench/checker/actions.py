@@ -294,9 +294,12 @@ def _brake(case: Case, agent: str, window: Window, value: float | None) -> Acted
             judged = does_not(f'{why}, but never to {value:g} m/s')
     # Who brakes has done so once he brakes hard enough, and at the latest when he stops doing so.
     least = limits.BRAKE_MPS2 * (1.0 - limits.REALISED_SHARE)
-    hard = (t for t in range(onset, end) if _hardest(case, agent, t, t + 1) >= least)
+    enough_at = (t for t in range(onset, end) if _hardest(case, agent, t, t + 1) >= least)
     return Acted(
-        judged, start, done, done_from_s=float(scene.times[min(next(hard, end), len(slowing) - 1)])
+        judged,
+        start,
+        done,
+        done_from_s=float(scene.times[min(next(enough_at, end), len(slowing) - 1)]),
     )
 
 
