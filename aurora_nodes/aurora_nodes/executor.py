@@ -24,6 +24,7 @@ from rclpy.subscription import Subscription
 
 from aurora_core.errors import AuroraError
 from aurora_core.pipeline.functions import execution_stage
+from aurora_core.pipeline.knowledge import installed_knowledge
 from aurora_core.trace.bag_reader import read_bag
 from aurora_core.trace.definitions import message_definitions
 from aurora_core.trace.hashing import trace_hashes
@@ -58,6 +59,7 @@ class ExecutorNode(ManagedNode):
         """Create the endpoints."""
         self._path = TickPath(self)
         self._watch = HeartbeatWatch(self)
+        self._known = installed_knowledge()
         self._driver = RunDriver(self, self._path, self._watch, self._settings)
         self._server = ActionServer(
             self,
@@ -115,7 +117,7 @@ class ExecutorNode(ManagedNode):
         goal = handle.request
         graph = agsg(goal.agsg)
         request = run_request('', goal.options_json)
-        execution = execution_stage(graph, request.seed, request.faults)
+        execution = execution_stage(self._known, graph, request.seed, request.faults)
         feedback = _Feedback(handle, execution.roster.dt_s, self._settings.feedback_period_s)
         orphaned = _Orphaned(self._watch)
         return self._driver.run(

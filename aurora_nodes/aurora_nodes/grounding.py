@@ -4,7 +4,8 @@
 
 from __future__ import annotations
 
-from aurora_core.pipeline.functions import check_stage, ground_stage, knowledge
+from aurora_core.pipeline.functions import check_stage, ground_stage
+from aurora_core.pipeline.knowledge import installed_knowledge
 from aurora_msgs.srv import Check, GroundScenario
 from aurora_nodes.settings import PreloadSettings
 from aurora_ros import interfaces as on
@@ -21,7 +22,8 @@ class GroundingNode(AuroraNode):
     def __init__(self) -> None:
         super().__init__('grounding')
         settings = declare(self, 'grounding', PreloadSettings)
-        knowledge().grounder(settings.preload_map)
+        self._known = installed_knowledge()
+        self._known.grounder(settings.preload_map)
         self._publisher = self.publisher(on.AGSG)
         self.serve(on.GROUND_SCENARIO, self._ground)
         self.serve(on.CHECK, self._check)
@@ -30,7 +32,7 @@ class GroundingNode(AuroraNode):
         self, request: GroundScenario.Request, response: GroundScenario.Response
     ) -> GroundScenario.Response:
         options = run_request('', request.options_json)
-        outcome = ground_stage(agsg(request.agsg), options.seed)
+        outcome = ground_stage(self._known, agsg(request.agsg), options.seed)
         response.outcome_json = outcome.model_dump_json()
         response.grounded = outcome.agsg is not None
         if outcome.agsg is not None:
@@ -39,7 +41,7 @@ class GroundingNode(AuroraNode):
         return response
 
     def _check(self, request: Check.Request, response: Check.Response) -> Check.Response:
-        verdict = check_stage(agsg(request.agsg))
+        verdict = check_stage(self._known, agsg(request.agsg))
         response.result = verdict.result.value
         response.feasibility_json = verdict.model_dump_json()
         return response

@@ -15,8 +15,8 @@ import numpy as np
 
 from aurora_core.errors import BagError
 from aurora_core.knowledge.world import WorldModel
-from aurora_core.outcomes.condition import Condition, conditions_from_json
-from aurora_core.pipeline.functions import graph_from_message
+from aurora_core.outcomes.condition import Condition
+from aurora_core.pipeline.verification import graph_from_message
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.trace import messages
 from aurora_core.trace.definitions import MessageDefinitions
@@ -75,11 +75,12 @@ class LiveTrace:
                 return None
             found[topic] = self._definitions.decode(messages.TOPICS[topic], own[-1])
         world = read_world(found[messages.WORLD])
+        graph = graph_from_message(found[messages.AGSG])
         return LiveScene(
             roster=messages.read_roster(found[messages.ROSTER]),
             world=world,
-            spec=graph_from_message(found[messages.AGSG]).spec,
-            conditions=conditions_from_json(world.conditions_json),
+            spec=graph.spec,
+            conditions=graph.conditions,
         )
 
     def next_part(self, roster: Roster, stop: int) -> Trace | None:

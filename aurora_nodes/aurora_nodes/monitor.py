@@ -20,6 +20,7 @@ from rclpy.impl.implementation_singleton import rclpy_implementation
 
 from aurora_core.errors import AuroraError, VerificationError
 from aurora_core.outcomes.verdict import Verdict, VerdictStatus
+from aurora_core.pipeline.knowledge import installed_knowledge
 from aurora_core.trace.bag_reader import read_bag
 from aurora_core.trace.definitions import message_definitions
 from aurora_core.trace.trace import Integrity
@@ -50,6 +51,7 @@ class MonitorNode(AuroraNode):
         super().__init__('monitor')
         self._settings = declare(self, 'monitor', LiveSettings)
         self._definitions = message_definitions()
+        self._known = installed_knowledge()
         self._verdicts = self.publisher(on.VERDICT)
         self._margins = self.publisher(on.MARGINS)
         self._heard: LiveOutcome | None = None
@@ -73,7 +75,9 @@ class MonitorNode(AuroraNode):
         self, request: VerifyTrace.Request, response: VerifyTrace.Response
     ) -> VerifyTrace.Response:
         bag, asked = Path(request.bag_uri), request.agsg.sha256
-        judgement = self._beside(lambda: judge(read_bag(bag, self._definitions), str(bag)))
+        judgement = self._beside(
+            lambda: judge(self._known, read_bag(bag, self._definitions), str(bag))
+        )
         if asked and asked != judgement.graph_sha256:
             raise VerificationError(
                 f'expected the bag of graph {asked[:12]}, found graph '
@@ -109,7 +113,7 @@ class MonitorNode(AuroraNode):
             before.join()
         where = f'run {totals.run_id} as it was heard'
         try:
-            judgement = judge(run.content(totals, self._definitions), where)
+            judgement = judge(self._known, run.content(totals, self._definitions), where)
             self._remember(totals, judgement, '')
             self._publish(judgement, totals.run_number)
         except (InvalidHandle, rclpy_implementation.RCLError):

@@ -17,7 +17,7 @@ from rclpy.action.server import ActionServer, CancelResponse, ServerGoalHandle
 from rclpy.callback_groups import ReentrantCallbackGroup
 
 from aurora_core.errors import AuroraError
-from aurora_core.pipeline.functions import knowledge
+from aurora_core.pipeline.knowledge import installed_knowledge
 from aurora_core.report.process import process_lives
 from aurora_core.report.unfinished import close_unfinished
 from aurora_msgs.action import RunScenario
@@ -64,7 +64,8 @@ class OrchestratorNode(AuroraNode):
     def __init__(self) -> None:
         super().__init__('orchestrator')
         self._settings = declare(self, 'orchestrator', OrchestratorSettings)
-        knowledge().map(self._settings.preload_map)
+        self._known = installed_knowledge()
+        self._known.map(self._settings.preload_map)
         self._root = Path(self._settings.runs_directory).absolute()
         if self._root.is_dir():
             for run_id in close_unfinished(self._root, process_lives):
@@ -100,6 +101,7 @@ class OrchestratorNode(AuroraNode):
         caller.prepare(*CALLS)
         work = worker(
             lambda run_id, cancelled: RosStages(caller, attendance, settings, run_id, cancelled),
+            self._known,
             self._stopping.is_set,
             supervision.note,
         )

@@ -12,10 +12,9 @@ import threading
 
 from rclpy.callback_groups import ReentrantCallbackGroup
 
-from aurora_core.agsg.build import build_agsg
 from aurora_core.errors import ExecutionError
 from aurora_core.outcomes.parse import ParseOutcome
-from aurora_core.pipeline.functions import knowledge
+from aurora_core.pipeline.knowledge import installed_knowledge
 from aurora_core.pipeline.stages import RunRequest
 from aurora_llm.parse import read_prompt
 from aurora_msgs.srv import ParsePrompt
@@ -38,7 +37,8 @@ class ParserNode(AuroraNode):
     def __init__(self) -> None:
         super().__init__('parser')
         settings = declare(self, 'parser', PreloadSettings)
-        knowledge().map(settings.preload_map)
+        self._known = installed_knowledge()
+        self._known.map(settings.preload_map)
         self._stopping = threading.Event()
         self._publisher = self.publisher(on.AGSG)
         self.serve(on.PARSE, self._parse, group=ReentrantCallbackGroup())
@@ -57,11 +57,9 @@ class ParserNode(AuroraNode):
         response.transcript_jsonl = ''.join(
             call.model_dump_json() + '\n' for call in outcome.model_calls
         )
-        response.understood = outcome.spec is not None
-        if outcome.spec is not None:
-            digest = knowledge().map(options.map_name).digest
-            graph = build_agsg(outcome.spec, map_digest=digest)
-            response.agsg = agsg_message(graph, '')
+        response.understood = outcome.agsg is not None
+        if outcome.agsg is not None:
+            response.agsg = agsg_message(outcome.agsg, '')
             self._publisher.publish(response.agsg)
         return response
 
@@ -72,7 +70,7 @@ class ParserNode(AuroraNode):
 
         def run() -> None:
             try:
-                outcomes.append(read_prompt(options))
+                outcomes.append(read_prompt(self._known, options))
             except Exception as err:  # noqa: BLE001 - raised again in the waiting thread
                 errors.append(err)
 

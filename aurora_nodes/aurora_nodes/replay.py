@@ -29,7 +29,8 @@ from rich.console import Console
 
 from aurora_core.errors import AuroraError, BagError, VerificationError
 from aurora_core.outcomes.verdict import Verdict
-from aurora_core.pipeline.functions import graph_of
+from aurora_core.pipeline.knowledge import installed_knowledge
+from aurora_core.pipeline.verification import graph_of
 from aurora_core.pipeline.verify_run import report_beside
 from aurora_core.report.comparison import Comparison, Difference, compare
 from aurora_core.report.find_bag import FoundBag, find_bag
@@ -106,7 +107,8 @@ def _replay(options: argparse.Namespace) -> ExitCode:
     content = content_of(bag.messages, bag.damage, where=str(bag.folder))
     plan = plan_replay(bag, content)
     # Beforehand: nothing is published of a bag with which no verdict could be compared.
-    judged = None if options.no_monitor else judge(content, str(bag.folder))
+    known = installed_knowledge()
+    judged = None if options.no_monitor else judge(known, content, str(bag.folder))
     for _, note in plan.damage:
         _say(f'the recording is damaged and is replayed as far as it goes: {note}')
     with _spinning(plan) as node:
@@ -127,7 +129,7 @@ def _replay(options: argparse.Namespace) -> ExitCode:
         return ExitCode.BROKEN if plan.damage else ExitCode.OK
     compared = _compared(judged, heard)
     agsg = graph_of(content, str(bag.folder))
-    report = report_beside(found, content, agsg, judged.verdict, compared)
+    report = report_beside(known, found, content, agsg, judged.verdict, compared)
     if options.json:
         text = json.dumps(report.model_dump(mode='json'), indent=2, ensure_ascii=False)
         sys.stdout.write(f'{text}\n')

@@ -17,7 +17,6 @@ from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.feasibility import FeasibilityVerdict
 from aurora_core.outcomes.grounding import GroundingOutcome
 from aurora_core.outcomes.parse import ParseOutcome
-from aurora_core.outcomes.schedule import Schedule
 from aurora_core.outcomes.verdict import Verdict
 from aurora_core.pipeline.stages import ExecutionResult, RunControl, RunRequest
 from aurora_core.ports.language_model import ModelCall
@@ -26,6 +25,7 @@ from aurora_msgs.srv import Check, GroundScenario, ParsePrompt, VerifyTrace
 from aurora_nodes.attendance import Attendance
 from aurora_ros import interfaces as on
 from aurora_ros.call import Caller
+from aurora_ros.conversions.messages import agsg as read_graph
 from aurora_ros.conversions.messages import agsg_message
 from aurora_ros.conversions.options import options_json
 from aurora_ros.interfaces import Call
@@ -99,12 +99,15 @@ class RosStages:
             ),
             self._limits.parse_s if request.model == 'offline' else self._limits.parse_model_s,
         )
-        return _parsed(response.outcome_json, response.transcript_jsonl)
+        graph = read_graph(response.agsg) if response.understood else None
+        return _parsed(response.outcome_json, response.transcript_jsonl, graph)
 
     def ground(self, agsg: Agsg, request: RunRequest) -> GroundingOutcome:
         """Let the grounding node find places and a schedule."""
         response = self._stage(on.GROUND_SCENARIO, GroundScenario, agsg, request)
-        return _document(GroundingOutcome, response.outcome_json, on.GROUND_SCENARIO)
+        outcome = _document(GroundingOutcome, response.outcome_json, on.GROUND_SCENARIO)
+        graph = read_graph(response.agsg) if response.grounded else None
+        return GroundingOutcome(**{**dict(outcome), 'agsg': graph})
 
     def check(self, agsg: Agsg, request: RunRequest) -> FeasibilityVerdict:
         """Let the grounding node judge feasibility."""
@@ -117,7 +120,8 @@ class RosStages:
         """Let the executor run the scenario."""
         if agsg.spec.uavs:
             self._attendance.expect_air()
-        horizon_s = Schedule.model_validate_json(agsg.schedule_json).horizon_s
+        assert agsg.schedule is not None  # grounded
+        horizon_s = agsg.schedule.horizon_s
         result = self._caller.action(
             on.EXECUTE,
             ExecuteScenario.Goal(
@@ -167,12 +171,12 @@ class RosStages:
         )
 
 
-def _parsed(outcome_json: str, transcript_jsonl: str) -> ParseOutcome:
+def _parsed(outcome_json: str, transcript_jsonl: str, graph: Agsg | None) -> ParseOutcome:
     outcome = _document(ParseOutcome, outcome_json, on.PARSE)
     lines = filter(None, transcript_jsonl.split('\n'))
     calls = tuple(_document(ModelCall, line, on.PARSE) for line in lines)
     fields = {name: getattr(outcome, name) for name in ParseOutcome.model_fields}
-    return ParseOutcome(**{**fields, 'model_calls': calls})
+    return ParseOutcome(**{**fields, 'model_calls': calls, 'agsg': graph})
 
 
 def _document(kind: type[_Document], text: str, call: Call) -> _Document:

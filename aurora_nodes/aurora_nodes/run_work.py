@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Protocol
 
 from aurora_core.errors import AuroraError
+from aurora_core.pipeline.knowledge import Knowledge
 from aurora_core.pipeline.run import run
 from aurora_core.pipeline.stages import RunControl, RunRequest, Stages
 from aurora_core.report.manifest import manifest_facts
@@ -47,6 +48,7 @@ class GraphStages(Stages, Protocol):
 
 def worker(
     stages_of: Callable[[str, Callable[[], bool]], GraphStages],
+    known: Knowledge,
     stopping: Callable[[], bool],
     broke: Callable[[AuroraError], None],
 ) -> Callable[[Job], None]:
@@ -54,6 +56,7 @@ def worker(
 
     Args:
         stages_of: Gives the stages of a run id; the second argument tells of a cancel.
+        known: What is installed here.
         stopping: Whether the node is being shut down.
         broke: Told the error of a run that ended with one.
     """
@@ -76,6 +79,7 @@ def worker(
             report = run(
                 job.request,
                 stages,
+                known,
                 RunFolder(job.root, job.run_id),
                 RunControl(progress=progress, cancelled=cancelled),
                 WallClock(),

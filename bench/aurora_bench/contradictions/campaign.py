@@ -18,9 +18,10 @@ from aurora_bench.contradictions.prompts import REQUESTS
 from aurora_bench.mutation.bag import write_bag
 from aurora_bench.mutation.recording import Recording, record
 from aurora_bench.progress import Progress
+from aurora_cli.installed import installed
 from aurora_core.errors import AuroraError
 from aurora_core.outcomes.verdict import Reason
-from aurora_core.pipeline.functions import verify_stage
+from aurora_core.pipeline.verification import verify_stage
 from aurora_core.trace.definitions import message_definitions
 from aurora_system_tests.local_runs import run_prompt
 from aurora_system_tests.planted_bugs import Sabotage, SabotagedStages
@@ -158,7 +159,7 @@ class Campaign:
     def judge(self, case: Case, bag: Path) -> Found:
         """Ask the checker for the requirement and the monitor for its conditions alone."""
         outcome, why = _checked(bag, case)
-        verdict = verify_stage(bag, recompute=False)
+        verdict = verify_stage(installed(), bag, recompute=False)
         failed = [r.id for r in verdict.results if not r.satisfied and r.reason not in _UNKNOWN]
         found = Found(
             case=case,

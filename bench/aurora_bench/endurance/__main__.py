@@ -22,6 +22,7 @@ from aurora_bench.machine import machine_facts
 from aurora_bench.progress import Progress
 from aurora_bench.results import Goal, Table, write_results
 from aurora_cli.clock import MonotonicClock
+from aurora_cli.installed import installed
 from aurora_cli.local_engine import LocalStages
 from aurora_core.pipeline.run import run
 from aurora_core.pipeline.stages import RunControl, RunRequest
@@ -107,7 +108,9 @@ def _run(request: RunRequest, index: int) -> Outcome:
     with tempfile.TemporaryDirectory(prefix='aurora_endurance_') as name:
         run_id = new_run_id(datetime.now(UTC), index.to_bytes(3, 'big'))
         folder = RunFolder(Path(name), run_id)
-        report = run(request, LocalStages(), folder, RunControl(), MonotonicClock())
+        report = run(
+            request, LocalStages(installed()), installed(), folder, RunControl(), MonotonicClock()
+        )
     return report.status, '' if report.trace is None else report.trace.sha256
 
 

@@ -4,11 +4,12 @@
 
 from __future__ import annotations
 
+from aurora_cli.installed import installed
 from aurora_core.agsg.build import build_agsg
 from aurora_core.document import Document
 from aurora_core.errors import AuroraError, ConfigError
 from aurora_core.outcomes.feasibility import Feasibility
-from aurora_core.pipeline.functions import check_stage, knowledge
+from aurora_core.pipeline.functions import check_stage
 from aurora_core.pipeline.stages import RunRequest
 from aurora_core.report.build import refusal_certificate
 from aurora_core.spec.scenario import Clause, ScenarioSpec
@@ -46,15 +47,15 @@ def answer(request: RunRequest) -> Answer:
     """
     map_name = request.map_name
     try:
-        outcome = read_prompt(request)
+        outcome = read_prompt(installed(), request)
         if outcome.spec is None:
             return Answer(
                 clauses=outcome.clauses,
                 reasons=tuple(refusal_certificate(r).reason for r in outcome.refusals),
                 question=outcome.question or '',
             )
-        digest = knowledge().map(map_name).digest
-        verdict = check_stage(build_agsg(outcome.spec, map_digest=digest))
+        digest = installed().map(map_name).digest
+        verdict = check_stage(installed(), build_agsg(outcome.spec, map_digest=digest))
     except ConfigError:
         raise
     # One prompt that breaks the product must not end the measurement; it counts as all missed.

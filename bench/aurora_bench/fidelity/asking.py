@@ -15,9 +15,9 @@ from aurora_bench.campaign.journal import Journal
 from aurora_bench.campaign.pool import Lost, run_tasks
 from aurora_bench.fidelity.answer import Answer, answer
 from aurora_bench.prompts.format import AnnotatedPrompt
+from aurora_cli.installed import installed
 from aurora_core.document import Document
 from aurora_core.errors import ConfigError
-from aurora_core.pipeline.functions import knowledge
 from aurora_core.pipeline.stages import RunRequest
 
 
@@ -53,7 +53,7 @@ class AskWork:
 
     def prepare(self) -> None:
         """Load the map, and read once, so that no prompt waits for the lexicon."""
-        knowledge().map(self._map_name)
+        installed().map(self._map_name)
         answer(RunRequest(prompt='A drone hovers at 40 m.', map_name=self._map_name))
 
     def __call__(self, question: Question) -> Told:

@@ -16,6 +16,7 @@ from aurora_bench.progress import Progress
 from aurora_bench.prompts.reading import read_prompts
 from aurora_bench.prompts.shipped import first_files
 from aurora_bench.results import Goal, Table, goal_table, markdown_table, write_results
+from aurora_cli.installed import installed
 from aurora_core.pipeline.functions import parse_context
 
 _FIRST = 20
@@ -35,7 +36,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     machine = machine_facts()
     progress = Progress('fuzz')
     originals = [p.prompt for path in first_files('tune') for p in read_prompts(path)]
-    context = parse_context('downtown', 1)
+    context = parse_context(installed(), 'downtown', 1)
     read = fuzz_prompts(originals, context, options.prompts, options.seed, progress.note)
     judged = fuzz_replies(context, options.replies, options.seed, progress.note)
     halves = {'prompts': read, 'replies': judged}

@@ -20,6 +20,7 @@ from aurora_bench.graphs.one_graph import OneGraph
 from aurora_bench.progress import Progress
 from aurora_cli.clock import MonotonicClock
 from aurora_cli.doctor.processes import NODES
+from aurora_cli.installed import installed
 from aurora_cli.local_engine import LocalStages
 from aurora_core.errors import AuroraError, ExecutionError
 from aurora_core.pipeline.run import run
@@ -122,7 +123,8 @@ def expected(
     for i, (prompt, seed) in enumerate(tasks):
         report = run(
             RunRequest(prompt=prompt, seed=seed),
-            LocalStages(),
+            LocalStages(installed()),
+            installed(),
             RunFolder(folder, f'20260101T000000Z-{i:06x}'),
             RunControl(),
             MonotonicClock(),

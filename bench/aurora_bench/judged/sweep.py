@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from aurora_cli.installed import installed
 from aurora_core.agsg.build import build_agsg
 from aurora_core.agsg.judged import paths_stated, unjudged
 from aurora_core.conditions.capabilities import judgeable
@@ -12,7 +13,7 @@ from aurora_core.document import Document
 from aurora_core.outcomes.condition import Condition
 from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.outcomes.schedule import Schedule
-from aurora_core.pipeline.functions import ground_stage, knowledge, parse_stage
+from aurora_core.pipeline.functions import ground_stage, parse_stage
 from aurora_core.spec.scenario import ScenarioSpec
 
 
@@ -48,20 +49,20 @@ class Sweep:
 
     def prepare(self) -> None:
         """Load the map."""
-        knowledge().grounder(self._map_name)
+        installed().grounder(self._map_name)
 
     def __call__(self, task: Asked) -> Found:
         """Return what a prompt states and nothing judges."""
-        spec = parse_stage(task.prompt, self._map_name, self._seed).spec
+        spec = parse_stage(installed(), task.prompt, self._map_name, self._seed).spec
         if spec is None:
             return Found(outcome='no specification')
-        outcome = ground_stage(build_agsg(spec), self._seed)
+        outcome = ground_stage(installed(), build_agsg(spec), self._seed)
         if outcome.agsg is None:
             return Found(outcome='no place')
         graph = outcome.agsg
-        known = knowledge()
-        facts = Schedule.model_validate_json(graph.schedule_json).facts
-        grounded = GroundedScenario.model_validate_json(graph.grounding_json)
+        known = installed()
+        facts = Schedule.model_validate_json(graph.texts.schedule).facts
+        grounded = GroundedScenario.model_validate_json(graph.texts.grounding)
 
         def derive(asked: ScenarioSpec) -> tuple[Condition, ...]:
             made = derive_conditions(asked, facts, known.limits, known.tolerances)

@@ -15,8 +15,9 @@ from aurora_bench.lockstep.figures import Engine, Measured, RunFigures
 from aurora_bench.lockstep.scenarios import Configuration, grounded
 from aurora_bench.machine import busy_share
 from aurora_bench.progress import Progress
+from aurora_cli.installed import installed
 from aurora_core.outcomes.agsg import Agsg
-from aurora_core.pipeline.functions import verify_stage
+from aurora_core.pipeline.verification import verify_stage
 
 if TYPE_CHECKING:
     from aurora_bench.lockstep.ros_runs import GraphClient
@@ -222,7 +223,7 @@ class Campaign:
 
 def _verify_locally(_graph: Agsg, bag: Path) -> float:
     begin = time.monotonic()
-    verify_stage(bag)
+    verify_stage(installed(), bag)
     return time.monotonic() - begin
 
 

@@ -12,6 +12,7 @@ from pathlib import Path
 
 from aurora_bench.lockstep.figures import AIR, EXECUTOR, RECORDER, SUMO, RunFigures
 from aurora_bench.lockstep.scenarios import SEED
+from aurora_cli.installed import installed
 from aurora_cli.local_run import run_lockstep
 from aurora_core.execution.plan import Execution
 from aurora_core.execution.step_output import StepOutput, Stepper
@@ -160,7 +161,7 @@ def measure_local_without_recorder(agsg: Agsg) -> RunFigures:
 
 def sumo_reload_s(agsg: Agsg, count: int) -> list[float]:
     """Return how long SUMO's reload takes, wall seconds, the first load left out."""
-    load = execution_stage(agsg, SEED, ()).ground_load
+    load = execution_stage(installed(), agsg, SEED, ()).ground_load
     client = SumoClient()
     try:
         client.load(load)
@@ -173,7 +174,7 @@ def _prepared(agsg: Agsg) -> tuple[int, Execution, _Ground, _Air, Stopwatch]:
     """Return when it began, and everything for one run, timed."""
     gc.collect()  # what the run before left must not be collected during this one
     begin = time.perf_counter_ns()
-    execution = execution_stage(agsg, SEED, ())
+    execution = execution_stage(installed(), agsg, SEED, ())
     watch = Stopwatch()
     ids = tuple(entry.system_id for entry in execution.roster.uavs)
     air = _Air(MavlinkClient(LoopbackTransport(SimServer(ids))), watch)

@@ -18,10 +18,11 @@ from aurora_bench.lockstep.graph import Graph
 from aurora_bench.lockstep.processes import cpu_by_name
 from aurora_bench.lockstep.scenarios import SEED
 from aurora_bench.results import ResultsError
+from aurora_cli.installed import installed
 from aurora_core.errors import AuroraError
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.schedule import Schedule
-from aurora_core.pipeline.functions import execution_stage, knowledge
+from aurora_core.pipeline.functions import execution_stage
 from aurora_core.pipeline.stages import RunRequest
 from aurora_msgs.action import ExecuteScenario
 from aurora_msgs.msg import SyncStatus
@@ -101,7 +102,7 @@ class GraphClient:
         return RunFigures(
             engine='ros',
             ticks=self._last_tick + 1,
-            dt_s=knowledge().settings.run.dt_s,
+            dt_s=installed().settings.run.dt_s,
             load_s=first.time_s - begin,
             loop_s=last.time_s - first.time_s,
             close_s=end - last.time_s,
@@ -119,7 +120,7 @@ class GraphClient:
 
     def load_services_s(self, agsg: Agsg) -> dict[str, float]:
         """Call the three load services alone; return the wall time of each."""
-        execution = execution_stage(agsg, SEED, ())
+        execution = execution_stage(installed(), agsg, SEED, ())
         common: dict[str, Any] = {
             'run_id': 'bench',
             'run_number': time.time_ns(),
@@ -148,7 +149,7 @@ class GraphClient:
         return time.monotonic() - begin
 
     def _execute(self, agsg: Agsg, bag_directory: Path) -> Any:
-        horizon_s = Schedule.model_validate_json(agsg.schedule_json).horizon_s
+        horizon_s = Schedule.model_validate_json(agsg.texts.schedule).horizon_s
         return self._play.send_goal(
             on.EXECUTE,
             ExecuteScenario.Goal(

@@ -12,11 +12,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import lru_cache
 
+from aurora_cli.installed import installed
 from aurora_core.agsg.build import build_agsg
 from aurora_core.errors import AuroraError
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.feasibility import Feasibility
-from aurora_core.pipeline.functions import check_stage, ground_stage, knowledge, parse_stage
+from aurora_core.pipeline.functions import check_stage, ground_stage, parse_stage
 from aurora_core.spec.parameter import Provenance
 from aurora_core.spec.scenario import ScenarioSpec
 
@@ -55,7 +56,7 @@ class Configuration:
     seconds: int
 
     def __post_init__(self) -> None:
-        limits = knowledge().limits
+        limits = installed().limits
         if not (
             _FEWEST_AGENTS <= self.agents <= limits.agents_max
             and 1 <= self.uavs <= limits.uavs_max
@@ -88,7 +89,7 @@ def specification(configuration: Configuration) -> ScenarioSpec:
     Raises:
         ScenarioRefusedError: The parser does not understand the prompt as meant.
     """
-    outcome = parse_stage(prompt(configuration), MAP_NAME, SEED)
+    outcome = parse_stage(installed(), prompt(configuration), MAP_NAME, SEED)
     spec = outcome.spec
     if spec is None or len(spec.agents) != configuration.agents or len(spec.missions) != 1:
         found = 'no scenario' if spec is None else f'{len(spec.agents)} agents'
@@ -104,11 +105,11 @@ def grounded(configuration: Configuration) -> Agsg:
         ScenarioRefusedError: A stage refuses the scenario, or an agent found no place.
     """
     spec = specification(configuration)
-    graph = build_agsg(spec, map_digest=knowledge().map(MAP_NAME).digest)
-    feasibility = check_stage(graph)
+    graph = build_agsg(spec, map_digest=installed().map(MAP_NAME).digest)
+    feasibility = check_stage(installed(), graph)
     if feasibility.result is Feasibility.INFEASIBLE:
         raise ScenarioRefusedError(f'{configuration} is infeasible: {feasibility}')
-    outcome = ground_stage(graph, SEED)
+    outcome = ground_stage(installed(), graph, SEED)
     if outcome.agsg is None or outcome.unsupported:
         why = outcome.failure.reason if outcome.failure else ', '.join(outcome.unsupported)
         raise ScenarioRefusedError(f'{configuration} cannot be grounded: {why}')

@@ -25,8 +25,9 @@ from aurora_bench.mutation.mutant import Mutant, mutant
 from aurora_bench.mutation.prompts import FAILING, SOUND
 from aurora_bench.mutation.recording import Recording, record
 from aurora_bench.progress import Progress
+from aurora_cli.installed import installed
 from aurora_core.errors import AuroraError
-from aurora_core.pipeline.functions import verify_stage
+from aurora_core.pipeline.verification import verify_stage
 from aurora_core.trace.definitions import message_definitions
 from aurora_system_tests.local_runs import names_of, run_prompt
 from aurora_system_tests.planted_bugs import BY_RECOMPUTATION, PLANTED, SabotagedStages
@@ -98,7 +99,7 @@ class Campaign:
         for planted in PLANTED:
             stages = SabotagedStages(planted.sabotage)
             report, bag = run_prompt(planted.name, planted.prompt, 1, self.folder, stages)
-            names = names_of(verify_stage(bag, recompute=False))
+            names = names_of(verify_stage(installed(), bag, recompute=False))
             good = report.status in ('violated', 'inconclusive') and bool(names & planted.names)
             self.progress.note(f'{planted.name}: {report.status}, {_named(names)}')
             yield Outcome(
@@ -111,7 +112,7 @@ class Campaign:
                 good=good,
                 status=report.status,
                 problem=_named(names & planted.names if good else names),
-                recomputed=bool(names_of(verify_stage(bag)) & BY_RECOMPUTATION),
+                recomputed=bool(names_of(verify_stage(installed(), bag)) & BY_RECOMPUTATION),
             )
 
     def _other_bags(self, base: Recording) -> Iterator[tuple[Mutant, Path]]:

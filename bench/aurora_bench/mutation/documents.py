@@ -52,17 +52,20 @@ def graph(
     grounding_json: str | None = None,
 ) -> Agsg:
     """Return the graph of other documents, derived as the stages derive it."""
-    text = base.agsg.conditions_json if conditions_json is None else conditions_json
-    grounding = base.agsg.grounding_json if grounding_json is None else grounding_json
+    agsg = base.agsg
+    grounding = agsg.grounding
+    if grounding_json is not None:
+        grounding = GroundedScenario.model_validate_json(grounding_json)
     return build_agsg(
-        base.agsg.spec if spec is None else spec,
-        map_digest=json.loads(grounding)['map_digest'],
-        stage=base.agsg.stage,
-        iteration=base.agsg.iteration,
-        grounding_json=grounding,
-        schedule_json=base.agsg.schedule_json,
-        conditions=conditions_from_json(text),
-        conditions_json=text,
+        agsg.spec if spec is None else spec,
+        map_digest=agsg.map_digest if grounding is None else grounding.map_digest,
+        stage=agsg.stage,
+        iteration=agsg.iteration,
+        grounding=grounding,
+        schedule=agsg.schedule,
+        conditions=agsg.conditions
+        if conditions_json is None
+        else conditions_from_json(conditions_json),
     )
 
 
@@ -196,7 +199,7 @@ def _world(base: Recording, random: Random) -> Iterator[Mutant]:
 def _configuration(base: Recording, random: Random) -> Iterator[Mutant]:
     """Pretend that it was recorded with something that nobody here can compare with."""
     kind = 'configuration altered'
-    document: dict[str, Any] = json.loads(base.agsg.grounding_json)
+    document: dict[str, Any] = json.loads(base.agsg.texts.grounding)
     rows: Rows = json.loads(base.world.conditions_json)
     kept = random.sample(rows, len(rows) // 2)
     fewer = conditions_to_json(conditions_from_json(json.dumps(kept)))

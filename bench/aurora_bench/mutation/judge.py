@@ -14,12 +14,12 @@ from pathlib import Path
 
 from aurora_bench.mutation.bag import write_bag
 from aurora_bench.mutation.mutant import Mutant
-from aurora_core.agsg.build import derived
+from aurora_cli.installed import installed
 from aurora_core.agsg.message import agsg_message, read_agsg
 from aurora_core.errors import AuroraError
 from aurora_core.monitor.plan_check import Plan
 from aurora_core.outcomes.verdict import Verdict
-from aurora_core.pipeline.functions import (
+from aurora_core.pipeline.verification import (
     load_bag,
     recomputed_content,
     recorded_plan,
@@ -61,15 +61,15 @@ class Judgement:
 def in_memory(mutant: Mutant) -> Judgement:
     """Judge it as if every digest had been stamped anew."""
     content = BagContent(trace=mutant.trace, world=mutant.world, agsg_message=None)
-    return _judged(lambda: verify_content(content, mutant.agsg, recompute=False))
+    return _judged(lambda: verify_content(installed(), content, mutant.agsg, recompute=False))
 
 
 def by_recomputation(mutant: Mutant) -> bool:
     """Tell whether the executor gives other commands or claims from the states of a mutant."""
     content = BagContent(trace=mutant.trace, world=mutant.world, agsg_message=None)
     try:
-        known = isinstance(recorded_plan(mutant.world, mutant.agsg), Plan)
-        return known and bool(recomputed_content(content, mutant.agsg))
+        known = isinstance(recorded_plan(installed(), mutant.world, mutant.agsg), Plan)
+        return known and bool(recomputed_content(installed(), content, mutant.agsg))
     except AuroraError:
         return False
 
@@ -83,10 +83,10 @@ def unstamped_in_memory(mutant: Mutant, definitions: MessageDefinitions) -> Judg
             header = MessageBuilder(definitions, 1, mutant.trace.roster.dt_s).header(0)
             message = agsg_message(definitions.create, header, 'run', agsg)
             message.sha256 = mutant.base.agsg.sha256
-            agsg = read_agsg(message, derived)
+            agsg = read_agsg(message)
         sha256 = trace_sha256(mutant.trace, mutant.world)
         content = BagContent(trace=mutant.trace, world=mutant.world, agsg_message=None)
-        found = verify_content(content, agsg, recompute=False)
+        found = verify_content(installed(), content, agsg, recompute=False)
         return doubted(found, trace_doubts(found, sha256, mutant.base.reported.sha256, REPORT))
 
     return _judged(verdict)
@@ -107,7 +107,7 @@ def judge_bag(bag: Path) -> Judgement:
 
     def verdict() -> Verdict:
         content, agsg = load_bag(bag)
-        return verify_content(content, agsg, recompute=False)
+        return verify_content(installed(), content, agsg, recompute=False)
 
     return _judged(verdict)
 

@@ -12,12 +12,13 @@ from pathlib import Path
 
 import numpy as np
 
+from aurora_cli.installed import installed
 from aurora_cli.local_engine import LocalStages
 from aurora_core.errors import AuroraError
 from aurora_core.knowledge.world import WorldModel
 from aurora_core.outcomes.agsg import Agsg
-from aurora_core.pipeline.functions import load_bag
 from aurora_core.pipeline.stages import Stages
+from aurora_core.pipeline.verification import load_bag
 from aurora_core.report.run_report import TraceReport
 from aurora_core.spec.scenario import UavMission
 from aurora_core.trace.layout import UavCommandColumn, UavPhase
@@ -102,7 +103,7 @@ def record(
         AuroraError: The run ended without a bag.
     """
     report, bag = run_prompt(
-        name, prompt, seed, folder, LocalStages() if stages is None else stages
+        name, prompt, seed, folder, LocalStages(installed()) if stages is None else stages
     )
     if report.trace is None:
         raise AuroraError(f'{name}: the run ended as {report.status}, without a trace')

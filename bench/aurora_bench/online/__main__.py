@@ -21,10 +21,11 @@ from aurora_bench.machine import machine_facts
 from aurora_bench.online.measure import Cost, of_formulas, of_run
 from aurora_bench.progress import Progress
 from aurora_bench.results import Goal, Table, goal_table, markdown_table, write_results
+from aurora_cli.installed import installed
 from aurora_cli.local_engine import LocalStages
 from aurora_core.errors import AuroraError
 from aurora_core.outcomes.condition import conditions_from_json
-from aurora_core.pipeline.functions import load_bag
+from aurora_core.pipeline.verification import load_bag
 from aurora_system_tests.local_runs import run_prompt
 
 _BROKEN = 4
@@ -78,7 +79,7 @@ def _measured(agents: Sequence[int], seconds: int) -> Iterator[Cost]:
     for count in agents:
         text = prompt(Configuration(agents=count, uavs=1, seconds=seconds))
         with tempfile.TemporaryDirectory(prefix='aurora_online_') as folder:
-            _, bag = run_prompt('online', text, 1, Path(folder), LocalStages())
+            _, bag = run_prompt('online', text, 1, Path(folder), LocalStages(installed()))
             content, agsg = load_bag(bag)
         conditions = conditions_from_json(content.world.conditions_json)
         for step in _STEPS:

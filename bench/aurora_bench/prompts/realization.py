@@ -48,7 +48,7 @@ def realized(prompt: AnnotatedPrompt, folder: Path) -> tuple[Doc | None, RunRepo
     run_folder = RunFolder(folder, new_run_id(datetime.now(UTC), b'ref'))
     request = RunRequest(prompt=prompt.prompt, seed=SEED)
     stages = WatchedStages(_with_clause(prompt.reference or {}))
-    report = run(request, stages, run_folder, RunControl(), MonotonicClock())
+    report = run(request, stages, stages.known, run_folder, RunControl(), MonotonicClock())
     if report.status != 'verified':
         return None, report
     grounding, schedule = (

@@ -14,6 +14,7 @@ from aurora_bench.progress import Progress
 from aurora_bench.prompts.reading import read_prompts
 from aurora_bench.results import ResultsError
 from aurora_bench.seeds import seed_option
+from aurora_cli.installed import installed
 from aurora_core.errors import ConfigError
 from aurora_core.pipeline.stages import RunRequest
 from aurora_core.ports.language_model import LanguageModel
@@ -66,7 +67,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             history_frozen=True,
         )
         try:
-            outcome = read_prompt(request, wrap=wrap)
+            outcome = read_prompt(installed(), request, wrap=wrap)
         except ConfigError as err:
             sys.stderr.write(f'{prompt.id}: {err}\n')
             return BROKEN

@@ -13,7 +13,8 @@ from pathlib import Path
 from typing import Any
 
 from aurora_bench.replay.prompts import Case
-from aurora_core.pipeline.functions import verify_stage
+from aurora_cli.installed import installed
+from aurora_core.pipeline.verification import verify_stage
 from aurora_msgs.msg import Verdict
 from aurora_ros import interfaces as on
 from aurora_system_tests.graph import RunningGraph
@@ -85,7 +86,7 @@ class Campaign:
         if run.keys() != {Verdict.LIVE, Verdict.BAG}:
             return Round(case=case, status=response.status, note=f'verdicts heard: {len(run)}')
         live, judged = run[Verdict.LIVE], run[Verdict.BAG]
-        again = verify_stage(bag)
+        again = verify_stage(installed(), bag)
         self._heard.clear()
         replay = self._replay(bag)
         replayed = self._heard[-1] if self._heard else Verdict()

@@ -9,10 +9,10 @@ from importlib.resources import files
 import yaml
 
 from aurora_bench.results import ResultsError
+from aurora_cli.installed import installed
 from aurora_core.document import Document
 from aurora_core.outcomes.retrieval import RecordKind
 from aurora_core.pipeline.background import map_records
-from aurora_core.pipeline.functions import knowledge
 from aurora_core.retrieval.episodes import Episode
 from aurora_core.retrieval.record import Record
 
@@ -37,7 +37,7 @@ def read_set() -> tuple[tuple[Query, ...], tuple[Record, ...]]:
     text = files('aurora_bench.retrieval').joinpath('queries.yaml').read_text(encoding='utf-8')
     data = yaml.safe_load(text)
     episodes = [_episode(name, prompt).record() for name, prompt in data['episodes'].items()]
-    records = (*map_records(knowledge(), MAP), *episodes)
+    records = (*map_records(installed(), MAP), *episodes)
     queries = tuple(Query(kind=kind, **row) for kind in KINDS for row in data[kind.value])
     known = {(record.kind, record.id) for record in records}
     lacking = [query.wanted for query in queries if (query.kind, query.wanted) not in known]

@@ -22,7 +22,7 @@ from aurora_bench.rulers.checking import Check, Said, asked_of, independent_chec
 from aurora_bench.rulers.trial import Cause, JudgedTrial, Trial, judged
 from aurora_bench.rulers.watched import WatchedStages
 from aurora_cli.clock import MonotonicClock
-from aurora_core.pipeline.functions import knowledge
+from aurora_cli.installed import installed
 from aurora_core.pipeline.run import run
 from aurora_core.pipeline.stages import RunControl, RunRequest
 from aurora_core.report.outputs import write_report
@@ -53,7 +53,7 @@ class RunWork(ABC):
         """Load what every run needs: simulator, map, configuration, checker."""
         import libsumo  # noqa: F401  (takes seconds; a run would wait for it)
 
-        knowledge().map(self.map_name)
+        installed().map(self.map_name)
         if self.check is None:
             self.check = independent_checker()
 
@@ -81,7 +81,15 @@ class RunWork(ABC):
     def ran(self, request: RunRequest, place: Path, stages: WatchedStages) -> _Ran:
         """Run a request into a folder and remember how long its stages took."""
         folder = RunFolder(place, new_run_id(datetime.now(UTC), os.urandom(3)))
-        report = run(request, stages, folder, RunControl(), MonotonicClock(), outputs=write_report)
+        report = run(
+            request,
+            stages,
+            stages.known,
+            folder,
+            RunControl(),
+            MonotonicClock(),
+            outputs=write_report,
+        )
         self._seconds.update(report.timing)
         return _Ran(report, stages, folder.path)
 

@@ -4,10 +4,12 @@
 
 from __future__ import annotations
 
+from aurora_cli.installed import installed
 from aurora_cli.local_engine import LocalStages
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.grounding import GroundingOutcome
 from aurora_core.outcomes.parse import ParseOutcome
+from aurora_core.pipeline.functions import understood
 from aurora_core.pipeline.stages import RunRequest
 from aurora_core.spec.scenario import ScenarioSpec
 
@@ -25,13 +27,15 @@ class WatchedStages(LocalStages):
         Args:
             spec: Stands in place of what the prompt would be read as; None: it is read.
         """
-        super().__init__()
+        super().__init__(installed())
         self._spec = spec
         self.grounding: GroundingOutcome | None = None
 
     def parse(self, request: RunRequest) -> ParseOutcome:
         """Return the specification, or read the prompt."""
-        return ParseOutcome(spec=self._spec) if self._spec is not None else super().parse(request)
+        if self._spec is None:
+            return super().parse(request)
+        return understood(self.known, ParseOutcome(spec=self._spec))
 
     def ground(self, agsg: Agsg, request: RunRequest) -> GroundingOutcome:
         """Ground the graph and remember the outcome."""

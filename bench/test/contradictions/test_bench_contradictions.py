@@ -22,6 +22,7 @@ from aurora_bench.mutation.mutant import mutant
 from aurora_bench.progress import Progress
 from aurora_bench.prompts.validate import validate
 from aurora_bench.results import write_results
+from aurora_cli.installed import installed
 from aurora_core.agsg.build import build_agsg
 from aurora_core.pipeline.functions import ground_stage, parse_stage
 from aurora_core.trace.layout import GroundColumn
@@ -57,11 +58,11 @@ def test_every_contradiction_is_one_of_its_own() -> None:
 def test_requirements_and_conditions_that_are_named_exist(request_name: str) -> None:
     annotated = REQUESTS[request_name]
     requirements = {r['id'] for r in annotated['requirements']}
-    spec = parse_stage(annotated['prompt'], 'downtown', 1).spec
+    spec = parse_stage(installed(), annotated['prompt'], 'downtown', 1).spec
     assert spec is not None
-    grounded = ground_stage(build_agsg(spec), 1).agsg
+    grounded = ground_stage(installed(), build_agsg(spec), 1).agsg
     assert grounded is not None
-    conditions = {row['id'] for row in json.loads(grounded.conditions_json)}
+    conditions = {row['id'] for row in json.loads(grounded.texts.conditions)}
     for case in CASES:
         if case.request == request_name:
             assert case.requirement in requirements, case.name

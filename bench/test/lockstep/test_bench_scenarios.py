@@ -15,6 +15,7 @@ from aurora_bench.lockstep.scenarios import (
     grounded,
     specification,
 )
+from aurora_cli.installed import installed
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.outcomes.schedule import Schedule
@@ -24,7 +25,7 @@ from aurora_sumo_bridge.sumo_client import SumoClient
 
 
 def scenario(graph: Agsg) -> GroundedScenario:
-    return GroundedScenario.model_validate_json(graph.grounding_json)
+    return GroundedScenario.model_validate_json(graph.texts.grounding)
 
 
 def test_thirty_agents_are_all_inserted() -> None:
@@ -32,7 +33,7 @@ def test_thirty_agents_are_all_inserted() -> None:
     assert len(scenario(graph).agents) == 30
     client = SumoClient()
     try:
-        client.load(execution_stage(graph, SEED, ()).ground_load)
+        client.load(execution_stage(installed(), graph, SEED, ()).ground_load)
         rows = client.state()
     finally:
         client.close()
@@ -52,7 +53,7 @@ def test_uavs_track_at_altitudes_of_their_own() -> None:
 
 def test_the_run_lasts_exactly_as_long_as_asked() -> None:
     graph = grounded(Configuration(agents=2, uavs=1, seconds=45))
-    schedule = Schedule.model_validate_json(graph.schedule_json)
+    schedule = Schedule.model_validate_json(graph.texts.schedule)
     assert schedule.stated_horizon
     assert schedule.horizon_s == 45.0
 

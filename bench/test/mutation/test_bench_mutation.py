@@ -21,7 +21,7 @@ from aurora_bench.mutation.kinds import breaking_mutants, harmless_mutants
 from aurora_bench.mutation.mutant import Mutant, mutant
 from aurora_bench.mutation.prompts import SOUND
 from aurora_bench.mutation.recording import Recording, record
-from aurora_core.pipeline.functions import load_bag
+from aurora_core.pipeline.verification import load_bag
 from aurora_core.trace.definitions import message_definitions
 from aurora_core.trace.hashing import trace_sha256
 

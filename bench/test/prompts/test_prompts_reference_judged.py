@@ -11,8 +11,9 @@ import pytest
 
 from aurora_bench.prompts.format import AnnotatedPrompt
 from aurora_bench.prompts.reference_spec import reference_spec
+from aurora_cli.installed import installed
 from aurora_core.agsg.build import build_agsg
-from aurora_core.pipeline.functions import ground_stage, knowledge
+from aurora_core.pipeline.functions import ground_stage
 from aurora_core.spec.parameter import Bound, Provenance
 from aurora_core.spec.scenario import ScenarioSpec
 
@@ -39,9 +40,11 @@ ORBIT: Doc = {
 
 def condition_ids(spec: ScenarioSpec) -> set[str]:
     """Return the conditions that a grounded specification is judged by."""
-    graph = ground_stage(build_agsg(spec, map_digest=knowledge().map('downtown').digest), 1).agsg
+    graph = ground_stage(
+        installed(), build_agsg(spec, map_digest=installed().map('downtown').digest), 1
+    ).agsg
     assert graph is not None
-    return {c['id'] for c in json.loads(graph.conditions_json)}
+    return {c['id'] for c in json.loads(graph.texts.conditions)}
 
 
 def test_annotated_numbers_get_the_conditions_that_a_prompt_would_get() -> None:

@@ -17,9 +17,10 @@ from aurora_bench.prompts.reading import read_prompts
 from aurora_bench.prompts.reference_names import NotExpressibleError
 from aurora_bench.prompts.reference_spec import main, reference_spec
 from aurora_bench.prompts.shipped import Split, prompt_file
+from aurora_cli.installed import installed
 from aurora_core.agsg.build import build_agsg
 from aurora_core.outcomes.feasibility import Feasibility
-from aurora_core.pipeline.functions import check_stage, knowledge
+from aurora_core.pipeline.functions import check_stage
 from aurora_core.spec.prohibitions import ForbiddenAgent, ForbiddenBehavior
 from aurora_core.spec.scenario import ScenarioSpec, UavAction
 
@@ -46,7 +47,7 @@ HOVER: Doc = {
 @pytest.mark.parametrize('split', ['tune', 'held_out'])
 @pytest.mark.parametrize('part', ['bench', 'multi_uav'])
 def test_every_shipped_reference_scores_one_and_is_feasible(split: Split, part: str) -> None:
-    digest = knowledge().map('downtown').digest
+    digest = installed().map('downtown').digest
     asked = [p for p in read_prompts(prompt_file(split, part)) if p.feasibility != 'infeasible']
     for p in asked:
         spec = ScenarioSpec.model_validate(p.reference)
@@ -54,7 +55,7 @@ def test_every_shipped_reference_scores_one_and_is_feasible(split: Split, part: 
         result = score(p, Answer(spec=spec))
         assert [r.id for r in result.requirements if not r.is_met] == [], p.id
         assert result.extra == (), p.id
-        verdict = check_stage(build_agsg(spec, map_digest=digest))
+        verdict = check_stage(installed(), build_agsg(spec, map_digest=digest))
         assert verdict.result is Feasibility.FEASIBLE, p.id
 
 

@@ -39,7 +39,9 @@ def trial(*requirements: Doc) -> Trial:
 def verified(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let every run be verified, with a recording."""
 
-    def run(_request: object, _stages: object, folder: Any, *_: object, **__: object) -> object:
+    def run(
+        _asked: object, _stages: object, _known: object, folder: Any, *_: object, **__: object
+    ) -> object:
         folder.create()
         bag = folder.bag_path(0)
         bag.mkdir()

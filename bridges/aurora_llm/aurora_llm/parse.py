@@ -11,7 +11,8 @@ from pathlib import Path
 from aurora_core.outcomes.parse import ParseOutcome
 from aurora_core.parsing.llm.dialogue import parse_with_models
 from aurora_core.pipeline.background import background
-from aurora_core.pipeline.functions import knowledge, parse_context, parse_stage
+from aurora_core.pipeline.functions import parse_context, parse_stage, understood
+from aurora_core.pipeline.knowledge import Knowledge
 from aurora_core.pipeline.stages import RunRequest
 from aurora_core.ports.language_model import LanguageModel
 from aurora_core.ports.model_name import RECORDED
@@ -24,6 +25,7 @@ from aurora_llm.settings import OFFLINE, ModelSettings, load_model_settings
 
 
 def read_prompt(
+    known: Knowledge,
     request: RunRequest,
     settings: ModelSettings | None = None,
     wrap: Callable[[LanguageModel], LanguageModel] = lambda model: model,
@@ -33,6 +35,7 @@ def read_prompt(
     The offline parser takes over from models only where the order names it.
 
     Args:
+        known: Maps and limits that the prompt is read against and completed by.
         request: Prompt, map, models, history, transcripts.
         settings: None: those of `config/models.yaml`.
         wrap: Put around every model before it is asked.
@@ -42,20 +45,20 @@ def read_prompt(
         ConfigError: The models cannot be used as they are named.
     """
     if request.model == OFFLINE:
-        return parse_stage(request.prompt, request.map_name, request.seed)
-    known = settings if settings is not None else load_model_settings()
-    order = known.order(request.model)
+        return parse_stage(known, request.prompt, request.map_name, request.seed)
+    models = settings if settings is not None else load_model_settings()
+    order = models.order(request.model)
     outcome = parse_with_models(
         request.prompt,
-        parse_context(request.map_name, request.seed),
-        [wrap(_client(name, known, request)) for name in order if name != OFFLINE],
-        attempts=known.attempts,
-        wait=lambda seconds: time.sleep(min(seconds, known.most_wait_s)),
-        background=_background(request, known),
+        parse_context(known, request.map_name, request.seed),
+        [wrap(_client(name, models, request)) for name in order if name != OFFLINE],
+        attempts=models.attempts,
+        wait=lambda seconds: time.sleep(min(seconds, models.most_wait_s)),
+        background=_background(known, request, models),
     )
     if order[-1] != OFFLINE or not _is_spent(outcome):
-        return outcome
-    offline = parse_stage(request.prompt, request.map_name, request.seed)
+        return understood(known, outcome)
+    offline = parse_stage(known, request.prompt, request.map_name, request.seed)
     fields = {name: getattr(offline, name) for name in ParseOutcome.model_fields}
     return ParseOutcome(
         **{**fields, 'retrieval': outcome.retrieval, 'model_calls': outcome.model_calls}
@@ -81,9 +84,9 @@ def _is_spent(outcome: ParseOutcome) -> bool:
     return last is None or last.failure is not None or bool(last.complaints)
 
 
-def _background(request: RunRequest, settings: ModelSettings) -> Background:
+def _background(known: Knowledge, request: RunRequest, settings: ModelSettings) -> Background:
     wanted = settings.retrieval
-    return background(knowledge(), request, rankers(embedding=wanted.embedding), wanted)
+    return background(known, request, rankers(embedding=wanted.embedding), wanted)
 
 
 def _client(name: str, settings: ModelSettings, request: RunRequest | None) -> LanguageModel:

@@ -11,9 +11,9 @@ from typing import Any
 
 import pytest
 
+from aurora_cli.installed import installed
 from aurora_core.errors import ConfigError
 from aurora_core.outcomes.parse import ParseOutcome
-from aurora_core.pipeline.functions import knowledge
 from aurora_core.pipeline.stages import RunRequest
 from aurora_llm.parse import check_model_name, read_prompt
 from aurora_llm.settings import ModelSettings, load_model_settings
@@ -62,7 +62,7 @@ def settings(**changes: Any) -> ModelSettings:
 
 def read(server: ModelServer, prompt: str = PROMPT, **changes: Any) -> ParseOutcome:
     request = RunRequest(prompt=prompt, model=f'openai/local@{server.url}')
-    return read_prompt(request, settings(**changes))
+    return read_prompt(installed(), request, settings(**changes))
 
 
 @pytest.mark.parametrize(
@@ -118,7 +118,9 @@ def test_hanging_server_is_left_for_the_next_model() -> None:
         order = f'openai/a@{hanging.url},openai/b@{good.url}'
         begin = time.monotonic()
         outcome = read_prompt(
-            RunRequest(prompt=PROMPT, model=order), settings(timeout_s=0.5, attempts=2)
+            installed(),
+            RunRequest(prompt=PROMPT, model=order),
+            settings(timeout_s=0.5, attempts=2),
         )
         assert time.monotonic() - begin < 5.0
     assert outcome.spec is not None
@@ -129,12 +131,16 @@ def test_hanging_server_is_left_for_the_next_model() -> None:
 def test_offline_parser_takes_over_only_where_it_is_named() -> None:
     with ModelServer([Turn(status=500)]) as server:
         model = f'openai/a@{server.url}'
-        alone = read_prompt(RunRequest(prompt=PROMPT, model=model), settings(attempts=1))
+        alone = read_prompt(
+            installed(), RunRequest(prompt=PROMPT, model=model), settings(attempts=1)
+        )
         named = read_prompt(
-            RunRequest(prompt=PROMPT, model=f'{model},offline'), settings(attempts=1)
+            installed(), RunRequest(prompt=PROMPT, model=f'{model},offline'), settings(attempts=1)
         )
         by_file = read_prompt(
-            RunRequest(prompt=PROMPT, model=model), settings(attempts=1, fallback=('offline',))
+            installed(),
+            RunRequest(prompt=PROMPT, model=model),
+            settings(attempts=1, fallback=('offline',)),
         )
     assert alone.spec is None
     assert named.spec is not None
@@ -180,13 +186,15 @@ def test_transcript_replays_without_a_server(tmp_path: Path) -> None:
         live = read(server)
     transcript = tmp_path / 'transcript.jsonl'
     transcript.write_text(''.join(c.model_dump_json() + '\n' for c in live.model_calls))
-    replayed = read_prompt(RunRequest(prompt=PROMPT, model=f'recorded:{transcript}'))
+    replayed = read_prompt(installed(), RunRequest(prompt=PROMPT, model=f'recorded:{transcript}'))
     assert replayed.spec == live.spec
     facts = [(c.request_sha256, c.reply, c.complaints, c.tokens_in) for c in live.model_calls]
     assert facts == [
         (c.request_sha256, c.reply, c.complaints, c.tokens_in) for c in replayed.model_calls
     ]
-    other = read_prompt(RunRequest(prompt='A drone hovers.', model=f'recorded:{transcript}'))
+    other = read_prompt(
+        installed(), RunRequest(prompt='A drone hovers.', model=f'recorded:{transcript}')
+    )
     assert other.question is not None
     assert 'holds no answer to this request' in other.question
 
@@ -226,7 +234,7 @@ def test_model_is_shown_the_registries_and_what_fits_and_the_scores_are_kept() -
         for name in ('Registries', 'Retrieved')
         if line.startswith(f'{name}: ')
     }
-    assert told['Registries']['limits'] == knowledge().limits.model_dump(mode='json')
+    assert told['Registries']['limits'] == installed().limits.model_dump(mode='json')
     assert 'motorcycle' in [asset['id'] for asset in told['Retrieved']['asset']]
     assert outcome.retrieval is not None
     shown = [hit.id for hit in outcome.retrieval.hits if hit.selected]
@@ -239,6 +247,6 @@ def test_offline_parser_needs_no_retrieval(monkeypatch: pytest.MonkeyPatch) -> N
         raise AssertionError('the offline parser asked for a background')
 
     monkeypatch.setattr('aurora_llm.parse.background', broken)
-    outcome = read_prompt(RunRequest(prompt=PROMPT))
+    outcome = read_prompt(installed(), RunRequest(prompt=PROMPT))
     assert outcome.spec is not None
     assert outcome.retrieval is None

@@ -10,6 +10,7 @@ from typing import Any
 
 import pytest
 
+from aurora_cli.installed import installed
 from aurora_core.errors import ConfigError
 from aurora_core.outcomes.parse import ParseOutcome
 from aurora_core.pipeline.stages import RunRequest
@@ -52,13 +53,13 @@ def record(model: str, folder: Path, prompt: str = PROMPT) -> tuple[ParseOutcome
         clients.append(RecordingClient(client, ReplyStore(folder)))
         return clients[-1]
 
-    outcome = read_prompt(RunRequest(prompt=prompt, model=model), settings(), wrap)
+    outcome = read_prompt(installed(), RunRequest(prompt=prompt, model=model), settings(), wrap)
     return outcome, sum(client.asked for client in clients)
 
 
 def replay(model: str, folder: Path, **changes: Any) -> ParseOutcome:
     fields = {'prompt': PROMPT, 'model': model, 'transcripts': folder, **changes}
-    return read_prompt(RunRequest.model_validate(fields), settings())
+    return read_prompt(installed(), RunRequest.model_validate(fields), settings())
 
 
 def test_replay_gives_the_same_calls_and_specification(tmp_path: Path) -> None:

@@ -13,29 +13,38 @@ from aurora_core.outcomes.grounding import GroundingOutcome
 from aurora_core.outcomes.parse import ParseOutcome
 from aurora_core.outcomes.verdict import Verdict
 from aurora_core.pipeline import functions
+from aurora_core.pipeline.knowledge import Knowledge
 from aurora_core.pipeline.stages import ExecutionResult, RunControl, RunRequest
+from aurora_core.pipeline.verification import verify_stage
 from aurora_core.trace.definitions import message_definitions
 from aurora_llm.parse import read_prompt
 
 
 class LocalStages:
-    """`Stages` in one process: the clients of the bridges, the simulator's bytes in memory."""
+    """`Stages` in one process: the clients of the bridges, the simulator's bytes in memory.
+
+    Args:
+        known: What the stages work with.
+    """
+
+    def __init__(self, known: Knowledge) -> None:
+        self.known = known
 
     def parse(self, request: RunRequest) -> ParseOutcome:
         """Read the prompt."""
-        return read_prompt(request)
+        return read_prompt(self.known, request)
 
     def ground(self, agsg: Agsg, request: RunRequest) -> GroundingOutcome:
         """Ground the graph."""
-        return functions.ground_stage(agsg, request.seed)
+        return functions.ground_stage(self.known, agsg, request.seed)
 
     def check(self, agsg: Agsg, request: RunRequest) -> FeasibilityVerdict:
         """Judge feasibility."""
-        return functions.check_stage(agsg)
+        return functions.check_stage(self.known, agsg)
 
     def execution(self, agsg: Agsg, request: RunRequest) -> Execution:
         """Return what is run: loads, roster, world and the executor."""
-        return functions.execution_stage(agsg, request.seed, request.faults)
+        return functions.execution_stage(self.known, agsg, request.seed, request.faults)
 
     def execute(
         self, agsg: Agsg, bag_directory: Path, request: RunRequest, control: RunControl
@@ -64,4 +73,4 @@ class LocalStages:
 
     def verify(self, agsg: Agsg, bag: Path) -> Verdict:
         """Recompute every margin from the bag."""
-        return functions.verify_stage(bag)
+        return verify_stage(self.known, bag)

@@ -9,10 +9,10 @@ from pathlib import Path
 
 import pytest
 
+from aurora_cli.installed import installed
 from aurora_cli.local_engine import LocalStages
 from aurora_core.agsg.build import build_agsg
 from aurora_core.outcomes.agsg import Agsg
-from aurora_core.pipeline.functions import knowledge
 from aurora_core.pipeline.stages import RunControl, RunRequest
 from aurora_core.trace.bag_reader import read_bag
 from aurora_core.trace.definitions import message_definitions
@@ -27,10 +27,10 @@ FAULT = {'kind': 'keep_away', 'subject': 'van1', 'at_s': 3.0}
 
 
 def grounded(request: RunRequest) -> Agsg:
-    stages = LocalStages()
+    stages = LocalStages(installed())
     spec = stages.parse(request).spec
     assert spec is not None
-    graph = build_agsg(spec, map_digest=knowledge().map(request.map_name).digest)
+    graph = build_agsg(spec, map_digest=installed().map(request.map_name).digest)
     agsg = stages.ground(graph, request).agsg
     assert agsg is not None
     return agsg
@@ -48,7 +48,9 @@ def test_the_hash_is_that_of_the_bag(
         simulated_s[0] = now_s
 
     control = RunControl(progress=progress, cancelled=lambda: simulated_s[0] >= stop_after_s)
-    result = LocalStages().execute(grounded(request), tmp_path / 'r' / 'bag.0', request, control)
+    result = LocalStages(installed()).execute(
+        grounded(request), tmp_path / 'r' / 'bag.0', request, control
+    )
     content = read_bag(result.bag, message_definitions())
     assert content.trace.integrity is Integrity.INTACT
     assert result.ticks == content.trace.ticks

@@ -23,6 +23,7 @@ from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.outcomes.grounding import GroundingFailure
 from aurora_core.outcomes.parse import ParseContext
 from aurora_core.parsing.parser import parse_offline
+from aurora_core.planning.complete import complete
 from aurora_core.spec.parameter import Bound, Parameter, Provenance, Span, Unit
 from aurora_core.spec.scenario import ScenarioSpec
 
@@ -78,7 +79,7 @@ def _read(prompt: str, map_name: str = 'downtown') -> ScenarioSpec:
     marks = tuple(mark.name for mark in _map(map_name).landmarks)
     outcome = parse_offline(text, ParseContext(map_name=map_name, landmark_names=marks))
     assert outcome.spec is not None, (outcome.question, outcome.refusals)
-    return outcome.spec
+    return complete(outcome.spec, _limits())
 
 
 def _parameter(

@@ -9,6 +9,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from aurora_cli.clock import MonotonicClock
+from aurora_cli.installed import installed
 from aurora_core.outcomes.verdict import Verdict
 from aurora_core.pipeline.run import run
 from aurora_core.pipeline.stages import RunControl, RunRequest, Stages
@@ -28,7 +29,7 @@ def run_prompt(
     request = RunRequest.model_validate({'prompt': prompt, 'seed': seed, 'faults': faults})
     run_id = new_run_id(datetime.now(UTC), os.urandom(3))
     run_folder = RunFolder(folder / f'{name.replace(" ", "_")}_{seed}', run_id)
-    report = run(request, stages, run_folder, RunControl(), MonotonicClock())
+    report = run(request, stages, installed(), run_folder, RunControl(), MonotonicClock())
     return report, run_folder.bag_path(0)
 
 

@@ -11,6 +11,7 @@ from pathlib import Path as FilePath
 import numpy as np
 import numpy.typing as npt
 
+from aurora_cli.installed import installed
 from aurora_cli.local_engine import LocalStages
 from aurora_core.comm.link import MessageLink, Path
 from aurora_core.execution.events import EventRunner, Note
@@ -22,8 +23,8 @@ from aurora_core.mission.machine import MissionMachine, TargetMotion
 from aurora_core.mission.plan import MissionPlan, UavPlan
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.verdict import Verdict
-from aurora_core.pipeline.functions import verify_stage
 from aurora_core.pipeline.stages import RunRequest
+from aurora_core.pipeline.verification import verify_stage
 from aurora_core.spec.scenario import DistanceTrigger, Event
 from aurora_core.trace.commands import GroundCommand
 from aurora_core.trace.layout import UavPhase
@@ -72,6 +73,7 @@ class SabotagedStages(LocalStages):
     """
 
     def __init__(self, sabotage: Sabotage) -> None:
+        super().__init__(installed())
         self._sabotage = sabotage
 
     def execution(self, agsg: Agsg, request: RunRequest) -> Execution:
@@ -82,7 +84,7 @@ class SabotagedStages(LocalStages):
 
     def verify(self, agsg: Agsg, bag: FilePath) -> Verdict:
         """Judge without the honest executor beside it, which would find every bug at once."""
-        return verify_stage(bag, recompute=False)
+        return verify_stage(installed(), bag, recompute=False)
 
 
 class _LateRunner(EventRunner):

@@ -13,6 +13,8 @@ from typing import Any
 
 import pytest
 
+from aurora_cli.installed import installed
+
 pytest.importorskip('rclpy')
 
 from aurora_cli.local_engine import LocalStages
@@ -73,7 +75,8 @@ class Still:
 def test_a_bad_link_gives_the_trace_of_the_local_engine(spoiled: Spoiled, tmp_path: Path) -> None:
     local = run(
         RunRequest(prompt=PROMPT),
-        LocalStages(),
+        LocalStages(installed()),
+        installed(),
         RunFolder(tmp_path, '20260101T000000Z-000000'),
         RunControl(),
         Still(),

@@ -12,11 +12,13 @@ from typing import Any
 
 import pytest
 
+from aurora_cli.installed import installed
+
 pytest.importorskip('rclpy')
 
 from aurora_core.agsg.build import build_agsg
 from aurora_core.errors import ExecutionError, SpecError
-from aurora_core.pipeline.functions import ground_stage, knowledge, parse_stage
+from aurora_core.pipeline.functions import ground_stage, parse_stage
 from aurora_core.trace.bag_reader import read_bag
 from aurora_core.trace.definitions import message_definitions
 from aurora_core.trace.hashing import trace_sha256
@@ -70,7 +72,7 @@ def test_a_prompt_twice_gives_one_verdict_and_one_trace(graph: RunningGraph) -> 
 
 
 def test_an_injected_fault_is_violated(graph: RunningGraph) -> None:
-    spec = parse_stage(PROMPT, 'downtown', 1).spec
+    spec = parse_stage(installed(), PROMPT, 'downtown', 1).spec
     assert spec is not None
     fault = {'kind': 'target_removed', 'subject': spec.missions[0].target, 'at_s': 20.0}
     response = run_prompt(graph, options_json=json.dumps({'faults': [fault]}))
@@ -174,10 +176,10 @@ def test_a_request_beyond_a_limit_is_infeasible(graph: RunningGraph) -> None:
 
 
 def test_execute_alone_and_only_one_at_a_time(graph: RunningGraph, tmp_path: Path) -> None:
-    spec = parse_stage(PROMPT, 'downtown', 1).spec
+    spec = parse_stage(installed(), PROMPT, 'downtown', 1).spec
     assert spec is not None
-    digest = knowledge().map('downtown').digest
-    grounded = ground_stage(build_agsg(spec, map_digest=digest), 1).agsg
+    digest = installed().map('downtown').digest
+    grounded = ground_stage(installed(), build_agsg(spec, map_digest=digest), 1).agsg
     assert grounded is not None
     goal = ExecuteScenario.Goal(
         agsg=agsg_message(grounded, 'r'), bag_directory=str(tmp_path / 'bag.0')

@@ -9,6 +9,8 @@ from datetime import UTC, datetime
 
 import pytest
 
+from aurora_cli.installed import installed
+
 pytest.importorskip('rclpy')
 
 from aurora_cli.local_engine import LocalStages
@@ -41,7 +43,9 @@ class _FrozenClock:
 def recorded(tmp_path_factory: pytest.TempPathFactory) -> tuple[RunReport, list[StoredMessage]]:
     folder = RunFolder(tmp_path_factory.mktemp('run'), new_run_id(datetime.now(UTC), b'abc'))
     request = RunRequest.model_validate({'prompt': PROMPT})
-    report = run(request, LocalStages(), folder, RunControl(), _FrozenClock())
+    report = run(
+        request, LocalStages(installed()), installed(), folder, RunControl(), _FrozenClock()
+    )
     assert report.trace is not None
     stored = read_stored(folder.path / report.trace.bag, message_definitions())
     return report, list(stored.messages)

@@ -12,12 +12,14 @@ from typing import Any
 
 import pytest
 
+from aurora_cli.installed import installed
+
 pytest.importorskip('rclpy')
 
 from aurora_cli.local_engine import LocalStages
-from aurora_core.pipeline.functions import verify_stage
 from aurora_core.pipeline.run import run
 from aurora_core.pipeline.stages import RunControl, RunRequest
+from aurora_core.pipeline.verification import verify_stage
 from aurora_core.report.run_folder import RunFolder, new_run_id
 from aurora_core.report.run_report import RunReport
 from aurora_ros import interfaces as on
@@ -67,7 +69,9 @@ def run_locally(
 ) -> tuple[RunReport, RunFolder]:
     request = RunRequest.model_validate({'prompt': prompt, 'faults': faults})
     run_folder = RunFolder(folder, new_run_id(datetime.now(UTC), entropy.to_bytes(3, 'big')))
-    report = run(request, LocalStages(), run_folder, RunControl(), _FrozenClock())
+    report = run(
+        request, LocalStages(installed()), installed(), run_folder, RunControl(), _FrozenClock()
+    )
     return report, run_folder
 
 
@@ -98,7 +102,7 @@ def test_both_engines_verify_it_with_one_trace(
     assert {second.trace.sha256, remote['trace']['sha256']} == {first.trace.sha256}
     local = margins(first.model_dump(mode='json'))
     assert margins(remote) == local
-    again = verify_stage(folder.bag_path(0))
+    again = verify_stage(installed(), folder.bag_path(0))
     assert {r.id: r.margin for r in again.results} == local
 
 

@@ -8,8 +8,9 @@ from pathlib import Path
 
 import pytest
 
+from aurora_cli.installed import installed
 from aurora_core.outcomes.verdict import VerdictStatus
-from aurora_core.pipeline.functions import verify_stage
+from aurora_core.pipeline.verification import verify_stage
 from aurora_system_tests.local_runs import names_of, run_prompt
 from aurora_system_tests.planted_bugs import (
     BY_RECOMPUTATION,
@@ -24,7 +25,9 @@ def test_a_planted_bug_is_named(planted: Planted, tmp_path: Path) -> None:
     stages = SabotagedStages(planted.sabotage)
     report, bag = run_prompt(planted.name, planted.prompt, 1, tmp_path, stages)
     assert report.status in ('violated', 'inconclusive')
-    assert names_of(verify_stage(bag, recompute=False)) & planted.names, 'by the conditions alone'
-    again = verify_stage(bag)
+    assert names_of(verify_stage(installed(), bag, recompute=False)) & planted.names, (
+        'by the conditions alone'
+    )
+    again = verify_stage(installed(), bag)
     assert again.status is VerdictStatus.INCONCLUSIVE
     assert names_of(again) & BY_RECOMPUTATION, 'the honest executor does otherwise'

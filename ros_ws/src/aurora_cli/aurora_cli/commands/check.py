@@ -6,10 +6,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from aurora_cli.installed import installed
 from aurora_cli.output import answer_console, print_json, quiet_stdout
 from aurora_cli.prompt_input import prompt_bytes
 from aurora_cli.requests import RunOptions, checked, unreadable, with_prompt
-from aurora_core.agsg.build import build_agsg
 from aurora_core.errors import AuroraError, PromptError
 from aurora_core.outcomes.feasibility import Feasibility
 from aurora_core.pipeline import functions
@@ -48,13 +48,12 @@ def _facts(request: RunRequest) -> RunFacts:
     parse = feasibility = grounding = None
     error: AuroraError | None = None
     try:
-        parse = read_prompt(request)
-        if parse.spec is not None:
-            digest = functions.knowledge().map(request.map_name).digest
-            graph = build_agsg(parse.spec, map_digest=digest)
-            feasibility = functions.check_stage(graph)
+        known = installed()
+        parse = read_prompt(known, request)
+        if parse.agsg is not None:
+            feasibility = functions.check_stage(known, parse.agsg)
             if feasibility.result is not Feasibility.INFEASIBLE:
-                grounding = functions.ground_stage(graph, request.seed)
+                grounding = functions.ground_stage(known, parse.agsg, request.seed)
     except AuroraError as err:
         error = err
     return RunFacts(

@@ -7,8 +7,8 @@ from __future__ import annotations
 from dataclasses import replace
 
 from aurora_cli.bags import find_bag
+from aurora_cli.installed import installed
 from aurora_cli.output import answer_console, print_json, quiet_stdout
-from aurora_core.agsg.build import derived
 from aurora_core.agsg.message import read_agsg
 from aurora_core.pipeline.verify_run import verify_found
 from aurora_core.report.diff_report import DiffRun, diff_exit_code, diff_report
@@ -38,9 +38,9 @@ def _read(run_or_bag: str, iteration: int | None) -> DiffRun:
     content = read_bag(found.bag, message_definitions())
     agsg = verdict = None
     if content.agsg_message is not None:
-        agsg = read_agsg(content.agsg_message, derived)
+        agsg = read_agsg(content.agsg_message)
         if content.trace.ticks:
-            verified = verify_found(found, content, agsg, as_recorded=True)
+            verified = verify_found(installed(), found, content, agsg, as_recorded=True)
             verdict = verified.verdict
             if verified.run is not None and verified.run.doubts:
                 # Compared all the same, but as what it is.

@@ -13,6 +13,7 @@ from pydantic import ValidationError
 
 from aurora_cli.bags import find_bag
 from aurora_cli.files import write_file
+from aurora_cli.installed import installed
 from aurora_cli.output import (
     UsageProblem,
     answer_console,
@@ -22,7 +23,6 @@ from aurora_cli.output import (
 )
 from aurora_cli.prompt_input import prompt_bytes
 from aurora_cli.requests import RunOptions, checked, with_prompt
-from aurora_core.agsg.build import build_agsg
 from aurora_core.agsg.export import TEXT_WRITERS
 from aurora_core.agsg.influence import Influence, conditions_affected, parameters_affecting
 from aurora_core.errors import PromptError, SpecError
@@ -31,6 +31,7 @@ from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.feasibility import Feasibility
 from aurora_core.pipeline import functions
 from aurora_core.pipeline.stages import RunRequest
+from aurora_core.pipeline.verification import load_bag
 from aurora_core.report.run_folder import StageFile, is_run_id
 from aurora_core.report.status import Status, exit_code
 from aurora_core.report.terminal import print_table
@@ -134,7 +135,7 @@ def _of_run(path: Path, iteration: int | None) -> Agsg:
             raise UsageProblem(f'{path} has no graph of iteration {wanted}')
         file = path / StageFile.AGSG.name_at(wanted)
     else:
-        return functions.load_bag(find_bag(str(path), iteration).bag)[1]
+        return load_bag(find_bag(str(path), iteration).bag)[1]
     try:
         return Agsg.model_validate_json(read_bytes(file, DOCUMENT_BYTES))
     except (OSError, ValidationError) as err:
@@ -150,18 +151,18 @@ def _of_prompt(text: str, options: RunOptions) -> Agsg:
 
 def _grounded(request: RunRequest) -> Agsg:
     """Return the graph as far as the prompt comes: grounded, or only parsed."""
-    outcome = functions.parse_stage(request.prompt, request.map_name, request.seed)
-    if outcome.spec is None:
+    known = installed()
+    outcome = functions.parse_stage(known, request.prompt, request.map_name, request.seed)
+    parsed = outcome.agsg
+    if parsed is None:
         if outcome.refusals:
             words = '; '.join(refusal.sentence() for refusal in outcome.refusals)
             raise _NotUnderstood(Status.INFEASIBLE, words)
         raise _NotUnderstood(Status.NOT_UNDERSTOOD, outcome.question or 'no scenario was read')
-    digest = functions.knowledge().map(request.map_name).digest
-    parsed = build_agsg(outcome.spec, map_digest=digest)
-    if functions.check_stage(parsed).result is Feasibility.INFEASIBLE:
+    if functions.check_stage(known, parsed).result is Feasibility.INFEASIBLE:
         say('aurora: the request breaks a limit (see aurora check): the graph is not grounded')
         return parsed
-    grounded = functions.ground_stage(parsed, request.seed).agsg
+    grounded = functions.ground_stage(known, parsed, request.seed).agsg
     if grounded is None:
         say('aurora: there is no place for it on the map: the graph is not grounded')
     return grounded or parsed

@@ -9,8 +9,9 @@ from pathlib import Path
 
 from aurora_cli.bags import find_bag
 from aurora_cli.files import write_file
+from aurora_cli.installed import installed
 from aurora_cli.output import UsageProblem, print_json, quiet_stdout, say
-from aurora_core.pipeline.functions import load_bag
+from aurora_core.pipeline.verification import load_bag
 from aurora_core.pipeline.verify_run import verify_found
 from aurora_core.report.find_bag import FoundBag
 from aurora_core.report.picture.caption import Caption
@@ -42,7 +43,7 @@ def picture_command(run_or_bag: str, output: Path, iteration: int | None, *, as_
     found = find_bag(run_or_bag, iteration)
     with quiet_stdout():
         content, agsg = load_bag(found.bag)
-        caption = _caption(verify_found(found, content, agsg), found)
+        caption = _caption(verify_found(installed(), found, content, agsg), found)
         figure = draw_picture(content.trace, content.world, caption, spec=agsg.spec)
         write_file(output, writer(figure))
     if as_json:

@@ -9,6 +9,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from aurora_cli.clock import MonotonicClock
+from aurora_cli.installed import installed
 from aurora_cli.interrupts import Interrupts
 from aurora_cli.local_engine import LocalStages
 from aurora_cli.output import answer_console, print_json, quiet_stdout, say
@@ -66,11 +67,12 @@ def run_command(
 
 def _local(request: RunRequest, root: Path) -> tuple[RunReport, Path]:
     folder, started = _new_folder(root)
-    versions = product_versions()
+    known, versions = installed(), product_versions()
     with Interrupts() as interrupts, RunProgress() as progress:
         report = run(
             request,
-            LocalStages(),
+            LocalStages(known),
+            known,
             folder,
             RunControl(progress=progress.update, cancelled=interrupts.cancelled),
             MonotonicClock(),

@@ -9,13 +9,13 @@ from pathlib import Path
 
 from aurora_cli.bags import find_bag
 from aurora_cli.files import write_file
+from aurora_cli.installed import installed
 from aurora_cli.output import answer_console, print_json, quiet_stdout, say
 from aurora_core.errors import ReportError
 from aurora_core.monitor.signals_for_plot import signals_for_plot
 from aurora_core.outcomes.agsg import Agsg
-from aurora_core.outcomes.condition import conditions_from_json
 from aurora_core.outcomes.verdict import Verdict
-from aurora_core.pipeline.functions import load_bag
+from aurora_core.pipeline.verification import load_bag
 from aurora_core.pipeline.verify_run import verify_found
 from aurora_core.report.terminal import print_verify
 from aurora_core.trace.bag_reader import BagContent
@@ -46,7 +46,7 @@ def verify_command(
     found = find_bag(run_or_bag, iteration)
     with quiet_stdout():
         content, agsg = load_bag(found.bag)
-        report = verify_found(found, content, agsg, as_recorded=as_recorded)
+        report = verify_found(installed(), found, content, agsg, as_recorded=as_recorded)
         if plots is not None:
             _write_plots(content, agsg, report.verdict, plots)
     if as_json:
@@ -72,7 +72,7 @@ def _write_plots(content: BagContent, agsg: Agsg, verdict: Verdict, folder: Path
         raise ReportError(
             f'{folder} cannot be created: {err.strerror or err}', hint='name another folder'
         ) from err
-    conditions = conditions_from_json(content.world.conditions_json)
+    conditions = agsg.conditions
     signals = signals_for_plot(content.trace, content.world, conditions, agsg.spec)
     results = {result.id: result for result in verdict.results}
     for number, signal in enumerate(signals, start=1):

@@ -20,7 +20,6 @@ from aurora_core.agsg.parameters import element_of
 from aurora_core.document import Document
 from aurora_core.errors import SpecError
 from aurora_core.outcomes.agsg import Agsg, EdgeType, NodeType
-from aurora_core.outcomes.condition import Condition, conditions_from_json
 from aurora_core.spec.parameter import Provenance
 
 _OWN_FAMILY, _OTHER_FAMILY = 1, 2
@@ -106,7 +105,7 @@ def _upstream(agsg: Agsg) -> nx.MultiDiGraph:
 
 def _own_elements(agsg: Agsg) -> Mapping[str, tuple[str, ...]]:
     """Return the elements of the specification that each condition is about."""
-    conditions: tuple[Condition, ...] = conditions_from_json(agsg.conditions_json)
+    conditions = agsg.conditions
     spec = agsg.spec
     stated = (*spec.conditions, *spec.orders, *spec.counts, *spec.prohibitions)
     return {c.id: c.spec_ids for c in conditions} | {s.id: (s.id,) for s in stated}

@@ -4,13 +4,17 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
+from aurora_core.agsg.build import build_agsg
 from aurora_core.errors import SpecError, VerificationError
-from aurora_core.outcomes.agsg import Agsg, AgsgParameter, EdgeType, NodeType, Stage
+from aurora_core.outcomes.agsg import Agsg, AgsgParameter, AgsgTexts, EdgeType, NodeType, Stage
+from aurora_core.outcomes.condition import conditions_from_json
+from aurora_core.outcomes.grounded import GroundedScenario
+from aurora_core.outcomes.schedule import Schedule
 from aurora_core.spec.parameter import Provenance
 from aurora_core.spec.scenario import ScenarioSpec
 
@@ -65,30 +69,34 @@ def agsg_message(create: Create, header: Any, run_id: str, agsg: Agsg) -> Any:
             )
             for p in agsg.parameters
         ],
-        spec_json=agsg.spec.canonical_json(),
-        grounding_json=agsg.grounding_json,
-        schedule_json=agsg.schedule_json,
-        conditions_json=agsg.conditions_json,
-        sha256=agsg.sha256,
+        spec_json=agsg.texts.spec,
+        grounding_json=agsg.texts.grounding,
+        schedule_json=agsg.texts.schedule,
+        conditions_json=agsg.texts.conditions,
+        sha256=agsg.texts.sha256,
     )
 
 
-def read_agsg(message: Any, rebuild: Callable[[Agsg], Agsg]) -> Agsg:
+def read_agsg(message: Any) -> Agsg:
     """Return the graph of an `Agsg` message.
 
     Args:
         message: Decoded message.
-        rebuild: Derives nodes, edges and parameters from the documents (`agsg.build.derived`).
 
     Raises:
         SpecError: The documents cannot be read, or the digest or a typed field does not match
             them.
     """
-    documents = _documents(message)
-    if documents.sha256 != str(message.sha256):
+    texts = AgsgTexts(
+        spec=str(message.spec_json),
+        grounding=str(message.grounding_json),
+        schedule=str(message.schedule_json),
+        conditions=str(message.conditions_json),
+    )
+    if texts.sha256 != str(message.sha256):
         raise SpecError('the graph does not match its digest', hint='send it as it was received')
     try:
-        agsg = rebuild(documents)
+        agsg = _built(message, texts)
     except (ValueError, LookupError, TypeError, AttributeError, VerificationError) as err:
         raise SpecError(f"the graph's documents cannot be read: {err}", hint=_RESEND) from err
     typed = (
@@ -113,27 +121,27 @@ def read_agsg(message: Any, rebuild: Callable[[Agsg], Agsg]) -> Agsg:
     return agsg
 
 
-def _documents(message: Any) -> Agsg:
-    try:
-        return Agsg(
-            iteration=int(message.iteration),
-            stage=_STAGES[int(message.stage)],
-            map_name=str(message.map_name),
-            map_digest=str(message.map_digest),
-            spec=ScenarioSpec.model_validate_json(str(message.spec_json)),
-            grounding_json=str(message.grounding_json),
-            schedule_json=str(message.schedule_json),
-            conditions_json=str(message.conditions_json),
-        )
-    except (ValueError, IndexError) as err:
-        raise SpecError(f"the graph's documents cannot be read: {err}", hint=_RESEND) from err
+def _built(message: Any, texts: AgsgTexts) -> Agsg:
+    grounding = texts.grounding and GroundedScenario.model_validate_json(texts.grounding)
+    schedule = texts.schedule and Schedule.model_validate_json(texts.schedule)
+    build = partial(
+        build_agsg,
+        ScenarioSpec.model_validate_json(texts.spec),
+        map_digest=str(message.map_digest),
+        stage=_STAGES[int(message.stage)],
+        iteration=int(message.iteration),
+        grounding=grounding or None,
+        schedule=schedule or None,
+        conditions=conditions_from_json(texts.conditions),
+    )
+    agsg = build()
+    # Another version may have written its documents otherwise: they are told by their own digest.
+    return agsg if agsg.texts == texts else build(recorded_sha256=texts.sha256)
 
 
 def _grounded_on(agsg: Agsg) -> str:
     """Return the map digest of the grounding; before it the message's own is all there is."""
-    if not agsg.grounding_json:
-        return agsg.map_digest
-    return str(json.loads(agsg.grounding_json)['map_digest'])
+    return agsg.map_digest if agsg.grounding is None else agsg.grounding.map_digest
 
 
 # One parameter as it is compared; what is not there is None on both sides.

@@ -84,9 +84,9 @@ def build_execution(
         ExecutionError: The graph is not grounded, or on another map, or for another executor, or
             an event sends a message without a link.
     """
-    if not agsg.grounding_json or not agsg.schedule_json:
+    grounded = agsg.grounding
+    if grounded is None or agsg.schedule is None:
         raise ExecutionError('the graph is not grounded', hint='call ground_scenario first')
-    grounded = GroundedScenario.model_validate_json(agsg.grounding_json)
     if grounded.executor_version not in (0, EXECUTOR_VERSION):
         raise ExecutionError(
             f'grounded for version {grounded.executor_version} of the executor, this is '
@@ -101,11 +101,12 @@ def build_execution(
     dt_s = settings.run.dt_s
     places = place_positions(agsg.spec, map_model, grounded)
     parts = map_parts(map_model) if parts is None else parts
-    world = build_world(map_model, grounded, limits, places, agsg.conditions_json, parts)
+    world = build_world(map_model, grounded, limits, places, agsg.texts.conditions, parts)
     roster = build_roster(grounded, dt_s)
     stepper = build_stepper(
-        agsg,
+        agsg.spec,
         grounded,
+        agsg.schedule,
         roster,
         airspace=parts.airspace,
         geometry=WorldGeometry(world, parts.sight_line),
@@ -120,13 +121,14 @@ def build_execution(
         air_load=_air_load(grounded, map_model, dt_s, seed),
         roster=roster,
         world=world,
-        horizon_s=Schedule.model_validate_json(agsg.schedule_json).horizon_s,
+        horizon_s=agsg.schedule.horizon_s,
     )
 
 
 def build_stepper(
-    agsg: Agsg,
+    spec: ScenarioSpec,
     grounded: GroundedScenario,
+    schedule: Schedule,
     roster: Roster,
     *,
     airspace: Airspace,
@@ -141,8 +143,9 @@ def build_stepper(
     It needs no map: a recording holds everything that this takes.
 
     Args:
-        agsg: Grounded, with schedule.
+        spec: The request.
         grounded: Its grounding.
+        schedule: Its schedule.
         roster: Row order of the states, and their time step.
         airspace: What stands in the way of a flight.
         geometry: The world of the run, with the limits in force.
@@ -154,18 +157,17 @@ def build_stepper(
     Raises:
         ExecutionError: An event sends a message without a link, or a fault hits nobody.
     """
-    _check_links(agsg.spec)
-    schedule = Schedule.model_validate_json(agsg.schedule_json)
+    _check_links(spec)
     limits, dt_s = geometry.world.limits, roster.dt_s
     acting = in_order(faults)
     flight = FlightSettings(**settings.flight.model_dump())
     executor = ScenarioExecutor(
         ExecutionSetup(
-            spec=agsg.spec,
+            spec=spec,
             roster=roster,
             agents=grounded.agents,
             machines=tuple(MissionMachine(u, flight, dt_s) for u in grounded.uavs),
-            links=tuple(_link(link, limits, dt_s, seed, acting) for link in agsg.spec.links),
+            links=tuple(_link(link, limits, dt_s, seed, acting) for link in spec.links),
             airspace=airspace,
             geometry=geometry,
             landing_clearance_m=limits.clearance_min_m + 1.0,
@@ -180,7 +182,7 @@ def build_stepper(
     )
     if not acting:
         return executor
-    return FaultPort(executor, acting, roster, tuple(link.id for link in agsg.spec.links))
+    return FaultPort(executor, acting, roster, tuple(link.id for link in spec.links))
 
 
 def _check_links(spec: ScenarioSpec) -> None:

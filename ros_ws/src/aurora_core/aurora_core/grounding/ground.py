@@ -13,7 +13,6 @@ from dataclasses import dataclass
 
 from aurora_core.grounding.agents import AgentPlacer
 from aurora_core.grounding.airspace import Airspace
-from aurora_core.grounding.choices import chosen
 from aurora_core.grounding.convoy import SceneSplit, split_scene
 from aurora_core.grounding.flights import FlightPlanner, PlannedFlight, Rejected
 from aurora_core.grounding.pace import watched_speed_mps
@@ -86,7 +85,6 @@ class Grounder:
             spec: What to ground.
             seed: Seed of the run (background traffic).
         """
-        requested, spec = spec, chosen(spec, self._limits)
         split = split_scene(spec)
         planner = FlightPlanner(
             map_model=self._map,
@@ -122,7 +120,7 @@ class Grounder:
             reasons = dict(sorted(rejected.items()))
             most = max(reasons, key=lambda r: (reasons[r], r)) if reasons else 'road'
             return GroundingFailure(reason=most, tried=scored, rejected_by=reasons)
-        return self._scenario(requested, split, best, scored, run_m, seed, planner)
+        return self._scenario(spec, split, best, scored, run_m, seed, planner)
 
     def _drive_speed(self, spec: ScenarioSpec, split: SceneSplit) -> float:
         stated = [
@@ -208,7 +206,7 @@ class Grounder:
     ) -> GroundedScenario:
         uavs = tuple(planner.with_landing_spots(u, best.site) for u in best.uavs)
         placer = AgentPlacer(self._map, self._types, self._settings, self._limits)
-        agents = placer.convoy(chosen(spec, self._limits), split, best.site)
+        agents = placer.convoy(spec, split, best.site)
         generator = stream(seed, 'grounding:background')
         agents, missing = placer.free(spec, split, best.site, agents, run_m, generator)
         lane_id, position_m = best.site.origin_path.lane_position_at(best.site.origin_arc_m)

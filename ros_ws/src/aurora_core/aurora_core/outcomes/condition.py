@@ -8,13 +8,12 @@ horizon), so that it can be judged from the bag alone and nothing that happens l
 
 from __future__ import annotations
 
-import json
 from enum import StrEnum
 from typing import Literal, Self
 
 from pydantic import FiniteFloat, TypeAdapter, ValidationError, model_validator
 
-from aurora_core.document import Document, omitted
+from aurora_core.document import Document, canonical_json, omitted
 from aurora_core.errors import VerificationError
 from aurora_core.quantities.actions import ActionRules
 from aurora_core.quantities.kernels import TrackRule
@@ -249,13 +248,8 @@ _CONDITIONS: TypeAdapter[tuple[Condition, ...]] = TypeAdapter(tuple[Condition, .
 
 
 def conditions_to_json(conditions: tuple[Condition, ...]) -> str:
-    """Return the one byte-exact JSON text of conditions (sorted keys, no blanks)."""
-    return json.dumps(
-        _CONDITIONS.dump_python(conditions, mode='json'),
-        sort_keys=True,
-        separators=(',', ':'),
-        ensure_ascii=False,
-    )
+    """Return the one byte-exact JSON text of conditions."""
+    return canonical_json(_CONDITIONS.dump_python(conditions, mode='json'))
 
 
 def conditions_from_json(text: str) -> tuple[Condition, ...]:

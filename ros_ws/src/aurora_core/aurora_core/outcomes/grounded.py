@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import json
 from enum import StrEnum
 
 from pydantic import FiniteFloat
@@ -121,9 +120,3 @@ class GroundedScenario(Document):
     configuration: str = ''
     # Version of the executor that it is for (`execution.plan.EXECUTOR_VERSION`), 0 in old ones.
     executor_version: int = 0
-
-    def canonical_json(self) -> str:
-        """Return the byte-exact JSON text that travels in the graph."""
-        return json.dumps(
-            self.model_dump(mode='json'), sort_keys=True, separators=(',', ':'), ensure_ascii=False
-        )

@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from pydantic import Field
+
 from aurora_core.document import Document
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.spec.parameter import Span
@@ -37,11 +39,12 @@ class GroundingOutcome(Document):
     """Exactly one of graph and failure is set.
 
     Attributes:
+        agsg: It travels beside this document, not in it.
         unsupported: What nobody carries out or judges yet, as `id: what`.
         unjudged: What is stated and no condition of the run depends on.
     """
 
-    agsg: Agsg | None = None
+    agsg: Agsg | None = Field(default=None, exclude=True)
     failure: GroundingFailure | None = None
     unsupported: tuple[str, ...] = ()
     unjudged: tuple[Unjudged, ...] = ()

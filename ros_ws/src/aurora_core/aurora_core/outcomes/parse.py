@@ -6,7 +6,10 @@ from __future__ import annotations
 
 from enum import StrEnum
 
+from pydantic import Field
+
 from aurora_core.document import Document
+from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.retrieval import Retrieval
 from aurora_core.ports.language_model import ModelCall
 from aurora_core.spec.parameter import Span
@@ -57,11 +60,13 @@ class ParseOutcome(Document):
     """A specification, a question or refusals; always the clauses.
 
     Attributes:
-        spec: None when there is a question or a refusal.
+        spec: As it was read; None when there is a question or a refusal.
         question: What was missing (status `not_understood`).
         refusals: What does not exist (status `infeasible`).
         clauses: Every clause of the prompt and what became of it.
         retrieval: What a language model was shown beside the prompt, and why; None without one.
+        agsg: Graph of the completed request (`planning.complete`), where there is a specification.
+            It travels beside this document, not in it.
         model_calls: Every call to a language model, () when the offline parser read the prompt.
     """
 
@@ -71,3 +76,4 @@ class ParseOutcome(Document):
     clauses: tuple[Clause, ...] = ()
     retrieval: Retrieval | None = None
     model_calls: tuple[ModelCall, ...] = ()
+    agsg: Agsg | None = Field(default=None, exclude=True)

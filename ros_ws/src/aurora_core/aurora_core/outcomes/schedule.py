@@ -8,8 +8,6 @@ run and travel in the bag, so nothing that happens later can move a threshold.
 
 from __future__ import annotations
 
-import json
-
 from pydantic import FiniteFloat
 
 from aurora_core.document import Document
@@ -86,9 +84,3 @@ class Schedule(Document):
     horizon_s: FiniteFloat
     stated_horizon: bool
     facts: PlanFacts
-
-    def canonical_json(self) -> str:
-        """Return the byte-exact JSON text that travels in the graph."""
-        return json.dumps(
-            self.model_dump(mode='json'), sort_keys=True, separators=(',', ':'), ensure_ascii=False
-        )

@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import json
 from enum import StrEnum
 from typing import Self
 
@@ -141,10 +140,4 @@ class Verdict(Document):
         return min(
             self.results,
             key=lambda r: float('-inf') if r.normalised is None else r.normalised,
-        )
-
-    def canonical_json(self) -> str:
-        """Return the one byte-exact JSON text."""
-        return json.dumps(
-            self.model_dump(mode='json'), sort_keys=True, separators=(',', ':'), ensure_ascii=False
         )

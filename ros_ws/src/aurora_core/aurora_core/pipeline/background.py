@@ -9,8 +9,8 @@ from collections.abc import Sequence
 from aurora_core.knowledge.map_model import list_maps
 from aurora_core.parsing.lexicon import read_data
 from aurora_core.parsing.values import unsaid_values
-from aurora_core.pipeline.functions import Knowledge
 from aurora_core.pipeline.history import history_of
+from aurora_core.pipeline.knowledge import Knowledge
 from aurora_core.pipeline.stages import RunRequest
 from aurora_core.retrieval.assets import asset_records
 from aurora_core.retrieval.background import Amounts, Background

@@ -21,7 +21,6 @@ from aurora_core.knowledge.limits import Tolerances
 from aurora_core.knowledge.settings import Settings
 from aurora_core.knowledge.world import WorldModel
 from aurora_core.outcomes.agsg import Agsg
-from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.outcomes.verdict import Finding
 from aurora_core.pipeline.differences import Again, differences
 from aurora_core.quantities.world_geometry import WorldGeometry
@@ -51,7 +50,9 @@ def recomputed(
         parts: Solids of that world, when they exist already.
     """
     ticks = trace.missing_ticks[0] if trace.missing_ticks else trace.ticks
-    grounded = GroundedScenario.model_validate_json(agsg.grounding_json)
+    grounded, schedule = agsg.grounding, agsg.schedule
+    if grounded is None or schedule is None:
+        return (_problem('the recorded graph is not grounded'),)
     if grounded.executor_version != EXECUTOR_VERSION:
         return (
             _problem(
@@ -66,8 +67,9 @@ def recomputed(
         airspace, geometry = parts.airspace, WorldGeometry(world, parts.sight_line)
     try:
         stepper = build_stepper(
-            agsg,
+            agsg.spec,
             grounded,
+            schedule,
             trace.roster,
             airspace=airspace,
             geometry=geometry,

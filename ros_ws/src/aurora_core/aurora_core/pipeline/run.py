@@ -15,12 +15,11 @@ from dataclasses import replace
 from types import MappingProxyType
 from typing import Any
 
-from aurora_core.agsg.build import build_agsg
 from aurora_core.errors import AuroraError
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.feasibility import Feasibility
-from aurora_core.pipeline.functions import knowledge
 from aurora_core.pipeline.history import remember
+from aurora_core.pipeline.knowledge import Knowledge
 from aurora_core.pipeline.stages import ExecutionResult, RunControl, RunRequest, Stages
 from aurora_core.ports.clock import SteadyClock
 from aurora_core.report.build import build_report
@@ -61,6 +60,7 @@ class _Run:
         self,
         request: RunRequest,
         stages: Stages,
+        known: Knowledge,
         folder: RunFolder,
         control: RunControl,
         clock: SteadyClock,
@@ -68,6 +68,7 @@ class _Run:
     ) -> None:
         self.request = request
         self.stages = stages
+        self.known = known
         self.folder = folder
         self.control = control
         self.clock = clock
@@ -95,7 +96,7 @@ class _Run:
 
     def prepare(self) -> None:
         """Load what the report quotes: limits, time step, digest of the map."""
-        known = knowledge()
+        known = self.known
         self._dt_s = known.settings.run.dt_s
         self.note(limits=known.limits)
         self.note(map_digest=known.map(self.request.map_name).digest)
@@ -119,10 +120,10 @@ class _Run:
             self.folder.write_lines(TRANSCRIPT, outcome.model_calls)
         if outcome.retrieval is not None:
             self.folder.write_json(RETRIEVAL, outcome.retrieval.model_dump(mode='json'))
-        if outcome.spec is None:
+        graph = outcome.agsg
+        if graph is None:
             return None
-        self.folder.write_stage(StageFile.SPEC, 0, outcome.spec)
-        graph = build_agsg(outcome.spec, map_digest=self.facts.map_digest)
+        self.folder.write_stage(StageFile.SPEC, 0, graph.spec)
         self.folder.write_stage(StageFile.AGSG, 0, graph)
         with self.stage('check'):
             feasibility = self.stages.check(graph, self.request)
@@ -139,8 +140,8 @@ class _Run:
             return None
         grounded = outcome.agsg
         self.folder.write_stage(StageFile.AGSG, grounded.iteration, grounded)
-        self.folder.write_stage(StageFile.GROUNDING, grounded.iteration, grounded.grounding_json)
-        self.folder.write_stage(StageFile.SCHEDULE, grounded.iteration, grounded.schedule_json)
+        self.folder.write_stage(StageFile.GROUNDING, grounded.iteration, grounded.texts.grounding)
+        self.folder.write_stage(StageFile.SCHEDULE, grounded.iteration, grounded.texts.schedule)
         return grounded
 
     def execute(self, graph: Agsg, iteration: int) -> None:
@@ -184,6 +185,7 @@ class _Run:
 def run(
     request: RunRequest,
     stages: Stages,
+    known: Knowledge,
     folder: RunFolder,
     control: RunControl,
     clock: SteadyClock,
@@ -197,6 +199,7 @@ def run(
     Args:
         request: Prompt and options.
         stages: The engine.
+        known: What its stages work with.
         folder: Where everything is written; created here.
         control: Progress and cancel.
         clock: For the timings.
@@ -222,7 +225,7 @@ def run(
         versions=versions,
         faults=request.faults,
     )
-    state = _Run(request, stages, folder, control, clock, facts)
+    state = _Run(request, stages, known, folder, control, clock, facts)
     try:
         state.prepare()
         state.through()

@@ -10,7 +10,8 @@ from aurora_core.outcomes.condition import conditions_from_json
 from aurora_core.outcomes.grounding import GroundingOutcome
 from aurora_core.outcomes.parse import ParseOutcome
 from aurora_core.outcomes.verdict import Verdict
-from aurora_core.pipeline.functions import Judged, judge_content, recorded_plan
+from aurora_core.pipeline.knowledge import Knowledge
+from aurora_core.pipeline.verification import Judged, judge_content, recorded_plan
 from aurora_core.report.clauses import clause_reports
 from aurora_core.report.comparison import Comparison
 from aurora_core.report.facts import RunFacts
@@ -23,11 +24,17 @@ from aurora_core.trace.hashing import trace_hashes
 
 
 def verify_found(
-    found: FoundBag, content: BagContent, agsg: Agsg, *, as_recorded: bool = False
+    known: Knowledge,
+    found: FoundBag,
+    content: BagContent,
+    agsg: Agsg,
+    *,
+    as_recorded: bool = False,
 ) -> VerifyReport:
     """Judge a bag by itself, then hold it against the run folder that it lies in.
 
     Args:
+        known: What is installed here.
         found: Where it lies.
         content: What it holds.
         agsg: Graph in it.
@@ -36,7 +43,7 @@ def verify_found(
     Raises:
         VerificationError: The bag holds nothing that could be judged.
     """
-    judged = judge_content(content, agsg, as_recorded=as_recorded)
+    judged = judge_content(known, content, agsg, as_recorded=as_recorded)
     foreign = _foreign_to(judged, content) if as_recorded else None
     bag = _judged_bag(content, agsg, judged.verdict, judged.plan)
     if found.run is None:
@@ -46,11 +53,17 @@ def verify_found(
 
 
 def report_beside(
-    found: FoundBag, content: BagContent, agsg: Agsg, verdict: Verdict, heard: Comparison
+    known: Knowledge,
+    found: FoundBag,
+    content: BagContent,
+    agsg: Agsg,
+    verdict: Verdict,
+    heard: Comparison,
 ) -> VerifyReport:
     """Return the report about a bag whose verdict was held against one heard live.
 
     Args:
+        known: What is installed here.
         found: Where it lies.
         content: What it holds.
         agsg: Graph in it.
@@ -60,7 +73,7 @@ def report_beside(
     Raises:
         VerificationError: The bag holds nothing that could be judged.
     """
-    bag = _judged_bag(content, agsg, verdict, recorded_plan(content.world, agsg))
+    bag = _judged_bag(content, agsg, verdict, recorded_plan(known, content.world, agsg))
     run = None if found.run is None else check_run(found.run, found.iteration, bag)[0]
     return verify_report(str(found.bag), bag, run=run, recorded=heard)
 

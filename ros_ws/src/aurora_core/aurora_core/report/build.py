@@ -5,11 +5,9 @@
 from __future__ import annotations
 
 import hashlib
-import json
-import math
 
 from aurora_core.outcomes.agsg import Agsg
-from aurora_core.outcomes.condition import Condition, conditions_from_json
+from aurora_core.outcomes.condition import Condition
 from aurora_core.outcomes.feasibility import Certificate, Feasibility, FeasibilityVerdict
 from aurora_core.outcomes.parse import ParseOutcome, Refusal
 from aurora_core.report.clauses import clause_reports
@@ -33,15 +31,11 @@ from aurora_core.trace.trace import Integrity
 
 
 def build_report(facts: RunFacts) -> RunReport:
-    """Return the report of a run, however far it got.
-
-    Raises:
-        VerificationError: The conditions of the graph cannot be read.
-    """
+    """Return the report of a run, however far it got."""
     feasibility = _feasibility(facts)
     clauses = clause_reports(facts)
     graph = facts.graph
-    conditions = conditions_from_json(graph.conditions_json) if graph is not None else ()
+    conditions = graph.conditions if graph is not None else ()
     rows = (
         condition_reports(facts.prompt, clauses, facts.verdict)
         if facts.verdict is not None
@@ -196,17 +190,16 @@ def _error(facts: RunFacts) -> ErrorReport | None:
 
 
 def _realised(graph: Agsg | None) -> tuple[RealisedReport, ...]:
-    if graph is None or not graph.grounding_json:
+    if graph is None or graph.grounding is None:
         return ()
     units = {parameter.path: parameter.unit.value for parameter in graph.parameters}
     return tuple(
         RealisedReport(
-            path=value['path'],
-            requested=value['requested'],
-            realised=value['realised'],
-            unit=units.get(value['path'], ''),
-            provenance=value['provenance'],
+            path=value.path,
+            requested=value.requested,
+            realised=value.realised,
+            unit=units.get(value.path, ''),
+            provenance=value.provenance,
         )
-        for value in json.loads(graph.grounding_json).get('realised', ())
-        if math.isfinite(value['realised'])
+        for value in graph.grounding.realised
     )

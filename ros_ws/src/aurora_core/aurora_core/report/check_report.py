@@ -10,9 +10,7 @@ from typing import Literal
 from pydantic import FiniteFloat
 
 from aurora_core.document import Document
-from aurora_core.outcomes.condition import conditions_from_json
 from aurora_core.outcomes.feasibility import Feasibility, FeasibilityVerdict
-from aurora_core.outcomes.schedule import Schedule
 from aurora_core.report.build import build_report
 from aurora_core.report.facts import RunFacts
 from aurora_core.report.run_report import ClauseReport, ErrorReport, RealisedReport
@@ -77,12 +75,8 @@ def build_check(facts: RunFacts) -> CheckReport:
     report = build_report(facts)
     graph = facts.graph
     result = _result(facts, report.status, report.feasibility, report.clauses)
-    conditions = conditions_from_json(graph.conditions_json) if graph is not None else ()
-    schedule = (
-        Schedule.model_validate_json(graph.schedule_json)
-        if graph is not None and graph.schedule_json
-        else None
-    )
+    conditions = graph.conditions if graph is not None else ()
+    schedule = graph.schedule if graph is not None else None
     return CheckReport(
         result=result,
         summary=_summary(result, report.summary, facts),

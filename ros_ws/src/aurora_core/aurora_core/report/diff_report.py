@@ -199,11 +199,9 @@ def _requests(first: Agsg | None, second: Agsg | None) -> Iterator[InputDifferen
         return
     if first.spec.prompt != second.spec.prompt:
         yield _input('prompt', first.spec.prompt, second.spec.prompt)
-    yield from _documents(
-        'specification', first.spec.canonical_json(), second.spec.canonical_json(), {'prompt'}
-    )
-    yield from _documents('grounding', first.grounding_json, second.grounding_json)
-    yield from _documents('schedule', first.schedule_json, second.schedule_json)
+    yield from _documents('specification', first.texts.spec, second.texts.spec, {'prompt'})
+    yield from _documents('grounding', first.texts.grounding, second.texts.grounding)
+    yield from _documents('schedule', first.texts.schedule, second.texts.schedule)
 
 
 def _documents(

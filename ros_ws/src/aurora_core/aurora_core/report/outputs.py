@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-from aurora_core.agsg.build import derived
 from aurora_core.agsg.message import read_agsg
 from aurora_core.errors import AuroraError
 from aurora_core.report.html import report_html
@@ -47,11 +46,7 @@ def _picture(report: RunReport, folder: RunFolder) -> bytes | None:
 
     try:
         content = read_bag(folder.path / report.trace.bag, message_definitions())
-        spec = (
-            read_agsg(content.agsg_message, derived).spec
-            if content.agsg_message is not None
-            else None
-        )
+        spec = read_agsg(content.agsg_message).spec if content.agsg_message is not None else None
     except AuroraError:
         # A bag too damaged to read is told in the report; there is just no picture of it.
         return None

@@ -17,8 +17,8 @@ from pathlib import Path
 from aurora_core.document import Document
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.grounded import GroundedScenario
+from aurora_core.outcomes.schedule import Schedule
 from aurora_core.outcomes.verdict import Verdict, VerdictStatus
-from aurora_core.parsing.idle_uavs import hovering
 from aurora_core.report.comparison import Comparison, compare
 from aurora_core.report.doubts import Doubt, altered, trace_doubts, unknown
 from aurora_core.report.manifest import Manifest
@@ -174,7 +174,8 @@ def _asked(manifest: Manifest, report: RunReport | None, bag: JudgedBag) -> Iter
         if name not in request.model_fields_set:
             yield unknown(f'{MANIFEST} does not tell {name}')
     yield from _differs(MANIFEST, 'the map', request.map_name, bag.agsg.map_name)
-    yield from _differs(MANIFEST, 'the seed', request.seed, _grounded(bag).seed)
+    seed = bag.agsg.grounding.seed if bag.agsg.grounding is not None else None
+    yield from _differs(MANIFEST, 'the seed', request.seed, seed)
     if report is not None:
         for what, asked, told in (
             ('engine', request.engine, report.engine),
@@ -182,10 +183,6 @@ def _asked(manifest: Manifest, report: RunReport | None, bag: JudgedBag) -> Iter
         ):
             if asked != told:
                 yield altered(f'{MANIFEST} and {REPORT} differ in the {what}')
-
-
-def _grounded(bag: JudgedBag) -> GroundedScenario:
-    return GroundedScenario.model_validate_json(bag.agsg.grounding_json)
 
 
 def _stages(run: Path, iteration: int, bag: JudgedBag) -> Iterator[Doubt]:
@@ -203,26 +200,18 @@ def _stages(run: Path, iteration: int, bag: JudgedBag) -> Iterator[Doubt]:
     spec = read_document(run / name, ScenarioSpec)
     if isinstance(spec, Unreadable):
         yield unknown(spec.why)
-    elif not _same_request(spec, agsg.spec):
+    elif spec != agsg.spec:
         yield altered(f'{name} is not the request in the bag')
-    for stage, text in (
-        (StageFile.GROUNDING, agsg.grounding_json),
-        (StageFile.SCHEDULE, agsg.schedule_json),
+    for stage, kind, value in (
+        (StageFile.GROUNDING, GroundedScenario, agsg.grounding),
+        (StageFile.SCHEDULE, Schedule, agsg.schedule),
     ):
         name = stage.name_at(iteration)
-        stored = read_stored(run / name)
+        stored = read_document(run / name, kind)
         if isinstance(stored, Unreadable):
             yield unknown(stored.why)
-        elif stored != text.encode('utf-8'):
+        elif stored != value:
             yield altered(f'{name} is not the {stage.value} in the bag')
-
-
-def _same_request(parsed: ScenarioSpec, grounded: ScenarioSpec) -> bool:
-    """Tell whether a request is what became of another one before it was grounded."""
-    try:
-        return hovering(parsed) == grounded
-    except ValueError:
-        return False
 
 
 def _verdict(
@@ -277,7 +266,10 @@ def _of_trace(trace: TraceReport, graph_sha256: str, iteration: int) -> BagRepor
 
 def _request(report: RunReport, bag: JudgedBag) -> Iterator[Doubt]:
     """Compare what a report says that was asked for with what the bag was made from."""
-    world, grounded = bag.content.world, _grounded(bag)
+    world, grounded = bag.content.world, bag.agsg.grounding
+    if grounded is None:
+        yield altered('the graph in the bag is not grounded')
+        return
     prompt = bag.agsg.spec.prompt.encode('utf-8', 'surrogatepass')
     for what, told, recorded in (
         ('the map', report.map, bag.agsg.map_name),

@@ -8,7 +8,6 @@ specification from here.
 
 from __future__ import annotations
 
-import json
 from typing import Literal, Self
 
 from pydantic import model_validator
@@ -114,9 +113,3 @@ class ScenarioSpec(Document):
     def _parts_fit(self) -> Self:
         check(self)
         return self
-
-    def canonical_json(self) -> str:
-        """Return the one byte-exact JSON text (sorted keys, no blanks) that digests use."""
-        return json.dumps(
-            self.model_dump(mode='json'), sort_keys=True, separators=(',', ':'), ensure_ascii=False
-        )

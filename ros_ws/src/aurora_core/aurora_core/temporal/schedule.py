@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 from aurora_core.geometry.kernel import norm2
-from aurora_core.grounding.choices import chosen
 from aurora_core.grounding.time_need import horizon_s
 from aurora_core.knowledge.limits import Limits
 from aurora_core.mission.plan import MissionPlan, UavPlan
@@ -17,7 +16,7 @@ from aurora_core.spec.vocabulary import MissionMode
 
 def plan_time(spec: ScenarioSpec, grounded: GroundedScenario, limits: Limits) -> Schedule:
     """Return the schedule of a grounded scenario."""
-    horizon = horizon_s(chosen(spec, limits), limits)
+    horizon = horizon_s(spec, limits)
     missions = tuple(
         _facts(uav, mission, k, grounded)
         for uav in grounded.uavs

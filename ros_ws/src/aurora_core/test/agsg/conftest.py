@@ -12,7 +12,6 @@ from aurora_core.agsg.build import build_agsg
 from aurora_core.conditions.derive import derive_conditions
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.outcomes.agsg import Agsg, Stage
-from aurora_core.outcomes.condition import conditions_to_json
 from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.temporal.schedule import plan_time
@@ -36,10 +35,9 @@ def full(
             spec,
             map_digest=grounded.map_digest,
             stage=Stage.GROUNDED,
-            grounding_json=grounded.canonical_json(),
-            schedule_json=schedule.canonical_json(),
+            grounding=grounded,
+            schedule=schedule,
             conditions=conditions,
-            conditions_json=conditions_to_json(conditions),
         )
 
     return build

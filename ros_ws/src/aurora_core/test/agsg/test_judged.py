@@ -9,17 +9,20 @@ import pytest
 from aurora_core.agsg.build import build_agsg
 from aurora_core.outcomes.grounding import Unjudged
 from aurora_core.pipeline.functions import ground_stage, parse_stage
+from aurora_core.pipeline.knowledge import installed_knowledge
 from aurora_core.spec.scenario import ScenarioSpec
+
+_KNOWN = installed_knowledge()
 
 
 def _unjudged(spec: ScenarioSpec) -> dict[str, Unjudged]:
-    outcome = ground_stage(build_agsg(spec), 1)
+    outcome = ground_stage(_KNOWN, build_agsg(spec), 1)
     assert outcome.agsg is not None
     return {one.path: one for one in outcome.unjudged}
 
 
 def _parsed(prompt: str) -> ScenarioSpec:
-    spec = parse_stage(prompt, 'downtown', 1).spec
+    spec = parse_stage(_KNOWN, prompt, 'downtown', 1).spec
     assert spec is not None
     return spec
 

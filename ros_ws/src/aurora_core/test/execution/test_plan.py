@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -150,8 +149,8 @@ def graph(
             spec,
             map_digest=found.map_digest,
             stage=Stage.GROUNDED,
-            grounding_json=found.canonical_json(),
-            schedule_json=plan_time(spec, found, limits).canonical_json(),
+            grounding=found,
+            schedule=plan_time(spec, found, limits),
         )
 
     return build
@@ -188,9 +187,9 @@ def test_a_graph_that_is_not_grounded_is_refused(
     build: Build, graph: Callable[[str], Agsg]
 ) -> None:
     agsg = graph('survey')
-    for field in ('grounding_json', 'schedule_json'):
+    for field in ('grounding', 'schedule'):
         with pytest.raises(ExecutionError, match='not grounded') as caught:
-            build(agsg.model_copy(update={field: ''}))
+            build(agsg.model_copy(update={field: None}))
         assert caught.value.hint
 
 
@@ -198,9 +197,10 @@ def test_a_graph_for_another_executor_is_refused(
     build: Build, graph: Callable[[str], Agsg]
 ) -> None:
     agsg = graph('survey')
-    later = json.loads(agsg.grounding_json) | {'executor_version': EXECUTOR_VERSION + 1}
+    assert agsg.grounding is not None
+    later = agsg.grounding.model_copy(update={'executor_version': EXECUTOR_VERSION + 1})
     with pytest.raises(ExecutionError, match='of the executor') as caught:
-        build(agsg.model_copy(update={'grounding_json': json.dumps(later)}))
+        build(agsg.model_copy(update={'grounding': later}))
     assert caught.value.hint
 
 
@@ -231,7 +231,8 @@ def test_roster_and_loads_name_everybody_in_order(
     settings: Settings,
 ) -> None:
     agsg, execution = graph(prompt), build(prompt)
-    roster, found = execution.roster, GroundedScenario.model_validate_json(agsg.grounding_json)
+    roster, found = execution.roster, agsg.grounding
+    assert found is not None
     assert roster.dt_s == settings.run.dt_s == execution.ground_load.dt_s
     assert [a.body_id for a in roster.agents] == [a.id for a in agsg.spec.agents]
     assert [u.body_id for u in roster.uavs] == [u.id for u in agsg.spec.uavs]

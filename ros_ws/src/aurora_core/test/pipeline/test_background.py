@@ -19,7 +19,7 @@ from aurora_core.outcomes.parse import ParseContext
 from aurora_core.parsing.parser import parse_offline
 from aurora_core.parsing.values import default
 from aurora_core.pipeline.background import background, map_records, registries
-from aurora_core.pipeline.functions import Knowledge
+from aurora_core.pipeline.knowledge import installed_knowledge
 from aurora_core.pipeline.stages import RunRequest
 from aurora_core.retrieval.background import Amounts, Background
 from aurora_core.retrieval.episodes import Episode, EpisodeStore
@@ -49,7 +49,7 @@ def change(file: Path, **values: Any) -> None:
 
 def shown(prompt: str = 'A drone hovers in fog over the ego car.') -> Background:
     return background(
-        Knowledge(), RunRequest(prompt=prompt, map_name=MAP), [LexicalRanker], AMOUNTS
+        installed_knowledge(), RunRequest(prompt=prompt, map_name=MAP), [LexicalRanker], AMOUNTS
     )
 
 
@@ -75,10 +75,12 @@ def spec_of(prompt: str) -> ScenarioSpec:
 def test_a_changed_limit_changes_context_and_check(
     config: Path, limit: str, value: float, prompt: str
 ) -> None:
-    before = check_limits(spec_of(prompt), Knowledge().limits, Knowledge().types)
+    before = check_limits(
+        spec_of(prompt), installed_knowledge().limits, installed_knowledge().types
+    )
     assert before.certificates == ()
     change(config / 'limits.json', **{limit: value})
-    known = Knowledge()
+    known = installed_knowledge()
     told = json.loads(shown().registries_text())['limits'][limit]
     (certificate,) = check_limits(spec_of(prompt), known.limits, known.types).certificates
     assert told == value == certificate.limit
@@ -94,7 +96,7 @@ def test_a_changed_size_and_speed_of_a_type_change_context_and_check(config: Pat
             for row in rows
         ],
     )
-    known = Knowledge()
+    known = installed_knowledge()
     background_ = shown('A car drives.')
     told = json.loads(background_.registries_text())['agent_types']['car']
     (asset,) = [r for r in background_.selected if r.id == 'car']
@@ -109,7 +111,7 @@ def test_a_changed_size_and_speed_of_a_type_change_context_and_check(config: Pat
 
 def test_a_changed_limit_changes_context_and_verifier(config: Path) -> None:
     change(config / 'limits.json', separation_min_m=6.5)
-    known = Knowledge()
+    known = installed_knowledge()
     spec = spec_of('Two drones hover over the ego car.')
     grounded = known.grounder(MAP).ground(spec, 1)
     assert isinstance(grounded, GroundedScenario)
@@ -124,7 +126,11 @@ def test_sensing_range_of_the_weather_is_that_of_the_limits(config: Path) -> Non
     limits = json.loads((config / 'limits.json').read_text())
     change(config / 'limits.json', sensing_range_m=limits['sensing_range_m'] | {'fog': 66.0})
     (fog,) = [r for r in shown().selected if r.id == 'fog']
-    assert fog.data['sensing_range_m'] == Knowledge().limits.sensing_range('fog', 'noon') == 66.0
+    assert (
+        fog.data['sensing_range_m']
+        == installed_knowledge().limits.sensing_range('fog', 'noon')
+        == 66.0
+    )
 
 
 def test_templates_are_what_the_parser_fills_in() -> None:
@@ -135,7 +141,7 @@ def test_templates_are_what_the_parser_fills_in() -> None:
 
 
 def test_every_map_and_landmark_is_there() -> None:
-    known = Knowledge()
+    known = installed_knowledge()
     told = {r.id: r.data for r in registries(known, 'downtown')}['maps']
     assert told['all'] == ['downtown', 'junction']
     ids = {record.id for record in map_records(known, 'downtown')}
@@ -156,7 +162,7 @@ def test_history_is_shown_where_it_is_named(tmp_path: Path) -> None:
     )
     EpisodeStore(tmp_path).add(episode)
     request = RunRequest(prompt=prompt, map_name=MAP, history=tmp_path)
-    found = background(Knowledge(), request, [LexicalRanker], AMOUNTS)
+    found = background(installed_knowledge(), request, [LexicalRanker], AMOUNTS)
     (told,) = json.loads(found.selected_text())['episode']
     assert told['prompt'] == episode.prompt
     assert json.loads(shown(prompt).selected_text())['episode'] == []

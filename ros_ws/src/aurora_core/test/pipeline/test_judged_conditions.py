@@ -6,17 +6,20 @@ from __future__ import annotations
 
 from aurora_core.agsg.build import build_agsg
 from aurora_core.outcomes.condition import conditions_from_json
-from aurora_core.pipeline.functions import ground_stage, knowledge, parse_stage
+from aurora_core.pipeline.functions import ground_stage, parse_stage
+from aurora_core.pipeline.knowledge import installed_knowledge
+
+_KNOWN = installed_knowledge()
 
 
 def _grounded(prompt: str) -> tuple[set[str], tuple[str, ...]]:
     """Return the ids of the conditions, and what is missing."""
-    spec = parse_stage(prompt, 'downtown', 1).spec
+    spec = parse_stage(_KNOWN, prompt, 'downtown', 1).spec
     assert spec is not None
-    digest = knowledge().map('downtown').digest
-    outcome = ground_stage(build_agsg(spec, map_digest=digest), 1)
+    digest = _KNOWN.map('downtown').digest
+    outcome = ground_stage(_KNOWN, build_agsg(spec, map_digest=digest), 1)
     assert outcome.agsg is not None
-    return {c.id for c in conditions_from_json(outcome.agsg.conditions_json)}, outcome.unsupported
+    return {c.id for c in conditions_from_json(outcome.agsg.texts.conditions)}, outcome.unsupported
 
 
 def test_a_manoeuvre_that_nobody_carries_out_is_incomplete_and_not_judged() -> None:

@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Callable
 from dataclasses import replace
@@ -13,21 +12,16 @@ from functools import cache
 import numpy as np
 import pytest
 
-from aurora_core.agsg.build import build_agsg
 from aurora_core.execution.faults import Fault
 from aurora_core.execution.plan import EXECUTOR_VERSION, Execution
 from aurora_core.knowledge.world import WorldModel
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.outcomes.verdict import Finding, VerdictStatus
-from aurora_core.pipeline.functions import (
-    execution_stage,
-    ground_stage,
-    knowledge,
-    parse_stage,
-    verify_content,
-)
+from aurora_core.pipeline.functions import execution_stage, ground_stage, parse_stage
+from aurora_core.pipeline.knowledge import installed_knowledge
 from aurora_core.pipeline.recompute import recomputed
+from aurora_core.pipeline.verification import verify_content
 from aurora_core.trace.bag_content import BagContent
 from aurora_core.trace.commands import GroundCommand
 from aurora_core.trace.layout import (
@@ -48,6 +42,8 @@ from aurora_core.trace.records import (
 )
 from aurora_core.trace.trace import Integrity, Trace
 
+_KNOWN = installed_knowledge()
+
 PROMPT = (
     'A van tailgates the ego car closely, closing from 45 meters; a tracking drone alerts the ego '
     'over a link with 60% loss when the van comes within 20 meters.'
@@ -57,9 +53,9 @@ TICKS = 900
 
 @cache
 def _graph() -> Agsg:
-    spec = parse_stage(PROMPT, 'downtown', 1).spec
-    assert spec is not None
-    agsg = ground_stage(build_agsg(spec), 1).agsg
+    parsed = parse_stage(_KNOWN, PROMPT, 'downtown', 1).agsg
+    assert parsed is not None
+    agsg = ground_stage(_KNOWN, parsed, 1).agsg
     assert agsg is not None
     return agsg
 
@@ -67,7 +63,7 @@ def _graph() -> Agsg:
 @cache
 def recorded(*faults: Fault) -> tuple[Trace, WorldModel]:
     """A run in which every UAV is where it is told to be and the van closes in on the ego car."""
-    execution: Execution = execution_stage(_graph(), 1, faults)
+    execution: Execution = execution_stage(_KNOWN, _graph(), 1, faults)
     roster = execution.roster
     ground = np.zeros((TICKS, len(roster.agents), GROUND_WIDTH))
     ground[:, :, GroundColumn.PRESENT] = 1.0
@@ -114,7 +110,7 @@ def recorded(*faults: Fault) -> tuple[Trace, WorldModel]:
 
 
 def found(trace: Trace, world: WorldModel, agsg: Agsg | None = None) -> tuple[Finding, ...]:
-    known = knowledge()
+    known = _KNOWN
     return recomputed(
         trace,
         world,
@@ -126,8 +122,14 @@ def found(trace: Trace, world: WorldModel, agsg: Agsg | None = None) -> tuple[Fi
 
 
 def altered_graph(**fields: object) -> Agsg:
-    document = json.loads(_graph().grounding_json) | fields
-    return Agsg.model_validate(dict(_graph()) | {'grounding_json': json.dumps(document)})
+    grounding = GroundedScenario.model_validate({**dict(_grounding()), **fields})
+    return _graph().model_copy(update={'grounding': grounding})
+
+
+def _grounding() -> GroundedScenario:
+    grounding = _graph().grounding
+    assert grounding is not None
+    return grounding
 
 
 def _flown(column: UavCommandColumn, change: Callable[[float], float]) -> Callable[[Trace], Trace]:
@@ -311,8 +313,7 @@ def test_a_ledger_without_the_injected_loss_is_found() -> None:
 
 
 def test_the_version_of_the_executor_is_in_the_graph() -> None:
-    grounded = GroundedScenario.model_validate_json(_graph().grounding_json)
-    assert grounded.executor_version == EXECUTOR_VERSION
+    assert _grounding().executor_version == EXECUTOR_VERSION
     trace, world = recorded()
     (finding,) = found(trace, world, altered_graph(executor_version=EXECUTOR_VERSION + 1))
     assert 'version' in finding.text
@@ -322,7 +323,7 @@ def test_another_executor_makes_another_configuration() -> None:
     trace, world = recorded()
     content = BagContent(trace=_luckier(trace), world=world, agsg_message=None)
     foreign = altered_graph(configuration='f' * 64, executor_version=EXECUTOR_VERSION + 1)
-    verdict = verify_content(content, foreign)
+    verdict = verify_content(_KNOWN, content, foreign)
     told = [f.text for f in verdict.cross_check if f.kind in ('command', 'claim')]
     assert len(told) == 1
     assert 'version' in told[0]
@@ -333,17 +334,17 @@ def test_nothing_that_differs_is_ever_verified() -> None:
     trace, world = recorded()
     forged = _flown(UavCommandColumn.VX, lambda v: v + 1e-9)(trace)
     content = BagContent(trace=forged, world=world, agsg_message=None)
-    verdict = verify_content(content, _graph())
+    verdict = verify_content(_KNOWN, content, _graph())
     assert verdict.status is VerdictStatus.INCONCLUSIVE
     assert 'command' in {f.kind for f in verdict.cross_check}
-    without = verify_content(content, _graph(), recompute=False)
+    without = verify_content(_KNOWN, content, _graph(), recompute=False)
     assert 'command' not in {f.kind for f in without.cross_check}
 
 
 def test_injected_faults_are_told_beside_the_verdict() -> None:
     trace, world = recorded(*FAULTS[0])
     content = BagContent(trace=trace, world=world, agsg_message=None)
-    assert 'faults were injected: link_loss (*)' in verify_content(content, _graph()).notes
+    assert 'faults were injected: link_loss (*)' in verify_content(_KNOWN, content, _graph()).notes
 
 
 def test_up_to_a_gap_the_commands_are_compared() -> None:

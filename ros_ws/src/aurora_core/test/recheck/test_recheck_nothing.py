@@ -11,8 +11,11 @@ import pytest
 from aurora_core.agsg.build import build_agsg
 from aurora_core.outcomes.feasibility import Feasibility, Rule
 from aurora_core.pipeline.functions import check_stage, ground_stage, parse_stage
+from aurora_core.pipeline.knowledge import installed_knowledge
 from aurora_core.recheck import recheck
 from aurora_core.spec.scenario import ScenarioSpec
+
+_KNOWN = installed_knowledge()
 
 ORBIT = 'A drone orbits City Hall at a radius of'
 REFUSED = (
@@ -46,21 +49,21 @@ OPEN = (
 
 
 def read(prompt: str) -> ScenarioSpec:
-    spec = parse_stage(prompt, 'downtown', 1).spec
+    spec = parse_stage(_KNOWN, prompt, 'downtown', 1).spec
     assert spec is not None
     return spec
 
 
 def forged(spec: ScenarioSpec, path: str) -> Any:
     """Return a certificate by the rule of signs that points at a number of a request."""
-    refused = check_stage(build_agsg(read(REFUSED[0][0]), map_digest='')).certificates[0]
+    refused = check_stage(_KNOWN, build_agsg(read(REFUSED[0][0]), map_digest='')).certificates[0]
     return refused.model_copy(update={'path': path, 'facts': (), 'span': None})
 
 
 @pytest.mark.parametrize(('prompt', 'reason'), REFUSED)
 def test_what_has_no_extent_is_refused_with_a_proof(prompt: str, reason: str) -> None:
     spec = read(prompt)
-    verdict = check_stage(build_agsg(spec, map_digest=''))
+    verdict = check_stage(_KNOWN, build_agsg(spec, map_digest=''))
     assert verdict.result is Feasibility.INFEASIBLE
     assert {c.rule for c in verdict.certificates} == {Rule.SIGN}
     assert {c.reason for c in verdict.certificates} == {reason}
@@ -73,8 +76,8 @@ def test_what_has_no_extent_is_refused_with_a_proof(prompt: str, reason: str) ->
 def test_what_can_be_is_not_refused_and_grounding_answers(prompt: str) -> None:
     spec = read(prompt)
     graph = build_agsg(spec, map_digest='')
-    assert check_stage(graph).result is Feasibility.FEASIBLE
-    outcome = ground_stage(graph, 1)
+    assert check_stage(_KNOWN, graph).result is Feasibility.FEASIBLE
+    outcome = ground_stage(_KNOWN, graph, 1)
     assert (outcome.agsg is None) is not (outcome.failure is None)
 
 

@@ -26,6 +26,7 @@ from aurora_core.knowledge.world import (
 )
 from aurora_core.outcomes.agsg import Agsg, Stage
 from aurora_core.outcomes.condition import Arguments, Condition, Window, conditions_to_json
+from aurora_core.outcomes.grounded import AnchorScore, GroundedScenario, RealisedValue
 from aurora_core.outcomes.grounding import GroundingOutcome
 from aurora_core.outcomes.parse import ParseOutcome
 from aurora_core.outcomes.verdict import ConditionResult, Reason, Verdict, VerdictStatus
@@ -155,17 +156,38 @@ def make_verdict(*results: ConditionResult, **changes: Any) -> Verdict:
     return Verdict.model_validate({**values, **changes})
 
 
+def make_grounding() -> GroundedScenario:
+    """A grounding of which only the realised altitude is of interest."""
+    return GroundedScenario(
+        map_name='downtown',
+        map_digest='d' * 64,
+        anchor_lane='a_0',
+        anchor_position_m=0.0,
+        score=AnchorScore(road=1.0, air=1.0, sense=1.0, comm=1.0, joint=1.0),
+        candidates=1,
+        agents=(),
+        uavs=(),
+        realised=(
+            RealisedValue(
+                path='missions/m1/altitude_m',
+                requested=40.0,
+                realised=40.0,
+                provenance=Provenance.EXPLICIT,
+            ),
+        ),
+        weather='clear',
+        time_of_day='noon',
+    )
+
+
 def make_graph(*conditions: Condition, spec: ScenarioSpec | None = None) -> Agsg:
     """The graph that was executed."""
     return build_agsg(
         spec if spec is not None else make_spec(),
         map_digest='d' * 64,
         stage=Stage.GROUNDED,
-        grounding_json=(
-            '{"realised":[{"path":"missions/m1/altitude_m","provenance":"explicit",'
-            '"realised":40.0,"requested":40.0}]}'
-        ),
-        conditions_json=conditions_to_json(conditions or (make_condition(),)),
+        grounding=make_grounding(),
+        conditions=conditions or (make_condition(),),
     )
 
 

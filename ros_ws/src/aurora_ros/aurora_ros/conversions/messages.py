@@ -16,7 +16,6 @@ from typing import Any, cast
 import numpy as np
 from pydantic import ValidationError
 
-from aurora_core.agsg.build import derived
 from aurora_core.agsg.message import agsg_message as core_agsg_message
 from aurora_core.agsg.message import read_agsg
 from aurora_core.errors import SpecError
@@ -70,7 +69,7 @@ def agsg(message: AgsgMessage) -> Agsg:
         SpecError: A document is not valid, or the typed fields or the digest do not match.
     """
     try:
-        return read_agsg(message, derived)
+        return read_agsg(message)
     except (ValidationError, IndexError, ValueError) as err:
         raise SpecError(f'scenario graph of run {message.run_id!r} is not valid: {err}') from err
 

@@ -16,7 +16,6 @@ from aurora_core.agsg.build import build_agsg
 from aurora_core.conditions.derive import derive_conditions
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.outcomes.agsg import Agsg, Stage
-from aurora_core.outcomes.condition import conditions_to_json
 from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.report.picture.draw import png_bytes, svg_bytes
 from aurora_core.report.picture.graph_picture import draw_graph
@@ -43,9 +42,8 @@ def grounded(
         return build_agsg(
             spec,
             stage=Stage.GROUNDED,
-            grounding_json=placed.canonical_json(),
+            grounding=placed,
             conditions=conditions,
-            conditions_json=conditions_to_json(conditions),
         )
 
     return build

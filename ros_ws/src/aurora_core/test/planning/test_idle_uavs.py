@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from aurora_core.parsing.idle_uavs import hovering
+from aurora_core.planning.idle_uavs import hovering
 from aurora_core.spec.parameter import Parameter, Provenance
 from aurora_core.spec.scenario import GroundAgent, ScenarioSpec, Uav, UavMission
 from aurora_core.spec.vocabulary import AgentType, MissionMode

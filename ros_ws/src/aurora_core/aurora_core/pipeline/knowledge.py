@@ -1,0 +1,101 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""`Knowledge`: what every stage reads beside the request, as one value that is passed on."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from aurora_core.errors import AuroraError
+from aurora_core.execution.map_parts import MapParts, map_parts
+from aurora_core.execution.plan import EXECUTOR_VERSION
+from aurora_core.grounding.ground import Grounder
+from aurora_core.knowledge.agent_types import AgentTypeRecord, load_agent_types
+from aurora_core.knowledge.basis import Basis, Tables
+from aurora_core.knowledge.config_files import config_path
+from aurora_core.knowledge.limits import Limits, Tolerances, load_limits, load_tolerances
+from aurora_core.knowledge.map_model import MapModel, load_map
+from aurora_core.knowledge.settings import Settings, load_settings
+from aurora_core.knowledge.world import WorldModel
+from aurora_core.report.versions import AURORA_VERSION
+
+
+class Knowledge:
+    """What the stages are given to work with: limits, tolerances, settings, types, and maps.
+
+    Whoever runs stages makes one and passes it to each of them. Maps, and what all runs on a map
+    share, are loaded when they are first asked for.
+
+    Args:
+        limits: Limits in force.
+        tolerances: Tolerances in force.
+        settings: Settings of grounding and execution.
+        types: Ground agents by type.
+    """
+
+    def __init__(
+        self,
+        *,
+        limits: Limits,
+        tolerances: Tolerances,
+        settings: Settings,
+        types: Mapping[str, AgentTypeRecord],
+    ) -> None:
+        self.limits = limits
+        self.tolerances = tolerances
+        self.settings = settings
+        self.types = types
+        tables = Tables(limits=self.limits, tolerances=self.tolerances, settings=self.settings)
+        self.basis = Basis.of(AURORA_VERSION, tables)
+        self._maps: dict[str, MapModel] = {}
+        self._grounders: dict[str, Grounder] = {}
+        self._parts: dict[str, MapParts] = {}
+
+    def map(self, name: str) -> MapModel:
+        """Return a map by name (verified against its digest when first loaded)."""
+        if name not in self._maps:
+            self._maps[name] = load_map(name)
+        return self._maps[name]
+
+    def parts(self, name: str) -> MapParts:
+        """Return what the runs on a map share."""
+        if name not in self._parts:
+            self._parts[name] = map_parts(self.map(name))
+        return self._parts[name]
+
+    def grounder(self, name: str) -> Grounder:
+        """Return the grounder of a map."""
+        if name not in self._grounders:
+            self._grounders[name] = Grounder(
+                self.map(name),
+                self.types,
+                self.limits,
+                self.tolerances,
+                self.settings,
+                self.basis,
+                EXECUTOR_VERSION,
+            )
+        return self._grounders[name]
+
+    def parts_of(self, world: WorldModel) -> MapParts | None:
+        """Return the parts of the installed map whose solids a recorded world has, else None."""
+        try:
+            known = self.map(world.map_name)
+        except AuroraError:
+            return None
+        same = known.buildings == world.buildings and known.zones == world.no_fly_zones
+        return self.parts(world.map_name) if same else None
+
+
+def installed_knowledge() -> Knowledge:
+    """Return the knowledge that the configuration folder holds.
+
+    Raises:
+        ConfigError: A file is missing or broken.
+    """
+    return Knowledge(
+        limits=load_limits(config_path('limits.json')),
+        tolerances=load_tolerances(config_path('tolerances.json')),
+        settings=load_settings(),
+        types=load_agent_types(),
+    )
