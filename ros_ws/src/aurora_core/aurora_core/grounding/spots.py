@@ -9,10 +9,14 @@ from math import sqrt
 import numpy as np
 import shapely
 
+from aurora_core.geometry.arrays import BoolArray, FloatArray
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.settings import GroundingSettings
 
 Point2 = tuple[float, float]
+
+# More than the distance of two shapes is rounded by.
+_ROUNDING_M = 1e-6
 
 
 class SpotFinder:
@@ -55,9 +59,7 @@ class SpotFinder:
         apart = 2.0 * self._settings.spot_clearance_m
         for start in range(0, len(self._offsets), 400):
             points = self._offsets[start : start + 400] + base
-            free = ~shapely.dwithin(
-                shapely.points(points), self._blocked, self._settings.spot_clearance_m
-            )
+            free = ~self._is_blocked(points)
             for x, y in points[free].tolist():
                 inside = (
                     self._bounds[0] <= x <= self._bounds[2]
@@ -70,3 +72,16 @@ class SpotFinder:
                     if len(found) == count:
                         return tuple(found)
         return tuple(found)
+
+    def _is_blocked(self, points: FloatArray) -> BoolArray:
+        """Return which points are nearer to what is built than the clearance."""
+        clearance_m = self._settings.spot_clearance_m
+        spots = shapely.points(points)
+        # Only the first geometry's index is used. With it the distance is rounded otherwise than
+        # without, so that the few points just at the clearance are asked about again.
+        blocked = shapely.dwithin(self._blocked, spots, clearance_m - _ROUNDING_M)
+        (open_,) = np.nonzero(
+            ~blocked & shapely.dwithin(self._blocked, spots, clearance_m + _ROUNDING_M)
+        )
+        blocked[open_] = shapely.dwithin(spots[open_], self._blocked, clearance_m)
+        return np.asarray(blocked)
