@@ -32,7 +32,8 @@ class WarmRun(Document):
     Attributes:
         status: Of its report.
         motion_sha256: Its motion hash.
-        total: From the request to the last file of the run folder.
+        total: From the request to the verdict, with every stage's document written.
+        page: Picture and page, which are made when the verdict has been told.
         stages: Each stage; `execute` without the tick loop, which is one by itself.
         ticks: Of the loop.
     """
@@ -40,6 +41,7 @@ class WarmRun(Document):
     status: str
     motion_sha256: str
     total: Spent
+    page: Spent
     stages: dict[str, Spent]
     ticks: int
 
@@ -97,27 +99,33 @@ def one_run(prompt: str, folder: Path) -> WarmRun:
     from aurora_core.pipeline.run import run
     from aurora_core.pipeline.stages import RunControl, RunRequest
     from aurora_core.report.manifest import manifest_facts
+    from aurora_core.report.outputs import write_page, write_report
     from aurora_core.report.process import this_process
     from aurora_core.report.run_folder import RunFolder, new_run_id
     from aurora_core.report.versions import product_versions
 
     begin = time.perf_counter(), time.process_time()
     started, versions, marks = datetime.now(UTC), product_versions(), Marks()
+    stages, run_folder = LocalStages(), RunFolder(folder, new_run_id(started, os.urandom(3)))
     report = run(
         RunRequest(prompt=prompt),
-        LocalStages(),
-        RunFolder(folder, new_run_id(started, os.urandom(3))),
+        stages,
+        run_folder,
         RunControl(progress=marks.mark),
         MonotonicClock(),
         versions=versions,
         manifest=manifest_facts(started, this_process(), versions),
+        outputs=write_report,
     )
-    total = _between(begin, (time.perf_counter(), time.process_time()))
+    told = time.perf_counter(), time.process_time()
+    write_page(report, run_folder, stages.verified)
+    page = _between(told, (time.perf_counter(), time.process_time()))
     trace = report.trace
     return WarmRun(
         status=report.status,
         motion_sha256='' if trace is None else trace.motion_sha256,
-        total=total,
+        total=_between(begin, told),
+        page=page,
         stages=marks.stages(),
         ticks=0 if trace is None else trace.ticks,
     )
@@ -128,7 +136,9 @@ def main(arguments: Sequence[str]) -> int:
     folder, runs, prompt = arguments
     begun = time.perf_counter()
     import aurora_cli.commands.run  # noqa: F401  (timed)
+    from aurora_cli.main import relax_collector
 
+    relax_collector()  # as the command does
     # CPU time counts from the start of the process, the clock from here.
     start = Spent(wall_s=time.perf_counter() - begun, cpu_s=time.process_time())
     done = tuple(one_run(prompt, Path(folder)) for _ in range(int(runs)))

@@ -24,6 +24,7 @@ def measured(check: Spent, loop_s: float = 1.0, hashes: str = 'aa') -> Measured:
             status='verified',
             motion_sha256=sha256,
             total=spent(2.0),
+            page=spent(1.0),
             stages={**stages, LOOP: spent(loop_s)},
             ticks=10,
         )

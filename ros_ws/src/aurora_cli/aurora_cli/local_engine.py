@@ -14,12 +14,19 @@ from aurora_core.outcomes.parse import ParseOutcome
 from aurora_core.outcomes.verdict import Verdict
 from aurora_core.pipeline import functions
 from aurora_core.pipeline.stages import ExecutionResult, RunControl, RunRequest
+from aurora_core.trace.bag_reader import BagContent
 from aurora_core.trace.definitions import message_definitions
 from aurora_llm.parse import read_prompt
 
 
 class LocalStages:
-    """`Stages` in one process: the clients of the bridges, the simulator's bytes in memory."""
+    """`Stages` in one process: the clients of the bridges, the simulator's bytes in memory.
+
+    Attributes:
+        verified: The bag that the last verdict is about, as it was read back; None before.
+    """
+
+    verified: BagContent | None = None
 
     def parse(self, request: RunRequest) -> ParseOutcome:
         """Read the prompt."""
@@ -64,4 +71,5 @@ class LocalStages:
 
     def verify(self, agsg: Agsg, bag: Path) -> Verdict:
         """Recompute every margin from the bag."""
-        return functions.verify_stage(bag)
+        self.verified, recorded = functions.load_bag(bag)
+        return functions.verify_content(self.verified, recorded)
