@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""Compiles what every command would compile anew: byte code, and the words of the parser."""
+"""Compiles what every command would compile anew: byte code, the words of the parser, the maps."""
 
 from __future__ import annotations
 
@@ -23,10 +23,12 @@ def ensure_prepared(layout: Layout) -> None:
         SetupError: If a module cannot be compiled or imported.
     """
     stamp = layout.install / PREPARED_STAMP
-    wanted = {'sources': digest_files(sources(layout)), 'lock': digest_files([layout.run_lock])}
+    maps = sorted((layout.root / 'config' / 'maps').glob('*/map.json'))
+    others = [layout.run_lock, *maps]
+    wanted = {'sources': digest_files(sources(layout)), 'others': digest_files(others)}
     if read_stamp(stamp) == wanted:
         return
-    say('compiling the sources and the words of the parser')
+    say('compiling the sources, the words of the parser and the maps')
     environment = build_environment(layout)
     # As setup.bash does it: the workspace's packages in front.
     folders = [layout.workspace / 'build' / name for name in layout.packages()]

@@ -3,7 +3,7 @@
 """`python -m aurora_cli.prepare`: do once, at set-up, what every command would do anew.
 
 Writes the byte code of our packages and of the libraries that a run imports, and what is compiled
-of the words of the parser. Everything works without it, more slowly.
+of the words of the parser and of the maps. Everything works without it, more slowly.
 """
 
 from __future__ import annotations
@@ -16,6 +16,8 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from aurora_core.compiled import Compiled
+from aurora_core.grounding.spots import compiled_area
+from aurora_core.knowledge.map_model import list_maps, load_map
 from aurora_core.parsing.data_files import NAMES, compiled_data
 from aurora_core.parsing.lexicon import compiled_table
 
@@ -51,7 +53,8 @@ IMPORTED = (
 
 def compiled_values() -> tuple[Compiled, ...]:
     """Return everything that set-up makes from files, beside byte code."""
-    return (*(compiled_data(name) for name in NAMES), compiled_table())
+    areas = [compiled_area(load_map(name)) for name in list_maps()]
+    return (*(compiled_data(name) for name in NAMES), compiled_table(), *areas)
 
 
 def package_folders(names: Iterable[str]) -> list[Path]:

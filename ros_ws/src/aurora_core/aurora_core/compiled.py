@@ -14,7 +14,7 @@ import importlib.util
 import marshal
 import os
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -30,12 +30,14 @@ class Compiled:
     Attributes:
         name: Of its file, which lies where Python keeps the byte code of the first source.
         sources: Everything that decides the value: data files, and modules that make it.
+        key: What else decides it, such as the digest of a map that was read.
         make: Makes it; nothing but None, numbers, text, bytes, tuples, lists, dicts and sets.
     """
 
     name: str
     sources: tuple[Path, ...]
     make: Callable[[], Any]
+    key: str = ''
 
     @property
     def path(self) -> Path:
@@ -51,7 +53,7 @@ class Compiled:
         """
         try:
             kept = self.path.read_bytes()
-            key = _digest_of(self.sources)
+            key = self._digest()
         except (OSError, NotImplementedError):
             return self.make()
         digest, payload = kept[_DIGEST_BYTES : 2 * _DIGEST_BYTES], kept[2 * _DIGEST_BYTES :]
@@ -67,7 +69,7 @@ class Compiled:
             Exception: Whatever `make` raises.
         """
         payload = marshal.dumps(self.make())
-        data = _digest_of(self.sources) + hashlib.sha256(payload).digest() + payload
+        data = self._digest() + hashlib.sha256(payload).digest() + payload
         path = self.path
         path.parent.mkdir(parents=True, exist_ok=True)
         temporary = path.with_name(f'{path.name}.{os.getpid()}')
@@ -78,11 +80,9 @@ class Compiled:
             temporary.unlink(missing_ok=True)
         return path
 
-
-def _digest_of(sources: Sequence[Path]) -> bytes:
-    total = hashlib.sha256()
-    for source in sources:
-        data = source.read_bytes()
-        total.update(len(data).to_bytes(8, 'little'))
-        total.update(data)
-    return total.digest()
+    def _digest(self) -> bytes:
+        total = hashlib.sha256()
+        for data in (self.key.encode(), *(source.read_bytes() for source in self.sources)):
+            total.update(len(data).to_bytes(8, 'little'))
+            total.update(data)
+        return total.digest()

@@ -71,3 +71,13 @@ def test_a_folder_that_may_not_be_written_leaves_nothing_behind(source: Path) ->
     with pytest.raises(OSError, match='exist'):
         compiled.write()
     assert compiled.value() == {'text': 'one'}
+
+
+def test_what_else_decides_it_counts_too(source: Path) -> None:
+    one = Compiled(name='words', sources=(source,), key='one map', make=lambda: 'made of one')
+    one.write()
+    other = Compiled(
+        name='words', sources=(source,), key='another', make=lambda: 'made of another'
+    )
+    assert other.path == one.path
+    assert (one.value(), other.value()) == ('made of one', 'made of another')

@@ -5,10 +5,13 @@
 from __future__ import annotations
 
 from math import sqrt
+from pathlib import Path
 
 import numpy as np
 import shapely
 
+from aurora_core import knowledge
+from aurora_core.compiled import Compiled
 from aurora_core.geometry.arrays import BoolArray, FloatArray
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.settings import GroundingSettings
@@ -17,6 +20,26 @@ Point2 = tuple[float, float]
 
 # More than the distance of two shapes is rounded by.
 _ROUNDING_M = 1e-6
+
+
+def compiled_area(map_model: MapModel) -> Compiled:
+    """Return what is built on a map (WKB), as set-up compiles it."""
+    core = Path(knowledge.__file__).parent
+    readers = ('map_files.py', 'net_reader.py', 'road_network.py', 'surfaces.py')
+    return Compiled(
+        name=f'built.{map_model.digest[:16]}',
+        sources=(Path(__file__), *(core / name for name in readers)),
+        key=f'{map_model.digest} {shapely.geos_version_string}',
+        make=lambda: _built_area(map_model),
+    )
+
+
+def _built_area(map_model: MapModel) -> bytes:
+    """Return buildings, zones and streets from house line to house line as one shape (WKB)."""
+    prisms = [b.ring for b in map_model.buildings] + [z.ring for z in map_model.zones]
+    blocks = [shapely.make_valid(shapely.Polygon(ring)) for ring in prisms]
+    area = shapely.union_all([*blocks, map_model.network.street_surface])
+    return bytes(shapely.to_wkb(area))
 
 
 class SpotFinder:
@@ -29,9 +52,7 @@ class SpotFinder:
 
     def __init__(self, map_model: MapModel, settings: GroundingSettings) -> None:
         self._settings = settings
-        prisms = [b.ring for b in map_model.buildings] + [z.ring for z in map_model.zones]
-        blocks = [shapely.make_valid(shapely.Polygon(ring)) for ring in prisms]
-        self._blocked = shapely.union_all([*blocks, map_model.network.street_surface])
+        self._blocked = shapely.from_wkb(compiled_area(map_model).value())
         shapely.prepare(self._blocked)
         west, south, east, north = map_model.bounds_m
         self._bounds = (west, south, east, north)
