@@ -19,7 +19,7 @@ from aurora_bench.fuzz.judge import faults
 from aurora_core.document import Document
 from aurora_core.errors import PromptError
 from aurora_core.outcomes.parse import ParseContext, ParseOutcome
-from aurora_core.parsing.lexicon import read_data
+from aurora_core.parsing.data_files import read_data
 from aurora_core.parsing.llm.check import judge
 from aurora_core.parsing.llm.facts import PromptFacts
 from aurora_core.parsing.parser import parse_offline

@@ -18,9 +18,9 @@ from aurora_cli.installed import installed
 from aurora_core.errors import ConfigError
 from aurora_core.pipeline.stages import RunRequest
 from aurora_core.ports.language_model import LanguageModel
+from aurora_core.ports.model_name import OFFLINE
 from aurora_llm.parse import check_model_name, read_prompt
 from aurora_llm.reply_store import RecordingClient, ReplyStore
-from aurora_llm.settings import OFFLINE
 
 USAGE = 64
 BROKEN = 4

@@ -4,24 +4,20 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 from aurora_core.outcomes.parse import ParseOutcome
-from aurora_core.parsing.llm.dialogue import parse_with_models
-from aurora_core.pipeline.background import background
-from aurora_core.pipeline.functions import parse_context, parse_stage, understood
+from aurora_core.pipeline.functions import parse_stage
 from aurora_core.pipeline.knowledge import Knowledge
 from aurora_core.pipeline.stages import RunRequest
 from aurora_core.ports.language_model import LanguageModel
-from aurora_core.ports.model_name import RECORDED
-from aurora_core.retrieval.background import Background
-from aurora_llm.embedding import rankers
-from aurora_llm.litellm_client import LitellmClient
-from aurora_llm.recorded_client import RecordedClient
-from aurora_llm.reply_store import ReplyStore, StoredClient
-from aurora_llm.settings import OFFLINE, ModelSettings, load_model_settings
+from aurora_core.ports.model_name import OFFLINE
+
+if TYPE_CHECKING:
+    from aurora_llm.settings import ModelSettings
+
+# Models and what they are shown are imported when one is named: most prompts are read without.
 
 
 def read_prompt(
@@ -46,23 +42,9 @@ def read_prompt(
     """
     if request.model == OFFLINE:
         return parse_stage(known, request.prompt, request.map_name, request.seed)
-    models = settings if settings is not None else load_model_settings()
-    order = models.order(request.model)
-    outcome = parse_with_models(
-        request.prompt,
-        parse_context(known, request.map_name, request.seed),
-        [wrap(_client(name, models, request)) for name in order if name != OFFLINE],
-        attempts=models.attempts,
-        wait=lambda seconds: time.sleep(min(seconds, models.most_wait_s)),
-        background=_background(known, request, models),
-    )
-    if order[-1] != OFFLINE or not _is_spent(outcome):
-        return understood(known, outcome)
-    offline = parse_stage(known, request.prompt, request.map_name, request.seed)
-    fields = {name: getattr(offline, name) for name in ParseOutcome.model_fields}
-    return ParseOutcome(
-        **{**fields, 'retrieval': outcome.retrieval, 'model_calls': outcome.model_calls}
-    )
+    from aurora_llm.model_parse import read_with_models
+
+    return read_with_models(known, request, settings, wrap)
 
 
 def check_model_name(model: str) -> None:
@@ -72,26 +54,6 @@ def check_model_name(model: str) -> None:
         ConfigError: The models cannot be used as they are named.
     """
     if model != OFFLINE:
-        settings = load_model_settings()
-        for name in settings.order(model):
-            if name != OFFLINE:
-                _client(name, settings, None)
+        from aurora_llm.model_parse import check_models
 
-
-def _is_spent(outcome: ParseOutcome) -> bool:
-    """Return whether no answer was taken: a question of a model's own is an answer."""
-    last = outcome.model_calls[-1] if outcome.model_calls else None
-    return last is None or last.failure is not None or bool(last.complaints)
-
-
-def _background(known: Knowledge, request: RunRequest, settings: ModelSettings) -> Background:
-    wanted = settings.retrieval
-    return background(known, request, rankers(embedding=wanted.embedding), wanted)
-
-
-def _client(name: str, settings: ModelSettings, request: RunRequest | None) -> LanguageModel:
-    if name.startswith(RECORDED):
-        return RecordedClient(name, Path(name.removeprefix(RECORDED)))
-    if request is not None and request.transcripts is not None:
-        return StoredClient(name, ReplyStore(request.transcripts))
-    return LitellmClient(name, settings.entry(name), settings)
+        check_models(model)

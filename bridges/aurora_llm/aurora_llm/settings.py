@@ -13,10 +13,9 @@ from aurora_core.document import Document
 from aurora_core.errors import ConfigError
 from aurora_core.files import CONFIG_BYTES, read_text
 from aurora_core.knowledge.config_files import config_path
-from aurora_core.ports.model_name import RECORDED, check_no_secret, without_secrets
+from aurora_core.ports.model_name import OFFLINE, RECORDED, check_no_secret, without_secrets
 from aurora_core.retrieval.background import Amounts
 
-OFFLINE = 'offline'
 _MOST_ATTEMPTS = 10
 
 

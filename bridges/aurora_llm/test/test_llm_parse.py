@@ -246,7 +246,7 @@ def test_offline_parser_needs_no_retrieval(monkeypatch: pytest.MonkeyPatch) -> N
     def broken(*_: object, **__: object) -> None:
         raise AssertionError('the offline parser asked for a background')
 
-    monkeypatch.setattr('aurora_llm.parse.background', broken)
+    monkeypatch.setattr('aurora_llm.model_parse.background', broken)
     outcome = read_prompt(installed(), RunRequest(prompt=PROMPT))
     assert outcome.spec is not None
     assert outcome.retrieval is None

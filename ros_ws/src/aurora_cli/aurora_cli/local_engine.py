@@ -15,7 +15,8 @@ from aurora_core.outcomes.verdict import Verdict
 from aurora_core.pipeline import functions
 from aurora_core.pipeline.knowledge import Knowledge
 from aurora_core.pipeline.stages import ExecutionResult, RunControl, RunRequest
-from aurora_core.pipeline.verification import verify_stage
+from aurora_core.pipeline.verification import load_bag, verify_content
+from aurora_core.trace.bag_reader import BagContent
 from aurora_core.trace.definitions import message_definitions
 from aurora_llm.parse import read_prompt
 
@@ -25,10 +26,14 @@ class LocalStages:
 
     Args:
         known: What the stages work with.
+
+    Attributes:
+        verified: The bag that the last verdict is about, as it was read back; None before.
     """
 
     def __init__(self, known: Knowledge) -> None:
         self.known = known
+        self.verified: BagContent | None = None
 
     def parse(self, request: RunRequest) -> ParseOutcome:
         """Read the prompt."""
@@ -73,4 +78,5 @@ class LocalStages:
 
     def verify(self, agsg: Agsg, bag: Path) -> Verdict:
         """Recompute every margin from the bag."""
-        return verify_stage(self.known, bag)
+        self.verified, recorded = load_bag(bag)
+        return verify_content(self.known, self.verified, recorded)

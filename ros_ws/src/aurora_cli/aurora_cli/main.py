@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import gc
 import io
 import os
 import sys
@@ -17,6 +18,8 @@ import typer
 from aurora_cli.output import BROKEN, INTERRUPTED, USAGE, UsageProblem, print_error, say
 from aurora_core.errors import AuroraError
 
+# Between two looks for reference cycles.
+_NEW_VALUES = 50_000
 # Typer carries its own copy of click: the class is reached through one that it exports.
 _USAGE_ERROR = cast(type[Exception], typer.BadParameter.__mro__[1])
 
@@ -387,7 +390,17 @@ def main() -> NoReturn:
         # The answer is UTF-8 whatever the locale; bytes that are no text must not break a message.
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(encoding='utf-8', errors='backslashreplace')
+    relax_collector()
     sys.exit(run_command_line(sys.argv[1:]))
+
+
+def relax_collector() -> None:
+    """Let Python look for reference cycles more rarely.
+
+    A command makes many values that stay (words, map, routes) and few cycles; by default every
+    700 new values set off a look, and the larger looks visit everything that stays.
+    """
+    gc.set_threshold(_NEW_VALUES, *gc.get_threshold()[1:])
 
 
 def run_command_line(arguments: list[str]) -> int:

@@ -12,16 +12,23 @@ from aurora_cli.clock import MonotonicClock
 from aurora_cli.installed import installed
 from aurora_cli.interrupts import Interrupts
 from aurora_cli.local_engine import LocalStages
-from aurora_cli.output import answer_console, print_json, quiet_stdout, say
+from aurora_cli.output import (
+    BROKEN,
+    answer_console,
+    print_error,
+    print_json,
+    quiet_stdout,
+    say,
+)
 from aurora_cli.progress import RunProgress
 from aurora_cli.prompt_input import prompt_bytes
 from aurora_cli.requests import RunOptions, checked, unreadable, with_prompt
-from aurora_core.errors import PromptError
+from aurora_core.errors import AuroraError, PromptError
 from aurora_core.pipeline.run import run
 from aurora_core.pipeline.stages import RunControl, RunRequest
 from aurora_core.report.build import build_report
 from aurora_core.report.manifest import manifest_facts
-from aurora_core.report.outputs import write_outputs
+from aurora_core.report.outputs import write_outputs, write_page, write_report
 from aurora_core.report.process import this_process
 from aurora_core.report.run_folder import MANIFEST, PROMPT, RunFolder, new_run_id
 from aurora_core.report.run_report import RunReport
@@ -41,6 +48,7 @@ def run_command(
         AuroraError: The run folder cannot be written, or the graph cannot be reached.
     """
     request = checked(options)
+    stages: LocalStages | None = None
     raw = prompt_bytes(argument, prompt_file)
     root = options.out.absolute()
     with quiet_stdout():
@@ -56,28 +64,46 @@ def run_command(
                 control = RunControl(progress=progress.update, cancelled=interrupts.cancelled)
                 report, folder = run_over_ros(ready, root, control)
         else:
-            report, folder = _local(ready, root)
+            stages = LocalStages(installed())
+            report, folder = _local(ready, root, stages)
     if as_json:
         print_json(report)
         say(f'aurora: run folder {folder}')
     else:
         print_report(report, answer_console(), folder)
+    # The verdict first: drawing the picture takes as long as the flight.
+    if stages is not None and not _page_written(report, folder, stages):
+        return BROKEN
     return int(exit_code(report.status))
 
 
-def _local(request: RunRequest, root: Path) -> tuple[RunReport, Path]:
+def _page_written(report: RunReport, folder: Path, stages: LocalStages) -> bool:
+    """Write picture and page of a run that has been told; Ctrl-C spares the picture."""
+    try:
+        with quiet_stdout():
+            write_page(report, RunFolder(folder.parent, folder.name), stages.verified)
+    except KeyboardInterrupt:
+        say(f'aurora: no picture was drawn; aurora picture {folder} -o FILE does it')
+    except AuroraError as err:
+        print_error(err, as_json=False)
+        return False
+    return True
+
+
+def _local(request: RunRequest, root: Path, stages: LocalStages) -> tuple[RunReport, Path]:
     folder, started = _new_folder(root)
-    known, versions = installed(), product_versions()
+    versions = product_versions()
     with Interrupts() as interrupts, RunProgress() as progress:
         report = run(
             request,
-            LocalStages(known),
-            known,
+            stages,
+            stages.known,
             folder,
             RunControl(progress=progress.update, cancelled=interrupts.cancelled),
             MonotonicClock(),
             versions=versions,
             manifest=manifest_facts(started, this_process(), versions),
+            outputs=write_report,
         )
     return report, folder.path
 

@@ -14,6 +14,7 @@ from aurora_core.geometry.arrays import FloatArray, FloatLike, as_rows, frozen
 
 _START_TIE_M = 2.0  # branches this much farther than the nearest one compete for the start
 DEFAULT_WINDOW_M = 10.0
+_MANY_POINTS = 32  # fewer are measured sooner one by one
 
 
 class Polyline:
@@ -37,6 +38,18 @@ class Polyline:
         rows = as_rows('points', points, 2)
         if not np.isfinite(rows).all():
             raise MapError('polyline: finite coordinates expected')
+        if not (len(rows) >= _MANY_POINTS and self._measured_at_once(rows)):
+            self._measured_one_by_one(rows)
+        if len(self._x) < 2:
+            raise MapError(
+                f'polyline: at least two different points expected, found {len(self._x)}'
+            )
+        self.points: FloatArray = frozen(np.array([self._x, self._y]).T.copy())
+        self.cumulative_m: FloatArray = frozen(np.array(self._s))
+        self.length_m = self._s[-1]
+
+    def _measured_one_by_one(self, rows: FloatArray) -> None:
+        """Measure, leaving out each point that is the one before."""
         x: list[float] = []
         y: list[float] = []
         self._s: list[float] = []
@@ -57,12 +70,20 @@ class Polyline:
                 self._s.append(self._s[-1] + step)
             x.append(px)
             y.append(py)
-        if len(x) < 2:
-            raise MapError(f'polyline: at least two different points expected, found {len(x)}')
         self._x, self._y = x, y
-        self.points: FloatArray = frozen(np.array([x, y]).T.copy())
-        self.cumulative_m: FloatArray = frozen(np.array(self._s))
-        self.length_m = self._s[-1]
+
+    def _measured_at_once(self, rows: FloatArray) -> bool:
+        """Measure with arrays, bit by bit as one by one; False when a point is repeated."""
+        dx, dy = np.diff(rows[:, 0]), np.diff(rows[:, 1])
+        steps = np.sqrt(dx * dx + dy * dy)
+        if not steps.all():
+            return False
+        # Summed in order, as one by one: a sum by pairs would round otherwise.
+        self._s = [0.0, *np.add.accumulate(steps).tolist()]
+        self._tx, self._ty = (dx / steps).tolist(), (dy / steps).tolist()
+        self._step = steps.tolist()
+        self._x, self._y = rows[:, 0].tolist(), rows[:, 1].tolist()
+        return True
 
     def at(self, s_m: float) -> tuple[float, float, float, float]:
         """Return the place at an arc length.
@@ -78,6 +99,16 @@ class Polyline:
         rest = s - self._s[k]
         tx, ty = self._tx[k], self._ty[k]
         return self._x[k] + rest * tx, self._y[k] + rest * ty, tx, ty
+
+    def at_each(self, s_m: FloatArray) -> FloatArray:
+        """Return the places at arc lengths (K,), bit by bit those of `at`, as rows (K, 4)."""
+        s = np.minimum(np.maximum(s_m, 0.0), self.length_m)
+        k = np.searchsorted(self.cumulative_m, s, side='right') - 1
+        k = np.minimum(k, len(self._step) - 1)
+        low, high = int(k.min()), int(k.max()) + 1
+        tangents = np.array([self._tx[low:high], self._ty[low:high]]).T[k - low]
+        rest = (s - self.cumulative_m[k])[:, None]
+        return np.concatenate((self.points[k] + rest * tangents, tangents), axis=1)
 
     def project(
         self,

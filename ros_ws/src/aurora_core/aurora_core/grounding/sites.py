@@ -288,4 +288,4 @@ def samples_along(path: RoutePath, start_m: float, way_m: float, spacing_m: floa
     end_m = min(path.length_m, start_m + way_m)
     count = max(2, int((end_m - start_m) / spacing_m) + 1)
     step = (end_m - start_m) / (count - 1)
-    return np.array([path.position_at(min(end_m, start_m + k * step)) for k in range(count)])
+    return path.positions_at(np.minimum(end_m, start_m + np.arange(count) * step))

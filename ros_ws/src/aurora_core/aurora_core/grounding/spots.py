@@ -5,14 +5,41 @@
 from __future__ import annotations
 
 from math import sqrt
+from pathlib import Path
 
 import numpy as np
 import shapely
 
+from aurora_core import knowledge
+from aurora_core.compiled import Compiled
+from aurora_core.geometry.arrays import BoolArray, FloatArray
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.settings import GroundingSettings
 
 Point2 = tuple[float, float]
+
+# More than the distance of two shapes is rounded by.
+_ROUNDING_M = 1e-6
+
+
+def compiled_area(map_model: MapModel) -> Compiled:
+    """Return what is built on a map (WKB), as set-up compiles it."""
+    core = Path(knowledge.__file__).parent
+    readers = ('map_files.py', 'net_reader.py', 'road_network.py', 'surfaces.py')
+    return Compiled(
+        name=f'built.{map_model.digest[:16]}',
+        sources=(Path(__file__), *(core / name for name in readers)),
+        key=f'{map_model.digest} {shapely.geos_version_string}',
+        make=lambda: _built_area(map_model),
+    )
+
+
+def _built_area(map_model: MapModel) -> bytes:
+    """Return buildings, zones and streets from house line to house line as one shape (WKB)."""
+    prisms = [b.ring for b in map_model.buildings] + [z.ring for z in map_model.zones]
+    blocks = [shapely.make_valid(shapely.Polygon(ring)) for ring in prisms]
+    area = shapely.union_all([*blocks, map_model.network.street_surface])
+    return bytes(shapely.to_wkb(area))
 
 
 class SpotFinder:
@@ -25,9 +52,7 @@ class SpotFinder:
 
     def __init__(self, map_model: MapModel, settings: GroundingSettings) -> None:
         self._settings = settings
-        prisms = [b.ring for b in map_model.buildings] + [z.ring for z in map_model.zones]
-        blocks = [shapely.make_valid(shapely.Polygon(ring)) for ring in prisms]
-        self._blocked = shapely.union_all([*blocks, map_model.network.street_surface])
+        self._blocked = shapely.from_wkb(compiled_area(map_model).value())
         shapely.prepare(self._blocked)
         west, south, east, north = map_model.bounds_m
         self._bounds = (west, south, east, north)
@@ -55,9 +80,7 @@ class SpotFinder:
         apart = 2.0 * self._settings.spot_clearance_m
         for start in range(0, len(self._offsets), 400):
             points = self._offsets[start : start + 400] + base
-            free = ~shapely.dwithin(
-                shapely.points(points), self._blocked, self._settings.spot_clearance_m
-            )
+            free = ~self._is_blocked(points)
             for x, y in points[free].tolist():
                 inside = (
                     self._bounds[0] <= x <= self._bounds[2]
@@ -70,3 +93,16 @@ class SpotFinder:
                     if len(found) == count:
                         return tuple(found)
         return tuple(found)
+
+    def _is_blocked(self, points: FloatArray) -> BoolArray:
+        """Return which points are nearer to what is built than the clearance."""
+        clearance_m = self._settings.spot_clearance_m
+        spots = shapely.points(points)
+        # Only the first geometry's index is used. With it the distance is rounded otherwise than
+        # without, so that the few points just at the clearance are asked about again.
+        blocked = shapely.dwithin(self._blocked, spots, clearance_m - _ROUNDING_M)
+        (open_,) = np.nonzero(
+            ~blocked & shapely.dwithin(self._blocked, spots, clearance_m + _ROUNDING_M)
+        )
+        blocked[open_] = shapely.dwithin(spots[open_], self._blocked, clearance_m)
+        return np.asarray(blocked)

@@ -8,7 +8,6 @@ import itertools
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.optimize import linear_sum_assignment
 
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.mission.plan import UavPlan
@@ -46,9 +45,7 @@ def uncrossed(
     for group in _levels(order, first_points, apart_m):
         homes = np.array([(plans[k].home_x_m, plans[k].home_y_m) for k in group])
         goals = np.array([first_points[k][:2] for k in group])
-        squares = ((goals[:, None, :] - homes[None, :, :]) ** 2).sum(axis=2)
-        _, chosen = linear_sum_assignment(squares)
-        for row, column in enumerate(chosen.tolist()):
+        for row, column in enumerate(_nearest_pairs(homes, goals)):
             k = group[row]
             exchanged[k] = _started_at(plans[k], homes[column])
     for plan, (x, y, z) in zip(exchanged, first_points, strict=True):
@@ -56,6 +53,18 @@ def uncrossed(
         if airspace.way_clearance_m(way) < clearance_m:
             return tuple(plans)
     return tuple(exchanged)
+
+
+def _nearest_pairs(homes: np.ndarray, goals: np.ndarray) -> list[int]:
+    """Return which home each goal gets, by the least sum of squared distances."""
+    if len(homes) == 1:
+        return [0]
+    # Imported here: one UAV by itself needs no solver, whose import takes half a second.
+    from scipy.optimize import linear_sum_assignment
+
+    squares = ((goals[:, None, :] - homes[None, :, :]) ** 2).sum(axis=2)
+    _, chosen = linear_sum_assignment(squares)
+    return [int(column) for column in chosen]
 
 
 def _levels(order: list[int], points: Sequence[Point3], apart_m: float) -> list[list[int]]:

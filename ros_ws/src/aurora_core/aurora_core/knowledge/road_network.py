@@ -13,7 +13,7 @@ from types import MappingProxyType
 import shapely
 
 from aurora_core.errors import MapError
-from aurora_core.knowledge.lane_plan import plan_lanes
+from aurora_core.knowledge.lane_plan import LanePlanner
 from aurora_core.knowledge.net_reader import VEHICLE_CLASSES, read_network
 from aurora_core.knowledge.net_types import (
     Connection,
@@ -47,6 +47,7 @@ class RoadNetwork:
         for connection in data.connections:
             links.setdefault(connection.from_lane_id, []).append(connection)
         self._links = MappingProxyType({k: tuple(v) for k, v in links.items()})
+        self._planner = LanePlanner(self._lanes, self._links)
         self._successors: dict[tuple[str, str], tuple[str, ...]] = {}
         self._trees: dict[str, tuple[shapely.STRtree, tuple[Lane, ...]]] = {}
 
@@ -245,7 +246,7 @@ class RoadNetwork:
         edges = tuple(self.edge(edge_id) for edge_id in edge_ids)
         if not edges:
             raise MapError('a route needs at least one edge', hint='name the first edge')
-        plan = plan_lanes(edges, self._lanes, self._links, vclass, start_lane_id)
+        plan = self._planner.plan(edges, vclass, start_lane_id)
         if plan is None:
             start = f' from lane {start_lane_id}' if start_lane_id else ''
             raise MapError(

@@ -9,8 +9,10 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
+from operator import attrgetter
 
 from aurora_core.errors import MapError
+from aurora_core.geometry.arrays import FloatArray
 from aurora_core.geometry.polyline import Polyline
 from aurora_core.knowledge.lane_plan import LanePlan
 from aurora_core.knowledge.net_types import Connection, Edge, Lane, Point, Points
@@ -85,6 +87,16 @@ class RoutePath:
         self._check(arc_m)
         return self.line.at(arc_m)
 
+    def positions_at(self, arcs_m: FloatArray) -> FloatArray:
+        """Return x, y (m) and the unit heading at arc lengths (K,), one row (K, 4) each.
+
+        Raises:
+            MapError: When one of them is not on the path.
+        """
+        for arc_m in (arcs_m.min(), arcs_m.max()):
+            self._check(float(arc_m))
+        return self.line.at_each(arcs_m)
+
     def lane_position_at(self, arc_m: float) -> tuple[str, float]:
         """Return lane id and simulator position (m) on that lane at an arc length.
 
@@ -135,8 +147,8 @@ class RoutePath:
         return tuple(segment for segment in self.segments if segment.is_lane_change)
 
     def _segment_index(self, arc_m: float) -> int:
-        starts = [segment.start_m for segment in self.segments]
-        return max(bisect.bisect_right(starts, arc_m) - 1, 0)
+        at = bisect.bisect_right(self.segments, arc_m, key=attrgetter('start_m'))
+        return max(at - 1, 0)
 
     def _check(self, arc_m: float) -> None:
         if not 0.0 <= arc_m <= self.length_m:
@@ -164,17 +176,34 @@ class _PathBuilder:
         slides_from: str | None = None,
     ) -> None:
         """Append a stretch; its first point joins the last one when they (nearly) coincide."""
-        if _length_m(points) <= _JOIN_M:
+        self._append(lane, points, _length_m(points), pos_m, slides_from)
+
+    def add_lane(self, lane: Lane) -> None:
+        """Append a whole lane."""
+        # Its line is measured already, by the same sum.
+        self._append(lane, lane.polyline, lane.arc_length_m, (0.0, lane.length_m), None)
+
+    def _append(
+        self,
+        lane: Lane,
+        points: Points,
+        length_m: float,
+        pos_m: tuple[float, float],
+        slides_from: str | None,
+    ) -> None:
+        if length_m <= _JOIN_M:
             return
-        joined = list(points)
-        if self.points:
-            gap_m = _length_m((self.points[-1], joined[0]))
-            joined = [self.points[-1], *(joined[1:] if gap_m <= _JOIN_M else joined)]
-            self.points.extend(joined[1:])
+        if not self.points:
+            self.points.extend(points)
+        elif self.points[-1] == points[0]:
+            self.points.extend(points[1:])
         else:
-            self.points.extend(joined)
+            gap_m = _length_m((self.points[-1], points[0]))
+            joined = [self.points[-1], *(points[1:] if gap_m <= _JOIN_M else points)]
+            self.points.extend(joined[1:])
+            length_m = _length_m(tuple(joined))
         start_m = self._length_m
-        self._length_m += _length_m(tuple(joined))
+        self._length_m += length_m
         self.segments.append(
             RouteSegment(
                 lane_id=lane.id,
@@ -212,7 +241,7 @@ def build_path(
     for k in range(len(edges)):
         entry, exit_ = lanes[plan.entry[k]], lanes[plan.exit[k]]
         if entry.id == exit_.id:
-            builder.add(entry, entry.polyline, (0.0, entry.length_m))
+            builder.add_lane(entry)
         else:
             _add_change(builder, entry, exit_, start_pos_m if k == 0 else 0.0)
         if k < len(plan.links):
@@ -220,8 +249,7 @@ def build_path(
             if link.signal_id is not None:
                 builder.end_with_signal(link)
             for via_id in link.via_lane_ids:
-                via = lanes[via_id]
-                builder.add(via, via.polyline, (0.0, via.length_m))
+                builder.add_lane(lanes[via_id])
     polyline = tuple(builder.points)
     return RoutePath(
         edge_ids=tuple(edge.id for edge in edges),

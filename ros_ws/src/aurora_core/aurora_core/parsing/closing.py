@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from functools import lru_cache
 
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind, NounPhrase
-from aurora_core.parsing.lexicon import read_data
+from aurora_core.parsing.data_files import read_data
 from aurora_core.parsing.resolver import Resolver
 from aurora_core.parsing.scene import Scene
 from aurora_core.parsing.values import inferred, stated

@@ -4,26 +4,23 @@
 
 from __future__ import annotations
 
+import marshal
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from fractions import Fraction
 from functools import lru_cache
-from importlib import resources
 from itertools import product
+from pathlib import Path
 from typing import Any
 
-import yaml
-
-from aurora_core.errors import ConfigError
+from aurora_core.compiled import Compiled
+from aurora_core.parsing.data_files import data_path, read_data
 from aurora_core.parsing.morphology import VerbForm, plural, verb_forms
 from aurora_core.parsing.preludes import Preludes
 
-# Every scalar stays text: `on`, `no` and `off` are words here.
-_LOADER = getattr(yaml, 'CBaseLoader', yaml.BaseLoader)
-
-
+_FILE = 'lexicon.yaml'
 _ALTERNATIVES = re.compile(r'\(([^()]*)\)')
 
 
@@ -211,21 +208,11 @@ def expanded(phrases: Iterable[str]) -> Iterator[str]:
             yield ' '.join(''.join(words).split())
 
 
-class Lexicon:
-    """Phrases by their first word, each with its senses."""
+class _Phrases:
+    """All phrases of the sections, each with its senses in order."""
 
     def __init__(self, data: Mapping[str, Any]) -> None:
-        self._phrases: dict[tuple[str, ...], dict[Sense, None]] = {}
-        self.units: dict[str, UnitWord] = {}
-        self.preludes = Preludes(data['preludes'])
-        self.ambiguous_agents: dict[str, list[str]] = dict(data['ambiguous_agents'])
-        self.fractions = {word: int(part) for word, part in data['fractions'].items()}
-        self.number_words = {word: int(value) for word, value in data['number_words'].items()}
-        self.turns = {name: frozenset(words) for name, words in data['turns'].items()}
-        self.callsigns: dict[str, str] = dict(data['callsigns'])
-        self.helped = frozenset(data['helped']['behind'])
-        self.helped_forms: dict[str, str] = dict(data['helped']['forms'])
-        self.it_is = frozenset(data['it_is'])
+        self.senses: dict[tuple[str, ...], dict[Sense, None]] = {}
         irregular = data['irregular_verbs']
         for section, tag, plurals in _KEYED:
             for key, phrases in data[section].items():
@@ -240,7 +227,7 @@ class Lexicon:
             for phrase, value in data[section].items():
                 self._add(phrase, Sense(tag=tag, key=str(value)))
         for form, lemma in data['irregular_plurals'].items():
-            for sense in self.senses((lemma,)):
+            for sense in tuple(self.senses.get((lemma,), ())):
                 self._add(form, Sense(tag=sense.tag, key=sense.key, plural=True))
         for key, phrases in data['verbs'].items():
             for phrase in expanded(phrases):
@@ -255,25 +242,11 @@ class Lexicon:
                 for form, kind in verb_forms(phrase, irregular):
                     self._add(form, Sense(tag=tag, key=phrase, form=kind))
         for key, unit in data['units'].items():
-            self.units[key] = UnitWord(
-                dimension=unit['dimension'], factor=_fraction(unit['factor'])
-            )
             for phrase in unit['words']:
                 self._add(phrase, Sense(tag=Tag.UNIT, key=key))
                 first, _, rest = phrase.partition(' ')
                 if len(first) > 2:
                     self._add(f'{plural(first)} {rest}'.strip(), Sense(tag=Tag.UNIT, key=key))
-        self._longest: dict[str, int] = {}  # phrase that begins with a word
-        for words in self._phrases:
-            self._longest[words[0]] = max(len(words), self._longest.get(words[0], 0))
-        self.words = frozenset(word for words in self._phrases for word in words)
-        # Spelling is only corrected into words that mean something: a slip is never hidden.
-        self.content_words = frozenset(
-            word
-            for words, senses in self._phrases.items()
-            if any(sense.tag not in _EMPTY for sense in senses)
-            for word in words
-        )
 
     def _noun(self, phrase: str, tag: Tag, key: str, plurals: bool) -> None:
         self._add(phrase, Sense(tag=tag, key=key))
@@ -281,11 +254,74 @@ class Lexicon:
             self._add(plural(phrase), Sense(tag=tag, key=key, plural=True))
 
     def _add(self, phrase: str, sense: Sense) -> None:
-        self._phrases.setdefault(tuple(phrase.split()), {})[sense] = None
+        self.senses.setdefault(tuple(phrase.split()), {})[sense] = None
+
+
+def phrase_table(data: Mapping[str, Any]) -> dict[str, Any]:
+    """Return all phrases of the sections in plain values, packed by their first word."""
+    longest: dict[str, int] = {}
+    content: set[str] = set()
+    grouped: dict[str, dict[tuple[str, ...], Any]] = {}
+    for words, senses in _Phrases(data).senses.items():
+        longest[words[0]] = max(len(words), longest.get(words[0], 0))
+        if any(sense.tag not in _EMPTY for sense in senses):
+            content.update(words)
+        grouped.setdefault(words[0], {})[words] = tuple(
+            (s.tag.value, s.key, s.plural, s.form.value) for s in senses
+        )
+    return {
+        'longest': longest,
+        'words': frozenset(word for group in grouped.values() for ws in group for word in ws),
+        'content_words': frozenset(content),
+        'phrases': {first: marshal.dumps(group) for first, group in grouped.items()},
+    }
+
+
+class Lexicon:
+    """Phrases by their first word, each with its senses.
+
+    Args:
+        data: The sections of `lexicon.yaml`.
+        table: All phrases that these sections give, from `phrase_table`; None works them out.
+    """
+
+    def __init__(self, data: Mapping[str, Any], table: Mapping[str, Any] | None = None) -> None:
+        self.preludes = Preludes(data['preludes'])
+        self.ambiguous_agents: dict[str, list[str]] = dict(data['ambiguous_agents'])
+        self.fractions = {word: int(part) for word, part in data['fractions'].items()}
+        self.number_words = {word: int(value) for word, value in data['number_words'].items()}
+        self.turns = {name: frozenset(words) for name, words in data['turns'].items()}
+        self.callsigns: dict[str, str] = dict(data['callsigns'])
+        self.helped = frozenset(data['helped']['behind'])
+        self.helped_forms: dict[str, str] = dict(data['helped']['forms'])
+        self.it_is = frozenset(data['it_is'])
+        self.units = {
+            key: UnitWord(dimension=unit['dimension'], factor=_fraction(unit['factor']))
+            for key, unit in data['units'].items()
+        }
+        found = phrase_table(data) if table is None else table
+        self._longest: Mapping[str, int] = found['longest']  # phrase that begins with a word
+        self.words: frozenset[str] = found['words']
+        # Spelling is only corrected into words that mean something: a slip is never hidden.
+        self.content_words: frozenset[str] = found['content_words']
+        # A prompt needs few of them: unpacked when they are asked for.
+        self._packed: Mapping[str, bytes] = found['phrases']
+        self._phrases: dict[str, dict[tuple[str, ...], tuple[Sense, ...]]] = {}
 
     def senses(self, words: tuple[str, ...]) -> tuple[Sense, ...]:
         """Return the senses of exactly this phrase."""
-        return tuple(self._phrases.get(words, ()))
+        first = words[0] if words else ''
+        if first not in self._packed:
+            return ()
+        if first not in self._phrases:
+            self._phrases[first] = {
+                phrase: tuple(
+                    Sense(tag=Tag(tag), key=key, plural=is_plural, form=VerbForm(form))
+                    for tag, key, is_plural, form in senses
+                )
+                for phrase, senses in marshal.loads(self._packed[first]).items()
+            }
+        return self._phrases[first].get(words, ())
 
     def matches(self, words: Sequence[str], i: int) -> list[tuple[int, tuple[Sense, ...]]]:
         """Return every phrase that starts at word i as (length, senses), longest first."""
@@ -315,23 +351,16 @@ def _fraction(text: object) -> Fraction:
     return Fraction(numerator) / (Fraction(denominator) if denominator else 1)
 
 
-def read_data(name: str) -> dict[str, Any]:
-    """Return a YAML file of this package.
-
-    Raises:
-        ConfigError: The file is missing or is not a mapping.
-    """
-    try:
-        text = resources.files('aurora_core.parsing').joinpath(name).read_text(encoding='utf-8')
-        data = yaml.load(text, Loader=_LOADER)  # noqa: S506
-    except (OSError, yaml.YAMLError) as err:
-        raise ConfigError(f'the parser needs its file {name}: {err}') from err
-    if not isinstance(data, dict):
-        raise ConfigError(f'the parser expects a mapping in {name}, found {type(data).__name__}')
-    return data
+def compiled_table() -> Compiled:
+    """Return all phrases as set-up compiles them: from the words, and the code that forms them."""
+    here = Path(__file__)
+    sources = (data_path(_FILE), here, here.with_name('morphology.py'))
+    return Compiled(
+        name='lexicon.phrases', sources=sources, make=lambda: phrase_table(read_data(_FILE))
+    )
 
 
 @lru_cache(maxsize=1)
 def shipped_lexicon() -> Lexicon:
     """Return the lexicon of the package (read once)."""
-    return Lexicon(read_data('lexicon.yaml'))
+    return Lexicon(read_data(_FILE), compiled_table().value())

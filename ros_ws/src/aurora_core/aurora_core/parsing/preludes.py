@@ -25,15 +25,17 @@ class Preludes:
         for name, phrases in data['words'].items():
             ordered = sorted((_filled(p, families) for p in phrases), key=len, reverse=True)
             families[name] = f'(?:{"|".join(ordered)})'
-        self._patterns = [re.compile(_filled(p, families) + r'(?= |$)') for p in data['patterns']]
-        self._starts = re.compile('|'.join(p.pattern for p in self._patterns))
+        self._texts = [_filled(p, families) + r'(?= |$)' for p in data['patterns']]
+        self._starts = re.compile('|'.join(self._texts))
 
     def read(self, words: Sequence[str], i: int) -> int | None:
         """Return the index behind the opening that starts at word i, None when none does."""
         text = ' '.join(words[i : i + _MOST])
         if self._starts.match(text) is None:
             return None
-        found = [m.end() for p in self._patterns if (m := p.match(text)) is not None]
+        # Each by itself only now: most prompts open none.
+        patterns = [re.compile(p) for p in self._texts]
+        found = [m.end() for p in patterns if (m := p.match(text)) is not None]
         return i + text[: max(found)].count(' ') + 1
 
 

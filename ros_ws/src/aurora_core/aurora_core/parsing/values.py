@@ -7,7 +7,7 @@ from __future__ import annotations
 from functools import lru_cache
 
 from aurora_core.document import Document
-from aurora_core.parsing.lexicon import read_data
+from aurora_core.parsing.data_files import read_data
 from aurora_core.parsing.measures import ANGLE, COUNT, LENGTH, RATIO, SPEED, TIME, Measure
 from aurora_core.spec.parameter import Bound, Parameter, Provenance, Span, Unit
 

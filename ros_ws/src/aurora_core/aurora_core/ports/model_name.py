@@ -6,6 +6,8 @@ from __future__ import annotations
 
 import re
 
+# The parser of rules: no model, no key, no network.
+OFFLINE = 'offline'
 # What is recorded is named by a path, which may hold any character.
 RECORDED = 'recorded:'
 

@@ -9,7 +9,7 @@ from aurora_core.errors import AuroraError
 from aurora_core.report.html import report_html
 from aurora_core.report.run_folder import PICTURE, REPORT, REPORT_HTML, RunFolder
 from aurora_core.report.run_report import RunReport
-from aurora_core.trace.bag_reader import read_bag
+from aurora_core.trace.bag_reader import BagContent, read_bag
 from aurora_core.trace.definitions import message_definitions
 
 
@@ -21,10 +21,7 @@ def write_outputs(report: RunReport, folder: RunFolder) -> None:
     """
     # First, since it closes the run; what follows can be made again from it and the bag.
     write_report(report, folder)
-    picture = _picture(report, folder)
-    if picture is not None:
-        folder.write_bytes(PICTURE, picture)
-    folder.write_text(REPORT_HTML, report_html(report, picture))
+    write_page(report, folder)
 
 
 def write_report(report: RunReport, folder: RunFolder) -> None:
@@ -36,7 +33,28 @@ def write_report(report: RunReport, folder: RunFolder) -> None:
     folder.write_json(REPORT, report)
 
 
-def _picture(report: RunReport, folder: RunFolder) -> bytes | None:
+def write_page(report: RunReport, folder: RunFolder, content: BagContent | None = None) -> None:
+    """Write the picture of the run (when there is a bag) and `report.html`.
+
+    Args:
+        report: Of the run.
+        folder: Of the run.
+        content: Its bag, when somebody has read it already.
+
+    Raises:
+        ReportError: The folder cannot be written.
+        KeyboardInterrupt: The page was written without a picture, as it takes the most time.
+    """
+    picture = None
+    try:
+        picture = _picture(report, folder, content)
+        if picture is not None:
+            folder.write_bytes(PICTURE, picture)
+    finally:
+        folder.write_text(REPORT_HTML, report_html(report, picture))
+
+
+def _picture(report: RunReport, folder: RunFolder, content: BagContent | None) -> bytes | None:
     """Return the picture as PNG, None when there is no bag that could be drawn."""
     if report.trace is None:
         return None
@@ -45,7 +63,8 @@ def _picture(report: RunReport, folder: RunFolder) -> bytes | None:
     from aurora_core.report.picture.draw import draw_picture, png_bytes
 
     try:
-        content = read_bag(folder.path / report.trace.bag, message_definitions())
+        if content is None:
+            content = read_bag(folder.path / report.trace.bag, message_definitions())
         spec = read_agsg(content.agsg_message).spec if content.agsg_message is not None else None
     except AuroraError:
         # A bag too damaged to read is told in the report; there is just no picture of it.

@@ -91,3 +91,29 @@ def test_no_length_is_refused(points: FloatLike) -> None:
 def test_points_must_be_finite() -> None:
     with pytest.raises(MapError, match='finite'):
         Polyline([[0.0, 0.0], [math.inf, 0.0]])
+
+
+@PROPERTY
+@given(seed=SEED)
+def test_many_points_are_measured_as_few_are_bit_by_bit(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    points = np.cumsum(rng.normal(scale=7.0, size=(int(rng.integers(32, 90)), 2)), axis=0)
+    at_once = Polyline(points)
+    one_by_one = Polyline(points[:2])
+    one_by_one._measured_one_by_one(points)
+    for name in ('_x', '_y', '_s', '_tx', '_ty', '_step'):
+        assert getattr(at_once, name) == getattr(one_by_one, name)
+    # A repeated point is left out, wherever it stands.
+    again = np.repeat(points, rng.integers(1, 3, size=len(points)), axis=0)
+    assert Polyline(again).points.tolist() == points.tolist()
+    assert Polyline(again).cumulative_m.tolist() == at_once.cumulative_m.tolist()
+
+
+@PROPERTY
+@given(seed=SEED)
+def test_places_together_are_the_places_one_by_one_bit_by_bit(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    route = Polyline(np.cumsum(rng.normal(scale=7.0, size=(int(rng.integers(2, 60)), 2)), axis=0))
+    s = rng.uniform(-5.0, route.length_m + 5.0, size=20)
+    s[:3] = 0.0, route.length_m, route.cumulative_m[-2]
+    assert route.at_each(s).tolist() == [list(route.at(v)) for v in s.tolist()]

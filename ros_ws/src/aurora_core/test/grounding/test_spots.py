@@ -8,6 +8,7 @@ from collections.abc import Callable
 from itertools import combinations
 from math import sqrt
 
+import numpy as np
 import pytest
 import shapely
 
@@ -62,3 +63,17 @@ def test_nowhere_near_there_is_nothing(
 ) -> None:
     finder = SpotFinder(map_of('junction'), settings.grounding)
     assert finder.near(5000.0, 5000.0, 3) == ()
+
+
+@pytest.mark.parametrize('name', ['downtown', 'junction'])
+def test_the_quick_way_decides_as_the_plain_one_also_just_at_the_clearance(
+    name: str, map_of: Callable[[str], MapModel], settings: Settings
+) -> None:
+    the_map = map_of(name)
+    finder = SpotFinder(the_map, settings.grounding)
+    west, south, east, north = the_map.bounds_m
+    xs, ys = np.meshgrid(np.arange(west, east, 20.0), np.arange(south, north, 5.0))
+    points = np.column_stack([xs.ravel(), ys.ravel()])
+    clear = settings.grounding.spot_clearance_m
+    plain = shapely.dwithin(shapely.points(points), finder._blocked, clear)
+    assert finder._is_blocked(points).tolist() == plain.tolist()

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import pytest
 
-from aurora_core.knowledge.lane_plan import LanePlan, plan_lanes
+from aurora_core.knowledge.lane_plan import LanePlan, LanePlanner
 from aurora_core.knowledge.map_model import MapModel
 
 
@@ -16,7 +16,7 @@ def _plan(
     network = model.network
     links = {lane_id: network.connections_from(lane_id) for lane_id in network.lanes}
     edges = tuple(network.edge(edge_id) for edge_id in edge_ids)
-    return plan_lanes(edges, network.lanes, links, vclass, start)
+    return LanePlanner(network.lanes, links).plan(edges, vclass, start)
 
 
 @pytest.mark.parametrize(

@@ -4,12 +4,15 @@
 
 from __future__ import annotations
 
+import marshal
 from fractions import Fraction
+from pathlib import Path
 
 import pytest
 
 from aurora_core.errors import ConfigError
-from aurora_core.parsing.lexicon import Lexicon, Tag, read_data, shipped_lexicon
+from aurora_core.parsing.data_files import read_data
+from aurora_core.parsing.lexicon import Lexicon, Tag, phrase_table, shipped_lexicon
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.spec.vocabulary import (
     AgentType,
@@ -69,12 +72,31 @@ def test_a_new_word_needs_one_line() -> None:
     assert [s.key for s in Lexicon(data).senses(('campers',))] == ['van']
 
 
+def test_a_compiled_table_is_the_one_that_the_sections_give() -> None:
+    data = read_data('lexicon.yaml')
+    made, packed = Lexicon(data), Lexicon(data, marshal.loads(marshal.dumps(phrase_table(data))))
+    for words in (('fire', 'truck'), ('buses',), ('on',), ('overtakes',), (), ('nowhere',)):
+        assert made.senses(words) == packed.senses(words)
+    assert (made.words, made.content_words) == (packed.words, packed.content_words)
+    assert packed.matches(['in', 'front', 'of', 'it'], 0) == shipped_lexicon().matches(
+        ['in', 'front', 'of', 'it'], 0
+    )
+
+
+def test_each_reader_has_data_of_its_own() -> None:
+    read_data('lexicon.yaml')['agents']['van'].append('camper')
+    assert 'camper' not in read_data('lexicon.yaml')['agents']['van']
+
+
 def test_missing_file_is_a_configuration_error() -> None:
     with pytest.raises(ConfigError, match=r'nowhere\.yaml'):
         read_data('nowhere.yaml')
 
 
-def test_file_that_is_no_mapping_is_a_configuration_error(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr('aurora_core.parsing.lexicon.yaml.load', lambda *_, **__: [])
+def test_file_that_is_no_mapping_is_a_configuration_error(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr('aurora_core.parsing.data_files.data_path', lambda name: tmp_path / name)
+    (tmp_path / 'list.yaml').write_text('- one\n')
     with pytest.raises(ConfigError, match='mapping'):
-        read_data('lexicon.yaml')
+        read_data('list.yaml')

@@ -8,7 +8,7 @@ import re
 from dataclasses import dataclass
 from functools import lru_cache
 
-from aurora_core.parsing.lexicon import read_data
+from aurora_core.parsing.data_files import read_data
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -10,7 +10,7 @@ from functools import lru_cache
 from typing import Any
 
 from aurora_core.document import Document
-from aurora_core.parsing.lexicon import read_data
+from aurora_core.parsing.data_files import read_data
 from aurora_core.parsing.llm.facts import PromptFacts
 from aurora_core.parsing.llm.reading import Reading
 from aurora_core.parsing.tokens import TokenKind, tokenize

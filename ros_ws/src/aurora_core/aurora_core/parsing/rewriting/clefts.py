@@ -15,7 +15,7 @@ from functools import lru_cache
 
 from aurora_core.parsing.atom_runs import HELPERS, LOOSE, by_sentence, skip, stop_at, text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
-from aurora_core.parsing.lexicon import read_data
+from aurora_core.parsing.data_files import read_data
 from aurora_core.parsing.morphology import VerbForm
 
 _JOINING = (AtomKind.SUBORDINATOR, AtomKind.RELATIVE, AtomKind.THEN)

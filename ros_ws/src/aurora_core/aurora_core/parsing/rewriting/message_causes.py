@@ -14,7 +14,7 @@ from functools import lru_cache
 
 from aurora_core.parsing.atom_runs import LOOSE, skip, text_of
 from aurora_core.parsing.atoms import Atom, AtomKind
-from aurora_core.parsing.lexicon import read_data
+from aurora_core.parsing.data_files import read_data
 from aurora_core.parsing.morphology import VerbForm
 
 _ENDS = (AtomKind.STOP, AtomKind.COMMA, AtomKind.THEN, AtomKind.CONJUNCTION)

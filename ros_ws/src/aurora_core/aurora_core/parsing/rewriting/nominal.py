@@ -15,7 +15,8 @@ from functools import lru_cache
 
 from aurora_core.parsing.atom_runs import HELPERS, LOOSE, by_sentence, skip, stop_at, text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind
-from aurora_core.parsing.lexicon import read_data, shipped_lexicon
+from aurora_core.parsing.data_files import read_data
+from aurora_core.parsing.lexicon import shipped_lexicon
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.rewriting.counts import counted, said_twice
 

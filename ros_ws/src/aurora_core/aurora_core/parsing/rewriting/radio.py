@@ -16,7 +16,7 @@ from itertools import pairwise
 
 from aurora_core.parsing.atom_runs import by_sentence, runs, text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
-from aurora_core.parsing.lexicon import read_data
+from aurora_core.parsing.data_files import read_data
 from aurora_core.parsing.measures import COUNT, LENGTH, RATIO, TIME, Measure
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.spec.parameter import Bound

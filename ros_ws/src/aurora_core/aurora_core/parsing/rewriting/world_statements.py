@@ -11,7 +11,7 @@ from functools import lru_cache
 
 from aurora_core.parsing.atom_runs import stop_at
 from aurora_core.parsing.atoms import Atom, AtomKind
-from aurora_core.parsing.lexicon import read_data
+from aurora_core.parsing.data_files import read_data
 from aurora_core.parsing.measures import TIME
 from aurora_core.parsing.morphology import VerbForm
 

@@ -15,7 +15,8 @@ from functools import lru_cache
 
 from aurora_core.parsing.atom_runs import runs, skip, text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind, NounPhrase
-from aurora_core.parsing.lexicon import expanded, read_data
+from aurora_core.parsing.data_files import read_data
+from aurora_core.parsing.lexicon import expanded
 from aurora_core.parsing.measures import COUNT
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.spec.parameter import Span
@@ -133,6 +134,8 @@ def _within(atom: Atom, span: Span) -> bool:
 
 def _find(text: str, offset: int) -> Iterator[tuple[Span, bool]]:
     """Yield every wish, and whether it names a condition of success."""
+    if not _may_wish(text):
+        return
     for match in _wishes().finditer(text):
         asks = match['demand'] is not None
         yield Span(start=offset + match.start(), end=offset + match.end()), asks
@@ -240,6 +243,48 @@ def _speaker() -> re.Pattern[str]:
 def _purpose() -> re.Pattern[str]:
     words = read_data('lexicon.yaml')['wishes']
     return re.compile(rf'^\W*{_any_of(words["purposes"])}\b')
+
+
+# What a wish cannot do without: each alternative of `_wishes` needs one phrase of each list in one
+# of these rows, or a word of the last one.
+_NEEDED = (
+    *(('wish',), ('please',), ('sure',), ('point',), ('success',), ('verdicts',), ('asides',)),
+    *(('stipulates',), ('good',), ('modals', 'speakers', 'make')),
+)
+_NEEDED_WORDS = ('as follows', 'like this', 'the following')
+
+
+def _may_wish(text: str) -> bool:
+    """Return whether one of `_wishes` can stand in a text; that pattern takes long to compile."""
+    if any(words in text for words in _NEEDED_WORDS):
+        return True
+    spoken = frozenset(_SPOKEN.findall(text))
+    return any(all(_is_said(name, text, spoken) for name in row) for row in _NEEDED)
+
+
+def _is_said(name: str, text: str, spoken: frozenset[str]) -> bool:
+    heads = _said_in_wishes()[name]
+    return any(
+        all(words in text for words in rest)
+        for head in spoken & heads.keys()
+        for rest in heads[head]
+    )
+
+
+# `it's` is looked up by `it`.
+_SPOKEN = re.compile(r'\w+')
+
+
+@lru_cache(maxsize=1)
+def _said_in_wishes() -> dict[str, dict[str, list[list[str]]]]:
+    """Return the words of each phrase of the lists, by the first one."""
+    lists = read_data('lexicon.yaml')['wishes']
+    found: dict[str, dict[str, list[list[str]]]] = {}
+    for name in {name for row in _NEEDED for name in row}:
+        heads = found[name] = {}
+        for phrase in expanded(lists[name]):
+            heads.setdefault(_SPOKEN.findall(phrase)[0], []).append(phrase.split())
+    return found
 
 
 @lru_cache(maxsize=1)
