@@ -21,6 +21,7 @@ from checks import check_machine, check_ros_choice
 from console import SetupError, say
 from environment import ensure_dev, ensure_run, is_current
 from layout import WHEELS, Layout
+from native import ensure_native
 from prepared import ensure_prepared
 from workspace import ensure_workspace
 
@@ -49,6 +50,7 @@ def main() -> int:
                 ensure_dev(layout)
             if not arguments.no_build:
                 ensure_workspace(layout)
+                ensure_native(layout)
                 ensure_prepared(layout)
     except SetupError as err:
         sys.stderr.write(f'setup: error: {err}\n')

@@ -72,10 +72,11 @@ class _Killer:
     def arm(self, pid: int, at_s: float) -> None:
         self.killed_s, self._at_s, self._pid = -1.0, at_s, pid
 
-    def on_tick(self, tick: Any) -> None:
-        if self.killed_s < 0.0 and tick.time_s >= self._at_s and self._pid:
+    def on_clock(self, message: Any) -> None:
+        time_s = message.clock.sec + message.clock.nanosec / 1e9
+        if self.killed_s < 0.0 and time_s >= self._at_s and self._pid:
             os.kill(self._pid, signal.SIGKILL)
-            self.killed_s = float(tick.time_s)
+            self.killed_s = time_s
 
 
 def kill_recorders(
@@ -85,7 +86,7 @@ def kill_recorders(
     chance = random.Random(seed)
     with running_graph(folder) as graph:
         killer = _Killer()
-        graph.play.on(on.TICK, killer.on_tick)
+        graph.play.on(on.CLOCK, killer.on_clock)
         reference = _undisturbed(graph, definitions)
         last_s = reference.time_s(reference.ticks - 1)
         for _ in range(count):

@@ -30,6 +30,7 @@ class RunFigures(Document):
         cpu_s: CPU time of the loop, all processes together.
         parts_s: CPU time of the loop by part (local) or by process (ROS).
         sha256: Trace hash; empty for runs without a recorder.
+        sumo_wall_s: Of the loop in SUMO: commands, step and state read, wall (local).
     """
 
     engine: Engine
@@ -41,6 +42,7 @@ class RunFigures(Document):
     cpu_s: FiniteFloat
     parts_s: Mapping[str, FiniteFloat]
     sha256: str = ''
+    sumo_wall_s: FiniteFloat = 0.0
 
     @property
     def us_per_tick(self) -> float:
@@ -56,6 +58,11 @@ class RunFigures(Document):
     def real_time_factor(self) -> float:
         """Simulated seconds per wall second of the tick loop."""
         return (self.ticks - 1) * self.dt_s / self.loop_s
+
+    @property
+    def over_sumo(self) -> float:
+        """Tick over SUMO's step with its state read, both wall and of this run."""
+        return self.loop_s / self.sumo_wall_s
 
     def part_us_per_tick(self, name: str) -> float:
         """CPU time of one part in a tick, microseconds."""

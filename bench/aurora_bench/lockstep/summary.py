@@ -18,7 +18,12 @@ from aurora_bench.lockstep.figures import (
     Spread,
     spread,
 )
-from aurora_bench.lockstep.goals import find, recorder_share
+from aurora_bench.lockstep.goals import (
+    find,
+    graph_over_barrier,
+    local_over_sumo,
+    recorder_share,
+)
 from aurora_bench.lockstep.scenarios import prompt
 from aurora_bench.results import Cell, Table
 
@@ -42,6 +47,8 @@ NOTES = (
     'aurora_bringup up` until every node is ready.',
     'Bare barrier: three rclpy processes, one tick out and two states of 11 doubles back, each '
     'process on its own wait set, reliable and keep all; measured before and after the graph.',
+    "Ratios are of the smallest configuration. SUMO's step with its state read is what the local "
+    'loop spends in the port of the ground simulator, wall, in the same run.',
     'Scenarios: with 1 UAV a prompt goes through parser, check and grounding as any other ('
     'background traffic fills up to the number of agents). With more UAVs the track mission of '
     'that specification is repeated by code, 10 m higher each time, and grounded as any other.',
@@ -108,6 +115,10 @@ def document(campaign: Campaign, plan: Plan) -> dict[str, Any]:
             }
             for each in campaign.measured
         ],
+        'ratios': {
+            'graph_tick_over_bare_barrier': graph_over_barrier(campaign, plan),
+            'local_tick_over_sumo_step': local_over_sumo(campaign, plan),
+        },
         'recorder_share': {
             engine: share and {'wall': share[0], 'cpu': share[1]}
             for engine, share in shares.items()
@@ -178,13 +189,21 @@ def _beside(campaign: Campaign, plan: Plan) -> dict[str, Spread]:
         "SUMO's reload alone [s]": campaign.sumo_reload_s,
     }
     base = find(campaign.measured, 'ros', plan.base.agents, plan.base.seconds)
+    local = find(campaign.measured, 'local', plan.base.agents, plan.base.seconds)
     if base is not None:
+        barrier_us = median(campaign.barrier_us)
         values['warm reset, execute to tick 0 [s]'] = [run.load_s for run in base.runs]
-        local = find(campaign.measured, 'local', plan.base.agents, plan.base.seconds)
+        name = 'graph tick / bare barrier [ratio]'
+        values[name] = [run.us_per_tick / barrier_us for run in base.runs]
         if local is not None:
-            work_us = median(campaign.barrier_us) + local.us_per_tick.median
+            work_us = barrier_us + local.us_per_tick.median
             name = 'graph tick / (bare barrier + local tick) [ratio]'
             values[name] = [base.us_per_tick.median / work_us]
+    if local is not None:
+        name = "SUMO's step with its state read [us/tick]"
+        values[name] = [run.sumo_wall_s / run.ticks * 1e6 for run in local.runs]
+        name = "local tick / SUMO's step with its state read [ratio]"
+        values[name] = [run.over_sumo for run in local.runs]
     for name in ('sync', 'ground', 'uav'):
         values[f'load service of {name} [s]'] = [each[name] for each in campaign.load_services_s]
     for engine, pairs in campaign.recorder_pairs.items():

@@ -107,6 +107,17 @@ class TickBarrier:
         """State of the clock."""
         return self._status
 
+    @property
+    def granted(self) -> int:
+        """Last tick that may begin without another word of the clock; -1 unless a run goes on.
+
+        The participants keep the order among themselves, each by the inputs that it needs; the
+        clock need only hold them back where an observer's credit ends.
+        """
+        if self._status.phase is not Phase.RUNNING:
+            return -1
+        return min([self._load.last_tick, *map(self._limit_of, self._acked)])
+
     def load(self, load: BarrierLoad) -> None:
         """Prepare a run; one that is going on is given up.
 

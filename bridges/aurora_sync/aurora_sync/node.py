@@ -50,7 +50,7 @@ class SyncSettings:
 
 
 class SyncNode(ManagedNode):
-    """Publishes `/clock` and the ticks; collects what the participants answer."""
+    """Publishes `/clock` and how far it may go; collects what the participants answer."""
 
     def __init__(self) -> None:
         super().__init__('sync')
@@ -59,6 +59,7 @@ class SyncNode(ManagedNode):
         self._dt_s = 0.0
         self._listeners = 0
         self._published: tuple[Phase, int] | None = None
+        self._granted = -1
 
     def configure(self) -> None:
         """Create the barrier and its endpoints."""
@@ -92,6 +93,7 @@ class SyncNode(ManagedNode):
         self.require_active()
         self._dt_s = request.dt_s
         self._listeners = request.listeners
+        self._granted = -1
         self._barrier.load(
             BarrierLoad(
                 run_number=request.run_number,
@@ -163,19 +165,27 @@ class SyncNode(ManagedNode):
             self._barrier.fault(status.run_number, error)
 
     def _publish(self, tick: int | None) -> None:
-        """Start a tick, if one is to be started, and tell of a change of state."""
+        """Grant ticks, show the one that has begun, and tell of a change of state."""
+        # First: somebody may be waiting for it.
+        self._grant()
         if tick is not None:
             self.heartbeat.at(tick)
-            self._tick_publisher.publish(
-                Tick(
-                    run_number=self._barrier.status.run_number,
-                    tick=tick,
-                    time_s=tick * self._dt_s,
-                )
-            )
-            # Second: the tick waits for nobody, and nobody's tick depends on the clock.
             self._clock_publisher.publish(ClockMessage(clock=stamp(tick, self._dt_s)))
         self._tell()
+
+    def _grant(self) -> None:
+        """Publish how far the participants may go, when that is further than before."""
+        granted = self._barrier.granted
+        if granted <= self._granted:
+            return
+        self._granted = granted
+        self._tick_publisher.publish(
+            Tick(
+                run_number=self._barrier.status.run_number,
+                tick=granted,
+                time_s=granted * self._dt_s,
+            )
+        )
 
     def _tell(self) -> None:
         """Publish the state when it has changed."""

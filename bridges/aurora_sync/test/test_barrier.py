@@ -112,6 +112,41 @@ def test_the_clock_waits_for_an_observer_outside_its_credit() -> None:
     assert finish(made, 3) is None
 
 
+def test_what_is_granted_ends_with_the_first_credit_and_with_the_horizon() -> None:
+    made = TickBarrier(credit_ticks=9, silence_limit_s=5.0, own_credit_ticks={'recorder': 4})
+    load = BarrierLoad(
+        run_number=RUN,
+        last_tick=12,
+        participants=PARTICIPANTS,
+        observers=('monitor', 'recorder'),
+    )
+    made.load(load)
+    assert made.granted == -1, 'nothing before the start'
+    made.start(RUN, 0.0)
+    assert made.granted == 3
+    made.acknowledge(RUN, 'recorder', 2, 0.0)
+    assert made.granted == 6
+    made.acknowledge(RUN, 'recorder', 9, 0.0)
+    assert made.granted == 8, 'now the monitor holds the clock'
+    made.acknowledge(RUN, 'monitor', 9, 0.0)
+    assert made.granted == 12, 'the horizon'
+    made.stop(RUN)
+    assert made.granted == -1
+    made.load(load)
+    made.start(RUN, 0.0)
+    assert made.granted == 3, 'a new load forgets what was acknowledged'
+
+
+def test_whatever_is_granted_may_be_finished() -> None:
+    made = barrier(credit_ticks=3, observers=('recorder',))
+    made.start(RUN, 0.0)
+    for tick in range(made.granted + 1):
+        finish(made, tick)
+        assert phase(made) is Phase.RUNNING
+    assert made.status.tick == made.granted
+    assert made.acknowledge(RUN, 'recorder', 1, 0.0) == 3
+
+
 def test_an_observer_with_less_credit_holds_the_clock_first() -> None:
     made = TickBarrier(credit_ticks=9, silence_limit_s=5.0, own_credit_ticks={'recorder': 2})
     made.load(

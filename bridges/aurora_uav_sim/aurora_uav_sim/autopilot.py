@@ -11,8 +11,8 @@ from enum import Enum, IntEnum
 from math import sqrt
 from typing import NamedTuple
 
-from aurora_uav_sim.control import MOTORS_OFF, Controller, Motors, SetPoint
-from aurora_uav_sim.multirotor import Multirotor
+from aurora_uav_sim.compiled import Controller, Multirotor, SetPoint
+from aurora_uav_sim.control import MOTORS_OFF, Motors
 from aurora_uav_sim.parameters import ControlParameters, MultirotorParameters
 from aurora_uav_sim.settings import AutopilotSettings, restore_defaults
 from aurora_uav_sim.wind import Wind

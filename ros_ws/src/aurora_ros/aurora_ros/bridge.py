@@ -39,7 +39,11 @@ class BridgeInterfaces:
 
 
 class LockstepBridge(ManagedNode):
-    """Waits for tick and command, advances its simulator, publishes the state.
+    """Waits for the command of each tick, advances its simulator, publishes the state.
+
+    The clock grants ticks ahead of time, as far as the observers' credit goes: inside that window
+    the command stamped k, which the executor sends once it has every state of k - 1, is all that
+    tick k waits for.
 
     Args:
         name: Node name.
@@ -49,7 +53,7 @@ class LockstepBridge(ManagedNode):
     def __init__(self, name: str, interfaces: BridgeInterfaces) -> None:
         super().__init__(name)
         self._interfaces = interfaces
-        self._input: LockstepInput[Any] = LockstepInput(name, first_needs_input=False)
+        self._input: LockstepInput[Any] = LockstepInput(first_needs_input=False)
         self._run_number = 0
         self._dt_s = 0.0
 
@@ -73,16 +77,16 @@ class LockstepBridge(ManagedNode):
 
     @property
     def awaited(self) -> Subscription | None:
-        """The tick first, since its command usually comes before it."""
+        """The next command, or the clock's leave for it once the window is used up."""
         if self._input.run_number is None:
             return None
-        return self._ticks if self._input.lacks_tick else self._commands
+        return self._grants if self._input.lacks_grant else self._commands
 
     def configure(self) -> None:
         """Create the endpoints."""
         self._state_publisher = self.publisher(self._interfaces.state)
         self._fault_publisher = self.publisher(on.FAULT)
-        self._ticks = self.subscription(on.TICK, self._on_tick)
+        self._grants = self.subscription(on.TICK, self._on_tick)
         self._commands = self.subscription(self._interfaces.command, self._on_command)
         self.subscription(on.SYNC_STATUS, self._on_sync_status)
         self._watch = HeartbeatWatch(self)
@@ -109,11 +113,8 @@ class LockstepBridge(ManagedNode):
         return response
 
     def _on_tick(self, message: Tick) -> None:
-        try:
-            self._input.tick(message.run_number, message.tick)
-            self._step()
-        except AuroraError as err:
-            self._fail(err)
+        self._input.grant(message.run_number, message.tick)
+        self._step()
 
     def _on_command(self, message: Any) -> None:
         self._input.put(message.run_number, message.tick, message)

@@ -1,33 +1,30 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a participant waits for before it may advance: the tick and what is stamped for it."""
+"""What a participant waits for before it may advance: leave to begin, and its input."""
 
 from __future__ import annotations
 
 from typing import Generic, TypeVar
 
-from aurora_core.errors import ExecutionError
-
 _T = TypeVar('_T')
 
 
 class LockstepInput(Generic[_T]):
-    """Pairs Tick(k) with the input stamped k, in order, for one run.
+    """Gives out the inputs of one run in order, each once the clock has granted its tick.
 
     "The last state it has" is never used: every input carries run and tick, another run's is
-    ignored, a lost tick is an error.
+    ignored, and tick k waits for the input stamped k. The clock grants ticks ahead of time, so
+    it is seldom what is waited for.
 
     Args:
-        component: Node that owns it, named in errors.
         first_needs_input: False when tick 0 comes without one (the spawned state).
     """
 
-    def __init__(self, component: str, *, first_needs_input: bool) -> None:
-        self._component = component
+    def __init__(self, *, first_needs_input: bool) -> None:
         self._first_needs_input = first_needs_input
         self._run_number: int | None = None
         self._next = 0
-        self._ticked = False
+        self._granted = -1
         self._inputs: dict[int, _T] = {}
 
     @property
@@ -36,15 +33,15 @@ class LockstepInput(Generic[_T]):
         return self._run_number
 
     @property
-    def lacks_tick(self) -> bool:
-        """Whether the next tick has not begun; else its input is what is missing."""
-        return not self._ticked
+    def lacks_grant(self) -> bool:
+        """Whether the next tick may not begin yet; else its input is what is missing."""
+        return self._granted < self._next
 
     def arm(self, run_number: int) -> None:
         """Begin with tick 0 of a run and forget everything before."""
         self._run_number = run_number
         self._next = 0
-        self._ticked = False
+        self._granted = -1
         self._inputs.clear()
 
     def disarm(self) -> None:
@@ -52,20 +49,10 @@ class LockstepInput(Generic[_T]):
         self._run_number = None
         self._inputs.clear()
 
-    def tick(self, run_number: int, tick: int) -> None:
-        """Take in Tick(k); a repeated one is ignored.
-
-        Raises:
-            ExecutionError: A tick was lost.
-        """
-        if run_number != self._run_number or tick < self._next:
-            return
-        if tick > self._next:
-            raise ExecutionError(
-                f'expected tick {self._next}, found tick {tick}: a tick was lost or overtook',
-                component=self._component,
-            )
-        self._ticked = True
+    def grant(self, run_number: int, tick: int) -> None:
+        """Take in that every tick up to this one may begin; another run's is ignored."""
+        if run_number == self._run_number and tick > self._granted:
+            self._granted = tick
 
     def put(self, run_number: int, tick: int, value: _T) -> None:
         """Take in the input stamped `tick`; another run's or an old one is ignored."""
@@ -73,13 +60,15 @@ class LockstepInput(Generic[_T]):
             self._inputs[tick] = value
 
     def take(self) -> tuple[int, _T | None] | None:
-        """Return tick and input once both are there and go on to the next tick, else None."""
-        if self._run_number is None or not self._ticked:
-            return None
+        """Return tick and input once it may begin and its input is there, else None.
+
+        The next call is about the next tick.
+        """
         tick = self._next
+        if self._run_number is None or self._granted < tick:
+            return None
         needs_input = tick > 0 or self._first_needs_input
         if needs_input and tick not in self._inputs:
             return None
         self._next = tick + 1
-        self._ticked = False
         return tick, self._inputs.pop(tick, None)

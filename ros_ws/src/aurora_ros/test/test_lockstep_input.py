@@ -4,25 +4,22 @@
 
 from __future__ import annotations
 
-import pytest
-
-from aurora_core.errors import ExecutionError
 from aurora_ros.lockstep_input import LockstepInput
 
 RUN = 4
 
 
 def armed(*, first_needs_input: bool = False) -> LockstepInput[str]:
-    made: LockstepInput[str] = LockstepInput('sumo_bridge', first_needs_input=first_needs_input)
+    made: LockstepInput[str] = LockstepInput(first_needs_input=first_needs_input)
     made.arm(RUN)
     return made
 
 
 def test_tick_zero_needs_no_input_and_later_ones_do() -> None:
     made = armed()
-    made.tick(RUN, 0)
+    made.grant(RUN, 0)
     assert made.take() == (0, None)
-    made.tick(RUN, 1)
+    made.grant(RUN, 1)
     assert made.take() is None
     made.put(RUN, 1, 'command 1')
     assert made.take() == (1, 'command 1')
@@ -31,7 +28,7 @@ def test_tick_zero_needs_no_input_and_later_ones_do() -> None:
 
 def test_tick_zero_can_be_made_to_wait() -> None:
     made = armed(first_needs_input=True)
-    made.tick(RUN, 0)
+    made.grant(RUN, 0)
     assert made.take() is None
     made.put(RUN, 0, 'x')
     assert made.take() == (0, 'x')
@@ -41,61 +38,69 @@ def test_the_input_may_come_before_its_tick_and_never_serves_another() -> None:
     made = armed()
     made.put(RUN, 2, 'command 2')
     made.put(RUN, 1, 'command 1')
-    made.tick(RUN, 0)
+    made.grant(RUN, 0)
     assert made.take() == (0, None)
-    assert made.take() is None, 'tick 1 has not begun'
-    made.tick(RUN, 1)
+    assert made.take() is None, 'tick 1 may not begin yet'
+    made.grant(RUN, 1)
     assert made.take() == (1, 'command 1')
-    made.tick(RUN, 2)
+    made.grant(RUN, 2)
     assert made.take() == (2, 'command 2')
 
 
-def test_another_run_and_repeated_ticks_are_ignored() -> None:
+def test_inside_the_window_the_input_alone_is_waited_for() -> None:
     made = armed()
-    made.tick(RUN + 1, 0)
+    made.grant(RUN, 3)
+    assert made.take() == (0, None)
+    assert made.take() is None, 'nothing stands in for command 1'
+    made.put(RUN, 2, 'command 2')
+    assert made.take() is None, 'nor does the command of another tick'
+    made.put(RUN, 1, 'command 1')
+    assert made.take() == (1, 'command 1')
+    assert made.take() == (2, 'command 2')
+    made.put(RUN, 3, 'command 3')
+    made.put(RUN, 4, 'command 4')
+    assert made.take() == (3, 'command 3')
+    assert made.take() is None, 'the window ends with tick 3'
+
+
+def test_another_run_and_repeated_or_smaller_grants_are_ignored() -> None:
+    made = armed()
+    made.grant(RUN + 1, 0)
     made.put(RUN + 1, 1, 'of another run')
     assert made.take() is None
-    made.tick(RUN, 0)
-    made.tick(RUN, 0)
+    made.grant(RUN, 1)
+    made.grant(RUN, 0)
     assert made.take() == (0, None)
-    made.tick(RUN, 0)
     assert made.take() is None
     made.put(RUN, 0, 'late')
-    made.tick(RUN, 1)
-    assert made.take() is None
+    made.put(RUN, 1, 'command 1')
+    assert made.take() == (1, 'command 1')
 
 
 def test_what_is_missing_is_told() -> None:
     made = armed()
-    assert made.lacks_tick
-    made.tick(RUN, 0)
+    assert made.lacks_grant
+    made.grant(RUN, 0)
     made.take()
     made.put(RUN, 1, 'command 1')
-    assert made.lacks_tick
-    made.tick(RUN, 1)
+    assert made.lacks_grant
+    made.grant(RUN, 2)
+    assert not made.lacks_grant
     made.take()
-    made.tick(RUN, 2)
     assert made.take() is None
-    assert not made.lacks_tick
-
-
-def test_a_lost_tick_is_an_error() -> None:
-    made = armed()
-    with pytest.raises(ExecutionError, match='expected tick 0, found tick 1') as caught:
-        made.tick(RUN, 1)
-    assert caught.value.component == 'sumo_bridge'
+    assert not made.lacks_grant
 
 
 def test_disarm_and_a_new_run_forget_what_was_there() -> None:
     made = armed()
     made.put(RUN, 1, 'old')
-    made.tick(RUN, 0)
+    made.grant(RUN, 9)
     made.disarm()
     assert made.take() is None
     assert made.run_number is None
     made.arm(RUN + 1)
     assert made.take() is None
-    made.tick(RUN + 1, 0)
+    made.grant(RUN + 1, 0)
     assert made.take() == (0, None)
-    made.tick(RUN + 1, 1)
+    made.grant(RUN + 1, 1)
     assert made.take() is None

@@ -1,0 +1,90 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The physics step compiled, where `make setup` could, and in plain Python everywhere else.
+
+`native/flight.c` does what `multirotor.py` and `control.py` do, bit for bit and twenty times as
+fast. It is used only when it was compiled beside these very files: whoever changes a formula flies
+with the changed one at once. `AURORA_PLAIN_FLIGHT=1` leaves it out.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import hashlib
+import os
+from collections.abc import Callable
+from importlib import import_module
+from pathlib import Path
+from typing import Any, TypeVar, cast
+
+from aurora_uav_sim import control, multirotor
+from aurora_uav_sim.parameters import ControlParameters
+
+PLAIN_VARIABLE = 'AURORA_PLAIN_FLIGHT'
+_FILES = ('control.py', 'multirotor.py', 'parameters.py')  # as in tools/aurora_setup
+_Class = TypeVar('_Class')
+
+
+def _sources() -> str:
+    """Return the digest of the Python files that the compiled step is to be equal to."""
+    folder = Path(__file__).parent
+    return hashlib.sha256(b''.join((folder / name).read_bytes() for name in _FILES)).hexdigest()
+
+
+def _native() -> Any | None:
+    """Return the compiled module, None where there is none for these files."""
+    if os.environ.get(PLAIN_VARIABLE):
+        return None
+    try:
+        found = import_module('aurora_uav_flight')
+    except ImportError:
+        return None
+    return found if _sources() == found.SOURCES else None
+
+
+def _on(base: Any, plain: type[_Class], attributes: str, set_up: Callable[..., None]) -> Any:
+    """Return the plain class with its numbers and its step in `base`."""
+    members = {'__slots__': (attributes,) if attributes else (), '__init__': set_up}
+    if hasattr(plain, 'reset'):
+        members['reset'] = plain.reset
+    return type(plain.__name__, (base,), members)
+
+
+def _set_up_controller(
+    controller: Any, body: multirotor.Multirotor, parameters: ControlParameters
+) -> None:
+    control.Controller.__init__(controller, body, parameters)
+    for field in dataclasses.fields(parameters):
+        if hasattr(controller, field.name):
+            setattr(controller, field.name, getattr(parameters, field.name))
+
+
+def _classes() -> tuple[
+    type[multirotor.Multirotor], type[control.Controller], type[control.SetPoint]
+]:
+    native = _native()
+    if native is None:
+        return multirotor.Multirotor, control.Controller, control.SetPoint
+    return (
+        cast(
+            'type[multirotor.Multirotor]',
+            _on(
+                native.Body,
+                multirotor.Multirotor,
+                'parameters',
+                multirotor.Multirotor.__init__,
+            ),
+        ),
+        cast(
+            'type[control.Controller]',
+            _on(native.Cascade, control.Controller, '_c', _set_up_controller),
+        ),
+        cast(
+            'type[control.SetPoint]',
+            _on(native.Point, control.SetPoint, '', control.SetPoint.__init__),
+        ),
+    )
+
+
+Multirotor, Controller, SetPoint = _classes()
+IS_COMPILED = Multirotor is not multirotor.Multirotor

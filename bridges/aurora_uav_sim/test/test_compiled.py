@@ -1,0 +1,128 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The compiled physics step is the plain one to the last bit."""
+
+from __future__ import annotations
+
+import random
+from typing import Any
+
+import pytest
+
+from aurora_uav_sim import compiled, control, multirotor
+from aurora_uav_sim.parameters import ControlParameters, MultirotorParameters
+
+needs_compiled = pytest.mark.skipif(
+    not compiled.IS_COMPILED, reason='the physics step is not compiled here'
+)
+STATE = (
+    *('x', 'y', 'z', 'vx', 'vy', 'vz', 'qw', 'qx', 'qy', 'qz', 'p', 'q', 'r'),
+    *('f0', 'f1', 'f2', 'f3', 'on_ground'),
+)
+INTEGRALS = ('_integral_x', '_integral_y', '_integral_z')
+POINT = (
+    *('x', 'y', 'z', 'vx', 'vy', 'vz', 'ax', 'ay', 'az', 'speed_limit', 'climb_limit'),
+    *('descent_limit', 'cos_yaw', 'sin_yaw', 'follow_xy', 'follow_z'),
+)
+
+
+class Pair:
+    """The same vehicle twice: plain and compiled."""
+
+    def __init__(self, body: MultirotorParameters, limits: ControlParameters) -> None:
+        self.bodies: list[Any] = [multirotor.Multirotor(body), compiled.Multirotor(body)]
+        self.points: list[Any] = [control.SetPoint(limits), compiled.SetPoint(limits)]
+        self.controllers: list[Any] = [
+            control.Controller(self.bodies[0], limits),
+            compiled.Controller(self.bodies[1], limits),
+        ]
+
+    def check(self) -> None:
+        for names, (plain, fast) in (
+            (STATE, self.bodies),
+            (INTEGRALS, self.controllers),
+            (POINT, self.points),
+        ):
+            found = {name: getattr(fast, name) for name in names}
+            # repr tells -0.0 from 0.0 and every double from its neighbour.
+            assert repr(found) == repr({name: getattr(plain, name) for name in names})
+
+
+def throw(pair: Pair, chance: random.Random) -> None:
+    """Put both into the same state, often beyond what a flight reaches."""
+    wide = chance.choice((1e-3, 1.0, 30.0))
+    state = {name: chance.gauss(0.0, wide) for name in STATE[:-1]}
+    length = sum(state[name] ** 2 for name in ('qw', 'qx', 'qy', 'qz')) ** 0.5
+    for name in ('qw', 'qx', 'qy', 'qz'):
+        state[name] /= length
+    state['z'] = abs(state['z']) if chance.random() < 0.8 else 0.0
+    point = {name: chance.gauss(0.0, wide) for name in POINT[:9]}
+    point |= {name: abs(chance.gauss(5.0, 5.0)) for name in POINT[9:12]}
+    point |= {'cos_yaw': chance.uniform(-1.0, 1.0), 'sin_yaw': chance.uniform(-1.0, 1.0)}
+    grounded = chance.random() < 0.2
+    flags = {name: chance.random() < 0.8 for name in ('follow_xy', 'follow_z')}
+    integrals = {name: chance.gauss(0.0, 3.0) for name in INTEGRALS}
+    for number in range(2):
+        for target, values in (
+            (pair.bodies[number], {**state, 'on_ground': grounded}),
+            (pair.points[number], {**point, **flags}),
+            (pair.controllers[number], integrals),
+        ):
+            for name, value in values.items():
+                setattr(target, name, value)
+
+
+@needs_compiled
+@pytest.mark.parametrize('seed', range(4))
+def test_every_step_from_any_state_has_the_same_bits(seed: int) -> None:
+    chance = random.Random(seed)
+    body = MultirotorParameters(inertia_roll_kgm2=0.03, mass_kg=chance.uniform(1.0, 2.0))
+    pair = Pair(body, ControlParameters(tan_tilt_limit=chance.uniform(0.3, 1.5)))
+    for _ in range(1000):
+        throw(pair, chance)
+        for _ in range(3):
+            h = chance.choice((0.01, 0.004, 0.0077))
+            wind = [chance.gauss(0.0, 5.0) for _ in range(3)]
+            motors = [
+                controller.update(h, point)
+                for controller, point in zip(pair.controllers, pair.points, strict=True)
+            ]
+            assert repr(motors[0]) == repr(motors[1])
+            for vehicle in pair.bodies:
+                vehicle.step(h, motors[0], *wind)
+            pair.check()
+
+
+@needs_compiled
+def test_reset_is_the_same() -> None:
+    pair = Pair(MultirotorParameters(), ControlParameters())
+    throw(pair, random.Random(1))
+    for body, controller in zip(pair.bodies, pair.controllers, strict=True):
+        body.reset(0.6, 0.8)
+        controller.reset()
+    pair.check()
+
+
+@needs_compiled
+def test_what_is_not_its_own_is_refused() -> None:
+    limits = ControlParameters()
+    plain: Any = control.SetPoint(limits)
+    body = compiled.Multirotor(MultirotorParameters())
+    with pytest.raises(TypeError, match='compiled set-point'):
+        compiled.Controller(body, limits).update(0.01, plain)
+    wrong: Any = multirotor.Multirotor(MultirotorParameters())
+    with pytest.raises(TypeError, match='compiled set-point'):
+        compiled.Controller(wrong, limits).update(0.01, compiled.SetPoint(limits))
+    short: Any = (1.0, 2.0)
+    with pytest.raises(TypeError, match='four motors'):
+        body.step(0.01, short, 0.0, 0.0, 0.0)
+
+
+def test_the_plain_step_is_used_when_asked_for_and_beside_other_sources(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(compiled, '_sources', lambda: 'changed')
+    assert compiled._classes() == (multirotor.Multirotor, control.Controller, control.SetPoint)
+    monkeypatch.undo()
+    monkeypatch.setenv(compiled.PLAIN_VARIABLE, '1')
+    assert compiled._classes() == (multirotor.Multirotor, control.Controller, control.SetPoint)
