@@ -30,7 +30,7 @@ test: ## every test (PYTEST_ADDOPTS=… for options)
 	@tools/setup.sh --dev
 	@tools/test.sh
 
-lint: ## ruff (lint and format) and the import rules
+lint: ## ruff (lint and format), the import rules, and widths and word lists
 	@tools/setup.sh --dev --no-build
 	@tools/lint.sh
 

@@ -49,6 +49,8 @@ class Planted:
         self.environment = {
             'ROS_DOMAIN_ID': '70',
             'AURORA_RUN_DIR': str(folder / 'nodes'),
+            'ROS_DISTRO': 'jazzy',
+            'AMENT_PREFIX_PATH': str(folder),
             'RMW_IMPLEMENTATION': 'rmw_fastrtps_cpp',
             'ROS_AUTOMATIC_DISCOVERY_RANGE': 'SYSTEM_DEFAULT',
             'FASTRTPS_DEFAULT_PROFILES_FILE': str(
@@ -155,6 +157,27 @@ def test_environment_and_packages(planted: Planted) -> None:
     there = {'numpy': '2.0', 'scipy': '1.0'}
     machine = planted.machine(checkout=top, environment=sourced, installed=there.get)
     assert versions.packages(machine) == []
+
+
+def test_variables_that_ros_needs(planted: Planted) -> None:
+    planted.environment['AMENT_PREFIX_PATH'] += ':/nowhere'
+    assert '/nowhere, which does not exist' in only(versions.variables(planted.machine())).found
+    for name in ('ROS_DISTRO', 'AMENT_PREFIX_PATH', 'RMW_IMPLEMENTATION'):
+        planted.environment[name] = ''
+    findings = versions.variables(planted.machine())
+    assert [finding.found.split()[0] for finding in findings] == [
+        'ROS_DISTRO', 'AMENT_PREFIX_PATH', 'RMW_IMPLEMENTATION',
+    ]  # fmt: skip
+
+
+def test_a_machine_that_cannot_talk_to_itself(
+    planted: Planted, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def down(*_arguments: object) -> None:
+        raise OSError(101, 'Network is unreachable')
+
+    monkeypatch.setattr(network.socket, 'socket', down)
+    assert 'Network is unreachable' in only(network.loopback(planted.machine())).found
 
 
 def test_what_cannot_be_imported_is_named_with_its_reason(planted: Planted) -> None:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import json
 import os
+import socket
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
@@ -20,6 +21,7 @@ _PROFILE = 'FASTRTPS_DEFAULT_PROFILES_FILE'
 _RANGE = 'ROS_AUTOMATIC_DISCOVERY_RANGE'
 _LOOPBACK = '127.0.0.1'
 _NODE_LIMIT_S = 20.0
+_LOOPBACK_LIMIT_S = 1.0
 _OWN_PREFIXES = ('cli_', '_ros2cli', 'aurora_doctor_')
 _LIST_NODES = """
 import json, os, sys, time
@@ -126,6 +128,25 @@ def middleware(machine: Machine) -> list[Finding]:
     return findings
 
 
+def loopback(_machine: Machine) -> list[Finding]:
+    """This machine can talk to itself, which discovery needs."""
+    try:
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as receiver:
+            receiver.bind((_LOOPBACK, 0))
+            receiver.settimeout(_LOOPBACK_LIMIT_S)
+            receiver.sendto(b'doctor', receiver.getsockname())
+            receiver.recv(16)
+    except OSError as err:
+        return [
+            Finding(
+                expected=f'UDP from {_LOOPBACK} to {_LOOPBACK} arrives',
+                found=str(err),
+                fix='ip link set lo up',
+            )
+        ]
+    return []
+
+
 def open_sockets(machine: Machine) -> list[Finding]:
     """No process of the graph listens on another address than loopback."""
     table = listening(machine.proc)
@@ -133,12 +154,12 @@ def open_sockets(machine: Machine) -> list[Finding]:
     for node in node_files(machine.run_dir, machine.proc):
         if not node.state or node.pid is None:
             continue
-        for socket in sockets_of(node.pid, machine.proc, table):
-            if not socket.is_loopback:
+        for one in sockets_of(node.pid, machine.proc, table):
+            if not one.is_loopback:
                 findings.append(
                     Finding(
                         expected=f'{node.name} listens on {_LOOPBACK} alone',
-                        found=f'{socket.kind} {socket.address}:{socket.port}',
+                        found=f'{one.kind} {one.address}:{one.port}',
                         fix=f'ros2 run aurora_bringup down; unset {_PROFILE} {_RANGE}; '
                         f'{machine.setup_hint}; ros2 run aurora_bringup up',
                     )

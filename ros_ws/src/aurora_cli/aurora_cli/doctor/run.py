@@ -17,11 +17,13 @@ Check = Callable[[Machine], list[Finding]]
 CHECKS: tuple[tuple[str, Check], ...] = (
     ('python', versions.python_version),
     ('environment', versions.environment),
+    ('variables', versions.variables),
     ('packages', versions.packages),
     ('imports', versions.imports),
     ('build', versions.build),
     ('domain', network.domain),
     ('middleware', network.middleware),
+    ('loopback', network.loopback),
     ('ports', network.ports),
     ('sockets', network.open_sockets),
     ('other nodes', network.foreign_nodes),

@@ -7,6 +7,7 @@ from __future__ import annotations
 import importlib.util
 import json
 import re
+from collections.abc import Iterable
 from pathlib import Path
 from types import ModuleType
 
@@ -16,7 +17,9 @@ PYTHONS = ((3, 11), (3, 12))
 _NAMED_AT_MOST = 5
 _PROBE_LIMIT_S = 30.0
 _PINNED = re.compile(r'^([A-Za-z0-9_.-]+)==([^\s;\\]+)', re.MULTILINE)
-_IMPORTS = {
+_VARIABLES = ('ROS_DISTRO', 'AMENT_PREFIX_PATH', 'RMW_IMPLEMENTATION')
+# Module → what it stands for.
+IMPORTS = {
     'rclpy': 'ROS 2 in Python',
     'aurora_msgs.msg': 'the built message package',
     'libsumo': 'SUMO',
@@ -62,6 +65,23 @@ def environment(machine: Machine) -> list[Finding]:
     ]
 
 
+def variables(machine: Machine) -> list[Finding]:
+    """The variables that ROS needs are set, and what they name exists."""
+    missing = [name for name in _VARIABLES if not machine.environment.get(name)]
+    prefixes = machine.environment.get('AMENT_PREFIX_PATH', '').split(':')
+    gone = [prefix for prefix in prefixes if prefix and not Path(prefix).is_dir()]
+    found = [f'{name} is not set' for name in missing]
+    found += [f'AMENT_PREFIX_PATH names {prefix}, which does not exist' for prefix in gone]
+    return [
+        Finding(
+            expected=f'{", ".join(_VARIABLES)} of an environment that is there',
+            found=what,
+            fix=machine.setup_hint,
+        )
+        for what in found
+    ]
+
+
 def packages(machine: Machine) -> list[Finding]:
     """Every installed package is the one of the lock file."""
     if machine.checkout is None or machine.python not in PYTHONS:
@@ -91,15 +111,20 @@ def packages(machine: Machine) -> list[Finding]:
     ]
 
 
-def imports(machine: Machine) -> list[Finding]:
-    """What ROS, the messages and SUMO need at run time can be loaded."""
+def imports(machine: Machine, modules: Iterable[str] = tuple(IMPORTS)) -> list[Finding]:
+    """What ROS, the messages and SUMO need at run time can be loaded.
+
+    Args:
+        machine: What is looked at.
+        modules: Which of `IMPORTS`.
+    """
     findings = []
-    for module, what in _IMPORTS.items():
+    for module in modules:
         done = machine.probe(f'import {module}', _PROBE_LIMIT_S)
         if done.code != 0:
             findings.append(
                 Finding(
-                    expected=f'{what} can be imported (import {module})',
+                    expected=f'{IMPORTS[module]} can be imported (import {module})',
                     found=done.last_words,
                     fix=f'make setup, then: {machine.setup_hint}',
                 )

@@ -1,21 +1,24 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""What `ros2 doctor` checks."""
+"""What `ros2 doctor` checks.
+
+The machine and the environment are the affair of `aurora doctor`, whose checks are called; what
+needs a node to be seen is here.
+"""
 
 from __future__ import annotations
 
-import importlib
-import os
-import socket
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
-from pathlib import Path
 
 from rclpy.node import Node
 from rclpy.qos import QoSCompatibility, qos_check_compatible
 
+from aurora_cli.doctor import network, versions
+from aurora_cli.doctor.machine import Finding as OfTheMachine
+from aurora_cli.doctor.machine import Machine
 from aurora_ros2cli.graph import is_hidden
-from aurora_ros2cli.packages import package_prefixes, prefixes
+from aurora_ros2cli.packages import package_prefixes
 
 # Everybody publishes these, nobody needs to listen.
 _UNHEARD = ('/parameter_events', '/rosout')
@@ -36,51 +39,27 @@ class Finding:
 
 def check_platform(_node: Node) -> list[Finding]:
     """Check the variables of the environment."""
-    findings = [
-        Finding(text=f"{name} is not set: 'source ros_ws/setup.bash'", error=True)
-        for name in ('ROS_DISTRO', 'AMENT_PREFIX_PATH', 'RMW_IMPLEMENTATION')
-        if not os.environ.get(name)
-    ]
-    return findings + [
-        Finding(text=f"AMENT_PREFIX_PATH names '{prefix}', which does not exist", error=True)
-        for prefix in prefixes()
-        if not prefix.is_dir()
-    ]
+    return _errors(versions.variables(Machine()))
 
 
 def check_packages(_node: Node) -> list[Finding]:
-    """Check that the packages of the index are there, and the middleware with them."""
+    """Check that the packages of the index are there, and our messages with them."""
     findings = [
         Finding(text=f"package '{name}' has no package.xml in {prefix}")
         for name, prefix in sorted(package_prefixes().items())
         if not (prefix / 'share' / name / 'package.xml').is_file()
     ]
-    for module in ('rclpy', 'aurora_msgs.msg'):
-        try:
-            importlib.import_module(module)
-        except ImportError as err:
-            text = f"cannot import {module} ({err}): call 'make setup'"
-            findings.append(Finding(text=text, error=True))
-    return findings
+    return findings + _errors(versions.imports(Machine(), ['aurora_msgs.msg']))
 
 
 def check_network(_node: Node) -> list[Finding]:
-    """Check that this machine can talk to itself, which discovery needs."""
-    profile = os.environ.get('FASTRTPS_DEFAULT_PROFILES_FILE')
-    findings = []
-    if profile and not Path(profile).is_file():
-        text = f"FASTRTPS_DEFAULT_PROFILES_FILE names '{profile}', which does not exist"
-        findings.append(Finding(text=text, error=True))
-    try:
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as receiver:
-            receiver.bind(('127.0.0.1', 0))
-            receiver.settimeout(1.0)
-            receiver.sendto(b'doctor', receiver.getsockname())
-            receiver.recv(16)
-    except OSError as err:
-        text = f'UDP on 127.0.0.1 does not work ({err}): is the loopback interface up?'
-        findings.append(Finding(text=text, error=True))
-    return findings
+    """Check that the middleware keeps to this machine, and that it can talk to itself."""
+    machine = Machine()
+    return _errors([*network.middleware(machine), *network.loopback(machine)])
+
+
+def _errors(found: Iterable[OfTheMachine]) -> list[Finding]:
+    return [Finding(text=f'{one.found}: {one.fix}', error=True) for one in found]
 
 
 def check_qos(node: Node) -> list[Finding]:
