@@ -14,8 +14,9 @@ from typing import Any
 import numpy as np
 
 from aurora_core.errors import BagError
+from aurora_core.judging.codec import conditions_from_json
 from aurora_core.knowledge.world import WorldModel
-from aurora_core.outcomes.condition import Condition, conditions_from_json
+from aurora_core.outcomes.condition import Condition
 from aurora_core.pipeline.functions import graph_from_message
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.trace import messages

@@ -11,9 +11,9 @@ from aurora_cli.bags import find_bag
 from aurora_cli.files import write_file
 from aurora_cli.output import answer_console, print_json, quiet_stdout, say
 from aurora_core.errors import ReportError
+from aurora_core.judging.codec import conditions_from_json
 from aurora_core.monitor.signals_for_plot import signals_for_plot
 from aurora_core.outcomes.agsg import Agsg
-from aurora_core.outcomes.condition import conditions_from_json
 from aurora_core.outcomes.verdict import Verdict
 from aurora_core.pipeline.functions import load_bag
 from aurora_core.pipeline.verify_run import verify_found

@@ -10,8 +10,9 @@ from collections.abc import Iterator, Mapping
 from aurora_core.agsg.edges import Edges
 from aurora_core.agsg.nodes import nodes_of
 from aurora_core.agsg.parameters import parameters_of
+from aurora_core.judging.codec import conditions_from_json
 from aurora_core.outcomes.agsg import Agsg, AgsgParameter, Stage
-from aurora_core.outcomes.condition import Condition, conditions_from_json
+from aurora_core.outcomes.condition import Condition
 from aurora_core.spec.scenario import ScenarioSpec
 
 

@@ -19,8 +19,9 @@ import networkx as nx
 from aurora_core.agsg.parameters import element_of
 from aurora_core.document import Document
 from aurora_core.errors import SpecError
+from aurora_core.judging.codec import conditions_from_json
 from aurora_core.outcomes.agsg import Agsg, EdgeType, NodeType
-from aurora_core.outcomes.condition import Condition, conditions_from_json
+from aurora_core.outcomes.condition import Condition
 from aurora_core.spec.parameter import Provenance
 
 _OWN_FAMILY, _OTHER_FAMILY = 1, 2

@@ -29,6 +29,7 @@ from aurora_core.execution.plan import (
 from aurora_core.feasibility.check import check_request
 from aurora_core.grounding.ground import Grounder
 from aurora_core.grounding.places import place_positions
+from aurora_core.judging.codec import conditions_from_json, conditions_to_json
 from aurora_core.knowledge.agent_types import load_agent_types
 from aurora_core.knowledge.basis import Basis, Tables
 from aurora_core.knowledge.config_files import config_path
@@ -39,11 +40,7 @@ from aurora_core.knowledge.world import WorldModel
 from aurora_core.monitor.plan_check import NotComparable, Plan, finding
 from aurora_core.monitor.verify import verify
 from aurora_core.outcomes.agsg import Agsg, Stage
-from aurora_core.outcomes.condition import (
-    Condition,
-    conditions_from_json,
-    conditions_to_json,
-)
+from aurora_core.outcomes.condition import Condition
 from aurora_core.outcomes.feasibility import FeasibilityVerdict
 from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.outcomes.grounding import GroundingFailure, GroundingOutcome, Unjudged

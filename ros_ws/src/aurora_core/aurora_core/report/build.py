@@ -8,8 +8,9 @@ import hashlib
 import json
 import math
 
+from aurora_core.judging.codec import conditions_from_json
 from aurora_core.outcomes.agsg import Agsg
-from aurora_core.outcomes.condition import Condition, conditions_from_json
+from aurora_core.outcomes.condition import Condition
 from aurora_core.outcomes.feasibility import Certificate, Feasibility, FeasibilityVerdict
 from aurora_core.outcomes.parse import ParseOutcome, Refusal
 from aurora_core.report.clauses import clause_reports

@@ -10,7 +10,7 @@ from typing import Literal
 from pydantic import FiniteFloat
 
 from aurora_core.document import Document
-from aurora_core.outcomes.condition import conditions_from_json
+from aurora_core.judging.codec import conditions_from_json
 from aurora_core.outcomes.feasibility import Feasibility, FeasibilityVerdict
 from aurora_core.outcomes.schedule import Schedule
 from aurora_core.report.build import build_report

@@ -10,9 +10,9 @@ import pytest
 
 from aurora_core.agsg.build import build_agsg
 from aurora_core.conditions.derive import derive_conditions
+from aurora_core.judging.codec import conditions_to_json
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.outcomes.agsg import Agsg, Stage
-from aurora_core.outcomes.condition import conditions_to_json
 from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.temporal.schedule import plan_time
