@@ -5,124 +5,21 @@
 from __future__ import annotations
 
 import inspect
+import pkgutil
+from collections.abc import Iterator
+from importlib import import_module
 
-from aurora_core.judging.quantities import (
-    altitude,
-    altitude_fraction,
-    attempts,
-    capture_time,
-    climb_rate,
-    collision_clearance,
-    completion_delay,
-    count,
-    crossing,
-    delivered,
-    delivery_latency,
-    delivery_ratio,
-    distance,
-    distance_travelled,
-    endurance,
-    event_delay,
-    event_time,
-    follow_fraction,
-    free_speed,
-    horizontal_distance,
-    hover_drift,
-    jump,
-    landed,
-    lane_change,
-    link_range,
-    mission_completed,
-    no_fly_distance,
-    obstacle_clearance,
-    over_carriageway,
-    over_limit,
-    pattern_centre,
-    pattern_extent,
-    phase_duration,
-    placement,
-    presence,
-    relation_fraction,
-    route_closed,
-    route_speed,
-    run_duration,
-    sent_after_capture,
-    separation,
-    speed,
-    speed_before_event,
-    time_gap,
-    tracked_fraction,
-    turn,
-    visible_at_send,
-    visible_fraction,
-    visible_time,
-    waypoints_visited,
-    world_setting,
-    yielding,
-)
+from aurora_core.judging import quantities
 from aurora_core.judging.quantity import Quantity
 
-_MODULES = (
-    altitude,
-    altitude_fraction,
-    attempts,
-    capture_time,
-    climb_rate,
-    collision_clearance,
-    completion_delay,
-    count,
-    crossing,
-    delivered,
-    delivery_latency,
-    delivery_ratio,
-    distance,
-    distance_travelled,
-    endurance,
-    event_delay,
-    event_time,
-    follow_fraction,
-    free_speed,
-    horizontal_distance,
-    hover_drift,
-    jump,
-    landed,
-    lane_change,
-    link_range,
-    mission_completed,
-    no_fly_distance,
-    obstacle_clearance,
-    over_carriageway,
-    over_limit,
-    pattern_centre,
-    pattern_extent,
-    phase_duration,
-    placement,
-    presence,
-    relation_fraction,
-    route_closed,
-    route_speed,
-    run_duration,
-    sent_after_capture,
-    separation,
-    speed,
-    speed_before_event,
-    time_gap,
-    tracked_fraction,
-    turn,
-    visible_at_send,
-    visible_fraction,
-    visible_time,
-    waypoints_visited,
-    world_setting,
-    yielding,
-)
 
-KINDS: dict[str, type[Quantity]] = {
-    kind.model_fields['kind'].default: kind
-    for module in _MODULES
-    for kind in vars(module).values()
-    if inspect.isclass(kind)
-    and issubclass(kind, Quantity)
-    and kind.__module__ == module.__name__
-    and not inspect.isabstract(kind)
-}
+def _kinds() -> Iterator[type[Quantity]]:
+    """Yield the argument types of all files of `quantities`."""
+    for file in pkgutil.iter_modules(quantities.__path__, f'{quantities.__name__}.'):
+        for kind in vars(import_module(file.name)).values():
+            own = inspect.isclass(kind) and kind.__module__ == file.name
+            if own and issubclass(kind, Quantity) and not inspect.isabstract(kind):
+                yield kind
+
+
+KINDS: dict[str, type[Quantity]] = {kind.model_fields['kind'].default: kind for kind in _kinds()}

@@ -8,8 +8,9 @@ from typing import Literal
 
 from aurora_core.errors import VerificationError
 from aurora_core.judging.build import Inputs, Source, Target, condition, number
-from aurora_core.judging.evaluation import Context, Evaluation, at_tick, not_yet
+from aurora_core.judging.evaluation import Context, Evaluation, at_tick
 from aurora_core.judging.quantity import OfMission
+from aurora_core.judging.until import not_yet
 from aurora_core.outcomes.condition import Condition, MissionArguments, Window
 from aurora_core.outcomes.schedule import MissionFacts
 from aurora_core.outcomes.verdict import Reason

@@ -14,10 +14,10 @@ from aurora_core.judging.evaluation import (
     Later,
     Missing,
     at_tick,
-    existing_until,
     ground_topics,
 )
 from aurora_core.judging.quantity import Quantity
+from aurora_core.judging.until import existing_until
 from aurora_core.knowledge.world import SurfaceKind
 from aurora_core.outcomes.condition import Condition, Window
 from aurora_core.outcomes.verdict import Reason

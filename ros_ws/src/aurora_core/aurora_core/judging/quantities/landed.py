@@ -7,8 +7,9 @@ from __future__ import annotations
 from typing import Literal
 
 from aurora_core.judging.build import Inputs, Source, Target, condition, number
-from aurora_core.judging.evaluation import Context, Evaluation, at_tick, not_yet
+from aurora_core.judging.evaluation import Context, Evaluation, at_tick
 from aurora_core.judging.quantity import OfMissions
+from aurora_core.judging.until import not_yet
 from aurora_core.outcomes.condition import Condition, MissionArguments, Window
 from aurora_core.spec.quantity import QuantityName
 

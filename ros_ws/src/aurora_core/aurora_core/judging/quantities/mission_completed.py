@@ -9,16 +9,10 @@ from typing import Literal
 from pydantic import FiniteFloat
 
 from aurora_core.judging.build import Inputs, Source, Target, condition, number
-from aurora_core.judging.evaluation import (
-    Context,
-    Evaluation,
-    Later,
-    Missing,
-    at_tick,
-    not_yet,
-)
+from aurora_core.judging.evaluation import Context, Evaluation, Later, Missing, at_tick
 from aurora_core.judging.quantity import OfMission
 from aurora_core.judging.route import route_flown
+from aurora_core.judging.until import not_yet
 from aurora_core.outcomes.condition import Condition, MissionArguments, Window
 from aurora_core.outcomes.verdict import Reason
 from aurora_core.quantities.phases import FlightPhases

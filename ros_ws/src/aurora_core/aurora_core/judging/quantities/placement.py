@@ -25,7 +25,6 @@ from aurora_core.judging.evaluation import (
     Later,
     Missing,
     at_tick,
-    existing_until,
     ground_topics,
 )
 from aurora_core.judging.quantity import Quantity
@@ -35,6 +34,7 @@ from aurora_core.judging.relations import (
     before_place,
     relation_slack,
 )
+from aurora_core.judging.until import existing_until
 from aurora_core.outcomes.condition import Condition, Window
 from aurora_core.outcomes.verdict import Reason
 from aurora_core.quantities import motion

@@ -20,10 +20,10 @@ from aurora_core.judging.evaluation import (
     Missing,
     at_tick,
     ground_topics,
-    moving_until,
 )
 from aurora_core.judging.quantity import Quantity
 from aurora_core.judging.series import Series, StatedSeries
+from aurora_core.judging.until import moving_until
 from aurora_core.outcomes.condition import Condition, Window
 from aurora_core.outcomes.verdict import Reason
 from aurora_core.quantities import motion

@@ -16,9 +16,9 @@ from aurora_core.judging.evaluation import (
     Missing,
     at_tick,
     ground_topics,
-    moving_until,
 )
 from aurora_core.judging.quantity import Quantity
+from aurora_core.judging.until import moving_until
 from aurora_core.outcomes.condition import Condition, Window
 from aurora_core.quantities.angle import compass_bearing_deg
 from aurora_core.quantities.ticks import whole_ticks

@@ -22,12 +22,12 @@ from aurora_core.judging.evaluation import (
     Later,
     Missing,
     at_tick,
-    existing_until,
     ground_topics,
 )
 from aurora_core.judging.happening import agent_action, never_happened, trigger_story
 from aurora_core.judging.quantity import OfEvent, Quantity
 from aurora_core.judging.relations import lead_on_route
+from aurora_core.judging.until import existing_until
 from aurora_core.outcomes.condition import Condition, Window
 from aurora_core.outcomes.verdict import Reason
 from aurora_core.quantities import motion
