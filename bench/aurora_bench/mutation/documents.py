@@ -14,11 +14,12 @@ from typing import Any
 from aurora_bench.mutation.mutant import Mutant, mutant
 from aurora_bench.mutation.recording import Recording
 from aurora_core.agsg.build import build_agsg
+from aurora_core.judging.codec import conditions_from_json
 from aurora_core.knowledge.basis import Basis
 from aurora_core.knowledge.limits import Limits
 from aurora_core.knowledge.world import WorldModel
 from aurora_core.outcomes.agsg import Agsg
-from aurora_core.outcomes.condition import conditions_from_json, conditions_to_json
+from aurora_core.outcomes.condition import conditions_to_json
 from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.spec.scenario import ScenarioSpec
 

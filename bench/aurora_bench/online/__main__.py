@@ -24,7 +24,7 @@ from aurora_bench.results import Goal, Table, goal_table, markdown_table, write_
 from aurora_cli.installed import installed
 from aurora_cli.local_engine import LocalStages
 from aurora_core.errors import AuroraError
-from aurora_core.outcomes.condition import conditions_from_json
+from aurora_core.judging.codec import conditions_from_json
 from aurora_core.pipeline.verification import load_bag
 from aurora_system_tests.local_runs import run_prompt
 

@@ -44,9 +44,12 @@ def _native() -> Any | None:
 
 def _on(base: Any, plain: type[_Class], attributes: str, set_up: Callable[..., None]) -> Any:
     """Return the plain class with its numbers and its step in `base`."""
-    members = {'__slots__': (attributes,) if attributes else (), '__init__': set_up}
-    if hasattr(plain, 'reset'):
-        members['reset'] = plain.reset
+    members: dict[str, Any] = {
+        '__slots__': (attributes,) if attributes else (),
+        '__init__': set_up,
+    }
+    if 'reset' in vars(plain):
+        members['reset'] = vars(plain)['reset']
     return type(plain.__name__, (base,), members)
 
 

@@ -176,7 +176,7 @@ def test_a_machine_that_cannot_talk_to_itself(
     def down(*_arguments: object) -> None:
         raise OSError(101, 'Network is unreachable')
 
-    monkeypatch.setattr(network.socket, 'socket', down)
+    monkeypatch.setattr('aurora_cli.doctor.network.socket.socket', down)
     assert 'Network is unreachable' in only(network.loopback(planted.machine())).found
 
 

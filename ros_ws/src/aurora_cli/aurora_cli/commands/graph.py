@@ -9,8 +9,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from pydantic import ValidationError
-
 from aurora_cli.bags import find_bag
 from aurora_cli.files import write_file
 from aurora_cli.installed import installed
@@ -23,6 +21,7 @@ from aurora_cli.output import (
 )
 from aurora_cli.prompt_input import prompt_bytes
 from aurora_cli.requests import RunOptions, checked, with_prompt
+from aurora_core.agsg.document import agsg_from_json
 from aurora_core.agsg.export import TEXT_WRITERS
 from aurora_core.agsg.influence import Influence, conditions_affected, parameters_affecting
 from aurora_core.errors import PromptError, SpecError
@@ -137,8 +136,8 @@ def _of_run(path: Path, iteration: int | None) -> Agsg:
     else:
         return load_bag(find_bag(str(path), iteration).bag)[1]
     try:
-        return Agsg.model_validate_json(read_bytes(file, DOCUMENT_BYTES))
-    except (OSError, ValidationError) as err:
+        return agsg_from_json(read_bytes(file, DOCUMENT_BYTES))
+    except (OSError, ValueError) as err:
         raise SpecError(f'{file} holds no graph: {err}', hint='name another run') from err
 
 

@@ -11,8 +11,8 @@ from typing import Any
 
 from aurora_core.agsg.build import build_agsg
 from aurora_core.errors import SpecError, VerificationError
+from aurora_core.judging.codec import conditions_from_json
 from aurora_core.outcomes.agsg import Agsg, AgsgParameter, AgsgTexts, EdgeType, NodeType, Stage
-from aurora_core.outcomes.condition import conditions_from_json
 from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.outcomes.schedule import Schedule
 from aurora_core.spec.parameter import Provenance

@@ -8,7 +8,6 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from aurora_core.conditions.behaviors import behavior_conditions
-from aurora_core.conditions.build import Inputs, Underivable
 from aurora_core.conditions.events import event_conditions
 from aurora_core.conditions.missions import mission_conditions
 from aurora_core.conditions.orders import order_conditions
@@ -18,6 +17,7 @@ from aurora_core.conditions.scene import scene_conditions
 from aurora_core.conditions.stated import stated_conditions
 from aurora_core.conditions.unsaid import unsaid
 from aurora_core.errors import VerificationError
+from aurora_core.judging.build import Inputs, Underivable
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.outcomes.condition import Condition
 from aurora_core.outcomes.schedule import PlanFacts

@@ -6,11 +6,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from aurora_core.conditions.build import Inputs, Source, Target, Underivable, condition, number
-from aurora_core.conditions.missions import mission_arguments
-from aurora_core.outcomes.condition import Condition, Window
+from aurora_core.judging.build import Inputs, Source, Target, Underivable, number
+from aurora_core.judging.mission import mission_arguments
+from aurora_core.judging.quantities import event_delay, mission_completed
+from aurora_core.outcomes.condition import Condition
 from aurora_core.spec.parameter import Provenance
-from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import AgentAction, Event, Order, UavMission
 
 
@@ -46,19 +46,12 @@ def _phases(inputs: Inputs, order: Order) -> tuple[UavMission, ...]:
 
 
 def _phase(inputs: Inputs, order: Order, mission: UavMission, source: Source) -> Condition:
-    name = f'{order.id}.holds' + ('' if mission.id == order.then else f'.{mission.id}')
-    return condition(
-        id=name,
+    return mission_completed.in_order(
+        inputs,
+        mission_arguments(inputs, mission),
+        source,
+        id=f'{order.id}.holds' + ('' if mission.id == order.then else f'.{mission.id}'),
         sentence=f'{mission.uav} flies {mission.id} after the phase before it',
-        quantity=QuantityName.MISSION_COMPLETED,
-        signal=f'phase_order({mission.uav},{mission.id})',
-        of=(mission.uav,),
-        target=Target(op='>=', threshold=0.0, unit='s'),
-        arguments=inputs.arguments(
-            Window.MOMENT, aspect='order', mission=mission_arguments(inputs, mission)
-        ),
-        source=source,
-        every_sample=False,
     )
 
 
@@ -87,14 +80,4 @@ def _events(inputs: Inputs, order: Order, source: Source) -> Iterator[Condition]
         words = f'{order.then} comes within {number(latest_s)} s of {order.first}'
         bounds.append(('within', words, Target(op='<=', threshold=latest_s, unit='s')))
     for name, sentence, target in bounds:
-        yield condition(
-            id=f'{order.id}.{name}',
-            sentence=sentence,
-            quantity=QuantityName.EVENT_DELAY,
-            signal=f'time_between({order.first},{order.then})',
-            of=(order.first, order.then),
-            target=target,
-            arguments=inputs.arguments(Window.MOMENT, aspect='order', event=order.then),
-            source=source,
-            every_sample=False,
-        )
+        yield event_delay.in_order(inputs, order, name, sentence, target, source)

@@ -7,22 +7,21 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import pairwise
 
-from aurora_core.conditions.build import (
-    Inputs,
-    Source,
-    Target,
-    bound_words,
-    condition,
-    number,
-    number_target,
-    stated_by,
-)
 from aurora_core.errors import VerificationError
 from aurora_core.geometry.kernel import norm2
-from aurora_core.outcomes.condition import Condition, MissionArguments, Point3, Window
+from aurora_core.judging.build import Inputs, Source, number
+from aurora_core.judging.quantities import (
+    horizontal_distance,
+    over_carriageway,
+    pattern_centre,
+    pattern_extent,
+    route_closed,
+    route_speed,
+    waypoints_visited,
+)
+from aurora_core.outcomes.condition import Condition, MissionArguments, Point3
 from aurora_core.quantities.waypoints import extent, has_shape
-from aurora_core.spec.parameter import Bound, Parameter, Provenance
-from aurora_core.spec.quantity import QuantityName
+from aurora_core.spec.parameter import Parameter, Provenance
 from aurora_core.spec.scenario import UavMission
 from aurora_core.spec.vocabulary import Pattern
 
@@ -43,145 +42,36 @@ def route_conditions(
     """
     _check_shape(mission, arguments)
     _check_size(mission, arguments)
-    uav, points = mission.uav, arguments.waypoints
-    closed = points[0] == points[-1]
-    limit = inputs.tolerances.waypoint_horizontal_m
-    yield condition(
-        id=f'{mission.id}.waypoints',
-        sentence=f'{uav} visits all {len(points)} points of its route in order',
-        quantity=QuantityName.WAYPOINTS_VISITED,
-        signal=f'waypoint_distance({uav})',
-        of=(uav,),
-        target=Target(op='<=', threshold=limit, unit='m'),
-        arguments=inputs.arguments(Window.PHASE, aspect='distance', mission=arguments),
-        source=source,
-    )
-    if closed:
-        yield condition(
-            id=f'{mission.id}.closed',
-            sentence=f'{uav} closes its route where it began',
-            quantity=QuantityName.ROUTE_CLOSED,
-            of=(uav,),
-            target=Target(op='<=', threshold=limit, unit='m'),
-            arguments=inputs.arguments(Window.PHASE, mission=arguments),
-            source=source,
-            every_sample=False,
-        )
+    points = arguments.waypoints
+    yield waypoints_visited.all_points(inputs, arguments, source)
+    if points[0] == points[-1]:
+        yield route_closed.implied(inputs, arguments, source)
     count = mission.waypoint_count
     if count is not None and count.provenance is Provenance.EXPLICIT:
-        yield condition(
-            id=f'{mission.id}.count',
-            sentence=f'{uav} visits {number(count.value)} waypoints',
-            quantity=QuantityName.WAYPOINTS_VISITED,
-            of=(uav,),
-            target=Target(op='>=', threshold=count.value, unit='1'),
-            arguments=inputs.arguments(Window.PHASE, aspect='count', mission=arguments),
-            source=stated_by(source, count),
-            every_sample=False,
-        )
+        yield waypoints_visited.stated_count(inputs, arguments, count, source)
     if mission.over_a_road:
-        share = inputs.tolerances.over_carriageway_share
-        yield condition(
-            id=f'{mission.id}.over_streets',
-            sentence=(
-                f'{uav} flies at least one leg over a carriageway '
-                f'({number(100 * share)} % of the leg)'
-            ),
-            quantity=QuantityName.OVER_CARRIAGEWAY,
-            of=(uav,),
-            target=Target(op='>=', threshold=share, unit='1'),
-            fraction=share,
-            arguments=inputs.arguments(Window.PHASE, mission=arguments),
-            source=source,
-            every_sample=False,
-        )
+        yield over_carriageway.implied(inputs, arguments, source)
     if mission.target is not None:
-        limit = inputs.tolerances.pattern_centre_m
-        yield condition(
-            id=f'{mission.id}.centre',
-            sentence=(
-                f'the pattern of {uav} is centred within {number(limit)} m of {mission.target} '
-                'at t = 0'
-            ),
-            quantity=QuantityName.PATTERN_CENTRE,
-            of=(uav, mission.target),
-            target=Target(op='<=', threshold=limit, unit='m'),
-            arguments=inputs.arguments(Window.START, mission=arguments),
-            source=source,
-            every_sample=False,
-        )
-    yield from _route_numbers(inputs, mission, arguments, source)
-    yield from _extents(inputs, mission, arguments, source)
-
-
-def _route_numbers(
-    inputs: Inputs, mission: UavMission, arguments: MissionArguments, source: Source
-) -> Iterator[Condition]:
-    uav, speed = mission.uav, mission.speed_mps
+        yield pattern_centre.implied(inputs, arguments, mission.target, source)
+    speed = mission.speed_mps
     if speed is not None and speed.provenance is Provenance.EXPLICIT:
-        share = inputs.tolerances.route_speed_share
-        slack = inputs.tolerances.route_speed_mps.of(speed.value, approximate=speed.approximate)
-        way = speed.value * speed.value / (2.0 * inputs.tolerances.route_acceleration_mps2)
-        yield condition(
-            id=f'{mission.id}.speed',
-            sentence=(
-                f'{uav} flies {bound_words(speed)} {number(speed.value)} m/s for '
-                f'{number(100 * share)} % of the time on its legs'
-            ),
-            quantity=QuantityName.ROUTE_SPEED,
-            of=(uav,),
-            target=Target(op='>=', threshold=share, unit='1'),
-            fraction=share,
-            arguments=inputs.arguments(
-                Window.PHASE,
-                mission=arguments,
-                bound=speed.bound,
-                wanted=speed.value,
-                sample_tolerance=0.0 if speed.bound is not Bound.EXACTLY else slack,
-                low=way,
-            ),
-            source=stated_by(source, speed),
-            every_sample=False,
-        )
+        yield route_speed.implied(inputs, arguments, speed, source)
     radius = mission.radius_m
     if radius is not None and radius.provenance is Provenance.EXPLICIT:
-        yield condition(
-            id=f'{mission.id}.radius',
-            sentence=f'{uav} circles at {bound_words(radius)} {number(radius.value)} m',
-            quantity=QuantityName.HORIZONTAL_DISTANCE,
-            signal=f'distance_from_centre({uav})',
-            of=(uav,),
-            target=number_target(radius, inputs.tolerances.standoff_m),
-            arguments=inputs.arguments(Window.PHASE, aspect='centre', mission=arguments),
-            source=stated_by(source, radius),
-        )
+        yield horizontal_distance.of_orbit(inputs, arguments, radius, source)
+    yield from _extents(inputs, mission, arguments, source)
 
 
 def _extents(
     inputs: Inputs, mission: UavMission, arguments: MissionArguments, source: Source
 ) -> Iterator[Condition]:
-    """Yield that the flown pattern is as long and as wide as the prompt states.
-
-    Each end of it may be as far off as a waypoint may be missed.
-    """
+    """Yield that the flown pattern is as long and as wide as the prompt states."""
     if mission.size_m is None or mission.pattern not in _SIZED:
         return
-    slack = 2.0 * inputs.tolerances.waypoint_horizontal_m
     axes = _axes(mission.size_m, arguments.waypoints)
-    for name, size, axis in zip(('length', 'width'), mission.size_m, axes, strict=True):
-        if size.provenance is not Provenance.EXPLICIT or size.value == 0.0:
-            continue
-        yield condition(
-            id=f'{mission.id}.{name}',
-            sentence=f'the pattern of {mission.uav} has a {name} of {number(size.value)} m',
-            quantity=QuantityName.PATTERN_EXTENT,
-            signal=f'{name}({mission.uav})',
-            of=(mission.uav,),
-            target=Target(op='==', threshold=size.value, unit='m', tolerance=slack),
-            arguments=inputs.arguments(Window.PHASE, mission=arguments, axis=axis),
-            source=stated_by(source, size),
-            every_sample=False,
-        )
+    for side, size, axis in zip(('length', 'width'), mission.size_m, axes, strict=True):
+        if size.provenance is Provenance.EXPLICIT and size.value != 0.0:
+            yield pattern_extent.implied(inputs, arguments, side, size, axis, source)
 
 
 def _axes(

@@ -6,9 +6,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import TypedDict
 
-from aurora_core.conditions.build import Inputs, Target, Underivable, condition, number
-from aurora_core.conditions.missions import mission_arguments
 from aurora_core.conditions.stated_flight import FLIGHT_QUANTITIES, stated_flight
 from aurora_core.conditions.stated_links import LINK_QUANTITIES, stated_link
 from aurora_core.conditions.stated_values import (
@@ -20,26 +19,39 @@ from aurora_core.conditions.stated_values import (
     target_of,
     value_of,
 )
+from aurora_core.judging.build import Inputs, Target, Underivable, condition, number
+from aurora_core.judging.mission import mission_arguments
+from aurora_core.judging.quantities.altitude import Altitude
+from aurora_core.judging.quantities.distance import Distance
+from aurora_core.judging.quantities.event_time import EventTime
+from aurora_core.judging.quantities.horizontal_distance import HorizontalDistance
+from aurora_core.judging.quantities.hover_drift import HoverDrift
+from aurora_core.judging.quantities.separation import Separation
+from aurora_core.judging.quantities.speed import Speed
+from aurora_core.judging.quantities.tracked_fraction import TrackedFraction
+from aurora_core.judging.quantities.visible_fraction import VisibleFraction
+from aurora_core.judging.quantities.visible_time import VisibleTime
+from aurora_core.judging.quantity import OfMission, PerSample
+from aurora_core.judging.series import StatedSeries
 from aurora_core.outcomes.condition import Condition, MissionArguments, Window
 from aurora_core.spec.parameter import Bound
-from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import StatedCondition, UavMission, is_place
 from aurora_core.spec.vocabulary import MissionMode
 
 # Quantities with a value at every sample: the worst one, a stretch or a share counts.
-_SERIES = {
-    'distance': (QuantityName.DISTANCE, 2),
-    'horizontal_distance': (QuantityName.HORIZONTAL_DISTANCE, 2),
-    'separation': (QuantityName.SEPARATION, 2),
-    'altitude': (QuantityName.ALTITUDE, 1),
-    'speed': (QuantityName.SPEED, 1),
+_SERIES: dict[str, tuple[type[StatedSeries], int]] = {
+    'distance': (Distance, 2),
+    'horizontal_distance': (HorizontalDistance, 2),
+    'separation': (Separation, 2),
+    'altitude': (Altitude, 1),
+    'speed': (Speed, 1),
 }
 # Quantities that are about mission phases, of one mode only where the third entry says so.
-_PHASES = {
-    'tracked_fraction': (QuantityName.TRACKED_FRACTION, 2, MissionMode.TRACK),
-    'visible_fraction': (QuantityName.VISIBLE_FRACTION, 2, None),
-    'visible_time': (QuantityName.VISIBLE_TIME, 2, None),
-    'hover_drift': (QuantityName.HOVER_DRIFT, 1, MissionMode.HOVER),
+_PHASES: dict[str, tuple[type[OfMission], int, MissionMode | None]] = {
+    'tracked_fraction': (TrackedFraction, 2, MissionMode.TRACK),
+    'visible_fraction': (VisibleFraction, 2, None),
+    'visible_time': (VisibleTime, 2, None),
+    'hover_drift': (HoverDrift, 1, MissionMode.HOVER),
 }
 # What a place has, too.
 _OF_PLACES = frozenset(
@@ -117,7 +129,7 @@ def _when(inputs: Inputs, stated: StatedCondition, missions: tuple[UavMission, .
 
 
 def _series(inputs: Inputs, stated: StatedCondition) -> Condition:
-    quantity, count = _SERIES[stated.quantity]
+    kind, count = _SERIES[stated.quantity]
     of = _bodies(inputs, stated, count)
     target = target_of(inputs.tolerances, stated)
     if stated.fraction is not None:
@@ -132,10 +144,11 @@ def _series(inputs: Inputs, stated: StatedCondition) -> Condition:
     return condition(
         id=f'{stated.id}.holds',
         sentence=sentence_of(stated),
-        quantity=quantity,
         of=of,
         target=target,
-        arguments=inputs.arguments(when.window, mission=when.mission, missions=when.missions),
+        arguments=kind(
+            **inputs.common, window=when.window, mission=when.mission, missions=when.missions
+        ),
         source=source_of(stated),
         hold_s=value_of(stated.hold_s),
         by_s=value_of(stated.by_s),
@@ -154,34 +167,43 @@ def _share(
     return condition(
         id=f'{stated.id}.share',
         sentence=f'{sentence_of(stated)} for {number(100 * fraction)} % of the time',
-        quantity=_SERIES[stated.quantity][0],
         signal=f'{stated.quantity}_share({",".join(of)})',
         of=of,
         target=Target(op='>=', threshold=fraction, unit='1'),
         fraction=fraction,
-        arguments=inputs.arguments(
-            when.window,
-            aspect='share',
+        arguments=_SERIES[stated.quantity][0](
+            **inputs.common,
+            window=when.window,
             mission=when.mission,
             missions=when.missions,
-            bound=_BOUNDS.get(stated.op, Bound.EXACTLY),
-            wanted=stated.value.value,
-            sample_tolerance=target.tolerance or 0.0,
-            strict=stated.op in ('<', '>'),
+            share=PerSample(
+                bound=_BOUNDS.get(stated.op, Bound.EXACTLY),
+                wanted=stated.value.value,
+                tolerance=target.tolerance or 0.0,
+                strict=stated.op in ('<', '>'),
+            ),
         ),
         source=source_of(stated),
         every_sample=False,
     )
 
 
+class _AboutMissions(TypedDict):
+    horizon_s: float
+    touchdown_m: float
+    window: Window
+    mission: MissionArguments
+    missions: tuple[MissionArguments, ...]
+
+
 def _phases(inputs: Inputs, stated: StatedCondition) -> Iterator[Condition]:
     """Yield one condition per mission; the time of sight is summed up over all of them."""
-    quantity, count, mode = _PHASES[stated.quantity]
+    kind, count, mode = _PHASES[stated.quantity]
     of = _bodies(inputs, stated, count)
     missions = missions_of(inputs, stated, mode)
     if not missions:
         raise CannotSayError(f'{stated.quantity} without a mission of {", ".join(stated.of)}')
-    if quantity is QuantityName.VISIBLE_TIME:
+    if kind is VisibleTime:
         only(stated, 'hold_s')
         parts = [(f'{stated.id}.holds', missions)]
     else:
@@ -191,21 +213,24 @@ def _phases(inputs: Inputs, stated: StatedCondition) -> Iterator[Condition]:
             parts = [(f'{stated.id}.holds', missions)]
     for name, group in parts:
         when = _when(inputs, stated, group)
+        assert when.mission is not None  # there is one
+        about: _AboutMissions = {
+            **inputs.common,
+            'window': when.window,
+            'mission': when.mission,
+            'missions': when.missions,
+        }
         yield condition(
             id=name,
             sentence=sentence_of(stated),
-            quantity=quantity,
             of=of,
             target=target_of(inputs.tolerances, stated),
-            arguments=inputs.arguments(
-                when.window,
-                # With a stretch it is the longest one without a gap that counts.
-                aspect='' if stated.hold_s is None else 'longest',
-                mission=when.mission,
-                missions=when.missions,
-            ),
+            # With a stretch it is the longest one without a gap that counts.
+            arguments=VisibleTime(**about, unbroken=stated.hold_s is not None)
+            if kind is VisibleTime
+            else kind(**about),
             source=source_of(stated),
-            every_sample=quantity is QuantityName.HOVER_DRIFT,
+            every_sample=kind is HoverDrift,
         )
 
 
@@ -216,10 +241,9 @@ def _event_time(inputs: Inputs, stated: StatedCondition) -> Condition:
     return condition(
         id=f'{stated.id}.holds',
         sentence=sentence_of(stated),
-        quantity=QuantityName.EVENT_TIME,
         of=stated.of,
         target=target_of(inputs.tolerances, stated),
-        arguments=inputs.arguments(Window.MOMENT, aspect='action', event=stated.of[0]),
+        arguments=EventTime(**inputs.of_event(stated.of[0]), part='action'),
         source=source_of(stated),
         every_sample=False,
     )

@@ -6,13 +6,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from aurora_core.conditions.build import Inputs, Target, condition
-from aurora_core.conditions.completion import (
-    completed_condition,
-    deadline_condition,
-    landed_condition,
-)
-from aurora_core.conditions.missions import mission_arguments
 from aurora_core.conditions.stated_values import (
     CannotSayError,
     asked_true,
@@ -23,8 +16,11 @@ from aurora_core.conditions.stated_values import (
     target_of,
     value_of,
 )
-from aurora_core.outcomes.condition import Condition, Window
-from aurora_core.spec.quantity import QuantityName
+from aurora_core.judging.build import Inputs, Target, condition
+from aurora_core.judging.mission import mission_arguments, missions_of_uav
+from aurora_core.judging.quantities import landed, mission_completed
+from aurora_core.judging.quantities.waypoints_visited import WaypointsVisited
+from aurora_core.outcomes.condition import Condition
 from aurora_core.spec.scenario import StatedCondition
 from aurora_core.spec.vocabulary import MissionMode
 
@@ -45,13 +41,9 @@ def stated_flight(inputs: Inputs, stated: StatedCondition) -> Iterator[Condition
     if stated.quantity == 'landed':
         only(stated, 'by_s')
         asked_true(stated)
-        yield landed_condition(
+        yield landed.by_deadline(
             inputs,
-            tuple(
-                mission_arguments(inputs, m)
-                for m in inputs.spec.missions
-                if m.uav == missions[0].uav
-            ),
+            missions_of_uav(inputs, missions[0].uav),
             id=f'{stated.id}.holds',
             source=source,
             by_s=value_of(stated.by_s),
@@ -64,11 +56,11 @@ def stated_flight(inputs: Inputs, stated: StatedCondition) -> Iterator[Condition
         arguments = mission_arguments(inputs, mission)
         if completed:
             asked_true(stated)
-            yield completed_condition(inputs, arguments, id=name, source=source)
+            yield mission_completed.completed(inputs, arguments, id=name, source=source)
             by_s = value_of(stated.by_s)
             if by_s is not None:
                 late = name.replace('.holds', '.deadline', 1)
-                yield deadline_condition(inputs, arguments, by_s, id=late, source=source)
+                yield mission_completed.deadline(inputs, arguments, by_s, id=late, source=source)
             continue
         asked = target_of(inputs.tolerances, stated)
         if asked.op == '==':
@@ -77,10 +69,9 @@ def stated_flight(inputs: Inputs, stated: StatedCondition) -> Iterator[Condition
         yield condition(
             id=name,
             sentence=sentence_of(stated),
-            quantity=QuantityName.WAYPOINTS_VISITED,
             of=stated.of,
             target=asked,
-            arguments=inputs.arguments(Window.PHASE, aspect='count', mission=arguments),
+            arguments=WaypointsVisited(**inputs.common, mission=arguments),
             source=source,
             every_sample=False,
         )

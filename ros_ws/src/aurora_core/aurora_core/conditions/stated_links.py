@@ -6,8 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from aurora_core.conditions.build import Inputs, Target, condition
-from aurora_core.conditions.links import delivery_deadline_s, link_between
+from aurora_core.conditions.links import link_between
 from aurora_core.conditions.stated_values import (
     CannotSayError,
     asked_true,
@@ -16,11 +15,18 @@ from aurora_core.conditions.stated_values import (
     source_of,
     target_of,
 )
-from aurora_core.outcomes.condition import Condition, Window
-from aurora_core.spec.quantity import QuantityName
+from aurora_core.judging.build import Inputs, Target, condition
+from aurora_core.judging.quantities.delivered import Delivered, delivery_deadline_s
+from aurora_core.judging.quantities.delivery_latency import DeliveryLatency
+from aurora_core.judging.quantities.delivery_ratio import DeliveryRatio
+from aurora_core.outcomes.condition import Condition
 from aurora_core.spec.scenario import StatedCondition
 
-LINK_QUANTITIES = frozenset({'delivered', 'delivery_latency', 'delivery_ratio'})
+LINK_QUANTITIES: dict[str, type[Delivered] | type[DeliveryLatency] | type[DeliveryRatio]] = {
+    'delivered': Delivered,
+    'delivery_latency': DeliveryLatency,
+    'delivery_ratio': DeliveryRatio,
+}
 
 
 def stated_link(inputs: Inputs, stated: StatedCondition) -> Iterator[Condition]:
@@ -33,23 +39,22 @@ def stated_link(inputs: Inputs, stated: StatedCondition) -> Iterator[Condition]:
     link = link_between(inputs.spec, *stated.of) if len(stated.of) == 2 else None
     if link is None:
         raise CannotSayError(f'{stated.quantity} without a link of {", ".join(stated.of)}')
-    quantity = QuantityName(stated.quantity)
     target, signal = target_of(inputs.tolerances, stated), None
-    if quantity is QuantityName.DELIVERED:
+    arguments = LINK_QUANTITIES[stated.quantity](**inputs.common, link=link.id)
+    if isinstance(arguments, Delivered):
         asked_true(stated)
         target = Target(op='<=', threshold=delivery_deadline_s(inputs, link), unit='s')
         signal = f'delivery_time({link.id})'
-    elif quantity is QuantityName.DELIVERY_LATENCY and stated.op not in ('<=', '<'):
+    elif isinstance(arguments, DeliveryLatency) and stated.op not in ('<=', '<'):
         # A message that never arrives has no latency that could be long enough.
         raise CannotSayError(f'delivery_latency {stated.op}')
     yield condition(
         id=f'{stated.id}.holds',
         sentence=sentence_of(stated),
-        quantity=quantity,
         signal=signal,
         of=stated.of,
         target=target,
-        arguments=inputs.arguments(Window.MOMENT, link=link.id),
+        arguments=arguments,
         source=source_of(stated),
-        every_sample=quantity is not QuantityName.DELIVERY_RATIO,
+        every_sample=not isinstance(arguments, DeliveryRatio),
     )

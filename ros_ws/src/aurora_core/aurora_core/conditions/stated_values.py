@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from aurora_core.conditions.build import Inputs, Source, Target, number
+from aurora_core.judging.build import Inputs, Source, Target, number
 from aurora_core.knowledge.limits import Tolerances
 from aurora_core.spec.parameter import Parameter, Span, Unit
 from aurora_core.spec.scenario import StatedCondition, UavMission

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from aurora_core.conditions.build import Inputs, Underivable
+from aurora_core.judging.build import Inputs, Underivable
 from aurora_core.spec.prohibitions import ForbiddenAgent
 from aurora_core.spec.vocabulary import LinkOcclusion
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from aurora_core.comm.link import link_stream
-from aurora_core.monitor.evaluation import Context
+from aurora_core.judging.evaluation import Context
 from aurora_core.outcomes.verdict import Finding
 from aurora_core.spec.scenario import Link
 from aurora_core.trace.records import LinkEventKind, LossReason

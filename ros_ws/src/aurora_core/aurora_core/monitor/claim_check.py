@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from aurora_core.monitor.evaluation import Context
+from aurora_core.judging.evaluation import Context
 from aurora_core.outcomes.verdict import Finding
 from aurora_core.quantities.view import Body
 from aurora_core.spec.scenario import AgentAction, SendMessage

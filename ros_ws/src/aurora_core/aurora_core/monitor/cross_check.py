@@ -8,10 +8,10 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from aurora_core.judging.evaluation import Context
+from aurora_core.judging.quantities.mission_completed import PhaseOrder
 from aurora_core.monitor.claim_check import claim_findings
-from aurora_core.monitor.evaluation import Context
 from aurora_core.monitor.motion_check import motion_findings
-from aurora_core.outcomes.condition import Condition
 from aurora_core.outcomes.verdict import Finding
 from aurora_core.quantities.kernels import distance_3d
 from aurora_core.quantities.ledger import ledger_disagreements
@@ -113,7 +113,8 @@ def _actions(context: Context) -> Iterator[Finding]:
 
 
 def _ledger(context: Context) -> Iterator[Finding]:
-    statistics_from = max((c.arguments.statistics_from for c in context.conditions), default=0)
+    tolerances = (condition.arguments.event_tolerances for condition in context.conditions)
+    statistics_from = max((t.statistics_from for t in tolerances if t is not None), default=0)
     for item in ledger_disagreements(context.view, context.links, max(1, statistics_from)):
         yield _finding(context, 'message', item.subject, item.tick, item.text)
 
@@ -142,19 +143,19 @@ def _sights(context: Context) -> Iterator[Finding]:
 def _phases(context: Context) -> Iterator[Finding]:
     """Check that the states show each commanded change of phase in time."""
     orders = {
-        condition.arguments.mission.uav: condition
+        condition.arguments.mission.uav: condition.arguments
         for condition in reversed(context.conditions)
-        if condition.arguments.aspect == 'order' and condition.arguments.mission is not None
+        if isinstance(condition.arguments, PhaseOrder)
     }
     for uav in sorted(orders):
         yield from _changes(context, uav, orders[uav])
 
 
-def _changes(context: Context, uav: str, condition: Condition) -> Iterator[Finding]:
+def _changes(context: Context, uav: str, asked: PhaseOrder) -> Iterator[Finding]:
     view = context.view
     body = view.body(uav)
     commands, states = view.commands(body), view.rows(body)
-    wait = whole_ticks(condition.arguments.phase_change_s, view.dt_s)
+    wait = whole_ticks(asked.phase_change_s, view.dt_s)
     phase, mode = commands[:, UavCommandColumn.PHASE], commands[:, UavCommandColumn.MODE]
     reported = states[:, UavColumn.MODE]
     changed = (phase[1:] != phase[:-1]) | (mode[1:] != mode[:-1])
@@ -166,16 +167,16 @@ def _changes(context: Context, uav: str, condition: Condition) -> Iterator[Findi
         if begins_mode and first_tick(reported == mode[tick], tick, tick + wait + 1) is None:
             text = (
                 f'mode {UavMode(int(mode[tick])).name} commanded, the states do not report it '
-                f'within {condition.arguments.phase_change_s} s'
+                f'within {asked.phase_change_s} s'
             )
             yield _finding(context, 'phase', uav, tick, text)
         elif begins_phase and mode[tick] == UavMode.OFFBOARD:
             off = _off_setpoint(context, uav, tick + wait)
             still = mode[tick + wait] == UavMode.OFFBOARD
-            if still and off > condition.arguments.phase_follow_m:
+            if still and off > asked.phase_follow_m:
                 text = (
                     f'phase {int(phase[tick])} commanded, {off:.2f} m off its set-point '
-                    f'{condition.arguments.phase_change_s} s later'
+                    f'{asked.phase_change_s} s later'
                 )
                 yield _finding(context, 'phase', uav, tick, text)
 

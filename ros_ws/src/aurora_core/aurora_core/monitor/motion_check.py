@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from aurora_core.monitor.evaluation import Context
+from aurora_core.judging.evaluation import Context
 from aurora_core.outcomes.verdict import Finding
 from aurora_core.quantities.motion import jump_speeds
 from aurora_core.quantities.ticks import whole_ticks

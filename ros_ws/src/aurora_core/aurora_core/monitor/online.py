@@ -16,9 +16,9 @@ from math import inf
 
 import numpy as np
 
+from aurora_core.judging.evaluation import Context, Later, Measured, Missing
+from aurora_core.judging.quantity import measure
 from aurora_core.knowledge.world import WorldModel
-from aurora_core.monitor.evaluation import Context, Later, Measured, Missing
-from aurora_core.monitor.measure import measure
 from aurora_core.monitor.verify import judged_formula, sampled
 from aurora_core.outcomes.condition import Condition, Window
 from aurora_core.quantities.growing import GrowingView

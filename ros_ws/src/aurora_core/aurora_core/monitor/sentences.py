@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from aurora_core.monitor.evaluation import Context, Measured
+from aurora_core.judging.evaluation import Context, Measured
 from aurora_core.outcomes.condition import Condition
 from aurora_core.outcomes.verdict import Reason
 

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from aurora_core.judging.evaluation import BoolArray, Context, FloatArray, Measured
+from aurora_core.judging.quantity import measure
 from aurora_core.knowledge.world import WorldModel
-from aurora_core.monitor.evaluation import BoolArray, Context, FloatArray, Measured
-from aurora_core.monitor.measure import measure
 from aurora_core.monitor.verify import judged_formula, sampled
 from aurora_core.outcomes.condition import Condition
 from aurora_core.quantities.view import RunView

@@ -7,11 +7,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from aurora_core.errors import VerificationError
+from aurora_core.judging.evaluation import Context, Measured, Missing
+from aurora_core.judging.quantity import measure
 from aurora_core.knowledge.world import WorldModel
 from aurora_core.monitor.chance_check import chance_findings
 from aurora_core.monitor.cross_check import cross_check
-from aurora_core.monitor.evaluation import Context, Measured, Missing
-from aurora_core.monitor.measure import measure
 from aurora_core.monitor.plan_check import Held, NotComparable, Plan, held_against
 from aurora_core.monitor.sentences import explain, explain_missing
 from aurora_core.outcomes.condition import Condition

@@ -11,7 +11,7 @@ from __future__ import annotations
 from enum import StrEnum
 from typing import Literal, Self
 
-from pydantic import FiniteFloat, TypeAdapter, ValidationError, model_validator
+from pydantic import FiniteFloat, SerializeAsAny, TypeAdapter, model_validator
 
 from aurora_core.document import Document, canonical_json, omitted
 from aurora_core.errors import VerificationError
@@ -20,7 +20,7 @@ from aurora_core.quantities.kernels import TrackRule
 from aurora_core.quantities.phases import CaptureRule
 from aurora_core.spec.parameter import Bound, Provenance, Span
 from aurora_core.spec.quantity import QuantityName
-from aurora_core.spec.vocabulary import MissionMode, Relation
+from aurora_core.spec.vocabulary import MissionMode
 from aurora_core.stl.formula import predicates
 from aurora_core.stl.syntax import parse_formula
 
@@ -108,74 +108,52 @@ class MissionArguments(Document):
         )
 
 
+class EventTolerances(Document):
+    """What the moments of events are measured with.
+
+    Attributes:
+        brake_mps2: Loss of speed that counts as braking.
+        onset_mps2: Change of speed that counts as slowing down or speeding up.
+        arrival_m: Distance from a place at which an agent is there.
+        actions: When the actions of ground agents are complete.
+        statistics_from: Attempts before a link's losses are compared with its model.
+    """
+
+    brake_mps2: FiniteFloat
+    onset_mps2: FiniteFloat
+    arrival_m: FiniteFloat
+    actions: ActionRules | None = omitted(None)
+    statistics_from: int
+
+
 class Arguments(Document):
     """What the evaluation of a condition needs beside its threshold.
 
+    Each quantity has an argument type of its own with what only it needs, in
+    `aurora_core.judging.quantities`; here is what all of them may have.
+
     Attributes:
+        kind: Which of these types it is.
         horizon_s: Time by which the run has to be over; a trace that ends earlier without having
             been finished is too short.
         window: Which samples count.
         touchdown_m: Height below which a UAV that reports landed is down.
-        aspect: Which of several readings of the quantity is meant, see its evaluator.
-        mission: The mission it belongs to.
+        mission: The mission that it is about.
         missions: All missions of the UAV that it is about (alerts: of the sender).
-        event: Event id.
-        link: Link id.
-        relation: Of a placement.
-        after_s: Samples before this time do not count; of events what shows sooner after
-            the trigger.
-        low: Lower end of what counts per sample (gap, share of a leg, ...); see the evaluator.
-        high: Upper end.
-        slow_low: Follow: lower end while slow.
-        slow_high: Follow: upper end while slow.
-        slow_mps: Speed that separates slow from moving.
-        offset_m: How far from a route a body may be.
-        bound: How the number binds per sample.
-        wanted: Number that each sample is compared with.
-        sample_tolerance: Tolerance on it.
-        strict: A sample that is exactly the wanted number does not count.
-        brake_mps2: Events: loss of speed that counts as braking.
-        onset_mps2: Events: change of speed that counts as slowing down or speeding up.
-        actions: Events: when the actions of ground agents are complete.
-        acceleration_mps2: Completion: what the agent can do to get to its speed.
-        axis: Patterns: direction (x, y) along which their extent is measured.
-        types: Counts: vocabulary types.
-        arrival_m: Events: distance from a place at which an agent is there.
-        phase_change_s: Time within which the states have to show a change of phase.
-        phase_follow_m: How close a UAV is to its set-point by then.
-        statistics_from: Attempts before a link's losses are compared with its model.
+        event: Event that it is about.
+        event_tolerances: What the moments of that event are measured with.
+        link: Link that it is about.
     """
 
+    kind: str = ''
     horizon_s: FiniteFloat
     window: Window
     touchdown_m: FiniteFloat
-    aspect: str = ''
-    mission: MissionArguments | None = None
-    missions: tuple[MissionArguments, ...] = ()
-    event: str | None = None
-    link: str | None = None
-    relation: Relation | None = None
-    after_s: FiniteFloat = 0.0
-    low: FiniteFloat = 0.0
-    high: FiniteFloat = 0.0
-    slow_low: FiniteFloat = 0.0
-    slow_high: FiniteFloat = 0.0
-    slow_mps: FiniteFloat = 0.0
-    offset_m: FiniteFloat = 0.0
-    bound: Bound = Bound.EXACTLY
-    wanted: FiniteFloat = 0.0
-    sample_tolerance: FiniteFloat = 0.0
-    strict: bool = False
-    brake_mps2: FiniteFloat = 0.0
-    onset_mps2: FiniteFloat = 0.0
-    actions: ActionRules | None = omitted(None)
-    acceleration_mps2: FiniteFloat = omitted(0.0)
-    axis: tuple[FiniteFloat, FiniteFloat] | None = omitted(None)
-    types: tuple[str, ...] = omitted(())
-    arrival_m: FiniteFloat = 0.0
-    phase_change_s: FiniteFloat = 0.0
-    phase_follow_m: FiniteFloat = 0.0
-    statistics_from: int = 0
+    mission: MissionArguments | None = omitted(None)
+    missions: tuple[MissionArguments, ...] = omitted(())
+    event: str | None = omitted(None)
+    event_tolerances: EventTolerances | None = omitted(None)
+    link: str | None = omitted(None)
 
 
 class Condition(Document):
@@ -216,7 +194,7 @@ class Condition(Document):
     hold_s: FiniteFloat | None = None
     by_s: FiniteFloat | None = None
     fraction: FiniteFloat | None = None
-    arguments: Arguments
+    arguments: SerializeAsAny[Arguments]
     spec_ids: tuple[str, ...] = ()
     spans: tuple[Span, ...] = ()
     provenance: Provenance
@@ -248,22 +226,5 @@ _CONDITIONS: TypeAdapter[tuple[Condition, ...]] = TypeAdapter(tuple[Condition, .
 
 
 def conditions_to_json(conditions: tuple[Condition, ...]) -> str:
-    """Return the one byte-exact JSON text of conditions."""
+    """Return the one byte-exact JSON text of conditions; `judging.codec` reads it."""
     return canonical_json(_CONDITIONS.dump_python(conditions, mode='json'))
-
-
-def conditions_from_json(text: str) -> tuple[Condition, ...]:
-    """Read conditions.
-
-    Raises:
-        VerificationError: The text is not JSON of conditions, or ids repeat.
-    """
-    try:
-        conditions = _CONDITIONS.validate_json(text, strict=False)
-    except ValidationError as err:
-        raise VerificationError(f'conditions cannot be read: {err}') from err
-    ids = [condition.id for condition in conditions]
-    repeated = sorted({i for i in ids if ids.count(i) > 1})
-    if repeated:
-        raise VerificationError(f'condition ids must be unique, repeated: {", ".join(repeated)}')
-    return conditions

@@ -13,19 +13,20 @@ from aurora_core.agsg.message import read_agsg
 from aurora_core.errors import AuroraError, VerificationError
 from aurora_core.execution.plan import build_roster, build_world, wind_of
 from aurora_core.grounding.places import place_positions
+from aurora_core.judging.codec import conditions_from_json
 from aurora_core.knowledge.basis import Basis, Tables
 from aurora_core.knowledge.limits import Limits
 from aurora_core.knowledge.world import WorldModel
 from aurora_core.monitor.plan_check import NotComparable, Plan, finding
 from aurora_core.monitor.verify import verify
 from aurora_core.outcomes.agsg import Agsg
-from aurora_core.outcomes.condition import conditions_from_json
 from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.outcomes.schedule import Schedule
 from aurora_core.outcomes.verdict import Finding, Verdict
 from aurora_core.pipeline.knowledge import Knowledge
 from aurora_core.pipeline.planned import plan_conditions
 from aurora_core.pipeline.recompute import recomputed
+from aurora_core.planning.complete import complete
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.temporal.schedule import plan_time
 from aurora_core.trace.bag_content import BagContent
@@ -185,7 +186,8 @@ def _plan(
 ) -> Plan:
     here = known.basis
     spec = agsg.spec
-    schedule = plan_time(spec, grounded, tables.limits)
+    # Requests were once recorded as they were read; completing changes nothing of a complete one.
+    schedule = plan_time(complete(spec, tables.limits), grounded, tables.limits)
     planned = plan_conditions(spec, grounded, schedule, tables.limits, tables.tolerances)
     rebuilt = _rebuilt_world(known, spec, grounded, tables.limits)
     foreign = basis.differences(here)

@@ -4,9 +4,9 @@
 
 from __future__ import annotations
 
+from aurora_core.judging.codec import conditions_from_json
 from aurora_core.monitor.plan_check import NotComparable, Plan, plan_findings
 from aurora_core.outcomes.agsg import Agsg
-from aurora_core.outcomes.condition import conditions_from_json
 from aurora_core.outcomes.grounding import GroundingOutcome
 from aurora_core.outcomes.parse import ParseOutcome
 from aurora_core.outcomes.verdict import Verdict

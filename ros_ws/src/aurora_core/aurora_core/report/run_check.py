@@ -14,6 +14,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from aurora_core.agsg.document import agsg_from_json
 from aurora_core.document import Document
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.grounded import GroundedScenario
@@ -191,7 +192,7 @@ def _stages(run: Path, iteration: int, bag: JudgedBag) -> Iterator[Doubt]:
     if agsg.iteration != iteration:
         yield altered(f'the graph in the bag is of iteration {agsg.iteration}')
     name = StageFile.AGSG.name_at(iteration)
-    graph = read_document(run / name, Agsg)
+    graph = read_document(run / name, Agsg, agsg_from_json)
     if isinstance(graph, Unreadable):
         yield unknown(graph.why)
     elif graph != agsg:

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeVar
@@ -40,13 +41,15 @@ def read_stored(path: Path) -> bytes | Unreadable:
         return Unreadable(missing=False, why=f'{path.name} cannot be read: {what}')
 
 
-def read_document(path: Path, kind: type[_Document]) -> _Document | Unreadable:
-    """Return a document of a run folder."""
+def read_document(
+    path: Path, kind: type[_Document], read: Callable[[bytes], _Document] | None = None
+) -> _Document | Unreadable:
+    """Return a document of a run folder, read as its type reads it unless told otherwise."""
     data = read_stored(path)
     if isinstance(data, Unreadable):
         return data
     try:
-        return kind.model_validate_json(data)
+        return kind.model_validate_json(data) if read is None else read(data)
     except ValidationError as err:
         first = err.errors(include_url=False, include_input=False)[0]
         where = '.'.join(str(part) for part in first['loc'])

@@ -10,14 +10,11 @@ from typing import Any
 import pytest
 from pydantic import ValidationError
 
-from aurora_core.conditions.build import number_target
 from aurora_core.conditions.derive import Derivation, derive_conditions
 from aurora_core.errors import VerificationError
-from aurora_core.outcomes.condition import (
-    Condition,
-    conditions_from_json,
-    conditions_to_json,
-)
+from aurora_core.judging.build import number_target
+from aurora_core.judging.codec import conditions_from_json
+from aurora_core.outcomes.condition import Condition, conditions_to_json
 from aurora_core.spec.events import actor_of
 from aurora_core.spec.parameter import Bound, Provenance, Unit
 from aurora_core.spec.scenario import Event

@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 
-from aurora_core.conditions.build import Inputs, Underivable
 from aurora_core.conditions.orders import order_conditions
+from aurora_core.judging.build import Inputs, Underivable
 from aurora_core.outcomes.condition import Condition
 from aurora_core.outcomes.schedule import MissionFacts
 from aurora_core.spec.parameter import Unit

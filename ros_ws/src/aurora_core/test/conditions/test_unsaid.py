@@ -6,9 +6,9 @@ from __future__ import annotations
 
 from types import ModuleType
 
-from aurora_core.conditions.build import Inputs
 from aurora_core.conditions.derive import derive_conditions
 from aurora_core.conditions.unsaid import unsaid
+from aurora_core.judging.build import Inputs
 from aurora_core.spec.parameter import Unit
 
 

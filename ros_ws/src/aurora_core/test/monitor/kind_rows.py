@@ -27,6 +27,8 @@ from aurora_core.spec.parameter import Unit
 from aurora_core.trace.trace import Trace
 
 _FOLDER = Path(__file__).parent
+# Fields that say what is measured, not by what it is judged.
+_READINGS = ('side', 'part', 'after', 'setting', 'unbroken', 'background')
 
 
 class Outcome(StrEnum):
@@ -96,9 +98,14 @@ class Row:
 
 
 def kind_of(condition: Condition) -> str:
-    """Return the kind of a condition: its quantity, and which reading of it is meant."""
-    aspect = condition.arguments.aspect
-    return condition.quantity.value + (f'/{aspect}' if aspect else '')
+    """Return the kind of a condition: its arguments, and which reading of them is meant."""
+    kind = condition.arguments.kind
+    for name, value in condition.arguments:
+        if name == 'share' and value is not None:
+            kind += '/share'
+        elif name in _READINGS:
+            kind += f'/{value}' if isinstance(value, str) else f'/{name}' * value
+    return kind
 
 
 def trace_part(trace: Trace, start: int, stop: int) -> Trace:

@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 from kind_rows import Outcome, Row, all_rows, kind_of, trace_part
 
+from aurora_core.judging.quantities.placement import Placed
 from aurora_core.monitor.online import OnlineMonitor
 from aurora_core.outcomes.condition import Condition
 from aurora_core.outcomes.verdict import Reason
@@ -44,6 +45,7 @@ def _kinds(condition: Condition, spec: ScenarioSpec) -> set[str]:
     what = condition.id.partition('.')[2]
     kinds = {condition.quantity.value, kind_of(condition), f'behaviour {what}'}
     if what == 'placed':
+        assert isinstance(condition.arguments, Placed)
         kinds.add(f'relation {condition.arguments.relation}')
     if what == 'within':
         (event,) = (e for e in spec.events if e.id == condition.arguments.event)

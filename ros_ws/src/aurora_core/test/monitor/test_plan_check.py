@@ -29,7 +29,7 @@ def _laxer(recorded: Recorded) -> None:
 
 def _horizon(recorded: Recorded) -> None:
     first, *rest = recorded['conditions']
-    arguments = dict(first.arguments) | {'horizon_s': 1.0}
+    arguments = first.arguments.model_copy(update={'horizon_s': 1.0})
     values = dict(first) | {'arguments': arguments}
     recorded['conditions'] = (Condition.model_validate(values), *rest)
 

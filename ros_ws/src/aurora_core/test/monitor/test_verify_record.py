@@ -15,9 +15,10 @@ from pydantic import ValidationError
 
 from aurora_core.conditions.derive import derive_conditions
 from aurora_core.errors import VerificationError
+from aurora_core.judging.codec import conditions_from_json
 from aurora_core.monitor.signals_for_plot import signals_for_plot
 from aurora_core.monitor.verify import verify
-from aurora_core.outcomes.condition import conditions_from_json, conditions_to_json
+from aurora_core.outcomes.condition import conditions_to_json
 from aurora_core.outcomes.verdict import ConditionResult, Reason, Verdict, VerdictStatus
 from aurora_core.trace.layout import UavColumn, UavCommandColumn, UavMode, UavPhase
 from aurora_core.trace.records import ScenarioEventKind, SightRecord

@@ -13,11 +13,12 @@ import pytest
 from aurora_core.agsg.build import build_agsg
 from aurora_core.errors import VerificationError
 from aurora_core.execution.plan import Execution
+from aurora_core.judging.codec import conditions_from_json
 from aurora_core.knowledge.basis import Basis
 from aurora_core.knowledge.world import WorldModel
 from aurora_core.monitor.plan_check import Held, NotComparable, Plan, held_against, plan_findings
 from aurora_core.outcomes.agsg import Agsg
-from aurora_core.outcomes.condition import conditions_from_json, conditions_to_json
+from aurora_core.outcomes.condition import conditions_to_json
 from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.outcomes.parse import ParseOutcome
 from aurora_core.outcomes.schedule import Schedule

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from aurora_core.agsg.build import build_agsg
-from aurora_core.outcomes.condition import conditions_from_json
+from aurora_core.judging.codec import conditions_from_json
 from aurora_core.pipeline.functions import ground_stage, parse_stage
 from aurora_core.pipeline.knowledge import installed_knowledge
 

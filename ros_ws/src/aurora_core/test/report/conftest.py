@@ -12,7 +12,8 @@ import numpy as np
 import pytest
 
 from aurora_core.agsg.build import build_agsg
-from aurora_core.conditions.build import Source, Target, condition
+from aurora_core.judging.build import Source, Target, condition
+from aurora_core.judging.quantities.visible_fraction import VisibleFraction
 from aurora_core.knowledge.config_files import config_path
 from aurora_core.knowledge.limits import load_limits
 from aurora_core.knowledge.map_types import Building, NoFlyZone
@@ -25,7 +26,7 @@ from aurora_core.knowledge.world import (
     WorldModel,
 )
 from aurora_core.outcomes.agsg import Agsg, Stage
-from aurora_core.outcomes.condition import Arguments, Condition, Window, conditions_to_json
+from aurora_core.outcomes.condition import Condition, MissionArguments, Window, conditions_to_json
 from aurora_core.outcomes.grounded import AnchorScore, GroundedScenario, RealisedValue
 from aurora_core.outcomes.grounding import GroundingOutcome
 from aurora_core.outcomes.parse import ParseOutcome
@@ -34,7 +35,6 @@ from aurora_core.report.facts import ExecutionFacts, RunFacts
 from aurora_core.report.run_check import JudgedBag
 from aurora_core.report.run_report import ClauseReport
 from aurora_core.spec.parameter import Parameter, Provenance, Span, Unit
-from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import Clause, GroundAgent, ScenarioSpec, Uav, UavMission
 from aurora_core.spec.vocabulary import AgentType, ClauseStatus, MissionMode
 from aurora_core.trace.bag_content import BagContent
@@ -103,15 +103,31 @@ def make_spec(**changes: Any) -> ScenarioSpec:
     return ScenarioSpec.model_validate({**values, **changes})
 
 
+_MISSION = MissionArguments(
+    mission='m1',
+    uav='uav1',
+    index=0,
+    mode=MissionMode.TRACK,
+    target='motorcycle1',
+    altitude_m=40.0,
+    altitude_tolerance_m=1.0,
+    capture_altitude_m=5.0,
+    capture_horizontal_m=5.0,
+    first_altitude_m=40.0,
+    first_altitude_tolerance_m=1.0,
+)
+
+
 def make_condition(name: str = 'm1.visible', **source: Any) -> Condition:
     """A condition over a share of samples."""
     return condition(
         id=name,
         sentence=f'uav1 keeps {name}',
-        quantity=QuantityName.VISIBLE_FRACTION,
         of=('uav1', 'motorcycle1'),
         target=Target(op='>=', threshold=0.7, unit='1'),
-        arguments=Arguments(horizon_s=60.0, window=Window.RUN, touchdown_m=0.3),
+        arguments=VisibleFraction(
+            horizon_s=60.0, window=Window.RUN, touchdown_m=0.3, mission=_MISSION
+        ),
         source=Source(**{'ids': ('m1',), **source}),
         every_sample=False,
     )

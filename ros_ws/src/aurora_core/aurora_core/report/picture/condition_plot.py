@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from aurora_core.monitor.evaluation import FloatArray
+from aurora_core.judging.evaluation import FloatArray
 from aurora_core.monitor.sentences import quantity_text
 from aurora_core.monitor.signals_for_plot import PlotSignal
 from aurora_core.outcomes.verdict import ConditionResult

@@ -16,8 +16,9 @@ from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
+from aurora_core.judging.codec import conditions_from_json
 from aurora_core.knowledge.world import WorldModel
-from aurora_core.outcomes.condition import Condition, conditions_from_json
+from aurora_core.outcomes.condition import Condition
 from aurora_core.report.picture import style
 from aurora_core.report.picture.caption import Caption
 from aurora_core.report.picture.furniture import draw_scale

@@ -9,7 +9,7 @@ import pytest
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 
-from aurora_core.monitor.evaluation import FloatArray
+from aurora_core.judging.evaluation import FloatArray
 from aurora_core.monitor.signals_for_plot import PlotSignal
 from aurora_core.outcomes.verdict import ConditionResult
 from aurora_core.report.picture.condition_plot import draw_condition

@@ -1,0 +1,105 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""A mission as its conditions measure it: from the request and the plan."""
+
+from __future__ import annotations
+
+from aurora_core.errors import VerificationError
+from aurora_core.judging.build import Inputs
+from aurora_core.knowledge.limits import hover_drift_limit_m
+from aurora_core.outcomes.condition import MissionArguments
+from aurora_core.outcomes.schedule import MissionFacts
+from aurora_core.spec.parameter import Bound, Parameter, Provenance
+from aurora_core.spec.scenario import UavMission
+from aurora_core.spec.vocabulary import MissionMode
+
+
+def mission_arguments(inputs: Inputs, mission: UavMission) -> MissionArguments:
+    """Return a mission as it is measured.
+
+    Raises:
+        VerificationError: The plan has no facts of the mission, or facts that do not fit it.
+    """
+    facts = inputs.mission_facts(mission.id)
+    if facts is None:
+        raise VerificationError(f'the plan has no facts of mission {mission.id}')
+    own = [m for m in inputs.spec.missions if m.uav == mission.uav]
+    first_facts = inputs.mission_facts(own[0].id)
+    if first_facts is None:
+        raise VerificationError(f'the plan has no facts of mission {own[0].id}')
+    tolerances = inputs.tolerances
+    altitude = _explicit_or(mission.altitude_m, facts.altitude_m)
+    altitude_slack = _slack(mission.altitude_m, altitude, inputs)
+    standoff = _explicit_or(mission.standoff_m, facts.standoff_m or 0.0)
+    standoff_slack = inputs.limits.tracking_horizontal_m
+    if mission.standoff_m is not None and mission.standoff_m.provenance is Provenance.EXPLICIT:
+        standoff_slack = tolerances.standoff_m.of(
+            standoff, approximate=mission.standoff_m.approximate
+        )
+    first_altitude = _explicit_or(own[0].altitude_m, first_facts.altitude_m)
+    point = _first_point(mission, facts)
+    track = mission.mode is MissionMode.TRACK
+    hover = mission.mode is MissionMode.HOVER
+    horizontal = (
+        hover_drift_limit_m(inputs.spec.world.weather.value, inputs.limits, tolerances)
+        if hover
+        else tolerances.waypoint_horizontal_m
+    )
+    return MissionArguments(
+        mission=mission.id,
+        uav=mission.uav,
+        index=own.index(mission),
+        mode=mission.mode,
+        target=mission.target,
+        altitude_m=altitude,
+        altitude_bound=mission.altitude_m.bound,
+        altitude_tolerance_m=altitude_slack,
+        capture_altitude_m=inputs.limits.tracking_altitude_m if track else altitude_slack,
+        capture_horizontal_m=horizontal,
+        point_m=point,
+        standoff_m=standoff,
+        standoff_bound=Bound.EXACTLY if mission.standoff_m is None else mission.standoff_m.bound,
+        standoff_tolerance_m=standoff_slack,
+        tracking_altitude_m=inputs.limits.tracking_altitude_m,
+        first_altitude_m=first_altitude,
+        first_altitude_tolerance_m=_slack(own[0].altitude_m, first_altitude, inputs),
+        planned_s=facts.duration_s,
+        waypoints=facts.waypoints,
+        waypoint_horizontal_m=tolerances.waypoint_horizontal_m,
+    )
+
+
+def _explicit_or(parameter: Parameter | None, realised: float) -> float:
+    explicit = parameter is not None and parameter.provenance is Provenance.EXPLICIT
+    # A one-sided number is a limit, not the value that was chosen inside it.
+    if parameter is not None and explicit and parameter.bound is Bound.EXACTLY:
+        return parameter.value
+    return realised
+
+
+def _slack(parameter: Parameter, value: float, inputs: Inputs) -> float:
+    return inputs.tolerances.altitude_m.of(value, approximate=parameter.approximate)
+
+
+def _first_point(mission: UavMission, facts: MissionFacts) -> tuple[float, float] | None:
+    if mission.mode is MissionMode.HOVER:
+        if facts.hover_point is None:
+            raise VerificationError(f'the plan has no hover point for mission {mission.id}')
+        return facts.hover_point[0], facts.hover_point[1]
+    if mission.mode is MissionMode.NAVIGATE:
+        if len(facts.waypoints) < 2:
+            raise VerificationError(
+                f'mission {mission.id} needs at least 2 waypoints, the plan has '
+                f'{len(facts.waypoints)}'
+            )
+        return facts.waypoints[0][0], facts.waypoints[0][1]
+    return None
+
+
+def missions_of_uav(inputs: Inputs, uav: str) -> tuple[MissionArguments, ...]:
+    """Return all missions of a UAV as they are measured."""
+    return tuple(
+        mission_arguments(inputs, mission)
+        for mission in inputs.spec.missions
+        if mission.uav == uav
+    )

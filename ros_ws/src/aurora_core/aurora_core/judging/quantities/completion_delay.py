@@ -1,0 +1,146 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""How late what an event makes a ground agent do is complete."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import numpy as np
+from pydantic import FiniteFloat
+
+from aurora_core.errors import VerificationError
+from aurora_core.judging.build import (
+    Inputs,
+    Source,
+    Target,
+    bound_words,
+    condition,
+    number,
+    stated_by,
+)
+from aurora_core.judging.evaluation import Context, Evaluation, Later, at_tick, ground_topics
+from aurora_core.judging.happening import agent_action, never_happened
+from aurora_core.judging.quantity import OfEvent
+from aurora_core.outcomes.condition import Condition
+from aurora_core.quantities import motion
+from aurora_core.quantities.actions import ends_with_mps
+from aurora_core.spec.parameter import Parameter, Provenance
+from aurora_core.spec.quantity import QuantityName
+from aurora_core.spec.scenario import AgentAction, Event
+
+# Actions that end with a speed of their own, and what is said of them without a number.
+ENDS = {
+    'stop': 'has stopped',
+    'slow': 'has slowed down to half its speed',
+    'accelerate': 'has gained its speed',
+}
+
+
+class CompletionDelay(OfEvent):
+    """Time from when an action is due to its completion, beyond what it needs, seconds.
+
+    It needs the change of speed divided by what the agent can do. An action without a trigger is
+    never late: it has to be complete at some time.
+
+    Attributes:
+        goal_mps: Stated speed that it ends with, 0 where none is stated.
+        acceleration_mps2: What the agent can do to get to its speed.
+    """
+
+    name = QuantityName.COMPLETION_DELAY
+    kind: Literal['completion_delay'] = 'completion_delay'
+    goal_mps: FiniteFloat
+    acceleration_mps2: FiniteFloat
+
+    def measure(self, context: Context, condition: Condition) -> Evaluation:
+        """Return that time; what is not complete when it has to be is late."""
+        action = agent_action(context, condition, self.event)
+        times = context.events
+        due = times.due_tick(self.event)
+        asked = times.event(self.event)
+        if asked is not None and asked.trigger is None:
+            return self._at_some_time(context, condition)
+        if due is None or due >= context.view.ticks:
+            return never_happened(context, condition, f'{self.event} was never due')
+        gone = context.gone(condition, np.array([due], dtype=np.intp))
+        if gone is not None:
+            return gone
+        before_mps, needed_s = self._needed(context, condition, action, due)
+        topics = ground_topics(condition)
+        begin = f'{self.event} was due at {context.time_s(due):.2f} s with {before_mps:.2f} m/s'
+        done = times.completion_tick(self.event)
+        if done is not None:
+            took_s = context.time_s(done - due)
+            story = f'{begin}; it was complete {took_s:.2f} s later, {needed_s:.2f} s were needed'
+            return at_tick(done, took_s - needed_s, story, topics)
+        waited_s = context.time_s(context.view.ticks - due) - needed_s
+        if waited_s > condition.threshold:
+            story = f'{begin}; it was never complete, {needed_s:.2f} s would have been needed'
+            return at_tick(due, waited_s, story, topics, later=Later.RISES, provisional=True)
+        if context.complete(condition):
+            late_s = condition.threshold + context.view.dt_s
+            story = f'{begin}; the run was over before it was complete'
+            return at_tick(due, late_s, story, topics)
+        return context.short(condition)
+
+    def _needed(
+        self, context: Context, condition: Condition, action: AgentAction, due: int
+    ) -> tuple[float, float]:
+        """Return the speed with which the action begins, and the seconds that it needs."""
+        rules = self.event_tolerances.actions
+        if rules is None:
+            raise VerificationError(f'condition {condition.id} has no rules of actions')
+        speed = motion.speed(context.view, context.view.body(action.agent))
+        before_mps = float(speed[due])
+        goal_mps = ends_with_mps(action, before_mps, rules)
+        change_mps = 0.0 if goal_mps is None else abs(goal_mps - before_mps)
+        return before_mps, change_mps / self.acceleration_mps2
+
+    def _at_some_time(self, context: Context, condition: Condition) -> Evaluation:
+        done = context.events.completion_tick(self.event)
+        if done is None:
+            return never_happened(context, condition, f'{self.event} was never complete')
+        story = f'{self.event} was complete at {context.time_s(done):.2f} s'
+        return at_tick(done, 0.0, story, ground_topics(condition))
+
+
+def implied(
+    inputs: Inputs, event: Event, action: AgentAction, goal: Parameter | None, source: Source
+) -> Condition:
+    """Return that an agent completes what an event makes it do.
+
+    Args:
+        inputs: The request.
+        event: Which event.
+        action: What it makes the agent do.
+        goal: Stated speed that this ends with.
+        source: Where the condition comes from.
+    """
+    facts = inputs.agent_facts(action.agent)
+    least = inputs.tolerances.route_acceleration_mps2
+    if facts is not None:
+        gains = action.do in ('accelerate', 'start')
+        least = facts.acceleration_mps2 if gains else facts.deceleration_mps2
+    done = ENDS.get(action.do, '')
+    if goal is not None:
+        done = f'has got to {bound_words(goal)} {number(goal.value)} m/s'
+        if goal.provenance is Provenance.EXPLICIT:
+            source = stated_by(source, goal)
+    allowed_s = inputs.tolerances.action_done_s
+    return condition(
+        id=f'{event.id}.completed',
+        sentence=(
+            f'{action.agent} {done} at most {number(allowed_s)} s later than '
+            f'{number(least)} m/s^2 allow'
+        ),
+        of=(action.agent,),
+        target=Target(op='<=', threshold=allowed_s, unit='s'),
+        arguments=CompletionDelay(
+            **inputs.of_event(event.id),
+            goal_mps=0.0 if goal is None else goal.value,
+            acceleration_mps2=least,
+        ),
+        source=source,
+        every_sample=False,
+    )

@@ -1,0 +1,142 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""How soon after its trigger, or after another event, an event is carried out."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import FiniteFloat
+
+from aurora_core.judging.build import Inputs, Source, Target, condition, number
+from aurora_core.judging.evaluation import Context, Evaluation, Later, at_tick
+from aurora_core.judging.happening import EVENT_TOPICS, moment, never_happened, trigger_story
+from aurora_core.judging.quantity import OfEvent
+from aurora_core.outcomes.condition import Condition
+from aurora_core.quantities.ticks import whole_ticks
+from aurora_core.spec.quantity import QuantityName
+from aurora_core.spec.scenario import Order
+
+
+class EventDelay(OfEvent):
+    """Time from the trigger of an event to its action, seconds.
+
+    Attributes:
+        after_s: What shows sooner after the trigger is not what was asked for.
+    """
+
+    name = QuantityName.EVENT_DELAY
+    kind: Literal['event_delay'] = 'event_delay'
+    after_s: FiniteFloat = 0.0
+
+    def measure(self, context: Context, condition: Condition) -> Evaluation:
+        """Return that time; what was not carried out in it is late."""
+        trigger = context.events.trigger_tick(self.event)
+        if trigger is None:
+            story = f'the trigger of {self.event} never happened'
+            return never_happened(context, condition, story)
+        first, fresh = trigger, False
+        if self.after_s > 0.0:
+            first, fresh = trigger + whole_ticks(self.after_s, context.view.dt_s), True
+        action = context.events.action_tick(self.event, first, begins_there=fresh)
+        begin = trigger_story(context, self.event, trigger)
+        if action is not None:
+            return _carried_out(context, self.event, begin, trigger, action)
+        waited_s = context.time_s(context.view.ticks - trigger)
+        if waited_s > condition.threshold:
+            story = f'{begin}; {self.event} was not carried out in the {waited_s:.2f} s after it'
+            topics = EVENT_TOPICS
+            return at_tick(trigger, waited_s, story, topics, later=Later.RISES, provisional=True)
+        return context.short(condition)
+
+
+class DelayOfFirst(OfEvent):
+    """Time from the trigger of an event to the first such action at all, seconds."""
+
+    name = QuantityName.EVENT_DELAY
+    kind: Literal['delay_of_first'] = 'delay_of_first'
+
+    def measure(self, context: Context, condition: Condition) -> Evaluation:
+        """Return that time, negative for an action before the trigger."""
+        trigger = context.events.trigger_tick(self.event)
+        if trigger is None:
+            story = f'the trigger of {self.event} never happened'
+            return never_happened(context, condition, story)
+        action = context.events.action_tick(self.event, 0, begins_there=False)
+        begin = trigger_story(context, self.event, trigger)
+        if action is None:
+            story = f'{begin}; {self.event} was never carried out'
+            return never_happened(context, condition, story)
+        return _carried_out(context, self.event, begin, trigger, action)
+
+
+class TimeBetween(OfEvent):
+    """Time from the moment of the first event to that of the second one, seconds."""
+
+    name = QuantityName.EVENT_DELAY
+    kind: Literal['time_between'] = 'time_between'
+
+    def measure(self, context: Context, condition: Condition) -> Evaluation:
+        """Return that time, negative where they come the other way round."""
+        first, then = (moment(context, event_id) for event_id in condition.of)
+        if first is None or then is None:
+            what = condition.of[0] if first is None else condition.of[1]
+            return never_happened(context, condition, f'{what} never happened')
+        story = (
+            f'{condition.of[0]} happened at {context.time_s(first):.2f} s, {condition.of[1]} at '
+            f'{context.time_s(then):.2f} s'
+        )
+        return at_tick(then, context.time_s(then - first), story, EVENT_TOPICS)
+
+
+def _carried_out(
+    context: Context, event_id: str, begin: str, trigger: int, action: int
+) -> Evaluation:
+    value = context.time_s(action - trigger)
+    story = f'{begin}; {event_id} was carried out {value:.2f} s later'
+    return at_tick(action, value, story, EVENT_TOPICS)
+
+
+def within(
+    inputs: Inputs, event_id: str, latest_s: float, after_s: float, source: Source
+) -> Condition:
+    """Return that an event is carried out soon enough after its trigger."""
+    return condition(
+        id=f'{event_id}.within',
+        sentence=f'{event_id} happens within {number(latest_s)} s of its trigger',
+        of=(event_id,),
+        target=Target(op='<=', threshold=latest_s, unit='s'),
+        arguments=EventDelay(**inputs.of_event(event_id), after_s=after_s),
+        source=source,
+        every_sample=False,
+    )
+
+
+def not_before(inputs: Inputs, event_id: str, first_s: float, source: Source) -> Condition:
+    """Return that an event is not carried out too soon."""
+    after = 'its trigger' if first_s == 0.0 else f'{number(first_s)} s after its trigger'
+    return condition(
+        id=f'{event_id}.not_before',
+        sentence=f'{event_id} happens not before {after}',
+        of=(event_id,),
+        target=Target(op='>=', threshold=first_s, unit='s'),
+        arguments=DelayOfFirst(**inputs.of_event(event_id)),
+        source=source,
+        every_sample=False,
+    )
+
+
+def in_order(
+    inputs: Inputs, order: Order, name: str, sentence: str, target: Target, source: Source
+) -> Condition:
+    """Return that one event comes before another one, or within some time of it."""
+    return condition(
+        id=f'{order.id}.{name}',
+        sentence=sentence,
+        signal=f'time_between({order.first},{order.then})',
+        of=(order.first, order.then),
+        target=target,
+        arguments=TimeBetween(**inputs.of_event(order.then)),
+        source=source,
+        every_sample=False,
+    )

@@ -1,0 +1,157 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The stated speed of a driver or walker, kept wherever nothing is in the way."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from typing import Literal
+
+from pydantic import FiniteFloat
+
+from aurora_core.judging.build import (
+    Inputs,
+    Source,
+    Target,
+    bound_words,
+    condition,
+    number,
+)
+from aurora_core.judging.evaluation import BoolArray, Context, Evaluation, FloatArray, Missing
+from aurora_core.judging.quantity import PerSample, Quantity
+from aurora_core.judging.shares import share_of
+from aurora_core.outcomes.condition import Condition, Window
+from aurora_core.outcomes.verdict import Reason
+from aurora_core.quantities import free_road, motion
+from aurora_core.spec.parameter import Bound, Parameter
+from aurora_core.spec.quantity import QuantityName
+from aurora_core.spec.scenario import Behavior, GroundAgent
+from aurora_core.spec.vocabulary import AgentType
+
+
+class _KeptSpeed(Quantity):
+    """Share of the samples with nothing in the way in which an agent has its stated speed.
+
+    Attributes:
+        speed: Stated, m/s.
+        moving_mps: Speed that counts as moving.
+    """
+
+    name = QuantityName.SPEED
+    window: Window = Window.MISSIONS
+    speed: PerSample
+    moving_mps: FiniteFloat
+
+    @abstractmethod
+    def free(
+        self, context: Context, condition: Condition, values: FloatArray
+    ) -> tuple[BoolArray, str]:
+        """Return which samples count, and what it never did when none does.
+
+        Args:
+            context: The run.
+            condition: The condition that these arguments belong to.
+            values: (T,) speed, m/s.
+        """
+
+    def measure(self, context: Context, condition: Condition) -> Evaluation:
+        """Return the share of the samples that count."""
+        ticks = context.window(condition)
+        if isinstance(ticks, Missing):
+            return ticks
+        gone = context.gone(condition, ticks)
+        if gone is not None:
+            return gone
+        body = context.view.body(condition.of[0])
+        values = motion.speed(context.view, body)
+        free, never = self.free(context, condition, values)
+        ticks = ticks[free[ticks]]
+        if len(ticks) == 0:
+            return Missing(reason=Reason.EMPTY_PHASE, story=f'{body.body_id} never {never}')
+        what = f'{body.body_id} kept its speed'
+        topics = tuple(f'state[{name}]' for name in condition.of)
+        return share_of(context, ticks, self.speed.good(values), values, what, topics)
+
+
+class WalkingSpeed(_KeptSpeed):
+    """Of a walker: the samples in which it walks count."""
+
+    kind: Literal['walking_speed'] = 'walking_speed'
+
+    def free(
+        self, context: Context, condition: Condition, values: FloatArray
+    ) -> tuple[BoolArray, str]:
+        """Return where it walks."""
+        return values >= self.moving_mps, 'walked'
+
+
+class FreeSpeed(_KeptSpeed):
+    """Of a vehicle: the samples on a free road count.
+
+    The second body of the condition is no leader that keeps it from its speed.
+
+    Attributes:
+        settle_m: Way that it needs to reach its speed.
+        free_m: No leader and no junction within this distance.
+        lane_offset_m: How far off its way a leader may be.
+    """
+
+    kind: Literal['free_speed'] = 'free_speed'
+    settle_m: FiniteFloat
+    free_m: FiniteFloat
+    lane_offset_m: FiniteFloat
+
+    def free(
+        self, context: Context, condition: Condition, values: FloatArray
+    ) -> tuple[BoolArray, str]:
+        """Return where the road is free."""
+        view = context.view
+        body, *followed = (view.body(name) for name in condition.of)
+        besides = tuple(other.body_id for other in followed)
+        free = free_road.under_way(view, body, self.moving_mps, self.settle_m)
+        free &= free_road.free_of_junctions(view, body, self.free_m)
+        free &= free_road.free_of_leaders(view, body, self.free_m, self.lane_offset_m, besides)
+        return free, 'drove free of leaders and junctions'
+
+
+def implied(
+    inputs: Inputs, agent: GroundAgent, behavior: Behavior, speed: Parameter, name: str
+) -> Condition:
+    """Return that an agent has its stated speed wherever it can."""
+    t = inputs.tolerances
+    walks = agent.type is AgentType.PEDESTRIAN
+    known = inputs.agent(behavior.target or '')
+    # Whom it follows is no leader that keeps it from its speed: both are asked together.
+    of = (agent.id,) if known is None or walks else (agent.id, known.id)
+    slack = t.route_speed_mps.of(speed.value, approximate=speed.approximate)
+    where = f'with no {"other " if len(of) > 1 else ""}leader or junction within'
+    rest = 'while it walks' if walks else f'{where} {number(t.free_road_m)} m'
+    wanted = PerSample(
+        bound=speed.bound,
+        wanted=speed.value,
+        tolerance=0.0 if speed.bound is not Bound.EXACTLY else slack,
+    )
+    return condition(
+        id=f'{name}.speed',
+        sentence=(
+            f'{agent.id} {"walks" if walks else "drives"} {bound_words(speed)} '
+            f'{number(speed.value)} m/s for {number(100 * t.route_speed_share)} % of the time '
+            f'{rest}'
+        ),
+        signal=f'free_speed_share({agent.id})',
+        of=of,
+        target=Target(op='>=', threshold=t.route_speed_share, unit='1'),
+        fraction=t.route_speed_share,
+        arguments=WalkingSpeed(**inputs.common, speed=wanted, moving_mps=t.stop_speed_mps)
+        if walks
+        else FreeSpeed(
+            **inputs.common,
+            speed=wanted,
+            moving_mps=t.moving_speed_mps,
+            settle_m=speed.value * speed.value / (2.0 * t.route_acceleration_mps2),
+            free_m=t.free_road_m,
+            lane_offset_m=t.lane_offset_m,
+        ),
+        source=Source(ids=(agent.id,), spans=(speed.span,), provenance=speed.provenance),
+        every_sample=False,
+    )

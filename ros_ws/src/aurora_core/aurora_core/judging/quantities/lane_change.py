@@ -1,0 +1,82 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""How long a vehicle keeps to the lane that it has changed to."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+from typing import Literal
+
+import numpy as np
+
+from aurora_core.judging.evaluation import (
+    Context,
+    Evaluation,
+    Later,
+    Missing,
+    at_tick,
+    ground_topics,
+)
+from aurora_core.judging.quantity import Quantity
+from aurora_core.judging.until import existing_until
+from aurora_core.outcomes.condition import Condition, Window
+from aurora_core.outcomes.verdict import Reason
+from aurora_core.quantities.lanes import (
+    NO_LANE,
+    LaneArray,
+    edge_of,
+    edges_with_several_lanes,
+    lane_before,
+    lane_change_ticks,
+    lane_of,
+)
+from aurora_core.quantities.ticks import whole_ticks
+from aurora_core.spec.quantity import QuantityName
+
+
+class LaneChange(Quantity):
+    """Time for which a lane was kept after the change to it, of the change kept longest, s."""
+
+    name = QuantityName.LANE_CHANGE
+    kind: Literal['lane_change'] = 'lane_change'
+    window: Window = Window.RUN
+
+    def measure(self, context: Context, condition: Condition) -> Evaluation:
+        """Return the time; where there is no other lane nothing can be changed."""
+        end = existing_until(context, condition)
+        if isinstance(end, Missing):
+            return end
+        view = context.view
+        body = view.body(condition.of[0])
+        lanes = lane_of(view, body)[:end]
+        several = edges_with_several_lanes(view.world)
+        if not any(edge_of(view.world.lanes[k]) in several for k in _visited(lanes)):
+            story = f'{body.body_id} was never on a street with another lane to change to'
+            return Missing(reason=Reason.PREMISE_NEVER, story=story)
+        changes = lane_change_ticks(view, lanes)
+        if not changes:
+            story = f'{body.body_id} kept to its lane'
+            return at_tick(0, 0.0, story, ground_topics(condition), later=Later.RISES)
+        kept = _kept(changes, lanes, end, whole_ticks(condition.threshold, view.dt_s))
+        longest = int(np.argmax(kept))
+        tick = changes[longest]
+        kept_s = context.time_s(kept[longest])
+        story = (
+            f'{body.body_id} changed lane at {context.time_s(tick):.2f} s and kept to the new one '
+            f'for {kept_s:.2f} s'
+        )
+        return at_tick(tick, kept_s, story, ground_topics(condition), later=Later.RISES)
+
+
+def _kept(changes: list[int], lanes: LaneArray, end: int, least: int) -> list[int]:
+    """Return for how many ticks each change lasted; going back before `least` is none."""
+    kept: list[int] = []
+    for k, (tick, stop) in enumerate(pairwise([*changes, end - 1])):
+        back = k > 0 and kept[-1] < least and lanes[tick] == lane_before(lanes, changes[k - 1])
+        kept.append(0 if back else stop - tick)
+    return kept
+
+
+def _visited(lanes: LaneArray) -> list[int]:
+    found: list[int] = np.unique(lanes[lanes != NO_LANE]).tolist()
+    return found

@@ -1,0 +1,67 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Whether a link reaches as far as it is said to, and no farther."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import numpy as np
+from pydantic import FiniteFloat
+
+from aurora_core.judging.build import Inputs, Source, Target, condition, number
+from aurora_core.judging.evaluation import Context, Evaluation, Measured, Missing
+from aurora_core.judging.messages import attempts_on_link
+from aurora_core.judging.quantity import OfLink
+from aurora_core.outcomes.condition import Condition
+from aurora_core.quantities import motion
+from aurora_core.spec.parameter import Parameter
+from aurora_core.spec.quantity import QuantityName
+from aurora_core.spec.scenario import Link
+from aurora_core.trace.records import LossReason
+
+
+class LinkRange(OfLink):
+    """By how much each attempt was on the right side of the range, metres.
+
+    One that passed, or was lost by chance, inside it; one that was lost for its distance outside.
+
+    Attributes:
+        range_m: Stated range.
+    """
+
+    name = QuantityName.LINK_RANGE
+    kind: Literal['link_range'] = 'link_range'
+    range_m: FiniteFloat
+
+    def measure(self, context: Context, condition: Condition) -> Evaluation:
+        """Return one distance per attempt."""
+        sent = attempts_on_link(context, condition, self.link)
+        if isinstance(sent, Missing):
+            return sent
+        apart = motion.distance(context.view, *condition.of)
+        ticks, slack = [], []
+        for attempt in (a for message in sent for a in message.attempts):
+            if attempt.tick < context.view.ticks:
+                inside_m = self.range_m - float(apart[attempt.tick])
+                out_of_range = not attempt.passed and attempt.reason is LossReason.RANGE
+                ticks.append(attempt.tick)
+                slack.append(-inside_m if out_of_range else inside_m)
+        return Measured(
+            ticks=np.array(ticks, dtype=np.intp),
+            values=np.array(slack),
+            evidence=('comm', 'state'),
+        )
+
+
+def implied(inputs: Inputs, link: Link, range_m: Parameter) -> Condition:
+    """Return that a link reaches as far as the prompt says."""
+    return condition(
+        id=f'{link.id}.range',
+        sentence=f'{link.id} reaches {number(range_m.value)} m, and no farther',
+        signal=f'range_slack({link.id})',
+        of=(link.sender, link.receiver),
+        target=Target(op='>=', threshold=0.0, unit='m'),
+        arguments=LinkRange(**inputs.common, link=link.id, range_m=range_m.value),
+        source=Source(ids=(link.id,), spans=(range_m.span,), provenance=range_m.provenance),
+    )

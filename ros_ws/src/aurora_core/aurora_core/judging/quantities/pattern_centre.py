@@ -1,0 +1,55 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Where a pattern lies."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from aurora_core.judging.build import Inputs, Source, Target, condition, number
+from aurora_core.judging.evaluation import Context, Evaluation, Missing, at_tick
+from aurora_core.judging.quantity import OfMission
+from aurora_core.outcomes.condition import Condition, MissionArguments, Window
+from aurora_core.outcomes.verdict import Reason
+from aurora_core.quantities.kernels import distance_2d
+from aurora_core.quantities.waypoints import pattern_centre
+from aurora_core.spec.quantity import QuantityName
+
+
+class PatternCentre(OfMission):
+    """Distance from the centre of the pattern to the target at t = 0, metres."""
+
+    name = QuantityName.PATTERN_CENTRE
+    kind: Literal['pattern_centre'] = 'pattern_centre'
+    window: Window = Window.START
+
+    def measure(self, context: Context, condition: Condition) -> Evaluation:
+        """Return that distance."""
+        ticks = context.window(condition)
+        if isinstance(ticks, Missing):
+            return ticks
+        target = condition.of[1]
+        if not context.view.present(target)[0]:
+            return Missing(reason=Reason.TARGET_GONE, story=f'{target} is absent at t = 0', tick=0)
+        x, y = pattern_centre(self.mission.waypoints)
+        at = context.view.reference(target)[0]
+        value = float(distance_2d(float(at[0]) - x, float(at[1]) - y))
+        story = f'the centre of the pattern is {value:.2f} m from {target} at t = 0'
+        return at_tick(0, value, story, (f'state[{target}]',))
+
+
+def implied(inputs: Inputs, mission: MissionArguments, target: str, source: Source) -> Condition:
+    """Return that a pattern lies around its target."""
+    limit = inputs.tolerances.pattern_centre_m
+    return condition(
+        id=f'{mission.mission}.centre',
+        sentence=(
+            f'the pattern of {mission.uav} is centred within {number(limit)} m of {target} '
+            'at t = 0'
+        ),
+        of=(mission.uav, target),
+        target=Target(op='<=', threshold=limit, unit='m'),
+        arguments=PatternCentre(**inputs.common, mission=mission),
+        source=source,
+        every_sample=False,
+    )

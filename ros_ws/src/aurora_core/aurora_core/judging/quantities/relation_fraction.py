@@ -1,0 +1,153 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""How often a relation holds: of agents in motion, of a UAV the bearing from its target."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import FiniteFloat
+
+from aurora_core.judging.build import (
+    Inputs,
+    Source,
+    Target,
+    condition,
+    number,
+    stated_by,
+)
+from aurora_core.judging.evaluation import (
+    BoolArray,
+    Context,
+    Evaluation,
+    FloatArray,
+    Missing,
+    TickArray,
+    ground_topics,
+)
+from aurora_core.judging.quantities.placement import near_m, offset_m
+from aurora_core.judging.quantity import OfMission, Quantity
+from aurora_core.judging.relations import RELATION_WORDS, bearing_error, relation_slack
+from aurora_core.judging.shares import share_of
+from aurora_core.outcomes.condition import Condition, MissionArguments, Window
+from aurora_core.spec.parameter import Parameter
+from aurora_core.spec.quantity import QuantityName
+from aurora_core.spec.scenario import GroundAgent
+from aurora_core.spec.vocabulary import Relation
+
+
+class RelationFraction(Quantity):
+    """Share of the time in which a relation of two agents holds.
+
+    Attributes:
+        relation: Which one.
+        offset_m: How far from a route a body may be.
+        near_m: How far apart is still near, or at.
+    """
+
+    name = QuantityName.RELATION_FRACTION
+    kind: Literal['relation_fraction'] = 'relation_fraction'
+    window: Window = Window.MISSIONS
+    relation: Relation
+    offset_m: FiniteFloat
+    near_m: FiniteFloat
+
+    def measure(self, context: Context, condition: Condition) -> Evaluation:
+        """Return the share; who is absent is in no relation."""
+        ticks = context.window(condition)
+        if isinstance(ticks, Missing):
+            return ticks
+        values = relation_slack(context, condition, self)
+        good = values >= 0.0 if self.relation is Relation.BESIDE else values > 0.0
+        a, b = condition.of
+        what = f'{a} was {RELATION_WORDS[self.relation]} {b}'
+        return _share(context, condition, ticks, good, values, what)
+
+
+class BearingFraction(OfMission):
+    """Share of a mission in which a UAV is at a bearing from its target.
+
+    Attributes:
+        bearing_deg: Asked, compass.
+        tolerance_deg: On it.
+    """
+
+    name = QuantityName.RELATION_FRACTION
+    kind: Literal['bearing_fraction'] = 'bearing_fraction'
+    bearing_deg: FiniteFloat
+    tolerance_deg: FiniteFloat
+
+    def measure(self, context: Context, condition: Condition) -> Evaluation:
+        """Return the share."""
+        ticks = context.window(condition)
+        if isinstance(ticks, Missing):
+            return ticks
+        values = bearing_error(context, condition, self.bearing_deg)
+        a, b = condition.of
+        what = f'{a} kept its bearing from {b}'
+        return _share(context, condition, ticks, values <= self.tolerance_deg, values, what)
+
+
+def _share(
+    context: Context,
+    condition: Condition,
+    ticks: TickArray,
+    good: BoolArray,
+    values: FloatArray,
+    what: str,
+) -> Evaluation:
+    a, b = condition.of
+    good = good & context.view.present(a) & context.view.present(b)
+    return share_of(context, ticks, good, values, what, ground_topics(condition))
+
+
+def kept(
+    inputs: Inputs, agent: GroundAgent, relation: Relation, of: str, name: str, source: Source
+) -> Condition:
+    """Return that a relation is kept in motion."""
+    share = inputs.tolerances.relation_fraction
+    return condition(
+        id=f'{name}.kept',
+        sentence=(
+            f'{agent.id} stays {RELATION_WORDS[relation]} {of} for {number(100 * share)} % of the '
+            'time until the last mission ends'
+        ),
+        signal=f'{relation.value}_fraction({agent.id},{of})',
+        of=(agent.id, of),
+        target=Target(op='>=', threshold=share, unit='1'),
+        fraction=share,
+        arguments=RelationFraction(
+            **inputs.common,
+            relation=relation,
+            offset_m=offset_m(inputs, relation),
+            near_m=near_m(inputs, relation, of),
+        ),
+        source=source,
+        every_sample=False,
+    )
+
+
+def bearing_kept(
+    inputs: Inputs, mission: MissionArguments, bearing: Parameter, target: str, source: Source
+) -> Condition:
+    """Return that a UAV stays at the stated bearing from its target."""
+    share = inputs.tolerances.relation_fraction
+    return condition(
+        id=f'{mission.mission}.bearing',
+        sentence=(
+            f'{mission.uav} stays at bearing {number(bearing.value)} deg from {target} for '
+            f'{number(100 * share)} % of {mission.mission}'
+        ),
+        signal=f'bearing_fraction({mission.uav},{target})',
+        of=(mission.uav, target),
+        target=Target(op='>=', threshold=share, unit='1'),
+        fraction=share,
+        arguments=BearingFraction(
+            **inputs.common,
+            mission=mission,
+            bearing_deg=bearing.value,
+            tolerance_deg=inputs.tolerances.bearing_deg,
+        ),
+        source=stated_by(source, bearing),
+        every_sample=False,
+    )

@@ -1,0 +1,190 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Yielding: one gets slower, or waits, and the other one passes first.
+
+The other one passes when it gets ahead on the way of the one that yields: it crosses that way,
+joins it, or overtakes there.
+"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from typing import Literal
+
+import numpy as np
+from pydantic import FiniteFloat
+
+from aurora_core.judging.build import Inputs, Source, Target, Underivable, condition
+from aurora_core.judging.evaluation import (
+    Context,
+    Evaluation,
+    FloatArray,
+    Later,
+    Missing,
+    at_tick,
+    ground_topics,
+)
+from aurora_core.judging.happening import agent_action, never_happened, trigger_story
+from aurora_core.judging.quantity import OfEvent, Quantity
+from aurora_core.judging.relations import lead_on_route
+from aurora_core.judging.until import existing_until
+from aurora_core.outcomes.condition import Condition, Window
+from aurora_core.outcomes.verdict import Reason
+from aurora_core.quantities import motion
+from aurora_core.quantities.ticks import first_tick
+from aurora_core.spec.events import bodies_of
+from aurora_core.spec.quantity import QuantityName
+from aurora_core.spec.scenario import AgentAction, Event
+
+
+class _Yielding(Quantity):
+    """One of the two things that yielding is.
+
+    Attributes:
+        offset_m: How far from the way of the one that yields the other one may pass.
+    """
+
+    name = QuantityName.YIELDING
+    window: Window = Window.RUN
+    offset_m: FiniteFloat
+
+    def measure(self, context: Context, condition: Condition) -> Evaluation:
+        """Return it where there was somebody to yield to."""
+        end = existing_until(context, condition)
+        if isinstance(end, Missing):
+            return end
+        a, b = condition.of
+        offset = context.along(a, b).offset_m[:end]
+        if first_tick(offset <= self.offset_m) is None:
+            story = f'{b} never came to the way of {a}'
+            return Missing(reason=Reason.PREMISE_NEVER, story=story)
+        ahead = lead_on_route(context, a, b, self.offset_m)[:end]
+        start = first_tick(ahead <= 0.0)
+        if start is None:
+            story = f'{b} was ahead of {a} all the time: there was nothing to yield to'
+            return Missing(reason=Reason.PREMISE_NEVER, story=story)
+        return self.of_pass(context, condition, ahead, start)
+
+    @abstractmethod
+    def of_pass(
+        self, context: Context, condition: Condition, ahead: FloatArray, start: int
+    ) -> Evaluation:
+        """Return the measurement.
+
+        Args:
+            context: The run.
+            condition: The condition that these arguments belong to.
+            ahead: (n,) metres by which the other one is ahead, while both are there.
+            start: First tick at which it is not.
+        """
+
+
+class PassedFirst(_Yielding):
+    """By how much the other one gets ahead, metres."""
+
+    kind: Literal['passed_first'] = 'passed_first'
+
+    def of_pass(
+        self, context: Context, condition: Condition, ahead: FloatArray, start: int
+    ) -> Evaluation:
+        """Return the greatest lead."""
+        farthest = start + int(np.argmax(ahead[start:]))
+        most_m = float(ahead[farthest])
+        topics = ground_topics(condition)
+        return at_tick(farthest, most_m, evidence=topics, later=Later.RISES)
+
+
+class SlowerBeforePassed(_Yielding):
+    """By how much the speed fell until the other one had passed, m/s.
+
+    Attributes:
+        moving_mps: Speed that counts as moving.
+    """
+
+    kind: Literal['slower_before_passed'] = 'slower_before_passed'
+    moving_mps: FiniteFloat
+
+    def of_pass(
+        self, context: Context, condition: Condition, ahead: FloatArray, start: int
+    ) -> Evaluation:
+        """Return the greatest drop; of who waited what it drives afterwards."""
+        passed = first_tick(ahead > 0.0, start)
+        body = context.view.body(condition.of[0])
+        speed = motion.speed(context.view, body)[: len(ahead)]
+        moved = first_tick(speed >= self.moving_mps)
+        if moved is None:
+            return Missing(reason=Reason.PREMISE_NEVER, story=f'{body.body_id} never moved')
+        if passed is not None and passed <= moved:
+            # It waited: what it drives afterwards is what it did not drive before.
+            tick = int(np.argmax(speed))
+            value = float(speed[tick])
+        else:
+            until = speed if passed is None else speed[: passed + 1]
+            drop = np.maximum.accumulate(until) - until
+            tick = int(np.argmax(drop))
+            value = float(drop[tick])
+        return at_tick(tick, value, evidence=ground_topics(condition), later=Later.RISES)
+
+
+class PassedAfter(OfEvent):
+    """By how much the other one gets ahead after an event, metres.
+
+    Attributes:
+        offset_m: How far from the way of the one that yields the other one may pass.
+    """
+
+    name = QuantityName.YIELDING
+    kind: Literal['passed_after'] = 'passed_after'
+    window: Window = Window.RUN
+    offset_m: FiniteFloat
+
+    def measure(self, context: Context, condition: Condition) -> Evaluation:
+        """Return the greatest lead from when the event is due."""
+        agent_action(context, condition, self.event)
+        due = context.events.due_tick(self.event)
+        if due is None:
+            story = f'the trigger of {self.event} never happened'
+            return never_happened(context, condition, story)
+        end = context.together_until(condition)
+        if isinstance(end, Missing):
+            return end
+        if due >= end:
+            return never_happened(context, condition, f'{self.event} was never due')
+        a, b = condition.of
+        ahead = lead_on_route(context, a, b, self.offset_m)[:end]
+        farthest = due + int(np.argmax(ahead[due:]))
+        most_m = float(ahead[farthest])
+        begin = trigger_story(context, self.event, due)
+        return at_tick(
+            farthest,
+            most_m,
+            f'{begin}; {b} was at most {most_m:.2f} m ahead of {a} after that',
+            ground_topics(condition),
+            later=Later.RISES,
+            provisional=True,
+        )
+
+
+def after_event(
+    inputs: Inputs, event: Event, action: AgentAction, source: Source
+) -> Condition | Underivable:
+    """Return that the other one of an event gets ahead of the one that yields."""
+    others = [
+        agent.id
+        for agent in inputs.spec.agents
+        if agent.id in bodies_of(event) and agent.id != action.agent
+    ]
+    if len(others) != 1:
+        return Underivable(element=event.id, what='whom it yields to', span=event.span)
+    return condition(
+        id=f'{event.id}.passed',
+        sentence=f'{others[0]} gets ahead of {action.agent} after {event.id} is triggered',
+        signal=f'passes_first({others[0]},{action.agent})',
+        of=(action.agent, others[0]),
+        target=Target(op='>', threshold=0.0, unit='m'),
+        arguments=PassedAfter(
+            **inputs.of_event(event.id), offset_m=inputs.tolerances.route_offset_m
+        ),
+        source=source,
+        every_sample=False,
+    )
