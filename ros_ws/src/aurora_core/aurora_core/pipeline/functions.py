@@ -56,8 +56,7 @@ from aurora_core.pipeline.recompute import recomputed
 from aurora_core.report.versions import AURORA_VERSION
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.temporal.schedule import plan_time
-from aurora_core.trace.bag_reader import BagContent, read_bag
-from aurora_core.trace.definitions import message_definitions
+from aurora_core.trace.bag_content import BagContent
 
 
 class Knowledge:
@@ -215,6 +214,10 @@ def load_bag(bag: Path) -> tuple[BagContent, Agsg]:
         BagError: There is nothing to judge.
         VerificationError: The bag holds no graph.
     """
+    # Imported here: a check reads no bag.
+    from aurora_core.trace.bag_reader import read_bag
+    from aurora_core.trace.definitions import message_definitions
+
     content = read_bag(bag, message_definitions())
     return content, graph_of(content, str(bag))
 
