@@ -13,8 +13,6 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from rosbags.typesys import Stores, get_types_from_msg, get_typestore
-
 from aurora_core.errors import ConfigError
 
 PACKAGE = 'aurora_msgs'
@@ -28,6 +26,9 @@ class MessageDefinitions:
     """
 
     def __init__(self, folder: Path) -> None:
+        # Imported here: many who name this type read or write no bag.
+        from rosbags.typesys import Stores, get_types_from_msg, get_typestore
+
         self._store = get_typestore(Stores.ROS2_JAZZY)
         for path in sorted(folder.glob('*.msg')):
             name = f'{PACKAGE}/msg/{path.stem}'
