@@ -30,8 +30,6 @@ from aurora_core.planning.complete import complete
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.temporal.schedule import plan_time
 from aurora_core.trace.bag_content import BagContent
-from aurora_core.trace.bag_reader import read_bag
-from aurora_core.trace.definitions import message_definitions
 
 
 def load_bag(bag: Path) -> tuple[BagContent, Agsg]:
@@ -41,6 +39,10 @@ def load_bag(bag: Path) -> tuple[BagContent, Agsg]:
         BagError: There is nothing to judge.
         VerificationError: The bag holds no graph.
     """
+    # Imported here: a check reads no bag.
+    from aurora_core.trace.bag_reader import read_bag
+    from aurora_core.trace.definitions import message_definitions
+
     content = read_bag(bag, message_definitions())
     return content, graph_of(content, str(bag))
 
