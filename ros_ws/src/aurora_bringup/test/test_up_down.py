@@ -215,10 +215,10 @@ def test_a_node_that_ends_at_its_start_fails_up_with_its_name_and_log(graph: Gra
 def test_a_node_that_never_serves_fails_up_after_the_time_limit(graph: Graph) -> None:
     graph.set_node('parser', SILENT)
 
-    up = graph.call('up', '--detach', '--timeout', '1')
+    up = graph.call('up', '--detach', '--timeout', '4')
 
     assert up.returncode == 1
-    assert 'parser was not ready after 1 s' in up.stderr
+    assert 'parser was not ready after 4 s' in up.stderr
     assert graph.alive() == []
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from aurora_cli.main import run_command_line
+from aurora_core.agsg.document import agsg_from_json
 from aurora_core.agsg.export import spec_from_graphml
 from aurora_core.outcomes.agsg import Agsg
 
@@ -63,15 +64,15 @@ def test_a_run_folder_gives_the_graph_that_it_holds(
     here: Path, stored: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (here / 'agsg.0.json').write_bytes(stored.read_bytes())
-    whole = Agsg.model_validate_json(stored.read_bytes())
+    whole = agsg_from_json(stored.read_bytes())
     later = Agsg.model_validate({**whole.model_dump(), 'iteration': 1})
     (here / 'agsg.1.json').write_text(later.model_dump_json(), 'utf-8')
     for options, iteration in ((['--iteration', '0'], 0), ([], 1)):
         assert run_command_line(['graph', '.', '-o', 'y.json', *options]) == 0
-        found = Agsg.model_validate_json((here / 'y.json').read_bytes())
+        found = agsg_from_json((here / 'y.json').read_bytes())
         assert found == (whole, later)[iteration]
     assert run_command_line(['graph', 'agsg.1.json', '-o', 'y.json']) == 0
-    assert Agsg.model_validate_json((here / 'y.json').read_bytes()) == later
+    assert agsg_from_json((here / 'y.json').read_bytes()) == later
     assert run_command_line(['graph', '.', '-o', 'y.json', '--iteration', '7']) == 64
     (here / 'empty').mkdir()
     assert run_command_line(['graph', 'empty', '-o', 'y.json']) == 64
