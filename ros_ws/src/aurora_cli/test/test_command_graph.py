@@ -65,7 +65,7 @@ def test_a_run_folder_gives_the_graph_that_it_holds(
 ) -> None:
     (here / 'agsg.0.json').write_bytes(stored.read_bytes())
     whole = agsg_from_json(stored.read_bytes())
-    later = Agsg.model_validate({**whole.model_dump(), 'iteration': 1})
+    later = Agsg.model_validate({**dict(whole), 'iteration': 1})
     (here / 'agsg.1.json').write_text(later.model_dump_json(), 'utf-8')
     for options, iteration in ((['--iteration', '0'], 0), ([], 1)):
         assert run_command_line(['graph', '.', '-o', 'y.json', *options]) == 0
