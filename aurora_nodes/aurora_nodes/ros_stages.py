@@ -120,7 +120,8 @@ class RosStages:
         """Let the executor run the scenario."""
         if agsg.spec.uavs:
             self._attendance.expect_air()
-        assert agsg.schedule is not None  # grounded
+        if agsg.schedule is None:
+            raise ExecutionError('the graph has no schedule', hint='ground the scenario first')
         horizon_s = agsg.schedule.horizon_s
         result = self._caller.action(
             on.EXECUTE,

@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+import importlib.util
+import os
 import random
 from typing import Any
 
@@ -126,3 +128,9 @@ def test_the_plain_step_is_used_when_asked_for_and_beside_other_sources(
     monkeypatch.undo()
     monkeypatch.setenv(compiled.PLAIN_VARIABLE, '1')
     assert compiled._classes() == (multirotor.Multirotor, control.Controller, control.SetPoint)
+
+
+def test_what_set_up_compiled_is_used() -> None:
+    """Otherwise the tests above are left out and everybody flies in plain Python, unnoticed."""
+    made = importlib.util.find_spec('aurora_uav_flight') is not None
+    assert (made and not os.environ.get(compiled.PLAIN_VARIABLE)) == compiled.IS_COMPILED

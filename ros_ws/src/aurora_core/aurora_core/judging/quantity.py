@@ -20,7 +20,7 @@ from aurora_core.outcomes.condition import (
     Window,
 )
 from aurora_core.quantities.kernels import bound_error
-from aurora_core.spec.parameter import Bound
+from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.quantity import QuantityName
 
 
@@ -91,6 +91,17 @@ class PerSample(Document):
     wanted: FiniteFloat
     tolerance: FiniteFloat = 0.0
     strict: bool = omitted(False)
+
+    @classmethod
+    def of(cls, asked: Parameter, tolerance: float) -> PerSample:
+        """Return the number of a request; a bound has no tolerance of its own.
+
+        Args:
+            asked: The number, and how it binds.
+            tolerance: On an exact number, in its unit.
+        """
+        exact = asked.bound is Bound.EXACTLY
+        return cls(bound=asked.bound, wanted=asked.value, tolerance=tolerance if exact else 0.0)
 
     def good(self, values: FloatArray) -> BoolArray:
         """Return which samples are as asked."""

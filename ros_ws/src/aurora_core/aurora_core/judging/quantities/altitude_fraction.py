@@ -20,7 +20,7 @@ from aurora_core.judging.quantity import OfMission, PerSample
 from aurora_core.judging.shares import share_of
 from aurora_core.outcomes.condition import Condition, MissionArguments
 from aurora_core.quantities import motion
-from aurora_core.spec.parameter import Bound, Parameter
+from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.quantity import QuantityName
 
 
@@ -63,11 +63,7 @@ def implied(
         arguments=AltitudeFraction(
             **inputs.common,
             mission=mission,
-            altitude=PerSample(
-                bound=altitude.bound,
-                wanted=altitude.value,
-                tolerance=0.0 if altitude.bound is not Bound.EXACTLY else slack,
-            ),
+            altitude=PerSample.of(altitude, slack),
         ),
         source=stated_by(source, altitude),
         every_sample=False,

@@ -23,7 +23,7 @@ from aurora_core.judging.shares import share_of
 from aurora_core.outcomes.condition import Condition, Window
 from aurora_core.outcomes.verdict import Reason
 from aurora_core.quantities import free_road, motion
-from aurora_core.spec.parameter import Bound, Parameter
+from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import Behavior, GroundAgent
 from aurora_core.spec.vocabulary import AgentType
@@ -126,11 +126,7 @@ def implied(
     slack = t.route_speed_mps.of(speed.value, approximate=speed.approximate)
     where = f'with no {"other " if len(of) > 1 else ""}leader or junction within'
     rest = 'while it walks' if walks else f'{where} {number(t.free_road_m)} m'
-    wanted = PerSample(
-        bound=speed.bound,
-        wanted=speed.value,
-        tolerance=0.0 if speed.bound is not Bound.EXACTLY else slack,
-    )
+    wanted = PerSample.of(speed, slack)
     return condition(
         id=f'{name}.speed',
         sentence=(

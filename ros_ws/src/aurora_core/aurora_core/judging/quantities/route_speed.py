@@ -26,7 +26,7 @@ from aurora_core.outcomes.condition import Condition, MissionArguments
 from aurora_core.outcomes.verdict import Reason
 from aurora_core.quantities import motion
 from aurora_core.quantities.waypoints import cruising
-from aurora_core.spec.parameter import Bound, Parameter
+from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.quantity import QuantityName
 
 
@@ -82,11 +82,7 @@ def implied(
         arguments=RouteSpeed(
             **inputs.common,
             mission=mission,
-            speed=PerSample(
-                bound=speed.bound,
-                wanted=speed.value,
-                tolerance=0.0 if speed.bound is not Bound.EXACTLY else slack,
-            ),
+            speed=PerSample.of(speed, slack),
             settle_m=(
                 speed.value * speed.value / (2.0 * inputs.tolerances.route_acceleration_mps2)
             ),
