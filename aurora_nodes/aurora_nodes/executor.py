@@ -22,7 +22,7 @@ from rclpy.action.server import (
 )
 from rclpy.subscription import Subscription
 
-from aurora_core.errors import AuroraError
+from aurora_core.errors import AuroraError, ExecutionError
 from aurora_core.pipeline.functions import execution_stage
 from aurora_core.pipeline.knowledge import installed_knowledge
 from aurora_core.trace.bag_reader import read_bag
@@ -54,6 +54,7 @@ class ExecutorNode(ManagedNode):
         self._path: TickPath | None = None
         self._worker: threading.Thread | None = None
         self._giving_up = threading.Event()
+        self._deactivated = threading.Event()
 
     def configure(self) -> None:
         """Create the endpoints."""
@@ -73,6 +74,8 @@ class ExecutorNode(ManagedNode):
 
     def deactivate(self) -> None:
         """Give up a run that is going on (its clean-up goes on in the worker)."""
+        if not self._giving_up.is_set():  # else this is the end of the node
+            self._deactivated.set()
         self._giving_up.set()
 
     def request_stop(self) -> None:
@@ -95,6 +98,7 @@ class ExecutorNode(ManagedNode):
 
     def _on_accepted(self, handle: ServerGoalHandle) -> None:
         self._giving_up.clear()
+        self._deactivated.clear()
         # The goal is executed from now on; its end comes from the worker.
         handle._update_state(GoalEvent.EXECUTE)
         self._worker = threading.Thread(target=self._work, args=(handle,), name='run', daemon=True)
@@ -104,7 +108,9 @@ class ExecutorNode(ManagedNode):
         """Execute a goal and hand its end over to the node's thread."""
         result = ExecuteScenario.Result()
         try:
-            self._fill(result, self._execute(handle))
+            done = self._execute(handle)
+            self._check_active(done, handle)
+            self._fill(result, done)
         except AuroraError as err:
             self.get_logger().error(f'{err.component}: {err}')
             write_error(result, err)
@@ -130,6 +136,22 @@ class ExecutorNode(ManagedNode):
             on_tick=feedback,
             cancelled=lambda: handle.is_cancel_requested or self._giving_up.is_set() or orphaned(),
         )
+
+    def _check_active(self, done: Done, handle: ServerGoalHandle) -> None:
+        """Tell a run that its user cancelled from one that was taken away from its user.
+
+        Raises:
+            ExecutionError: The node was deactivated, and that is what ended the run.
+        """
+        asked = handle.is_cancel_requested
+        if done.outcome == 'cancelled' and self._deactivated.is_set() and not asked:
+            name = self.get_name()
+            raise ExecutionError(
+                f'{name} was deactivated from outside during the run',
+                component=name,
+                hint=f'see who calls {self.get_fully_qualified_name()}/change_state; then: '
+                f'ros2 lifecycle set {self.get_fully_qualified_name()} activate',
+            )
 
     def _fill(self, result: ExecuteScenario.Result, done: Done) -> None:
         result.bag_uri = str(done.bag)

@@ -13,10 +13,10 @@ from typing import Any
 
 import numpy as np
 
+from aurora_core.agsg.message import read_agsg
 from aurora_core.errors import BagError
 from aurora_core.knowledge.world import WorldModel
 from aurora_core.outcomes.condition import Condition
-from aurora_core.pipeline.verification import graph_from_message
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.trace import messages
 from aurora_core.trace.definitions import MessageDefinitions
@@ -75,7 +75,7 @@ class LiveTrace:
                 return None
             found[topic] = self._definitions.decode(messages.TOPICS[topic], own[-1])
         world = read_world(found[messages.WORLD])
-        graph = graph_from_message(found[messages.AGSG])
+        graph = read_agsg(found[messages.AGSG])
         return LiveScene(
             roster=messages.read_roster(found[messages.ROSTER]),
             world=world,

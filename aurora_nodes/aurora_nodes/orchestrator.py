@@ -22,6 +22,7 @@ from aurora_core.report.process import process_lives
 from aurora_core.report.unfinished import close_unfinished
 from aurora_msgs.action import RunScenario
 from aurora_msgs.srv import RunPrompt
+from aurora_nodes.answers import PublishedVerdicts
 from aurora_nodes.attendance import EVERYBODY, Attendance, AttendanceLimits
 from aurora_nodes.jobs import Job, JobQueue
 from aurora_nodes.prompts import received_prompt
@@ -39,6 +40,7 @@ from aurora_ros.parameters import declare, require_positive
 from aurora_ros.roll_call import RollCall
 
 _LOOK_S = 0.1
+_SERVED = (on.RUN_PROMPT, on.GET_RUN, on.LIST_RUNS, on.RUN)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -97,10 +99,13 @@ class OrchestratorNode(AuroraNode):
         )
         roll_call = RollCall(self, watch, EVERYBODY)
         attendance = Attendance(roll_call, watch, supervision, settings)
-        caller = Caller(self, watch, guard=attendance.check)
+        caller = Caller(self, watch, guard=attendance.check, others=_SERVED)
         caller.prepare(*CALLS)
+        published = PublishedVerdicts(self)
         work = worker(
-            lambda run_id, cancelled: RosStages(caller, attendance, settings, run_id, cancelled),
+            lambda run_id, cancelled: RosStages(
+                caller, attendance, published, settings, run_id, cancelled
+            ),
             self._known,
             self._stopping.is_set,
             supervision.note,

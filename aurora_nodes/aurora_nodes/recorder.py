@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import threading
+import time
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -26,6 +27,8 @@ from aurora_ros.main import run_node
 from aurora_ros.matching import wait_until
 from aurora_ros.node import AuroraNode
 from aurora_ros.parameters import declare, require_positive
+
+_OWNER = 'executor'  # of the run that is recorded
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,6 +58,7 @@ class RecorderNode(AuroraNode):
         self._writer: BagWriter | None = None
         self._recording: Recording | None = None
         self._watch = HeartbeatWatch(self)
+        self._began_s = 0.0
         self._ack_publisher = self.publisher(on.ACK)
         self._fault_publisher = self.publisher(on.FAULT)
         self._intake = Intake(
@@ -82,6 +86,7 @@ class RecorderNode(AuroraNode):
     def _start(
         self, request: StartRecording.Request, response: StartRecording.Response
     ) -> StartRecording.Response:
+        self._refuse_while_recording()
         if self._close() is not None:
             self.get_logger().warning('an earlier recording was still open: closed')
         self._await_matched(set(request.topics))
@@ -90,9 +95,30 @@ class RecorderNode(AuroraNode):
         with self._lock:
             self._writer, self._recording = writer, recording
         self._intake.begin(recording, set(request.topics))
+        self._began_s = time.monotonic()
         self.heartbeat.busy(request.run_number)
         response.ready = True
         return response
+
+    def _refuse_while_recording(self) -> None:
+        """Keep the recording of a run that its executor is at work on.
+
+        Raises:
+            BagError: There is one. One that was left open is no reason to refuse.
+        """
+        recording = self._recording
+        if recording is None or self._watch.is_dead(_OWNER):
+            return
+        # What it said before this recording began says nothing about this run.
+        left = (
+            self._watch.heard_since(_OWNER, self._began_s)
+            and self._watch.run_number(_OWNER) != recording.run_number
+        )
+        if self._watch.was_heard(_OWNER) and not left:
+            raise BagError(
+                f'run {recording.run_number} is being recorded: no other recording begins',
+                hint=f'only {_OWNER} calls {on.RECORDER_START.name}, once in a run',
+            )
 
     def _stop(
         self, request: StopRecording.Request, response: StopRecording.Response
@@ -151,7 +177,7 @@ class RecorderNode(AuroraNode):
             raise BagError(f'unexpected messages in the bag: {recording.excess(expected)}')
 
     def _check_executor(self) -> None:
-        if self._recording is not None and self._watch.is_dead('executor'):
+        if self._recording is not None and self._watch.is_dead(_OWNER):
             self.get_logger().error('the executor died: its recording is closed')
             self._close()
 

@@ -280,6 +280,9 @@ class ReplayNode(AuroraNode):
         return ' and '.join([self._running, *busy] if self._running else busy)
 
     def _monitor_matched(self) -> bool:
+        # Of whom no sign of life came, none could be missed either: a death would go unnoticed.
+        if not self._watch.was_heard(MONITOR):
+            return False
         for publisher in (*self._outlets.values(), self._status_outlet, self._end_outlet):
             listeners = self.get_subscriptions_info_by_topic(publisher.topic_name)
             if MONITOR not in {info.node_name for info in listeners}:

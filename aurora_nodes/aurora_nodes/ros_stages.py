@@ -21,7 +21,9 @@ from aurora_core.outcomes.verdict import Verdict
 from aurora_core.pipeline.stages import ExecutionResult, RunControl, RunRequest
 from aurora_core.ports.language_model import ModelCall
 from aurora_msgs.action import ExecuteScenario
+from aurora_msgs.msg import Verdict as VerdictMessage
 from aurora_msgs.srv import Check, GroundScenario, ParsePrompt, VerifyTrace
+from aurora_nodes.answers import PublishedVerdicts, hold
 from aurora_nodes.attendance import Attendance
 from aurora_ros import interfaces as on
 from aurora_ros.call import Caller
@@ -47,12 +49,13 @@ class StageLimits:
     execute_fixed_s: float
     execute_per_simulated_s: float
     verify_s: float
+    twin_limit_s: float
 
     def __post_init__(self) -> None:
         require_positive(
             self, 'parse_s', 'parse_model_s', 'ground_s', 'check_s', 'execute_fixed_s', 'verify_s'
         )
-        require_positive(self, 'execute_per_simulated_s')
+        require_positive(self, 'execute_per_simulated_s', 'twin_limit_s')
 
 
 class RosStages:
@@ -61,6 +64,7 @@ class RosStages:
     Args:
         caller: With `CALLS` prepared; its guard is `attendance.check`.
         attendance: Looks after the participants from the first stage to `close`.
+        published: What the monitor says to everybody.
         limits: How long each stage may take.
         run_id: Stamp of the run's documents.
         cancelled: Asked while participants are waited for.
@@ -70,16 +74,19 @@ class RosStages:
         self,
         caller: Caller,
         attendance: Attendance,
+        published: PublishedVerdicts,
         limits: StageLimits,
         run_id: str,
         cancelled: Callable[[], bool],
     ) -> None:
         self._caller = caller
         self._attendance = attendance
+        self._published = published
         self._limits = limits
         self._run_id = run_id
         self._cancelled = cancelled
         self._began = False
+        self._trace_sha256 = ''
 
     def close(self) -> None:
         """End the run, if it ever began: participants may go and be restarted."""
@@ -90,6 +97,7 @@ class RosStages:
         """Let the parser read the prompt, once everybody whom a run needs is there."""
         self._began = True
         self._attendance.open(self._cancelled)
+        self._caller.await_alone(self._limits.twin_limit_s, self._cancelled)
         response = self._caller.service(
             on.PARSE,
             ParsePrompt.Request(
@@ -100,13 +108,26 @@ class RosStages:
             self._limits.parse_s if request.model == 'offline' else self._limits.parse_model_s,
         )
         graph = read_graph(response.agsg) if response.understood else None
-        return _parsed(response.outcome_json, response.transcript_jsonl, graph)
+        outcome = _parsed(response.outcome_json, response.transcript_jsonl, graph)
+        for spec in (outcome.spec, None if graph is None else graph.spec):
+            if spec is not None:
+                hold(on.PARSE, prompt=(request.prompt, spec.prompt))
+        return outcome
 
     def ground(self, agsg: Agsg, request: RunRequest) -> GroundingOutcome:
         """Let the grounding node find places and a schedule."""
         response = self._stage(on.GROUND_SCENARIO, GroundScenario, agsg, request)
         outcome = _document(GroundingOutcome, response.outcome_json, on.GROUND_SCENARIO)
         graph = read_graph(response.agsg) if response.grounded else None
+        if graph is not None:
+            seed = None if graph.grounding is None else graph.grounding.seed
+            hold(
+                on.GROUND_SCENARIO,
+                run=(self._run_id, response.agsg.run_id),
+                request=(agsg.spec, graph.spec),
+                iteration=(agsg.iteration, graph.iteration),
+                seed=(request.seed, seed),
+            )
         return GroundingOutcome(**{**dict(outcome), 'agsg': graph})
 
     def check(self, agsg: Agsg, request: RunRequest) -> FeasibilityVerdict:
@@ -144,9 +165,12 @@ class RosStages:
             'outcome': result.outcome,
         }
         try:
-            return ExecutionResult.model_validate(fields)
+            execution = ExecutionResult.model_validate(fields)
         except ValidationError as err:
             raise ExecutionError(f'the executor answered with {fields}: {err}') from err
+        hold(on.EXECUTE, bag=(bag_directory.absolute(), execution.bag))
+        self._trace_sha256 = execution.trace_sha256
+        return execution
 
     def verify(self, agsg: Agsg, bag: Path) -> Verdict:
         """Let the monitor judge the bag; whoever took part must still be there at the end."""
@@ -157,8 +181,22 @@ class RosStages:
             ),
             self._limits.verify_s,
         )
-        verdict = _document(Verdict, response.verdict.verdict_json, on.VERIFY)
+        answer = response.verdict
+        verdict = _document(Verdict, answer.verdict_json, on.VERIFY)
+        hold(
+            on.VERIFY,
+            run=(self._run_id, answer.run_id),
+            iteration=(agsg.iteration, answer.iteration),
+            source=(VerdictMessage.BAG, answer.source),
+            trace_hash=(self._trace_sha256, answer.trace_sha256),
+            set_of_conditions=([c.id for c in agsg.conditions], [r.id for r in verdict.results]),
+            status=(verdict.status.value, answer.status),
+        )
+        published = self._published.last(self._run_id, agsg.iteration, self._attendance.check)
+        told = _document(Verdict, published.verdict_json, on.VERIFY)
+        hold(on.VERIFY, verdict_than_it_published=(told, verdict))
         self._attendance.confirm()
+        self._caller.check_alone()
         return verdict
 
     def _stage(self, call: Call, kind: Any, agsg: Agsg, request: RunRequest) -> Any:

@@ -28,7 +28,7 @@ from aurora_ros.lifecycle import ManagedNode
 from aurora_ros.matching import await_subscribers, twins, wait_until
 from aurora_ros.parameters import require_positive
 from aurora_ros.writers import COMPONENT as WRITERS
-from aurora_ros.writers import Stranger, second_writer, strangers
+from aurora_ros.writers import Stranger, named, second_one, strangers
 
 CALLS = (
     on.GROUND_LOAD,
@@ -41,7 +41,7 @@ CALLS = (
 )
 _LOOK_S = 0.05
 _SETTLE_S = 0.6  # the others' leases of whoever died end within one announcement of ours
-_WRITERS_S = 0.2  # how often it is looked who writes on the topics of a run
+_WRITERS_S = 0.2  # how often it is looked who writes and serves
 _LATCHED = (on.AGSG, on.ROSTER, on.WORLD)
 _RECORDED = (*_LATCHED, on.GROUND_STATE, on.GROUND_COMMAND, on.COMM, on.SENSING, on.EVENTS)
 _RECORDED_WITH_UAVS = (*_RECORDED, on.UAV_STATE, on.UAV_COMMAND)
@@ -202,7 +202,7 @@ class RunDriver:
         time.sleep(_SETTLE_S)
 
     def _await_alone(self, cancelled: Callable[[], bool]) -> None:
-        """Wait until nobody else writes on the topics of a run; one that died is forgotten.
+        """Wait until nobody else writes or serves what a run needs; one that died is forgotten.
 
         Raises:
             ExecutionError: Somebody does for longer than any lease.
@@ -210,14 +210,14 @@ class RunDriver:
         limit_s = self._settings.twin_limit_s
         wait_until(lambda: cancelled() or not self._strangers(), limit_s, _LOOK_S)
         for stranger in () if cancelled() else self._strangers():
-            raise second_writer(stranger)
+            raise second_one(stranger)
 
     def _strangers(self) -> list[Stranger]:
         names = (self._node.get_name(), *self._participants)
-        return strangers(self._node, on.RUN_TOPICS, names)
+        return [*strangers(self._node, on.RUN_TOPICS, names), *self._caller.strangers()]
 
     def _check_writers(self, before: list[Stranger]) -> list[Stranger]:
-        """Raise when somebody else writes; return those whose name is not known yet.
+        """Raise when somebody else writes or serves; return those that have no name yet.
 
         Args:
             before: What this returned at the last look.
@@ -228,7 +228,7 @@ class RunDriver:
         there = self._strangers()
         for stranger in there:
             if stranger.node or stranger in before:
-                raise second_writer(stranger)
+                raise second_one(next(iter(named(self._strangers)), stranger))
         return there
 
     def _load(self, order: Order, run: ActiveRun) -> None:
@@ -375,7 +375,7 @@ class RunDriver:
         if isinstance(error, ParticipantSilentError) or error.component == WRITERS:
             return None
         try:
-            return next(map(second_writer, self._strangers()), None)
+            return next(map(second_one, named(self._strangers)), None)
         except (InvalidHandle, rclpy_implementation.RCLError):
             return None  # the node is being shut down under us
 

@@ -22,6 +22,7 @@ from aurora_core.trace.definitions import message_definitions
 from aurora_core.trace.layout import GROUND_WIDTH
 from aurora_core.trace.records import EventRecord, ScenarioEventKind
 from aurora_core.trace.roster import Roster
+from aurora_msgs.msg import Heartbeat
 from aurora_ros import interfaces as on
 from aurora_ros.conversions.messages import message_builder
 from aurora_ros.conversions.states import ground_state
@@ -172,6 +173,31 @@ def test_a_folder_that_exists_is_refused_with_a_code(graph: Graph, tmp_path: Pat
         graph.start(tmp_path)
     assert caught.value.code == BagError.default_code
     graph.start(tmp_path / 'bag')
+
+
+def test_who_starts_another_recording_during_a_run_is_refused(
+    graph: Graph, tmp_path: Path
+) -> None:
+    executor = graph.play.publisher(on.HEARTBEAT)
+    assert wait_until(lambda: executor.get_subscription_count() >= 1, 5.0)
+    executor.publish(Heartbeat(node='executor', state=Heartbeat.IDLE))
+    graph.start(tmp_path / 'bag')
+    graph.send_states(range(10))
+    for _ in range(2):  # before the executor's first heartbeat in the run, and after it
+        with pytest.raises(BagError, match=f'run {RUN} is being recorded'):
+            graph.start(tmp_path / 'stray', run_number=0, topics=[])
+        executor.publish(Heartbeat(node='executor', state=Heartbeat.BUSY, run_number=RUN))
+    graph.send_states(range(10, 30))
+    graph.stop({on.GROUND_STATE.full_name: 30})
+
+
+def test_a_recording_that_an_earlier_run_left_open_is_closed(graph: Graph, tmp_path: Path) -> None:
+    executor = graph.play.publisher(on.HEARTBEAT)
+    graph.start(tmp_path / 'bag.0')
+    executor.publish(Heartbeat(node='executor', state=Heartbeat.BUSY, run_number=RUN + 1))
+    graph.start(tmp_path / 'bag.1', run_number=RUN + 1)
+    graph.stop(run_number=RUN + 1)
+    assert (tmp_path / 'bag.0' / 'metadata.yaml').is_file()
 
 
 def test_ending_the_node_closes_the_bag(graph: Graph, tmp_path: Path) -> None:

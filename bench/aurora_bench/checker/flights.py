@@ -148,6 +148,13 @@ def line(xy: FloatArray, length_m: float) -> tuple[Judged, FloatArray | None]:
     return graded(least <= limits.WAYPOINT_M, least <= limits.WAYPOINT_M + DOUBT_M, why), centre
 
 
+def _swept(angle: FloatArray) -> float:
+    """Return the greatest change of an angle from some sample to a later one, either way."""
+    up = float(np.max(angle - np.minimum.accumulate(angle)))
+    down = float(np.max(np.maximum.accumulate(angle) - angle))
+    return max(up, down)
+
+
 def orbit(
     xy: FloatArray, centres: Sequence[FloatArray], radius_m: float | None, turns: float = 1.0
 ) -> tuple[Judged, FloatArray | None]:
@@ -167,7 +174,7 @@ def orbit(
         swept = 0.0
         edges = np.diff(np.concatenate([[False], near, [False]]).astype(np.int8))
         for a, b in zip(np.flatnonzero(edges == 1), np.flatnonzero(edges == -1), strict=True):
-            swept = max(swept, abs(float(angle[b - 1] - angle[a])))
+            swept = max(swept, _swept(angle[a:b]))
         if swept > best:
             best, centre = swept, middle
             why = f'{np.degrees(swept):.0f} degrees at {radius:.0f} m (asked {turns:g} turns)'

@@ -36,9 +36,9 @@ def segments(scene: Scene, uav: str) -> tuple[Segment, ...]:
     bounds = [0, *(int(i) + 1 for i in np.flatnonzero(np.diff(phase))), len(phase)]
     found: list[Segment] = []
     for a, b in itertools.pairwise(bounds):
-        if rec.MISSION <= phase[a] < rec.LANDING:
+        if rec.MISSION <= phase[a] < rec.HOLDING:
             closed = b < len(phase)
-            then = bool(closed and rec.MISSION <= phase[b] < rec.LANDING)
+            then = bool(closed and rec.MISSION <= phase[b] < rec.HOLDING)
             found.append(Segment(len(found), a, b, closed, then))
     return tuple(found)
 

@@ -23,7 +23,7 @@ UX, UY, UZ, VX, VY, VZ = range(6)
 LANDED = 15
 UAV_WIDTH = 16
 # Phases of UavCommand: mission k is MISSION + k.
-IDLE, ASCENT, MISSION, LANDING = 0.0, 1.0, 2.0, 100.0
+IDLE, ASCENT, MISSION, HOLDING, LANDING = 0.0, 1.0, 2.0, 99.0, 100.0
 
 
 class LinkKind(IntEnum):

@@ -61,7 +61,7 @@ def _pattern(flight: Flight, requirement: Mapping[str, Any], xy: FloatArray) -> 
             turns = float(requirement.get('turns') or 1.0)
             radius = requirement.get('radius_m')
             centres = [
-                s.xy for t in flight.targets if not scene.is_body(t) for s in _centres(places, t)
+                xy for t in flight.targets if not scene.is_body(t) for xy in _centres(places, t)
             ]
             own = requirement.get('radius_m')
             bodies = [t for t in flight.targets if scene.is_body(t)]
@@ -91,7 +91,10 @@ def _pattern(flight: Flight, requirement: Mapping[str, Any], xy: FloatArray) -> 
 
 
 def _centres(places: Any, name: str) -> Sequence[Any]:
-    return (*places.chosen(name), *places.spots(name)[:40])
+    """Return what is gone round when a place is: its position, or the middle of its building."""
+    spots = (*places.chosen(name), *places.spots(name)[:40])
+    middles = [s.outline.centroid for s in spots if s.outline is not None]
+    return (*(s.xy for s in spots), *(np.array([m.x, m.y]) for m in middles))
 
 
 def _orbit_of_body(flight: Flight, bodies: Sequence[str], radius: Any, turns: float) -> Judged:

@@ -9,11 +9,9 @@ every run reports; the JSON on standard output has one entry per run.
 from __future__ import annotations
 
 import json
-import os
 import sys
 import time
 from collections.abc import Sequence
-from datetime import UTC, datetime
 from itertools import pairwise
 from pathlib import Path
 
@@ -94,40 +92,18 @@ def _between(begin: tuple[float, float], end: tuple[float, float]) -> Spent:
 
 def one_run(prompt: str, folder: Path) -> WarmRun:
     """Run a prompt as `aurora run` does, its folder below `folder`."""
-    from aurora_cli.clock import MonotonicClock
-    from aurora_cli.installed import installed
-    from aurora_cli.local_engine import LocalStages
-    from aurora_core.pipeline.run import run
+    from aurora_cli.answers import run_request
     from aurora_core.pipeline.stages import RunControl, RunRequest
-    from aurora_core.report.manifest import manifest_facts
-    from aurora_core.report.outputs import write_page, write_report
-    from aurora_core.report.process import this_process
-    from aurora_core.report.run_folder import RunFolder, new_run_id
-    from aurora_core.report.versions import product_versions
 
     begin = time.perf_counter(), time.process_time()
-    started, versions, marks = datetime.now(UTC), product_versions(), Marks()
-    stages, run_folder = (
-        LocalStages(installed()),
-        RunFolder(folder, new_run_id(started, os.urandom(3))),
-    )
-    report = run(
-        RunRequest(prompt=prompt),
-        stages,
-        stages.known,
-        run_folder,
-        RunControl(progress=marks.mark),
-        MonotonicClock(),
-        versions=versions,
-        manifest=manifest_facts(started, this_process(), versions),
-        outputs=write_report,
-    )
+    marks = Marks()
+    done = run_request(RunRequest(prompt=prompt), folder, RunControl(progress=marks.mark))
     told = time.perf_counter(), time.process_time()
-    write_page(report, run_folder, stages.verified)
+    done.write_page()
     page = _between(told, (time.perf_counter(), time.process_time()))
-    trace = report.trace
+    trace = done.trace
     return WarmRun(
-        status=report.status,
+        status=done.status,
         motion_sha256='' if trace is None else trace.motion_sha256,
         total=_between(begin, told),
         page=page,
@@ -141,7 +117,7 @@ def main(arguments: Sequence[str]) -> int:
     folder, runs, prompt = arguments
     begun = time.perf_counter()
     import aurora_cli.commands.run  # noqa: F401  (timed)
-    from aurora_cli.main import relax_collector
+    from aurora_cli.collector import relax_collector
 
     relax_collector()  # as the command does
     # CPU time counts from the start of the process, the clock from here.

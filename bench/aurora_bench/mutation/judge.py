@@ -17,6 +17,7 @@ from aurora_bench.mutation.mutant import Mutant
 from aurora_cli.installed import installed
 from aurora_core.agsg.message import agsg_message, read_agsg
 from aurora_core.errors import AuroraError
+from aurora_core.judging.codec import conditions_from_json
 from aurora_core.monitor.plan_check import Plan
 from aurora_core.outcomes.verdict import Verdict
 from aurora_core.pipeline.verification import (
@@ -68,8 +69,11 @@ def by_recomputation(mutant: Mutant) -> bool:
     """Tell whether the executor gives other commands or claims from the states of a mutant."""
     content = BagContent(trace=mutant.trace, world=mutant.world, agsg_message=None)
     try:
-        known = isinstance(recorded_plan(installed(), mutant.world, mutant.agsg), Plan)
-        return known and bool(recomputed_content(installed(), content, mutant.agsg))
+        conditions = conditions_from_json(mutant.world.conditions_json)
+        plan = recorded_plan(installed(), mutant.world, conditions, mutant.agsg)
+        return isinstance(plan, Plan) and bool(
+            recomputed_content(installed(), content, mutant.agsg)
+        )
     except AuroraError:
         return False
 

@@ -35,7 +35,7 @@ from aurora_bench.rulers.summary import (
 from aurora_bench.rulers.trial import JudgedTrial, Trial, lost
 from aurora_bench.seeds import seeds_option
 from aurora_core.errors import AuroraError, ConfigError, MapError
-from aurora_core.knowledge.map_model import list_maps
+from aurora_core.knowledge.map_folders import list_maps
 from aurora_core.report.run_folder import json_text
 from aurora_core.report.versions import product_versions
 

@@ -23,7 +23,7 @@ class Squares:
 
     def prepare(self) -> None:
         """Print as libraries do, and break if told so."""
-        print('loading')  # noqa: T201
+        print('loading', flush=True)  # noqa: T201
         if self.broken:
             raise RuntimeError(self.broken)
 

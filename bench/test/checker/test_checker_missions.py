@@ -242,6 +242,32 @@ def test_an_orbit(stage: Any, turned: float, radius: float, outcome: str) -> Non
     assert stage.says(asked) == outcome
 
 
+def test_the_way_to_an_orbit_takes_nothing_off_it(stage: Any) -> None:
+    def motion(t: Any) -> tuple[Any, Any, Any]:
+        lap = np.clip((t - 12.0) / 45.0, 0.0, 1.0) * 2.0 * np.pi
+        angle = lap + np.clip((12.0 - t) / 12.0, 0.0, 1.0)  # one radian the other way before
+        return 210 + 60 * np.cos(angle), 15 + 60 * np.sin(angle), 40.0
+
+    stage.uav('drone', motion, ends=(58.0,))
+    asked = {**RECTANGLE, 'pattern': 'orbit', 'radius_m': 60, 'target': 'City Hall'}
+    assert stage.says(asked) == 'holds'
+
+
+@pytest.mark.parametrize(
+    ('middle_y', 'outcome'), [(15.0, 'holds'), (30.0, 'holds'), (60.0, 'does_not')]
+)
+def test_an_orbit_goes_round_a_place_or_the_middle_of_its_building(
+    stage: Any, middle_y: float, outcome: str
+) -> None:
+    def motion(t: Any) -> tuple[Any, Any, Any]:
+        angle = np.clip((t - 12.0) / 45.0, 0.0, 1.0) * 2.0 * np.pi
+        return 210 + 60 * np.cos(angle), middle_y + 60 * np.sin(angle), 40.0
+
+    stage.uav('drone', motion, ends=(58.0,))
+    asked = {**RECTANGLE, 'pattern': 'orbit', 'radius_m': 60, 'target': 'City Hall'}
+    assert stage.says(asked) == outcome
+
+
 @pytest.mark.parametrize(('y', 'outcome'), [(-1.65, 'holds'), (60.0, 'does_not')])
 def test_a_line_over_the_main_road_lies_over_a_carriageway(
     stage: Any, y: float, outcome: str

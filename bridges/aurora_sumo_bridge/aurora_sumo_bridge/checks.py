@@ -49,6 +49,7 @@ _SPEED = Range(0.0, FASTEST_MPS, 'm/s')
 _SPEED_FACTOR = Range(0.01, LARGEST_SPEED_FACTOR, '')
 _TIME_GAP = Range(0.0, LONGEST_TIME_GAP_S, 's')
 _MIN_GAP = Range(0.0, LARGEST_GAP_M, 'm')
+_ACCELERATION = Range(0.01, HARDEST_BRAKING_MPS2, 'm/s2')
 _MODE = Range(0, LARGEST_LANE_CHANGE_MODE, '', whole=True)
 
 # Kind -> ranges of value and value2.
@@ -58,7 +59,7 @@ COMMAND_RANGES: dict[GroundCommandKind, tuple[Range, Range]] = {
     GroundCommandKind.SET_SPEED_FACTOR: (_SPEED_FACTOR, _ANY),
     GroundCommandKind.SET_TIME_GAP: (_TIME_GAP, _ANY),
     GroundCommandKind.SET_MIN_GAP: (_MIN_GAP, _ANY),
-    GroundCommandKind.SET_DECELERATION: (Range(0.01, HARDEST_BRAKING_MPS2, 'm/s2'), _ANY),
+    GroundCommandKind.SET_DECELERATION: (_ACCELERATION, _ANY),
     GroundCommandKind.SET_ROUTE: (_ANY, _ANY),
     GroundCommandKind.CHANGE_LANE: (Range(0, LARGEST_LANE_INDEX, '', whole=True), _DURATION),
     GroundCommandKind.STOP_AT: (_LANE_POSITION, _DURATION),
@@ -112,6 +113,7 @@ def check_agent_numbers(agent: GroundAgentLoad) -> None:
         ('time_gap_s', agent.time_gap_s, _TIME_GAP),
         ('min_gap_m', agent.min_gap_m, _MIN_GAP),
         ('lane_change_mode', agent.lane_change_mode, _MODE),
+        ('acceleration_mps2', agent.acceleration_mps2, _ACCELERATION),
     ]
     for label, value, allowed in fields:
         fault = allowed.fault(value) if value is not None else ''

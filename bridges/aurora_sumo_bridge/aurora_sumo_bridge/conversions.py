@@ -1,55 +1,15 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""Pure conversions between SUMO's poses and the poses of the map frame.
+"""Pure conversions between SUMO's positions and those of the map frame.
 
-SUMO speaks of the middle of the FRONT bumper and of degrees clockwise from north; everything
-else in AURORA speaks of the centre of the box and of a unit heading vector (east, north) in the
-ENU map frame. This file is the only place where the two meet.
+SUMO speaks of the middle of the FRONT bumper, everything else in AURORA of the centre of the box;
+angles turn in `aurora_core.geometry.frames`.
 """
 
 from __future__ import annotations
 
-import math
-
 # Free space between the kerb-side border of a traffic lane and the flank of a parked vehicle.
 KERB_CLEARANCE_M = 0.3
-
-
-def heading_from_sumo_angle(angle_deg: float) -> tuple[float, float]:
-    """Return the ENU heading vector of a compass angle.
-
-    Quarter turns are exact (`math.sin` of pi is not 0), so streets along the axes give
-    coordinates without rounding dust.
-
-    Args:
-        angle_deg: Degrees clockwise from north, any real number.
-
-    Returns:
-        Unit vector (east, north).
-    """
-    turned_deg = math.fmod(angle_deg, 360.0)
-    if turned_deg < 0.0:
-        turned_deg += 360.0
-    if turned_deg == 0.0 or turned_deg == 360.0:
-        return 0.0, 1.0
-    if turned_deg == 90.0:
-        return 1.0, 0.0
-    if turned_deg == 180.0:
-        return 0.0, -1.0
-    if turned_deg == 270.0:
-        return -1.0, 0.0
-    angle_rad = math.radians(turned_deg)
-    return math.sin(angle_rad), math.cos(angle_rad)
-
-
-def sumo_angle_from_heading(heading_x: float, heading_y: float) -> float:
-    """Return the compass angle in [0, 360) of a vector (east, north); exact on the axes."""
-    if heading_x == 0.0:
-        return 0.0 if heading_y >= 0.0 else 180.0
-    if heading_y == 0.0:
-        return 90.0 if heading_x > 0.0 else 270.0
-    angle_deg = math.degrees(math.atan2(heading_x, heading_y))
-    return angle_deg if angle_deg >= 0.0 else angle_deg + 360.0
 
 
 def centre_from_front(

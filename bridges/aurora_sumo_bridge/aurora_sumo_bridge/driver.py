@@ -38,6 +38,8 @@ class Driver:
             libsumo.vehicle.setTau(self._vehicle, agent.time_gap_s)
         if agent.min_gap_m is not None:
             libsumo.vehicle.setMinGap(self._vehicle, agent.min_gap_m)
+        if agent.acceleration_mps2 is not None:
+            libsumo.vehicle.setAccel(self._vehicle, agent.acceleration_mps2)
         self._apply_speed_factor()
         self._apply_mode()
 

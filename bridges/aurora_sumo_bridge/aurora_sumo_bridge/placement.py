@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import libsumo
 
 from aurora_core.errors import GroundSimulatorError
+from aurora_core.geometry.frames import sumo_angle_to_heading
 from aurora_core.ports.simulators import GroundAgentLoad
 from aurora_sumo_bridge.checks import check_agent_numbers, unplaceable
-from aurora_sumo_bridge.conversions import heading_from_sumo_angle
 from aurora_sumo_bridge.driver import Driver
 from aurora_sumo_bridge.network import Network
 from aurora_sumo_bridge.polyline import Box, boxes_overlap, distance_m
@@ -94,7 +94,7 @@ def place_all(
     for agent in agents:
         if agent.is_person:
             walker = walkers[agent.agent_id]
-            headings[agent.agent_id] = heading_from_sumo_angle(walker.settle())
+            headings[agent.agent_id] = sumo_angle_to_heading(walker.settle())
             places[agent.agent_id] = VehiclePlace(centre=walker.asked_point(), tolerance_m=EXACT_M)
         elif not agent.parked:
             places[agent.agent_id], drivers[agent.agent_id] = place_vehicle(agent, network)

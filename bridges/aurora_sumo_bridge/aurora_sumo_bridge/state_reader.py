@@ -10,9 +10,10 @@ import libsumo
 import numpy as np
 
 from aurora_core.errors import GroundSimulatorError
+from aurora_core.geometry.frames import sumo_angle_to_heading
 from aurora_core.ports.simulators import FloatArray
 from aurora_core.trace.layout import GROUND_WIDTH, GroundColumn
-from aurora_sumo_bridge.conversions import centre_from_front, heading_from_sumo_angle
+from aurora_sumo_bridge.conversions import centre_from_front
 from aurora_sumo_bridge.placement import Body
 from aurora_sumo_bridge.polyline import Box
 
@@ -136,7 +137,7 @@ class StateReader:
         angle_deg = _angle_of(vehicle)
         if angle_deg != self._angles_deg[index]:
             self._angles_deg[index] = angle_deg
-            self._headings[index] = heading_from_sumo_angle(angle_deg)
+            self._headings[index] = sumo_angle_to_heading(angle_deg)
         heading_x, heading_y = self._headings[index]
         x_m, y_m = centre_from_front(front_x_m, front_y_m, heading_x, heading_y, body.length_m)
         return (
@@ -154,7 +155,7 @@ class StateReader:
         # SUMO's point of a person is taken as its centre: a body of 0.2 m that turns on the spot
         # would otherwise jump by its own length.
         x_m, y_m = libsumo.person.getPosition(person)
-        heading_x, heading_y = heading_from_sumo_angle(libsumo.person.getAngle(person))
+        heading_x, heading_y = sumo_angle_to_heading(libsumo.person.getAngle(person))
         before_mps = self._values[self._rows[index]][GroundColumn.SPEED]
         speed_mps = libsumo.person.getSpeed(person)
         # SUMO has no acceleration of persons.

@@ -13,13 +13,10 @@ from dataclasses import dataclass
 
 import libsumo
 
+from aurora_core.geometry.frames import heading_to_sumo_angle
 from aurora_core.ports.simulators import GroundAgentLoad
 from aurora_sumo_bridge.checks import unplaceable
-from aurora_sumo_bridge.conversions import (
-    front_from_centre,
-    kerb_offset_m,
-    sumo_angle_from_heading,
-)
+from aurora_sumo_bridge.conversions import front_from_centre, kerb_offset_m
 from aurora_sumo_bridge.driver import Driver
 from aurora_sumo_bridge.network import PEDESTRIAN, Network
 from aurora_sumo_bridge.polyline import Point
@@ -154,7 +151,7 @@ def park_vehicle(agent: GroundAgentLoad, network: Network) -> tuple[VehiclePlace
     pose = ParkedPose(
         agent_id=agent.agent_id,
         front=front_from_centre(centre[0], centre[1], tx, ty, length_m),
-        angle_deg=sumo_angle_from_heading(tx, ty),
+        angle_deg=heading_to_sumo_angle(tx, ty),
     )
     pose.hold()
     return VehiclePlace(centre=centre, tolerance_m=EXACT_M), pose

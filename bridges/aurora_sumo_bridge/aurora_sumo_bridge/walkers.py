@@ -52,7 +52,11 @@ class Walker:
         length_m = network.arc_length_m(self.lane_id)
         if agent.lane_position_m > length_m:
             raise unplaceable(agent, f'the lane ends at {length_m:.2f} m')
-        for label, value in (('time_gap_s', agent.time_gap_s), ('min_gap_m', agent.min_gap_m)):
+        for label, value in (
+            ('time_gap_s', agent.time_gap_s),
+            ('min_gap_m', agent.min_gap_m),
+            ('acceleration_mps2', agent.acceleration_mps2),
+        ):
             if value is not None:
                 raise unplaceable(agent, f'a walker has no {label}')
         # The type's walking speed is only known once the person is in (`settle`).

@@ -198,3 +198,11 @@ def test_braking_hard_and_plainly(
     # 17 m/s over 4.5 and 8 m/s2.
     assert seconds[False] == pytest.approx(17.0 / 4.5, abs=0.1)
     assert seconds[True] == pytest.approx(17.0 / 8.0, abs=0.1)
+
+
+def test_who_is_gentle_accelerates_no_harder(
+    client: SumoClient, scene: Scene, on_parkway: Build, run_on: RunOn
+) -> None:
+    client.load(scene(on_parkway('ego', 'car', 35.0, acceleration_mps2=1.2)))
+    states = run_on(client, 61)
+    assert 3.3 < states[60][0, SPEED] < 3.7  # 3 s, 1.2 m/s2; a car has 2.6

@@ -98,6 +98,7 @@ def test_every_kind_has_ranges_and_its_ends_are_inside() -> None:
         ('speed_factor', 0.0),
         ('time_gap_s', float('nan')),
         ('min_gap_m', -1.0),
+        ('acceleration_mps2', 0.0),
         ('lane_change_mode', 9999),
     ],
 )

@@ -32,9 +32,9 @@ from aurora_uav_bridge.errors import (
     SimulatorSilentError,
 )
 from aurora_uav_bridge.mavlink_client import MavlinkClient, random_nonce
+from aurora_uav_bridge.testing.lossy_transport import LossyTransport
 from aurora_uav_bridge.transports import (
     LoopbackTransport,
-    LossyTransport,
     Transport,
     UdpTransport,
 )

@@ -13,7 +13,8 @@ from aurora_core.ports.simulators import AirLoad, UavHome
 from aurora_uav_bridge.errors import SimulatorSilentError
 from aurora_uav_bridge.mavlink_client import MavlinkClient
 from aurora_uav_bridge.presence import Presence
-from aurora_uav_bridge.transports import LoopbackTransport, LossyTransport
+from aurora_uav_bridge.testing.lossy_transport import LossyTransport
+from aurora_uav_bridge.transports import LoopbackTransport
 from aurora_uav_sim.mavlink_server import SimServer
 
 

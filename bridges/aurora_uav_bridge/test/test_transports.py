@@ -10,7 +10,8 @@ from collections.abc import Hashable
 import numpy as np
 import pytest
 
-from aurora_uav_bridge.transports import LoopbackTransport, LossyTransport, UdpTransport
+from aurora_uav_bridge.testing.lossy_transport import LossyTransport
+from aurora_uav_bridge.transports import LoopbackTransport, UdpTransport
 
 
 class Echo:

@@ -4,8 +4,6 @@
 
 from __future__ import annotations
 
-import gzip
-import io
 import shutil
 import subprocess
 import sysconfig
@@ -80,14 +78,6 @@ def build_net(plan: StreetPlan, stem: str, location: str) -> bytes:
 def strip_header(net_xml: bytes) -> bytes:
     """Return the document from `<net` on: the comment before it has the date and local paths."""
     return net_xml[net_xml.index(b'<net ') :]
-
-
-def gzip_reproducibly(data: bytes) -> bytes:
-    """Compress without time stamp and file name, so that equal input gives equal bytes."""
-    buffer = io.BytesIO()
-    with gzip.GzipFile(filename='', mode='wb', compresslevel=9, fileobj=buffer, mtime=0) as file:
-        file.write(data)
-    return buffer.getvalue()
 
 
 def _netconvert() -> str:

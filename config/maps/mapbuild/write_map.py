@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -12,6 +11,8 @@ from typing import Any
 import pyproj
 import shapely
 
+from aurora_core.files import gzip_reproducibly
+from aurora_core.knowledge.map_files import write_features
 from aurora_core.knowledge.map_manifest import (
     SCHEMA_VERSION,
     MapManifest,
@@ -28,7 +29,7 @@ from aurora_core.knowledge.map_model import (
 )
 from aurora_core.knowledge.road_network import RoadNetwork
 from mapbuild.buildings import Built, District, Special, build_up
-from mapbuild.netbuild import build_net, gzip_reproducibly, location_element, projection
+from mapbuild.netbuild import build_net, location_element, projection
 from mapbuild.places import Place, Zone
 from mapbuild.plain_xml import write_stops
 from mapbuild.streets import StreetPlan
@@ -67,9 +68,9 @@ def write_map(plan: MapPlan, folder: Path) -> MapManifest:
     built = build_up(
         plan.streets, network, plan.extent_m, plan.districts, plan.specials, plan.seed
     )
-    _write_geojson(folder / BUILDINGS_NAME, [_building(b) for b in built])
-    _write_geojson(folder / ZONES_NAME, [_zone(z) for z in plan.zones])
-    _write_geojson(folder / LANDMARKS_NAME, [_landmark(p, network) for p in plan.places])
+    write_features(folder / BUILDINGS_NAME, [_building(b) for b in built])
+    write_features(folder / ZONES_NAME, [_zone(z) for z in plan.zones])
+    write_features(folder / LANDMARKS_NAME, [_landmark(p, network) for p in plan.places])
     (folder / 'ATTRIBUTION.md').write_text(_attribution(plan), encoding='utf-8')
     manifest = MapManifest(
         schema_version=SCHEMA_VERSION,
@@ -97,15 +98,6 @@ def _lonlat_extent(plan: MapPlan) -> tuple[float, float, float, float]:
     west_deg, south_deg = to_degrees.transform(west, south)
     east_deg, north_deg = to_degrees.transform(east, north)
     return west_deg, south_deg, east_deg, north_deg
-
-
-def _write_geojson(path: Path, features: list[dict[str, Any]]) -> None:
-    """Write one feature per line, so that a change shows as a line of a diff."""
-    lines = ',\n'.join(json.dumps(f, separators=(',', ':'), ensure_ascii=False) for f in features)
-    path.write_text(
-        '{"type":"FeatureCollection","frame":"enu_m","features":[\n' + lines + '\n]}\n',
-        encoding='utf-8',
-    )
 
 
 def _feature(geometry: dict[str, Any], properties: dict[str, Any]) -> dict[str, Any]:

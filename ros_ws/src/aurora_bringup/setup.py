@@ -6,7 +6,7 @@ from setuptools import setup
 
 setup(
     name='aurora_bringup',
-    version='0.1.0',
+    version='0.2.0',
     packages=[],
     data_files=[
         ('share/ament_index/resource_index/packages', ['resource/aurora_bringup']),

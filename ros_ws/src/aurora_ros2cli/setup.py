@@ -6,7 +6,7 @@ from setuptools import find_packages, setup
 
 setup(
     name='aurora_ros2cli',
-    version='0.1.0',
+    version='0.2.0',
     packages=find_packages(exclude=['test', 'test.*']),
     package_data={'': ['*.typed']},
     data_files=[

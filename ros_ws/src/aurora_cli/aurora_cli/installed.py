@@ -8,6 +8,7 @@ from functools import lru_cache
 from pathlib import Path
 
 from aurora_core.knowledge.config_files import config_path
+from aurora_core.knowledge.map_folders import own_maps_folder
 from aurora_core.pipeline.knowledge import Knowledge, installed_knowledge
 
 
@@ -17,9 +18,9 @@ def installed() -> Knowledge:
     Raises:
         ConfigError: A file is missing or broken.
     """
-    return _of(config_path())
+    return _of(config_path(), own_maps_folder())
 
 
 @lru_cache(maxsize=1)
-def _of(_folder: Path) -> Knowledge:
+def _of(_config: Path, _own_maps: Path) -> Knowledge:
     return installed_knowledge()

@@ -8,12 +8,12 @@ applied to reach tick k + 1; everything is recorded with the tick it belongs to.
 
 from __future__ import annotations
 
-import gc
-from collections.abc import Iterator
-from contextlib import contextmanager
+from operator import attrgetter
 from pathlib import Path
 
-from aurora_cli.local_trace import TraceCollector
+import numpy as np
+
+from aurora_cli.collector import no_collection
 from aurora_core.agsg.message import agsg_message
 from aurora_core.execution.plan import Execution
 from aurora_core.execution.step_output import StepOutput
@@ -22,11 +22,63 @@ from aurora_core.pipeline.stages import ExecutionResult, RunControl
 from aurora_core.ports.simulators import AirSimulator, FloatArray, GroundSimulator
 from aurora_core.trace import messages
 from aurora_core.trace.bag_writer import BagWriter
+from aurora_core.trace.commands import GroundCommand
 from aurora_core.trace.definitions import MessageDefinitions
 from aurora_core.trace.hashing import trace_hashes
+from aurora_core.trace.layout import UAV_COMMAND_WIDTH, UAV_WIDTH
 from aurora_core.trace.messages import MessageBuilder, time_ns
 from aurora_core.trace.messages_world import world_message
+from aurora_core.trace.records import EventRecord, LinkRecord, SightRecord
+from aurora_core.trace.roster import Roster
 from aurora_core.trace.tick_encoding import TickEncoder
+from aurora_core.trace.trace import Trace
+
+
+class TraceCollector:
+    """Collects the ticks of one run in order: what the bag gets, without reading it back.
+
+    Args:
+        roster: Row order.
+    """
+
+    def __init__(self, roster: Roster) -> None:
+        self._roster = roster
+        self._ground: list[FloatArray] = []
+        self._uav: list[FloatArray] = []
+        # What was applied to reach each tick: nothing to reach the first.
+        self._ground_commands: list[tuple[GroundCommand, ...]] = [()]
+        self._uav_commands: list[FloatArray] = [np.zeros((len(roster.uavs), UAV_COMMAND_WIDTH))]
+        self._links: list[LinkRecord] = []
+        self._sights: list[SightRecord] = []
+        self._events: list[EventRecord] = []
+
+    def add(self, ground: FloatArray, uav: FloatArray, output: StepOutput) -> None:
+        """Take the states of the next tick and what the executor made of them.
+
+        The arrays are kept, so they must not change afterwards.
+        """
+        self._ground.append(ground)
+        self._uav.append(uav)
+        self._ground_commands.append(output.ground_commands)
+        self._uav_commands.append(output.uav_commands)
+        self._links += output.links
+        self._sights += output.sights
+        self._events += output.events
+
+    def trace(self) -> Trace:
+        """Return the run so far; the commands of the last step were not applied any more."""
+        ticks = len(self._ground)
+        return Trace(
+            roster=self._roster,
+            ground=np.array(self._ground),
+            uav=np.array(self._uav).reshape(ticks, len(self._roster.uavs), UAV_WIDTH),
+            uav_commands=np.array(self._uav_commands[:ticks]),
+            ground_commands=tuple(self._ground_commands[:ticks]),
+            links=tuple(sorted(self._links, key=attrgetter('sequence'))),
+            sights=tuple(sorted(self._sights, key=attrgetter('tick', 'observer', 'target'))),
+            events=tuple(sorted(self._events, key=attrgetter('sequence'))),
+        )
+
 
 # One run per bag: the stamp that tells runs of a graph apart is constant here.
 _RUN_NUMBER = 1
@@ -85,22 +137,6 @@ class _Recorder:
         self._writer.write(topic, messages.TOPICS[topic], cdr, time_ns(tick, self._dt))
 
 
-@contextmanager
-def _no_garbage_collection() -> Iterator[None]:
-    """Keep Python from looking for reference cycles: a tick makes none.
-
-    What it makes is kept for the trace, which sets the collector off again and again, and each of
-    its full passes visits the whole knowledge base (70 ms).
-    """
-    enabled = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if enabled:
-            gc.enable()
-
-
 def run_lockstep(
     *,
     run_id: str,
@@ -121,7 +157,7 @@ def run_lockstep(
     outcome = 'finished'
     has_uavs = bool(execution.roster.uavs)
     collected = TraceCollector(execution.roster)
-    with _no_garbage_collection(), BagWriter(bag_directory, definitions) as writer:
+    with no_collection(), BagWriter(bag_directory, definitions) as writer:
         try:
             recorder = _Recorder(writer, definitions, dt_s)
             recorder.prologue(run_id, agsg, execution)

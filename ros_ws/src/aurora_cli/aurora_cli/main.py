@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import gc
 import io
 import os
 import sys
@@ -15,11 +14,11 @@ from typing import Annotated, NoReturn, cast
 
 import typer
 
-from aurora_cli.output import BROKEN, INTERRUPTED, USAGE, UsageProblem, print_error, say
-from aurora_core.errors import AuroraError
+from aurora_cli.collector import relax_collector
+from aurora_cli.finish import Json, finish
+from aurora_cli.map_commands import maps
+from aurora_cli.output import BROKEN, INTERRUPTED, USAGE, UsageProblem, say
 
-# Between two looks for reference cycles.
-_NEW_VALUES = 50_000
 # Typer carries its own copy of click: the class is reached through one that it exports.
 _USAGE_ERROR = cast(type[Exception], typer.BadParameter.__mro__[1])
 
@@ -32,7 +31,6 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={'help_option_names': ['-h', '--help']},
 )
-maps = typer.Typer(help='The maps of the configuration.', rich_markup_mode=None)
 certificate = typer.Typer(help='Certificates of infeasibility.', rich_markup_mode=None)
 bag = typer.Typer(help='Recordings.', rich_markup_mode=None)
 app.add_typer(maps, name='map')
@@ -41,7 +39,6 @@ app.add_typer(bag, name='bag')
 bench = typer.Typer(help='Measurements over prompt files.', rich_markup_mode=None)
 app.add_typer(bench, name='bench')
 
-Json = Annotated[bool, typer.Option('--json', help='One JSON document on standard output.')]
 Prompt = Annotated[
     str | None, typer.Argument(metavar='[PROMPT]', help='The prompt, or - for standard input.')
 ]
@@ -92,16 +89,6 @@ AsRecorded = Annotated[
 Anything = {'allow_extra_args': True, 'ignore_unknown_options': True}
 
 
-def _finish(command: Callable[[], int], *, as_json: bool) -> NoReturn:
-    """Run a command and leave with its exit code; what broke is told, never dumped."""
-    try:
-        code = command()
-    except AuroraError as err:
-        print_error(err, as_json=as_json)
-        code = BROKEN
-    raise typer.Exit(code)
-
-
 @app.command('run')
 def run_prompt(
     prompt: Prompt = None,
@@ -147,7 +134,7 @@ def run_prompt(
         )
         return run_command(prompt, prompt_file, options, as_json=as_json)
 
-    _finish(command, as_json=as_json)
+    finish(command, as_json=as_json)
 
 
 @app.command('check')
@@ -172,7 +159,7 @@ def check_prompt(
         )
         return check_command(prompt, prompt_file, options, as_json=as_json)
 
-    _finish(command, as_json=as_json)
+    finish(command, as_json=as_json)
 
 
 @app.command('verify')
@@ -192,7 +179,7 @@ def verify_bag(
             run_or_bag, iteration, plots, as_recorded=as_recorded, as_json=as_json
         )
 
-    _finish(command, as_json=as_json)
+    finish(command, as_json=as_json)
 
 
 @app.command('diff')
@@ -206,7 +193,7 @@ def diff_runs(
 
         return diff_command(first, second, iteration, as_json=as_json)
 
-    _finish(command, as_json=as_json)
+    finish(command, as_json=as_json)
 
 
 @bag.command('recover')
@@ -225,7 +212,7 @@ def recover_recording(
 
         return recover_command(run_or_bag, out, iteration, as_json=as_json)
 
-    _finish(command, as_json=as_json)
+    finish(command, as_json=as_json)
 
 
 @app.command('picture')
@@ -242,7 +229,7 @@ def draw_run(
 
         return picture_command(run_or_bag, output, iteration, as_json=as_json)
 
-    _finish(command, as_json=as_json)
+    finish(command, as_json=as_json)
 
 
 @app.command('graph')
@@ -278,37 +265,7 @@ def export_graph(
         options = GraphOptions(output=output, why=why, iteration=iteration, run=run)
         return graph_command(run_or_prompt, options, as_json=as_json)
 
-    _finish(command, as_json=as_json)
-
-
-@maps.command('list')
-def list_maps(as_json: Json = False) -> None:
-    """List the maps."""
-
-    def command() -> int:
-        from aurora_cli.commands.maps import list_command
-
-        return list_command(as_json=as_json)
-
-    _finish(command, as_json=as_json)
-
-
-@maps.command('show')
-def show_map(
-    name: Annotated[str, typer.Argument(help='Name of the map.')],
-    picture: Annotated[
-        Path | None, typer.Option(metavar='FILE', help='Draw it into a PNG or SVG file.')
-    ] = None,
-    as_json: Json = False,
-) -> None:
-    """Show what a map has."""
-
-    def command() -> int:
-        from aurora_cli.commands.maps import show_command
-
-        return show_command(name, picture, as_json=as_json)
-
-    _finish(command, as_json=as_json)
+    finish(command, as_json=as_json)
 
 
 @certificate.command('check')
@@ -323,7 +280,7 @@ def check_certificate(
 
         return certificate_command(file, as_json=as_json)
 
-    _finish(command, as_json=as_json)
+    finish(command, as_json=as_json)
 
 
 @app.command('doctor')
@@ -344,7 +301,7 @@ def examine(
         machine = Machine(runs=runs, model=model)
         return doctor_command(machine, repair=fix, json_wanted=as_json)
 
-    _finish(command, as_json=as_json)
+    finish(command, as_json=as_json)
 
 
 def _measurement(package: str) -> Callable[[typer.Context], None]:
@@ -367,23 +324,6 @@ for _package, _help in (
     )
 
 
-def _later(name: str) -> Callable[[], None]:
-    def command() -> None:
-        raise UsageProblem(f'{name} is not available in this version')
-
-    command.__doc__ = 'Not available in this version.'
-    return command
-
-
-for _group, _path in (
-    (maps, 'map import'),
-    (maps, 'map measure'),
-):
-    _group.command(
-        _path.rpartition(' ')[2], hidden=True, context_settings=Anything, add_help_option=False
-    )(_later(_path))
-
-
 def main() -> NoReturn:
     """Run the command line; usage errors leave with 64, Ctrl-C with 130."""
     for stream in (sys.stdout, sys.stderr):
@@ -392,15 +332,6 @@ def main() -> NoReturn:
             stream.reconfigure(encoding='utf-8', errors='backslashreplace')
     relax_collector()
     sys.exit(run_command_line(sys.argv[1:]))
-
-
-def relax_collector() -> None:
-    """Let Python look for reference cycles more rarely.
-
-    A command makes many values that stay (words, map, routes) and few cycles; by default every
-    700 new values set off a look, and the larger looks visit everything that stays.
-    """
-    gc.set_threshold(_NEW_VALUES, *gc.get_threshold()[1:])
 
 
 def run_command_line(arguments: list[str]) -> int:

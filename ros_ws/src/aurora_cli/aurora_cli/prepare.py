@@ -17,12 +17,14 @@ from pathlib import Path
 
 from aurora_core.compiled import Compiled
 from aurora_core.grounding.spots import compiled_area
-from aurora_core.knowledge.map_model import list_maps, load_map
+from aurora_core.knowledge.map_folders import bundled_maps
+from aurora_core.knowledge.map_model import load_map
 from aurora_core.parsing.data_files import NAMES, compiled_data
 from aurora_core.parsing.lexicon import compiled_table
 
 # The nodes are imported in processes of their own: only their byte code is needed.
 PACKAGES = (
+    'aurora',
     'aurora_bringup',
     'aurora_cli',
     'aurora_core',
@@ -53,7 +55,7 @@ IMPORTED = (
 
 def compiled_values() -> tuple[Compiled, ...]:
     """Return everything that set-up makes from files, beside byte code."""
-    areas = [compiled_area(load_map(name)) for name in list_maps()]
+    areas = [compiled_area(load_map(name)) for name in bundled_maps()]
     return (*(compiled_data(name) for name in NAMES), compiled_table(), *areas)
 
 

@@ -13,7 +13,7 @@ from pydantic import ValidationError
 from aurora_cli.output import UsageProblem
 from aurora_core.errors import ConfigError, PromptError
 from aurora_core.execution.faults import Fault
-from aurora_core.knowledge.map_model import list_maps
+from aurora_core.knowledge.map_folders import list_maps
 from aurora_core.outcomes.parse import ParseOutcome
 from aurora_core.parsing.text import check_prompt_text
 from aurora_core.pipeline.stages import RunRequest

@@ -20,7 +20,6 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from aurora_cli.output import say
 from aurora_core.errors import ExecutionError
 from aurora_core.pipeline.stages import RunControl, RunRequest
 from aurora_core.report.run_report import RunReport
@@ -58,13 +57,16 @@ _UP = ('ros2', 'run', 'aurora_bringup', 'up', '--detach', '--timeout', str(_STAR
 _DOWN = ('ros2', 'run', 'aurora_bringup', 'down')
 
 
-def run_over_ros(request: RunRequest, root: Path, control: RunControl) -> tuple[RunReport, Path]:
+def run_over_ros(
+    request: RunRequest, root: Path, control: RunControl, tell: Callable[[str], None]
+) -> tuple[RunReport, Path]:
     """Run a prompt on the graph and return its report and run folder.
 
     Args:
         request: Prompt and options.
         root: Folder of the run folders (absolute; the graph runs on this machine).
         control: Progress and cancel.
+        tell: Takes what the user should know meanwhile.
 
     Raises:
         ExecutionError: The graph cannot be reached or started, or it gave no report.
@@ -73,7 +75,7 @@ def run_over_ros(request: RunRequest, root: Path, control: RunControl) -> tuple[
     with _client_node() as node:
         caller = Caller(node, HeartbeatWatch(node))
         caller.prepare(on.RUN)
-        with _graph(caller, control.cancelled):
+        with _graph(caller, control.cancelled, tell):
             result = caller.action(
                 on.RUN,
                 RunScenario.Goal(
@@ -140,12 +142,14 @@ def _client_node() -> Iterator[Node]:
 
 
 @contextmanager
-def _graph(caller: Caller, cancelled: Callable[[], bool]) -> Iterator[None]:
+def _graph(
+    caller: Caller, cancelled: Callable[[], bool], tell: Callable[[str], None]
+) -> Iterator[None]:
     """The running graph, else one that is started here and stopped afterwards."""
     if _is_served(caller, _DISCOVERY_S):
         yield
         return
-    say('aurora: no graph is running, starting one')
+    tell('no graph is running, starting one')
     try:
         _start(cancelled)
         if not _is_served(caller, _DISCOVERY_AFTER_START_S):

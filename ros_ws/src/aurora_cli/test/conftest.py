@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import json
+import os
 import signal
 import subprocess
 import sys
@@ -16,7 +17,8 @@ import pytest
 
 from aurora_cli.main import run_command_line
 
-PROMPT = 'A drone hovers at 20 meters over the ego car for 5 seconds.'
+# Short, and room for a second one that hovers at 30 m.
+PROMPT = 'A scenario of 40 seconds. A drone hovers at 20 meters over the ego car for 5 seconds.'
 
 
 def aurora(
@@ -31,6 +33,19 @@ def aurora(
         timeout=120,
         check=False,
     )
+
+
+@pytest.fixture(scope='session', autouse=True)
+def _no_maps_of_the_user(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
+    """Imported maps of whoever runs the tests are none of theirs; what is imported goes here."""
+    before = os.environ.get('AURORA_MAPS')
+    folder = tmp_path_factory.mktemp('maps')
+    os.environ['AURORA_MAPS'] = str(folder)
+    yield folder
+    if before is None:
+        del os.environ['AURORA_MAPS']
+    else:
+        os.environ['AURORA_MAPS'] = before
 
 
 @pytest.fixture(scope='session')

@@ -140,12 +140,12 @@ def test_a_signal_ends_as_cancelled_with_a_readable_folder(
     assert json.loads((folder / 'report.json').read_text()) == report
 
 
-def test_an_event_of_a_body_that_nobody_can_place_yet_ends_incomplete(
+def test_an_action_that_nobody_carries_out_yet_ends_incomplete(
     here: Path, call: Callable[..., SimpleNamespace]
 ) -> None:
     prompt = (
-        'A drone tracks the bus for 5 s. The pedestrian walks along the street. When the '
-        'pedestrian walks faster than 1 m/s the bus brakes.'
+        'A drone tracks the bicycle for 5 s. When the bicycle rides faster than 1 m/s it changes '
+        'lane.'
     )
     done = call('run', prompt, '--json')
     report = json.loads(done.out)

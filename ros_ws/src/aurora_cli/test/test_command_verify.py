@@ -10,6 +10,13 @@ from types import SimpleNamespace
 
 import pytest
 
+from aurora_core.outcomes.verdict import VerdictStatus
+from aurora_core.pipeline.knowledge import installed_knowledge
+from aurora_core.pipeline.verification import load_bag, verify_content
+from aurora_core.trace.bag_content import BagContent
+from aurora_core.trace.bag_reader import read_bag
+from aurora_core.trace.definitions import message_definitions
+
 Call = Callable[..., SimpleNamespace]
 
 
@@ -107,3 +114,37 @@ def test_each_condition_with_samples_is_drawn(copy: Path, here: Path, call: Call
         assert [file.stem.partition('_')[2] for file in files] == measured
         assert all(file.read_bytes().startswith(begin) for file in files)
     assert call('verify', str(copy), '--plots', str(copy / 'report.json')).code == 4
+
+
+def test_a_graph_that_does_not_fit_its_nodes_is_told_on_the_first_line(
+    copy: Path, here: Path, call: Call, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (copy / 'bag.0').rename(here / 'alone')
+
+    def with_a_node_less(bag: Path) -> BagContent:
+        content = read_bag(bag, message_definitions())
+        content.agsg_message.nodes.pop()
+        return content
+
+    monkeypatch.setattr(
+        'aurora_core.trace.bag_reader.read_bag', lambda bag, _known: with_a_node_less(bag)
+    )
+    done = call('verify', 'alone')
+    assert done.code == 4
+    first = done.out.splitlines()[0]
+    assert first.startswith('INCONCLUSIVE  ')
+    assert 'alone cannot be judged: the scenario graph in ' in first
+    assert 'parser' not in done.out + done.err
+    assert json.loads(call('verify', 'alone', '--json').out)['status'] == 'error'
+
+
+def test_a_bag_whose_prompt_was_altered_never_passes(finished: SimpleNamespace) -> None:
+    known = installed_knowledge()
+    content, graph = load_bag(finished.folder / 'bag.0')
+    assert verify_content(known, content, graph).status is VerdictStatus.VERIFIED
+    for reader in (graph.spec.reader, ''):
+        prompt = graph.spec.prompt.replace('20 m', '90 m')
+        spec = graph.spec.model_copy(update={'prompt': prompt, 'reader': reader})
+        verdict = verify_content(known, content, graph.model_copy(update={'spec': spec}))
+        assert verdict.status is VerdictStatus.INCONCLUSIVE
+        assert ('graph', 'prompt') in [(f.kind, f.subject) for f in verdict.cross_check]

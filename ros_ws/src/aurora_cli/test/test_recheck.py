@@ -93,6 +93,7 @@ def test_the_recheck_knows_nothing_of_the_checker_but_its_document() -> None:
         'aurora_core.outcomes.feasibility',
         'aurora_core.files',
         'aurora_core.knowledge.config_files',
+        'aurora_core.knowledge.map_folders',
         'aurora_core.spec.vocabulary',
     }
 

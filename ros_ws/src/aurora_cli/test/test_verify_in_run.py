@@ -4,16 +4,19 @@
 
 from __future__ import annotations
 
+import io
 import json
 import re
 import shutil
 from collections.abc import Callable
+from contextlib import chdir, redirect_stdout
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
+from aurora_cli.main import run_command_line
 from aurora_core.knowledge.config_files import config_path
 
 Call = Callable[..., SimpleNamespace]
@@ -23,30 +26,26 @@ Call = Callable[..., SimpleNamespace]
 def failed(finished: SimpleNamespace, shell: SimpleNamespace) -> Path:
     """A violated run of the same prompt, map and seed."""
     fault = '{"kind": "target_removed", "subject": "ego", "at_s": 3.0}'
-    return made(finished, shell, shell.prompt, '--fault', fault, status='violated')
+    return made(finished, shell.prompt, '--fault', fault, status='violated')
 
 
 @pytest.fixture(scope='session')
 def other_seed(finished: SimpleNamespace, shell: SimpleNamespace) -> Path:
     """A verified run of the same prompt with another seed."""
-    return made(finished, shell, shell.prompt, '--seed', '2')
+    return made(finished, shell.prompt, '--seed', '2')
 
 
 @pytest.fixture(scope='session')
 def other_prompt(finished: SimpleNamespace, shell: SimpleNamespace) -> Path:
     """A verified run of another prompt."""
-    return made(finished, shell, shell.prompt.replace('20 meters', '30 meters'))
+    return made(finished, shell.prompt.replace('20 meters', '30 meters'))
 
 
-def made(
-    finished: SimpleNamespace,
-    shell: SimpleNamespace,
-    prompt: str,
-    *options: str,
-    status: str = 'verified',
-) -> Path:
-    done = shell.aurora('run', prompt, '--json', *options, cwd=finished.home)
-    report = json.loads(done.stdout)
+def made(finished: SimpleNamespace, prompt: str, *options: str, status: str = 'verified') -> Path:
+    answer = io.StringIO()
+    with chdir(finished.home), redirect_stdout(answer):
+        run_command_line(['run', prompt, '--json', *options])
+    report = json.loads(answer.getvalue())
     assert report['status'] == status
     folder: Path = finished.home / 'runs' / report['run_id']
     return folder
@@ -219,6 +218,12 @@ CHANGES: dict[str, tuple[str, Callable[[dict[str, Any]], Any]]] = {
     'margin': ('report.json', lambda d: d['conditions'][0].update(margin=1e9)),
     'conditions': ('report.json', lambda d: d['conditions'].pop()),
     'clauses': ('report.json', lambda d: d['clauses'].pop()),
+    'sentence': ('report.json', lambda d: d['conditions'][0].update(sentence='It flew to 90 m.')),
+    'summary': ('report.json', lambda d: d.update(summary='Two cars crashed.')),
+    'realised': ('report.json', lambda d: d['requested_and_realised'][0].update(realised=90.0)),
+    'metrics': ('report.json', lambda d: d['metrics'].update(satisfied=1)),
+    'note of a clause': ('report.json', lambda d: d['clauses'][0].update(note='90 m')),
+    'feasibility': ('feasibility.0.json', lambda d: d.update(result='infeasible')),
     'verdict': ('verdict.0.json', lambda d: d['results'].pop()),
     'graph': ('agsg.0.json', lambda d: d.update(iteration=1)),
     'request': ('spec.0.json', lambda d: d.update(clauses=[])),
@@ -238,13 +243,35 @@ def test_one_document_that_tells_otherwise_is_enough(run: Path, call: Call, name
 
 @pytest.mark.parametrize(
     'name',
-    ['manifest.json', 'spec.0.json', 'agsg.0.json', 'grounding.0.json', 'verdict.0.json'],
+    [
+        'manifest.json',
+        'feasibility.0.json',
+        'spec.0.json',
+        'agsg.0.json',
+        'grounding.0.json',
+        'verdict.0.json',
+    ],
 )
 def test_a_document_that_is_missing_is_said(run: Path, call: Call, name: str) -> None:
     (run / name).unlink()
     found = said(call, str(run))
     assert (found.code, found.integrity) == (4, 'unknown')
     assert f'{name} is missing' in found.first
+
+
+def test_a_page_that_tells_otherwise_is_found(run: Path, call: Call) -> None:
+    page = run / 'report.html'
+    shown = page.read_text()
+    page.write_text(shown.replace('20 m', '90 m'))
+    found = said(call, str(run))
+    assert (found.code, found.integrity) == (4, 'altered')
+    assert 'report.html is not the page' in found.first
+    page.write_text(shown)
+    (run / 'picture.png').write_bytes(b'\x89PNG of another run')
+    assert 'report.html is not the page' in said(call, str(run)).first
+    # What nobody was shown tells nothing wrong.
+    page.unlink()
+    assert said(call, str(run)).code == 0
 
 
 def test_a_report_of_an_older_version_is_judged_by_what_it_tells(run: Path, call: Call) -> None:
@@ -341,7 +368,7 @@ def test_an_incomplete_run_holds_its_margins_and_is_not_called_verified(
     finished: SimpleNamespace, shell: SimpleNamespace, call: Call
 ) -> None:
     prompt = f'{shell.prompt} Then the ego car turns left.'
-    folder = made(finished, shell, prompt, status='incomplete')
+    folder = made(finished, prompt, status='incomplete')
     found = said(call, str(folder))
     assert found.code == 0
     assert found.first.startswith('MARGINS HOLD  ')

@@ -28,6 +28,28 @@ def canonical_json(value: object) -> str:
     return json.dumps(value, sort_keys=True, separators=(',', ':'), ensure_ascii=False)
 
 
+def first_difference(one: Document, other: Document) -> tuple[str, object, object] | None:
+    """Return the path of the first value in which documents differ and both values, None: equal.
+
+    A value that is not there is None; names of a path are separated by slashes.
+    """
+    return _first_difference(one.model_dump(mode='json'), other.model_dump(mode='json'), ())
+
+
+def _first_difference(
+    one: object, other: object, path: tuple[str, ...]
+) -> tuple[str, object, object] | None:
+    if isinstance(one, list) and isinstance(other, list):
+        one, other = dict(enumerate(one)), dict(enumerate(other))
+    if isinstance(one, dict) and isinstance(other, dict):
+        for name in dict.fromkeys((*one, *other)):
+            found = _first_difference(one.get(name), other.get(name), (*path, str(name)))
+            if found is not None:
+                return found
+        return None
+    return None if one == other else ('/'.join(path), one, other)
+
+
 def omitted(default: object) -> Any:
     """Return a field that is left out of documents when it has its default.
 

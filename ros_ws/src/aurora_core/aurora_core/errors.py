@@ -130,3 +130,15 @@ class ReportError(AuroraError):
 
     default_code = 800
     default_component = 'report'
+
+
+def error_class(code: int) -> type[AuroraError]:
+    """Return the class with this wire code, else the one that opens its block of 100."""
+    # Only classes of this file: what a process happens to import must not change the outcome.
+    by_code = {kind.default_code: kind for kind in reversed(_tree(AuroraError))}
+    return by_code.get(code) or by_code.get(code - code % 100) or AuroraError
+
+
+def _tree(kind: type[AuroraError]) -> list[type[AuroraError]]:
+    ours = (child for child in kind.__subclasses__() if child.__module__ == __name__)
+    return [kind, *(below for child in ours for below in _tree(child))]

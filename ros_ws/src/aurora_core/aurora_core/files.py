@@ -9,6 +9,8 @@ to one must neither stop a command nor fill the memory. What a reader here refus
 
 from __future__ import annotations
 
+import gzip
+import io
 import json
 import os
 import stat
@@ -187,3 +189,11 @@ def _check_prolog(data: bytes) -> None:
         return
     except expat.ExpatError as err:
         raise ValueError(str(err)) from err
+
+
+def gzip_reproducibly(data: bytes) -> bytes:
+    """Compress without time stamp and file name, so that equal input gives equal bytes."""
+    buffer = io.BytesIO()
+    with gzip.GzipFile(filename='', mode='wb', compresslevel=9, fileobj=buffer, mtime=0) as file:
+        file.write(data)
+    return buffer.getvalue()

@@ -4,13 +4,16 @@
 
 A service client whose server was killed waits for ever and `service_is_ready` stays true
 until its lease is over, so each wait has a limit and asks the heartbeats in between.
+
+Whoever serves a name beside the node that should may answer first. It is looked for while an
+answer is awaited and before it is believed.
 """
 
 from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 from action_msgs.msg import GoalStatus
@@ -25,6 +28,8 @@ from aurora_ros.action_client import ThreadedActionClient
 from aurora_ros.errors import raise_error
 from aurora_ros.heartbeat import HeartbeatWatch
 from aurora_ros.interfaces import Call
+from aurora_ros.matching import wait_until
+from aurora_ros.writers import Stranger, named, second_one, second_servers
 
 _POLL_S = 0.01  # discovery of a server
 _RESTART_S = 15.0  # a server that is dead when the call begins may be just starting again
@@ -40,6 +45,7 @@ class Caller:
         node: Its executor must be spinning in another thread than the caller's.
         watch: Tells early that a server has died.
         guard: Asked in every wait; raises when waiting makes no sense for another reason.
+        others: Calls that this node does not make, but that nobody else may serve either.
     """
 
     def __init__(
@@ -48,18 +54,21 @@ class Caller:
         watch: HeartbeatWatch | None = None,
         *,
         guard: Callable[[], None] = lambda: None,
+        others: Iterable[Call] = (),
     ) -> None:
         self._node = node
         self._watch = watch
         self._guard = guard
         self._group = ReentrantCallbackGroup()
+        self._guarded = list(others)
         self._services: dict[str, Client] = {}
         self._actions: dict[str, ThreadedActionClient] = {}
 
     def prepare(self, *calls: Call) -> None:
         """Create clients ahead of the first call, so that discovery costs nothing later."""
+        self._guarded += calls
         for call in calls:
-            if hasattr(call.type, 'Goal'):
+            if call.is_action:
                 self._actions[call.name] = ThreadedActionClient(
                     self._node, call.type, call.name, callback_group=self._group
                 )
@@ -78,6 +87,42 @@ class Caller:
         )
         return bool(ready()) and not self._is_dead(call)
 
+    def strangers(self) -> list[Stranger]:
+        """Return who serves a guarded call beside the node that should."""
+        return second_servers(self._node, self._guarded)
+
+    def await_alone(self, limit_s: float, cancelled: Callable[[], bool]) -> None:
+        """Wait until nobody else serves a guarded call; one that died is forgotten.
+
+        Args:
+            limit_s: Wall-clock limit, longer than any lease.
+            cancelled: True ends the wait.
+
+        Raises:
+            ExecutionError: Somebody does.
+            AuroraError: The guard raised.
+        """
+
+        def alone() -> bool:
+            self._guard()
+            return cancelled() or not self.strangers()
+
+        if not wait_until(alone, limit_s, _LOOK_S):
+            self.check_alone()
+
+    def check_alone(self, *calls: Call) -> None:
+        """Look whether only those who should can have answered.
+
+        Args:
+            calls: Which ones; every guarded one when none is given.
+
+        Raises:
+            ExecutionError: Somebody else can; it is named if it has a name.
+        """
+
+        for stranger in named(lambda: second_servers(self._node, calls or self._guarded)):
+            raise second_one(stranger)
+
     def service(
         self, call: Call, request: Any, limit_s: float, *, await_restart: bool = True
     ) -> Any:
@@ -90,7 +135,8 @@ class Caller:
             await_restart: Give a server that is dead some seconds to come back.
 
         Raises:
-            ExecutionError: No server, no answer within the limit, or the server died.
+            ExecutionError: No server or a second one, no answer within the limit, or the server
+                died.
             AuroraError: The response carries an error.
         """
         deadline = time.monotonic() + limit_s
@@ -104,6 +150,7 @@ class Caller:
         except ExecutionError:
             client.remove_pending_request(future)
             raise
+        self.check_alone(call)
         if self._watch is not None:
             self._watch.hear(call.server)
         response = future.result()
@@ -134,7 +181,8 @@ class Caller:
             raise_errors: Raise the error that the result carries.
 
         Raises:
-            ExecutionError: No server, goal refused, no result within the limit, server died.
+            ExecutionError: No server or a second one, goal refused, no result within the limit,
+                server died.
             AuroraError: The result carries an error, or the guard raised.
         """
         accept_s = min(limit_s, _ACCEPT_S)
@@ -144,7 +192,13 @@ class Caller:
         sent = client.send_goal_async(
             goal, feedback_callback=lambda message: on_feedback(message.feedback)
         )
-        self._await(sent, call, deadline, accept_s)
+        try:
+            self._await(sent, call, deadline, accept_s)
+            self.check_alone(call)
+        except AuroraError:
+            # The server may take it all the same, and would be busy when the next goal comes.
+            sent.add_done_callback(_give_up)
+            raise
         deadline = time.monotonic() + limit_s
         handle: ClientGoalHandle = sent.result()
         if not handle.accepted:
@@ -166,6 +220,7 @@ class Caller:
         except AuroraError:
             self._abandon(call, handle, done)
             raise
+        self.check_alone(call)
         response = result.result()
         if response.status == GoalStatus.STATUS_UNKNOWN:
             raise ExecutionError(f'{call.server} lost the goal', component=call.server)
@@ -188,10 +243,11 @@ class Caller:
     ) -> None:
         pause = threading.Event()
         restart_deadline = min(deadline, time.monotonic() + _RESTART_S)
-        while not is_ready() or self._is_dead(call):
+        while not is_ready() or self._is_dead(call) or self._has_twin(call):
             self._guard()
             until = restart_deadline if self._is_dead(call) else deadline
             if time.monotonic() > until or not self._node.context.ok():
+                self.check_alone(call)
                 raise ParticipantSilentError(
                     f'nobody serves {call.name} (waited up to {limit_s:g} s)',
                     component=call.server,
@@ -207,6 +263,11 @@ class Caller:
         if err is not None:
             raise ExecutionError(f'{call.name} failed: {err}', component=call.server) from err
 
+    def _has_twin(self, call: Call) -> bool:
+        """Return whether the server is there twice; one that was killed is so until its lease."""
+        twin = f'{self._node.get_namespace().rstrip("/")}/{call.server}'
+        return any(one.node == twin for one in second_servers(self._node, [call]))
+
     def _is_dead(self, call: Call) -> bool:
         return self._watch is not None and self._watch.is_dead(call.server)
 
@@ -220,12 +281,21 @@ class Caller:
                 f'{call.server} {cause} while {call.name} was waited for', component=call.server
             )
         self._guard()
+        for stranger in second_servers(self._node, [call]):
+            if stranger.node:
+                raise second_one(stranger)
         if time.monotonic() > deadline:
             raise ParticipantSilentError(
                 f'{call.server} did not answer {call.name} within {limit_s:g} s',
                 component=call.server,
                 hint=f'see the log of {call.server}',
             )
+
+
+def _give_up(sent: Future) -> None:
+    """Cancel a goal whose sender has gone on, once somebody has taken it."""
+    if sent.exception() is None and sent.result() is not None and sent.result().accepted:
+        sent.result().cancel_goal_async()
 
 
 def _event_of(future: Future) -> threading.Event:

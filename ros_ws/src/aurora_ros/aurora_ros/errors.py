@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from typing import Any
 
-from aurora_core.errors import AuroraError
+from aurora_core.errors import AuroraError, error_class
 
 _PREFIX = re.compile(r'([a-z][a-z0-9_]*): (.*)', re.DOTALL)
 
@@ -39,7 +39,7 @@ def read_error(message: Any, server: str) -> AuroraError | None:
     text, _, hint = str(message.error_msg).partition('\n')
     match = _PREFIX.fullmatch(text)
     component, words = (match[1], match[2]) if match else (server, text)
-    kind = _class_of(int(message.error_code))
+    kind = error_class(int(message.error_code))
     return kind(words, hint=hint, component=component, code=int(message.error_code))
 
 
@@ -52,19 +52,3 @@ def raise_error(message: Any, server: str) -> None:
     err = read_error(message, server)
     if err is not None:
         raise err
-
-
-def _class_of(code: int) -> type[AuroraError]:
-    """Return the class with this code, else the one that opens its block of 100."""
-    classes = _all_classes(AuroraError)
-    # Only classes of core: what a node's process happens to import must not change the outcome.
-    by_code = {kind.default_code: kind for kind in reversed(classes)}
-    return by_code.get(code) or by_code.get(code - code % 100) or AuroraError
-
-
-def _all_classes(kind: type[AuroraError]) -> list[type[AuroraError]]:
-    found = [kind]
-    for child in kind.__subclasses__():
-        if child.__module__ == AuroraError.__module__:
-            found.extend(_all_classes(child))
-    return found

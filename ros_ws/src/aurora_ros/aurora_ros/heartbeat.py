@@ -94,12 +94,14 @@ class _Heard:
         started: Start time of the process, to tell it from a later one with its id; 0 when it
             had ended before it could be looked at.
         busy: Whether the last heartbeat said so.
+        run_number: That the last heartbeat named.
     """
 
     at_s: float
     pid: int = 0
     started: int = 0
     busy: bool = False
+    run_number: int = 0
 
 
 class HeartbeatWatch:
@@ -167,10 +169,20 @@ class HeartbeatWatch:
         """Return whether a node has ever given a sign of life."""
         return name in self._heard
 
+    def heard_since(self, name: str, since_s: float) -> bool:
+        """Return whether a node has given a sign of life after a steady time."""
+        heard = self._heard.get(name)
+        return heard is not None and heard.at_s > since_s
+
     def is_busy(self, name: str) -> bool:
         """Return whether a node said last that a run is going on."""
         heard = self._heard.get(name)
         return heard is not None and heard.busy
+
+    def run_number(self, name: str) -> int:
+        """Return the run that a node said last is going on, 0 when none is."""
+        heard = self._heard.get(name)
+        return heard.run_number if heard is not None and heard.busy else 0
 
     def process(self, name: str) -> tuple[int, int]:
         """Return process id and start time of a node, (0, 0) when they are not known."""
@@ -189,6 +201,7 @@ class HeartbeatWatch:
         self.hear(message.node)
         heard = self._heard[message.node]
         heard.busy = message.state == Heartbeat.BUSY
+        heard.run_number = int(message.run_number)
         pid = int(message.pid) if message.pid_space and message.pid_space == pid_space() else 0
         if pid != heard.pid:
             state = self._look(pid) if pid else None

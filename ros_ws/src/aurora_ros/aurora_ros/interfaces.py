@@ -48,6 +48,19 @@ class Call:
     type: Any
     server: str
 
+    @property
+    def is_action(self) -> bool:
+        """Whether it is an action."""
+        return hasattr(self.type, 'Goal')
+
+    @property
+    def services(self) -> tuple[str, ...]:
+        """Relative names of what is called behind it: an action is three services."""
+        if not self.is_action:
+            return (self.name,)
+        parts = ('send_goal', 'get_result', 'cancel_goal')
+        return tuple(f'{self.name}/_action/{part}' for part in parts)
+
 
 # Every node of the graph that is named in it, and the one that publishes a recording instead.
 NODES = (

@@ -4,15 +4,18 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack
+from contextlib import ExitStack, contextmanager
 
 import pytest
 
 pytest.importorskip('rclpy')
 
 import rclpy
+from rclpy.action.server import ActionServer
 from rclpy.context import Context
+from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.publisher import Publisher
 
@@ -21,7 +24,15 @@ from aurora_ros import interfaces as on
 from aurora_ros.interfaces import NAMESPACE, Topic
 from aurora_ros.matching import wait_until
 from aurora_ros.testing.domains import own_domain
-from aurora_ros.writers import LoneWriters, second_writer, strangers
+from aurora_ros.testing.partner import partner
+from aurora_ros.writers import (
+    LoneWriters,
+    Stranger,
+    named,
+    second_one,
+    second_servers,
+    strangers,
+)
 
 pytestmark = pytest.mark.ros
 
@@ -84,7 +95,7 @@ def test_somebody_else_is_named(make: Make, name: str, namespace: str) -> None:
     full = f'/{namespace.strip("/")}/{name}'.replace('//', '/')
     assert found(asks, on.UAV_COMMAND, 'executor') == [full]
     (stranger,) = strangers(asks, [on.UAV_COMMAND], ['executor'])
-    error = second_writer(stranger)
+    error = second_one(stranger)
     assert error.message == f'second writer on /aurora/uav/command: node {full}'
     assert error.hint
 
@@ -136,3 +147,74 @@ def test_who_has_gone_again_was_there(make: Make) -> None:
     lone.begin({on.UAV_COMMAND.full_name})
     lone.check()
     lone.close()
+
+
+def served(asks: Node, service: str, count: int) -> bool:
+    """Wait until so many servers are known by name."""
+    replies = f'rr/{NAMESPACE}/{service}Reply'
+
+    def named() -> bool:
+        infos = asks.get_publishers_info_by_topic(replies, no_mangle=True)
+        return len(infos) == count and not any('UNKNOWN' in i.node_name for i in infos)
+
+    return wait_until(named, LIMIT_S)
+
+
+@pytest.mark.parametrize(
+    ('name', 'namespace'), [('helper', '/'), ('parser', '/other'), ('parser', NAMESPACE)]
+)
+def test_who_serves_a_call_as_well_is_named(make: Make, name: str, namespace: str) -> None:
+    asks = make('orchestrator')
+    full_name = f'/{NAMESPACE}/{on.PARSE.name}'
+    for server in (make('parser'), make(name, namespace)):
+        server.create_service(on.PARSE.type, full_name, lambda _asked, answer: answer)
+    assert served(asks, on.PARSE.name, 2)
+    error = second_one(second_servers(asks, [on.PARSE, on.CHECK])[0])
+    full = f'/{namespace.strip("/")}/{name}'.replace('//', '/')
+    assert error.message == f'second server of {full_name}: node {full}'
+    assert error.hint
+
+
+def test_a_name_that_comes_late_is_awaited() -> None:
+    looks = iter(('', '', '/helper', '/helper'))
+    found = named(lambda: [Stranger(place='writer on /clock', node=next(looks))])
+    assert [s.node for s in found] == ['/helper']
+    assert named(list) == []
+
+
+def test_a_second_server_of_an_action_is_named_once(make: Make) -> None:
+    asks, helper = make('orchestrator'), make('helper', '/')
+    for node in (make('executor'), helper):
+        ActionServer(node, on.EXECUTE.type, f'/{NAMESPACE}/{on.EXECUTE.name}', lambda _goal: None)
+        if node is not helper:
+            assert served(asks, on.EXECUTE.services[0], 1)
+            assert second_servers(asks, [on.EXECUTE]) == []
+    assert all(served(asks, service, 2) for service in on.EXECUTE.services)
+    assert [s.node for s in second_servers(asks, [on.EXECUTE])] == ['/helper']
+
+
+def test_an_answer_is_not_believed_when_another_node_may_have_given_it(make: Make) -> None:
+    node, helper = make('parser'), make('helper', '/')
+    node.create_service(on.PARSE.type, on.PARSE.name, lambda _asked, answer: answer)
+    with partner(node.context.get_domain_id()) as asks, serving(node):
+        assert asks.call(on.PARSE).understood is False
+        helper.create_service(
+            on.PARSE.type, f'/{NAMESPACE}/{on.PARSE.name}', lambda _asked, answer: answer
+        )
+        assert served(asks.node, on.PARSE.name, 2)
+        with pytest.raises(ExecutionError, match='second server of /aurora/parse: node /helper'):
+            asks.call(on.PARSE)
+
+
+@contextmanager
+def serving(node: Node) -> Iterator[None]:
+    """Spin a node in a thread of its own."""
+    executor = SingleThreadedExecutor(context=node.context)
+    executor.add_node(node)
+    thread = threading.Thread(target=executor.spin, daemon=True)
+    thread.start()
+    try:
+        yield
+    finally:
+        executor.shutdown()
+        thread.join()

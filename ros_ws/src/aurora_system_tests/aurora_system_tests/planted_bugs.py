@@ -221,10 +221,7 @@ def with_runner(kind: type[EventRunner]) -> Sabotage:
     """Return the sabotage that runs the events otherwise."""
 
     def sabotage(executor: ScenarioExecutor) -> Stepper:
-        s = executor._setup
-        executor._runner = kind(
-            s.spec, s.roster, s.links, s.arrival_m, s.action_rules, executor._set_off
-        )
+        executor._runner = executor._run_events(kind)
         return executor
 
     return sabotage

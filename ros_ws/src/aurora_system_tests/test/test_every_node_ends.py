@@ -5,6 +5,8 @@
 from __future__ import annotations
 
 import signal
+from collections.abc import Iterator
+from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
@@ -12,22 +14,36 @@ import pytest
 pytest.importorskip('rclpy')
 
 from aurora_ros.testing.domains import own_domain
-from aurora_ros.testing.processes import NodeProcess, nodes
+from aurora_ros.testing.processes import NodeProcess
 from aurora_system_tests.graph import MODULES, ROS_NODES
 
 pytestmark = pytest.mark.ros
 
 
-@pytest.mark.parametrize('with_signal', [signal.SIGINT, signal.SIGTERM])
+@pytest.fixture(scope='module', params=[signal.SIGINT, signal.SIGTERM], ids=lambda s: s.name)
+def alone(
+    request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[tuple[signal.Signals, dict[str, NodeProcess]]]:
+    """A signal, and every node in a domain of its own; they start side by side."""
+    with ExitStack() as stack:
+        started = {}
+        for name in ROS_NODES:
+            domain = stack.enter_context(own_domain())
+            started[name] = NodeProcess(MODULES[name], domain, tmp_path_factory.mktemp(name))
+            stack.callback(started[name].kill)
+        for node in started.values():
+            node.await_ready()
+        yield request.param, started
+
+
 @pytest.mark.parametrize('name', ROS_NODES)
-def test_signal(name: str, with_signal: signal.Signals, tmp_path: Path) -> None:
-    with own_domain() as domain:
-        process = NodeProcess(MODULES[name], domain, tmp_path)
-        with nodes(process):
-            assert process.ready_file.read_text().strip() == str(process.pid)
-            assert process.end(with_signal) == 0, process.log
-            assert 'Traceback' not in process.log
-            assert not process.ready_file.exists()
+def test_signal(alone: tuple[signal.Signals, dict[str, NodeProcess]], name: str) -> None:
+    with_signal, started = alone
+    process = started[name]
+    assert process.ready_file.read_text().strip() == str(process.pid)
+    assert process.end(with_signal) == 0, process.log
+    assert 'Traceback' not in process.log
+    assert not process.ready_file.exists()
 
 
 @pytest.mark.parametrize(

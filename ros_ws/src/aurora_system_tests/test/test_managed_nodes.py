@@ -36,6 +36,15 @@ class Managed:
             kind: play.node.create_client(kind, f'{name}/{service}')
             for kind, service in ((ChangeState, 'change_state'), (GetState, 'get_state'))
         }
+        self._await_answers()
+
+    def _await_answers(self) -> None:
+        """Ask until the node answers: its first answer may precede the discovery of who asks."""
+        client = self._client[GetState]
+        assert client.wait_for_service(10.0)
+        assert wait_until(
+            lambda: client.call(GetState.Request(), timeout_sec=2.0) is not None, 20.0
+        )
 
     def _call(self, request: Any, kind: Any) -> Any:
         client = self._client[kind]

@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -23,7 +22,7 @@ from aurora_core.pipeline.verification import verify_stage
 from aurora_core.report.run_folder import RunFolder, new_run_id
 from aurora_core.report.run_report import RunReport
 from aurora_ros import interfaces as on
-from aurora_system_tests.graph import RunningGraph, running_graph
+from aurora_system_tests.graph import RunningGraph
 
 PROMPTS = {
     'survey': (
@@ -77,12 +76,6 @@ def run_locally(
 
 def margins(report: dict[str, Any]) -> dict[str, float | None]:
     return {row['id']: row['margin'] for row in report['conditions']}
-
-
-@pytest.fixture(scope='module')
-def graph(tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningGraph]:
-    with running_graph(tmp_path_factory.mktemp('graph')) as running:
-        yield running
 
 
 @pytest.mark.ros

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import gzip
 import os
 import re
 import shlex
@@ -15,6 +16,7 @@ import pytest
 
 pytest.importorskip('rclpy')
 
+from aurora_cli.testing.small_maps import small_city
 from aurora_ros.testing.domains import own_domain
 
 ROOT = Path(__file__).resolve().parents[4]
@@ -63,7 +65,9 @@ def test_the_readme_names_the_make_targets_that_exist() -> None:
 
 
 @pytest.mark.ros
-def test_aurora_commands_end_as_announced(tmp_path: Path) -> None:
+def test_aurora_commands_end_as_announced(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv('AURORA_MAPS', str(tmp_path / 'maps'))
+    (tmp_path / 'old_town.osm.gz').write_bytes(gzip.compress(small_city().encode()))
     with own_domain() as domain:
         for line in commands('aurora '):
             if '<run_id>' in line:
@@ -71,7 +75,10 @@ def test_aurora_commands_end_as_announced(tmp_path: Path) -> None:
                 code, output = shell(line.replace('<run_id>', newest.name), tmp_path, domain)
             else:
                 code, output = shell(line, tmp_path, domain)
-            if line.startswith('aurora doctor'):
+            if line.startswith('aurora map doctor'):
+                assert code in (0, 1), output
+                assert 'old_town: ' in output
+            elif line.startswith('aurora doctor'):
                 # What it finds is this machine's affair.
                 assert code in (0, 1), output
                 assert re.search(r'\d+ checks, ', output), output

@@ -36,7 +36,7 @@ from aurora_system_tests.graph import RunningGraph, running_graph
 
 pytestmark = pytest.mark.ros
 
-PROMPT = 'A drone hovers at 20 meters for 5 seconds.'
+PROMPT = 'A scenario of 36 seconds. A drone hovers at 20 meters for 5 seconds.'
 LIMIT_S = 120.0
 LIVE, BAG = Verdict.LIVE, Verdict.BAG
 

@@ -18,7 +18,7 @@ from aurora_system_tests.graph import MODULES, RunningGraph, running_graph
 
 pytestmark = pytest.mark.ros
 
-PROMPT = 'A drone hovers 40 m above the ego car for 10 seconds.'
+PROMPT = 'A scenario of 40 seconds. A drone hovers 20 m above the ego car for 10 seconds.'
 LIMIT_S = 120.0
 
 

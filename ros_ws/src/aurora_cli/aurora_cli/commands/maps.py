@@ -9,24 +9,35 @@ from typing import Any
 
 from aurora_cli.files import write_file
 from aurora_cli.output import UsageProblem, answer_console, print_json, quiet_stdout, say
-from aurora_core.knowledge.map_model import MapModel, list_maps, load_map
+from aurora_core.errors import MapError
+from aurora_core.knowledge.map_folders import bundled_maps, list_maps, own_maps
+from aurora_core.knowledge.map_model import MapModel, load_map
 from aurora_core.report.terminal import line, print_table
 
 
 def list_command(*, as_json: bool) -> int:
-    """List the maps of the configuration."""
-    names = list_maps()
-    maps = [_summary(load_map(name)) for name in names]
+    """List the maps, bundled ones and own ones; an own one that is damaged is said to be.
+
+    Raises:
+        AuroraError: A bundled map is damaged.
+    """
+    maps = [{**summary(load_map(name)), 'own': False} for name in bundled_maps()]
+    for name in own_maps():
+        try:
+            maps.append({**summary(load_map(name)), 'own': True})
+        except MapError as err:
+            say(f'aurora: map: {err}')
+    maps.sort(key=lambda entry: str(entry['name']))
     if as_json:
         print_json({'maps': maps})
         return 0
     print_table(
         'Maps',
-        ('name', 'version', 'size', 'licence', 'what it shows'),
+        ('name', 'whose', 'size', 'licence', 'what it shows'),
         [
             (
                 entry['name'],
-                entry['version'],
+                'own' if entry['own'] else 'bundled',
                 f'{entry["width_m"]:.0f} m x {entry["height_m"]:.0f} m',
                 entry['licence'],
                 entry['description'],
@@ -38,6 +49,19 @@ def list_command(*, as_json: bool) -> int:
     return 0
 
 
+def known_map(name: str) -> MapModel:
+    """Return a map that the user named.
+
+    Raises:
+        UsageProblem: There is no such map.
+        MapError: It is damaged.
+    """
+    known = list_maps()
+    if name not in known:
+        raise UsageProblem(f'there is no map {name}; there are {", ".join(known)}')
+    return load_map(name)
+
+
 def show_command(name: str, picture: Path | None, *, as_json: bool) -> int:
     """Show what a map has, and draw it when asked.
 
@@ -45,12 +69,9 @@ def show_command(name: str, picture: Path | None, *, as_json: bool) -> int:
         UsageProblem: There is no such map, or the picture's name ends neither way.
         AuroraError: The map is damaged, or the picture cannot be written.
     """
-    known = list_maps()
-    if name not in known:
-        raise UsageProblem(f'there is no map {name}; there are {", ".join(known)}')
     if picture is not None and picture.suffix.lower() not in ('.png', '.svg'):
         raise UsageProblem(f'--picture takes a name that ends with .png or .svg, found {picture}')
-    model = load_map(name)
+    model = known_map(name)
     facts = _facts(model)
     if picture is not None:
         _draw(model, picture)
@@ -76,7 +97,7 @@ def _draw(model: MapModel, picture: Path) -> None:
     say(f'aurora: wrote {picture}')
 
 
-def _summary(model: MapModel) -> dict[str, Any]:
+def summary(model: MapModel) -> dict[str, Any]:
     west, south, east, north = model.bounds_m
     return {
         'name': model.name,
@@ -84,8 +105,8 @@ def _summary(model: MapModel) -> dict[str, Any]:
         'description': model.description,
         'licence': model.licence,
         'digest': model.digest,
-        'width_m': east - west,
-        'height_m': north - south,
+        'width_m': round(east - west, 1),
+        'height_m': round(north - south, 1),
     }
 
 
@@ -94,7 +115,8 @@ def _facts(model: MapModel) -> dict[str, Any]:
     lanes = network.driving_lanes('passenger')
     tallest = max(model.buildings, key=lambda b: (b.height_m, b.id), default=None)
     return {
-        **_summary(model),
+        **summary(model),
+        'folder': str(model.folder),
         'origin_lat_deg': model.origin_lat_deg,
         'origin_lon_deg': model.origin_lon_deg,
         'bounds_m': list(model.bounds_m),

@@ -4,14 +4,10 @@
 
 from __future__ import annotations
 
-import os
-from datetime import UTC, datetime
 from pathlib import Path
 
-from aurora_cli.clock import MonotonicClock
-from aurora_cli.installed import installed
+from aurora_cli.answers import Run, new_folder, run_request
 from aurora_cli.interrupts import Interrupts
-from aurora_cli.local_engine import LocalStages
 from aurora_cli.output import (
     BROKEN,
     answer_console,
@@ -24,18 +20,13 @@ from aurora_cli.progress import RunProgress
 from aurora_cli.prompt_input import prompt_bytes
 from aurora_cli.requests import RunOptions, checked, unreadable, with_prompt
 from aurora_core.errors import AuroraError, PromptError
-from aurora_core.pipeline.run import run
 from aurora_core.pipeline.stages import RunControl, RunRequest
 from aurora_core.report.build import build_report
-from aurora_core.report.manifest import manifest_facts
-from aurora_core.report.outputs import write_outputs, write_page, write_report
-from aurora_core.report.process import this_process
-from aurora_core.report.run_folder import MANIFEST, PROMPT, RunFolder, new_run_id
-from aurora_core.report.run_report import RunReport
+from aurora_core.report.outputs import write_report
+from aurora_core.report.run_folder import MANIFEST, PROMPT
 from aurora_core.report.status import exit_code
 from aurora_core.report.terminal import print_report
 from aurora_core.report.unfinished import close_unfinished
-from aurora_core.report.versions import product_versions
 
 
 def run_command(
@@ -48,7 +39,6 @@ def run_command(
         AuroraError: The run folder cannot be written, or the graph cannot be reached.
     """
     request = checked(options)
-    stages: LocalStages | None = None
     raw = prompt_bytes(argument, prompt_file)
     root = options.out.absolute()
     with quiet_stdout():
@@ -56,71 +46,40 @@ def run_command(
             say(f'aurora: closed the unfinished run {run_id} as error')
         ready = with_prompt(request, raw)
         if isinstance(ready, PromptError):
-            report, folder = _unreadable(request, raw, ready, root)
-        elif ready.engine == 'ros':
-            from aurora_cli.ros_client import run_over_ros
-
+            done = _unreadable(request, raw, ready, root)
+        else:
             with Interrupts() as interrupts, RunProgress() as progress:
                 control = RunControl(progress=progress.update, cancelled=interrupts.cancelled)
-                report, folder = run_over_ros(ready, root, control)
-        else:
-            stages = LocalStages(installed())
-            report, folder = _local(ready, root, stages)
+                done = run_request(ready, root, control, lambda text: say(f'aurora: {text}'))
     if as_json:
-        print_json(report)
-        say(f'aurora: run folder {folder}')
+        print_json(done.report)
+        say(f'aurora: run folder {done.folder}')
     else:
-        print_report(report, answer_console(), folder)
+        print_report(done.report, answer_console(), done.folder)
     # The verdict first: drawing the picture takes as long as the flight.
-    if stages is not None and not _page_written(report, folder, stages):
+    if not done.has_page and not _page_written(done):
         return BROKEN
-    return int(exit_code(report.status))
+    return int(exit_code(done.status))
 
 
-def _page_written(report: RunReport, folder: Path, stages: LocalStages) -> bool:
+def _page_written(done: Run) -> bool:
     """Write picture and page of a run that has been told; Ctrl-C spares the picture."""
     try:
         with quiet_stdout():
-            write_page(report, RunFolder(folder.parent, folder.name), stages.verified)
+            done.write_page()
     except KeyboardInterrupt:
-        say(f'aurora: no picture was drawn; aurora picture {folder} -o FILE does it')
+        say(f'aurora: no picture was drawn; aurora picture {done.folder} -o FILE does it')
     except AuroraError as err:
         print_error(err, as_json=False)
         return False
     return True
 
 
-def _local(request: RunRequest, root: Path, stages: LocalStages) -> tuple[RunReport, Path]:
-    folder, started = _new_folder(root)
-    versions = product_versions()
-    with Interrupts() as interrupts, RunProgress() as progress:
-        report = run(
-            request,
-            stages,
-            stages.known,
-            folder,
-            RunControl(progress=progress.update, cancelled=interrupts.cancelled),
-            MonotonicClock(),
-            versions=versions,
-            manifest=manifest_facts(started, this_process(), versions),
-            outputs=write_report,
-        )
-    return report, folder.path
-
-
-def _unreadable(
-    request: RunRequest, raw: bytes, err: PromptError, root: Path
-) -> tuple[RunReport, Path]:
-    folder, started = _new_folder(root)
+def _unreadable(request: RunRequest, raw: bytes, err: PromptError, root: Path) -> Run:
+    folder, manifest = new_folder(root)
     folder.create()
-    manifest = manifest_facts(started, this_process(), product_versions())
     folder.write_json(MANIFEST, {**manifest, 'request': request.model_dump(mode='json')})
     folder.write_bytes(PROMPT, raw)
     report = build_report(unreadable(request, raw, err, folder.run_id))
-    write_outputs(report, folder)
-    return report, folder.path
-
-
-def _new_folder(root: Path) -> tuple[RunFolder, datetime]:
-    started = datetime.now(UTC)
-    return RunFolder(root, new_run_id(started, os.urandom(3))), started
+    write_report(report, folder)
+    return Run(report=report, folder=folder.path)

@@ -11,13 +11,13 @@ from aurora_cli.bags import find_bag
 from aurora_cli.files import write_file
 from aurora_cli.installed import installed
 from aurora_cli.output import answer_console, print_json, quiet_stdout, say
-from aurora_core.errors import ReportError
+from aurora_core.errors import AuroraError, ReportError
 from aurora_core.monitor.signals_for_plot import signals_for_plot
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.verdict import Verdict
 from aurora_core.pipeline.verification import load_bag
 from aurora_core.pipeline.verify_run import verify_found
-from aurora_core.report.terminal import print_verify
+from aurora_core.report.terminal import print_unjudged, print_verify
 from aurora_core.trace.bag_reader import BagContent
 
 
@@ -44,10 +44,16 @@ def verify_command(
         AuroraError: The bag holds nothing that could be judged.
     """
     found = find_bag(run_or_bag, iteration)
-    with quiet_stdout():
-        content, agsg = load_bag(found.bag)
-        report = verify_found(installed(), found, content, agsg, as_recorded=as_recorded)
-        if plots is not None:
+    try:
+        with quiet_stdout():
+            content, agsg = load_bag(found.bag)
+            report = verify_found(installed(), found, content, agsg, as_recorded=as_recorded)
+    except AuroraError as err:
+        if not as_json:
+            print_unjudged(found.bag, err, answer_console())
+        raise
+    if plots is not None:
+        with quiet_stdout():
             _write_plots(content, agsg, report.verdict, plots)
     if as_json:
         print_json(report)

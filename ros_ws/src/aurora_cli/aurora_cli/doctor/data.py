@@ -20,7 +20,8 @@ _PORTS = {'http': 80, 'https': 443}
 def maps(machine: Machine) -> list[Finding]:
     """Every map is there and is, byte for byte, what its digests say."""
     from aurora_core.errors import AuroraError
-    from aurora_core.knowledge.map_model import list_maps, load_map
+    from aurora_core.knowledge.map_folders import list_maps
+    from aurora_core.knowledge.map_model import load_map
 
     findings = []
     with _environment_of(machine):
@@ -76,8 +77,8 @@ def model(machine: Machine) -> list[Finding]:
 
 @contextmanager
 def _environment_of(machine: Machine) -> Iterator[None]:
-    """The configuration folder is found through these two variables."""
-    names = ('AURORA_CONFIG_DIR', 'AMENT_PREFIX_PATH')
+    """The folders of maps are found through these variables."""
+    names = ('AURORA_CONFIG_DIR', 'AMENT_PREFIX_PATH', 'AURORA_MAPS', 'XDG_DATA_HOME', 'HOME')
     before = {name: os.environ.get(name) for name in names}
     try:
         for name in names:

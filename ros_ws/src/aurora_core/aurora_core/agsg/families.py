@@ -30,7 +30,9 @@ _QUANTITIES = {
         QuantityName.OBSTACLE_CLEARANCE,
         QuantityName.NO_FLY_DISTANCE,
         QuantityName.PATTERN_EXTENT,
+        QuantityName.ANGLE_SWEPT,
         QuantityName.COUNT,
+        QuantityName.TRAFFIC,
         QuantityName.WORLD_SETTING,
     ),
     EdgeType.TEMPORAL: (

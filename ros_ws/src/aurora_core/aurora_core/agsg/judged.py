@@ -43,9 +43,9 @@ NO_CHOICE = frozenset(
         'role',
         'prompt',
         'clauses',
+        'reader',
         'schema_version',
         'target_inferred',
-        'ends_in_flight',
         'prohibitions',
         'seed',
     }

@@ -43,12 +43,13 @@ def network(agsg: Agsg) -> nx.MultiDiGraph:
     """Return the graph with typed nodes and edges.
 
     Node attributes: `type`, `label`, `elements` and `parameters` (JSON). Edge attributes: `type`,
-    `label`. Graph attributes: `prompt`, `clauses` (JSON), `stage`, `map`, `sha256`.
+    `label`. Graph attributes: `prompt`, `clauses` and `reader` (JSON), `stage`, `map`, `sha256`.
     """
     spec = agsg.spec
     graph = nx.MultiDiGraph(
         prompt=json.dumps(spec.prompt),
         clauses=_json([_with_holes(clause, '') for clause in spec.clauses]),
+        reader=_json(spec.reader),
         stage=agsg.stage.value,
         map=json.dumps(agsg.map_name),
         sha256=agsg.sha256,
@@ -93,6 +94,7 @@ def spec_of(graph: nx.MultiDiGraph) -> ScenarioSpec:
         document: dict[str, Any] = {
             'prompt': json.loads(graph.graph['prompt']),
             'clauses': json.loads(graph.graph['clauses']),
+            'reader': json.loads(graph.graph.get('reader', '""')),
             'world': placed.pop('world'),
         }
         for name in _LISTS:

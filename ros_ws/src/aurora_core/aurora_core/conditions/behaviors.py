@@ -8,8 +8,10 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Literal
 
+from aurora_core.grounding.convoy import parks
+from aurora_core.grounding.places import has_point
 from aurora_core.judging.build import Inputs, Source, Target, Underivable, condition, number
-from aurora_core.judging.quantities import free_speed, placement
+from aurora_core.judging.quantities import at_place, free_speed, placement, relation_fraction
 from aurora_core.judging.quantities.crossing import Crossing
 from aurora_core.judging.quantities.distance import ClosedIn
 from aurora_core.judging.quantities.distance_travelled import DistanceTravelled
@@ -22,6 +24,7 @@ from aurora_core.judging.quantities.speed import (
     GreatestDrop,
     Speed,
     SpeedAfterMoving,
+    slowed_to,
 )
 from aurora_core.judging.quantities.time_gap import TimeGap
 from aurora_core.judging.quantities.turn import Turn
@@ -30,8 +33,8 @@ from aurora_core.judging.quantity import Quantity
 from aurora_core.knowledge.limits import Tolerances
 from aurora_core.outcomes.condition import Condition, Op, Window
 from aurora_core.spec.parameter import Provenance
-from aurora_core.spec.scenario import Behavior, GroundAgent
-from aurora_core.spec.vocabulary import BehaviorKind
+from aurora_core.spec.scenario import Behavior, GroundAgent, Placement
+from aurora_core.spec.vocabulary import BehaviorKind, Place, Relation
 
 _Number = Callable[[Tolerances], float]
 
@@ -319,12 +322,30 @@ _PAIRED: dict[BehaviorKind, tuple[_Row, ...]] = {
     ),
 }
 
+# Who is placed as parked stays so, whether or not that is told as its behaviour.
+_PARK = BehaviorKind.PARK
+
+# What can be done at a place, or all along on a kind of ground.
+_ANYWHERE = frozenset(
+    {
+        BehaviorKind.DRIVE,
+        BehaviorKind.WALK,
+        BehaviorKind.CROSS,
+        BehaviorKind.STOP,
+        BehaviorKind.WAIT,
+        BehaviorKind.PARK,
+        BehaviorKind.EMERGENCY_RUN,
+        BehaviorKind.TURN_LEFT,
+        BehaviorKind.TURN_RIGHT,
+    }
+)
+_GROUNDS = (Place.SIDEWALK, Place.MAIN_ROAD, Place.ROADSIDE)
+
 # Nobody chooses a speed in these: it is given by the manoeuvre, or there is none.
 _NO_SPEED = frozenset(
     {
         BehaviorKind.STOP,
         BehaviorKind.BRAKE,
-        BehaviorKind.SLOW,
         BehaviorKind.YIELD,
         BehaviorKind.WAIT,
         BehaviorKind.PARK,
@@ -336,15 +357,21 @@ def behavior_conditions(inputs: Inputs) -> Iterator[Condition | Underivable]:
     """Yield the conditions of all behaviours of ground agents."""
     agents = {agent.id for agent in inputs.spec.agents}
     for agent in inputs.spec.agents:
+        if parks(inputs.spec, agent) and all(b.kind is not _PARK for b in agent.behaviors):
+            yield from _implied(inputs, agent, Behavior(kind=_PARK), f'{agent.id}.parked')
         for index, behavior in enumerate(agent.behaviors):
             kind = behavior.kind
-            if kind in _PAIRED and behavior.target not in agents:
+            comes_near = kind is BehaviorKind.APPROACH and has_point(behavior.target)
+            unpaired = kind in _PAIRED and behavior.target not in agents and not comes_near
+            round_it = kind is BehaviorKind.CIRCULATE and behavior.target is not None
+            if unpaired or round_it:
                 yield Underivable(
                     element=agent.id, what=f'behaviour {kind.value}', span=behavior.span
                 )
                 continue
             name = behavior_id(agent, index)
             yield from _implied(inputs, agent, behavior, name)
+            yield from _there(inputs, agent, behavior, name)
             yield from placement.closing(inputs, agent, behavior, name)
             yield from _stated_speed(inputs, agent, behavior, name)
 
@@ -378,12 +405,28 @@ def _implied(
         )
 
 
+def _there(
+    inputs: Inputs, agent: GroundAgent, behavior: Behavior, name: str
+) -> Iterator[Condition]:
+    """Yield that what is to be done at a place, or on a kind of ground, is done there."""
+    place = behavior.target
+    if place in _GROUNDS and behavior.kind in _ANYWHERE:
+        source = Source(ids=(agent.id,), spans=(behavior.span or agent.span,))
+        on = Placement(relation=Relation.ON, of=place)
+        yield relation_fraction.kept(inputs, agent, on, place, f'{name}.on', source)
+    elif place is not None and has_point(place) and behavior.kind in _ANYWHERE:
+        yield at_place.implied(inputs, agent, behavior, place, name)
+
+
 def _stated_speed(
     inputs: Inputs, agent: GroundAgent, behavior: Behavior, name: str
 ) -> Iterator[Condition | Underivable]:
     """Yield the condition of a behaviour with a stated speed."""
     speed = behavior.speed_mps
     if speed is None or speed.provenance is not Provenance.EXPLICIT:
+        return
+    if behavior.kind is BehaviorKind.SLOW:
+        yield slowed_to(inputs, agent, speed, name)
         return
     if behavior.kind not in _NO_SPEED:
         yield free_speed.implied(inputs, agent, behavior, speed, name)

@@ -13,42 +13,49 @@ from collections.abc import Mapping
 from aurora_core.conditions.behaviors import behavior_id
 from aurora_core.conditions.placements import placement_id
 from aurora_core.grounding.convoy import can_be_placed
+from aurora_core.grounding.persons import ON_SIDEWALKS, can_stand
 from aurora_core.outcomes.condition import Condition
 from aurora_core.outcomes.grounded import GroundedScenario
+from aurora_core.spec.flight_order import begun_by
+from aurora_core.spec.own_events import ONCE, is_once, keeps_to_lanes
 from aurora_core.spec.scenario import (
+    AgentAction,
+    Behavior,
     Event,
+    EventAction,
     EventDoneTrigger,
+    GroundAgent,
     MessageTrigger,
-    MissionDoneTrigger,
+    Placement,
     ScenarioSpec,
     SendMessage,
     UavAction,
     bodies_of,
 )
-from aurora_core.spec.vocabulary import BehaviorKind
+from aurora_core.spec.vocabulary import AgentType, BehaviorKind
 
-# The monitor can judge all of these.
-_NO_BEHAVIORS = frozenset(
+# What persons do, beside standing; crossing a street is for them alone.
+_ON_FOOT = frozenset(
     {
-        BehaviorKind.SLOW,
-        BehaviorKind.YIELD,
-        BehaviorKind.TURN_LEFT,
-        BehaviorKind.TURN_RIGHT,
         BehaviorKind.CROSS,
-        BehaviorKind.CHANGE_LANE,
-        BehaviorKind.EMERGENCY_RUN,
+        BehaviorKind.WALK,
+        BehaviorKind.STOP,
+        BehaviorKind.WAIT,
+        BehaviorKind.PARK,
     }
 )
-_NO_ACTIONS = frozenset({'change_lane', 'cross', 'ascend', 'change_mission'})
 
 
 def unsupported(spec: ScenarioSpec, grounded: GroundedScenario) -> tuple[str, ...]:
     """Return what the specification says and nobody carries out, as `id: what`."""
     found = list(grounded.unsupported)
     for agent in spec.agents:
-        kinds = [b.kind for b in agent.behaviors if b.kind in _NO_BEHAVIORS]
+        kinds = [b.kind for b in agent.behaviors if not _can_do(spec, agent, b)]
         found += [f'{agent.id}: behaviour {kind.value}' for kind in kinds]
-    undone = _undone_events(spec, grounded)
+        if agent.type in ON_SIDEWALKS:
+            odd = [p for p in agent.placements if not can_stand(agent, p, spec)]
+            found += [f'{agent.id}: placement {p.relation.value} {p.of or ""}' for p in odd]
+    undone = undone_events(spec, grounded)
     return (*found, *(f'{name}: {what}' for name, what in undone.items() if what))
 
 
@@ -57,18 +64,18 @@ def judgeable(
 ) -> tuple[Condition, ...]:
     """Leave out what cannot be placed or carried out yet; its clauses are `incomplete`."""
     absent = {a.id for a in spec.agents} - {a.id for a in grounded.agents}
-    events = _undone_events(spec, grounded)
+    events = undone_events(spec, grounded)
     undone = [
         behavior_id(agent, index)
         for agent in spec.agents
         for index, behavior in enumerate(agent.behaviors)
-        if behavior.kind in _NO_BEHAVIORS
+        if not _can_do(spec, agent, behavior)
     ]
     undone += [
         placement_id(agent, index)
         for agent in spec.agents
         for index, placement in enumerate(agent.placements)
-        if not can_be_placed(agent.id, placement, spec)
+        if not _can_be_placed(agent, placement, spec)
     ]
     return tuple(
         c
@@ -80,13 +87,12 @@ def judgeable(
     )
 
 
-def _undone_events(spec: ScenarioSpec, grounded: GroundedScenario) -> dict[str, str]:
+def undone_events(spec: ScenarioSpec, grounded: GroundedScenario) -> dict[str, str]:
     """Return the events that cannot happen, with what is missing ('' is said elsewhere)."""
     absent = {a.id for a in spec.agents} - {a.id for a in grounded.agents}
     undone: dict[str, str] = {}
     for event in spec.events:
-        refused = event.action is not None and event.action.do in _NO_ACTIONS
-        if event.action is not None and refused and not _climbs_last(event):
+        if event.action is not None and not _can_act(event.action, spec):
             undone[event.id] = f'action {event.action.do}'
         elif bodies_of(event) & absent:
             undone[event.id] = ''
@@ -99,15 +105,43 @@ def _undone_events(spec: ScenarioSpec, grounded: GroundedScenario) -> dict[str, 
     return undone
 
 
-def _climbs_last(event: Event) -> bool:
-    """Tell whether a UAV is to climb once its missions are over, and not during one of them."""
-    trigger, action = event.trigger, event.action
-    return (
-        isinstance(action, UavAction)
-        and action.do == 'ascend'
-        and isinstance(trigger, MissionDoneTrigger)
-        and trigger.uav == action.uav
-    )
+def _can_do(spec: ScenarioSpec, agent: GroundAgent, behavior: Behavior) -> bool:
+    kind = behavior.kind
+    if agent.type is AgentType.PEDESTRIAN:
+        return kind in _ON_FOOT
+    if kind in ONCE:
+        return is_once(spec, agent, behavior)
+    return kind is not BehaviorKind.CROSS
+
+
+def _can_act(action: EventAction, spec: ScenarioSpec) -> bool:
+    if isinstance(action, AgentAction) and action.do == 'cross':
+        persons = {a.id for a in spec.agents if a.type is AgentType.PEDESTRIAN}
+        return action.agent in persons and action.value_mps is None
+    if isinstance(action, UavAction) and action.mission is not None:
+        return _can_change(action, spec)
+    if isinstance(action, AgentAction) and action.do == 'change_lane':
+        drivers = {a.id for a in spec.agents if keeps_to_lanes(a)}
+        return action.agent in drivers and action.value_mps is None
+    return True
+
+
+def _can_be_placed(agent: GroundAgent, placement: Placement, spec: ScenarioSpec) -> bool:
+    if agent.type in ON_SIDEWALKS:
+        return can_stand(agent, placement, spec)
+    return can_be_placed(agent.id, placement, spec)
+
+
+def _can_change(action: UavAction, spec: ScenarioSpec) -> bool:
+    """Tell whether a UAV can be sent on a mission: it is its own, and has its place in the order.
+
+    One that waits for an event and is listed before another that waits for none would have to be
+    flown first: which one the request means to be first nobody can tell.
+    """
+    own = [m for m in spec.missions if m.uav == action.uav]
+    waits = [begun_by(spec, m) is not None for m in own]
+    ids = [m.id for m in own]
+    return action.mission in ids and (not waits[0] or all(waits))
 
 
 def _is_blocked(event: Event, spec: ScenarioSpec, undone: Mapping[str, str]) -> bool:

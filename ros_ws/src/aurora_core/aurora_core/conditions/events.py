@@ -22,6 +22,7 @@ from aurora_core.judging.quantities import (
     delivery_latency,
     event_delay,
     event_time,
+    lane_change,
     sent_after_capture,
     speed_before_event,
     visible_at_send,
@@ -29,6 +30,7 @@ from aurora_core.judging.quantities import (
 )
 from aurora_core.outcomes.condition import Condition
 from aurora_core.spec.events import actor_of, sets_off
+from aurora_core.spec.flight_order import begun_by, climbs_last
 from aurora_core.spec.parameter import Bound, Provenance
 from aurora_core.spec.scenario import (
     AgentAction,
@@ -60,6 +62,8 @@ def event_conditions(inputs: Inputs) -> Iterator[Condition | Underivable]:
             yield from _of_agent(inputs, event, action, source)
         if isinstance(action, UavAction) and action.altitude_m is not None:
             yield altitude.climb(inputs, action, action.altitude_m, event, source)
+            if event.trigger is not None and not climbs_last(event):
+                yield completion_delay.of_climb(inputs, event, action, action.altitude_m, source)
         if isinstance(action, SendMessage):
             link = link_between(inputs.spec, action.sender, action.receiver)
             if link is None:
@@ -93,7 +97,7 @@ def _moment(inputs: Inputs, event: Event, source: Source) -> Iterator[Condition]
     source = Source(ids=source.ids, spans=source.spans, provenance=provenance)
     climbs = isinstance(event.action, UavAction) and event.action.do == 'ascend'
     drives = isinstance(event.action, AgentAction) and not _binds_before(inputs, event)
-    yield event_delay.within(inputs, event.id, latest_s, first_s if drives else 0.0, source)
+    yield event_delay.within(inputs, event, latest_s, first_s if drives else 0.0, source)
     if not (drives or climbs):
         # Drivers slow down and speed up for many reasons, and a UAV has climbed at its take-off:
         # what was before says nothing. What they do before a stated delay is over neither.
@@ -121,7 +125,8 @@ def _of_agent(
     """Yield that an agent completes what an event makes it do, and does not begin too early.
 
     That something changes after the trigger is a condition of every event; here is that the agent
-    comes to rest, gets to its speed, lets the other one pass, and does not set off too early.
+    comes to rest, gets to its speed or lane, keeps to that lane, lets the other one pass, and does
+    not set off too early.
     """
     value, goes_to = action.value_mps, action.do in _TO_A_SPEED
     if value is not None and not goes_to:
@@ -132,6 +137,8 @@ def _of_agent(
         yield completion_delay.implied(inputs, event, action, goal, source)
     if action.do == 'start' and event.trigger is not None:
         yield speed_before_event.implied(inputs, event, action, source)
+    if action.do == 'change_lane':
+        yield lane_change.after_event(inputs, event, action, source)
     if action.do == 'yield':
         yield yielding.after_event(inputs, event, action, source)
 
@@ -143,6 +150,9 @@ def _alert(
     missions = missions_of_uav(inputs, action.sender)
     if not missions:
         return
+    # Of a UAV that tracks from some event on, what it sees before is an alert as well.
+    waiting = {m.id for m in inputs.spec.missions if begun_by(inputs.spec, m) is not None}
+    missions = tuple(m for m in missions if m.mission not in waiting) or missions
     yield sent_after_capture.implied(inputs, event, action, missions, source)
     actor = actor_of(event)
     if actor is not None and actor != action.sender:

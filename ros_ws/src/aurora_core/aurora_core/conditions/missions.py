@@ -10,12 +10,14 @@ from aurora_core.conditions.routes import route_conditions
 from aurora_core.judging.build import Inputs, Source, Underivable, stated_by
 from aurora_core.judging.mission import mission_arguments, missions_of_uav
 from aurora_core.judging.quantities import (
+    altitude,
     altitude_fraction,
     capture_time,
     horizontal_distance,
     hover_drift,
     landed,
     mission_completed,
+    pattern_centre,
     phase_duration,
     relation_fraction,
     tracked_fraction,
@@ -42,15 +44,14 @@ def mission_conditions(inputs: Inputs) -> Iterator[Condition | Underivable]:
             yield from route_conditions(inputs, mission, arguments, source)
     for uav in inputs.spec.uavs:
         missions = [m for m in inputs.spec.missions if m.uav == uav.id]
-        if missions and not missions[-1].ends_in_flight:
-            yield landed.by_deadline(
-                inputs,
-                missions_of_uav(inputs, uav.id),
-                id=f'{uav.id}.landed',
-                source=Source(
-                    ids=tuple(m.id for m in missions), spans=tuple(m.span for m in missions)
-                ),
-            )
+        if not missions:
+            continue
+        flown = missions_of_uav(inputs, uav.id)
+        source = Source(ids=tuple(m.id for m in missions), spans=tuple(m.span for m in missions))
+        if missions[-1].ends_in_flight:
+            yield altitude.stays_up(inputs, flown, source)
+        else:
+            yield landed.by_deadline(inputs, flown, id=f'{uav.id}.landed', source=source)
 
 
 def _stated(parameter: Parameter | None) -> Parameter | None:
@@ -69,9 +70,11 @@ def _course(
         inputs, arguments, source, id=f'{mission.id}.order', sentence=sentence
     )
     yield capture_time.implied(inputs, arguments, facts, source)
-    yield mission_completed.completed(
-        inputs, arguments, id=f'{mission.id}.completed', source=source
-    )
+    # What an event may end is as long as it is; a stated length is a number like others.
+    if arguments.left_by is None or mission.mode is MissionMode.NAVIGATE:
+        yield mission_completed.completed(
+            inputs, arguments, id=f'{mission.id}.completed', source=source
+        )
 
 
 def _numbers(
@@ -112,6 +115,8 @@ def _hover(
         yield visible_fraction.implied(inputs, arguments, target, source)
     standoff = _stated(mission.standoff_m)
     if standoff is None:
+        if target is not None and mission.bearing_deg is None:
+            yield pattern_centre.of_hover(inputs, arguments, target, source)
         return
     if target is None:
         what = 'a standoff without a target'

@@ -10,8 +10,18 @@ from aurora_core.judging.build import Inputs, Source, Target, Underivable, numbe
 from aurora_core.judging.mission import mission_arguments
 from aurora_core.judging.quantities import event_delay, mission_completed
 from aurora_core.outcomes.condition import Condition
+from aurora_core.spec.flight_order import begun_by, end_of
 from aurora_core.spec.parameter import Provenance
-from aurora_core.spec.scenario import AgentAction, Event, Order, UavMission
+from aurora_core.spec.scenario import (
+    AgentAction,
+    Event,
+    EventDoneTrigger,
+    MissionDoneTrigger,
+    Order,
+    SendMessage,
+    UavAction,
+    UavMission,
+)
 
 
 def order_conditions(inputs: Inputs) -> Iterator[Condition | Underivable]:
@@ -23,8 +33,8 @@ def order_conditions(inputs: Inputs) -> Iterator[Condition | Underivable]:
         phases = _phases(inputs, order)
         if phases:
             yield from (_phase(inputs, order, mission, source) for mission in phases)
-        elif _of_events(inputs, order):
-            yield from _events(inputs, order, source)
+        elif (event := _awaiting(inputs, order)) is not None or _of_events(inputs, order):
+            yield from _events(inputs, order, source, event)
         else:
             what = f'that {order.first} comes before {order.then}'
             yield Underivable(element=order.id, what=what, span=order.span)
@@ -57,22 +67,51 @@ def _phase(inputs: Inputs, order: Order, mission: UavMission, source: Source) ->
 
 def _of_events(inputs: Inputs, order: Order) -> bool:
     events = {event.id: event for event in inputs.spec.events}
-    pair = (events.get(order.first), events.get(order.then))
-    return all(event is not None and _has_a_moment(event) for event in pair)
+    first, then = events.get(order.first), events.get(order.then)
+    if first is None or then is None or not _has_a_moment(then):
+        return False
+    return _has_a_moment(first) or _waits_for(then, order.first)
+
+
+def _waits_for(event: Event, other: str) -> bool:
+    return isinstance(event.trigger, EventDoneTrigger) and event.trigger.event == other
+
+
+def _awaiting(inputs: Inputs, order: Order) -> Event | None:
+    """Return the event that waits for the end of a flight, or lets a UAV wait for an event.
+
+    Climbs are left out: a UAV has climbed at its take-off, too.
+    """
+    if order.within_s is not None:
+        return None
+    spec = inputs.spec
+    later = {e.id: e for e in spec.events}.get(order.then)
+    for mission in spec.missions:
+        if mission.id == order.then:
+            later = begun_by(spec, mission)
+    if later is None or later.trigger is None or later.trigger != end_of(spec, order.first):
+        return None
+    flies = isinstance(later.action, UavAction) and later.action.do != 'ascend'
+    sends = isinstance(later.action, SendMessage)
+    of_flight = isinstance(later.trigger, MissionDoneTrigger)
+    changes = flies and later.id != order.then
+    return later if changes or (of_flight and (flies or sends)) else None
 
 
 def _has_a_moment(event: Event) -> bool:
     """Tell whether states and messages show when an event happened.
 
     Drivers slow down and speed up for many reasons: without a trigger nothing says which time it
-    was that was meant.
+    was that was meant, unless another event waits for it; then it is the first one.
     """
     if event.action is None or isinstance(event.action, AgentAction):
         return event.trigger is not None
     return True
 
 
-def _events(inputs: Inputs, order: Order, source: Source) -> Iterator[Condition]:
+def _events(
+    inputs: Inputs, order: Order, source: Source, awaiting: Event | None
+) -> Iterator[Condition]:
     not_before = Target(op='>=', threshold=0.0, unit='s')
     bounds = [('holds', f'{order.first} comes before {order.then}', not_before)]
     if order.within_s is not None:
@@ -80,4 +119,4 @@ def _events(inputs: Inputs, order: Order, source: Source) -> Iterator[Condition]
         words = f'{order.then} comes within {number(latest_s)} s of {order.first}'
         bounds.append(('within', words, Target(op='<=', threshold=latest_s, unit='s')))
     for name, sentence, target in bounds:
-        yield event_delay.in_order(inputs, order, name, sentence, target, source)
+        yield event_delay.in_order(inputs, order, name, sentence, target, source, awaiting)

@@ -18,8 +18,6 @@ _OF_PLACES = frozenset(
     {Relation.NEAR, Relation.AT, Relation.BEFORE, Relation.ON, Relation.PARKED_AT}
 )
 _OF_AGENTS = frozenset(RELATION_WORDS) - {Relation.ON, Relation.PARKED_AT}
-# The measured world has no ground of this kind.
-_NO_SURFACE = frozenset({Place.SIDEWALK})
 
 
 def placement_conditions(inputs: Inputs) -> Iterator[Condition | Underivable]:
@@ -28,9 +26,10 @@ def placement_conditions(inputs: Inputs) -> Iterator[Condition | Underivable]:
     for agent in inputs.spec.agents:
         for index, placed in enumerate(agent.placements):
             relation, of = placed.relation, placed.of
+            if of is None and relation is Relation.PARKED_AT:
+                of = Place.ROADSIDE.value
             known = _OF_AGENTS if of in agents else _OF_PLACES
-            on_ground = relation is Relation.ON and of in _NO_SURFACE
-            if of is None or relation not in known or on_ground:
+            if of is None or relation not in known:
                 what = f'placement {relation.value}' + ('' if of is None else f' {of}')
                 yield Underivable(element=agent.id, what=what, span=placed.span)
                 continue
@@ -42,7 +41,10 @@ def placement_conditions(inputs: Inputs) -> Iterator[Condition | Underivable]:
             name = placement_id(agent, index)
             yield from placement.implied(inputs, agent, placed, of, name, source)
             if placed.kept_in_motion:
-                yield relation_fraction.kept(inputs, agent, relation, of, name, source)
+                yield relation_fraction.kept(inputs, agent, placed, of, name, source)
+            distance = relation_fraction.distance_kept(inputs, agent, placed, of, name)
+            if distance is not None:
+                yield distance
 
 
 def placement_id(agent: GroundAgent, index: int) -> str:

@@ -11,6 +11,7 @@ from aurora_core.errors import VerificationError
 from aurora_core.geometry.kernel import norm2
 from aurora_core.judging.build import Inputs, Source, number
 from aurora_core.judging.quantities import (
+    angle_swept,
     horizontal_distance,
     over_carriageway,
     pattern_centre,
@@ -44,8 +45,11 @@ def route_conditions(
     _check_size(mission, arguments)
     points = arguments.waypoints
     yield waypoints_visited.all_points(inputs, arguments, source)
-    if points[0] == points[-1]:
+    if points[0] == points[-1] and arguments.left_by is None:
         yield route_closed.implied(inputs, arguments, source)
+    if mission.pattern is Pattern.ORBIT:
+        lasts = mission.duration_s is not None or arguments.left_by is not None
+        yield angle_swept.implied(inputs, arguments, source, again=lasts)
     count = mission.waypoint_count
     if count is not None and count.provenance is Provenance.EXPLICIT:
         yield waypoints_visited.stated_count(inputs, arguments, count, source)

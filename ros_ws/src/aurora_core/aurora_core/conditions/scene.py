@@ -6,12 +6,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from aurora_core.grounding.traffic import has_room_for_traffic
 from aurora_core.judging.build import Inputs
-from aurora_core.judging.quantities import count, run_duration, world_setting
+from aurora_core.judging.quantities import count, run_duration, traffic, world_setting
 from aurora_core.judging.quantities.world_setting import Setting
 from aurora_core.outcomes.condition import Condition
 from aurora_core.spec.parameter import Provenance, Span
 from aurora_core.spec.prohibitions import ForbiddenAgent
+from aurora_core.spec.requirements import UAV_TYPE
 from aurora_core.spec.scenario import GroundAgent
 from aurora_core.spec.scene import World
 
@@ -40,6 +42,8 @@ def _world(inputs: Inputs) -> Iterator[Condition]:
         # What the request leaves open may be any.
         if span is not None or asked != getattr(_WORLD, name):
             yield world_setting.implied(inputs, name, asked, span)
+    if world.traffic_density is not None and has_room_for_traffic(inputs.spec):
+        yield traffic.implied(inputs, world.traffic_density)
     duration = world.duration_s
     if duration is not None and duration.provenance is Provenance.EXPLICIT:
         yield run_duration.implied(inputs, duration)
@@ -56,4 +60,4 @@ def _numbers(inputs: Inputs) -> Iterator[Condition]:
     uavs = inputs.spec.uavs
     if uavs:
         ids, spans = tuple(u.id for u in uavs), tuple(u.span for u in uavs)
-        yield count.implied(inputs, count.UAV_TYPE, ids, spans)
+        yield count.implied(inputs, UAV_TYPE, ids, spans)

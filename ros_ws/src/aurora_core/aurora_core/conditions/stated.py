@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypedDict
 
 from aurora_core.conditions.stated_flight import FLIGHT_QUANTITIES, stated_flight
@@ -224,7 +224,7 @@ def _phases(inputs: Inputs, stated: StatedCondition) -> Iterator[Condition]:
             id=name,
             sentence=sentence_of(stated),
             of=of,
-            target=target_of(inputs.tolerances, stated),
+            target=_stretched(target_of(inputs.tolerances, stated), stated),
             # With a stretch it is the longest one without a gap that counts.
             arguments=VisibleTime(**about, unbroken=stated.hold_s is not None)
             if kind is VisibleTime
@@ -232,6 +232,13 @@ def _phases(inputs: Inputs, stated: StatedCondition) -> Iterator[Condition]:
             source=source_of(stated),
             every_sample=kind is HoverDrift,
         )
+
+
+def _stretched(target: Target, stated: StatedCondition) -> Target:
+    """Return the comparison of a time of sight: a stretch that is to be longer counts instead."""
+    if stated.hold_s is None or target.op not in ('>=', '>'):
+        return target
+    return replace(target, threshold=max(target.threshold, stated.hold_s.value))
 
 
 def _event_time(inputs: Inputs, stated: StatedCondition) -> Condition:

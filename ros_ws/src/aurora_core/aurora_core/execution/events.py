@@ -8,16 +8,25 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from aurora_core.comm.link import MessageLink, whole_ticks
+from aurora_core.execution.lane_changer import LaneChanger
 from aurora_core.execution.observe import Observation
 from aurora_core.execution.triggers import Progress, holds
+from aurora_core.geometry.kernel import norm2
 from aurora_core.mission.machine import MissionMachine
+from aurora_core.mission.plan import UavPlan
 from aurora_core.quantities.actions import (
+    CLIMBED_M,
+    CROSSED_M,
+    FROM_MOTION,
     ActionRules,
     ends_with_mps,
     is_complete,
     takes_time,
 )
+from aurora_core.quantities.instant import Point3
 from aurora_core.spec.events import actor_of
+from aurora_core.spec.flight_order import is_next_anyway
+from aurora_core.spec.own_events import let_pass, own_events
 from aurora_core.spec.scenario import (
     AgentAction,
     Event,
@@ -40,7 +49,14 @@ Note = Callable[[int, ScenarioEventKind, str, str], None]
 # Speed from which an agent can be seen to brake or stop (m/s).
 ON_THE_MOVE_MPS = 5.0
 
-_FROM_MOTION = frozenset({'brake', 'stop', 'yield', 'slow'})
+# Who has let another one pass drives on when that is so far ahead, bumper to bumper (m).
+DRIVES_ON_M = 5.0
+
+# Loss of speed that shows as slowing down (m/s).
+_SHOWS_MPS = 2.5
+
+# Speed below which braking is over before it shows (m/s).
+_BRAKES_FROM_MPS = 1.0
 
 
 def _shows_after(event: Event) -> int:
@@ -61,6 +77,9 @@ class _EventState:
     Attributes:
         acted: Its action was ordered.
         before_mps: Speed of the agent when it was, None when it has no speed to get to.
+        climbs: A UAV on a mission goes on at another altitude.
+        lane: Lane that the agent is to leave, None when it is to keep its lane.
+        stepped_on: Where a person that crosses stepped onto the carriageway.
         done: Its action is complete.
     """
 
@@ -68,6 +87,9 @@ class _EventState:
     triggered_tick: int | None = None
     acted: bool = False
     before_mps: float | None = None
+    climbs: bool = False
+    lane: int | None = None
+    stepped_on: Point3 | None = None
     done: bool = False
 
 
@@ -80,7 +102,10 @@ class EventRunner:
         links: Message links.
         arrival_m: An agent this close to a place is there.
         rules: When the actions of ground agents are complete.
+        lanes: Orders changes of lane.
         set_off: Gives the commands that let the agent of a row drive.
+        drive: Gives the command that lets the agent of a row drive on.
+        stopping: Rows of the agents that stop by themselves, at their place.
     """
 
     def __init__(
@@ -90,20 +115,30 @@ class EventRunner:
         links: Sequence[MessageLink],
         arrival_m: float,
         rules: ActionRules,
+        lanes: LaneChanger,
         set_off: Callable[[int], list[GroundCommand]],
+        drive: Callable[[int], GroundCommand],
+        stopping: frozenset[int],
     ) -> None:
         self._roster = roster
         self._rules = rules
+        self._lanes = lanes
         self._set_off = set_off
+        self._stopping = stopping
+        self._drive = drive
+        self._spec = spec
+        self._moved: set[int] = set()
+        self._yielding: dict[int, str] = {}
         self._links = links
         # What waits for a body that could not be placed never happens: the run ends without it,
         # as `incomplete`.
         absent = {a.id for a in spec.agents if roster.agent_index(a.id) is None}
-        self._states = [_EventState(event=e) for e in spec.events if not bodies_of(e) & absent]
+        events = (*spec.events, *own_events(spec))
+        self._states = [_EventState(event=e) for e in events if not bodies_of(e) & absent]
         ids = {e.id for e in spec.events}
         self._before: dict[str, set[str]] = {
             e.id: {o.first for o in spec.orders if o.then == e.id and o.first in ids}
-            for e in spec.events
+            for e in events
         }
         self._progress = Progress(arrival_m=arrival_m)
         self._messages = 0
@@ -117,14 +152,17 @@ class EventRunner:
         """Note a delivered message."""
         self._progress.received.add((receiver, sender))
 
-    def keeps_up(self, uav_id: str, tick: int) -> bool:
+    def keeps_up(self, plan: UavPlan, tick: int) -> bool:
         """Tell whether something is still to happen before a UAV lands after its missions."""
         return any(
-            s.event.trigger is None
-            and isinstance(s.event.action, UavAction)
-            and s.event.action.do == 'land'
-            and s.event.action.uav == uav_id
-            and not self._may_follow(s.event, tick)
+            s.event.id in plan.lands_after
+            or (
+                s.event.trigger is None
+                and isinstance(s.event.action, UavAction)
+                and s.event.action.do == 'land'
+                and s.event.action.uav == plan.id
+                and not self._may_follow(s.event, tick)
+            )
             for s in self._states
             if not s.done
         )
@@ -144,11 +182,13 @@ class EventRunner:
     ) -> list[GroundCommand]:
         """Evaluate triggers at `tick`, start due actions, return their ground commands."""
         for machine in machines:
-            if machine.ascended_tick is not None:
-                self._progress.ascended.add(machine.plan.id)
+            if machine.is_landing:
+                self._progress.looking.discard(machine.plan.id)
+            elif machine.ascended_tick is not None:
+                self._progress.looking.add(machine.plan.id)
             if machine.missions_done:
                 self._progress.missions_done.add(machine.plan.id)
-        commands: list[GroundCommand] = []
+        commands = self._drive_on(seen)
         for state in self._states:
             if state.done:
                 continue
@@ -163,20 +203,32 @@ class EventRunner:
                 continue
             due = tick >= state.triggered_tick + whole_ticks(event.waits_s, dt_s)
             due = due and self._may_follow(event, tick)
+            due = due and self._can_begin(event, seen)
             if due and self._allowed(event, seen, machines):
                 commands += self._act(tick, event, seen, machines)
                 note(tick, ScenarioEventKind.ACTION, event.id, '')
-                self._begun(state, tick, seen)
+                self._begun(state, tick, seen, machines)
         return commands
 
-    def _begun(self, state: _EventState, tick: int, seen: Observation) -> None:
-        """Note that an action was ordered; one that gets to a speed is not complete yet."""
+    def _begun(
+        self,
+        state: _EventState,
+        tick: int,
+        seen: Observation,
+        machines: Sequence[MissionMachine],
+    ) -> None:
+        """Note that an action was ordered; one that gets somewhere is not complete yet."""
         action = state.event.action
         state.acted = True
         speed_mps = None
         if isinstance(action, AgentAction) and takes_time(action):
             speed_mps = seen.speed_mps(action.agent)
-        if speed_mps is None:
+            row = self._roster.agent_index(action.agent)
+            if action.do == 'change_lane' and row is not None:
+                state.lane = self._lanes.lane(row, seen)
+        if isinstance(action, UavAction) and action.altitude_m is not None:
+            state.climbs = any(m.plan.id == action.uav and m.on_mission for m in machines)
+        if speed_mps is None and not state.climbs:
             state.done = True
             self._progress.done_tick[state.event.id] = tick + _shows_after(state.event)
             return
@@ -184,16 +236,43 @@ class EventRunner:
         self._finish(state, tick, seen)
 
     def _finish(self, state: _EventState, tick: int, seen: Observation) -> None:
-        """Note that an action is complete, once the speed of its agent says so."""
+        """Note that an action is complete: by the agent's speed or lane, or the altitude."""
         action = state.event.action
+        if isinstance(action, UavAction) and action.altitude_m is not None:
+            point = seen.position(action.uav)
+            if point is not None and abs(point[2] - action.altitude_m.value) <= CLIMBED_M:
+                state.done = True
+                self._progress.done_tick[state.event.id] = tick
+            return
         if not isinstance(action, AgentAction) or state.before_mps is None:
             return
         speed_mps = seen.speed_mps(action.agent)
         if speed_mps is None:
             return
-        if is_complete(action, state.before_mps, speed_mps, self._rules):
+        if action.do == 'cross':
+            complete = _has_crossed(state, action.agent, seen)
+        elif state.lane is not None:
+            row = self._roster.agent_index(action.agent)
+            complete = row is not None and self._lanes.is_over(row, state.lane, seen)
+        else:
+            complete = is_complete(action, state.before_mps, speed_mps, self._rules)
+        if complete:
             state.done = True
             self._progress.done_tick[state.event.id] = tick
+
+    def _can_begin(self, event: Event, seen: Observation) -> bool:
+        """Tell whether an action is possible now.
+
+        A change of lane needs a free lane beside, braking something to brake from.
+        """
+        action = event.action
+        if isinstance(action, AgentAction) and action.do == 'brake':
+            speed_mps = seen.speed_mps(action.agent)
+            return speed_mps is not None and speed_mps >= _BRAKES_FROM_MPS
+        if not isinstance(action, AgentAction) or action.do != 'change_lane':
+            return True
+        row = self._roster.agent_index(action.agent)
+        return row is not None and self._lanes.goal(row, seen) is not None
 
     def _begins(
         self,
@@ -203,6 +282,9 @@ class EventRunner:
         seen: Observation,
         machines: Sequence[MissionMachine],
     ) -> bool:
+        action = event.action
+        if is_next_anyway(event) and isinstance(action, UavAction) and action.mission is not None:
+            return any(m.has_begun(action.mission) for m in machines if m.plan.id == action.uav)
         if event.trigger is not None:
             return holds(event, tick, dt_s, seen, self._progress)
         if not self._may_follow(event, tick):
@@ -210,13 +292,22 @@ class EventRunner:
         if isinstance(event.action, UavAction) and event.action.do == 'land':
             # Nobody says when: a UAV lands after its missions.
             return event.action.uav in self._progress.missions_done
-        # Nobody says when: once the UAVs watch, and once who is to brake or stop is on the move.
-        if any(m.first_capture_tick is None for m in machines):
+        # Nobody says when: once the UAVs watch, have flown the route that this may end, and once
+        # who is to brake or stop is on the move.
+        flying = [m for m in machines if not m.waits_on_ground]
+        if any(m.first_capture_tick is None or m.is_on_first_lap for m in flying):
             return False
-        if not isinstance(event.action, AgentAction) or event.action.do not in _FROM_MOTION:
+        if not isinstance(event.action, AgentAction) or event.action.do not in FROM_MOTION:
             return True
         speed_mps = seen.speed_mps(event.action.agent)
-        return speed_mps is not None and speed_mps >= ON_THE_MOVE_MPS
+        if speed_mps is None:
+            return False
+        row = self._roster.agent_index(event.action.agent)
+        if event.action.do == 'stop' and row in self._stopping:
+            # It stops at its place by itself; that it stands there is the event.
+            self._moved |= {row} if speed_mps >= ON_THE_MOVE_MPS else set()
+            return row in self._moved and speed_mps < self._rules.stop_mps
+        return speed_mps >= _least_mps(event.action)
 
     def _allowed(
         self, event: Event, seen: Observation, machines: Sequence[MissionMachine]
@@ -230,7 +321,9 @@ class EventRunner:
             return True
         if machine.ascended_tick is None:
             return False
-        tracks = [m.id for m in machine.plan.missions if m.mode is MissionMode.TRACK]
+        missions = machine.plan.missions
+        flown = [m for m in missions if not m.waits] or missions
+        tracks = [m.id for m in flown if m.mode is MissionMode.TRACK]
         if tracks and tracks[0] not in machine.captured_missions:
             return False
         actor = actor_of(event)
@@ -254,24 +347,48 @@ class EventRunner:
             return []
         if isinstance(action, UavAction):
             for machine in machines:
-                if machine.plan.id == action.uav and action.do == 'land':
-                    machine.land_now()
-                elif machine.plan.id == action.uav and action.altitude_m is not None:
-                    machine.climb_to(action.altitude_m.value)
+                if machine.plan.id == action.uav:
+                    _order(machine, action)
             return []
         if isinstance(action, AgentAction):
+            self._note_yielding(event, action)
             return self._agent_commands(action, seen)
         return []
+
+    def _note_yielding(self, event: Event, action: AgentAction) -> None:
+        """Note whom an agent lets pass; what else it is to do later is left to that event."""
+        row, other = self._roster.agent_index(action.agent), let_pass(self._spec, event)
+        acting = [
+            s.event.action
+            for s in self._states
+            if isinstance(s.event.action, AgentAction) and s.event.action.agent == action.agent
+        ]
+        if row is not None and other is not None and len(acting) == 1:
+            self._yielding[row] = other
+
+    def _drive_on(self, seen: Observation) -> list[GroundCommand]:
+        """Return what lets those drive on whom the other one has passed."""
+        passed = [
+            row for row, other in self._yielding.items() if seen.ahead_m(row, other) >= DRIVES_ON_M
+        ]
+        for row in passed:
+            del self._yielding[row]
+        return [self._drive(row) for row in passed]
 
     def _agent_commands(self, action: AgentAction, seen: Observation) -> list[GroundCommand]:
         row = self._roster.agent_index(action.agent)
         if row is None:
             return []
-        if action.do == 'start' and action.value_mps is None:
+        # A person who crosses has stood on the way that was planned over the street.
+        crosses = action.do == 'cross' and self._roster.agents[row].is_person
+        if crosses or (action.do == 'start' and action.value_mps is None):
             return self._set_off(row)
         now_mps = seen.speed_mps(action.agent)
         if now_mps is None:
             return []
+        if action.do == 'change_lane':
+            goal = self._lanes.goal(row, seen)
+            return [] if goal is None else self._lanes.commands(row, goal)
         goal_mps = ends_with_mps(action, now_mps, self._rules)
         if goal_mps is None:
             return []
@@ -280,3 +397,33 @@ class EventRunner:
             harder = GroundCommandKind.SET_DECELERATION
             commands.insert(0, GroundCommand(agent=row, kind=harder, value=BRAKING_MPS2))
         return commands
+
+
+def _has_crossed(state: _EventState, person: str, seen: Observation) -> bool:
+    """Tell whether a person has left the carriageway on the other side; note where it began."""
+    point = seen.position(person)
+    if point is None:
+        return False
+    on = seen.on_carriageway(person)
+    if state.stepped_on is None:
+        state.stepped_on = point if on else None
+        return False
+    x, y, _ = state.stepped_on
+    return not on and norm2(point[0] - x, point[1] - y) >= CROSSED_M
+
+
+def _least_mps(action: AgentAction) -> float:
+    """Return the speed from which what an agent does on the move can be seen."""
+    if action.do not in ('slow', 'brake') or action.value_mps is None:
+        return ON_THE_MOVE_MPS
+    return max(ON_THE_MOVE_MPS, action.value_mps.value + _SHOWS_MPS)
+
+
+def _order(machine: MissionMachine, action: UavAction) -> None:
+    """Let a UAV do what an event asks of it."""
+    if action.do == 'land':
+        machine.land_now()
+    elif action.mission is not None:
+        machine.change_to(action.mission)
+    elif action.altitude_m is not None:
+        machine.climb_to(action.altitude_m.value)

@@ -7,6 +7,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import shapely
 
 from aurora_core.geometry.sight_line import SightLine
 from aurora_core.grounding.airspace import Airspace
@@ -23,6 +24,7 @@ class MapParts:
         airspace: What stands in the way of a flight.
         sight_line: Its buildings as occluders.
         surfaces: Carriageways and crossings.
+        sidewalks: Recorded where a request speaks of them.
         lanes: Centre lines for cars.
         signals: Junctions with signals.
         landmarks: x, y in m by `landmark:<name>`.
@@ -31,6 +33,7 @@ class MapParts:
     airspace: Airspace
     sight_line: SightLine
     surfaces: tuple[Surface, ...]
+    sidewalks: tuple[Surface, ...]
     lanes: tuple[CentreLine, ...]
     signals: tuple[SignalPost, ...]
     landmarks: dict[str, tuple[float, float]]
@@ -40,23 +43,16 @@ def map_parts(map_model: MapModel) -> MapParts:
     """Return the parts of a map."""
     network = map_model.network
     airspace = Airspace(map_model.buildings, map_model.zones)
-    surfaces = [
-        Surface(
-            surface_id=f'carriageway_{k}',
-            kind=SurfaceKind.DRIVING,
-            ring=np.array(polygon.exterior.coords)[:-1],
-            holes=tuple(np.array(hole.coords)[:-1] for hole in polygon.interiors),
-        )
-        for k, polygon in enumerate(network.carriageway.geoms)
-    ]
-    surfaces += [
+    crossings = (
         Surface(surface_id=c.id, kind=SurfaceKind.CROSSING, ring=np.array(c.polygon))
         for c in network.crossings
-    ]
+    )
+    driving = _areas('carriageway', SurfaceKind.DRIVING, network.carriageway)
     return MapParts(
         airspace=airspace,
         sight_line=SightLine(airspace.sight),
-        surfaces=tuple(surfaces),
+        surfaces=(*driving, *crossings),
+        sidewalks=_areas('sidewalk', SurfaceKind.SIDEWALK, network.sidewalk_area),
         lanes=tuple(
             CentreLine(
                 lane_id=lane.id,
@@ -76,4 +72,16 @@ def map_parts(map_model: MapModel) -> MapParts:
             f'landmark:{mark.name}': landmark_point(map_model, mark.name)
             for mark in map_model.landmarks
         },
+    )
+
+
+def _areas(name: str, kind: SurfaceKind, area: shapely.MultiPolygon) -> tuple[Surface, ...]:
+    return tuple(
+        Surface(
+            surface_id=f'{name}_{k}',
+            kind=kind,
+            ring=np.array(polygon.exterior.coords)[:-1],
+            holes=tuple(np.array(hole.coords)[:-1] for hole in polygon.interiors),
+        )
+        for k, polygon in enumerate(area.geoms)
     )

@@ -7,6 +7,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from aurora_core.knowledge.world import SurfaceKind
 from aurora_core.mission.machine import TargetMotion
 from aurora_core.quantities import instant
 from aurora_core.quantities.instant_sight import InstantSight
@@ -43,6 +44,21 @@ class Observation:
         self._geometry = geometry
         self._sight = sight
 
+    def ground(self, row: int) -> FloatArray:
+        """Return the state (GROUND_WIDTH,) of the agent of a row."""
+        state: FloatArray = self._ground[row]
+        return state
+
+    def ahead_m(self, row: int, other: str) -> float:
+        """Return how far another agent is ahead of that of a row, bumper to bumper in metres."""
+        index = self._roster.agent_index(other)
+        if index is None or not instant.present(self._ground[index]):
+            return 0.0
+        x, y, hx, hy = self._ground[row, : GroundColumn.HEADING_Y + 1].tolist()
+        to_x, to_y = self._ground[index, : GroundColumn.Y + 1].tolist()
+        half_m = (self._roster.agents[row].length_m + self._roster.agents[index].length_m) / 2.0
+        return float((to_x - x) * hx + (to_y - y) * hy - half_m)
+
     def position(self, name: str) -> Point3 | None:
         """Return the reference point (x, y, z in m, ENU), None when the body is gone."""
         point = instant.body_point(self._roster, self._ground, self._uav, name)
@@ -64,6 +80,14 @@ class Observation:
         """Return the 3-D distance of two reference points, None when one of them is gone."""
         p, q = self.position(a), self.position(b)
         return None if p is None or q is None else instant.distance_m(p, q)
+
+    def on_carriageway(self, agent_id: str) -> bool:
+        """Return whether an agent's reference point is on a street for vehicles."""
+        point = self.position(agent_id)
+        if point is None:
+            return False
+        driving = self._geometry.surfaces(SurfaceKind.DRIVING)
+        return bool(driving.contains(np.array([point[:2]]))[0])
 
     def motion(self, body_id: str) -> TargetMotion | None:
         """Return position and velocity of a ground agent, None when it is gone."""

@@ -4,10 +4,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 from aurora_core.comm.link import LinkSettings, MessageLink, link_stream
+from aurora_core.conditions.capabilities import undone_events
 from aurora_core.errors import ExecutionError
 from aurora_core.execution.fault_port import FaultPort, loss_with_faults
 from aurora_core.execution.faults import Fault, in_order
@@ -22,6 +23,7 @@ from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.settings import Settings
 from aurora_core.knowledge.world import NamedPlace, Wind, WorldModel
 from aurora_core.mission.machine import MissionMachine
+from aurora_core.mission.plan import UavPlan
 from aurora_core.mission.setpoint import FlightSettings
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.grounded import GroundedAgent, GroundedScenario
@@ -29,12 +31,20 @@ from aurora_core.outcomes.schedule import Schedule
 from aurora_core.ports.simulators import AirLoad, GroundAgentLoad, GroundLoad, UavHome
 from aurora_core.quantities.actions import action_rules
 from aurora_core.quantities.world_geometry import WorldGeometry
-from aurora_core.spec.scenario import Link, ScenarioSpec, SendMessage
+from aurora_core.spec.flight_order import (
+    awaits_climbs,
+    begun_by,
+    ending_landings,
+    lasts_until_event,
+    left_by,
+)
+from aurora_core.spec.scenario import Event, Link, ScenarioSpec, SendMessage
+from aurora_core.spec.vocabulary import Place
 from aurora_core.trace.roster import Roster, RosterEntry
 
 # Raised whenever the same states give other commands or records than before: what was recorded
 # with another version cannot be recomputed here.
-EXECUTOR_VERSION = 1
+EXECUTOR_VERSION = 3
 
 # Box of the multirotor in the roster (m): motor to motor with propellers, and its height.
 UAV_SIZE_M = (0.7, 0.7, 0.3)
@@ -166,7 +176,10 @@ def build_stepper(
             spec=spec,
             roster=roster,
             agents=grounded.agents,
-            machines=tuple(MissionMachine(u, flight, dt_s) for u in grounded.uavs),
+            machines=tuple(
+                MissionMachine(plan, flight, dt_s)
+                for plan in plans_with_events(spec, grounded.uavs, undone_events(spec, grounded))
+            ),
             links=tuple(_link(link, limits, dt_s, seed, acting) for link in spec.links),
             airspace=airspace,
             geometry=geometry,
@@ -183,6 +196,44 @@ def build_stepper(
     if not acting:
         return executor
     return FaultPort(executor, acting, roster, tuple(link.id for link in spec.links))
+
+
+def plans_with_events(
+    spec: ScenarioSpec, plans: Sequence[UavPlan], undone: Collection[str]
+) -> tuple[UavPlan, ...]:
+    """Return what the UAVs fly, with the missions that wait for an event or last until one.
+
+    What waits for something that nobody carries out is flown in its turn: the run is incomplete.
+
+    Args:
+        spec: The request.
+        plans: Of the UAVs, as grounded.
+        undone: Ids of the events that nobody carries out.
+    """
+
+    def awaited(event: Event | None) -> bool:
+        return event is not None and event.id not in undone
+
+    asked = {
+        m.id: {
+            'waits': awaited(begun_by(spec, m)),
+            'until_event': lasts_until_event(spec, m) and awaited(left_by(spec, m)),
+        }
+        for m in spec.missions
+    }
+    return tuple(
+        u.model_copy(
+            update={
+                'missions': tuple(m.model_copy(update=asked[m.id]) for m in u.missions),
+                'lands_after': tuple(
+                    e.id
+                    for e in (*awaits_climbs(spec, u.id), *ending_landings(spec, u.id))
+                    if awaited(e)
+                ),
+            }
+        )
+        for u in plans
+    )
 
 
 def _check_links(spec: ScenarioSpec) -> None:
@@ -216,7 +267,7 @@ def build_world(
         wind=wind_of(grounded),
         buildings=map_model.buildings,
         no_fly_zones=map_model.zones,
-        surfaces=parts.surfaces,
+        surfaces=parts.surfaces + (parts.sidewalks if Place.SIDEWALK in places else ()),
         lanes=parts.lanes,
         signals=parts.signals,
         places=_named_places(parts, places),
@@ -302,6 +353,8 @@ def _agent_load(agent: GroundedAgent) -> GroundAgentLoad:
         time_gap_s=agent.time_gap_s,
         min_gap_m=agent.min_gap_m,
         lane_change_mode=agent.lane_change_mode,
+        parked=agent.parked,
+        acceleration_mps2=agent.gentle_mps2,
     )
 
 

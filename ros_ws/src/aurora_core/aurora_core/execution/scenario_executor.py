@@ -18,7 +18,9 @@ import numpy.typing as npt
 from aurora_core.comm.link import MessageLink, Path
 from aurora_core.execution.events import EventRunner
 from aurora_core.execution.landing import PATIENCE_S, landing_spot
+from aurora_core.execution.lane_changer import LaneChanger
 from aurora_core.execution.observe import Observation
+from aurora_core.execution.premises import Premises
 from aurora_core.execution.step_output import StepOutput
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.mission.machine import MissionMachine
@@ -40,6 +42,9 @@ from aurora_core.trace.roster import Roster
 
 FloatArray = npt.NDArray[np.float64]
 
+
+# Who stops by itself stands for the rest of any run (s).
+_STANDS_S = 3600.0
 
 # Distance recorded for a transmission to or from a body that is gone (m).
 GONE_M = 1e6
@@ -90,14 +95,8 @@ class ScenarioExecutor:
         self._held = {i for i, a in enumerate(setup.agents) if a.release is not ReleaseOn.START}
         self._phases = [int(UavPhase.IDLE)] * len(setup.machines)
         self._seen: dict[tuple[str, str], bool] = {}
-        self._runner = EventRunner(
-            setup.spec,
-            setup.roster,
-            setup.links,
-            setup.arrival_m,
-            setup.action_rules,
-            self._set_off,
-        )
+        self._runner = self._run_events(EventRunner)
+        self._premises = Premises(setup.spec, setup.roster)
         self._done_tick: int | None = None
         self._landing_since: dict[int, int] = {}
         self._sight = InstantSight(setup.geometry, setup.roster)
@@ -116,6 +115,7 @@ class ScenarioExecutor:
         commands = self._initial_commands() if tick == 0 else []
         rows = self._fly(tick, uav, seen)
         commands += self._release(tick)
+        commands += self._premises.step(tick, s.roster.dt_s, seen, s.machines)
         commands += self._runner.step(tick, s.roster.dt_s, seen, s.machines, self.note)
         links = self._step_links(tick, seen)
         sights = self._sights(tick, seen)
@@ -144,6 +144,23 @@ class ScenarioExecutor:
         """Return the number of the next scenario event (for records added by fault ports)."""
         return next(self._sequence)
 
+    def _run_events(self, kind: type[EventRunner]) -> EventRunner:
+        """Return what sets the events of the scenario off."""
+        s = self._setup
+        stopping = frozenset(i for i, a in enumerate(s.agents) if a.stop_lane_id)
+        lanes = LaneChanger(s.geometry.world, s.roster, s.action_rules.start_mps)
+        return kind(
+            s.spec,
+            s.roster,
+            s.links,
+            s.arrival_m,
+            s.action_rules,
+            lanes,
+            self._set_off,
+            lambda row: self._drive_command(row, s.agents[row]),
+            stopping,
+        )
+
     def _initial_commands(self) -> list[GroundCommand]:
         commands = []
         for index, agent in enumerate(self._setup.agents):
@@ -156,18 +173,33 @@ class ScenarioExecutor:
         return commands
 
     def _start_commands(self, index: int, agent: GroundedAgent) -> list[GroundCommand]:
-        if agent.drive_speed_mps is not None:
-            return [
+        commands = [self._drive_command(index, agent)]
+        if agent.stop_lane_id:
+            commands.append(
                 GroundCommand(
-                    agent=index, kind=GroundCommandKind.SET_SPEED, value=agent.drive_speed_mps
+                    agent=index,
+                    kind=GroundCommandKind.STOP_AT,
+                    value=agent.stop_position_m,
+                    value2=_STANDS_S,
+                    text=agent.stop_lane_id,
                 )
-            ]
-        return [GroundCommand(agent=index, kind=GroundCommandKind.RELEASE_SPEED)]
+            )
+        return commands
+
+    def _drive_command(self, index: int, agent: GroundedAgent) -> GroundCommand:
+        if agent.drive_speed_mps is None:
+            return GroundCommand(agent=index, kind=GroundCommandKind.RELEASE_SPEED)
+        kind = GroundCommandKind.SET_SPEED
+        return GroundCommand(agent=index, kind=kind, value=agent.drive_speed_mps)
 
     def _set_off(self, index: int) -> list[GroundCommand]:
         """Return the commands that let an agent drive, who may have been held until now."""
-        self._held.discard(index)
-        return self._start_commands(index, self._setup.agents[index])
+        agent = self._setup.agents[index]
+        if index in self._held or not agent.stop_lane_id:
+            self._held.discard(index)
+            return self._start_commands(index, agent)
+        resume = GroundCommand(agent=index, kind=GroundCommandKind.RESUME)
+        return [resume, self._drive_command(index, agent)]
 
     def _release(self, tick: int) -> list[GroundCommand]:
         commands: list[GroundCommand] = []
@@ -183,6 +215,11 @@ class ScenarioExecutor:
                     agent.release is ReleaseOn.CAPTURED
                     and agent.release_mission in machine.captured_missions
                 )
+                or (
+                    agent.release is ReleaseOn.LAPPED
+                    and agent.release_mission in machine.captured_missions
+                    and not machine.is_on_first_lap
+                )
                 or (agent.release is ReleaseOn.OBSERVED and machine.missions_done)
             )
             if ready:
@@ -196,7 +233,7 @@ class ScenarioExecutor:
         for index, machine in enumerate(self._setup.machines):
             if tick == 0:
                 machine.start()
-            machine.stays_up = self._runner.keeps_up(machine.plan.id, tick)
+            machine.stays_up = self._runner.keeps_up(machine.plan, tick)
             followed = machine.followed
             target = None if followed is None else seen.motion(followed)
             row = machine.step(tick, uav[index], target)
@@ -276,7 +313,7 @@ class ScenarioExecutor:
 
     def _all_done(self) -> bool:
         for machine in self._setup.machines:
-            if not machine.landed:  # the usual answer
+            if not machine.done:  # the usual answer
                 return False
         return self._runner.done and all(link.idle for link in self._setup.links)
 

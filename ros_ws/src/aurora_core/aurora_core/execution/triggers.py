@@ -31,7 +31,7 @@ class Progress:
     received: set[tuple[str, str]] = field(default_factory=set)  # (receiver, sender)
     missions_done: set[str] = field(default_factory=set)  # UAV ids
     was_false: set[str] = field(default_factory=set)  # event ids
-    ascended: set[str] = field(default_factory=set)  # UAV ids
+    looking: set[str] = field(default_factory=set)  # UAVs between their ascent and way home
 
 
 def holds(
@@ -55,7 +55,9 @@ def holds(
             for receiver, sender in progress.received
         )
     now = _state_holds(trigger, observation, progress)
-    if not now:
+    # Only what was seen can be lost from sight.
+    looks = not isinstance(trigger, VisibilityTrigger) or trigger.observer in progress.looking
+    if not now and looks:
         progress.was_false.add(event.id)
     # Getting far, getting slow and losing sight are changes: what held from the start is none.
     return now and (trigger.on not in NEEDS_CHANGE or event.id in progress.was_false)
@@ -86,7 +88,7 @@ def _state_holds(
     if isinstance(trigger, ArrivalTrigger):
         distance = observation.distance_m(trigger.who, trigger.place)
         return distance is not None and distance <= progress.arrival_m
-    if trigger.observer not in progress.ascended:
-        return False  # a camera on the ground has not lost sight of anything
+    if trigger.observer not in progress.looking:
+        return False
     seen = observation.visible(trigger.observer, trigger.target)
     return seen if trigger.on == 'visible' else not seen

@@ -23,7 +23,10 @@ from aurora_core.spec.scenario import (
     ScenarioSpec,
     UavAction,
 )
-from aurora_core.spec.vocabulary import AgentType
+from aurora_core.spec.vocabulary import AgentType, ClauseStatus
+
+# Statements that clash with each other: a word that was not read may keep them apart.
+_BETWEEN_STATEMENTS = (Rule.PLACEMENT, Rule.ORDER, Rule.DEADLINE, Rule.HORIZON)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -57,7 +60,7 @@ def check_request(
     """
     beyond_limits = check_limits(spec, limits, types).certificates
     named = {c.span for c in beyond_limits}
-    certificates = (
+    found = (
         *beyond_limits,
         *(c for c in check_signs(spec) if c.span not in named),
         *check_geometry(spec, limits, tolerances),
@@ -65,8 +68,27 @@ def check_request(
         *check_placements(spec, tolerances),
         *check_zones(spec, map_model.zones, map_model.landmarks, limits, tolerances),
     )
-    result = Feasibility.INFEASIBLE if certificates else Feasibility.FEASIBLE
-    return FeasibilityVerdict(result=result, certificates=certificates)
+    doubtful = [c for c in found if c.rule in _BETWEEN_STATEMENTS and _half_read(spec, c)]
+    certificates = tuple(c for c in found if c not in doubtful)
+    if certificates:
+        return FeasibilityVerdict(result=Feasibility.INFEASIBLE, certificates=certificates)
+    notes = tuple(f'{c.sentence} But part of that clause was not read.' for c in doubtful)
+    result = Feasibility.UNKNOWN if doubtful else Feasibility.FEASIBLE
+    return FeasibilityVerdict(result=result, notes=notes)
+
+
+def _half_read(spec: ScenarioSpec, certificate: Certificate) -> bool:
+    """Tell whether a word was not read in a clause that clashes with another statement.
+
+    `starts 20 m behind it and ends 10 m ahead`: without `ends` they clash, with it they do not.
+    """
+    at = certificate.span
+    if at is None:
+        return False
+    unread = [c.span for c in spec.clauses if c.status is ClauseStatus.NOT_ENCODED]
+    clauses = [c.span for c in spec.clauses if c.status is ClauseStatus.ENCODED]
+    around = [c for c in clauses if c.start <= at.start and at.end <= c.end]
+    return any(c.start <= u.start and u.end <= c.end for c in around for u in unread)
 
 
 def check_limits(

@@ -16,6 +16,7 @@ import shapely
 
 from aurora_core.feasibility.facts import limit_facts, map_fact, says, tolerance_facts
 from aurora_core.feasibility.stated import is_stated, least, most
+from aurora_core.geometry.frames import offset_at_bearing
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_types import Landmark, NoFlyZone
 from aurora_core.outcomes.feasibility import Certificate, Fact, Rule
@@ -157,5 +158,5 @@ def _sector(
 
 
 def _at(centre: tuple[float, float], radius_m: float, bearing_deg: float) -> tuple[float, float]:
-    compass = math.radians(bearing_deg)
-    return centre[0] + radius_m * math.sin(compass), centre[1] + radius_m * math.cos(compass)
+    east_m, north_m = offset_at_bearing(radius_m, bearing_deg)
+    return centre[0] + east_m, centre[1] + north_m

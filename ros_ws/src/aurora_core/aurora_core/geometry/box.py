@@ -4,95 +4,10 @@
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass
-
 import numpy as np
 
-from aurora_core.errors import AuroraError
 from aurora_core.geometry.arrays import FloatArray, FloatOrArray
 from aurora_core.geometry.kernel import norm2_array
-
-_UNIT_TOLERANCE = 1e-6
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class OrientedBox:
-    """A rectangle on the ground, ENU map frame.
-
-    Attributes:
-        x_m: Centre, metres east.
-        y_m: Centre, metres north.
-        heading_x: Unit vector of the heading, east component.
-        heading_y: North component.
-        length_m: Extent along the heading.
-        width_m: Extent across it.
-    """
-
-    x_m: float
-    y_m: float
-    heading_x: float
-    heading_y: float
-    length_m: float
-    width_m: float
-
-    def __post_init__(self) -> None:
-        """Check the values.
-
-        Raises:
-            AuroraError: A heading that is no unit vector, a size that is not positive, or a
-                value that is not finite.
-        """
-        square = self.heading_x * self.heading_x + self.heading_y * self.heading_y
-        sound = (
-            math.isfinite(self.x_m)
-            and math.isfinite(self.y_m)
-            and abs(square - 1.0) <= _UNIT_TOLERANCE
-            and 0.0 < self.length_m < math.inf
-            and 0.0 < self.width_m < math.inf
-        )
-        if not sound:
-            raise AuroraError(
-                f'geometry: a finite box of positive size with a unit heading expected, '
-                f'found {self}',
-                component='geometry',
-            )
-
-    def corners(self) -> FloatArray:
-        """Return the corners (4, 2): front left, rear left, rear right, front right."""
-        ux, uy = self.heading_x * self.length_m / 2.0, self.heading_y * self.length_m / 2.0
-        vx, vy = -self.heading_y * self.width_m / 2.0, self.heading_x * self.width_m / 2.0
-        return np.array(
-            [
-                (self.x_m + ux + vx, self.y_m + uy + vy),
-                (self.x_m - ux + vx, self.y_m - uy + vy),
-                (self.x_m - ux - vx, self.y_m - uy - vy),
-                (self.x_m + ux - vx, self.y_m + uy - vy),
-            ]
-        )
-
-
-def box_gap(a: OrientedBox, b: OrientedBox) -> float:
-    """Return the signed gap of two boxes, bit for bit that of `box_gap_series`.
-
-    Returns:
-        Metres: above 0 the least distance, below 0 how deep they overlap.
-    """
-    gap = box_gap_series(
-        np.array([a.x_m]),
-        np.array([a.y_m]),
-        np.array([a.heading_x]),
-        np.array([a.heading_y]),
-        a.length_m,
-        a.width_m,
-        np.array([b.x_m]),
-        np.array([b.y_m]),
-        np.array([b.heading_x]),
-        np.array([b.heading_y]),
-        b.length_m,
-        b.width_m,
-    )
-    return float(gap[0])
 
 
 def box_gap_series(

@@ -29,6 +29,14 @@ EARTH_RADIUS_M = 6371000.0
 _SQRT_HALF = math.sqrt(0.5)
 _HALF_PI = math.pi / 2.0
 _TWO_PI = 2.0 * math.pi
+# A negative angle next to none rounds up to the full turn.
+_QUARTERS = {
+    0.0: (0.0, 1.0),
+    90.0: (1.0, 0.0),
+    180.0: (0.0, -1.0),
+    270.0: (-1.0, 0.0),
+    360.0: (0.0, 1.0),
+}
 
 
 def wrap_angle(angle_rad: float) -> float:
@@ -113,25 +121,39 @@ def compass_deg_to_yaw_enu(angle_deg: float) -> float:
     return wrap_angle(math.radians(90.0 - angle_deg))
 
 
-def yaw_enu_to_sumo_angle(yaw_enu_rad: float) -> float:
-    """Return SUMO's angle (degrees clockwise from north, [0, 360)) of an ENU yaw."""
-    return yaw_enu_to_compass_deg(yaw_enu_rad)
-
-
-def sumo_angle_to_yaw_enu(angle_deg: float) -> float:
-    """Return the ENU yaw in (-pi, pi] of SUMO's angle."""
-    return compass_deg_to_yaw_enu(angle_deg)
-
-
 def sumo_angle_to_heading(angle_deg: float) -> tuple[float, float]:
-    """Return the unit vector (east, north) that SUMO's angle points along."""
-    angle_rad = math.radians(angle_deg)
+    """Return the unit vector (east, north) that SUMO's angle points along.
+
+    Quarter turns are exact (`math.sin` of pi is not 0), so streets along the axes give
+    coordinates without rounding dust.
+
+    Args:
+        angle_deg: Degrees clockwise from north, any real number.
+    """
+    turned_deg = math.fmod(angle_deg, 360.0)
+    if turned_deg < 0.0:
+        turned_deg += 360.0
+    exact = _QUARTERS.get(turned_deg)
+    if exact is not None:
+        return exact
+    angle_rad = math.radians(turned_deg)
     return math.sin(angle_rad), math.cos(angle_rad)
 
 
 def heading_to_sumo_angle(east: float, north: float) -> float:
-    """Return SUMO's angle of a direction (east, north), which need not be a unit vector."""
-    return yaw_enu_to_compass_deg(math.atan2(north, east))
+    """Return SUMO's angle, in [0, 360], of a vector of any length; exact along the axes."""
+    if east == 0.0:
+        return 0.0 if north >= 0.0 else 180.0
+    if north == 0.0:
+        return 90.0 if east > 0.0 else 270.0
+    angle_deg = math.degrees(math.atan2(east, north))
+    return angle_deg if angle_deg >= 0.0 else angle_deg + 360.0
+
+
+def offset_at_bearing(distance_m: float, bearing_deg: float) -> tuple[float, float]:
+    """Return (east, north) in metres of what lies at a distance, clockwise from north."""
+    compass_rad = bearing_deg * math.pi / 180.0
+    return distance_m * math.sin(compass_rad), distance_m * math.cos(compass_rad)
 
 
 def quaternion_to_yaw_enu(w: float, x: float, y: float, z: float) -> float:

@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
 
 import numpy as np
@@ -39,24 +38,6 @@ class ObstacleField:
     def __init__(self, prisms: Iterable[Prism]) -> None:
         self._table = PrismTable(prisms)
 
-    @property
-    def prisms(self) -> tuple[Prism, ...]:
-        """The prisms, as given."""
-        return self._table.prisms
-
-    def clearance(self, point_xyz: FloatLike, cutoff_m: float = math.inf) -> float:
-        """Return the least signed distance of a point to any prism.
-
-        Args:
-            point_xyz: (3,) ENU metres.
-            cutoff_m: Greatest distance that is told apart.
-
-        Returns:
-            Metres; the cutoff beyond it or if there is no prism (infinite unless stated).
-            Below the cutoff bit for bit the value of `clearance_series`.
-        """
-        return float(self._clearance(as_point('point_xyz', point_xyz, 3), cutoff_m)[0])
-
     def clearance_series(
         self, points: FloatLike, cutoff_m: float = DEFAULT_CUTOFF_M
     ) -> FloatArray:
@@ -70,24 +51,6 @@ class ObstacleField:
             (T,) metres, at most the cutoff. NaN where the point is not finite.
         """
         return self._clearance(as_rows('points', points, 3), cutoff_m)
-
-    def nearest(self, point_xyz: FloatLike) -> tuple[str, float]:
-        """Return the id of the prism nearest to a point and the signed distance to it.
-
-        Args:
-            point_xyz: (3,) ENU metres.
-
-        Returns:
-            Id and metres; the first in map order of equally near ones; '' and infinity if there
-            is no prism or the point is not finite.
-        """
-        point = as_point('point_xyz', point_xyz, 3)
-        if len(self._table) == 0 or not np.isfinite(point).all():
-            return '', math.inf
-        item = np.arange(len(self._table), dtype=np.intp)
-        distance = self._pair_clearance(point.repeat(len(item), axis=0), item)
-        best = int(np.argmin(distance))
-        return self.prisms[best].prism_id, float(distance[best])
 
     def segment_clearance(
         self, p_xyz: FloatLike, q_xyz: FloatLike, cutoff_m: float = DEFAULT_CUTOFF_M
@@ -106,40 +69,6 @@ class ObstacleField:
         """
         p, q = as_point('p_xyz', p_xyz, 3), as_point('q_xyz', q_xyz, 3)
         return float(self._segments(p, q, cutoff_m)[0])
-
-    def segment_clearance_series(
-        self, p: FloatLike, q: FloatLike, cutoff_m: float = DEFAULT_CUTOFF_M
-    ) -> FloatArray:
-        """Return `segment_clearance` for many segments.
-
-        Args:
-            p: (S, 3) starts, ENU metres.
-            q: (S, 3) ends.
-            cutoff_m: Greatest distance that is told apart.
-
-        Returns:
-            (S,) metres. NaN where an end is not finite.
-        """
-        starts, ends = as_rows('p', p, 3), as_rows('q', q, 3)
-        same_length(p=starts, q=ends)
-        return self._segments(starts, ends, cutoff_m)
-
-    def polyline_clearance(self, points: FloatLike, cutoff_m: float = DEFAULT_CUTOFF_M) -> float:
-        """Return the least distance of a flight path to any prism.
-
-        Args:
-            points: (K, 3) ENU metres, joined by straight segments; K = 1 is a point.
-            cutoff_m: Greatest distance that is told apart.
-
-        Returns:
-            Metres, as `segment_clearance`; the cutoff for a path without points. NaN if a point
-            is not finite.
-        """
-        path = as_rows('points', points, 3)
-        if len(path) == 0:
-            return cutoff_m
-        ends = path[1:] if len(path) > 1 else path
-        return float(self._segments(path[: len(ends)], ends, cutoff_m).min())
 
     def _clearance(self, points: FloatArray, cutoff_m: float) -> FloatArray:
         finite = finite_rows(points)

@@ -87,43 +87,6 @@ class SightModel:
         same_length(observer=start, target=end)
         return self._series(start, end)
 
-    def blocker(self, observer_xyz: FloatLike, target_xyz: FloatLike) -> tuple[str, float]:
-        """Return the id of the building that a line clears least, and the margin over it.
-
-        Args:
-            observer_xyz: (3,) ENU metres.
-            target_xyz: (3,) ENU metres.
-
-        Returns:
-            Id and metres; the first in map order of equal ones; '' and SIGHT_CLEAR_M if the
-            line passes no footprint.
-        """
-        start = as_point('observer_xyz', observer_xyz, 3)
-        end = as_point('target_xyz', target_xyz, 3)
-        low, high = np.minimum(start, end), np.maximum(start, end)
-        found = ('', SIGHT_CLEAR_M)
-        for _, row, item in self._table.footprints.near(
-            low[:, 0], low[:, 1], high[:, 0], high[:, 1], 0.0
-        ):
-            margin = self._margins(start[row], end[row], item)
-            for k in np.argsort(item):
-                if margin[k] < found[1]:
-                    found = (self.prisms[item[k]].prism_id, float(margin[k]))
-        return found
-
-    def vehicle_clearance_series(
-        self,
-        observer: FloatLike,
-        target: FloatLike,
-        centres: FloatLike,
-        headings: FloatLike,
-        length_m: FloatOrArray,
-        width_m: FloatOrArray,
-        height_m: FloatOrArray,
-    ) -> FloatArray:
-        """Return the margin of many lines over one moving box; see `box_sight_series`."""
-        return box_sight_series(observer, target, centres, headings, length_m, width_m, height_m)
-
     def _series(self, start: FloatArray, end: FloatArray) -> FloatArray:
         finite = finite_rows(start, end)
         if not finite.all():

@@ -13,17 +13,31 @@ import numpy as np
 
 from aurora_core.errors import MapError
 from aurora_core.geometry.kernel import norm2
-from aurora_core.grounding.convoy import STILL, SceneSplit
+from aurora_core.grounding.convoy import SceneSplit, parks, stands
+from aurora_core.grounding.free_run import free_run_m, needed_run_m
+from aurora_core.grounding.goals import STOP_AFTER_M, GoalFinder, stops
+from aurora_core.grounding.kept_gaps import KeptGap, kept_gaps
+from aurora_core.grounding.lane_changers import ORDERED_CHANGES, changes_lane
 from aurora_core.grounding.pace import (
+    EMERGENCY_FACTOR,
     Encounter,
     convoy_pace_mps,
     encounters,
+    fastest_stated_mps,
+    in_emergency,
     moves,
     own_speed_mps,
     stated_speed_mps,
 )
 from aurora_core.grounding.routes import RouteFinder
-from aurora_core.grounding.sites import SeatedAgent, Site, on_main_roads, tied_way_m
+from aurora_core.grounding.sites import (
+    SeatedAgent,
+    Site,
+    brisk_lanes,
+    on_main_roads,
+    tied_way_m,
+    with_another_lane,
+)
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Limits
 from aurora_core.knowledge.map_model import MapModel
@@ -32,12 +46,28 @@ from aurora_core.knowledge.route_path import RoutePath
 from aurora_core.knowledge.settings import Settings
 from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
 from aurora_core.spec.events import sets_off
-from aurora_core.spec.scenario import GroundAgent, ScenarioSpec, TimeTrigger, UavMission
+from aurora_core.spec.flight_order import begun_by, left_by
+from aurora_core.spec.scenario import (
+    ArrivalTrigger,
+    GroundAgent,
+    ScenarioSpec,
+    TimeTrigger,
+    UavMission,
+)
 from aurora_core.spec.vocabulary import BehaviorKind, MissionMode, Place
+
+# Free space between the border of its lane and the flank of a parked vehicle (m).
+KERB_CLEARANCE_M = 0.3
+
+# Speed limit of the slowest streets (m/s).
+_SLOWEST_MPS = 8.0
 
 # Tries at random places before all places are looked through, and how far apart those are (m).
 _TRIES = 400
 _SCAN_M = 5.0
+
+# Routes tried for one on which no signal is in the way.
+_RUNS_TRIED = 60
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -57,6 +87,7 @@ class AgentPlacer:
         types: Agent sizes.
         settings: Style of driving.
         limits: Limits in force.
+        goals: Where vehicles stop by themselves.
     """
 
     def __init__(
@@ -65,7 +96,9 @@ class AgentPlacer:
         types: Mapping[str, AgentTypeRecord],
         settings: Settings,
         limits: Limits,
+        goals: GoalFinder,
     ) -> None:
+        self._goals = goals
         self._map = map_model
         self._types = types
         self._settings = settings
@@ -76,15 +109,20 @@ class AgentPlacer:
         factor = self._convoy_factor(spec, site)
         meetings = encounters(spec)
         release = _release(spec, split)
-        seats = {s.member.agent.id: s for s in site.seated}
+        seats = {s.agent.id: s for s in (*site.seated, *site.others)}
         front_m = max((s.arc_m for s in site.seated), default=0.0)
+        gaps = kept_gaps(spec, seats, self._types)
+        parting = any(changes_lane(spec, s.agent) for s in site.seated)
         placed = []
         for agent in spec.agents:
             seat = seats.get(agent.id)
             if seat is None:
                 continue
-            style = self._style(agent, factor, seats, meetings, is_front=seat.arc_m >= front_m)
-            still = any(b.kind in STILL for b in agent.behaviors)
+            # Who is slower would be passed once one of them has another lane.
+            is_front = seat.arc_m >= front_m or parting
+            style = self._style(agent, factor, seats, meetings, gaps, is_front=is_front)
+            parked = parks(spec, agent)
+            still = parked or stands(agent)
             placed.append(
                 self._grounded(
                     agent,
@@ -94,7 +132,9 @@ class AgentPlacer:
                     still=still,
                     speed_mps=stated_speed_mps(spec, agent),
                     style=style,
-                    tied=len(site.seated) > 1,
+                    lane_changes=self._lane_changes(spec, agent, tied=len(site.seated) > 1),
+                    stop_m=self._goals.stop_arc_m(spec, site, seat),
+                    parked=parked,
                 )
             )
         return placed
@@ -119,7 +159,9 @@ class AgentPlacer:
         for agent in split.free:
             release = _own_release(spec, agent, _Release())
             others = list(found.values())
-            grounded = self._free_agent(agent, release, (x0, y0), others, run_m, generator)
+            grounded = self._free_agent(
+                spec, agent, release, (x0, y0), others, run_m, generator, parked=parks(spec, agent)
+            )
             if grounded is None:
                 missing.append(f'{agent.id}: no free lane within reach')
             else:
@@ -128,30 +170,42 @@ class AgentPlacer:
 
     def _free_agent(
         self,
+        spec: ScenarioSpec,
         agent: GroundAgent,
         release: _Release,
         centre: tuple[float, float],
         others: list[GroundedAgent],
         run_m: float,
         generator: np.random.Generator,
+        *,
+        parked: bool,
     ) -> GroundedAgent | None:
         record = self._types[agent.type.value]
         network = self._map.network
-        finder = RouteFinder(network, record.vclass)
+        drivable, least_mps = brisk_lanes(
+            list(network.driving_lanes(record.vclass)), own_speed_mps(agent) or 0.0
+        )
+        finder = RouteFinder(network, record.vclass, least_mps)
         low, high = self._settings.grounding.background_radius_m
         lanes = [
             lane
-            for lane in network.driving_lanes(record.vclass)
+            for lane in drivable
             if finder.endless(lane.edge_id) and lane.length_m > 2.0 * record.length_m + 4.0
         ]
         if any(p.of == Place.MAIN_ROAD for p in agent.placements):
             lanes = on_main_roads(lanes)
+        if changes_lane(spec, agent):
+            lanes = with_another_lane(lanes)
         if not lanes:
             return None
         margin = record.length_m / 2.0 + 1.0
         drawn = ((p, high) for p in _drawn(lanes, margin, generator))
         # A crowd that fills the surroundings may spread over the whole map.
         scanned = ((p, inf) for p in self._scanned(lanes, margin, centre))
+        pace_mps = own_speed_mps(agent) or self._settings.grounding.target_speed_mps
+        needed_m = needed_run_m(spec, agent, pace_mps)
+        best: tuple[float, RoutePath, float] | None = None
+        tries = 0
         for (lane, position), reach in itertools.chain(drawn, scanned):
             x, y, _, _ = network.position_on_lane(lane.id, position)
             away = sqrt((x - centre[0]) ** 2 + (y - centre[1]) ** 2)
@@ -168,17 +222,28 @@ class AgentPlacer:
                 )
             except MapError:
                 continue
-            return self._grounded(
-                agent,
-                path,
-                path.arc_of(lane.id, position),
-                release=release,
-                still=any(b.kind in STILL for b in agent.behaviors),
-                speed_mps=own_speed_mps(agent),
-                style={},
-                tied=False,
-            )
-        return None
+            arc_m = path.arc_of(lane.id, position)
+            tries += 1
+            free_m = min(needed_m, free_run_m(path, arc_m))
+            if best is None or free_m > best[0]:
+                best = (free_m, path, arc_m)
+            if best[0] >= needed_m or tries >= _RUNS_TRIED:
+                break
+        if best is None:
+            return None
+        _, path, arc_m = best
+        return self._grounded(
+            agent,
+            path,
+            arc_m,
+            release=release,
+            still=parked or stands(agent),
+            speed_mps=own_speed_mps(agent),
+            style={'speed_factor': _emergency_factor(agent)} if in_emergency(agent) else {},
+            lane_changes=self._lane_changes(spec, agent, tied=False),
+            stop_m=arc_m + STOP_AFTER_M if stops(agent) else None,
+            parked=parked,
+        )
 
     def _scanned(
         self, lanes: list[Lane], margin: float, centre: tuple[float, float]
@@ -208,14 +273,23 @@ class AgentPlacer:
         still: bool,
         speed_mps: float | None,
         style: dict[str, float],
-        tied: bool,
+        lane_changes: int | None,
+        stop_m: float | None,
+        parked: bool = False,
     ) -> GroundedAgent:
         record = self._types[agent.type.value]
         lane_id, position_m = path.lane_position_at(arc_m)
         first = self._map.network.lane(lane_id).edge_id
         edges = path.edge_ids[path.edge_ids.index(first) :]
         x, y, hx, hy = path.position_at(arc_m)
-        route_xy_m = _line_from(path, arc_m)
+        if parked:  # right of its lane
+            width_m = self._map.network.lane(lane_id).width_m
+            aside_m = 0.5 * width_m + 0.5 * record.width_m + KERB_CLEARANCE_M
+            x, y = x + aside_m * hy, y - aside_m * hx
+        route_xy_m = ((x, y), *line_from(path, arc_m)[1:])
+        stop_lane_id, stop_position_m = '', 0.0
+        if stop_m is not None:
+            stop_lane_id, stop_position_m = path.lane_position_at(stop_m)
         return GroundedAgent(
             id=agent.id,
             type_name=agent.type.value,
@@ -232,17 +306,27 @@ class AgentPlacer:
             y_m=y,
             heading_x=hx,
             heading_y=hy,
-            speed_factor=style.get('speed_factor', 1.0),
+            speed_factor=max(style.get('speed_factor', 1.0), _urged(record, speed_mps)),
             time_gap_s=style.get('time_gap_s'),
             min_gap_m=style.get('min_gap_m'),
-            lane_change_mode=self._settings.run.convoy_lane_change_mode if tied else None,
+            gentle_mps2=style.get('gentle_mps2'),
+            lane_change_mode=lane_changes,
             release=ReleaseOn.NEVER if still else release.on,
             release_uav=release.uav,
             release_mission=release.mission,
             drive_speed_mps=speed_mps,
             acceleration_mps2=record.accel_mps2,
             deceleration_mps2=record.decel_mps2,
+            parked=parked,
+            stop_lane_id=stop_lane_id,
+            stop_position_m=stop_position_m,
         )
+
+    def _lane_changes(self, spec: ScenarioSpec, agent: GroundAgent, *, tied: bool) -> int | None:
+        """Return when a vehicle changes lane of its own accord, as a SUMO bit set."""
+        if changes_lane(spec, agent):
+            return ORDERED_CHANGES
+        return self._settings.run.convoy_lane_change_mode if tied else None
 
     def _convoy_factor(self, spec: ScenarioSpec, site: Site) -> float:
         """Slow a tracked, observed or tied convoy to its pace."""
@@ -253,7 +337,8 @@ class AgentPlacer:
         if not watched and len(site.seated) < 2:
             return 1.0
         fastest = site.fastest_mps(self._map.network, tied_way_m(spec, self._settings.grounding))
-        pace = convoy_pace_mps(spec, self._limits, self._settings.grounding)
+        stated = fastest_stated_mps(spec, (s.agent for s in site.seated))
+        pace = max(stated, convoy_pace_mps(spec, self._limits, self._settings.grounding))
         return min(1.0, pace / fastest)
 
     def _style(
@@ -262,6 +347,7 @@ class AgentPlacer:
         factor: float,
         seats: Mapping[str, SeatedAgent],
         meetings: tuple[Encounter, ...],
+        gaps: tuple[KeptGap, ...],
         *,
         is_front: bool,
     ) -> dict[str, float]:
@@ -273,9 +359,12 @@ class AgentPlacer:
             if None in pair or agent.id not in (meeting.actor, meeting.other):
                 continue
             front = max((s for s in pair if s is not None), key=lambda s: s.arc_m)
+            # A stated speed stays: who comes up behind has to be faster then.
+            bound = own_speed_mps(front.member.agent) is not None
             if front.member.agent.id == agent.id:
-                factor *= chased
+                factor *= 1.0 if bound else chased
             else:
+                factor /= chased if bound and own_speed_mps(agent) is None else 1.0
                 close = meeting.within_m <= self._settings.grounding.close_encounter_m
         if close or any(b.kind is BehaviorKind.TAILGATE for b in agent.behaviors):
             return {
@@ -283,8 +372,31 @@ class AgentPlacer:
                 'time_gap_s': run.tailgate_time_gap_s,
                 'min_gap_m': run.tailgate_min_gap_m,
             }
+        if in_emergency(agent):
+            return {'speed_factor': _emergency_factor(agent)}
         behind = self._settings.grounding.convoy_speed_factor_behind
-        return {'speed_factor': factor if is_front else factor * behind}
+        style = {'speed_factor': factor if is_front else factor * behind}
+        for gap in gaps:
+            if gap.follower == agent.id:
+                style |= {'min_gap_m': gap.gap_m, 'time_gap_s': run.dt_s}
+            elif gap.leader == agent.id:
+                style['gentle_mps2'] = min(
+                    gap.acceleration_mps2, style.get('gentle_mps2', gap.acceleration_mps2)
+                )
+        return style
+
+
+def _emergency_factor(agent: GroundAgent) -> float:
+    """Return what an emergency run makes of speed limits: enough for a stated speed anywhere."""
+    stated = own_speed_mps(agent)
+    return EMERGENCY_FACTOR if stated is None else max(EMERGENCY_FACTOR, stated / _SLOWEST_MPS)
+
+
+def _urged(record: AgentTypeRecord, speed_mps: float | None) -> float:
+    """Return the factor with which a type goes faster than it likes to, 0 where it need not."""
+    if speed_mps is None or record.desired_speed_mps is None:
+        return 0.0
+    return speed_mps / record.desired_speed_mps if speed_mps > record.desired_speed_mps else 0.0
 
 
 def _drawn(
@@ -296,7 +408,7 @@ def _drawn(
         yield lane, margin + float(generator.random()) * (lane.length_m - 2.0 * margin)
 
 
-def _line_from(path: RoutePath, arc_m: float) -> tuple[tuple[float, float], ...]:
+def line_from(path: RoutePath, arc_m: float) -> tuple[tuple[float, float], ...]:
     """Return the path from `arc_m` on as points (x, y), metres."""
     x, y, _, _ = path.position_at(arc_m)
     points = [(x, y)]
@@ -327,15 +439,35 @@ def _release(spec: ScenarioSpec, split: SceneSplit) -> _Release:
         target = members.get(mission.target or '')
         if target is None or mission.mode is MissionMode.NAVIGATE:
             continue
+        if begun_by(spec, mission) is not None:
+            before = _watched_from(spec, mission)
+            if before is None:
+                continue
+            return _Release(on=ReleaseOn.CAPTURED, uav=before.uav, mission=before.id)
         if mission.mode is MissionMode.HOVER and not moves(spec, target):
             return _Release(on=ReleaseOn.OBSERVED, uav=mission.uav)
         last = _captured_last(spec, mission)
         return _Release(on=ReleaseOn.CAPTURED, uav=last.uav, mission=last.id)
-    met = {name for m in encounters(spec) for name in (m.actor, m.other)}
+    arriving = {t.who for t in (e.trigger for e in spec.events) if isinstance(t, ArrivalTrigger)}
+    for mission in spec.missions:
+        ends = left_by(spec, mission)
+        awaited = None if ends is None else ends.trigger
+        flies = mission.mode is MissionMode.NAVIGATE
+        if flies and isinstance(awaited, ArrivalTrigger) and awaited.who in members:
+            # Broken off before its first lap is over, a route would not show.
+            return _Release(on=ReleaseOn.LAPPED, uav=mission.uav, mission=mission.id)
+    met = {name for m in encounters(spec) for name in (m.actor, m.other)} | arriving
     for mission in spec.missions:
         if met & set(members):
             return _Release(on=ReleaseOn.ASCENDED, uav=mission.uav)
     return _Release()
+
+
+def _watched_from(spec: ScenarioSpec, mission: UavMission) -> UavMission | None:
+    """Return the mission in which a UAV awaits the event that lets another one begin."""
+    own = [m for m in spec.missions if m.uav == mission.uav]
+    before = [m for m in own[: own.index(mission)] if begun_by(spec, m) is None]
+    return before[-1] if before else None
 
 
 def _captured_last(spec: ScenarioSpec, mission: UavMission) -> UavMission:
@@ -346,5 +478,9 @@ def _captured_last(spec: ScenarioSpec, mission: UavMission) -> UavMission:
     first = {m.uav: m for m in reversed(spec.missions)}.values()
     if mission not in first:
         return mission
-    sharing = [m for m in first if m.target == mission.target and m.mode is mission.mode]
+    sharing = [
+        m
+        for m in first
+        if m.target == mission.target and m.mode is mission.mode and begun_by(spec, m) is None
+    ]
     return max((mission, *sharing), key=lambda m: m.altitude_m.value)

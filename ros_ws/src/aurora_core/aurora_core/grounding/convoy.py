@@ -8,11 +8,22 @@ reference point from the convoy's origin (positive: ahead) and a lane shift (pos
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 
 from aurora_core.grounding.pace import Encounter, encounters
+from aurora_core.grounding.places import POINTS, bound_to_places, has_point
+from aurora_core.knowledge.limits import EXACT, Tolerance
+from aurora_core.spec.own_events import let_pass, own_events
 from aurora_core.spec.parameter import Parameter, Provenance
-from aurora_core.spec.scenario import GroundAgent, Placement, ScenarioSpec
+from aurora_core.spec.scenario import (
+    AgentAction,
+    GroundAgent,
+    Placement,
+    ScenarioSpec,
+    SendMessage,
+)
 from aurora_core.spec.vocabulary import AgentType, BehaviorKind, Place, Relation, Role
 
 # Relations that a convoy can hold, as (sign of the offset, lane shift).
@@ -33,15 +44,52 @@ DEFAULT_GAP_M = 20.0
 # Distance beyond the trigger distance at which two vehicles that are to meet start.
 ENCOUNTER_ROOM_M = 15.0
 
+# Two vehicles whose places are nearer than this stand in each other's way, and how far apart they
+# line up behind a third one: the last one still has to follow it (m, centre to centre).
+_QUEUE_M = 14.0
+_IN_LINE_M = 15.0
+
 # Gap in front of a group of vehicles that nothing relates to those before it.
 DETACHED_M = 40.0
 
+# What is said of a second one who is to stand before such a place.
+BEFORE = 'placement before a place'
+
+# Share of a bound on the way that is left for corners and stops; nobody comes closer for it than
+# this (m): two buses still have room.
+_KEPT_ROOM = 0.25
+_ROOMY_FROM_M = 14.0
+
 _SAME_PLACE_M = 1e-6
 
-# Where a vehicle is anyway, and where it can be put.
-_ROADS = (None, Place.MAIN_ROAD)
+# Where a vehicle is anyway, at the right kerb, and where it can be put.
+_ROADS = (None, Place.MAIN_ROAD, Place.ROADSIDE)
 
-STILL = frozenset({BehaviorKind.STOP, BehaviorKind.WAIT, BehaviorKind.PARK})
+_MOVES = frozenset({BehaviorKind.DRIVE, BehaviorKind.WALK, BehaviorKind.CROSS, BehaviorKind.STOP})
+
+# Where a vehicle can be put at a place with a point; no distance is stated but with `near`.
+_AT = (Relation.NEAR, Relation.AT, Relation.PARKED_AT)
+
+_ON = (Relation.ON, Relation.AT, Relation.PARKED_AT)
+
+_STILL = frozenset({BehaviorKind.WAIT, BehaviorKind.PARK})
+
+
+def parks(spec: ScenarioSpec, agent: GroundAgent) -> bool:
+    """Tell whether a vehicle stands beside the traffic for the whole run."""
+    told = any(b.kind is BehaviorKind.PARK for b in agent.behaviors)
+    told = told or any(p.relation is Relation.PARKED_AT for p in agent.placements)
+    moved = any(
+        isinstance(e.action, AgentAction) and e.action.agent == agent.id for e in spec.events
+    )
+    return told and not moved and not any(b.kind in _MOVES for b in agent.behaviors)
+
+
+def stands(agent: GroundAgent) -> bool:
+    """Tell whether an agent is to stand all along, unless an event sets it off."""
+    return any(b.kind in _STILL for b in agent.behaviors) and not any(
+        b.kind in _MOVES for b in agent.behaviors
+    )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -55,24 +103,66 @@ class ConvoyMember:
 
 @dataclass(frozen=True, slots=True)
 class _Tie:
-    """`agent` is `offset_m` ahead of `other` along the route, `lane_shift` lanes to its left."""
+    """`agent` is `offset_m` ahead of `other` along the route, `lane_shift` lanes to its left.
+
+    Nobody says how far that is where it is `free`.
+    """
 
     agent: str
     other: str
     offset_m: float
     lane_shift: int
+    free: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class BeforeIntersection:
-    """A member whose place along its route an intersection decides.
+class _Distances:
+    """How far apart two vehicles of the convoy start.
+
+    Attributes:
+        tolerance: So far inside a one-sided distance they are put.
+        meetings: Encounters still to come.
+    """
+
+    tolerance: Tolerance
+    meetings: tuple[Encounter, ...]
+
+    def placed(self, agent: str, other: str | None, placement: Placement) -> float:
+        """Return the distance that a placement asks for, metres.
+
+        A bound that is kept on the way leaves room for corners and stops, too.
+        """
+        stated = placement.distance_m
+        distance_m = self.between(agent, other, stated)
+        if stated is None or not placement.keeps_distance:
+            return distance_m
+        roomy_m = stated.inside(_KEPT_ROOM * stated.value)
+        return max(roomy_m, min(distance_m, _ROOMY_FROM_M))
+
+    def between(self, agent: str, other: str | None, stated: Parameter | None) -> float:
+        """Return a distance, metres; a free one leaves room for an encounter."""
+        if stated is not None and stated.provenance is Provenance.EXPLICIT:
+            return stated.inside(self.tolerance.of(stated.value))
+        room = [
+            m.within_m + ENCOUNTER_ROOM_M
+            for m in self.meetings
+            if {m.actor, m.other} == {agent, other}
+        ]
+        return max([DEFAULT_GAP_M if stated is None else stated.value, *room])
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BeforePlace:
+    """A member whose place along its route an intersection or a crosswalk decides.
 
     Attributes:
         agent: Id.
-        distance_m: Along its route from its reference point to the centre of the intersection.
+        place: What it stands before.
+        distance_m: Along its route from its reference point to the middle of that.
     """
 
     agent: str
+    place: Place
     distance_m: float
 
 
@@ -84,36 +174,57 @@ class SceneSplit:
         convoy: Vehicles with relations to each other (the origin first).
         free: Vehicles without a relation, placed around.
         persons: Pedestrians.
+        oncoming: Vehicles in the other direction of a member's street.
         unsupported: Placements that grounding cannot realise yet, in words.
-        before: The member that is placed before an intersection, None when nobody is.
+        before: The member that is placed before such a place, None when nobody is.
     """
 
     convoy: tuple[ConvoyMember, ...]
     free: tuple[GroundAgent, ...]
     persons: tuple[GroundAgent, ...]
     unsupported: tuple[str, ...]
-    before: BeforeIntersection | None = None
+    oncoming: tuple[GroundAgent, ...] = ()
+    before: BeforePlace | None = None
 
 
-def split_scene(spec: ScenarioSpec) -> SceneSplit:
-    """Sort the agents of a scene into convoy, free vehicles and persons."""
-    vehicles = [a for a in spec.agents if a.type not in (AgentType.PEDESTRIAN, AgentType.RSU)]
-    persons = tuple(a for a in spec.agents if a.type is AgentType.PEDESTRIAN)
-    unsupported = [f'{a.id}: roadside units' for a in spec.agents if a.type is AgentType.RSU]
+def split_scene(spec: ScenarioSpec, tolerance: Tolerance = EXACT) -> SceneSplit:
+    """Sort the agents of a scene into convoy, free vehicles and persons.
+
+    Args:
+        spec: The request.
+        tolerance: Of placement distances: so far inside a one-sided one everybody is put.
+    """
+    driving = [a for a in spec.agents if a.type not in (AgentType.PEDESTRIAN, AgentType.RSU)]
+    ids = {a.id for a in driving}
+    oncoming = tuple(a for a in driving if (p := oncoming_to(a)) is not None and p.of in ids)
+    vehicles = [a for a in driving if a not in oncoming]
+    # A roadside unit stands on the sidewalk as a person does who waits.
+    persons = tuple(a for a in spec.agents if a.type in (AgentType.PEDESTRIAN, AgentType.RSU))
+    unsupported: list[str] = []
     by_id = {a.id: a for a in vehicles}
-    meetings = encounters(spec)
-    ties = [t for a in vehicles for t in _ties(a, by_id, unsupported, meetings)]
+    distances = _Distances(tolerance=tolerance, meetings=encounters(spec))
+    passing = _passing(spec)
+    ties = [_beside(t, passing) for a in vehicles for t in _ties(a, by_id, unsupported, distances)]
+    ties = _queued(ties, {a.id: {b.kind for b in a.behaviors} for a in vehicles})
     origin = _origin(spec, vehicles, ties)
     if origin is None:
-        _, others = _before_intersection(vehicles, {})
-        unsupported += [f'{i}: placement before intersection' for i in others]
+        _, others = _before_place(vehicles, {}, distances)
+        unsupported += [f'{i}: {BEFORE}' for i in others]
         return SceneSplit(
-            convoy=(), free=tuple(vehicles), persons=persons, unsupported=tuple(unsupported)
+            convoy=(),
+            free=tuple(vehicles),
+            persons=persons,
+            oncoming=oncoming,
+            unsupported=tuple(unsupported),
         )
     offsets = _solve(origin, ties)
     # Everybody who is watched or related to somebody else has to be on the same road, or no UAV
     # could be planned for it: further groups line up behind.
     targets = {m.target for m in spec.missions}
+    targets |= {a.id for a in vehicles if bound_to_places(spec, a)}
+    if targets & set(by_id):
+        # A message has a range: who is to receive one is near those who are watched.
+        targets |= {e.action.receiver for e in spec.events if isinstance(e.action, SendMessage)}
     tied = {i for t in ties for i in (t.agent, t.other)}
     for agent in vehicles:
         if agent.id in offsets or agent.id not in targets | tied:
@@ -127,8 +238,8 @@ def split_scene(spec: ScenarioSpec) -> SceneSplit:
     unsupported += [
         f'{a.id}: places that contradict each other' for a in vehicles if a.id in broken
     ]
-    before, others = _before_intersection(vehicles, offsets)
-    unsupported += [f'{i}: placement before intersection' for i in others]
+    before, others = _before_place(vehicles, offsets, distances)
+    unsupported += [f'{i}: {BEFORE}' for i in others]
     convoy = tuple(
         ConvoyMember(agent=by_id[i], offset_m=offset, lane_shift=shift)
         for i, (offset, shift) in offsets.items()
@@ -138,63 +249,75 @@ def split_scene(spec: ScenarioSpec) -> SceneSplit:
         convoy=convoy,
         free=free,
         persons=persons,
+        oncoming=oncoming,
         unsupported=tuple(unsupported),
         before=before,
     )
 
 
-def _is_before_intersection(placement: Placement) -> bool:
-    return placement.relation is Relation.BEFORE and placement.of == Place.INTERSECTION
+def _is_before_place(placement: Placement) -> bool:
+    return placement.relation is Relation.BEFORE and placement.of in POINTS
 
 
-def _before_intersection(
-    vehicles: list[GroundAgent], offsets: dict[str, tuple[float, int]]
-) -> tuple[BeforeIntersection | None, list[str]]:
+def oncoming_to(agent: GroundAgent) -> Placement | None:
+    """Return the placement that puts an agent into the other direction, None if there is none."""
+    return next((p for p in agent.placements if p.relation is Relation.ONCOMING), None)
+
+
+def _is_at_place(placement: Placement) -> bool:
+    return placement.relation in _AT and has_point(placement.of)
+
+
+def _before_place(
+    vehicles: list[GroundAgent], offsets: dict[str, tuple[float, int]], distances: _Distances
+) -> tuple[BeforePlace | None, list[str]]:
     """Return the first member that is placed so, and everybody else who is to be.
 
     One place on the route fixes the places of all members.
     """
-    asked = [(a.id, p) for a in vehicles for p in a.placements if _is_before_intersection(p)]
+    asked = [(a.id, p) for a in vehicles for p in a.placements if _is_before_place(p)]
     for agent, placement in asked:
         if agent in offsets:
-            stated = placement.distance_m
-            distance_m = DEFAULT_GAP_M if stated is None else stated.value
-            held = BeforeIntersection(agent=agent, distance_m=distance_m)
+            distance_m = distances.placed(agent, None, placement)
+            held = BeforePlace(agent=agent, place=Place(str(placement.of)), distance_m=distance_m)
             return held, [i for i, p in asked if p is not placement]
     return None, [i for i, _ in asked]
 
 
 def can_be_placed(agent: str, placement: Placement, spec: ScenarioSpec) -> bool:
     """Tell whether a placement of a vehicle is realised, once it has found a place at all."""
-    if placement.relation is Relation.ON:
-        return placement.of in _ROADS
-    if _is_before_intersection(placement):
-        return f'{agent}: placement before intersection' not in split_scene(spec).unsupported
+    if placement.relation in _ON and placement.of in _ROADS:
+        return True
+    if _is_at_place(placement):
+        return True
+    if _is_before_place(placement):
+        return f'{agent}: {BEFORE}' not in split_scene(spec).unsupported
     persons = (AgentType.PEDESTRIAN, AgentType.RSU)
     vehicles = {a.id for a in spec.agents if a.type not in persons}
-    return placement.of in vehicles and placement.relation in ALONG
+    known = placement.relation in ALONG or placement.relation is Relation.ONCOMING
+    return placement.of in vehicles and known
 
 
 def _ties(
     agent: GroundAgent,
     by_id: dict[str, GroundAgent],
     unsupported: list[str],
-    meetings: tuple[Encounter, ...],
+    distances: _Distances,
 ) -> list[_Tie]:
     others: dict[str, list[Placement]] = {}
     for placement in agent.placements:
         if placement.of in by_id and placement.relation in ALONG:
             others.setdefault(str(placement.of), []).append(placement)
-        elif _is_before_intersection(placement):
+        elif _is_before_place(placement) or _is_at_place(placement):
             continue  # nobody else's place follows from it
-        elif placement.relation is not Relation.ON or placement.of not in _ROADS:
+        elif placement.relation not in _ON or placement.of not in _ROADS:
             where = f' {placement.of}' if placement.of is not None else ''
             unsupported.append(f'{agent.id}: placement {placement.relation.value}{where}')
     if others:
         return [
             tie
             for other, placements in others.items()
-            for tie in _placed(agent.id, other, placements, meetings)
+            for tie in _placed(agent.id, other, placements, distances)
         ]
     for behavior in agent.behaviors:
         chases = behavior.kind in (
@@ -206,18 +329,73 @@ def _ties(
         if chases and behavior.target in by_id:
             gap = behavior.closing_from_m
             assert behavior.target is not None
-            distance = _distance(agent.id, behavior.target, gap, meetings)
-            return [_Tie(agent.id, behavior.target, -distance, 0)]
-    for meeting in meetings:
+            distance = distances.between(agent.id, behavior.target, gap)
+            return [_Tie(agent.id, behavior.target, -distance, 0, free=gap is None)]
+    for meeting in distances.meetings:
         # Nothing says where the actor is: it comes from behind.
         if meeting.actor == agent.id and meeting.other in by_id:
-            distance = _distance(agent.id, meeting.other, None, meetings)
+            distance = distances.between(agent.id, meeting.other, None)
             return [_Tie(agent.id, meeting.other, -distance, 0)]
     return []
 
 
+def _passing(spec: ScenarioSpec) -> frozenset[tuple[str, str]]:
+    """Return who is to pass whom; not where somebody says that they share a lane."""
+    sharing = {
+        frozenset((a.id, str(p.of)))
+        for a in spec.agents
+        for p in a.placements
+        if p.relation is Relation.SAME_LANE
+    }
+    pairs = (
+        (let_pass(spec, event), event.action.agent)
+        for event in (*spec.events, *own_events(spec))
+        if isinstance(event.action, AgentAction)
+    )
+    return frozenset((a, b) for a, b in pairs if a is not None and {a, b} not in sharing)
+
+
+def _beside(tie: _Tie, passing: frozenset[tuple[str, str]]) -> _Tie:
+    """Return a tie with the one that is to pass in the lane to the left of the other one."""
+    if tie.lane_shift != 0:
+        return tie
+    shift = int((tie.agent, tie.other) in passing) - int((tie.other, tie.agent) in passing)
+    return replace(tie, lane_shift=shift)
+
+
+def _queued(ties: list[_Tie], doing: Mapping[str, set[BehaviorKind]]) -> list[_Tie]:
+    """Return ties in which those behind one other do not stand in one place.
+
+    Who tailgates is next to it, others stand behind, and who overtakes is in the lane to the left.
+    """
+    found, tied = list(ties), Counter(i for t in ties for i in (t.agent, t.other))
+    groups: dict[tuple[str, int], list[_Tie]] = {}
+    for tie in ties:
+        if tie.offset_m < 0.0:
+            groups.setdefault((tie.other, tie.lane_shift), []).append(tie)
+    for group in groups.values():
+        group.sort(key=lambda t: (_rank(doing[t.agent]), -t.offset_m, t.free, t.agent))
+        rear_m = 0.0
+        for tie in group:
+            alone = tie.free and tied[tie.agent] == 1
+            if not alone or tie.offset_m <= rear_m - _QUEUE_M or rear_m == 0.0:
+                rear_m = min(rear_m, tie.offset_m)
+            elif BehaviorKind.OVERTAKE in doing[tie.agent]:
+                found[found.index(tie)] = replace(tie, lane_shift=tie.lane_shift + 1)
+            else:
+                rear_m -= _IN_LINE_M
+                found[found.index(tie)] = replace(tie, offset_m=rear_m)
+    return found
+
+
+def _rank(kinds: set[BehaviorKind]) -> int:
+    if BehaviorKind.TAILGATE in kinds:
+        return 0
+    return 2 if BehaviorKind.OVERTAKE in kinds else 1
+
+
 def _placed(
-    agent: str, other: str, placements: list[Placement], meetings: tuple[Encounter, ...]
+    agent: str, other: str, placements: list[Placement], distances: _Distances
 ) -> list[_Tie]:
     """Return the ties of an agent to one other: "ahead of it", "in the lane to its left"."""
     shifts = [ALONG[p.relation][1] for p in placements if ALONG[p.relation][1] != 0]
@@ -231,8 +409,9 @@ def _placed(
         _Tie(
             agent,
             other,
-            ALONG[p.relation][0] * _distance(agent, other, p.distance_m, meetings),
+            ALONG[p.relation][0] * distances.placed(agent, other, p),
             shift,
+            free=p.distance_m is None or p.distance_m.provenance is Provenance.DEFAULT,
         )
         for p in exact
     ]
@@ -244,18 +423,6 @@ def _kept(tie: _Tie, offsets: dict[str, tuple[float, int]]) -> bool:
     return abs(along) < _SAME_PLACE_M and own[1] - other[1] == tie.lane_shift
 
 
-def _distance(
-    agent: str, other: str | None, stated: Parameter | None, meetings: tuple[Encounter, ...]
-) -> float:
-    """Return the distance of a tie; a free one leaves room for an encounter still to come."""
-    if stated is not None and stated.provenance is Provenance.EXPLICIT:
-        return stated.value
-    room = [
-        m.within_m + ENCOUNTER_ROOM_M for m in meetings if {m.actor, m.other} == {agent, other}
-    ]
-    return max([DEFAULT_GAP_M if stated is None else stated.value, *room])
-
-
 def _origin(spec: ScenarioSpec, vehicles: list[GroundAgent], ties: list[_Tie]) -> str | None:
     """Choose the origin: ego, else one that others refer to, else a target, else the first."""
     ids = [a.id for a in vehicles]
@@ -263,8 +430,9 @@ def _origin(spec: ScenarioSpec, vehicles: list[GroundAgent], ties: list[_Tie]) -
     placed, named = {t.agent for t in ties}, {t.other for t in ties}
     referred = [i for i in ids if i in named - placed]
     targets = [m.target for m in spec.missions if m.target in ids]
+    placed_there = [a.id for a in vehicles if bound_to_places(spec, a)]
     foreground = [a.id for a in vehicles if a.role is not Role.BACKGROUND]
-    for group in (ego, referred, targets, foreground):
+    for group in (ego, referred, targets, placed_there, foreground):
         if group:
             return group[0]
     return None

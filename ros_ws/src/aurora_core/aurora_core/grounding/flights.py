@@ -4,27 +4,34 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from itertools import pairwise
 from math import cos, pi, sin
 
 import numpy as np
 import numpy.typing as npt
-import shapely
 
+from aurora_core.geometry.frames import offset_at_bearing
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.airspace import Airspace
+from aurora_core.grounding.laps import Laps
 from aurora_core.grounding.pace import moves
-from aurora_core.grounding.patterns import pattern_points, place_pattern
 from aurora_core.grounding.places import (
     ROAD_STEP_M,
     ROAD_WAY_M,
     ROADS,
-    intersection_point,
-    landmark_point,
+    MapPlaces,
+    has_point,
     road_point,
 )
+from aurora_core.grounding.planned_flight import (
+    PlannedFlight,
+    Rejected,
+    altitude_slack_m,
+    ascent_tolerance_m,
+    planned_height_m,
+)
+from aurora_core.grounding.routes_flown import RoutePlanner
 from aurora_core.grounding.sites import Site, samples_along
 from aurora_core.grounding.spots import SpotFinder
 from aurora_core.grounding.starts import uncrossed
@@ -33,15 +40,13 @@ from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.settings import GroundingSettings
 from aurora_core.mission.plan import MissionPlan, UavPlan
-from aurora_core.spec.parameter import Provenance
+from aurora_core.spec.parameter import Bound, Provenance
+from aurora_core.spec.reference import is_landmark
 from aurora_core.spec.scenario import ScenarioSpec, UavMission
-from aurora_core.spec.vocabulary import MissionMode, Pattern
+from aurora_core.spec.vocabulary import MissionMode
 
 FloatArray = npt.NDArray[np.float64]
 Point3 = tuple[float, float, float]
-
-# Planned share of a leg over a carriageway, beyond what the condition asks.
-SPARE_SHARE = 0.05
 
 _SIGHT_HEIGHT_PLACE_M = 1.0
 
@@ -52,22 +57,8 @@ _SHARED = 0.45
 # Neighbours on a ring are as far apart as they have to be, to rounding.
 _ROUNDING_M = 1e-6
 
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PlannedFlight:
-    """A mission with its scores: clearance (m), share of samples seen."""
-
-    plan: MissionPlan
-    clearance_m: float
-    seen: float
-    over_street: float
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Rejected:
-    """Why a site does not do."""
-
-    reason: str
+# Steps in which a flight at a landmark looks for free air above (m).
+_HIGHER_M = 10.0
 
 
 class FlightPlanner:
@@ -82,7 +73,8 @@ class FlightPlanner:
         tolerances: Tolerances in force.
         settings: Search settings.
         sensing_range_m: Of the weather and time of day.
-        hover_drift_m: Drift allowed while hovering; it is the capture tolerance as well.
+        hover_capture_m: How near each UAV comes to its point before it hovers.
+        laps: Plans how often a route is flown.
     """
 
     def __init__(
@@ -96,9 +88,9 @@ class FlightPlanner:
         tolerances: Tolerances,
         settings: GroundingSettings,
         sensing_range_m: float,
-        hover_drift_m: float,
+        hover_capture_m: Mapping[str, float],
+        laps: Laps,
     ) -> None:
-        self._map = map_model
         self._air = airspace
         self._spots = spots
         self._types = types
@@ -106,11 +98,18 @@ class FlightPlanner:
         self._tolerances = tolerances
         self._settings = settings
         self._range = sensing_range_m
-        self._hover_drift_m = hover_drift_m
+        self._hover_capture_m = hover_capture_m
         self._apart_m = 2.0 * limits.separation_min_m
-        self._leg_share = min(1.0, tolerances.over_carriageway_share + SPARE_SHARE)
-        self._carriageway = map_model.network.carriageway
-        shapely.prepare(self._carriageway)
+        self._routes = RoutePlanner(
+            map_model=map_model,
+            airspace=airspace,
+            limits=limits,
+            tolerances=tolerances,
+            settings=settings,
+            laps=laps,
+        )
+        # The same for every site that is tried.
+        self._places = MapPlaces(map_model)
 
     def plan_mission(
         self,
@@ -129,15 +128,57 @@ class FlightPlanner:
             speed_mps: Speed that the target will drive.
             others: Where other UAVs hover.
         """
+        mission = self._inside(mission)
         if mission.mode is MissionMode.TRACK:
             return self._track(spec, mission, site, speed_mps)
+        found = self._at_place(spec, mission, site, speed_mps, others)
+        free = mission.altitude_m.provenance is Provenance.DEFAULT and len(spec.uavs) == 1
+        if not isinstance(found, Rejected) or not free or not is_landmark(mission.target):
+            return found
+        # A landmark stands where it stands: higher up is the way out that the request leaves open.
+        top_m = min(mission.altitude_m.high, self._limits.uav_altitude_max_m)
+        height_m = mission.altitude_m.value + _HIGHER_M
+        while height_m <= top_m:
+            altitude = mission.altitude_m.model_copy(update={'value': height_m})
+            higher = mission.model_copy(update={'altitude_m': altitude})
+            above = self._at_place(spec, higher, site, speed_mps, others)
+            if not isinstance(above, Rejected):
+                return above
+            height_m += _HIGHER_M
+        return found
+
+    def _at_place(
+        self,
+        spec: ScenarioSpec,
+        mission: UavMission,
+        site: Site,
+        speed_mps: float,
+        others: Sequence[Point3],
+    ) -> PlannedFlight | Rejected:
+        """Plan a hover or a route over or round where its target is at t = 0."""
         centre = self._centre(mission, site)
         if centre is None:
             return Rejected(reason='target_place')
-        if mission.mode is MissionMode.HOVER:
-            targets = self._watched(spec, mission, site, centre, speed_mps)
+        building = self._places.building(mission.target or '')
+        middle = centre if building is None else (*building.centre, *centre[2:])
+        if mission.mode is MissionMode.NAVIGATE:
+            return self._routes.plan(mission, middle, beside=building is not None)
+        targets = self._watched(spec, mission, site, centre, speed_mps)
+        above = self._hover(mission, middle, targets, others)
+        if building is not None and isinstance(above, Rejected):
+            # What stands for a building is the street before it; there it is seen.
             return self._hover(mission, centre, targets, others)
-        return self._navigate(mission, centre)
+        return above
+
+    def _inside(self, mission: UavMission) -> UavMission:
+        """Return a mission whose standoff to plan with is inside the bound that is stated."""
+        stated = mission.standoff_m
+        if stated is None or stated.bound is Bound.EXACTLY:
+            return mission
+        slack_m = self._tolerances.standoff_m.of(stated.value, approximate=stated.approximate)
+        value = min(max(stated.inside(slack_m), 0.0), self._limits.uav_standoff_max_m)
+        aimed = stated.model_copy(update={'value': value})
+        return mission.model_copy(update={'standoff_m': aimed})
 
     def plan_uav(
         self,
@@ -146,6 +187,8 @@ class FlightPlanner:
         flights: list[PlannedFlight],
         site: Site,
         taken: list[tuple[float, float]],
+        *,
+        lands: bool = True,
     ) -> UavPlan | Rejected:
         """Choose the start of a UAV whose missions are planned; it could land there again."""
         if not self._ways_between_are_free(flights, site):
@@ -172,6 +215,7 @@ class FlightPlanner:
             landing_spots=(home,),
             missions=tuple(f.plan for f in flights),
             safe_altitude_m=min(self._limits.uav_altitude_max_m, max(highest, over_all)),
+            lands=lands,
         )
 
     def uncrossed(self, plans: Sequence[UavPlan], site: Site) -> tuple[UavPlan, ...]:
@@ -189,7 +233,7 @@ class FlightPlanner:
 
         Where a track mission ends is not known before; its ways are not checked.
         """
-        for before, after in itertools.pairwise(f.plan for f in flights):
+        for before, after in pairwise(f.plan for f in flights):
             if before.mode is MissionMode.TRACK:
                 continue
             x, y, z = _last_point(before)
@@ -216,7 +260,7 @@ class FlightPlanner:
             return Rejected(reason='target_not_in_convoy')
         assert mission.standoff_m is not None
         assert mission.duration_s is not None
-        record = self._types[seat.member.agent.type.value]
+        record = self._types[seat.agent.type.value]
         way_m = speed_mps * (mission.duration_s.value + 6.0)
         samples = samples_along(seat.path, seat.arc_m, way_m, self._settings.sample_spacing_m)
         targets = np.column_stack(
@@ -228,7 +272,7 @@ class FlightPlanner:
                 (
                     samples[:, 0] + offset[0],
                     samples[:, 1] + offset[1],
-                    np.full(len(samples), mission.altitude_m.value),
+                    np.full(len(samples), self._planned_height_m(mission)),
                 )
             )
             clearance = self._air.points_clearance_m(points)
@@ -249,13 +293,13 @@ class FlightPlanner:
 
     def _share(self, spec: ScenarioSpec, mission: UavMission) -> tuple[int, int]:
         """Return which one of how many UAVs this is that track one target at one height."""
-        height_m = mission.altitude_m.value
+        height_m = self._planned_height_m(mission)
         sharing = [
             m.uav
             for m in spec.missions
             if m.mode is MissionMode.TRACK
             and m.target == mission.target
-            and abs(m.altitude_m.value - height_m) < self._apart_m
+            and abs(self._planned_height_m(m) - height_m) < self._apart_m
         ]
         uavs = list(dict.fromkeys(sharing))
         return uavs.index(mission.uav), len(uavs)
@@ -272,8 +316,7 @@ class FlightPlanner:
             yield radius_m * cos(angle), radius_m * sin(angle)
             return
         if mission.bearing_deg is not None:
-            compass = mission.bearing_deg.value * pi / 180.0
-            yield (standoff * sin(compass), standoff * cos(compass))
+            yield offset_at_bearing(standoff, mission.bearing_deg.value)
             return
         hx, hy = float(start[2]), float(start[3])
         # Behind the target first, then round it; the first of equal ones is taken. Of several
@@ -285,7 +328,7 @@ class FlightPlanner:
             c, s = cos(angle), sin(angle)
             yield (-standoff * (hx * c - hy * s), -standoff * (hx * s + hy * c))
 
-    def _places(
+    def _hover_places(
         self,
         mission: UavMission,
         centre: tuple[float, float, float, float],
@@ -294,7 +337,7 @@ class FlightPlanner:
         """Yield the offsets of a hover point: beside the centre where somebody hovers over it."""
         yield from self._offsets(mission, np.array(centre))
         stands_off = mission.standoff_m is not None and mission.standoff_m.value > 0.0
-        middle = (centre[0], centre[1], mission.altitude_m.value)
+        middle = (centre[0], centre[1], self._planned_height_m(mission))
         if stands_off or self._apart(middle, others):
             return
         for ring in (1, 2):
@@ -306,9 +349,8 @@ class FlightPlanner:
     def _apart(self, point: Point3, others: Sequence[Point3]) -> bool:
         return all(_distance(point, other) >= self._apart_m - _ROUNDING_M for other in others)
 
-    def _altitude_slack(self, mission: UavMission) -> float:
-        altitude = mission.altitude_m
-        return self._tolerances.altitude_m.of(altitude.value, approximate=altitude.approximate)
+    def _planned_height_m(self, mission: UavMission) -> float:
+        return planned_height_m(mission, self._limits, self._tolerances)
 
     def _hold_plan(
         self,
@@ -320,7 +362,7 @@ class FlightPlanner:
         standoff = 0.0 if mission.standoff_m is None else mission.standoff_m.value
         horizontal = self._limits.tracking_horizontal_m
         if mission.mode is MissionMode.HOVER:
-            horizontal = self._hover_drift_m
+            horizontal = self._hover_capture_m[mission.uav]
         elif mission.standoff_m is not None and (
             mission.standoff_m.provenance is Provenance.EXPLICIT
         ):
@@ -328,18 +370,18 @@ class FlightPlanner:
                 standoff, approximate=mission.standoff_m.approximate
             )
         assert mission.duration_s is not None
-        slack = self._altitude_slack(mission)
+        slack = altitude_slack_m(mission, self._tolerances)
         track = mission.mode is MissionMode.TRACK
         return MissionPlan(
             id=mission.id,
             mode=mission.mode,
             target=mission.target,
-            altitude_m=mission.altitude_m.value,
+            altitude_m=self._planned_height_m(mission),
             standoff_m=standoff,
             offset_m=offset_m,
             capture_horizontal_m=horizontal,
             capture_altitude_m=self._limits.tracking_altitude_m if track else slack,
-            ascent_tolerance_m=slack,
+            ascent_tolerance_m=ascent_tolerance_m(mission, self._limits, self._tolerances),
             hover_point=hover_point,
             duration_s=mission.duration_s.value,
         )
@@ -352,8 +394,8 @@ class FlightPlanner:
         others: Sequence[Point3],
     ) -> PlannedFlight | Rejected:
         reason = 'clearance'
-        for offset in self._places(mission, centre, others):
-            point = (centre[0] + offset[0], centre[1] + offset[1], mission.altitude_m.value)
+        for offset in self._hover_places(mission, centre, others):
+            point = (centre[0] + offset[0], centre[1] + offset[1], self._planned_height_m(mission))
             if not self._apart(point, others):
                 reason = 'separation'
                 continue
@@ -385,71 +427,11 @@ class FlightPlanner:
         seat = site.seat(mission.target or '')
         if seat is None:
             return np.array([[centre[0], centre[1], _SIGHT_HEIGHT_PLACE_M]])
-        height_m = self._types[seat.member.agent.type.value].height_m / 2.0
+        height_m = self._types[seat.agent.type.value].height_m / 2.0
         assert mission.duration_s is not None
-        way_m = speed_mps * mission.duration_s.value if moves(spec, seat.member.agent) else 0.0
+        way_m = speed_mps * mission.duration_s.value if moves(spec, seat.agent) else 0.0
         samples = samples_along(seat.path, seat.arc_m, way_m, self._settings.sample_spacing_m)
         return np.column_stack((samples[:, :2], np.full(len(samples), height_m)))
-
-    def _navigate(
-        self, mission: UavMission, centre: tuple[float, float, float, float]
-    ) -> PlannedFlight | Rejected:
-        assert mission.pattern is not None
-        assert mission.speed_mps is not None
-        length, width = (p.value for p in mission.size_m) if mission.size_m else (100.0, 60.0)
-        points = pattern_points(
-            mission.pattern,
-            length_m=length,
-            width_m=width,
-            radius_m=30.0 if mission.radius_m is None else mission.radius_m.value,
-            waypoint_count=4
-            if mission.waypoint_count is None
-            else round(mission.waypoint_count.value),
-        )
-        if points is None or mission.speed_mps.value <= 0.0:
-            return Rejected(reason='pattern')
-        hx, hy = centre[2], centre[3]
-        shifts = self._settings.pattern_shifts_m
-        best: PlannedFlight | None = None
-        headings = ((hx, hy), (-hy, hx)) if mission.pattern is not Pattern.ORBIT else ((hx, hy),)
-        for heading in headings:
-            for along in shifts if mission.over_streets else (0.0,):
-                middle = (centre[0] + along * hx, centre[1] + along * hy)
-                placed = place_pattern(points, middle, heading)
-                way = tuple((x, y, mission.altitude_m.value) for x, y in placed)
-                clearance = self._air.way_clearance_m(way)
-                if clearance < self._settings.clearance_m:
-                    continue
-                over = self._over_street(placed)
-                if mission.over_a_road and over < self._leg_share:
-                    continue
-                if best is None or over > best.over_street:
-                    plan = MissionPlan(
-                        id=mission.id,
-                        mode=mission.mode,
-                        target=mission.target,
-                        altitude_m=mission.altitude_m.value,
-                        capture_altitude_m=self._altitude_slack(mission),
-                        ascent_tolerance_m=self._altitude_slack(mission),
-                        waypoints=way,
-                        speed_mps=mission.speed_mps.value,
-                    )
-                    best = PlannedFlight(
-                        plan=plan, clearance_m=clearance, seen=1.0, over_street=over
-                    )
-        return best if best is not None else Rejected(reason='clearance')
-
-    def _over_street(self, placed: tuple[tuple[float, float], ...]) -> float:
-        legs = [shapely.LineString([a, b]) for a, b in itertools.pairwise(placed)]
-        # Numbers that are tiny beside the map's coordinates give legs without a length.
-        return max(
-            (
-                float(leg.intersection(self._carriageway).length) / float(leg.length)
-                for leg in legs
-                if leg.length > 0.0
-            ),
-            default=0.0,
-        )
 
     def _centre(self, mission: UavMission, site: Site) -> tuple[float, float, float, float] | None:
         target = mission.target
@@ -459,12 +441,10 @@ class FlightPlanner:
         seat = site.seat(target)
         if seat is not None:
             return seat.path.position_at(seat.arc_m)
-        if target.startswith('landmark:'):
-            mark_x, mark_y = landmark_point(self._map, target.removeprefix('landmark:'))
-            return mark_x, mark_y, 1.0, 0.0
-        if target == 'intersection':
-            near_x, near_y = intersection_point(self._map, (x, y))
-            return near_x, near_y, hx, hy
+        if has_point(target):
+            point = self._places.point(target, (x, y))
+            heading = (1.0, 0.0) if is_landmark(target) else (hx, hy)
+            return (*point, *heading)
         if target in ROADS:
             samples = samples_along(
                 site.origin_path, site.origin_arc_m, ROAD_WAY_M, ROAD_STEP_M

@@ -13,16 +13,25 @@ from dataclasses import dataclass
 
 from aurora_core.grounding.agents import AgentPlacer
 from aurora_core.grounding.airspace import Airspace
+from aurora_core.grounding.bends import bends_between
+from aurora_core.grounding.columns import Column, climbs_to_m, columns, nearest_points
 from aurora_core.grounding.convoy import SceneSplit, split_scene
-from aurora_core.grounding.flights import FlightPlanner, PlannedFlight, Rejected
-from aurora_core.grounding.pace import watched_speed_mps
+from aurora_core.grounding.flights import FlightPlanner
+from aurora_core.grounding.goals import GoalFinder
+from aurora_core.grounding.lane_changers import changes_lane, share_with_another_lane
+from aurora_core.grounding.laps import Laps
+from aurora_core.grounding.oncoming import OncomingPlacer
+from aurora_core.grounding.pace import fastest_stated_mps, watched_speed_mps
+from aurora_core.grounding.persons import PersonPlacer
+from aurora_core.grounding.planned_flight import PlannedFlight, Rejected, planned_height_m
 from aurora_core.grounding.realised import realised_values
 from aurora_core.grounding.sites import Site, sites, tied_way_m
 from aurora_core.grounding.spots import SpotFinder
 from aurora_core.grounding.time_need import horizon_s
+from aurora_core.grounding.traffic import TrafficPlacer
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.basis import Basis
-from aurora_core.knowledge.limits import Limits, Tolerances, hover_drift_limit_m
+from aurora_core.knowledge.limits import Limits, Tolerances, hover_capture_m
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.settings import Settings
 from aurora_core.mission.plan import UavPlan
@@ -34,8 +43,14 @@ from aurora_core.spec.scenario import ScenarioSpec
 # Clearance that earns the full air score (m above the planned clearance).
 _GOOD_CLEARANCE_M = 15.0
 
+# A stated speed shows well when it is held for so long (s), within so much time (s).
+_SHOWN_S = 8.0
+_LOOKED_S = 40.0
+
 # A score that no later site can beat by more than rounding.
 _PERFECT = 1.0 - 1e-9
+# What is left of a road's score where a bend spoils a stated distance.
+_BENT = 0.1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -77,6 +92,7 @@ class Grounder:
         self._settings = settings
         self._air = Airspace(map_model.buildings, map_model.zones)
         self._spots = SpotFinder(map_model, settings.grounding)
+        self._goals = GoalFinder(map_model, types, tolerances)
 
     def ground(self, spec: ScenarioSpec, seed: int) -> GroundedScenario | GroundingFailure:
         """Return the best grounding, or what every site lacked.
@@ -85,7 +101,7 @@ class Grounder:
             spec: What to ground.
             seed: Seed of the run (background traffic).
         """
-        split = split_scene(spec)
+        split = split_scene(spec, self._tolerances.placement_vehicle_m)
         planner = FlightPlanner(
             map_model=self._map,
             airspace=self._air,
@@ -97,11 +113,16 @@ class Grounder:
             sensing_range_m=self._limits.sensing_range(
                 spec.world.weather.value, spec.world.time_of_day.value
             ),
-            hover_drift_m=hover_drift_limit_m(
-                spec.world.weather.value, self._limits, self._tolerances
-            ),
+            hover_capture_m={
+                uav.id: hover_capture_m(spec, uav.id, self._limits, self._tolerances)
+                for uav in spec.uavs
+            },
+            laps=Laps(self._settings),
         )
-        run_m = horizon_s(spec, self._limits) * self._drive_speed(spec, split) + 300.0
+        run_s = horizon_s(spec, self._limits)
+        run_m = run_s * self._drive_speed(spec, split) + 300.0
+        persons = PersonPlacer(self._map, self._types)
+        oncoming = OncomingPlacer(self._map, self._types)
         ranked = self._ranked_sites(spec, split, run_m)
         rejected: Counter[str] = Counter()
         best: _Option | None = None
@@ -110,8 +131,16 @@ class Grounder:
             enough = scored >= self._settings.grounding.anchors_scored
             if best is not None and (enough or best.score.joint >= _PERFECT):
                 break
+            met = oncoming.seated(split.oncoming, site, run_m)
+            if isinstance(met, str):
+                rejected[met] += 1
+                continue
+            peopled = persons.seated(spec, split.persons, met, run_s)
+            if isinstance(peopled, str):
+                rejected[peopled] += 1
+                continue
             scored += 1
-            option = self._option(spec, split, site, road, planner)
+            option = self._option(spec, peopled, road, planner)
             if isinstance(option, Rejected):
                 rejected[option.reason] += 1
             elif best is None or option.score.joint > best.score.joint:
@@ -119,8 +148,9 @@ class Grounder:
         if best is None:
             reasons = dict(sorted(rejected.items()))
             most = max(reasons, key=lambda r: (reasons[r], r)) if reasons else 'road'
-            return GroundingFailure(reason=most, tried=scored, rejected_by=reasons)
-        return self._scenario(spec, split, best, scored, run_m, seed, planner)
+            tried = sum(reasons.values())
+            return GroundingFailure(reason=most, tried=tried, rejected_by=reasons)
+        return self._scenario(spec, split, best, scored, run_m, seed, planner, persons)
 
     def _drive_speed(self, spec: ScenarioSpec, split: SceneSplit) -> float:
         stated = [
@@ -134,49 +164,84 @@ class Grounder:
     ) -> list[tuple[float, Site]]:
         grounding = self._settings.grounding
         way_m = tied_way_m(spec, grounding)
-        need_m = way_m if len(split.convoy) > 1 else 0.0
+        stated = fastest_stated_mps(spec, (m.agent for m in split.convoy))
+        need_m = way_m if len(split.convoy) > 1 else _LOOKED_S / 2.0 * stated
         wanted = grounding.target_speed_mps
         ranked: list[tuple[float, Site]] = []
-        found = sites(self._map, split.convoy, self._types, run_m, grounding, split.before)
+        found = sites(
+            self._map,
+            split.convoy,
+            self._types,
+            run_m,
+            self._goals.spacing_m(spec, grounding.anchor_spacing_m),
+            split.before,
+            least_limit_mps=stated,
+            several_lanes=any(changes_lane(spec, m.agent) for m in split.convoy),
+        )
         for site in found:
+            if not self._goals.fits(spec, site):
+                continue
             free = min(1.0, site.free_run_m / need_m) if need_m > 0.0 else 1.0
             brisk = min(1.0, site.fastest_mps(self._map.network, way_m) / wanted)
             straight = max(0.0, 1.0 - site.turns(way_m, grounding) / grounding.turns_bad)
             road = 0.4 * free + 0.2 * float(site.steady) + 0.2 * brisk + 0.2 * straight
+            if bends_between(spec, site, self._tolerances.placement_vehicle_m):
+                road *= _BENT
+            if stated > 0.0:
+                road *= 0.5 + 0.5 * self._room_for(stated, site)
+            for seat in site.seated:
+                if changes_lane(spec, seat.agent):
+                    road *= share_with_another_lane(
+                        self._map.network, seat, way_m, stated or wanted
+                    )
             ranked.append((road, site))
         # Stable: equal scores keep the order of the map.
         ranked.sort(key=lambda r: -r[0])
         return ranked
 
+    def _room_for(self, speed_mps: float, site: Site) -> float:
+        """Return whether a stated speed can show near a site, in [0, 1]: far from junctions."""
+        t = self._tolerances
+        settle_m = speed_mps * speed_mps / (2.0 * t.route_acceleration_mps2)
+        way_m = _SHOWN_S * speed_mps
+        open_m = site.open_way_m(settle_m, _LOOKED_S * speed_mps, t.free_road_m)
+        return min(1.0, open_m / way_m)
+
     def _option(
         self,
         spec: ScenarioSpec,
-        split: SceneSplit,
         site: Site,
         road: float,
         planner: FlightPlanner,
     ) -> _Option | Rejected:
         flights: list[PlannedFlight] = []
         uavs: list[UavPlan] = []
+        hovering: list[Column] = []
         for number, uav in enumerate(spec.uavs):
             own: list[PlannedFlight] = []
-            hovering = [f.plan.hover_point for f in flights if f.plan.hover_point is not None]
             for mission in spec.missions:
                 if mission.uav != uav.id:
                     continue
                 speed = watched_speed_mps(spec, mission, self._limits, self._settings.grounding)
-                flight = planner.plan_mission(spec, mission, site, speed, hovering)
+                height_m = planned_height_m(mission, self._limits, self._tolerances)
+                top_m = climbs_to_m(spec, uav.id, height_m)
+                others = nearest_points(hovering, height_m, top_m)
+                flight = planner.plan_mission(spec, mission, site, speed, others)
                 if isinstance(flight, Rejected):
                     return flight
                 own.append(flight)
             if not own:
                 continue
             taken = [(u.home_x_m, u.home_y_m) for u in uavs]
-            plan = planner.plan_uav(uav.id, number + 1, own, site, taken)
+            last = next(m for m in reversed(spec.missions) if m.uav == uav.id)
+            plan = planner.plan_uav(
+                uav.id, number + 1, own, site, taken, lands=not last.ends_in_flight
+            )
             if isinstance(plan, Rejected):
                 return plan
             uavs.append(plan)
             flights += own
+            hovering += columns(spec, uav.id, (f.plan.hover_point for f in own))
         return _Option(
             site=site,
             uavs=planner.uncrossed(uavs, site),
@@ -203,19 +268,22 @@ class Grounder:
         run_m: float,
         seed: int,
         planner: FlightPlanner,
+        persons: PersonPlacer,
     ) -> GroundedScenario:
         uavs = tuple(planner.with_landing_spots(u, best.site) for u in best.uavs)
-        placer = AgentPlacer(self._map, self._types, self._settings, self._limits)
-        agents = placer.convoy(spec, split, best.site)
+        placer = AgentPlacer(self._map, self._types, self._settings, self._limits, self._goals)
+        agents = [*placer.convoy(spec, split, best.site), *persons.grounded(spec, best.site)]
         generator = stream(seed, 'grounding:background')
         agents, missing = placer.free(spec, split, best.site, agents, run_m, generator)
+        traffic = TrafficPlacer(
+            self._map, self._types, self._settings.grounding, self._limits, self._tolerances
+        )
+        homes = [(uav.home_x_m, uav.home_y_m) for uav in uavs]
+        draws = stream(seed, 'grounding:traffic')
+        agents += traffic.placed(spec, agents, homes, run_m, draws)
         lane_id, position_m = best.site.origin_path.lane_position_at(best.site.origin_arc_m)
         weather = spec.world.weather.value
-        unsupported = (
-            *split.unsupported,
-            *(f'{p.id}: pedestrians' for p in split.persons),
-            *missing,
-        )
+        unsupported = (*split.unsupported, *missing)
         return GroundedScenario(
             map_name=self._map.name,
             map_digest=self._map.digest,

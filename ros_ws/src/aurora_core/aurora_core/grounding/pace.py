@@ -8,15 +8,35 @@ two vehicles have to meet, the front one drives slowly enough for the rear one t
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from aurora_core.knowledge.limits import Limits
 from aurora_core.knowledge.settings import GroundingSettings
-from aurora_core.spec.scenario import DistanceTrigger, GroundAgent, ScenarioSpec, UavMission
+from aurora_core.spec.own_events import own_events
+from aurora_core.spec.scenario import (
+    DistanceTrigger,
+    GroundAgent,
+    ScenarioSpec,
+    SpeedTrigger,
+    UavMission,
+)
 from aurora_core.spec.vocabulary import AgentType, BehaviorKind, MissionMode
 
 # An observed convoy covers at most this share of the sensing range during a hover.
 _OBSERVED_SHARE = 0.5
+
+# Speed of a person who walks, unless the request says another (m/s).
+WALKING_MPS = 1.4
+
+# What an emergency run makes of speed limits.
+EMERGENCY_FACTOR = 1.2
+
+# Who has to be faster than a number drives so much faster (m/s).
+_FASTER_MPS = 0.7
+
+# Who is to slow down to a speed drives so much faster before (m/s).
+_SLOWS_BY_MPS = 4.0
 
 # Who does this drives as fast as the one that it does it to.
 _PACED = frozenset({BehaviorKind.FOLLOW, BehaviorKind.TAILGATE})
@@ -36,7 +56,7 @@ def encounters(spec: ScenarioSpec) -> tuple[Encounter, ...]:
     vehicles = {a.id for a in spec.agents if a.type is not AgentType.PEDESTRIAN}
     return tuple(
         Encounter(actor=t.a, other=t.b, within_m=t.value_m.value)
-        for t in (e.trigger for e in spec.events)
+        for t in (e.trigger for e in (*spec.events, *own_events(spec)))
         if isinstance(t, DistanceTrigger)
         and t.on == 'distance_below'
         and t.a in vehicles
@@ -72,22 +92,64 @@ def convoy_pace_mps(spec: ScenarioSpec, limits: Limits, settings: GroundingSetti
     return pace
 
 
+def in_emergency(agent: GroundAgent) -> bool:
+    """Tell whether a vehicle is on an emergency run: no speed limit is for it."""
+    return any(b.kind is BehaviorKind.EMERGENCY_RUN for b in agent.behaviors)
+
+
 def own_speed_mps(agent: GroundAgent) -> float | None:
     """Return the speed that the request states for an agent."""
     # "at least" a number below zero leaves everything open, and standing is the least there is.
-    speeds = [max(0.0, b.speed_mps.value) for b in agent.behaviors if b.speed_mps is not None]
+    speeds = [
+        max(0.0, b.speed_mps.value)
+        for b in agent.behaviors
+        if b.speed_mps is not None and b.kind is not BehaviorKind.SLOW
+    ]
     return speeds[0] if speeds else None
 
 
+def slows_from_mps(agent: GroundAgent) -> float:
+    """Return how fast an agent has to drive for its slowing down to show, 0 where it does not."""
+    goals = [
+        b.speed_mps.value
+        for b in agent.behaviors
+        if b.kind is BehaviorKind.SLOW and b.speed_mps is not None
+    ]
+    return max((goal + _SLOWS_BY_MPS for goal in goals), default=0.0)
+
+
 def stated_speed_mps(spec: ScenarioSpec, agent: GroundAgent) -> float | None:
-    """Return the stated speed of an agent, else of one that follows it: both drive the same."""
+    """Return the stated speed of an agent, else of one that follows it: both drive the same.
+
+    Whose speed an event waits for, as more than a number, drives faster than that.
+    """
     followers = [
         own_speed_mps(a)
         for a in spec.agents
         if any(b.kind in _PACED and b.target == agent.id for b in a.behaviors)
     ]
-    speeds = (own_speed_mps(agent), *followers)
+    awaited = [
+        e.trigger.value_mps.value + _FASTER_MPS
+        for e in spec.events
+        if isinstance(e.trigger, SpeedTrigger)
+        and e.trigger.on == 'speed_above'
+        and e.trigger.who == agent.id
+        and agent.type is not AgentType.PEDESTRIAN
+    ]
+    speeds = (own_speed_mps(agent), *followers, *awaited)
     return next((speed for speed in speeds if speed is not None), None)
+
+
+def fastest_stated_mps(spec: ScenarioSpec, agents: Iterable[GroundAgent]) -> float:
+    """Return the highest speed that the request states for any of them, 0 where for none.
+
+    Who is on an emergency run does not count.
+    """
+    bound = (agent for agent in agents if not in_emergency(agent))
+    return max(
+        (max(stated_speed_mps(spec, agent) or 0.0, slows_from_mps(agent)) for agent in bound),
+        default=0.0,
+    )
 
 
 def watched_speed_mps(
@@ -96,4 +158,6 @@ def watched_speed_mps(
     """Return the speed of a mission's target: what is stated, else the pace of the convoy."""
     target = next((a for a in spec.agents if a.id == mission.target), None)
     stated = None if target is None else stated_speed_mps(spec, target)
+    if stated is None and target is not None and target.type is AgentType.PEDESTRIAN:
+        return WALKING_MPS
     return convoy_pace_mps(spec, limits, settings) if stated is None else stated

@@ -4,15 +4,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from functools import cached_property
 
 import shapely
 
 from aurora_core.geometry.kernel import norm2
 from aurora_core.geometry.polyline import Polyline
 from aurora_core.knowledge.map_model import MapModel
+from aurora_core.knowledge.map_types import Building
+from aurora_core.knowledge.net_types import Crossing
 from aurora_core.outcomes.grounded import GroundedScenario
-from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.spec.reference import LANDMARK, is_landmark
+from aurora_core.spec.scenario import ArrivalTrigger, GroundAgent, ScenarioSpec
 from aurora_core.spec.vocabulary import Place
 
 Point2 = tuple[float, float]
@@ -27,6 +31,9 @@ ROAD_WAY_M = 200.0
 
 # Places that are the road itself, wherever the scenario is.
 ROADS = frozenset({Place.MAIN_ROAD, Place.ROADSIDE})
+
+# Places that the anchor of a scenario decides: the nearest one is meant.
+POINTS = (Place.INTERSECTION, Place.CROSSWALK)
 
 # Streets cross where at least this many ways lead on; the end of a street is no intersection.
 _CROSSING_WAYS = 3
@@ -48,10 +55,30 @@ def place_positions(
     road = (x, y)
     if names & ROADS:
         road = road_point(_way_on(grounded, road), [(a.x_m, a.y_m) for a in grounded.agents])
+    places = MapPlaces(map_model)
     return {
-        name: road if name in ROADS else _position(name, map_model, (x, y))
+        name: road if name in ROADS else places.point(name, (x, y))
         for name in sorted(n for n in names if n is not None and n not in bodies)
     }
+
+
+def has_point(place: str | None) -> bool:
+    """Tell whether a place is a point that one can be near, not a kind of ground."""
+    return place in POINTS or is_landmark(place)
+
+
+def bound_to_places(spec: ScenarioSpec, agent: GroundAgent) -> bool:
+    """Tell whether a place decides where a vehicle stands or goes."""
+    names = [p.of for p in agent.placements] + [b.target for b in agent.behaviors]
+    names += [t.place for t in arrivals(spec, agent)]
+    return any(has_point(name) for name in names)
+
+
+def arrivals(spec: ScenarioSpec, agent: GroundAgent) -> Iterator[ArrivalTrigger]:
+    """Yield the triggers that wait for an agent to arrive somewhere."""
+    for event in spec.events:
+        if isinstance(event.trigger, ArrivalTrigger) and event.trigger.who == agent.id:
+            yield event.trigger
 
 
 def road_point(way: Sequence[Point2], bodies: Sequence[Point2]) -> Point2:
@@ -82,7 +109,73 @@ def _way_on(grounded: GroundedScenario, anchor: Point2) -> tuple[Point2, ...]:
     return (anchor,)
 
 
-def landmark_point(map_model: MapModel, name: str) -> tuple[float, float]:
+class MapPlaces:
+    """Where the places of a map are; what is looked up twice is worked out once.
+
+    Args:
+        map_model: Map.
+    """
+
+    def __init__(self, map_model: MapModel) -> None:
+        self._map = map_model
+        self._landmarks: dict[str, Point2] = {}
+
+    def point(self, name: str, anchor: Point2) -> Point2:
+        """Return where a place is (x, y in m, ENU); one without a point is where the anchor is.
+
+        Args:
+            name: Reference of the place.
+            anchor: Of the scenario; of several intersections or crosswalks the nearest one counts.
+
+        Raises:
+            MapError: The map has no such landmark.
+        """
+        if is_landmark(name):
+            return self._landmark(name.removeprefix(LANDMARK))
+        centres = {Place.INTERSECTION: self.intersections, Place.CROSSWALK: self.crosswalks}
+        known = centres[Place(name)] if name in POINTS else ()
+        return nearest_to(anchor, known) if known else anchor
+
+    def building(self, name: str) -> Building | None:
+        """Return the building that a landmark is, None for all other places."""
+        if not is_landmark(name):
+            return None
+        plain = name.removeprefix(LANDMARK)
+        return next((b for b in self._map.buildings if b.name == plain), None)
+
+    def crossing_near(self, anchor: Point2) -> Crossing | None:
+        """Return the crosswalk nearest to the anchor, None where the map has none."""
+        if not self.crosswalks:
+            return None
+        nearest = self.crosswalks.index(nearest_to(anchor, self.crosswalks))
+        return self._map.network.crossings[nearest]
+
+    @cached_property
+    def intersections(self) -> tuple[Point2, ...]:
+        """Centres of all intersections (x, y in m, ENU), by their ids."""
+        ways: dict[str, set[str]] = {}
+        for edge in self._map.network.edges.values():
+            if not edge.is_internal:
+                ways.setdefault(edge.from_junction, set()).add(edge.to_junction)
+                ways.setdefault(edge.to_junction, set()).add(edge.from_junction)
+        crossing = [name for name, onward in ways.items() if len(onward) >= _CROSSING_WAYS]
+        junctions = [self._map.network.junction(name) for name in sorted(crossing)]
+        return tuple((j.x_m, j.y_m) for j in junctions)
+
+    @cached_property
+    def crosswalks(self) -> tuple[Point2, ...]:
+        """Middles of all crosswalks (x, y in m, ENU), by their ids."""
+        lines = [crossing.centre_line for crossing in self._map.network.crossings]
+        ends = [(line[0], line[-1]) for line in lines]
+        return tuple(((a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0) for a, b in ends)
+
+    def _landmark(self, name: str) -> Point2:
+        if name not in self._landmarks:
+            self._landmarks[name] = landmark_point(self._map, name)
+        return self._landmarks[name]
+
+
+def landmark_point(map_model: MapModel, name: str) -> Point2:
     """Return where a landmark is on the ground: itself, or the street before its building.
 
     Nobody can look at a point inside a building, so a landmark that is one stands for the place in
@@ -99,31 +192,6 @@ def landmark_point(map_model: MapModel, name: str) -> tuple[float, float]:
     return mark.x_m, mark.y_m
 
 
-def intersection_point(map_model: MapModel, anchor: tuple[float, float]) -> tuple[float, float]:
-    """Return the centre of the intersection nearest to the anchor (x, y in m, ENU)."""
-    return nearest_to(anchor, crossings(map_model))
-
-
 def nearest_to(anchor: Point2, centres: Sequence[Point2]) -> Point2:
     """Return the centre nearest to a point; of equally near ones the first."""
     return min(centres, key=lambda c: norm2(c[0] - anchor[0], c[1] - anchor[1]))
-
-
-def crossings(map_model: MapModel) -> tuple[Point2, ...]:
-    """Return the centres of all intersections (x, y in m, ENU), by their ids."""
-    ways: dict[str, set[str]] = {}
-    for edge in map_model.network.edges.values():
-        if not edge.is_internal:
-            ways.setdefault(edge.from_junction, set()).add(edge.to_junction)
-            ways.setdefault(edge.to_junction, set()).add(edge.from_junction)
-    crossing = [name for name, onward in ways.items() if len(onward) >= _CROSSING_WAYS]
-    junctions = [map_model.network.junction(name) for name in sorted(crossing)]
-    return tuple((j.x_m, j.y_m) for j in junctions)
-
-
-def _position(name: str, map_model: MapModel, anchor: tuple[float, float]) -> tuple[float, float]:
-    if name.startswith('landmark:'):
-        return landmark_point(map_model, name.removeprefix('landmark:'))
-    if name == 'intersection':
-        return intersection_point(map_model, anchor)
-    return anchor

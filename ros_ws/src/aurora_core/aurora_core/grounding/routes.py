@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -19,11 +20,13 @@ class RouteFinder:
     Args:
         network: Road network.
         vclass: SUMO vehicle class.
+        least_limit_mps: Streets with this speed limit are preferred.
     """
 
-    def __init__(self, network: RoadNetwork, vclass: str) -> None:
+    def __init__(self, network: RoadNetwork, vclass: str, least_limit_mps: float = 0.0) -> None:
         self._network = network
         self._vclass = vclass
+        self._least_limit_mps = least_limit_mps
         self._endless = self._edges_on_cycles()
         self._following = lru_cache(maxsize=None)(self._ordered_successors)
 
@@ -34,43 +37,123 @@ class RouteFinder:
         """
         return self._extend(start_edge, length_m, lambda options: options[0])
 
+    def turning_route(self, start_edge: str, length_m: float, side: str) -> tuple[str, ...]:
+        """Return a route that turns at the end of its first street, then goes straight on.
+
+        Args:
+            start_edge: First edge.
+            length_m: Least length.
+            side: `l` or `r`.
+
+        Returns:
+            Empty where there is no such turn.
+        """
+        if start_edge not in self._endless:
+            return ()
+        for edge in self._following(start_edge):
+            if self._directions(start_edge).get(edge) == _ORDER[side]:
+                onward = self.straight_route(edge, length_m)
+                return (start_edge, *onward) if onward else ()
+        return ()
+
     def wandering_route(
         self, start_edge: str, length_m: float, generator: np.random.Generator
     ) -> tuple[str, ...]:
         """Return a route of at least `length_m` that turns at random."""
-        return self._extend(
-            start_edge, length_m, lambda options: options[int(generator.integers(len(options)))]
-        )
+
+        def choose(options: Sequence[str]) -> str:
+            liked = [edge for edge in options if not self._is_slow(edge)] or options
+            return liked[int(generator.integers(len(liked)))]
+
+        return self._extend(start_edge, length_m, choose)
+
+    def circulating_route(
+        self,
+        start_lane: str,
+        length_m: float,
+        generator: np.random.Generator,
+        liked: Callable[[str], bool],
+    ) -> tuple[str, ...]:
+        """Return a route that turns at random and never asks for a change of lane.
+
+        Args:
+            start_lane: First lane.
+            length_m: Least length.
+            generator: Of the turns.
+            liked: Tells onto which edges it turns wherever it can.
+
+        Returns:
+            Empty where the lanes lead nowhere.
+        """
+        lane = start_lane
+        route = [self._network.lane(lane).edge_id]
+        length = self._network.edge(route[0]).length_m
+        while length < length_m:
+            onward = self._lanes_behind(lane)
+            if not onward:
+                return ()
+            options = [i for i in onward if liked(self._network.lane(i).edge_id)] or onward
+            lane = options[int(generator.integers(len(options)))]
+            route.append(self._network.lane(lane).edge_id)
+            length += self._network.edge(route[-1]).length_m
+        return tuple(route)
+
+    def _lanes_behind(self, lane_id: str) -> list[str]:
+        """Return the lanes onto which a lane leads, but for turning round."""
+        links = self._network.connections_from(lane_id)
+        onward = {
+            link.to_lane_id
+            for link in links
+            if link.direction != 't'
+            and self._network.lane(link.to_lane_id).edge_id in self._endless
+        }
+        return sorted(onward)
 
     def endless(self, edge_id: str) -> bool:
         """Whether one can drive on from this edge for ever."""
         return edge_id in self._endless
 
-    def _extend(self, start_edge: str, length_m: float, choose: object) -> tuple[str, ...]:
+    def _is_slow(self, edge_id: str) -> bool:
+        """Whether no lane of an edge has the speed limit that is preferred."""
+        lanes = (self._network.lane(name) for name in self._network.edge(edge_id).lane_ids)
+        return all(
+            lane.speed_limit_mps < self._least_limit_mps
+            for lane in lanes
+            if self._vclass in lane.allows
+        )
+
+    def _extend(
+        self, start_edge: str, length_m: float, choose: Callable[[Sequence[str]], str]
+    ) -> tuple[str, ...]:
         if start_edge not in self._endless:
             return ()
         route = [start_edge]
         length = self._network.edge(start_edge).length_m
         while length < length_m:
-            options = self._following(route[-1])
-            assert callable(choose)
-            route.append(choose(options))
+            route.append(choose(self._following(route[-1])))
             length += self._network.edge(route[-1]).length_m
         return tuple(route)
 
-    def _ordered_successors(self, edge_id: str) -> tuple[str, ...]:
+    def _directions(self, edge_id: str) -> dict[str, int]:
+        """Return how one turns into each edge behind an edge, as ranks in `_ORDER`."""
         direction: dict[str, int] = {}
         for lane_id in self._network.edge(edge_id).lane_ids:
             for link in self._network.connections_from(lane_id):
                 target = self._network.lane(link.to_lane_id).edge_id
                 rank = _ORDER.get(link.direction, 8)
                 direction[target] = min(rank, direction.get(target, rank))
+        return direction
+
+    def _ordered_successors(self, edge_id: str) -> tuple[str, ...]:
+        direction = self._directions(edge_id)
         options = [
             e for e in self._network.successors(edge_id, self._vclass) if e in self._endless
         ]
         # Turning round is for dead ends only.
         onward = [e for e in options if direction.get(e, 8) < _ORDER['t']]
-        return tuple(sorted(onward or options, key=lambda e: (direction.get(e, 8), e)))
+        return tuple(
+            sorted(onward or options, key=lambda e: (self._is_slow(e), direction.get(e, 8), e))
+        )
 
     def _edges_on_cycles(self) -> frozenset[str]:
         """Edges from which one can go on for ever: remove edges without a way on, repeatedly."""

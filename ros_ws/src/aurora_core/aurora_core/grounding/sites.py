@@ -14,8 +14,8 @@ import numpy as np
 import numpy.typing as npt
 
 from aurora_core.errors import MapError
-from aurora_core.grounding.convoy import BeforeIntersection, ConvoyMember
-from aurora_core.grounding.places import crossings, nearest_to
+from aurora_core.grounding.convoy import BeforePlace, ConvoyMember
+from aurora_core.grounding.places import MapPlaces, nearest_to
 from aurora_core.grounding.routes import RouteFinder
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.map_model import MapModel
@@ -23,20 +23,26 @@ from aurora_core.knowledge.net_types import Lane
 from aurora_core.knowledge.road_network import RoadNetwork
 from aurora_core.knowledge.route_path import RoutePath
 from aurora_core.knowledge.settings import GroundingSettings
-from aurora_core.spec.scenario import ScenarioSpec
-from aurora_core.spec.vocabulary import MissionMode, Place
+from aurora_core.knowledge.walk_path import WalkPath
+from aurora_core.spec.scenario import GroundAgent, ScenarioSpec
+from aurora_core.spec.vocabulary import BehaviorKind, MissionMode, Place
 
 FloatArray = npt.NDArray[np.float64]
+
+_SIDES = {BehaviorKind.TURN_LEFT: 'l', BehaviorKind.TURN_RIGHT: 'r'}
 
 # Class of a site without vehicles (a mission over a place needs a road only as an anchor).
 ANY_CLASS = 'passenger'
 
-# The route of who stands before an intersection passes its centre at most this far off (m): inside
+# The route of who stands before a place passes its middle at most this far off (m): inside
 # the tolerance of that placement.
 _ASIDE_M = 8.0
 
 # Clear road in front of the first and behind the last bumper at t = 0.
 _END_GAP_M = 2.0
+
+# A limit of 13.89 m/s is meant where 50 km/h are asked (m/s).
+_LIMIT_SLACK_MPS = 0.05
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -49,6 +55,20 @@ class SeatedAgent:
     lane_id: str
     lane_position_m: float
 
+    @property
+    def agent(self) -> GroundAgent:
+        """Who it is."""
+        return self.member.agent
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SeatedPerson:
+    """A person at its place: on the walk `path` at `arc_m`."""
+
+    agent: GroundAgent
+    path: WalkPath
+    arc_m: float
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Site:
@@ -60,6 +80,8 @@ class Site:
         seated: All members.
         free_run_m: Way of the front member to the first signal (or the length of the route).
         steady: No member needs a lane change.
+        walkers: Persons, once they are placed.
+        others: Vehicles with ways of their own, once they are placed.
     """
 
     origin_path: RoutePath
@@ -67,11 +89,18 @@ class Site:
     seated: tuple[SeatedAgent, ...]
     free_run_m: float
     steady: bool
+    walkers: tuple[SeatedPerson, ...] = ()
+    others: tuple[SeatedAgent, ...] = ()
 
-    def seat(self, agent_id: str) -> SeatedAgent | None:
-        """Return the place of a member, None when it is not in the convoy."""
-        for seat in self.seated:
-            if seat.member.agent.id == agent_id:
+    def seat(self, agent_id: str) -> SeatedAgent | SeatedPerson | None:
+        """Return the place of a member or a person, None of anybody else."""
+        seats: tuple[SeatedAgent | SeatedPerson, ...] = (
+            *self.seated,
+            *self.others,
+            *self.walkers,
+        )
+        for seat in seats:
+            if seat.agent.id == agent_id:
                 return seat
         return None
 
@@ -86,6 +115,20 @@ class Site:
             network.lane(s.lane_id).speed_limit_mps
             for s in self.origin_path.segments
             if s.end_m > self.origin_arc_m and s.start_m < end_m and not s.is_internal
+        )
+
+    def open_way_m(self, start_m: float, way_m: float, apart_m: float) -> float:
+        """Return how much of the origin's way is farther than `apart_m` from every junction.
+
+        Args:
+            start_m: Where the stretch begins, from the origin on.
+            way_m: Its length.
+            apart_m: Distance from the ends of streets, metres.
+        """
+        low, high = self.origin_arc_m + start_m, self.origin_arc_m + start_m + way_m
+        streets = (s for s in self.origin_path.segments if not s.is_internal)
+        return sum(
+            max(0.0, min(high, s.end_m - apart_m) - max(low, s.start_m + apart_m)) for s in streets
         )
 
     def turns(self, way_m: float, settings: GroundingSettings) -> int:
@@ -113,25 +156,38 @@ def on_main_roads(lanes: Sequence[Lane]) -> list[Lane]:
     return [lane for lane in lanes if count[lane.edge_id] > 1]
 
 
+def with_another_lane(lanes: Sequence[Lane]) -> list[Lane]:
+    """Return the lanes for cars that have another one of these beside them."""
+    return on_main_roads([lane for lane in lanes if ANY_CLASS in lane.allows])
+
+
 def sites(
     map_model: MapModel,
     convoy: tuple[ConvoyMember, ...],
     types: Mapping[str, AgentTypeRecord],
     route_length_m: float,
-    settings: GroundingSettings,
-    before: BeforeIntersection | None = None,
+    spacing_m: float,
+    before: BeforePlace | None = None,
+    least_limit_mps: float = 0.0,
+    *,
+    several_lanes: bool = False,
 ) -> Iterator[Site]:
-    """Yield every site of the map in a fixed order, `anchor_spacing_m` apart.
+    """Yield every site of the map in a fixed order.
 
     Args:
         map_model: Map.
         convoy: Who is to be placed.
         types: Agent sizes.
         route_length_m: Of the routes.
-        settings: Search settings.
-        before: A member that stands before an intersection; only such sites are yielded.
+        spacing_m: How far apart they are.
+        before: A member that stands before a place; only such sites are yielded.
+        least_limit_mps: Streets have this speed limit, or the highest one that the map has.
+        several_lanes: Only on streets with several lanes for cars per direction.
     """
-    centres = () if before is None else crossings(map_model)
+    centres: Sequence[tuple[float, float]] = ()
+    if before is not None:
+        known = MapPlaces(map_model)
+        centres = known.crosswalks if before.place is Place.CROSSWALK else known.intersections
     network = map_model.network
     classes = sorted({types[m.agent.type.value].vclass for m in convoy}) or [ANY_CLASS]
     lanes = [
@@ -141,7 +197,12 @@ def sites(
     ]
     if any(p.of == Place.MAIN_ROAD for m in convoy for p in m.agent.placements):
         lanes = on_main_roads(lanes)
-    finder = RouteFinder(network, min(classes, key=lambda c: (len(network.driving_lanes(c)), c)))
+    if several_lanes:
+        lanes = with_another_lane(lanes)
+    lanes, least_mps = brisk_lanes(lanes, least_limit_mps)
+    vclass = min(classes, key=lambda c: (len(network.driving_lanes(c)), c))
+    finder = RouteFinder(network, vclass, least_mps)
+    side = _turn(convoy)
     back_m = max(
         (types[m.agent.type.value].length_m / 2.0 - m.offset_m for m in convoy), default=0.0
     )
@@ -152,7 +213,10 @@ def sites(
         # The right lane is where one drives; another only when a member has to be right of it.
         if has_right and not shifted:
             continue
-        edges = finder.straight_route(lane.edge_id, route_length_m)
+        if side:
+            edges = finder.turning_route(lane.edge_id, route_length_m, side)
+        else:
+            edges = finder.straight_route(lane.edge_id, route_length_m)
         if not edges:
             continue
         paths: dict[tuple[str, int], RoutePath | None] = {}
@@ -161,24 +225,37 @@ def sites(
         while arc_m < end_m:
             site = _site(map_model, convoy, types, edges, lane.id, arc_m, paths)
             if site is not None and before is not None:
-                exact_m = _exact_arc_m(site, before, centres, settings.anchor_spacing_m)
+                exact_m = _exact_arc_m(site, before, centres, spacing_m)
                 site = None
                 if exact_m is not None:
                     site = _site(map_model, convoy, types, edges, lane.id, exact_m, paths)
             if site is not None:
                 yield site
-            arc_m += settings.anchor_spacing_m
+            arc_m += spacing_m
+
+
+def brisk_lanes(lanes: list[Lane], stated_mps: float) -> tuple[list[Lane], float]:
+    """Return the lanes that allow a stated speed, else the fastest ones, and their least limit."""
+    fastest_mps = max((lane.speed_limit_mps for lane in lanes), default=0.0)
+    least_mps = max(0.0, min(stated_mps, fastest_mps) - _LIMIT_SLACK_MPS)
+    return [lane for lane in lanes if lane.speed_limit_mps >= least_mps], least_mps
+
+
+def _turn(convoy: tuple[ConvoyMember, ...]) -> str:
+    """Return to which side the convoy is to turn: as its first member that is to, '' if none."""
+    kinds = [b.kind for member in convoy for b in member.agent.behaviors]
+    return next((_SIDES[kind] for kind in kinds if kind in _SIDES), '')
 
 
 def _exact_arc_m(
     site: Site,
-    before: BeforeIntersection,
+    before: BeforePlace,
     centres: Sequence[tuple[float, float]],
     spacing_m: float,
 ) -> float | None:
-    """Return where the origin stands when a member is exactly before an intersection.
+    """Return where the origin stands when a member is exactly before a place.
 
-    None where no intersection is near enough: sites are `spacing_m` apart, so that one half of it
+    None where no such place is near enough: sites are `spacing_m` apart, so that one half of it
     in each direction is looked through.
     """
     seat = site.seat(before.agent)
@@ -196,7 +273,7 @@ def _exact_arc_m(
         return None
     exact_m = site.origin_arc_m + shift_m
     here = site.origin_path.position_at(max(0.0, exact_m))
-    # A scenario has one intersection: the nearest one to its origin.
+    # A scenario has one intersection and one crosswalk: the nearest ones to its origin.
     return exact_m if nearest_to((here[0], here[1]), centres) == centre else None
 
 
@@ -283,7 +360,9 @@ def _overlap(seated: Sequence[SeatedAgent], types: Mapping[str, AgentTypeRecord]
     return False
 
 
-def samples_along(path: RoutePath, start_m: float, way_m: float, spacing_m: float) -> FloatArray:
+def samples_along(
+    path: RoutePath | WalkPath, start_m: float, way_m: float, spacing_m: float
+) -> FloatArray:
     """Return points (K, 4) x, y and unit heading along a path, from `start_m` on."""
     end_m = min(path.length_m, start_m + way_m)
     count = max(2, int((end_m - start_m) / spacing_m) + 1)

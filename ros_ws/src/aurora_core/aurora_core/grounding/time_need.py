@@ -11,6 +11,8 @@ from __future__ import annotations
 from math import ceil
 
 from aurora_core.knowledge.limits import Limits
+from aurora_core.spec.flight_order import begun_by
+from aurora_core.spec.own_events import own_events
 from aurora_core.spec.scenario import (
     Event,
     EventDoneTrigger,
@@ -46,7 +48,10 @@ def horizon_s(spec: ScenarioSpec, limits: Limits) -> float:
         (e.trigger.at_s.value for e in spec.events if isinstance(e.trigger, TimeTrigger)),
         default=0.0,
     )
-    need = max(by_uav.values(), default=0.0) + latest + sum(_event_s(spec, e) for e in spec.events)
+    # Who waits for an event may have to wait for all that the others do.
+    waits = any(begun_by(spec, m) is not None for m in spec.missions)
+    flown_s = sum(by_uav.values()) if waits else max(by_uav.values(), default=0.0)
+    need = flown_s + latest + sum(_event_s(spec, e) for e in (*spec.events, *own_events(spec)))
     return float(min(limits.duration_max_s, max(limits.horizon_inferred_min_s, ceil(need))))
 
 
@@ -71,11 +76,9 @@ def _mission_s(mission: UavMission) -> float:
         assert mission.duration_s is not None
         return _TRANSIT_S + mission.duration_s.value
     assert mission.speed_mps is not None
-    return (
-        _TRANSIT_S
-        + 1.5 * _route_m(mission) / max(_SLOWEST_MPS, mission.speed_mps.value)
-        + 4.0 * _CORNER_S
-    )
+    lap_s = 1.5 * _route_m(mission) / max(_SLOWEST_MPS, mission.speed_mps.value)
+    asked_s = 0.0 if mission.duration_s is None else mission.duration_s.value
+    return _TRANSIT_S + max(asked_s, lap_s + 4.0 * _CORNER_S)
 
 
 def _route_m(mission: UavMission) -> float:

@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from aurora_core.errors import VerificationError
-from aurora_core.outcomes.condition import Condition, MissionArguments, Window
+from aurora_core.outcomes.condition import ClimbArguments, Condition, MissionArguments, Window
 from aurora_core.outcomes.verdict import Reason
 from aurora_core.quantities import motion
 from aurora_core.quantities.ledger import LinkModel, Message, messages
@@ -30,6 +30,7 @@ from aurora_core.quantities.ticks import first_tick, whole_ticks
 from aurora_core.quantities.triggers import EventRules, EventTimes
 from aurora_core.quantities.view import RunView
 from aurora_core.spec.scenario import Link, ScenarioSpec
+from aurora_core.trace.layout import UavCommandColumn, UavPhase
 
 FloatArray = npt.NDArray[np.float64]
 BoolArray = npt.NDArray[np.bool_]
@@ -165,8 +166,50 @@ class Context:
                 mission.index,
                 self.flight(mission, touchdown_m),
                 mission.capture_rule,
+                self.position(mission, grace=False),
             )
         return self._phases[key]
+
+    def position(self, mission: MissionArguments, *, grace: bool = True) -> FloatArray:
+        """Return where a UAV is, (T, 3) ENU metres, as its mission counts heights.
+
+        Climbs that an event asks for are taken off: who is where the climb leads is as high as
+        the mission asks for.
+
+        Args:
+            mission: Whose heights.
+            grace: While there is still time for a climb no height is wrong.
+        """
+        uav = self.view.body(mission.uav)
+        point = self.view.reference(uav.body_id)
+        begun = sorted(
+            (tick, climb.event, climb)
+            for climb in mission.climbs
+            if (tick := self._climb_tick(climb, mission)) is not None
+        )
+        if not begun:
+            return point
+        heights = point[:, 2].copy()
+        for tick, _, climb in begun:
+            heights[tick:] = point[tick:, 2] - climb.altitude_m + mission.altitude_m
+            settled = tick + whole_ticks(climb.within_s, self.view.dt_s) if grace else tick
+            heights[tick:settled] = mission.altitude_m
+        return np.column_stack((point[:, :2], heights))
+
+    def _climb_tick(self, climb: ClimbArguments, mission: MissionArguments) -> int | None:
+        """Return when a climb begins, None where it does not while this mission is flown.
+
+        What is asked for during the ascent is done with the first mission.
+        """
+        due = self.events.due_tick(climb.event)
+        tick = None if due is None else self.events.action_tick(climb.event, due)
+        if tick is None:
+            return None
+        phase = self.view.commands(self.view.body(mission.uav))[:, UavCommandColumn.PHASE]
+        flown = UavPhase.MISSION + mission.index
+        first = first_tick(phase >= UavPhase.MISSION)
+        ascends = phase[tick] == UavPhase.ASCENT and first is not None and phase[first] == flown
+        return tick if ascends or phase[tick] == flown else None
 
     def sight(self, observer: str, target: str) -> SightSeries:
         """Return the sight of a target from a UAV."""
@@ -255,6 +298,8 @@ class Context:
                         uav = self.view.body(name)
                         mask |= motion.airborne(self.view, uav, arguments.touchdown_m)
                 return self._unless_cut(condition, np.flatnonzero(mask), after_s, decided=False)
+            case Window.TO_THE_END:
+                return self._to_the_end(condition)
             case Window.PHASE:
                 if arguments.mission is None:
                     raise VerificationError(f'condition {condition.id} names no mission')
@@ -270,6 +315,13 @@ class Context:
                 )
             case Window.MOMENT:
                 raise VerificationError(f'condition {condition.id} has no window of samples')
+
+    def _to_the_end(self, condition: Condition) -> TickArray | Missing:
+        """Return the ticks from the first command of a UAV's last mission on."""
+        last = max(condition.arguments.missions, key=lambda mission: mission.index)
+        begin = self.phase(last, condition.arguments.touchdown_m).command_tick
+        ticks = np.arange(self.view.ticks if begin is None else begin, self.view.ticks)
+        return self._unless_cut(condition, ticks, 0.0, decided=False)
 
     def _unless_cut(
         self, condition: Condition, ticks: TickArray, after_s: float, *, decided: bool

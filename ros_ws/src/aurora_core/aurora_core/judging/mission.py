@@ -4,14 +4,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from aurora_core.errors import VerificationError
 from aurora_core.judging.build import Inputs
-from aurora_core.knowledge.limits import hover_drift_limit_m
-from aurora_core.outcomes.condition import MissionArguments
+from aurora_core.knowledge.limits import hover_capture_m
+from aurora_core.outcomes.condition import ClimbArguments, MissionArguments
 from aurora_core.outcomes.schedule import MissionFacts
+from aurora_core.spec.flight_order import climbs_last, left_by
 from aurora_core.spec.parameter import Bound, Parameter, Provenance
-from aurora_core.spec.scenario import UavMission
+from aurora_core.spec.scenario import UavAction, UavMission
 from aurora_core.spec.vocabulary import MissionMode
+
+# Share of the greatest climb rate that a climb has on average, with its beginning and its end.
+_CLIMB_SHARE = 0.6
 
 
 def mission_arguments(inputs: Inputs, mission: UavMission) -> MissionArguments:
@@ -38,10 +44,11 @@ def mission_arguments(inputs: Inputs, mission: UavMission) -> MissionArguments:
         )
     first_altitude = _explicit_or(own[0].altitude_m, first_facts.altitude_m)
     point = _first_point(mission, facts)
+    ends = left_by(inputs.spec, mission)
     track = mission.mode is MissionMode.TRACK
     hover = mission.mode is MissionMode.HOVER
     horizontal = (
-        hover_drift_limit_m(inputs.spec.world.weather.value, inputs.limits, tolerances)
+        hover_capture_m(inputs.spec, mission.uav, inputs.limits, tolerances)
         if hover
         else tolerances.waypoint_horizontal_m
     )
@@ -66,7 +73,34 @@ def mission_arguments(inputs: Inputs, mission: UavMission) -> MissionArguments:
         planned_s=facts.duration_s,
         waypoints=facts.waypoints,
         waypoint_horizontal_m=tolerances.waypoint_horizontal_m,
+        left_by=None if ends is None else ends.id,
+        climbs=tuple(_climbs(inputs, mission, altitude)),
     )
+
+
+def climb_mps(inputs: Inputs) -> float:
+    """Return how fast a UAV climbs at least on average when an event asks for it, in m/s."""
+    return _CLIMB_SHARE * inputs.limits.uav_climb_max_mps
+
+
+def descent_mps(inputs: Inputs) -> float:
+    """Return how fast a UAV sinks at least on average when an event asks for it, in m/s."""
+    return _CLIMB_SHARE * inputs.limits.uav_descent_max_mps
+
+
+def _climbs(inputs: Inputs, mission: UavMission, from_m: float) -> Iterator[ClimbArguments]:
+    """Yield the climbs that an event may ask for while a mission is flown."""
+    for event in inputs.spec.events:
+        action = event.action
+        if not isinstance(action, UavAction) or action.altitude_m is None:
+            continue
+        if action.uav == mission.uav and not climbs_last(event):
+            rise_m = action.altitude_m.value - from_m
+            way_s = max(rise_m / climb_mps(inputs), -rise_m / descent_mps(inputs))
+            within_s = way_s + inputs.tolerances.action_done_s
+            yield ClimbArguments(
+                event=event.id, altitude_m=action.altitude_m.value, within_s=within_s
+            )
 
 
 def _explicit_or(parameter: Parameter | None, realised: float) -> float:

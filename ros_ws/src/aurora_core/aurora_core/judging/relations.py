@@ -39,7 +39,10 @@ RELATION_WORDS = {
 # Farther than this from what is meant, the distance is not told apart (m).
 _CUTOFF_M = 200.0
 
-_SURFACES = {Place.CROSSWALK: SurfaceKind.CROSSING}
+# Kinds of ground, which have no point: at them is on them.
+_GROUNDS = (Place.SIDEWALK, Place.ROADSIDE)
+
+_SURFACES = {Place.CROSSWALK: SurfaceKind.CROSSING, Place.SIDEWALK: SurfaceKind.SIDEWALK}
 
 
 class Related(Protocol):
@@ -107,7 +110,8 @@ def relation_slack(context: Context, condition: Condition, asked: Related) -> Fl
 def _place_slack(context: Context, condition: Condition, asked: Related) -> FloatArray:
     """Return by how much an agent is where a placement says, (T,) metres; negative outside.
 
-    Near, at: what is left of the distance to the place. On, parked at: depth in the crosswalk,
+    Near, at: what is left of the distance to the place. On, parked at, and at a kind of ground:
+    depth in the crosswalk or the sidewalk,
     what is left of a lane of a street with several lanes (main road) or of the strip along the
     carriageway (roadside); other places have a point, as with `at`. Before: see `before_place`.
     """
@@ -118,7 +122,7 @@ def _place_slack(context: Context, condition: Condition, asked: Related) -> Floa
         left = asked.offset_m - offset_m
         slack = lead_m if left >= 0.0 else min(lead_m, left)
         return np.full(view.ticks, slack)
-    on = asked.relation in (Relation.ON, Relation.PARKED_AT)
+    on = asked.relation in (Relation.ON, Relation.PARKED_AT) or place in _GROUNDS
     point = view.reference(name)[:, :2]
     if on and place == Place.MAIN_ROAD:
         return _main_road(context, point)

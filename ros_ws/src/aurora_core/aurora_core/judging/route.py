@@ -4,10 +4,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from itertools import takewhile
+
 from aurora_core.errors import VerificationError
+from aurora_core.geometry.kernel import norm2
 from aurora_core.judging.evaluation import Context
 from aurora_core.outcomes.condition import Condition, MissionArguments
 from aurora_core.quantities.waypoints import Leg, Passage, legs, passages
+from aurora_core.trace.layout import UavCommandColumn, UavPhase
 
 
 def route_flown(
@@ -22,8 +27,7 @@ def route_flown(
     if phase.capture_tick is None:
         raise VerificationError(f'{condition.id}: the phase of {mission.mission} has no sample')
     return passages(
-        context.view,
-        context.view.body(mission.uav),
+        context.position(mission),
         mission.waypoints,
         (mission.waypoint_horizontal_m, mission.altitude_tolerance_m),
         phase.capture_tick,
@@ -34,8 +38,50 @@ def route_flown(
 def flown_legs(
     context: Context, condition: Condition, mission: MissionArguments
 ) -> tuple[Leg, ...]:
-    """Return the legs of a mission whose two ends were visited."""
-    return legs(mission.waypoints, route_flown(context, condition, mission))
+    """Return the legs whose two ends were visited, and the one that an event cut short."""
+    flown = route_flown(context, condition, mission)
+    found = legs(mission.waypoints, flown)
+    if not is_broken_off(context, condition, mission):
+        return found
+    done, stop = visited(flown), context.phase(mission, condition.arguments.touchdown_m).stop_tick
+    last = Leg(
+        a=mission.waypoints[len(done) - 1],
+        b=mission.waypoints[len(done)],
+        start=done[-1].nearest_tick,
+        stop=stop,
+    )
+    return (*(leg for leg in found if leg.stop <= last.start), last)
+
+
+def visited(flown: Sequence[Passage]) -> tuple[Passage, ...]:
+    """Return the passages up to the first waypoint that was missed."""
+    return tuple(takewhile(lambda passage: passage.tick is not None, flown))
+
+
+def is_broken_off(context: Context, condition: Condition, mission: MissionArguments) -> bool:
+    """Tell whether an event let the next mission, or the landing, begin while on a route."""
+    phase = context.phase(mission, condition.arguments.touchdown_m)
+    if mission.left_by is None or phase.end_tick is None or phase.capture_tick is None:
+        return False
+    commands = context.view.commands(context.view.body(mission.uav))
+    begins = commands[phase.end_tick, UavCommandColumn.PHASE]
+    if (
+        begins >= UavPhase.HOLDING
+        and context.events.action_tick(mission.left_by) != phase.end_tick
+    ):
+        return False
+    done = visited(route_flown(context, condition, mission))
+    return 0 < len(done) < len(mission.waypoints)
+
+
+def off_leg_m(context: Context, condition: Condition, mission: MissionArguments) -> float:
+    """Return how far from its leg a UAV is when an event breaks its route off, metres."""
+    leg = flown_legs(context, condition, mission)[-1]
+    x, y, _ = context.position(mission)[leg.stop - 1].tolist()
+    dx, dy = leg.b[0] - leg.a[0], leg.b[1] - leg.a[1]
+    along = ((x - leg.a[0]) * dx + (y - leg.a[1]) * dy) / (dx * dx + dy * dy)
+    at = min(max(along, 0.0), 1.0)
+    return norm2(x - leg.a[0] - at * dx, y - leg.a[1] - at * dy)
 
 
 def route_topics(condition: Condition) -> tuple[str, ...]:

@@ -16,7 +16,11 @@ from aurora_core.spec.vocabulary import AgentType
 
 
 class AgentTypeRecord(BaseModel):
-    """One type; sizes in metres, dynamics in SI, `vclass` in SUMO's words."""
+    """One type; sizes in metres, dynamics in SI, `vclass` in SUMO's words.
+
+    Attributes:
+        desired_speed_mps: What it goes where nobody says more; None: what the street allows.
+    """
 
     model_config = ConfigDict(frozen=True, extra='ignore', allow_inf_nan=False)
 
@@ -29,6 +33,7 @@ class AgentTypeRecord(BaseModel):
     decel_mps2: Positive
     vclass: str
     is_person: bool
+    desired_speed_mps: Positive | None = None
 
 
 def top_speed_mps(record: AgentTypeRecord, limits: Limits) -> float:
@@ -56,8 +61,7 @@ def load_agent_types() -> Mapping[str, AgentTypeRecord]:
             hint='compare with the shipped file',
         ) from err
     by_name = {record.name: record for record in sorted(records, key=lambda r: r.name)}
-    # A roadside unit is no body in the traffic.
-    lacking = [t.value for t in AgentType if t is not AgentType.RSU and t.value not in by_name]
+    lacking = [t.value for t in AgentType if t.value not in by_name]
     if lacking or len(by_name) < len(records):
         wrong = f'types lacks {", ".join(lacking)}' if lacking else 'types repeats a name'
         raise ConfigError(f'{path} is not valid: {wrong}', hint='compare with the shipped file')

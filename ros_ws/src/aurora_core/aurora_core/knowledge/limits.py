@@ -12,6 +12,8 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from aurora_core.errors import ConfigError
 from aurora_core.files import CONFIG_BYTES, read_json
+from aurora_core.spec.quantity import QuantityName
+from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.spec.vocabulary import TimeOfDay, Weather
 
 # A limit or tolerance of zero would forbid everything; a share lies in (0, 1].
@@ -90,6 +92,9 @@ class Tolerance(_Table):
         return max(self.absolute, relative * abs(value))
 
 
+EXACT = Tolerance(absolute=0.0, relative=0.0)
+
+
 class Tolerances(_Table):
     """Tolerances of explicit numbers and thresholds of implied conditions."""
 
@@ -104,6 +109,7 @@ class Tolerances(_Table):
     duration_s: Tolerance
     bearing_deg: NotNegative
     pattern_centre_m: NotNegative
+    orbit_deg: NotNegative  # on the full turn of an orbit
     capture_s: NotNegative
     tracked_fraction: Share
     visible_fraction: Share
@@ -141,6 +147,10 @@ class Tolerances(_Table):
     route_acceleration_mps2: NotNegative  # acceleration and braking distances of route legs
     drive_distance_m: NotNegative  # way after which an agent counts as having driven
     approach_m: NotNegative  # by how much an approach shortens the distance
+    traffic_radius_m: NotNegative  # around the anchor of a scene; vehicles in it are its traffic
+    traffic_per_km: dict[str, NotNegative]  # vehicles per kilometre of street, by density
+    traffic_least: NotNegative  # vehicles
+    traffic_share: Range  # of these, on average over the run
     arrival_m: NotNegative  # an agent this close to a place is there
     near_m: NotNegative  # "near" without a distance
     lane_offset_m: NotNegative  # offset inside one lane
@@ -165,6 +175,20 @@ def hover_drift_limit_m(weather: str, limits: Limits, tolerances: Tolerances) ->
     """Return the drift allowed while hovering in a weather: more in wind."""
     windy = limits.wind_mean_mps[weather] > 0.0 or limits.wind_gust_mps[weather] > 0.0
     return tolerances.hover_drift_wind_m if windy else tolerances.hover_drift_calm_m
+
+
+def hover_capture_m(spec: ScenarioSpec, uav: str, limits: Limits, tolerances: Tolerances) -> float:
+    """Return how near a UAV has to come to its hover point before its hover begins, metres.
+
+    It is the drift allowed in the weather, or a stated one that is less: who is to stay within
+    1.5 m does not begin 2 m away.
+    """
+    stated = (
+        c.value.value
+        for c in spec.conditions
+        if c.quantity == QuantityName.HOVER_DRIFT and uav in c.of and c.op in ('<', '<=')
+    )
+    return min((hover_drift_limit_m(spec.world.weather.value, limits, tolerances), *stated))
 
 
 def load_limits(path: Path) -> Limits:

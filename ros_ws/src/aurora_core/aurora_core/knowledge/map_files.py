@@ -1,13 +1,14 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""Read the GeoJSON and stops files of a map folder.
+"""Read GeoJSON and stops files of a map folder, and write the former.
 
 Coordinates in them are ENU map metres, not degrees; each file says so in its member `frame`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import json
+from collections.abc import Callable, Mapping, Sequence
 from itertools import pairwise
 from pathlib import Path
 from typing import Any, TypeVar
@@ -29,10 +30,21 @@ from aurora_core.knowledge.road_network import RoadNetwork
 
 FRAME = 'enu_m'
 NO_FLY = 'no_fly'
-_HINT = 'restore the file, or build the maps again with `make maps`'
+_HINT = 'restore the file; build a bundled map again with `make maps`, import your own again'
 
 _T = TypeVar('_T')
 _Feature = Mapping[str, Any]
+
+
+def write_features(path: Path, features: Sequence[dict[str, Any]]) -> None:
+    """Write one feature per line, coordinates in map metres: what the readers here read.
+
+    Raises:
+        OSError: No room.
+    """
+    lines = ',\n'.join(json.dumps(f, separators=(',', ':'), ensure_ascii=False) for f in features)
+    head = f'{{"type":"FeatureCollection","frame":"{FRAME}","features":[\n'
+    path.write_text(f'{head}{lines}\n]}}\n', encoding='utf-8')
 
 
 def read_buildings(path: Path) -> tuple[Building, ...]:
@@ -64,13 +76,20 @@ def read_areas(path: Path) -> tuple[Area, ...]:
     return _sorted(areas, path, lambda a: a.id)
 
 
-def read_landmarks(path: Path) -> tuple[Landmark, ...]:
+def read_landmarks(path: Path, network: RoadNetwork) -> tuple[Landmark, ...]:
     """Read landmarks, sorted by name.
 
     Raises:
-        MapError: When the file is missing or damaged.
+        MapError: When the file is missing or damaged, or when a landmark is approached from no
+            place on a lane of the network.
     """
-    return _sorted(_features(path, _landmark), path, lambda m: m.name)
+    found = _features(path, _landmark)
+    for mark in found:
+        try:
+            network.position_on_lane(mark.approach_lane_id, mark.approach_pos_m)
+        except MapError as err:
+            raise _damaged(path, f'{mark.name}: {err.message}') from err
+    return _sorted(found, path, lambda m: m.name)
 
 
 def read_stops(

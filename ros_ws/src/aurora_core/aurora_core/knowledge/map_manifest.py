@@ -15,7 +15,8 @@ from aurora_core.files import MANIFEST_BYTES, MAP_BYTES, read_bytes
 
 MANIFEST_NAME = 'map.json'
 SCHEMA_VERSION = 1
-_BUILD_HINT = 'restore the file, or build the maps again with `make maps`'
+NAME_PATTERN = r'^[a-z0-9][a-z0-9_-]*$'
+_BUILD_HINT = 'restore the file; build a bundled map again with `make maps`, import your own again'
 
 
 class MapFile(BaseModel):
@@ -39,7 +40,7 @@ class MapManifest(BaseModel):
     model_config = ConfigDict(frozen=True, extra='forbid')
 
     schema_version: int = Field(ge=SCHEMA_VERSION, le=SCHEMA_VERSION)
-    name: str = Field(pattern=r'^[a-z0-9][a-z0-9_-]*$')
+    name: str = Field(pattern=NAME_PATTERN)
     version: str
     description: str
     licence: str

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from aurora_core.errors import MapError
-from aurora_core.knowledge.config_files import config_path
 from aurora_core.knowledge.map_files import (
     read_areas,
     read_buildings,
@@ -16,6 +15,7 @@ from aurora_core.knowledge.map_files import (
     read_stops,
     read_zones,
 )
+from aurora_core.knowledge.map_folders import map_folder
 from aurora_core.knowledge.map_manifest import MANIFEST_NAME, read_manifest
 from aurora_core.knowledge.map_types import (
     Area,
@@ -100,25 +100,23 @@ class MapModel:
         raise MapError(f'map {self.name} has no landmark {name!r}', hint=f'it has: {names}')
 
 
-def list_maps() -> tuple[str, ...]:
-    """Return the names of the maps in the configuration folder, sorted."""
-    folder = config_path('maps')
-    return tuple(sorted(path.parent.name for path in folder.glob(f'*/{MANIFEST_NAME}')))
-
-
 def load_map(name: str) -> MapModel:
     """Load a map and verify every file against its digest.
 
     Args:
-        name: Name of a folder in `maps/` of the configuration.
+        name: Of a bundled or an imported map.
 
     Raises:
         MapError: When there is no such map, or when one of its files is missing or changed.
     """
-    known = list_maps()
-    if name not in known:
-        raise MapError(f'there is no map {name!r}', hint=f'known maps: {", ".join(known)}')
-    return load_map_folder(config_path('maps', name))
+    folder = map_folder(name)
+    model = load_map_folder(folder)
+    if model.name != name:
+        raise MapError(
+            f'the folder {folder} holds the map {model.name!r}, which no run would find again',
+            hint=f'name the folder {model.name}, or import the map again with --name {name}',
+        )
+    return model
 
 
 def load_map_folder(folder: Path) -> MapModel:
@@ -159,7 +157,7 @@ def load_map_folder(folder: Path) -> MapModel:
         buildings=read_buildings(folder / BUILDINGS_NAME),
         zones=read_zones(folder / ZONES_NAME),
         areas=read_areas(folder / ZONES_NAME),
-        landmarks=read_landmarks(folder / LANDMARKS_NAME),
+        landmarks=read_landmarks(folder / LANDMARKS_NAME, network),
         bus_stops=bus_stops,
         parking_areas=parking_areas,
     )

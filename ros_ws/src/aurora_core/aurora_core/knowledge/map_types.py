@@ -9,6 +9,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import shapely
+
 from aurora_core.knowledge.net_types import Points
 
 
@@ -33,6 +35,16 @@ class Building:
     height_source: str
     kind: str
     name: str
+
+    @property
+    def centre(self) -> tuple[float, float]:
+        """The centroid of its outline."""
+        point = shapely.Polygon(self.ring).centroid
+        return float(point.x), float(point.y)
+
+    def is_below(self, x_m: float, y_m: float) -> bool:
+        """Tell whether a point is inside its outline."""
+        return bool(shapely.Polygon(self.ring).contains(shapely.Point(x_m, y_m)))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -146,11 +146,6 @@ class RoadNetwork:
         )
 
     @cached_property
-    def parking_strips(self) -> tuple[Lane, ...]:
-        """Kerbside strips that no class may drive on."""
-        return tuple(lane for lane in self._data.lanes if not lane.is_internal and not lane.allows)
-
-    @cached_property
     def street_names(self) -> tuple[str, ...]:
         """Names of all streets, sorted."""
         return tuple(sorted({e.street_name for e in self._data.edges if e.street_name}))

@@ -58,6 +58,7 @@ class GroundingSettings(_Table):
     spot_spacing_m: Positive
     background_radius_m: tuple[NotNegative, Positive]
     background_gap_m: NotNegative
+    traffic_reach_share: Positive  # of `traffic_radius_m`; traffic does not leave it if it can
 
 
 class FlightDefaults(_Table):

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""The mission state machine of one UAV: ascend, missions in order, land.
+"""The mission state machine of one UAV: ascend, missions in order, land or hold.
 
 Every transition waits for a realised predicate (altitude reached, captured, route flown, landed),
 never for a fixed delay. Source: paper, "Temporal planning".
@@ -27,6 +27,7 @@ FloatArray = npt.NDArray[np.float64]
 _IDLE = int(UavPhase.IDLE)
 _ASCENT = int(UavPhase.ASCENT)
 _MISSION = int(UavPhase.MISSION)
+_HOLDING = int(UavPhase.HOLDING)
 _LANDING = int(UavPhase.LANDING)
 _X, _Y, _Z = int(UavColumn.X), int(UavColumn.Y), int(UavColumn.Z)
 _VX, _VY, _VZ = int(UavColumn.VX), int(UavColumn.VY), int(UavColumn.VZ)
@@ -34,6 +35,12 @@ _ARMED, _LANDED = int(UavColumn.ARMED), int(UavColumn.LANDED)
 
 # The UAV counts as arrived when it is this close to the last point of a way (m).
 ARRIVED_M = 1.0
+
+# The reference of a UAV that is so little below its altitude starts at the altitude (m).
+_NEAR_LOWEST_M = 0.3
+
+# A UAV that does not land has done what is asked once it has held its place so long (s).
+HOLD_S = 5.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -56,6 +63,7 @@ class MissionMachine:
 
     Attributes:
         stays_up: Something has to happen before it may land: its last mission goes on until then.
+        done: It has landed, or held its place long enough where it is not to land.
     """
 
     def __init__(self, plan: UavPlan, settings: FlightSettings, dt_s: float) -> None:
@@ -77,7 +85,13 @@ class MissionMachine:
         self._waits = False
         self._airborne = False
         self._climb: tuple[float, float, float] | None = None
+        self._index = self._laps = 0
+        self._way: tuple[tuple[float, float, float], ...] = ()
+        self._level_m: float | None = None
+        self._hold: tuple[float, float, float] = (plan.home_x_m, plan.home_y_m, 0.0)
+        self._held_ticks = 0
         self.stays_up = False
+        self.done = False
 
     @property
     def plan(self) -> UavPlan:
@@ -101,14 +115,48 @@ class MissionMachine:
         """
         mission = self._flown if self.needs_landing_spot() else self.mission
         if self.phase == _ASCENT:  # the first sample at its altitude may be the capture as well
-            mission = self._plan.missions[0]
+            mission = self._plan.missions[self._index]
         tracks = mission is not None and mission.mode is MissionMode.TRACK
         return mission.target if mission is not None and tracks else None
 
     @property
     def missions_done(self) -> bool:
-        """Whether the last mission has ended (landing may go on)."""
+        """Whether the last mission has ended (landing, or holding for good, may go on)."""
+        last = self._index == len(self._plan.missions) - 1
+        return self.phase == _LANDING or (self.phase == _HOLDING and last)
+
+    @property
+    def is_landing(self) -> bool:
+        """Whether it is on its way home, or down again."""
         return self.phase == _LANDING
+
+    @property
+    def on_mission(self) -> bool:
+        """Whether it has left the ground, and its missions are not over."""
+        return self.phase != _IDLE and not self.missions_done
+
+    @property
+    def waits_on_ground(self) -> bool:
+        """Whether an event has to let it begin its first mission."""
+        return self.phase == _IDLE
+
+    @property
+    def patrols(self) -> bool:
+        """Whether it is on a route that an event is to end."""
+        mission = self.mission
+        if mission is None or mission.mode is not MissionMode.NAVIGATE:
+            return False
+        return mission.until_event
+
+    @property
+    def is_on_first_lap(self) -> bool:
+        """Whether it has not yet flown once the route that an event is to end."""
+        return self.patrols and self._laps == 0
+
+    def has_begun(self, mission_id: str) -> bool:
+        """Tell whether a mission is flown or over."""
+        index = [mission.id for mission in self._plan.missions].index(mission_id)
+        return self.phase >= _MISSION and index <= self._index
 
     @property
     def captured(self) -> bool:
@@ -116,8 +164,9 @@ class MissionMachine:
         return self.capture_tick is not None
 
     def start(self) -> None:
-        """Leave the ground with the next command."""
-        self.phase = _ASCENT if self._plan.missions else _IDLE
+        """Leave the ground with the next command, unless its first mission waits for an event."""
+        missions = self._plan.missions
+        self.phase = _ASCENT if missions and not missions[0].waits else _IDLE
 
     @property
     def landing_spot(self) -> tuple[float, float] | None:
@@ -137,11 +186,26 @@ class MissionMachine:
         if _IDLE < self.phase < _LANDING:
             self._begin(_LANDING)
 
+    def change_to(self, mission_id: str) -> None:
+        """Begin a mission with the next step, or after the ascent; one that is over stays over."""
+        index = [mission.id for mission in self._plan.missions].index(mission_id)
+        if self.phase in (_IDLE, _ASCENT):
+            self.phase, self._index = _ASCENT, index
+        elif self.phase < _LANDING and index > self._index:
+            self._begin(_MISSION + index)
+
     def climb_to(self, altitude_m: float) -> None:
-        """Climb where it is before it flies to a landing spot; only after the missions."""
-        if self.missions_done and not self._descending:
+        """Go on at another altitude; after the missions climb before the way to a landing spot.
+
+        The next mission has its own altitude again.
+        """
+        if self.phase == _LANDING and not self._descending:
             self._climb = (self._pursuit.x, self._pursuit.y, altitude_m)
             self._landing_spot = None
+        elif self.phase == _HOLDING:
+            self._hold = (*self._hold[:2], altitude_m)
+        elif _IDLE < self.phase < _LANDING:
+            self._level_m = altitude_m
 
     def stop_point(self, state: FloatArray) -> tuple[float, float]:
         """Return where it would come to rest, braking from its present velocity (x, y in m)."""
@@ -152,7 +216,8 @@ class MissionMachine:
 
     def needs_landing_spot(self) -> bool:
         """Whether the executor has to choose a landing spot now."""
-        return self.missions_done and self._landing_spot is None and self._climb is None
+        landing = self.phase == _LANDING
+        return landing and self._landing_spot is None and self._climb is None
 
     def way_home(
         self, state: FloatArray, spot: tuple[float, float], duration_s: float, step_s: float
@@ -189,6 +254,8 @@ class MissionMachine:
         mission = self.mission
         if mission is not None:
             self._fly(mission, tick, row, target)
+        if self.phase == _HOLDING:
+            self._stay()
         if self.phase == _LANDING:
             self._fly_home(row, target)
         return self._command(row)
@@ -201,25 +268,48 @@ class MissionMachine:
         if abs(z - self._first_altitude_m()) <= self._plan.missions[0].ascent_tolerance_m:
             self.ascended_tick = tick
             self._start_reference(state)
-            self._begin(_MISSION)
+            self._begin(_MISSION + self._index)
 
     def _start_reference(self, state: list[float]) -> None:
         x, y, z = state[_X : _Z + 1]
+        # Nobody commands less than the altitude, which may be the lowest one that is allowed.
+        first_m = self._first_altitude_m()
+        z = first_m if 0.0 < first_m - z <= _NEAR_LOWEST_M else z
         self._pursuit = PursuitReference(x, y, z)
         self._pursuit.vz = state[_VZ]
         self._airborne = True
 
     def _begin(self, phase: int) -> None:
+        if phase == _HOLDING:
+            self._hold = self._rest_point()
+            self._held_ticks = 0
+        elif phase != _LANDING:
+            self.capture_tick = None
+            if self.phase != _ASCENT:  # a climb that is asked for during the ascent still counts
+                self._level_m = None
+            self._index, self._laps = phase - _MISSION, 0
         self.phase = phase
         self._route = None
-        if phase != _LANDING:
-            self.capture_tick = None
 
     def _next_phase(self) -> int:
-        index = self.phase - _MISSION + 1
+        index = self._index + 1
         if index < len(self._plan.missions):
-            return _MISSION + index
-        return _LANDING
+            return _HOLDING if self._plan.missions[index].waits else _MISSION + index
+        return _LANDING if self._plan.lands else _HOLDING
+
+    def _rest_point(self) -> tuple[float, float, float]:
+        """Return where the reference comes to rest, braking gently from its present velocity."""
+        r = self._pursuit
+        braking_s = norm2(r.vx, r.vy) / self._settings.acceleration_mps2
+        return r.x + braking_s * r.vx, r.y + braking_s * r.vy, r.z
+
+    def _stay(self) -> None:
+        self._pursuit.step(self._hold, (0.0, 0.0), self._settings, self._dt)
+        self._held_ticks += 1
+        self.done = self.missions_done and self._held_ticks * self._dt >= HOLD_S
+
+    def _altitude_m(self, mission: MissionPlan) -> float:
+        return mission.altitude_m if self._level_m is None else self._level_m
 
     def _fly(
         self, mission: MissionPlan, tick: int, state: list[float], target: TargetMotion | None
@@ -247,12 +337,14 @@ class MissionMachine:
         self, mission: MissionPlan, target: TargetMotion | None
     ) -> tuple[tuple[float, float, float], tuple[float, float]]:
         """Return the point of a holding mission and its velocity."""
+        z_m = self._altitude_m(mission)
         if mission.hover_point is not None:
-            return mission.hover_point, (0.0, 0.0)
+            x_m, y_m, _ = mission.hover_point
+            return (x_m, y_m, z_m), (0.0, 0.0)
         if target is None:  # The target is gone: hold where the reference is.
-            return (self._pursuit.x, self._pursuit.y, mission.altitude_m), (0.0, 0.0)
+            return (self._pursuit.x, self._pursuit.y, z_m), (0.0, 0.0)
         x_m, y_m = target.x_m + mission.offset_m[0], target.y_m + mission.offset_m[1]
-        return (x_m, y_m, mission.altitude_m), (target.vx_mps, target.vy_mps)
+        return (x_m, y_m, z_m), (target.vx_mps, target.vy_mps)
 
     def _capture(self, mission: MissionPlan, tick: int) -> None:
         self.capture_tick = tick
@@ -268,7 +360,7 @@ class MissionMachine:
         target: TargetMotion | None,
     ) -> bool:
         x, y, z = state[_X : _Z + 1]
-        if abs(z - mission.altitude_m) > mission.capture_altitude_m:
+        if abs(z - self._altitude_m(mission)) > mission.capture_altitude_m:
             return False
         if mission.mode is MissionMode.TRACK:
             if target is None:
@@ -279,32 +371,54 @@ class MissionMachine:
 
     def _phase_over(self, mission: MissionPlan, tick: int) -> bool:
         """Whether the command for tick + 1 is the first of the next phase."""
-        if self.capture_tick is None or mission.duration_s is None or self._held_up():
+        if mission.duration_s is None or mission.until_event or self._held_up():
             return False
-        return (tick + 1) - self.capture_tick >= ceil(mission.duration_s / self._dt - 1e-9)
+        return self._has_lasted(mission.duration_s, tick)
+
+    def _has_lasted(self, duration_s: float, tick: int) -> bool:
+        """Whether a mission has gone on for so long, at tick + 1, since its capture."""
+        if self.capture_tick is None:
+            return False
+        return (tick + 1) - self.capture_tick >= ceil(duration_s / self._dt - 1e-9)
 
     def _fly_route(self, mission: MissionPlan, tick: int, state: list[float]) -> bool:
         first = mission.waypoints[0]
+        if self._level_m is not None:
+            first = (*first[:2], self._level_m)
         x, y, z = state[_X : _Z + 1]
         if self._route is None:
-            near = norm2(x - first[0], y - first[1]) <= ARRIVED_M
-            if near and abs(z - first[2]) <= ARRIVED_M:
+            away_m, off_m = norm2(x - first[0], y - first[1]), abs(z - first[2])
+            captured = away_m <= mission.capture_horizontal_m
+            if self.capture_tick is None and captured and off_m <= mission.capture_altitude_m:
                 self._capture(mission, tick)
-                self._route = RouteReference(mission.waypoints, mission.speed_mps)
+            if away_m <= ARRIVED_M and off_m <= ARRIVED_M:
+                self._way = mission.waypoints
+                self._route = RouteReference(self._way, mission.speed_mps)
             else:
                 self._pursuit.step(first, (0.0, 0.0), self._settings, self._dt)
                 return False
         self._route.step(self._settings, self._dt)
-        self._pursuit.x, self._pursuit.y, self._pursuit.z = (
-            self._route.x,
-            self._route.y,
-            self._route.z,
-        )
+        self._pursuit.x, self._pursuit.y = self._route.x, self._route.y
         self._pursuit.vx, self._pursuit.vy = self._route.vx, self._route.vy
-        self._pursuit.vz = self._route.vz
+        if self._level_m is None:
+            self._pursuit.z, self._pursuit.vz = self._route.z, self._route.vz
+        else:
+            self._pursuit.step_vertical(self._level_m, self._settings, self._dt)
         last = mission.waypoints[-1]
-        arrived = self._route.done and norm2(x - last[0], y - last[1]) <= ARRIVED_M
-        return arrived and not self._held_up()
+        if not self._route.done:
+            return False
+        if self.patrols and (
+            self.stays_up or self._next_phase() != _LANDING
+        ):  # once more, or back again, until its event
+            self._laps += 1
+            self._way = self._way if self._way[0] == self._way[-1] else self._way[::-1]
+            self._route = RouteReference(self._way, mission.speed_mps)
+            return False
+        if self._held_up():
+            return False
+        if mission.duration_s is not None:
+            return self._has_lasted(mission.duration_s, tick)
+        return norm2(x - last[0], y - last[1]) <= ARRIVED_M
 
     def _held_up(self) -> bool:
         """Whether it is to stay on its last mission although that is over."""
@@ -336,7 +450,7 @@ class MissionMachine:
         if not self._descending and norm2(x - spot[0], y - spot[1]) <= 0.5 and slow:
             self._descending = True
         if self._descending and state[_LANDED] > 0.5 and state[_ARMED] < 0.5:
-            self.landed = True
+            self.landed = self.done = True
 
     def _waiting_goal(
         self, target: TargetMotion | None

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from pydantic import FiniteFloat
 
-from aurora_core.document import Document
+from aurora_core.document import Document, omitted
 from aurora_core.spec.vocabulary import MissionMode
 
 Point3 = tuple[FiniteFloat, FiniteFloat, FiniteFloat]
@@ -18,13 +18,15 @@ class MissionPlan(Document):
     Attributes:
         target: Agent id that is tracked, or observed from the hover point.
         offset_m: Track: horizontal vector from the target to the UAV, ENU.
-        capture_horizontal_m: Track: tolerance on the standoff at capture.
+        capture_horizontal_m: Tolerance at capture: on the standoff, else in the plane.
         capture_altitude_m: Tolerance on the altitude at capture.
         ascent_tolerance_m: Tolerance on the altitude that ends the ascent.
         waypoints: Navigate: the points to visit, first repeated at the end when closed.
         hover_point: Hover: where to hold.
-        duration_s: Track and hover: length of the phase from capture on.
+        duration_s: Length of the phase from capture on; a route without it ends at its last point.
         speed_mps: Navigate: speed on the legs.
+        waits: An event lets it begin; until then the UAV stays where the one before has led it.
+        until_event: Nothing but an event ends it: the next one begins, or the UAV lands.
     """
 
     id: str
@@ -40,6 +42,8 @@ class MissionPlan(Document):
     hover_point: Point3 | None = None
     duration_s: FiniteFloat | None = None
     speed_mps: FiniteFloat = 8.0
+    waits: bool = omitted(False)
+    until_event: bool = omitted(False)
 
 
 class UavPlan(Document):
@@ -48,6 +52,8 @@ class UavPlan(Document):
     Attributes:
         landing_spots: Free spots; the executor takes the nearest one with a free way.
         safe_altitude_m: Above every obstacle around, used when no way at mission altitude is free.
+        lands: After its missions; else it holds where the last one ended.
+        lands_after: Events that have to be over before it lands.
     """
 
     id: str
@@ -58,3 +64,5 @@ class UavPlan(Document):
     landing_spots: tuple[tuple[FiniteFloat, FiniteFloat], ...]
     missions: tuple[MissionPlan, ...]
     safe_altitude_m: FiniteFloat
+    lands: bool = omitted(True)
+    lands_after: tuple[str, ...] = omitted(())

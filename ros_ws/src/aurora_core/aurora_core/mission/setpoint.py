@@ -13,9 +13,7 @@ from dataclasses import dataclass
 from math import sqrt
 
 from aurora_core.geometry.kernel import norm2, norm3
-
-# A turn sharper than this (cosine of the change of course) is a corner to slow down for.
-CORNER_COSINE = 0.94
+from aurora_core.quantities.waypoints import CORNER_COSINE
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -82,9 +80,10 @@ class PursuitReference:
         self.vy += dvy
         self.x += self.vx * dt_s
         self.y += self.vy * dt_s
-        self._step_vertical(goal[2], settings, dt_s)
+        self.step_vertical(goal[2], settings, dt_s)
 
-    def _step_vertical(self, goal_z: float, settings: FlightSettings, dt_s: float) -> None:
+    def step_vertical(self, goal_z: float, settings: FlightSettings, dt_s: float) -> None:
+        """Move one tick towards an altitude (m above ground)."""
         ez = goal_z - self.z
         rate = settings.position_gain_hz * ez
         rate = min(settings.climb_mps, max(-settings.descent_mps, rate))

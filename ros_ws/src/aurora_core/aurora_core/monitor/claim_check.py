@@ -11,12 +11,13 @@ import numpy as np
 from aurora_core.judging.evaluation import Context
 from aurora_core.outcomes.verdict import Finding
 from aurora_core.quantities.view import Body
+from aurora_core.spec.own_events import own_events
 from aurora_core.spec.scenario import AgentAction, SendMessage
 from aurora_core.trace.layout import UavCommandColumn, UavPhase
 from aurora_core.trace.records import EventRecord, ScenarioEventKind
 
 # What agents are told by a command; other actions are not carried out yet.
-_COMMANDED = frozenset({'brake', 'stop', 'yield', 'slow', 'accelerate', 'start'})
+_COMMANDED = frozenset({'brake', 'stop', 'yield', 'slow', 'accelerate', 'start', 'change_lane'})
 # The end is claimed as one of these.
 _HORIZON = 'horizon'
 _OUTCOMES = ('finished', _HORIZON)
@@ -83,7 +84,8 @@ def _commanded(context: Context, uav: Body) -> Iterator[tuple[int, str]]:
 def _actions(context: Context) -> Iterator[Finding]:
     """Triggers and actions happen once; what an agent is told to do is commanded with the next."""
     view = context.view
-    actions = {event.id: event.action for event in context.spec.events}
+    events = (*context.spec.events, *own_events(context.spec))
+    actions = {event.id: event.action for event in events}
     for kind in (ScenarioEventKind.TRIGGERED, ScenarioEventKind.ACTION):
         seen = set()
         for record in _records(context, kind):
@@ -100,12 +102,12 @@ def _actions(context: Context) -> Iterator[Finding]:
             yield _finding(context, 'event', record.subject, record.tick, text)
     acted = {record.subject for record in _records(context, ScenarioEventKind.ACTION)}
     waiting = {order.then for order in context.spec.orders if order.first in actions}
-    for event in context.spec.events:
-        # A message may wait for sight, and an event for what is ordered before it; nothing else
-        # waits for more than its delay.
+    for event in events:
+        # A message may wait for sight, a change of lane for another lane, and an event for what is
+        # ordered before it; nothing else waits for more than its delay.
         if isinstance(event.action, SendMessage) or event.action is None or event.id in acted:
             continue
-        if event.id in waiting:
+        if event.id in waiting or getattr(event.action, 'do', '') == 'change_lane':
             continue
         claims = [
             r for r in _records(context, ScenarioEventKind.TRIGGERED) if r.subject == event.id
@@ -142,7 +144,8 @@ def _releases(context: Context) -> Iterator[Finding]:
 def _senders(context: Context) -> Iterator[Finding]:
     """A message belongs to an event, and goes over the link of that event's action."""
     pairs = {link.id: (link.sender, link.receiver) for link in context.spec.links}
-    actions = {event.id: event.action for event in context.spec.events}
+    events = (*context.spec.events, *own_events(context.spec))
+    actions = {event.id: event.action for event in events}
     told = set()
     for record in context.view.trace.links:
         action = actions.get(record.event)
@@ -180,11 +183,16 @@ def _end(context: Context) -> Iterator[Finding]:
         text = f'{end.detail} claimed at {context.time_s(end.tick):.2f} s of {horizon_s:g} s'
         yield _finding(context, 'end', 'run', end.tick, text)
     elif early and not _over(context):
-        text = 'finished claimed, but a UAV had not landed yet'
+        text = 'finished claimed, but the flight of a UAV was not over yet'
         yield _finding(context, 'end', 'run', end.tick, text)
 
 
 def _over(context: Context) -> bool:
+    """Tell whether every UAV has landed, or is not to land and has flown its missions."""
     touchdown_m = context.conditions[0].arguments.touchdown_m if context.conditions else 0.0
-    flights = [context.flight(m, touchdown_m) for m in context.mission_arguments]
-    return all(flight.landed_tick is not None for flight in flights)
+    stays_up = {m.uav: m.ends_in_flight for m in context.spec.missions}  # of the last one
+    flights = [(m.uav, context.flight(m, touchdown_m)) for m in context.mission_arguments]
+    return all(
+        flight.landed_tick is not None or (stays_up[uav] and flight.over_tick is not None)
+        for uav, flight in flights
+    )

@@ -16,6 +16,7 @@ from aurora_core.outcomes.verdict import Finding
 from aurora_core.quantities.kernels import distance_3d
 from aurora_core.quantities.ledger import ledger_disagreements
 from aurora_core.quantities.ticks import first_tick, whole_ticks
+from aurora_core.spec.own_events import own_events
 from aurora_core.spec.scenario import (
     ArrivalTrigger,
     Event,
@@ -71,7 +72,7 @@ def _checkable(context: Context, event: Event) -> bool:
 
 
 def _events(context: Context) -> Iterator[Finding]:
-    known = {event.id for event in context.spec.events}
+    known = {event.id for event in (*context.spec.events, *own_events(context.spec))}
     for record in context.view.trace.events:
         about_events = record.kind in (ScenarioEventKind.TRIGGERED, ScenarioEventKind.ACTION)
         if about_events and record.subject not in known:

@@ -16,6 +16,7 @@ import numpy as np
 
 from aurora_core.knowledge.world import WorldModel
 from aurora_core.outcomes.condition import Condition
+from aurora_core.outcomes.grounding import Unjudged
 from aurora_core.outcomes.verdict import Finding
 from aurora_core.trace.roster import Roster, RosterEntry
 
@@ -39,7 +40,8 @@ class Plan:
         version: Of AURORA that recorded it.
         other_version: That is not the version that is installed.
         foreign: Every limit, tolerance, setting or map that is another here, for people.
-        missing: What of the request nobody carries out or judges, as `id: what`.
+        missing: What of the request nobody carries out, as `id: what`.
+        unjudged: What the request states and no condition depends on.
     """
 
     conditions: tuple[Condition, ...]
@@ -51,6 +53,7 @@ class Plan:
     other_version: bool = False
     foreign: tuple[str, ...] = ()
     missing: tuple[str, ...] = ()
+    unjudged: tuple[Unjudged, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -37,7 +37,22 @@ class Window(StrEnum):
     PHASE = 'phase'  # of the mission in the arguments: from capture to its end
     ON_MISSION = 'on_mission'  # all mission phases of the UAV
     AIRBORNE = 'airborne'  # while the UAV flies
+    TO_THE_END = 'to_the_end'  # from its last mission to the end of the run
     MOMENT = 'moment'  # moments that the quantity itself names (events, messages, waypoints)
+
+
+class ClimbArguments(Document):
+    """A climb that an event may ask for while a mission is flown.
+
+    Attributes:
+        event: Id.
+        altitude_m: Where it leads, above ground.
+        within_s: Time for it, during which the altitude of the mission is not judged.
+    """
+
+    event: str
+    altitude_m: FiniteFloat
+    within_s: FiniteFloat
 
 
 class MissionArguments(Document):
@@ -59,6 +74,8 @@ class MissionArguments(Document):
         planned_s: Planned length of the phase (None: ends with the route).
         waypoints: Route of a navigate mission.
         waypoint_horizontal_m: Tolerance at a waypoint.
+        left_by: Event that may end it before its time.
+        climbs: Climbs that events may ask for while it is flown.
     """
 
     mission: str
@@ -81,6 +98,8 @@ class MissionArguments(Document):
     planned_s: FiniteFloat | None = None
     waypoints: tuple[Point3, ...] = ()
     waypoint_horizontal_m: FiniteFloat = 3.0
+    left_by: str | None = omitted(None)
+    climbs: tuple[ClimbArguments, ...] = omitted(())
 
     @property
     def track_rule(self) -> TrackRule | None:

@@ -8,7 +8,7 @@ from enum import StrEnum
 
 from pydantic import FiniteFloat
 
-from aurora_core.document import Document
+from aurora_core.document import Document, omitted
 from aurora_core.knowledge.basis import Basis
 from aurora_core.mission.plan import UavPlan
 from aurora_core.spec.parameter import Provenance
@@ -22,6 +22,7 @@ class ReleaseOn(StrEnum):
     START = 'start'  # at t = 0
     ASCENDED = 'ascended'  # a UAV has reached its mission altitude
     CAPTURED = 'captured'  # a UAV has captured its target
+    LAPPED = 'lapped'  # a UAV has flown its route once
     OBSERVED = 'observed'  # a UAV has finished watching it
     EVENT = 'event'  # the event that lets it set off has happened
     NEVER = 'never'  # stands still
@@ -54,6 +55,11 @@ class GroundedAgent(Document):
         drive_speed_mps: Stated speed, held from the release on (None: drives with the traffic).
         acceleration_mps2: What its type can do from rest.
         deceleration_mps2: And to slow down, without emergency.
+        parked: Stands beside the traffic, right of its lane.
+        stop_lane_id: Where it comes to a stop by itself, '' when it does not.
+        stop_position_m: Arc length there of its reference point.
+        gentle_mps2: It accelerates no harder, so that who keeps a distance behind it can (None:
+            as its type does).
     """
 
     id: str
@@ -83,6 +89,10 @@ class GroundedAgent(Document):
     drive_speed_mps: FiniteFloat | None = None
     acceleration_mps2: FiniteFloat = 1.5
     deceleration_mps2: FiniteFloat = 1.5
+    parked: bool = omitted(False)
+    stop_lane_id: str = omitted('')
+    stop_position_m: FiniteFloat = omitted(0.0)
+    gentle_mps2: FiniteFloat | None = omitted(None)
 
 
 class RealisedValue(Document):

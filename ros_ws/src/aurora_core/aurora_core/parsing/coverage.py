@@ -41,7 +41,7 @@ def unaccounted(
         no_uavs: The prompt says that there is no UAV: naming one is not asking for it.
         understood: Clauses that were read word by word.
     """
-    stated = [p.span for p in _parameters(spec) if p.span is not None]
+    stated = [p.span for p in parameters(spec) if p.span is not None]
     unread = [c.span for c in spec.clauses if c.status is ClauseStatus.NOT_ENCODED]
     lost: list[Span] = []
     for atom in atoms:
@@ -131,12 +131,13 @@ def _inside(inner: Span, outer: Span) -> bool:
     return outer.start <= inner.start and inner.end <= outer.end
 
 
-def _parameters(value: object) -> Iterator[Parameter]:
+def parameters(value: object) -> Iterator[Parameter]:
+    """Yield every number of a specification, or of a part of it."""
     if isinstance(value, Parameter):
         yield value
     elif isinstance(value, BaseModel):
         for _, inner in value:
-            yield from _parameters(inner)
+            yield from parameters(inner)
     elif isinstance(value, tuple):
         for inner in value:
-            yield from _parameters(inner)
+            yield from parameters(inner)

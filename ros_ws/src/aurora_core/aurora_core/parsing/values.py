@@ -124,6 +124,12 @@ def range_ends(name: str, measure: Measure) -> tuple[Parameter, Parameter]:
     return low, Parameter.model_validate(low.model_dump() | {'value': measure.upper})
 
 
+def bounded(parameter: Parameter, prep: str) -> Parameter:
+    """Return a parameter as a preposition bounds it: `less than 40 m`, `beyond 20 m`."""
+    bound = {'below': Bound.AT_MOST, 'within': Bound.AT_MOST, 'beyond': Bound.AT_LEAST}.get(prep)
+    return parameter if bound is None else rebound(parameter, bound)
+
+
 def rebound(parameter: Parameter, bound: Bound) -> Parameter:
     """Return the same stated value, one-sided."""
     return Parameter.model_validate(parameter.model_dump() | {'bound': bound})

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from aurora_core.knowledge.map_model import list_maps
+from aurora_core.knowledge.map_folders import list_maps
 from aurora_core.parsing.data_files import read_data
 from aurora_core.parsing.values import unsaid_values
 from aurora_core.pipeline.history import history_of

@@ -15,6 +15,7 @@ from aurora_core.outcomes.parse import ParseContext, ParseOutcome
 from aurora_core.parsing.parser import parse_offline
 from aurora_core.pipeline.knowledge import Knowledge
 from aurora_core.pipeline.planned import plan_conditions
+from aurora_core.pipeline.reading import parser_digest
 from aurora_core.planning.complete import complete
 from aurora_core.temporal.schedule import plan_time
 
@@ -27,17 +28,23 @@ def parse_context(known: Knowledge, map_name: str, seed: int) -> ParseContext:
 
 def parse_stage(known: Knowledge, prompt: str, map_name: str, seed: int) -> ParseOutcome:
     """Read a prompt against a map, with the offline parser, and complete it; see `understood`."""
-    return understood(known, parse_offline(prompt, parse_context(known, map_name, seed)))
+    outcome = parse_offline(prompt, parse_context(known, map_name, seed))
+    return understood(known, outcome, reader=parser_digest())
 
 
-def understood(known: Knowledge, outcome: ParseOutcome) -> ParseOutcome:
+def understood(known: Knowledge, outcome: ParseOutcome, *, reader: str = '') -> ParseOutcome:
     """Return what a reader made of a prompt, with the graph of the completed request.
 
     Whoever read the prompt, every UAV has a mission from here on.
+
+    Args:
+        known: What is installed here.
+        outcome: Of the reader.
+        reader: Digest of the offline parser, when that was it.
     """
     if outcome.spec is None:
         return outcome
-    spec = complete(outcome.spec, known.limits)
+    spec = complete(outcome.spec, known.limits).model_copy(update={'reader': reader})
     graph = build_agsg(spec, map_digest=known.map(spec.world.map_name).digest)
     fields = {name: getattr(outcome, name) for name in ParseOutcome.model_fields}
     return ParseOutcome(**{**fields, 'agsg': graph})

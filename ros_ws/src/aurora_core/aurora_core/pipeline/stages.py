@@ -8,14 +8,15 @@ the ROS services (orchestrator, in a worker thread).
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Annotated, Literal, Protocol
+from typing import Annotated, Any, Literal, Protocol
 
-from pydantic import AfterValidator, ConfigDict
+from pydantic import AfterValidator, ConfigDict, ValidationError
 
 from aurora_core.document import Document
+from aurora_core.errors import SpecError
 from aurora_core.execution.faults import Fault
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.feasibility import FeasibilityVerdict
@@ -53,6 +54,27 @@ class RunRequest(Document):
     history: Path | None = None
     history_frozen: bool = False
     transcripts: Path | None = None
+
+
+def request_of(values: Mapping[str, Any], where: str = 'the request') -> RunRequest:
+    """Return the request of named values that somebody gave.
+
+    Args:
+        values: By name of the field.
+        where: What holds them, for the message.
+
+    Raises:
+        SpecError: A name is not known, or a value is not one that it may have.
+    """
+    try:
+        return RunRequest.model_validate(values)
+    except ValidationError as err:
+        errors = err.errors(include_input=False, include_url=False)
+        told = '; '.join(f'{".".join(map(str, e["loc"]))}: {e["msg"]}' for e in errors)
+        known = ', '.join(name for name in RunRequest.model_fields if name != 'prompt')
+        raise SpecError(
+            f'{where} is not valid: {told}', hint=f'beside the prompt there can be: {known}'
+        ) from err
 
 
 class ExecutionResult(Document):

@@ -7,10 +7,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 from aurora_core.agsg.message import read_agsg
-from aurora_core.errors import AuroraError, VerificationError
+from aurora_core.errors import AuroraError, SpecError, VerificationError
 from aurora_core.execution.plan import build_roster, build_world, wind_of
 from aurora_core.grounding.places import place_positions
 from aurora_core.judging.codec import conditions_from_json
@@ -20,11 +19,14 @@ from aurora_core.knowledge.world import WorldModel
 from aurora_core.monitor.plan_check import NotComparable, Plan, finding
 from aurora_core.monitor.verify import verify
 from aurora_core.outcomes.agsg import Agsg
+from aurora_core.outcomes.condition import Condition
 from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.outcomes.schedule import Schedule
 from aurora_core.outcomes.verdict import Finding, Verdict
+from aurora_core.pipeline.functions import parse_context
 from aurora_core.pipeline.knowledge import Knowledge
 from aurora_core.pipeline.planned import plan_conditions
+from aurora_core.pipeline.reading import doubts_of_reading
 from aurora_core.pipeline.recompute import recomputed
 from aurora_core.planning.complete import complete
 from aurora_core.spec.scenario import ScenarioSpec
@@ -51,22 +53,19 @@ def graph_of(content: BagContent, where: str) -> Agsg:
     """Return the graph that a run was recorded with.
 
     Raises:
-        VerificationError: There is none.
+        VerificationError: There is none, or its parts do not fit each other.
     """
     if content.agsg_message is None:
         raise VerificationError(
             f'{where} holds no scenario graph', hint='record /aurora/agsg with the run'
         )
-    return graph_from_message(content.agsg_message)
-
-
-def graph_from_message(message: Any) -> Agsg:
-    """Return the graph of an Agsg message.
-
-    Raises:
-        SpecError: Its parts do not fit each other.
-    """
-    return read_agsg(message)
+    try:
+        return read_agsg(content.agsg_message)
+    except SpecError as err:
+        raise VerificationError(
+            f'the scenario graph in {where} is none that was recorded: {err.message}',
+            hint='take another copy of the recording, or run the scenario again',
+        ) from err
 
 
 def verify_stage(known: Knowledge, bag: Path, *, recompute: bool = True) -> Verdict:
@@ -88,6 +87,7 @@ class Judged:
 
     verdict: Verdict
     plan: Plan | NotComparable
+    conditions: tuple[Condition, ...]
 
 
 def judge_content(
@@ -113,7 +113,7 @@ def judge_content(
         VerificationError: The grounding is missing, or nothing fits.
     """
     conditions = conditions_from_json(content.world.conditions_json)
-    plan = recorded_plan(known, content.world, agsg)
+    plan = recorded_plan(known, content.world, conditions, agsg)
     found: tuple[Finding, ...] = ()
     # What another version of the executor commands is not known here.
     if recompute and isinstance(plan, Plan) and not plan.other_version:
@@ -121,7 +121,7 @@ def judge_content(
     verdict = verify(
         content.trace, content.world, conditions, agsg.spec, plan, found, as_recorded=as_recorded
     )
-    return Judged(verdict=verdict, plan=plan)
+    return Judged(verdict=verdict, plan=plan, conditions=conditions)
 
 
 def recomputed_content(known: Knowledge, content: BagContent, agsg: Agsg) -> tuple[Finding, ...]:
@@ -146,11 +146,19 @@ def recomputed_content(known: Knowledge, content: BagContent, agsg: Agsg) -> tup
     )
 
 
-def recorded_plan(known: Knowledge, world: WorldModel, agsg: Agsg) -> Plan | NotComparable:
+def recorded_plan(
+    known: Knowledge, world: WorldModel, conditions: tuple[Condition, ...], agsg: Agsg
+) -> Plan | NotComparable:
     """Return what the request and the grounding of a recording give when worked out anew.
 
     That is done with the limits, tolerances and settings that it was recorded with; where others
     are installed here, the plan names each.
+
+    Args:
+        known: What is installed here.
+        world: As recorded.
+        conditions: Of that world.
+        agsg: As recorded.
 
     Raises:
         VerificationError: The grounding is missing, or does not fit the request.
@@ -170,7 +178,7 @@ def recorded_plan(known: Knowledge, world: WorldModel, agsg: Agsg) -> Plan | Not
             return NotComparable(
                 why=f'{err.message}: conditions, bodies and world are taken as recorded'
             )
-        return _plan(known, world, agsg, grounded, grounded.basis, tables)
+        return _plan(known, world, conditions, agsg, grounded, grounded.basis, tables)
     except (ValueError, LookupError, ArithmeticError, AuroraError) as err:
         raise VerificationError(
             f'the recorded grounding does not fit the recorded request: {err}',
@@ -181,6 +189,7 @@ def recorded_plan(known: Knowledge, world: WorldModel, agsg: Agsg) -> Plan | Not
 def _plan(
     known: Knowledge,
     world: WorldModel,
+    conditions: tuple[Condition, ...],
     agsg: Agsg,
     grounded: GroundedScenario,
     basis: Basis,
@@ -201,31 +210,44 @@ def _plan(
         roster=build_roster(grounded, tables.settings.run.dt_s),
         world=_as_grounded(world, grounded, tables.limits) if rebuilt is None else rebuilt,
         seed=grounded.seed,
-        documents=tuple(_documents(world, agsg, grounded, schedule)),
+        documents=(
+            *_documents(conditions, agsg, grounded, schedule),
+            *_reading(known, spec, tables.limits, is_here=rebuilt is not None),
+        ),
         version=basis.version,
         other_version=basis.version != here.version,
         foreign=foreign,
-        missing=(
-            *planned.missing,
-            *(f'{one.element}: no condition depends on {one.what}' for one in planned.unjudged),
-        ),
+        missing=planned.missing,
+        unjudged=planned.unjudged,
     )
 
 
 def _documents(
-    world: WorldModel, agsg: Agsg, grounded: GroundedScenario, schedule: Schedule
+    conditions: tuple[Condition, ...],
+    agsg: Agsg,
+    grounded: GroundedScenario,
+    schedule: Schedule,
 ) -> Iterator[Finding]:
     """Yield where the recorded documents do not fit each other."""
     if grounded.basis is not None and grounded.configuration != grounded.basis.sha256:
         text = 'its digest is not that of the limits, tolerances and settings beside it'
         yield finding('configuration', 'digest', text)
-    if agsg.conditions != conditions_from_json(world.conditions_json):
+    if agsg.conditions != conditions:
         yield finding('graph', 'conditions', 'graph and world tell of different conditions')
     if agsg.schedule != schedule:
         yield finding('graph', 'schedule', 'not the one that request and grounding give')
     if agsg.map_name != grounded.map_name:
         text = f'requested on {agsg.map_name}, grounded on {grounded.map_name}'
         yield finding('graph', 'map', text)
+
+
+def _reading(
+    known: Knowledge, spec: ScenarioSpec, limits: Limits, *, is_here: bool
+) -> Iterator[Finding]:
+    """Yield where the recorded request is not what its prompt says."""
+    context = parse_context(known, spec.world.map_name, 0) if is_here else None
+    for text in doubts_of_reading(spec, limits, context):
+        yield finding('graph', 'prompt', text)
 
 
 def _rebuilt_world(

@@ -14,10 +14,9 @@ from aurora_core.pipeline.knowledge import Knowledge
 from aurora_core.pipeline.verification import Judged, judge_content, recorded_plan
 from aurora_core.report.clauses import clause_reports
 from aurora_core.report.comparison import Comparison
-from aurora_core.report.facts import RunFacts
+from aurora_core.report.facts import ExecutionFacts, RunFacts
 from aurora_core.report.find_bag import FoundBag
 from aurora_core.report.run_check import JudgedBag, check_run
-from aurora_core.report.run_report import ClauseReport
 from aurora_core.report.verify_report import AsRecorded, VerifyReport, verify_report
 from aurora_core.trace.bag_content import BagContent
 from aurora_core.trace.hashing import trace_hashes
@@ -73,7 +72,9 @@ def report_beside(
     Raises:
         VerificationError: The bag holds nothing that could be judged.
     """
-    bag = _judged_bag(content, agsg, verdict, recorded_plan(known, content.world, agsg))
+    conditions = conditions_from_json(content.world.conditions_json)
+    plan = recorded_plan(known, content.world, conditions, agsg)
+    bag = _judged_bag(content, agsg, verdict, plan)
     run = None if found.run is None else check_run(found.run, found.iteration, bag)[0]
     return verify_report(str(found.bag), bag, run=run, recorded=heard)
 
@@ -81,24 +82,32 @@ def report_beside(
 def _judged_bag(
     content: BagContent, agsg: Agsg, verdict: Verdict, plan: Plan | NotComparable
 ) -> JudgedBag:
+    hashes = trace_hashes(content.trace, content.world)
+    left_out = GroundingOutcome(agsg=agsg)
+    if isinstance(plan, Plan):
+        left_out = GroundingOutcome(agsg=agsg, unsupported=plan.missing, unjudged=plan.unjudged)
+    facts = RunFacts(
+        run_id='',
+        prompt=agsg.spec.prompt,
+        parse=ParseOutcome(spec=agsg.spec),
+        grounding=left_out,
+        execution=ExecutionFacts(
+            bag='',
+            ticks=content.trace.ticks,
+            dt_s=content.trace.roster.dt_s,
+            trace_sha256=hashes.trace_sha256,
+            motion_sha256=hashes.motion_sha256,
+        ),
+        verdict=verdict,
+        iterations=agsg.iteration + 1,
+    )
     return JudgedBag(
         content=content,
         agsg=agsg,
-        hashes=trace_hashes(content.trace, content.world),
+        hashes=hashes,
         verdict=verdict,
-        clauses=_clauses(agsg, () if isinstance(plan, NotComparable) else plan.missing),
-    )
-
-
-def _clauses(agsg: Agsg, missing: tuple[str, ...]) -> tuple[ClauseReport, ...]:
-    """Return what became of every clause, as the report of a run tells it."""
-    return clause_reports(
-        RunFacts(
-            run_id='',
-            prompt=agsg.spec.prompt,
-            parse=ParseOutcome(spec=agsg.spec),
-            grounding=GroundingOutcome(agsg=agsg, unsupported=missing),
-        )
+        clauses=clause_reports(facts),
+        facts=facts,
     )
 
 
@@ -111,6 +120,7 @@ def _foreign_to(judged: Judged, content: BagContent) -> AsRecorded | None:
         return None
     otherwise = 0
     if plan.other_version:
-        conditions = conditions_from_json(content.world.conditions_json)
-        otherwise = len(plan_findings(conditions, content.trace.roster, content.world, plan))
+        otherwise = len(
+            plan_findings(judged.conditions, content.trace.roster, content.world, plan)
+        )
     return AsRecorded(version=plan.version, differs=plan.foreign, otherwise=otherwise)

@@ -9,17 +9,154 @@ prompt states is never touched.
 from __future__ import annotations
 
 from aurora_core.knowledge.limits import Limits
-from aurora_core.planning.durations import lasting
-from aurora_core.planning.idle_uavs import hovering
-from aurora_core.planning.layers import layered
-from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.parsing import values
+from aurora_core.planning.bounds import bent
+from aurora_core.planning.ids import free_ids
+from aurora_core.planning.orders import waiting
+from aurora_core.spec.events import actor_of
+from aurora_core.spec.parameter import Parameter, Provenance
+from aurora_core.spec.quantity import QuantityName
+from aurora_core.spec.scenario import ScenarioSpec, SendMessage, StatedCondition, Uav, UavMission
+from aurora_core.spec.vocabulary import MissionMode
+
+# Sight is lost now and then: this much longer than the time of sight that is asked. A scenario of
+# stated length has no such room.
+SPARE = 1.25
 
 
 def complete(spec: ScenarioSpec, limits: Limits) -> ScenarioSpec:
-    """Return a request with a mission for every UAV, and the durations and altitudes to be flown.
+    """Return a request with missions for all UAVs, triggers for orders, durations and altitudes.
 
     Args:
         spec: The request, whoever read it; it is not changed.
         limits: Limits in force.
     """
-    return layered(lasting(hovering(spec)), limits)
+    return layered(bent(lasting(waiting(hovering(spec))), limits), limits)
+
+
+def hovering(spec: ScenarioSpec) -> ScenarioSpec:
+    """Return the specification with a mission for every UAV that has none.
+
+    Who reports what a vehicle does has to see it, and tracks it. Who relays or is there, and
+    nothing else is said of it, hovers over the scene.
+
+    Args:
+        spec: The request, whoever read it; returned as it is when every UAV has a mission.
+    """
+    flying = {mission.uav for mission in spec.missions}
+    idle = [uav for uav in spec.uavs if uav.id not in flying]
+    if not idle:
+        return spec
+    ids = free_ids(spec, 'm')
+    added = tuple(_mission(spec, uav, next(ids)) for uav in idle)
+    return ScenarioSpec.model_validate({**dict(spec), 'missions': (*spec.missions, *added)})
+
+
+def _mission(spec: ScenarioSpec, uav: Uav, mission_id: str) -> UavMission:
+    reported = (
+        actor_of(e)
+        for e in spec.events
+        if isinstance(e.action, SendMessage) and e.action.sender == uav.id
+    )
+    ids = {agent.id for agent in spec.agents}
+    target = next((actor for actor in reported if actor in ids), None)
+    return UavMission(
+        id=mission_id,
+        uav=uav.id,
+        mode=MissionMode.HOVER if target is None else MissionMode.TRACK,
+        target=target,
+        target_inferred=target is not None,
+        altitude_m=values.default('altitude'),
+        standoff_m=None if target is None else values.default('standoff'),
+        duration_s=values.default('mission_duration'),
+        span=uav.span,
+    )
+
+
+def lasting(spec: ScenarioSpec) -> ScenarioSpec:
+    """Return the specification with default durations lengthened, inside their domains.
+
+    "Keeps it in view for 60 s" cannot come true in a phase of 30 s, nor can a stretch without a
+    break that is longer than its phase. Stated durations stay.
+
+    Args:
+        spec: The request; it is not changed.
+    """
+    spare = SPARE if spec.world.duration_s is None else 1.0
+    need: dict[str, float] = {}
+    for stated in spec.conditions:
+        asked_s = _asked_s(stated)
+        for mission in _of(spec, stated) if asked_s > 0.0 else ():
+            need[mission.id] = max(need.get(mission.id, 0.0), spare * asked_s)
+    if not need:
+        return spec
+    missions = tuple(_at_least(m, need.get(m.id, 0.0)) for m in spec.missions)
+    return ScenarioSpec.model_validate({**dict(spec), 'missions': missions})
+
+
+def _asked_s(stated: StatedCondition) -> float:
+    """Return how long a phase has to be for a condition to come true in it, 0 for any."""
+    asked_s = 0.0 if stated.hold_s is None else stated.hold_s.value
+    if stated.quantity == QuantityName.VISIBLE_TIME and stated.op in ('>=', '>', '=='):
+        asked_s = max(asked_s, stated.value.value)
+    return asked_s
+
+
+def _of(spec: ScenarioSpec, stated: StatedCondition) -> tuple[UavMission, ...]:
+    own = tuple(m for m in spec.missions if m.uav in stated.of)
+    return tuple(m for m in own if m.target in stated.of) or own
+
+
+def _at_least(mission: UavMission, seconds: float) -> UavMission:
+    duration = mission.duration_s
+    if duration is None or duration.provenance is not Provenance.DEFAULT:
+        return mission
+    longer = Parameter.model_validate(
+        {**duration.model_dump(), 'value': max(duration.value, min(seconds, duration.high))}
+    )
+    return UavMission.model_validate({**dict(mission), 'duration_s': longer})
+
+
+def layered(spec: ScenarioSpec, limits: Limits) -> ScenarioSpec:
+    """Return the specification with the altitudes that its UAVs will fly at.
+
+    Several UAVs get different ones, so that their ways never meet. Only altitudes that the prompt
+    does not state are moved: upwards, inside domain and limits.
+
+    Args:
+        spec: The request; it is not changed.
+        limits: Limits in force; layers are twice the separation apart.
+    """
+    step_m = 2.0 * limits.separation_min_m
+    taken: dict[str, set[float]] = {}
+    for mission in spec.missions:
+        if mission.altitude_m.provenance is Provenance.EXPLICIT:
+            taken.setdefault(mission.uav, set()).add(mission.altitude_m.value)
+    # Who is told something is lowest, so that it is up when others begin to report.
+    told = {e.action.receiver for e in spec.events if isinstance(e.action, SendMessage)}
+    found: dict[str, UavMission] = {}
+    for mission in sorted(spec.missions, key=lambda m: m.uav not in told):
+        others = [z for uav, used in taken.items() if uav != mission.uav for z in used]
+        height_m = _free_height(mission, others, step_m, limits)
+        taken.setdefault(mission.uav, set()).add(height_m)
+        found[mission.id] = _at(mission, height_m)
+    missions = tuple(found[mission.id] for mission in spec.missions)
+    return ScenarioSpec.model_validate({**spec.model_dump(), 'missions': missions})
+
+
+def _free_height(mission: UavMission, others: list[float], step_m: float, limits: Limits) -> float:
+    wanted = mission.altitude_m
+    if wanted.provenance is Provenance.EXPLICIT:
+        return wanted.value
+    top = min(wanted.high, limits.uav_altitude_max_m)
+    height_m = wanted.value
+    while height_m <= top:
+        if all(abs(height_m - z) >= step_m for z in others):
+            return height_m
+        height_m += step_m
+    return wanted.value
+
+
+def _at(mission: UavMission, height_m: float) -> UavMission:
+    altitude = {**mission.altitude_m.model_dump(), 'value': height_m}
+    return UavMission.model_validate({**mission.model_dump(), 'altitude_m': altitude})

@@ -40,6 +40,7 @@ class GroundAgentLoad:
         time_gap_s: Desired headway, None = of the type.
         min_gap_m: Gap at standstill, None = of the type.
         lane_change_mode: SUMO bit set; None = SUMO's default.
+        acceleration_mps2: It accelerates no harder; None = as its type does.
         parked: Stands beside the traffic lanes and never moves: right of `lane_id` where its class
             may drive on that lane, in the middle of `lane_id` elsewhere (parking lane, sidewalk).
     """
@@ -56,6 +57,7 @@ class GroundAgentLoad:
     time_gap_s: float | None = None
     min_gap_m: float | None = None
     lane_change_mode: int | None = None
+    acceleration_mps2: float | None = None
     parked: bool = False
 
 

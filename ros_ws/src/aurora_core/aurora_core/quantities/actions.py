@@ -28,6 +28,16 @@ SPEED_ACTIONS = frozenset({'stop', 'slow', 'accelerate', 'start', 'brake'})
 # Of these and of yielding one cannot tell that they happen once they already hold.
 _HOLDS_ALREADY = frozenset({'stop', 'slow'})
 
+# What only somebody on the move can do.
+FROM_MOTION = frozenset({'brake', 'stop', 'yield', 'slow', 'change_lane'})
+
+# A person that left the carriageway nearer to where it stepped onto it has crossed nothing: on the
+# way to the crossing people brush the kerb (m).
+CROSSED_M = 2.0
+
+# A UAV has climbed to an altitude when it is this close to it (m).
+CLIMBED_M = 1.0
+
 
 class ActionRules(Document):
     """What actions are measured with; the tolerances in force, as they travel in conditions.
@@ -52,13 +62,13 @@ class ActionRules(Document):
 
 
 def takes_time(action: AgentAction) -> bool:
-    """Tell whether an action is complete only once the agent has got to its speed.
+    """Tell whether an action is complete only once the agent has got to its speed, lane or kerb.
 
-    Braking, yielding, crossing and changes of lane count from when they show.
+    Braking and yielding count from when they show.
     """
     if action.do == 'brake':
         return action.value_mps is not None
-    return action.do in ('stop', 'slow', 'accelerate', 'start')
+    return action.do in ('stop', 'slow', 'accelerate', 'start', 'change_lane', 'cross')
 
 
 def action_rules(tolerances: Tolerances) -> ActionRules:

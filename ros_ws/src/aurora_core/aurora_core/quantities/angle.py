@@ -42,6 +42,16 @@ def compass_bearing_deg(east: FloatArray, north: FloatArray) -> FloatArray:
     return np.where(bearing >= 360.0, 0.0, bearing)
 
 
+def turned_deg(bearing_deg: FloatArray) -> FloatArray:
+    """Return by how much a bearing turned clockwise since its first sample, (T,) degrees.
+
+    Each step is less than half a turn.
+    """
+    step = bearing_deg[1:] - bearing_deg[:-1]
+    step = np.where(step > 180.0, step - 360.0, np.where(step < -180.0, step + 360.0, step))
+    return np.concatenate(([0.0], np.add.accumulate(step)))
+
+
 def bearing_error_deg(bearing_deg: FloatArray, wanted_deg: float) -> FloatArray:
     """Return the angle between bearings and a wanted one, in [0, 180]."""
     off = np.abs(bearing_deg - wanted_deg % 360.0)

@@ -225,7 +225,7 @@ def no_fly_distance(view: RunView, uav: Body) -> FloatArray:
 
     def compute(part: RunView) -> Series:
         point = part.reference(uav.body_id)
-        return (part.geometry.zones.distance_series(point, CLEARANCE_CUTOFF_M),)
+        return (part.geometry.zones.clearance_series(point, CLEARANCE_CUTOFF_M),)
 
     values: FloatArray = view.series(('no_fly', uav.body_id), compute)[0]
     return values

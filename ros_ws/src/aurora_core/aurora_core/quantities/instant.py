@@ -13,7 +13,6 @@ import numpy.typing as npt
 from aurora_core.quantities.kernels import (
     SightEnd,
     TrackRule,
-    distance_2d,
     distance_3d,
     sight_height,
     track_errors,
@@ -69,11 +68,6 @@ def present(row: FloatArray) -> bool:
 def distance_m(a: Point3, b: Point3) -> float:
     """Return the 3-D distance of two reference points."""
     return distance_3d(a[0] - b[0], a[1] - b[1], a[2] - b[2])
-
-
-def horizontal_distance_m(a: Point3, b: Point3) -> float:
-    """Return the distance of two reference points in the plane."""
-    return distance_2d(a[0] - b[0], a[1] - b[1])
 
 
 def ground_speed_mps(row: FloatArray) -> float:

@@ -14,6 +14,7 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 
+from aurora_core.geometry.kernel import norm2
 from aurora_core.knowledge.world import CentreLine, WorldModel
 from aurora_core.quantities.view import Body, RunView, Series
 from aurora_core.trace.layout import GroundColumn
@@ -39,21 +40,47 @@ def lane_of(view: RunView, body: Body) -> LaneArray:
     """Return the index in `world.lanes` of the lane that a body is on, (T,); else `NO_LANE`."""
 
     def compute(part: RunView) -> Series:
-        rows = part.rows(body)
-        found = np.full(part.ticks, NO_LANE, dtype=np.intp)
-        nearest = np.full(part.ticks, np.inf)
-        for index, lane in enumerate(part.world.lanes):
-            near = np.flatnonzero(_around(lane, rows))
-            if len(near) == 0:
-                continue
-            square = _square_distance(lane, rows[near])
-            better = square < nearest[near]
-            found[near[better]] = index
-            nearest[near[better]] = square[better]
-        return (found,)
+        return (lanes_of_rows(part.world, part.rows(body)),)
 
     lanes: LaneArray = view.series(('lane_of', body.body_id), compute)[0]
     return lanes
+
+
+def lanes_of_rows(world: WorldModel, rows: FloatArray) -> LaneArray:
+    """Return the same of states (n, GROUND_WIDTH) of a body, (n,)."""
+    found = np.full(len(rows), NO_LANE, dtype=np.intp)
+    nearest = np.full(len(rows), np.inf)
+    for index, lane in enumerate(world.lanes):
+        near = np.flatnonzero(_around(lane, rows))
+        if len(near) == 0:
+            continue
+        square = _square_distance(lane, rows[near])
+        better = square < nearest[near]
+        found[near[better]] = index
+        nearest[near[better]] = square[better]
+    return found
+
+
+def off_lane_m(lane: CentreLine, rows: FloatArray) -> FloatArray:
+    """Return how far states (n, GROUND_WIDTH) are from the centre line of a lane, (n,) metres."""
+    best = np.full(len(rows), np.inf)
+    for _, _, _, square in _to_segments(lane, rows[:, [GroundColumn.X, GroundColumn.Y]]):
+        best = np.minimum(best, square)
+    off_m: FloatArray = np.sqrt(best)
+    return off_m
+
+
+def left_of_lane_m(lane: CentreLine, rows: FloatArray) -> FloatArray:
+    """Return how far a lane goes on from states (n, GROUND_WIDTH), (n,) metres."""
+    best, passed_m = np.full(len(rows), np.inf), np.zeros(len(rows))
+    before_m = 0.0
+    for dx, dy, share, square in _to_segments(lane, rows[:, [GroundColumn.X, GroundColumn.Y]]):
+        step_m = norm2(dx, dy)
+        passed_m = np.where(square < best, before_m + share * step_m, passed_m)
+        best = np.minimum(best, square)
+        before_m += step_m
+    left_m: FloatArray = before_m - passed_m
+    return left_m
 
 
 def _around(lane: CentreLine, rows: FloatArray) -> npt.NDArray[np.bool_]:
@@ -71,14 +98,19 @@ def _square_distance(lane: CentreLine, rows: FloatArray) -> FloatArray:
     hx, hy = rows[:, GroundColumn.HEADING_X], rows[:, GroundColumn.HEADING_Y]
     limit = (lane.width_m / 2.0) * (lane.width_m / 2.0)
     best = np.full(len(rows), np.inf)
-    for dx, dy, square in _to_segments(lane, rows[:, [GroundColumn.X, GroundColumn.Y]]):
+    for dx, dy, _, square in _to_segments(lane, rows[:, [GroundColumn.X, GroundColumn.Y]]):
         on = (square <= limit) & (hx * dx + hy * dy > 0.0)
         best = np.where(on & (square < best), square, best)
     return best
 
 
-def _to_segments(lane: CentreLine, xy: FloatArray) -> Iterator[tuple[float, float, FloatArray]]:
-    """Yield the direction of each segment of a centre line and squared distances from it."""
+def _to_segments(
+    lane: CentreLine, xy: FloatArray
+) -> Iterator[tuple[float, float, FloatArray, FloatArray]]:
+    """Yield of each segment of a centre line its vector, and where points (n, 2) are beside it.
+
+    That is the share of the segment in [0, 1] and the squared distance, (n,) each.
+    """
     for a, b in pairwise(lane.points):
         dx, dy = float(b[0] - a[0]), float(b[1] - a[1])
         length2 = dx * dx + dy * dy
@@ -87,7 +119,7 @@ def _to_segments(lane: CentreLine, xy: FloatArray) -> Iterator[tuple[float, floa
         along = ((xy[:, 0] - a[0]) * dx + (xy[:, 1] - a[1]) * dy) / length2
         at = np.minimum(np.maximum(along, 0.0), 1.0)
         off_x, off_y = xy[:, 0] - (a[0] + at * dx), xy[:, 1] - (a[1] + at * dy)
-        yield dx, dy, off_x * off_x + off_y * off_y
+        yield dx, dy, at, off_x * off_x + off_y * off_y
 
 
 def inside_lanes_m(lanes: Iterable[CentreLine], xy: FloatArray) -> FloatArray:
@@ -102,7 +134,7 @@ def inside_lanes_m(lanes: Iterable[CentreLine], xy: FloatArray) -> FloatArray:
     """
     best = np.full(len(xy), -np.inf)
     for lane in lanes:
-        for _, _, square in _to_segments(lane, xy):
+        for _, _, _, square in _to_segments(lane, xy):
             best = np.maximum(best, lane.width_m / 2.0 - np.sqrt(square))
     return best
 

@@ -17,7 +17,7 @@ import numpy.typing as npt
 
 from aurora_core.quantities.kernels import TrackRule, distance_2d, track_errors
 from aurora_core.quantities.motion import on_ground
-from aurora_core.quantities.ticks import first_tick
+from aurora_core.quantities.ticks import first_tick, last_tick
 from aurora_core.quantities.view import Body, RunView
 from aurora_core.trace.layout import UavColumn, UavCommandColumn, UavPhase
 
@@ -54,12 +54,14 @@ class FlightPhases:
         takeoff_tick: First command of the ascent.
         ascent_end_tick: First sample inside the altitude tolerance of the first mission.
         landing_tick: First command of the landing phase.
+        over_tick: First command after the missions: of the landing, or of the hold to the end.
         landed_tick: First sample on the ground after it.
     """
 
     takeoff_tick: int | None
     ascent_end_tick: int | None
     landing_tick: int | None
+    over_tick: int | None
     landed_tick: int | None
 
 
@@ -109,14 +111,38 @@ def flight_phases(
         takeoff_tick=takeoff,
         ascent_end_tick=ascent_end,
         landing_tick=landing,
+        over_tick=_over_tick(phase),
         landed_tick=landed,
     )
 
 
+def _over_tick(phase: FloatArray) -> int | None:
+    """Return the tick from which on a UAV lands, or holds its place to the end of the run."""
+    landing = first_tick(phase == UavPhase.LANDING)
+    if landing is not None or len(phase) == 0 or phase[-1] != UavPhase.HOLDING:
+        return landing
+    flown = last_tick(phase != UavPhase.HOLDING)
+    return 0 if flown is None else flown + 1
+
+
 def mission_phase(
-    view: RunView, uav: Body, index: int, flight: FlightPhases, rule: CaptureRule
+    view: RunView,
+    uav: Body,
+    index: int,
+    flight: FlightPhases,
+    rule: CaptureRule,
+    point: FloatArray | None = None,
 ) -> MissionPhase:
-    """Return the phase of the `index`-th mission of a UAV (from 0)."""
+    """Return the phase of the `index`-th mission of a UAV (from 0).
+
+    Args:
+        view: The run.
+        uav: Which UAV.
+        index: Of the mission.
+        flight: The phases of its flight.
+        rule: When the mission has captured.
+        point: (T, 3) where the UAV is, as its mission counts heights; default: as recorded.
+    """
     phase = view.commands(uav)[:, UavCommandColumn.PHASE]
     wanted = UavPhase.MISSION + index
     command = first_tick(phase == wanted)
@@ -125,7 +151,7 @@ def mission_phase(
     ready = flight.ascent_end_tick if index == 0 else command
     capture = None
     if command is not None and ready is not None:
-        capture = first_tick(captured(view, uav, rule), ready, stop)
+        capture = first_tick(captured(view, uav, rule, point), ready, stop)
     return MissionPhase(
         command_tick=command,
         ready_tick=ready,
@@ -135,11 +161,13 @@ def mission_phase(
     )
 
 
-def captured(view: RunView, uav: Body, rule: CaptureRule) -> BoolArray:
+def captured(
+    view: RunView, uav: Body, rule: CaptureRule, point: FloatArray | None = None
+) -> BoolArray:
     """Return where a UAV is inside the tolerance of its mission."""
-    point = view.reference(uav.body_id)
+    point = view.reference(uav.body_id) if point is None else point
     if rule.track is not None and rule.target is not None:
-        horizontal, vertical = tracking_errors(view, uav, rule.target, rule.track)
+        horizontal, vertical = tracking_errors(view, uav, rule.target, rule.track, point)
         ok = (horizontal <= rule.track.horizontal_m) & (vertical <= rule.track.vertical_m)
         ok &= view.present(rule.target)
     else:
@@ -151,17 +179,19 @@ def captured(view: RunView, uav: Body, rule: CaptureRule) -> BoolArray:
 
 
 def tracking_errors(
-    view: RunView, uav: Body, target: str, rule: TrackRule
+    view: RunView, uav: Body, target: str, rule: TrackRule, point: FloatArray | None = None
 ) -> tuple[FloatArray, FloatArray]:
     """Return horizontal and altitude error of a tracking UAV, (T,) metres each."""
-    point = view.reference(uav.body_id)
+    point = view.reference(uav.body_id) if point is None else point
     away = point - view.reference(target)
     return track_errors(rule, away[:, 0], away[:, 1], point[:, 2])
 
 
-def tracked(view: RunView, uav: Body, target: str, rule: TrackRule) -> BoolArray:
+def tracked(
+    view: RunView, uav: Body, target: str, rule: TrackRule, point: FloatArray | None = None
+) -> BoolArray:
     """Return where a UAV tracks its target (never while the target is absent)."""
-    horizontal, vertical = tracking_errors(view, uav, target, rule)
+    horizontal, vertical = tracking_errors(view, uav, target, rule, point)
     ok = (horizontal <= rule.horizontal_m) & (vertical <= rule.vertical_m)
     result: BoolArray = ok & view.present(target)
     return result
@@ -174,7 +204,6 @@ def missions_end_tick(view: RunView) -> int:
     """
     ends = []
     for uav in view.uavs:
-        phase = view.commands(uav)[:, UavCommandColumn.PHASE]
-        landing = first_tick(phase == UavPhase.LANDING)
-        ends.append(view.ticks if landing is None else landing)
+        over = _over_tick(view.commands(uav)[:, UavCommandColumn.PHASE])
+        ends.append(view.ticks if over is None else over)
     return max(ends, default=view.ticks)

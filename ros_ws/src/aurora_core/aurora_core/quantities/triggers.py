@@ -14,15 +14,29 @@ from dataclasses import dataclass, field
 import numpy as np
 import numpy.typing as npt
 
+from aurora_core.geometry.kernel import norm2_array
 from aurora_core.knowledge.world import SurfaceKind
 from aurora_core.quantities import motion
-from aurora_core.quantities.actions import ActionRules, completion_index, holds_already, takes_time
-from aurora_core.quantities.lanes import lane_change_ticks, lane_of
+from aurora_core.quantities.actions import (
+    CLIMBED_M,
+    CROSSED_M,
+    ActionRules,
+    completion_index,
+    holds_already,
+    takes_time,
+)
+from aurora_core.quantities.lane_changes import (
+    LANE_CHANGE_S,
+    can_change,
+    change_begins,
+    change_is_over,
+)
 from aurora_core.quantities.ledger import LinkModel, messages
 from aurora_core.quantities.phases import FlightPhases
 from aurora_core.quantities.sight import sight_series
 from aurora_core.quantities.ticks import first_tick, whole_ticks
 from aurora_core.quantities.view import RunView
+from aurora_core.spec.flight_order import is_next_anyway
 from aurora_core.spec.scenario import (
     AgentAction,
     AltitudeTrigger,
@@ -40,6 +54,15 @@ from aurora_core.spec.scenario import (
     VisibilityTrigger,
 )
 from aurora_core.trace.layout import UavCommandColumn, UavPhase
+
+StateTrigger = (
+    DistanceTrigger
+    | TimeTrigger
+    | AltitudeTrigger
+    | VisibilityTrigger
+    | SpeedTrigger
+    | ArrivalTrigger
+)
 
 BoolArray = npt.NDArray[np.bool_]
 
@@ -108,12 +131,65 @@ class EventTimes:
             return None
         return trigger + whole_ticks(event.waits_s, self.view.dt_s)
 
+    def possible_tick(self, event_id: str, start: int) -> int | None:
+        """Return the first tick from `start` on at which an action is possible.
+
+        Who changes lane has to be on a street with another lane; all else is possible anywhere.
+        None where it never is.
+        """
+        event, rules = self.event(event_id), self.rules.actions
+        if event is None or rules is None or not isinstance(event.action, AgentAction):
+            return start
+        if event.action.do != 'change_lane':
+            return start
+        rows = self.view.rows(self.view.body(event.action.agent))
+        return first_tick(can_change(self.view.world, rows, rules.start_mps), start)
+
+    def hidden_s(self, event_id: str) -> float:
+        """Return for how long an action may be under way before that is known, in seconds.
+
+        That a vehicle changes lane is known once it is on the other one.
+        """
+        event = self.event(event_id)
+        action = None if event is None else event.action
+        changes = isinstance(action, AgentAction) and action.do == 'change_lane'
+        return LANE_CHANGE_S if changes else 0.0
+
     def done_tick(self, event_id: str) -> int | None:
         """Return the tick from which on other events may follow this one: its completion."""
         event, trigger = self.event(event_id), self.trigger_tick(event_id)
         if event is not None and isinstance(event.action, AgentAction):
             return self.completion_tick(event_id)
+        if event is not None and isinstance(event.action, UavAction):
+            return self._flown_tick(event.action, self.action_tick(event_id, trigger or 0))
         return self.action_tick(event_id, trigger or 0)
+
+    def _flown_tick(self, action: UavAction, begins: int | None) -> int | None:
+        """Return when a UAV has done what it is told to: it is up where it climbs to.
+
+        After its missions a climb is the beginning of its way home, which waits for nothing.
+        """
+        flight = self.rules.flights.get(action.uav)
+        if begins is None or action.altitude_m is None or flight is None:
+            return begins
+        if flight.landing_tick is not None and flight.landing_tick <= begins:
+            return begins
+        z_m = motion.altitude(self.view, self.view.body(action.uav))
+        return first_tick(np.abs(z_m - action.altitude_m.value) <= CLIMBED_M, begins)
+
+    def _on_carriageway(self, agent: str) -> BoolArray:
+        points = self.view.reference(agent)[:, :2]
+        return self.view.geometry.surfaces(SurfaceKind.DRIVING).contains(points)
+
+    def _over_the_street(self, person: str, begins: int) -> int | None:
+        """Return when a person has left the carriageway that it stepped onto."""
+        on = self._on_carriageway(person)
+        entered = first_tick(on, begins)
+        if entered is None:
+            return None
+        points = self.view.reference(person)[:, :2]
+        away_m = norm2_array(*(points - points[entered]).T)
+        return first_tick(~on & (away_m >= CROSSED_M), entered)
 
     def completion_tick(self, event_id: str) -> int | None:
         """Return when what a ground agent is to do is complete, None when it never is."""
@@ -128,6 +204,10 @@ class EventTimes:
         # A trigger that nobody states: what the action shows is its beginning.
         first = begins if due is None else due
         body = self.view.body(action.agent)
+        if action.do == 'change_lane':
+            return change_is_over(self.view, body, first)
+        if action.do == 'cross':
+            return self._over_the_street(action.agent, begins)
         there = first_tick(~self.view.present(action.agent), first)
         speeds = motion.speed(self.view, body)[first:there]
         hold_ticks = whole_ticks(rules.stop_hold_s, self.view.dt_s)
@@ -171,10 +251,19 @@ class EventTimes:
             wanted = phase == UavPhase.MISSION + own.index(action.mission)
             # A mission begins once: one that is flown already is not changed to.
             begins = first_tick(wanted)
+            if begins is not None and begins > 0 and phase[begins - 1] == UavPhase.ASCENT:
+                # Who stands on the ground takes off for it; in the ascent its goal is another.
+                takeoff = int(np.argmax(phase == UavPhase.ASCENT))
+                begins = takeoff if own[0] == action.mission else max(start, takeoff)
             return begins if begins is not None and begins >= start else None
         if action.do == 'ascend':
             uav = self.view.body(action.uav)
-            return first_tick(motion.climb_rate(self.view, uav) >= CLIMBS_MPS, start)
+            rate = motion.climb_rate(self.view, uav)
+            if action.altitude_m is not None and start < self.view.ticks:
+                # To a lower altitude it goes down.
+                z_m = float(motion.altitude(self.view, uav)[start])
+                rate = -rate if action.altitude_m.value < z_m else rate
+            return first_tick(rate >= CLIMBS_MPS, start)
         flight = self.rules.flights.get(action.uav)
         tick = None if flight is None else flight.landing_tick
         return tick if tick is not None and tick >= start else None
@@ -203,13 +292,15 @@ class EventTimes:
             gain = -motion.deceleration(self.view, body)
             return _onset(gain >= self.rules.onset_mps2, start, begins_there=begins_there)
         if action.do == 'change_lane':
-            changes = lane_change_ticks(self.view, lane_of(self.view, body))
-            return next((tick for tick in changes if tick >= start), None)
-        on = self.view.geometry.surfaces(SurfaceKind.DRIVING).contains(
-            self.view.reference(action.agent)[:, :2]
-        )
-        steps = np.concatenate(([False], on[1:] & ~on[:-1]))
-        return first_tick(steps, start)
+            return change_begins(self.view, body, start)
+        on = self._on_carriageway(action.agent)
+        steps = first_tick(np.concatenate(([False], on[1:] & ~on[:-1])), start)
+        if steps is None or rules is None:
+            return steps
+        # Who stood at the kerb begins to cross with the first step towards the carriageway.
+        before = max(0, start - 1)
+        stood = np.flatnonzero(speed[before:steps] < rules.stop_mps)
+        return before + int(stood[-1]) + 1 if len(stood) else steps
 
     def _first(self, event: Event) -> int | None:
         trigger = event.trigger
@@ -223,8 +314,10 @@ class EventTimes:
                 tick = done + whole_ticks(after_s, view.dt_s)
                 return tick if tick < view.ticks else None
             case MissionDoneTrigger():
+                if is_next_anyway(event):
+                    return self.action_tick(event.id)
                 flight = self.rules.flights.get(trigger.uav)
-                return None if flight is None else flight.landing_tick
+                return None if flight is None else flight.over_tick
             case MessageTrigger():
                 received = [
                     message.delivered_tick
@@ -243,11 +336,20 @@ class EventTimes:
                     return None
                 start = 0
                 if trigger.on in NEEDS_CHANGE:
-                    before = first_tick(~mask)
+                    before = first_tick(self._before_change(trigger, mask))
                     if before is None:
                         return None
                     start = before
                 return first_tick(mask, start)
+
+    def _before_change(self, trigger: StateTrigger, mask: BoolArray) -> BoolArray:
+        """Return where a change can still come: it does not hold, or what is lost was seen."""
+        if not isinstance(trigger, VisibilityTrigger):
+            return ~mask
+        seen = trigger.model_copy(update={'on': 'visible'})
+        sight = trigger_series(self.view, seen, self.rules)
+        assert sight is not None  # an observer and a target are no places
+        return sight
 
 
 def _onset(mask: BoolArray, start: int, *, begins_there: bool) -> int | None:
@@ -259,12 +361,7 @@ def _onset(mask: BoolArray, start: int, *, begins_there: bool) -> int | None:
 
 def trigger_series(
     view: RunView,
-    trigger: DistanceTrigger
-    | TimeTrigger
-    | AltitudeTrigger
-    | VisibilityTrigger
-    | SpeedTrigger
-    | ArrivalTrigger,
+    trigger: StateTrigger,
     rules: EventRules,
 ) -> BoolArray | None:
     """Return where the predicate of a state trigger holds, (T,); None for an unknown place."""
@@ -286,8 +383,11 @@ def trigger_series(
             ready = None if flight is None else flight.ascent_end_tick
             if ready is None:
                 return np.zeros(view.ticks, dtype=np.bool_)
+            # Before the ascent has ended neither "visible" nor "occluded" can have been seen, and
+            # on its way home a UAV has stopped looking.
             counted = np.arange(view.ticks) >= ready
-            # Before the ascent has ended neither "visible" nor "occluded" can have been seen.
+            if flight is not None and flight.landing_tick is not None:
+                counted &= np.arange(view.ticks) < flight.landing_tick
             return mask & counted
         case SpeedTrigger():
             body = view.body(trigger.who)

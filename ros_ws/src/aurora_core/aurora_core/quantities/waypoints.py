@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -19,6 +19,9 @@ from aurora_core.spec.vocabulary import Pattern
 FloatArray = npt.NDArray[np.float64]
 BoolArray = npt.NDArray[np.bool_]
 Point3 = tuple[float, float, float]
+
+# A turn sharper than this (cosine of the change of course) is a corner to slow down for.
+CORNER_COSINE = 0.94
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -55,8 +58,7 @@ def approach(
 
 
 def passages(
-    view: RunView,
-    uav: Body,
+    point: FloatArray,
     waypoints: Sequence[Point3],
     tolerances_m: tuple[float, float],
     start: int,
@@ -65,8 +67,7 @@ def passages(
     """Return the passage of each waypoint in order within the samples [start, stop).
 
     Args:
-        view: The run.
-        uav: Which UAV.
+        point: (T, 3) where the UAV is, ENU metres.
         waypoints: In the order in which they have to be visited.
         tolerances_m: In the plane, and on the altitude.
         start: First sample of the phase.
@@ -75,7 +76,6 @@ def passages(
     A waypoint that is missed does not move the search on: the next one is looked for from the
     last waypoint that was visited.
     """
-    point = view.reference(uav.body_id)
     found: list[Passage] = []
     begin = start
     for waypoint in waypoints:
@@ -118,7 +118,9 @@ def legs(waypoints: Sequence[Point3], found: Sequence[Passage]) -> tuple[Leg, ..
 
 
 def cruising(view: RunView, uav: Body, flown: Sequence[Leg], margin_m: float) -> BoolArray:
-    """Return where a UAV is on a leg, farther than `margin_m` from both of its ends.
+    """Return where a UAV is on a leg, farther than `margin_m` from where it has to be slow.
+
+    That is at the ends of its route and at corners: the chords of an orbit are one way.
 
     Args:
         view: The run.
@@ -128,12 +130,34 @@ def cruising(view: RunView, uav: Body, flown: Sequence[Leg], margin_m: float) ->
     """
     point = view.reference(uav.body_id)
     mask = np.zeros(view.ticks, dtype=np.bool_)
-    for leg in flown:
+    behind = _run_up_m(flown)
+    ahead = _run_up_m([replace(leg, a=leg.b, b=leg.a) for leg in reversed(flown)])[::-1]
+    for leg, before_m, after_m in zip(flown, behind, ahead, strict=True):
         part = point[leg.start : leg.stop]
         from_a = distance_2d(part[:, 0] - leg.a[0], part[:, 1] - leg.a[1])
         from_b = distance_2d(part[:, 0] - leg.b[0], part[:, 1] - leg.b[1])
-        mask[leg.start : leg.stop] = (from_a > margin_m) & (from_b > margin_m)
+        fast = (from_a + before_m > margin_m) & (from_b + after_m > margin_m)
+        mask[leg.start : leg.stop] = fast
     return mask
+
+
+def _run_up_m(flown: Sequence[Leg]) -> list[float]:
+    """Return the way without a corner before each leg, metres."""
+    found = [0.0] if flown else []
+    for before, leg in pairwise(flown):
+        smooth = before.b == leg.a and not _is_corner(before, leg)
+        found.append(found[-1] + _length_m(before) if smooth else 0.0)
+    return found
+
+
+def _is_corner(one: Leg, other: Leg) -> bool:
+    """Tell whether the course changes so much that a UAV slows down for it."""
+    (ax, ay), (bx, by) = ((leg.b[0] - leg.a[0], leg.b[1] - leg.a[1]) for leg in (one, other))
+    return ax * bx + ay * by < CORNER_COSINE * _length_m(one) * _length_m(other)
+
+
+def _length_m(leg: Leg) -> float:
+    return float(distance_2d(leg.b[0] - leg.a[0], leg.b[1] - leg.a[1]))
 
 
 def pattern_centre(waypoints: Sequence[Point3]) -> tuple[float, float]:
@@ -155,11 +179,14 @@ def has_shape(pattern: Pattern, points: Sequence[Point3]) -> bool:
     Args:
         pattern: Rectangles and orbits are closed, a line has two points, a lawnmower goes to and
             fro on parallel lines; `waypoints` are in any order, and none of these.
-        points: (x, y, z) metres, in the order flown.
+        points: (x, y, z) metres, in the order flown. Lines, rectangles and orbits may be flown
+            several times.
     """
-    closed = len(points) > 2 and points[0] == points[-1]
     if pattern is Pattern.LINE:
-        return len(points) == 2
+        return len(points) >= 2 and _first_lap(points)[1:-1] in ((), (points[1],))
+    if pattern in (Pattern.RECTANGLE, Pattern.ORBIT):
+        points = _first_lap(points)
+    closed = len(points) > 2 and points[0] == points[-1]
     if pattern is Pattern.RECTANGLE:
         return closed and len(points) == 5 and _turns_square(points)
     if pattern is Pattern.ORBIT:
@@ -167,6 +194,24 @@ def has_shape(pattern: Pattern, points: Sequence[Point3]) -> bool:
     if pattern is Pattern.LAWNMOWER:
         return not closed and len(points) >= 4 and len(points) % 2 == 0 and _turns_square(points)
     return not closed
+
+
+def _first_lap(points: Sequence[Point3]) -> Sequence[Point3]:
+    """Return the first lap of points that go round again and again; the last lap may be cut."""
+    lap = next((k for k, point in enumerate(points) if k > 0 and point == points[0]), None)
+    if lap is None:
+        return points
+    again = [k for k in range(len(points)) if points[k] != points[k % lap]]
+    cut = len(points) - 1
+    on_its_leg = again == [cut] and _is_between(points[cut], points[cut - 1], points[cut % lap])
+    return points[: lap + 1] if not again or on_its_leg else points
+
+
+def _is_between(point: Point3, a: Point3, b: Point3) -> bool:
+    """Tell whether a point is on the leg from a to b."""
+    there, onward = (float(distance_2d(point[0] - c[0], point[1] - c[1])) for c in (a, b))
+    whole = float(distance_2d(b[0] - a[0], b[1] - a[1]))
+    return abs(there + onward - whole) <= _SHAPE_M * max(whole, 1.0)
 
 
 def _turns_square(points: Sequence[Point3]) -> bool:

@@ -9,13 +9,14 @@ from functools import cached_property
 import numpy as np
 import numpy.typing as npt
 
-from aurora_core.geometry.no_fly import ZoneField
 from aurora_core.geometry.obstacles import ObstacleField
 from aurora_core.geometry.polygon import Polygon, PolygonSet
 from aurora_core.geometry.prism import Prism
 from aurora_core.geometry.sight import SightModel
 from aurora_core.geometry.sight_line import SightLine
+from aurora_core.knowledge.map_types import Building
 from aurora_core.knowledge.world import SurfaceKind, WorldModel
+from aurora_core.spec.reference import LANDMARK, is_landmark
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -63,9 +64,9 @@ class WorldGeometry:
         return ObstacleField(self._buildings)
 
     @cached_property
-    def zones(self) -> ZoneField:
-        """No-fly zones."""
-        return ZoneField(
+    def zones(self) -> ObstacleField:
+        """No-fly zones: the same solids as obstacles, from floor to ceiling, but of air."""
+        return ObstacleField(
             Prism(
                 zone.id,
                 np.asarray(zone.ring, dtype=np.float64),
@@ -104,3 +105,8 @@ class WorldGeometry:
             if known.name == place:
                 return known.x_m, known.y_m
         return None
+
+    def building_of(self, place: str) -> Building | None:
+        """Return the building that a landmark is, None for all other places."""
+        name = place.removeprefix(LANDMARK) if is_landmark(place) else ''
+        return next((b for b in self.world.buildings if name and b.name == name), None)

@@ -8,7 +8,7 @@ import re
 
 from aurora_core.outcomes.feasibility import Certificate
 from aurora_core.recheck.finding import Step
-from aurora_core.recheck.request import read_config
+from aurora_core.recheck.request import read_map_file
 from aurora_core.spec.vocabulary import AgentType
 
 
@@ -39,7 +39,7 @@ def _closed_list(proof: Certificate) -> tuple[frozenset[str] | None, str]:
         return frozenset(kind.value for kind in AgentType), 'the vocabulary'
     of_map = re.search(r'landmarks of (\S+)', proof.path)
     if of_map is not None:
-        features = read_config('maps', of_map[1], 'landmarks.geojson')['features']
+        features = read_map_file(of_map[1], 'landmarks.geojson')['features']
         names = frozenset(str(f['properties']['name']).casefold() for f in features)
         return names, f'the map {of_map[1]}'
     return None, ''

@@ -9,6 +9,7 @@ from typing import Any, TypeGuard
 
 from aurora_core.files import MAP_BYTES, read_json
 from aurora_core.knowledge.config_files import config_path
+from aurora_core.knowledge.map_folders import map_folder
 from aurora_core.outcomes.feasibility import Certificate, Fact, FactSource
 from aurora_core.recheck.finding import Step
 
@@ -19,6 +20,11 @@ _ABOUT = 0.10
 def read_config(*parts: str) -> Any:
     """Return a JSON document of the configuration."""
     return read_json(config_path(*parts), MAP_BYTES)
+
+
+def read_map_file(name: str, file: str) -> Any:
+    """Return a JSON document of a map, bundled or imported."""
+    return read_json(map_folder(name) / file, MAP_BYTES)
 
 
 def node_at(document: Any, path: str) -> Any:
@@ -69,7 +75,7 @@ class Request:
     def features(self, file: str) -> list[dict[str, Any]]:
         """Return the features of a file of the map."""
         name = str((self.spec.get('world') or {}).get('map_name', ''))
-        return list(read_config('maps', name, file)['features'])
+        return list(read_map_file(name, file)['features'])
 
 
 def stated(number: Any) -> TypeGuard[dict[str, Any]]:

@@ -33,14 +33,9 @@ from aurora_core.trace.trace import Integrity
 def build_report(facts: RunFacts) -> RunReport:
     """Return the report of a run, however far it got."""
     feasibility = _feasibility(facts)
-    clauses = clause_reports(facts)
+    clauses, rows = _judged(facts)
     graph = facts.graph
     conditions = graph.conditions if graph is not None else ()
-    rows = (
-        condition_reports(facts.prompt, clauses, facts.verdict)
-        if facts.verdict is not None
-        else ()
-    )
     status = status_of(_status_facts(facts, feasibility, clauses, rows, conditions))
     report = RunReport(
         run_id=facts.run_id,
@@ -54,11 +49,8 @@ def build_report(facts: RunFacts) -> RunReport:
         versions=dict(sorted(facts.versions.items())),
         digests=_digests(facts, graph),
         limits=facts.limits,
-        clauses=clauses,
-        conditions=rows,
         feasibility=feasibility,
         repairs=facts.repairs,
-        metrics=_metrics(facts, clauses, rows),
         timing=dict(facts.timing),
         cost=_cost(facts),
         trace=_trace(facts),
@@ -66,10 +58,28 @@ def build_report(facts: RunFacts) -> RunReport:
         question=facts.parse.question if facts.parse is not None else None,
         error=_error(facts),
         faults=facts.faults,
-        requested_and_realised=_realised(graph),
     )
-    values = {name: getattr(report, name) for name in RunReport.model_fields}
-    return RunReport(**{**values, 'summary': summary_of(report, facts.grounding)})
+    return restated(report, facts)
+
+
+def restated(report: RunReport, facts: RunFacts) -> RunReport:
+    """Return a report with all that follows from recording and status worked out anew."""
+    clauses, rows = _judged(facts)
+    changes: dict[str, object] = {
+        'clauses': clauses,
+        'conditions': rows,
+        'metrics': _metrics(facts, clauses, rows),
+        'requested_and_realised': _realised(facts.graph),
+    }
+    whole = report.model_copy(update=changes)
+    return whole.model_copy(update={'summary': summary_of(whole, facts.grounding)})
+
+
+def _judged(facts: RunFacts) -> tuple[tuple[ClauseReport, ...], tuple[ConditionReport, ...]]:
+    clauses = clause_reports(facts)
+    if facts.verdict is None:
+        return clauses, ()
+    return clauses, condition_reports(facts.prompt, clauses, facts.verdict)
 
 
 def _status_facts(

@@ -15,18 +15,30 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from aurora_core.agsg.document import agsg_from_json
-from aurora_core.document import Document
+from aurora_core.document import Document, first_difference
 from aurora_core.outcomes.agsg import Agsg
+from aurora_core.outcomes.feasibility import FeasibilityVerdict
 from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.outcomes.schedule import Schedule
 from aurora_core.outcomes.verdict import Verdict, VerdictStatus
+from aurora_core.report.build import restated
 from aurora_core.report.comparison import Comparison, compare
 from aurora_core.report.doubts import Doubt, altered, trace_doubts, unknown
+from aurora_core.report.facts import RunFacts
 from aurora_core.report.manifest import Manifest
 from aurora_core.report.run_documents import Unreadable, read_document, read_stored
-from aurora_core.report.run_folder import MANIFEST, PROMPT, REPORT, StageFile, is_run_id
+from aurora_core.report.run_folder import (
+    MANIFEST,
+    PICTURE,
+    PROMPT,
+    REPORT,
+    REPORT_HTML,
+    StageFile,
+    is_run_id,
+)
 from aurora_core.report.run_report import BagReport, ClauseReport, RunReport, TraceReport
 from aurora_core.report.status import Status
+from aurora_core.report.versions import AURORA_VERSION
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.spec.vocabulary import ClauseStatus
 from aurora_core.trace.bag_content import BagContent
@@ -61,6 +73,7 @@ class JudgedBag:
         hashes: Of its trace.
         verdict: Of the bag.
         clauses: Of the prompt in it, with what became of each.
+        facts: What a report tells of a run, as far as the bag gives it.
     """
 
     content: BagContent
@@ -68,6 +81,7 @@ class JudgedBag:
     hashes: TraceHashes
     verdict: Verdict
     clauses: tuple[ClauseReport, ...]
+    facts: RunFacts
 
 
 def unread(clauses: Sequence[ClauseReport]) -> tuple[ClauseReport, ...]:
@@ -108,6 +122,7 @@ def check_run(
         doubts += found
         if own is not None:
             doubts += _report(run, own, iteration, bag)
+            doubts += _beside(run, own, iteration)
     check = RunCheck(
         run_id=run_id, status=None if own is None else own.status, doubts=tuple(doubts)
     )
@@ -255,6 +270,30 @@ def _report(run: Path, report: RunReport, iteration: int, bag: JudgedBag) -> Ite
         yield unknown(f'{listed[-1].bag}, by which the run was judged, is missing')
 
 
+def _beside(run: Path, report: RunReport, iteration: int) -> Iterator[Doubt]:
+    """Compare what is in the folder beside a report with the report.
+
+    A report that tells of no bag was written later, for a run that had not been finished.
+    """
+    if report.bags == ():
+        return
+    name = StageFile.FEASIBILITY.name_at(iteration)
+    feasibility = read_document(run / name, FeasibilityVerdict)
+    if isinstance(feasibility, Unreadable):
+        yield unknown(feasibility.why)
+    elif feasibility != report.feasibility:
+        yield altered(f'{name} is not the feasibility of {REPORT}')
+    page = read_stored(run / REPORT_HTML)
+    # Another version lays a page out otherwise.
+    if not isinstance(page, Unreadable) and report.versions.get('aurora') == AURORA_VERSION:
+        from aurora_core.report.html import report_html
+
+        picture = read_stored(run / PICTURE)
+        shown = None if isinstance(picture, Unreadable) else picture
+        if page != report_html(report, shown).encode('utf-8'):
+            yield altered(f'{REPORT_HTML} is not the page of {REPORT} and {PICTURE}')
+
+
 def _of_trace(trace: TraceReport, graph_sha256: str, iteration: int) -> BagReport:
     return BagReport(
         bag=trace.bag,
@@ -311,9 +350,10 @@ def _last(report: RunReport, entry: BagReport, bag: JudgedBag) -> Iterator[Doubt
         yield altered(f'{REPORT} has other clauses than the bag gives')
     if bag.verdict.integrity is not Integrity.INTACT or report.status in _CLAIMS_NOTHING:
         return
-    rows = {row.id: (row.margin, row.satisfied) for row in report.conditions}
-    if rows != {r.id: (r.margin, r.satisfied) for r in bag.verdict.results}:
-        yield altered(f'{REPORT} has other conditions or margins than the bag gives')
+    found = first_difference(report, restated(report, bag.facts))
+    if found is not None:
+        path, told, given = found
+        yield altered(f'{REPORT} has {path} {_short(told)}, the bag gives {_short(given)}')
     allowed = _MAY_CLAIM.get(bag.verdict.status, frozenset())
     if report.status not in allowed:
         yield altered(

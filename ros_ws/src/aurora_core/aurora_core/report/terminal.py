@@ -11,6 +11,7 @@ from rich.console import Console
 from rich.markup import escape as escape_markup
 from rich.table import Table
 
+from aurora_core.errors import AuroraError
 from aurora_core.report.check_report import CheckReport, CheckResult
 from aurora_core.report.run_report import (
     ClauseReport,
@@ -237,6 +238,13 @@ def _question_and_error(report: RunReport | CheckReport, console: Console) -> No
                 line(console, f'nearest feasible value: {_with_unit(proof.nearest, proof.unit)}')
         for note in report.feasibility.notes:
             line(console, f'note: {note}')
+
+
+def print_unjudged(bag: Path, err: AuroraError, console: Console) -> None:
+    """Print that a bag holds nothing that could be judged, and why."""
+    outcome = VerifyOutcome.INCONCLUSIVE
+    text = f'{bag} cannot be judged: {err.message}'
+    headline(console, outcome.heading, _VERIFY_COLOURS[outcome], text)
 
 
 def print_verify(report: VerifyReport, console: Console) -> None:

@@ -7,7 +7,7 @@ from __future__ import annotations
 import platform
 from importlib.metadata import PackageNotFoundError, version
 
-AURORA_VERSION = '0.1.0'
+AURORA_VERSION = '0.2.0'
 
 _DECIDING = ('libsumo', 'numpy', 'scipy', 'shapely', 'pydantic', 'rosbags')
 

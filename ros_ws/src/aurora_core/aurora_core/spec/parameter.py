@@ -85,6 +85,14 @@ class Parameter(Document):
             raise ValueError(f'{self.value} {self.unit} is outside [{self.low}, {self.high}]')
         return self
 
+    def inside(self, slack: float) -> float:
+        """Return what a plan aims at: the value, inside a one-sided bound by `slack` (`unit`)."""
+        if self.bound is Bound.AT_LEAST:
+            return self.value + slack
+        if self.bound is Bound.AT_MOST:
+            return self.value - slack
+        return self.value
+
 
 _SUFFIXES = (
     ('_mps', Unit.METRE_PER_SECOND),

@@ -24,9 +24,17 @@ PlaceRef = Annotated[
 # What the world of a scenario is called where elements are called by their ids.
 ENVIRONMENT_ID = 'world'
 
+# What the reference of a landmark begins with; its name on the map follows.
+LANDMARK = 'landmark:'
+
 _PLACES = frozenset(place.value for place in Place)
+
+
+def is_landmark(reference: str | None) -> bool:
+    """Tell whether a reference names a landmark of the map."""
+    return reference is not None and reference.startswith(LANDMARK)
 
 
 def is_place(reference: str) -> bool:
     """Tell whether a reference names a place of the map, not an element of the scene."""
-    return reference.startswith('landmark:') or reference in _PLACES
+    return is_landmark(reference) or reference in _PLACES

@@ -79,6 +79,23 @@ class StatedCondition(Element):
         return super()._unit_of(name)
 
 
+# What a UAV is called where bodies are counted by their types.
+UAV_TYPE = 'uav'
+
+
+def types_counted(kind: str) -> tuple[str, ...]:
+    """Return the types of the vocabulary that a stated number is about.
+
+    Args:
+        kind: A type, `uav`, `vehicle`, `person` or `body` (all of them).
+    """
+    walks = AgentType.PEDESTRIAN.value
+    stands = AgentType.RSU.value
+    drives = tuple(t.value for t in AgentType if t.value not in (walks, stands))
+    groups = {'vehicle': drives, 'person': (walks,), 'body': (*drives, walks, UAV_TYPE)}
+    return groups.get(kind, (kind,))
+
+
 class SceneCount(Element):
     """How many of a kind there are in the whole scene, background included: it closes the scene.
 

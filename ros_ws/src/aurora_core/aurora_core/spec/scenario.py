@@ -93,6 +93,8 @@ class ScenarioSpec(Document):
         counts: How many of a kind there are in the whole scene.
         prohibitions: What must not be so.
         clauses: Every piece of the prompt and what became of it.
+        reader: Digest of the offline parser that read the prompt (`pipeline.reading`); empty for
+            what a model, a person or a repair wrote.
     """
 
     schema_version: Literal[1] = 1
@@ -108,6 +110,7 @@ class ScenarioSpec(Document):
     counts: tuple[SceneCount, ...] = omitted(())
     prohibitions: tuple[Prohibition, ...] = omitted(())
     clauses: tuple[Clause, ...] = ()
+    reader: str = omitted('')
 
     @model_validator(mode='after')
     def _parts_fit(self) -> Self:

@@ -9,7 +9,7 @@ from typing import Self
 from pydantic import model_validator
 
 from aurora_core.document import omitted
-from aurora_core.spec.parameter import Element, Parameter, Span
+from aurora_core.spec.parameter import Bound, Element, Parameter, Provenance, Span
 from aurora_core.spec.reference import Id, PlaceRef
 from aurora_core.spec.seed import Seed
 from aurora_core.spec.vocabulary import (
@@ -54,6 +54,7 @@ class Placement(Element):
         distance_m: Between reference points.
         bearing_deg: Compass bearing from `of`, when stated.
         kept_in_motion: "drives ahead of", "follows behind": must hold along the route.
+        throughout: "always", "never more than", "stays": not most of the time, but all along.
     """
 
     relation: Relation
@@ -61,7 +62,21 @@ class Placement(Element):
     distance_m: Parameter | None = None
     bearing_deg: Parameter | None = None
     kept_in_motion: bool = False
+    throughout: bool = omitted(False)
     span: Span | None = None
+
+    @property
+    def keeps_distance(self) -> bool:
+        """Tell whether the stated distance holds on the way, and not at t = 0 only.
+
+        "Always 20 m behind" and "drives at most 20 m behind" do; a plain "drives 20 m behind" is
+        where it starts.
+        """
+        distance = self.distance_m
+        if distance is None or distance.provenance is not Provenance.EXPLICIT:
+            return False
+        bounded = distance.bound is not Bound.EXACTLY
+        return self.kept_in_motion and (self.throughout or bounded)
 
 
 class Behavior(Element):

@@ -59,12 +59,14 @@ class UavPhase(IntEnum):
 
     The k-th mission of a UAV (k from 0, order of the specification) is `MISSION + k`; the way from
     the end of ascent to the mission's first point belongs to the mission (before its capture).
+    HOLDING stands where a mission ended, until an event begins the next one, or to the end.
     LANDING holds the flight to the landing spot (OFFBOARD) and the landing itself (LAND).
     """
 
     IDLE = 0
     ASCENT = 1
     MISSION = 2
+    HOLDING = 99
     LANDING = 100
 
 
@@ -104,5 +106,6 @@ class GroundCommandKind(IntEnum):
     REMOVE = 11  # take the agent out of the simulation
     WALK = 12  # text: edge ids; value: arrival position in m on the last edge
     # value: SUMO bit set. 513: own changes only where the route needs them, CHANGE_LANE with care
-    # for others; 512: only CHANGE_LANE; 0: the same, but CHANGE_LANE does not mind who is there.
+    # for others; 257: the same, but CHANGE_LANE only avoids collisions; 512: only CHANGE_LANE; 0:
+    # the same, but CHANGE_LANE does not mind who is there.
     SET_LANE_CHANGE_MODE = 13

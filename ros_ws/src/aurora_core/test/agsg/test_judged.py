@@ -33,6 +33,7 @@ def _parsed(prompt: str) -> ScenarioSpec:
         'A drone hovers over City Hall at 50 m for 20 seconds.',
         'In rain at night a drone tracks a bus from 40 m at 30 m altitude for 30 s.',
         'A drone tracks a bus; after 20 s the bus slows to 5 m/s.',
+        'In dense traffic a drone tracks a bus for 30 s.',
         'A van tailgates the ego car closely, closing from 45 meters; a tracking drone alerts the '
         'ego when the van comes within 20 meters.',
     ],
@@ -41,14 +42,12 @@ def test_ordinary_requests_are_judged_in_everything(prompt: str) -> None:
     assert _unjudged(_parsed(prompt)) == {}
 
 
-def test_traffic_that_nobody_makes_is_found() -> None:
-    found = _unjudged(_parsed('In dense traffic a drone tracks a bus for 30 s.'))
+def test_traffic_beside_a_counted_scene_is_found() -> None:
+    found = _unjudged(_parsed('In dense traffic a drone tracks a bus; there is exactly one car.'))
     assert found.keys() == {'world/traffic_density'}
     assert found['world/traffic_density'].element == 'world'
 
 
-def test_a_place_that_an_agent_is_to_stop_at_is_found() -> None:
-    found = _unjudged(_parsed('A drone tracks a bus that stops at the intersection.'))
-    assert [path for path in found if path.endswith('/target')] == [
-        'agents/bus1/behaviors/0/target'
-    ]
+def test_a_place_where_something_is_to_be_done_is_judged() -> None:
+    paths = _unjudged(_parsed('A drone tracks a bus that stops at the intersection.'))
+    assert [path for path in paths if path.endswith('/target')] == []

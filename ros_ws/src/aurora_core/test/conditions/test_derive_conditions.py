@@ -169,8 +169,6 @@ def test_what_cannot_be_said_yet_is_reported(tb: ModuleType) -> None:
     )
     found = {(u.element, u.what) for u in _derive(tb, case).underivable}
     assert found == {
-        ('ego', 'placement on sidewalk'),
-        ('ego', 'placement parked_at'),
         ('ego', 'behaviour yield'),
         ('ego', 'behaviour follow'),
         ('ego', 'speed of 8 m/s while it waits'),
@@ -285,3 +283,37 @@ def test_zero_satisfies_unless_the_comparison_is_strict(tb: ModuleType) -> None:
     assert found['m1.tracked'].satisfied(0.0)
     assert not found['safety.collision'].satisfied(0.0)
     assert not found['m1.tracked'].satisfied(-1e-300)
+
+
+def _until(tb: ModuleType, *, explicit: bool) -> set[str]:
+    """Return the conditions of a hover until 40 s, with its duration stated or by default."""
+    case = tb.hover_case()
+    (mission,) = case.spec.missions
+    stays = tb.number(20.0, Unit.SECOND, explicit=explicit)
+    at = {'on': 'time', 'at_s': tb.number(40.0, Unit.SECOND, explicit=True)}
+    event = {'id': 'e1', 'trigger': at, 'action': {'do': 'land', 'uav': mission.uav}}
+    case.spec = tb.spec(
+        **dict(case.spec)
+        | {
+            'missions': (mission.model_copy(update={'duration_s': stays}),),
+            'events': (Event.model_validate(event),),
+        }
+    )
+    return _ids(_derive(tb, case))
+
+
+def test_a_mission_until_an_event_has_no_duration_of_its_own(tb: ModuleType) -> None:
+    assert 'm1.completed' not in _until(tb, explicit=False)
+    assert {'m1.completed', 'm1.duration'} <= _until(tb, explicit=True)
+
+
+def test_going_round_a_place_is_more_than_driving(tb: ModuleType) -> None:
+    case = tb.convoy_case()
+    round_it = {'kind': 'circulate', 'target': 'landmark:City Hall'}
+    agents = [
+        dict(a) | ({'behaviors': (round_it,)} if a.id == 'car1' else {}) for a in case.spec.agents
+    ]
+    case.spec = tb.spec(**dict(case.spec) | {'agents': agents})
+    derivation = _derive(tb, case)
+    assert ('car1', 'behaviour circulate') in {(u.element, u.what) for u in derivation.underivable}
+    assert 'car1.circulate' not in _ids(derivation)

@@ -33,7 +33,9 @@ def _hover(tb: ModuleType, name: str, uav: str = 'uav1') -> tuple[Any, MissionFa
     return tb.mission(name, MissionMode.HOVER, uav=uav), facts
 
 
-def _ordered(tb: ModuleType, *, uav_of_last: str = 'uav1', **order: Any) -> list[Any]:
+def _ordered(
+    tb: ModuleType, *, uav_of_last: str = 'uav1', more: tuple[Any, ...] = (), **order: Any
+) -> list[Any]:
     """Derive the order of a request with three hovers, an alert, a milestone and two brakes."""
     case = tb.tailgate_case()
     (alert,) = case.spec.events
@@ -43,6 +45,7 @@ def _ordered(tb: ModuleType, *, uav_of_last: str = 'uav1', **order: Any) -> list
         {'id': 'e2', 'trigger': REACHED | {'value_m': tb.number(29.0)}},
         {'id': 'e3', 'action': BRAKES},
         {'id': 'e4', 'trigger': {'on': 'event_done', 'event': 'e1'}, 'action': BRAKES},
+        *more,
     )
     changes = {
         'uavs': (Uav(id='uav1'), Uav(id='uav2')),
@@ -84,6 +87,27 @@ def test_events_are_compared_by_their_moments(tb: ModuleType) -> None:
 def test_what_somebody_does_after_a_trigger_has_a_moment(tb: ModuleType) -> None:
     (only,) = _ordered(tb, first='e1', then='e4')
     assert isinstance(only, Condition)
+
+
+def test_a_flight_that_waits_for_the_end_of_another_has_its_place(tb: ModuleType) -> None:
+    waits = {
+        'id': 'e5',
+        'trigger': {'on': 'mission_done', 'uav': 'uav1'},
+        'action': {'do': 'change_mission', 'uav': 'uav2', 'mission': 'm3'},
+    }
+    (only,) = _ordered(tb, first='m2', then='m3', uav_of_last='uav2', more=(waits,))
+    assert only.id == 'o1.holds'
+    assert only.formula == 'time_between(m2,m3) >= 0 s'
+    assert only.arguments.event == 'e5'
+    # The first of two missions is not the end of that flight.
+    (only,) = _ordered(tb, first='m1', then='m3', uav_of_last='uav2', more=(waits,))
+    assert isinstance(only, Underivable)
+
+
+def test_what_waits_for_somebody_tells_which_time_is_meant(tb: ModuleType) -> None:
+    waits = {'id': 'e5', 'trigger': {'on': 'event_done', 'event': 'e3'}, 'action': BRAKES}
+    (only,) = _ordered(tb, first='e3', then='e5', more=(waits,))
+    assert only.formula == 'time_between(e3,e5) >= 0 s'
 
 
 @pytest.mark.parametrize(

@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 
 from aurora_core.conditions.derive import Derivation, derive_conditions
+from aurora_core.judging.quantities.visible_time import VisibleTime
 from aurora_core.outcomes.condition import Condition, Window
 from aurora_core.spec.parameter import Span, Unit
 from aurora_core.spec.requirements import STATED_QUANTITIES
@@ -91,6 +92,17 @@ def test_what_cannot_be_said_is_never_left_out(
     derivation = _derive(tb, _two_hovers(tb), quantity, of, **more)
     assert _stated(derivation) == []
     assert [(u.element, u.what) for u in derivation.underivable] == [('c1', what)]
+
+
+@pytest.mark.parametrize(('op', 'least_s'), [('>=', 30.0), ('<=', 20.0)])
+def test_a_stretch_of_sight_is_as_long_as_either_number_asks(
+    tb: ModuleType, op: str, least_s: float
+) -> None:
+    second = {k: tb.number(v, Unit.SECOND) for k, v in (('value', 20.0), ('hold_s', 30.0))}
+    made = _derive(tb, tb.convoy_case(), 'visible_time', ('uav1', 'bus1'), op=op, **second)
+    (one,) = _stated(made)
+    assert isinstance(one.arguments, VisibleTime)
+    assert (one.arguments.unbroken, one.threshold) == (True, least_s)
 
 
 def test_a_stretch_and_a_deadline_are_in_the_sentence(tb: ModuleType) -> None:

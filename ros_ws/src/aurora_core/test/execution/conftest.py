@@ -14,13 +14,21 @@ import pytest
 from aurora_core.comm.link import LinkSettings, MessageLink
 from aurora_core.execution.fault_port import FaultPort, loss_with_faults
 from aurora_core.execution.faults import Fault
+from aurora_core.execution.plan import plans_with_events
 from aurora_core.execution.scenario_executor import ExecutionSetup, ScenarioExecutor
 from aurora_core.execution.step_output import StepOutput
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.knowledge.config_files import config_path
 from aurora_core.knowledge.limits import load_limits, load_tolerances
 from aurora_core.knowledge.map_types import Building
-from aurora_core.knowledge.world import NamedPlace, Wind, WorldModel
+from aurora_core.knowledge.world import (
+    CentreLine,
+    NamedPlace,
+    Surface,
+    SurfaceKind,
+    Wind,
+    WorldModel,
+)
 from aurora_core.mission.machine import MissionMachine
 from aurora_core.mission.plan import MissionPlan, UavPlan
 from aurora_core.mission.setpoint import FlightSettings
@@ -30,6 +38,7 @@ from aurora_core.quantities.actions import action_rules
 from aurora_core.quantities.world_geometry import WorldGeometry
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.scenario import (
+    Behavior,
     Event,
     GroundAgent,
     Link,
@@ -65,10 +74,13 @@ class Stage:
         tracks: UAV id -> target of its one mission, '' = no mission at all.
         links: UAV or agent pairs with a link.
         hold_s: Length of the track missions.
+        hold_said: The request states that length.
+        street_x_m: A carriageway from south to north lies between these.
     """
 
     make: Callable[..., Parameter]
     agents: tuple[str, ...] = ('van1', 'ego')
+    behaviors: dict[str, tuple[Behavior, ...]] = field(default_factory=dict)
     absent: tuple[str, ...] = ()
     releases: dict[str, tuple[ReleaseOn, str]] = field(default_factory=dict)
     speeds: dict[str, float] = field(default_factory=dict)
@@ -77,10 +89,13 @@ class Stage:
     events: tuple[Event, ...] = ()
     orders: tuple[Order, ...] = ()
     buildings: tuple[Building, ...] = ()
+    lanes: tuple[CentreLine, ...] = ()
+    street_x_m: tuple[float, float] | None = None
     landing_spots: tuple[tuple[float, float], ...] = ((0.0, 0.0),)
     faults: tuple[Fault, ...] = ()
     loss: float = 0.0
     hold_s: float = 600.0
+    hold_said: bool = True
     horizon_ticks: int = 4000
     stated_horizon: bool = False
     earliest_end_ticks: int = 0
@@ -95,7 +110,8 @@ class Stage:
         self.ground[:, GroundColumn.PRESENT] = 1.0
         self.uav = np.zeros((len(self.tracks), UAV_WIDTH))
         self.uav[:, UavColumn.QW] = self.uav[:, UavColumn.LANDED] = 1.0
-        self.machines = tuple(MissionMachine(plan, FLIGHT, DT_S) for plan in self._uav_plans())
+        plans = plans_with_events(self._spec(), self._uav_plans(), ())
+        self.machines = tuple(MissionMachine(plan, FLIGHT, DT_S) for plan in plans)
         executor = ScenarioExecutor(self._setup())
         self.stepper: Any = executor
         if self.faults:
@@ -176,6 +192,13 @@ class Stage:
             uavs=tuple(entry(u, 'uav', k + 1) for k, u in enumerate(self.tracks)),
         )
 
+    def _surfaces(self) -> tuple[Surface, ...]:
+        if self.street_x_m is None:
+            return ()
+        a, b = self.street_x_m
+        ring = np.array([(a, -50.0), (b, -50.0), (b, 50.0), (a, 50.0)])
+        return (Surface(surface_id='street', kind=SurfaceKind.DRIVING, ring=ring),)
+
     def _grounded(self, agent: str) -> GroundedAgent:
         release, uav = self.releases.get(agent, (ReleaseOn.START, ''))
         return GroundedAgent(
@@ -229,7 +252,8 @@ class Stage:
         return ScenarioSpec(
             prompt='x',
             agents=tuple(
-                GroundAgent(id=a, type=AgentType.CAR) for a in (*self.agents, *self.absent)
+                GroundAgent(id=a, type=AgentType.CAR, behaviors=self.behaviors.get(a, ()))
+                for a in (*self.agents, *self.absent)
             ),
             uavs=tuple(Uav(id=u) for u in self.tracks),
             missions=tuple(
@@ -240,7 +264,7 @@ class Stage:
                     target=target,
                     altitude_m=make(30.0),
                     standoff_m=make(0.0),
-                    duration_s=make(self.hold_s, 's'),
+                    duration_s=make(self.hold_s, 's', explicit=self.hold_said),
                 )
                 for k, (name, target) in enumerate(self.tracks.items())
                 if target
@@ -288,8 +312,8 @@ class Stage:
             wind=Wind(),
             buildings=self.buildings,
             no_fly_zones=(),
-            surfaces=(),
-            lanes=(),
+            surfaces=self._surfaces(),
+            lanes=self.lanes,
             signals=(),
             limits=load_limits(config_path('limits.json')),
             places=(NamedPlace(name='intersection', x_m=300.0, y_m=0.0),),

@@ -198,6 +198,47 @@ def test_occluded_asks_for_sight_before(stage: Build) -> None:
     assert _triggered(scene) == [(2, 'e1')]
 
 
+def test_who_was_never_seen_is_not_lost_from_sight(stage: Build) -> None:
+    trigger = VisibilityTrigger(on='occluded', observer='uav1', target='van1')
+    scene = stage(events=(_event(trigger),), buildings=(WALL,))
+    scene.put('van1', 100.0).step(2)  # on the ground nothing is seen, nor from up there
+    scene.fly('uav1', 0.0, 0.0, 30.0).step(3)
+    assert _triggered(scene) == []
+    scene.put('van1', 10.0).step()
+    scene.put('van1', 100.0).step()
+    assert _triggered(scene) == [(6, 'e1')]
+
+
+def test_on_its_way_home_a_uav_loses_nobody_from_sight(stage: Build) -> None:
+    trigger = VisibilityTrigger(on='occluded', observer='uav1', target='van1')
+    scene = stage(events=(_event(trigger),), buildings=(WALL,), hold_s=0.2)
+    scene.put('van1', 10.0).fly('uav1', 10.0, 0.0, 30.0).step(20)
+    assert scene.machines[0].is_landing
+    scene.put('van1', 100.0).step(5)
+    assert _triggered(scene) == []
+
+
+def test_who_stands_brakes_once_it_drives(stage: Build) -> None:
+    scene = stage(events=(_event(NOW, AgentAction(do='brake', agent='ego')),))
+    scene.step(3)
+    assert _triggered(scene) == [(0, 'e1')]
+    assert scene.notes(ScenarioEventKind.ACTION) == []
+    scene.put('ego', 0.0, speed=8.0).step()
+    assert [t for t, _, _ in scene.notes(ScenarioEventKind.ACTION)] == [3]
+
+
+def test_a_crossing_is_done_at_the_other_kerb(stage: Build) -> None:
+    events = (
+        _event(NOW, AgentAction(do='cross', agent='ego')),
+        _event(EventDoneTrigger(on='event_done', event='e1'), id='e2'),
+    )
+    scene = stage(events=events, tracks={}, street_x_m=(5.0, 15.0))
+    # On the way to the crossing it steps over the kerb and back.
+    for x in (0.0, 5.1, 4.9, 6.0, 14.0, 16.0, 17.0):
+        scene.put('ego', x, speed=1.4).step()
+    assert _triggered(scene) == [(0, 'e1'), (5, 'e2')]
+
+
 def test_message_received(stage: Build, parameter: Make) -> None:
     send = SendMessage(do='send_message', sender='van1', receiver='ego')
     events = (
@@ -394,6 +435,30 @@ def test_land_ends_the_mission(stage: Build, parameter: Make) -> None:
     assert scene.machines[0].missions_done
     scene.follow(400)
     assert scene.outputs[-1].uav_commands[0, UavCommandColumn.MODE] == UavMode.IDLE
+    assert scene.machines[0].landed
+
+
+def test_who_hovers_until_something_happens_does_not_land_before(
+    stage: Build, parameter: Make
+) -> None:
+    at = TimeTrigger(on='time', at_s=parameter(20.0, 's'))
+    event = _event(at, UavAction(do='land', uav='uav1'))
+    scene = stage(hold_s=2.0, hold_said=False, events=(event,))
+    scene.follow(450)
+    phases = {detail: tick for tick, _, detail in scene.notes(ScenarioEventKind.PHASE)}
+    assert phases['landing'] == 20.0 / 0.05 + 1  # the command of tick 400 is flown at 401
+
+
+def test_who_lands_once_its_missions_are_done_does_not_wait_for_itself(stage: Build) -> None:
+    done = MissionDoneTrigger(on='mission_done', uav='uav1')
+    start = _event(done, AgentAction(do='start', agent='ego'))
+    after = EventDoneTrigger(on='event_done', event='e1')
+    scene = stage(
+        hold_s=2.0,
+        hold_said=False,
+        events=(start, _event(after, UavAction(do='land', uav='uav1'), id='e2')),
+    )
+    scene.follow(800)
     assert scene.machines[0].landed
 
 

@@ -251,7 +251,7 @@ def test_a_message_under_way_keeps_the_run_going(
         links=(('van1', 'ego'),), events=(event,), tracks={'uav1': 'van1'}, settle_ticks=0
     )
     scene.put('ego', 900.0)
-    scene.machines[0].landed = True
+    scene.machines[0].done = True
     scene.step(12)
     assert not any(o.finished for o in scene.outputs)  # three retransmissions, 0.2 s apart
     output = scene.step()

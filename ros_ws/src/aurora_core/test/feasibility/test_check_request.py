@@ -118,3 +118,10 @@ def test_what_cannot_be_is_refused_with_its_reason(prompt: str, reason: str) -> 
 @pytest.mark.parametrize('prompt', ACCEPTED)
 def test_what_can_be_within_the_tolerances_is_not_refused(prompt: str) -> None:
     assert _judged(prompt).certificates == ()
+
+
+def test_a_clash_with_a_half_read_clause_is_no_proof() -> None:
+    prompt = 'A car starts 20 m behind a bus and ends 10 m ahead of it.'
+    verdict = _judged(prompt)
+    assert verdict.result is Feasibility.UNKNOWN
+    assert verdict.notes

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 import pytest
@@ -12,8 +13,31 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from aurora_core.errors import AuroraError
-from aurora_core.geometry.box import OrientedBox, box_gap, box_gap_series
+from aurora_core.geometry.box import box_gap_series
+
+
+class OrientedBox(NamedTuple):
+    """Centre and heading (ENU, a unit vector), extent along and across it (m)."""
+
+    x_m: float
+    y_m: float
+    heading_x: float
+    heading_y: float
+    length_m: float
+    width_m: float
+
+    def polygon(self) -> shapely.Polygon:
+        ahead = np.array([self.heading_x, self.heading_y]) * self.length_m / 2.0
+        left = np.array([-self.heading_y, self.heading_x]) * self.width_m / 2.0
+        centre = np.array([self.x_m, self.y_m])
+        return shapely.Polygon(
+            [centre + a * ahead + b * left for a, b in ((1, 1), (-1, 1), (-1, -1), (1, -1))]
+        )
+
+
+def box_gap(a: OrientedBox, b: OrientedBox) -> float:
+    return float(box_gap_series(*(np.array([value]) for value in (*a, *b)))[0])
+
 
 YAW = st.one_of(st.floats(-4.0, 4.0), st.sampled_from([0.0, math.pi / 2, math.pi, math.pi / 4]))
 PLACE = st.one_of(st.floats(-12.0, 12.0), st.sampled_from([0.0, 1.0, 5.0]))
@@ -58,7 +82,7 @@ def test_gap_is_shapelys_distance_or_the_least_parting_shift(
     a: OrientedBox, b: OrientedBox
 ) -> None:
     gap = box_gap(a, b)
-    first, second = shapely.Polygon(a.corners()), shapely.Polygon(b.corners())
+    first, second = a.polygon(), b.polygon()
     assert box_gap(b, a) == pytest.approx(gap, abs=1e-9)
     if gap > 0.0:
         assert gap == pytest.approx(first.distance(second), abs=1e-9)
@@ -134,15 +158,3 @@ def test_absent_rows_stay_absent() -> None:
     gap = box_gap_series(zero, zero, one, zero, 4.0, 2.0, x, zero, one, zero, 4.0, 2.0)
     assert np.isnan(gap[0])
     assert gap[1] == 6.0
-
-
-@pytest.mark.parametrize(
-    'change',
-    [{'heading_x': 0.5}, {'length_m': 0.0}, {'width_m': -1.0}, {'x_m': math.nan}],
-)
-def test_bad_box_is_refused(change: dict[str, float]) -> None:
-    good = {
-        'x_m': 0.0, 'y_m': 0.0, 'heading_x': 1.0, 'heading_y': 0.0, 'length_m': 4.0, 'width_m': 2.0
-    }  # fmt: skip
-    with pytest.raises(AuroraError, match='unit heading'):
-        OrientedBox(**(good | change))

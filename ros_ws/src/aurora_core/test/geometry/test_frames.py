@@ -83,8 +83,9 @@ def test_headings_in_all_quadrants(
     assert math.degrees(frames.yaw_ned_to_enu(math.radians(yaw_ned_deg))) == pytest.approx(
         yaw_enu_deg
     )
-    assert frames.yaw_enu_to_sumo_angle(yaw_rad) == pytest.approx(sumo_deg, abs=1e-9)
-    assert frames.sumo_angle_to_yaw_enu(sumo_deg) == pytest.approx(yaw_rad)
+    assert frames.yaw_enu_to_compass_deg(yaw_rad) == pytest.approx(sumo_deg, abs=1e-9)
+    assert frames.compass_deg_to_yaw_enu(sumo_deg) == pytest.approx(yaw_rad)
+    assert frames.offset_at_bearing(3.0, sumo_deg) == pytest.approx((3.0 * east, 3.0 * north))
     assert frames.sumo_angle_to_heading(sumo_deg) == pytest.approx((east, north), abs=1e-12)
     assert frames.heading_to_sumo_angle(3.0 * east, 3.0 * north) == pytest.approx(
         sumo_deg, abs=1e-9
@@ -100,17 +101,61 @@ def test_wrapping_keeps_the_direction(angle_rad: float) -> None:
     assert -math.pi < wrapped <= math.pi
     assert math.cos(wrapped) == pytest.approx(math.cos(angle_rad), abs=1e-12)
     assert math.sin(wrapped) == pytest.approx(math.sin(angle_rad), abs=1e-12)
-    assert 0.0 <= frames.yaw_enu_to_sumo_angle(angle_rad) < 360.0
+    assert 0.0 <= frames.yaw_enu_to_compass_deg(angle_rad) < 360.0
 
 
 @given(st.floats(0.0, 359.999))
-def test_sumo_angle_comes_back(angle_deg: float) -> None:
-    yaw_rad = frames.sumo_angle_to_yaw_enu(angle_deg)
-    gap_deg = abs(frames.yaw_enu_to_sumo_angle(yaw_rad) - angle_deg)
+def test_compass_angle_comes_back(angle_deg: float) -> None:
+    yaw_rad = frames.compass_deg_to_yaw_enu(angle_deg)
+    gap_deg = abs(frames.yaw_enu_to_compass_deg(yaw_rad) - angle_deg)
     assert min(gap_deg, 360.0 - gap_deg) < 1e-9
     assert frames.sumo_angle_to_heading(angle_deg) == pytest.approx(
         (math.cos(yaw_rad), math.sin(yaw_rad)), abs=1e-12
     )
+
+
+@pytest.mark.parametrize(
+    ('angle_deg', 'heading'),
+    [
+        (0.0, (0.0, 1.0)),
+        (90.0, (1.0, 0.0)),
+        (180.0, (0.0, -1.0)),
+        (270.0, (-1.0, 0.0)),
+        (360.0, (0.0, 1.0)),
+        (-90.0, (-1.0, 0.0)),
+        (450.0, (1.0, 0.0)),
+        (-1e-30, (0.0, 1.0)),
+    ],
+)
+def test_quarter_turns_are_exact(angle_deg: float, heading: tuple[float, float]) -> None:
+    assert frames.sumo_angle_to_heading(angle_deg) == heading
+
+
+@pytest.mark.parametrize(
+    ('angle_deg', 'east_sign', 'north_sign'),
+    [(45.0, 1, 1), (135.0, 1, -1), (225.0, -1, -1), (315.0, -1, 1)],
+)
+def test_compass_runs_clockwise_from_north(
+    angle_deg: float, east_sign: int, north_sign: int
+) -> None:
+    half = math.sqrt(0.5)
+    assert frames.sumo_angle_to_heading(angle_deg) == pytest.approx(
+        (east_sign * half, north_sign * half), abs=1e-15
+    )
+
+
+@given(st.floats(-1080.0, 1080.0))
+def test_heading_is_a_unit_vector_and_turns_back(angle_deg: float) -> None:
+    heading_x, heading_y = frames.sumo_angle_to_heading(angle_deg)
+    assert heading_x * heading_x + heading_y * heading_y == pytest.approx(1.0, abs=1e-12)
+    back_deg = frames.heading_to_sumo_angle(heading_x, heading_y)
+    assert 0.0 <= back_deg <= 360.0
+    assert math.remainder(back_deg - angle_deg, 360.0) == pytest.approx(0.0, abs=1e-9)
+
+
+@pytest.mark.parametrize('angle_deg', [0.0, 90.0, 180.0, 270.0])
+def test_axes_turn_back_exactly(angle_deg: float) -> None:
+    assert frames.heading_to_sumo_angle(*frames.sumo_angle_to_heading(angle_deg)) == angle_deg
 
 
 @given(

@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 from aurora_core.errors import AuroraError
 from aurora_core.geometry.arrays import FloatArray
 from aurora_core.geometry.prism import Prism
-from aurora_core.geometry.sight import SIGHT_CLEAR_M, SightModel
+from aurora_core.geometry.sight import SIGHT_CLEAR_M, SightModel, box_sight_series
 
 Rings = tuple[FloatArray, tuple[FloatArray, ...]]
 Footprints = Callable[[int], list[Rings]]
@@ -158,13 +158,10 @@ def test_below_a_raised_prism_is_free() -> None:
     assert model.clearance((-10.0, 5.0, 2.0), (20.0, 5.0, 20.0)) < 0.0
 
 
-def test_blocker_names_the_worst_building() -> None:
+def test_the_worst_building_counts() -> None:
     low = Prism('low', SQUARE - [20.0, 0.0], (), 0.0, 6.0)
     model = SightModel([low, TOWER])
-    observer, target = (-30.0, 5.0, 12.0), (20.0, 5.0, 12.0)
-    assert model.blocker(observer, target) == ('tower', -8.0)
-    assert model.clearance(observer, target) == -8.0
-    assert model.blocker((-30.0, 50.0, 12.0), (20.0, 50.0, 1.0)) == ('', SIGHT_CLEAR_M)
+    assert model.clearance((-30.0, 5.0, 12.0), (20.0, 5.0, 12.0)) == -8.0
 
 
 def city(count: int = 320) -> list[Prism]:
@@ -224,7 +221,7 @@ def test_absent_rows_stay_absent() -> None:
     series = model.clearance_series([[np.nan, 5.0, 5.0], [50.0, 60.0, 5.0]], far)
     assert np.isnan(series[0])
     assert series[1] == SIGHT_CLEAR_M
-    absent = model.vehicle_clearance_series(
+    absent = box_sight_series(
         far, far, [[np.nan, 0.0], [0.0, 0.0]], [[1.0, 0.0]] * 2, 5.0, 2.0, 1.5
     )
     assert np.isnan(absent[0])
@@ -257,9 +254,7 @@ BUS = {'length_m': 12.0, 'width_m': 2.5, 'height_m': 3.4}
     ],
 )
 def test_known_lines_past_a_bus(observer: Point, target: Point, margin: float) -> None:
-    series = SightModel([]).vehicle_clearance_series(
-        [observer], [target], [[0.0, 0.0]], [[1.0, 0.0]], **BUS
-    )
+    series = box_sight_series([observer], [target], [[0.0, 0.0]], [[1.0, 0.0]], **BUS)
     assert series[0] == pytest.approx(margin, abs=1e-9)
 
 
@@ -271,7 +266,7 @@ def test_a_box_hides_what_a_prism_of_its_corners_hides(seed: int) -> None:
     centre, yaw = rng.random((rows, 2)) * 20.0, 7.0 * rng.random(rows)
     heading = np.stack((np.cos(yaw), np.sin(yaw)), axis=1)
     observer, target = rng.random((2, rows, 3)) * [30.0, 30.0, 8.0] - [5.0, 5.0, 0.0]
-    series = SightModel([]).vehicle_clearance_series(observer, target, centre, heading, **BUS)
+    series = box_sight_series(observer, target, centre, heading, **BUS)
     for k in range(rows):
         left = np.array([-heading[k, 1], heading[k, 0]])
         corners = [
@@ -283,7 +278,7 @@ def test_a_box_hides_what_a_prism_of_its_corners_hides(seed: int) -> None:
 
 
 def test_one_line_over_several_vehicles_of_their_own_sizes() -> None:
-    series = SightModel([]).vehicle_clearance_series(
+    series = box_sight_series(
         [[0.0, -20.0, 3.0]] * 2,
         [[0.0, 20.0, 3.0]] * 2,
         [[0.0, 0.0], [0.0, 8.0]],

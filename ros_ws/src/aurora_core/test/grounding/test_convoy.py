@@ -9,8 +9,9 @@ from typing import Any
 
 import pytest
 
-from aurora_core.grounding.convoy import DETACHED_M, BeforeIntersection, SceneSplit, split_scene
-from aurora_core.spec.parameter import Parameter
+from aurora_core.grounding.convoy import DETACHED_M, BeforePlace, SceneSplit, split_scene
+from aurora_core.knowledge.limits import Tolerances
+from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.scenario import (
     Behavior,
     DistanceTrigger,
@@ -21,7 +22,7 @@ from aurora_core.spec.scenario import (
     Uav,
     UavMission,
 )
-from aurora_core.spec.vocabulary import AgentType, BehaviorKind, MissionMode, Relation, Role
+from aurora_core.spec.vocabulary import AgentType, BehaviorKind, MissionMode, Place, Relation, Role
 
 Make = Callable[..., Parameter]
 
@@ -76,6 +77,29 @@ def test_each_relation(relation: Relation, expected: tuple[float, int], paramete
     assert _places(split) == {'ego': (0.0, 0), 'a': expected}
     assert split.unsupported == ()
     assert split.convoy[0].agent.id == 'ego'
+
+
+@pytest.mark.parametrize(
+    ('bound', 'kept', 'expected'),
+    [
+        (Bound.EXACTLY, False, 30.0),
+        (Bound.AT_LEAST, False, 31.0),  # by the tolerance: rounding would decide on 30 m
+        (Bound.AT_MOST, False, 29.0),
+        (Bound.AT_LEAST, True, 37.5),  # and with room for corners and stops on the way
+        (Bound.AT_MOST, True, 22.5),
+        (Bound.EXACTLY, True, 30.0),
+    ],
+)
+def test_a_bound_is_met_with_something_to_spare(
+    bound: Bound, kept: bool, expected: float, tolerances: Tolerances, parameter: Make
+) -> None:
+    stated = parameter(30.0, explicit=True, bound=bound)
+    place = Placement(
+        relation=Relation.AHEAD, of='ego', distance_m=stated, kept_in_motion=kept, throughout=kept
+    )
+    car = GroundAgent(id='a', type=AgentType.CAR, placements=(place,))
+    split = split_scene(_spec(car, EGO), tolerances.placement_vehicle_m)
+    assert _places(split)['a'] == (expected, 0)
 
 
 def test_chains_in_both_directions(parameter: Make) -> None:
@@ -164,10 +188,8 @@ def test_who_is_to_come_close_starts_farther_away(parameter: Make) -> None:
 @pytest.mark.parametrize(
     ('agent', 'named'),
     [
-        (_agent('a', (Relation.ONCOMING, 'ego', None)), 'a: placement oncoming ego'),
-        (_agent('a', (Relation.AT, 'intersection', None)), 'a: placement at intersection'),
-        (_agent('a', (Relation.PARKED_AT, 'roadside', None)), 'a: placement parked_at roadside'),
-        (_agent('r', kind=AgentType.RSU), 'r: roadside units'),
+        (_agent('a', (Relation.AT, 'sidewalk', None)), 'a: placement at sidewalk'),
+        (_agent('a', (Relation.PARKED_AT, 'sidewalk', None)), 'a: placement parked_at sidewalk'),
     ],
 )
 def test_what_cannot_be_placed_is_named(agent: GroundAgent, named: str) -> None:
@@ -176,11 +198,11 @@ def test_what_cannot_be_placed_is_named(agent: GroundAgent, named: str) -> None:
 
 def test_a_second_placement_that_cannot_be_realised_is_named_too(parameter: Make) -> None:
     agent = _agent(
-        'a', (Relation.AHEAD, 'ego', 20.0), (Relation.AT, 'crosswalk', None), make=parameter
+        'a', (Relation.AHEAD, 'ego', 20.0), (Relation.AT, 'sidewalk', None), make=parameter
     )
     split = split_scene(_spec(agent, EGO))
     assert _places(split)['a'] == (20.0, 0)
-    assert split.unsupported == ('a: placement at crosswalk',)
+    assert split.unsupported == ('a: placement at sidewalk',)
 
 
 def test_on_the_road_needs_nothing() -> None:
@@ -192,11 +214,13 @@ def test_one_member_stands_before_the_intersection(parameter: Make) -> None:
     truck = _agent('truck', (Relation.BESIDE, 'bus', None))
     split = split_scene(_spec(truck, bus))
     assert split.unsupported == ()
-    assert split.before == BeforeIntersection(agent='bus', distance_m=50.0)
+    assert split.before == BeforePlace(place=Place.INTERSECTION, agent='bus', distance_m=50.0)
     second = _agent('van', (Relation.BEFORE, 'intersection', None))
     split = split_scene(_spec(truck, bus, second))
-    assert split.unsupported == ('van: placement before intersection',)
-    assert split_scene(_spec(second)).before == BeforeIntersection(agent='van', distance_m=20.0)
+    assert split.unsupported == ('van: placement before a place',)
+    assert split_scene(_spec(second)).before == BeforePlace(
+        place=Place.INTERSECTION, agent='van', distance_m=20.0
+    )
 
 
 def test_persons_and_unrelated_vehicles_are_apart() -> None:

@@ -382,3 +382,101 @@ def test_a_stated_bearing_is_kept(
     target = found.agents[0]
     assert point[0] - target.x_m == pytest.approx(30.0, abs=1e-6)
     assert point[1] - target.y_m == pytest.approx(0.0, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ('prompt', 'follower', 'leader'),
+    [
+        ('A car always stays 20 m behind a bus; a drone tracks the bus.', 'car1', 'bus1'),
+        ('A car drives never more than 20 m ahead of a bus; a drone tracks it.', 'bus1', 'car1'),
+    ],
+)
+def test_who_keeps_a_distance_neither_falls_back_nor_closes_up(
+    prompt: str,
+    follower: str,
+    leader: str,
+    read_prompt: Read,
+    ground: Ground,
+    agent_types: Mapping[str, AgentTypeRecord],
+) -> None:
+    agents = {a.id: a for a in ground(read_prompt(prompt)).agents}
+    own, other = agents[follower], agents[leader]
+    apart = sqrt((own.x_m - other.x_m) ** 2 + (own.y_m - other.y_m) ** 2)
+    gap = apart - (own.length_m + other.length_m) / 2.0
+    assert own.min_gap_m == pytest.approx(gap, abs=0.1)
+    assert own.time_gap_s == pytest.approx(0.05)
+    assert other.gentle_mps2 == agent_types[own.type_name].accel_mps2
+
+
+def test_who_only_starts_at_a_distance_drives_as_its_type_does(
+    read_prompt: Read, ground: Ground
+) -> None:
+    agents = ground(read_prompt('A car drives 20 m behind a bus; a drone tracks the bus.')).agents
+    assert all(a.min_gap_m is None and a.gentle_mps2 is None for a in agents)
+
+
+@pytest.mark.parametrize(
+    ('prompt', 'altitude_m'),
+    [
+        ('A drone hovers over the intersection at at least 40 m for 20 s.', 42.0),
+        ('A drone hovers over the intersection at no more than 40 m for 20 s.', 38.0),
+        ('A drone hovers over the intersection at at least 119 m for 20 s.', 120.0),  # the limit
+        ('A drone hovers over the intersection at 40 m for 20 s.', 40.0),
+    ],
+)
+def test_an_altitude_is_chosen_inside_its_bound(
+    prompt: str, altitude_m: float, read_prompt: Read, ground: Ground
+) -> None:
+    (uav,) = ground(read_prompt(prompt)).uavs
+    assert uav.missions[0].altitude_m == pytest.approx(altitude_m)
+
+
+def test_who_receives_a_message_starts_near(read_prompt: Read, ground: Ground) -> None:
+    prompt = 'When the bus goes slower than 2 m/s, the drone warns the ambulance.'
+    agents = {a.id: a for a in ground(read_prompt(prompt)).agents}
+    bus, ambulance = agents['bus1'], agents['ambulance1']
+    assert sqrt((bus.x_m - ambulance.x_m) ** 2 + (bus.y_m - ambulance.y_m) ** 2) < 100.0
+
+
+def test_who_has_to_be_faster_than_a_number_drives_so(read_prompt: Read, ground: Ground) -> None:
+    prompt = 'A drone tracks a van. When the van drives faster than 11 m/s, it alerts the ego.'
+    agents = {a.id: a for a in ground(read_prompt(prompt)).agents}
+    assert agents['van1'].drive_speed_mps is not None
+    assert 11.0 < agents['van1'].drive_speed_mps <= 13.0
+
+
+def test_those_behind_one_other_stand_one_behind_the_next(
+    read_prompt: Read, ground: Ground
+) -> None:
+    prompt = (
+        'A car follows the bus, a van tailgates the bus and a motorcycle overtakes it; a drone '
+        'tracks the bus.'
+    )
+    agents = {a.id: a for a in ground(read_prompt(prompt)).agents}
+    bus = agents['bus1']
+    behind = {
+        name: (bus.x_m - one.x_m) * bus.heading_x + (bus.y_m - one.y_m) * bus.heading_y
+        for name, one in agents.items()
+    }
+    assert 0.0 < behind['van1'] < behind['car1']
+    assert behind['motorcycle1'] > 0.0
+    assert agents['motorcycle1'].lane_id != agents['van1'].lane_id
+    for one, other in combinations(agents.values(), 2):
+        assert not _box(one).intersects(_box(other))
+
+
+def test_the_lowest_altitude_is_never_undercut(read_prompt: Read, ground: Ground) -> None:
+    (uav,) = ground(read_prompt('Hover at 3 m for ten seconds.')).uavs
+    assert uav.missions[0].ascent_tolerance_m <= 0.3
+
+
+def test_the_last_one_in_line_still_follows_the_first(read_prompt: Read, ground: Ground) -> None:
+    prompt = 'Three cars follow a bus; a drone tracks the bus.'
+    bus, *cars = sorted(
+        ground(read_prompt(prompt)).agents, key=lambda a: (a.type_name != 'bus', a.id)
+    )
+    away = sorted(sqrt((bus.x_m - a.x_m) ** 2 + (bus.y_m - a.y_m) ** 2) for a in cars)
+    assert away[-1] < 55.0
+    assert min(b - a for a, b in pairwise(away)) > 10.0
+    # Those in between keep the gap that they start with.
+    assert all(a.time_gap_s is not None and a.time_gap_s < 0.1 for a in cars)

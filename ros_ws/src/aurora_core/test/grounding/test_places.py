@@ -12,7 +12,7 @@ import shapely
 
 from aurora_core.errors import MapError
 from aurora_core.grounding.places import (
-    intersection_point,
+    MapPlaces,
     landmark_point,
     place_positions,
     road_point,
@@ -26,7 +26,7 @@ Maps = Callable[[str], MapModel]
 
 @pytest.mark.parametrize('anchor', [(0.0, 0.0), (140.0, 0.0), (-160.0, 3.0), (0.0, 150.0)])
 def test_the_end_of_a_street_is_no_intersection(anchor: tuple[float, float], map_of: Maps) -> None:
-    assert intersection_point(map_of('junction'), anchor) == (0.0, 0.0)
+    assert MapPlaces(map_of('junction')).point('intersection', anchor) == (0.0, 0.0)
 
 
 def test_the_nearest_intersection_is_taken(map_of: Maps) -> None:
@@ -35,7 +35,7 @@ def test_the_nearest_intersection_is_taken(map_of: Maps) -> None:
     assert len(signals) > 5
     for junction in signals:
         here = (junction.x_m + 4.0, junction.y_m - 3.0)
-        assert intersection_point(the_map, here) == (junction.x_m, junction.y_m)
+        assert MapPlaces(the_map).point('intersection', here) == (junction.x_m, junction.y_m)
 
 
 def test_a_landmark_is_never_inside_a_building(map_of: Maps) -> None:
@@ -56,7 +56,7 @@ def test_a_landmark_is_never_inside_a_building(map_of: Maps) -> None:
     ('prompt', 'place'),
     [
         ('A drone hovers 40 m above the intersection for 20 seconds.', 'intersection'),
-        ('A drone hovers over the City Hall at 90 m for 20 seconds.', 'landmark:City Hall'),
+        ('A drone hovers over the Meadow Park at 90 m for 20 seconds.', 'landmark:Meadow Park'),
     ],
 )
 def test_the_flight_and_the_world_mean_the_same_place(
@@ -71,6 +71,23 @@ def test_the_flight_and_the_world_mean_the_same_place(
     point = found.uavs[0].missions[0].hover_point
     assert point is not None
     assert place_positions(spec, map_of('downtown'), found) == {place: (point[0], point[1])}
+
+
+@pytest.mark.parametrize('doing', ['hovers over', 'orbits'])
+def test_a_flight_is_over_the_building_that_a_landmark_is(
+    doing: str,
+    read_prompt: Callable[..., ScenarioSpec],
+    ground: Callable[..., GroundedScenario],
+    map_of: Maps,
+) -> None:
+    plan = ground(read_prompt(f'A drone {doing} the City Hall.')).uavs[0].missions[0]
+    hall = map_of('downtown').landmark('City Hall')
+    if plan.hover_point is not None:
+        assert plan.hover_point[:2] == pytest.approx((hall.x_m, hall.y_m), abs=0.1)
+    for x, y, _ in plan.waypoints:
+        assert sqrt((x - hall.x_m) ** 2 + (y - hall.y_m) ** 2) == pytest.approx(30.0, abs=0.1)
+    # Towers of 71 m stand round it: an altitude that nobody states is where the air is free.
+    assert plan.altitude_m > 30.0 or plan.hover_point is not None
 
 
 def test_the_road_is_looked_at_where_no_vehicle_stands(

@@ -38,6 +38,18 @@ def test_drones_over_one_point_at_one_height_hover_beside_each_other(
     assert max(apart) <= 4.0 * limits.separation_min_m
 
 
+def test_who_climbs_past_another_one_hovers_beside_it(
+    grounded: Callable[[str], GroundedScenario], limits: Limits
+) -> None:
+    over = 'Drone 1 hovers over City Hall at 60 m. Drone 2 hovers over City Hall at 40 m.'
+    apart = []
+    for more in ('', ' After 20 s drone 2 climbs to 80 m.'):
+        first, second = (np.array(u.missions[0].hover_point) for u in grounded(over + more).uavs)
+        apart.append(float(np.linalg.norm((first - second)[:2])))
+    assert apart[0] == 0.0
+    assert apart[1] >= 2.0 * limits.separation_min_m - 1e-6
+
+
 @pytest.mark.parametrize('where', ['', ' from 35 m'])
 def test_drones_that_track_one_target_at_one_height_keep_apart(
     grounded: Callable[[str], GroundedScenario], limits: Limits, where: str
@@ -58,6 +70,51 @@ def test_who_is_tracked_second_waits_for_that_mission(
     assert (bus.release, bus.release_mission) == (ReleaseOn.CAPTURED, 'm2')
 
 
+def test_who_ends_a_patrol_by_arriving_waits_for_its_first_lap(
+    grounded: Callable[[str], GroundedScenario],
+) -> None:
+    around = 'A drone orbits Harbor Market with a 70 m radius at 50 m'
+    (bus,) = grounded(f'{around}; when a bus arrives at Union Station the drone lands.').agents
+    assert (bus.release, bus.release_mission) == (ReleaseOn.LAPPED, 'm1')
+    over = 'A drone hovers over Harbor Market at 50 m'
+    (bus,) = grounded(f'{over}; when a bus arrives at Union Station the drone lands.').agents
+    assert bus.release is not ReleaseOn.LAPPED
+
+
+@pytest.mark.parametrize('drift_m', [1.5, 5.0])
+def test_a_hover_begins_no_farther_away_than_it_may_drift(
+    grounded: Callable[[str], GroundedScenario], drift_m: float
+) -> None:
+    over = 'A drone hovers over City Hall at 50 m.'
+    default_m = grounded(over).uavs[0].missions[0].capture_horizontal_m
+    found = grounded(f'{over} The hover drift stays at most {drift_m} m.')
+    assert found.uavs[0].missions[0].capture_horizontal_m == min(drift_m, default_m)
+
+
+def test_streets_on_the_way_allow_a_stated_speed(
+    grounded: Callable[[str], GroundedScenario], map_of: Callable[[str], MapModel]
+) -> None:
+    network = map_of('downtown').network
+    for car in grounded('Three cars drive 50 km/h.').agents:
+        limits_mps = [
+            max(network.lane(name).speed_limit_mps for name in network.edge(edge).lane_ids)
+            for edge in car.edges
+        ]
+        assert limits_mps[0] >= 13.8
+        assert sum(limit >= 13.8 for limit in limits_mps) >= 0.6 * len(limits_mps)
+
+
+def test_a_stated_speed_stays_when_somebody_is_to_come_up_from_behind(
+    grounded: Callable[[str], GroundedScenario], map_of: Callable[[str], MapModel]
+) -> None:
+    warns = 'A drone hovers over the intersection at 40 m and warns the ego car when a truck comes'
+    found = grounded(f'{warns} within 30 m of it. The ego car drives 12 m/s.')
+    lane = map_of('downtown').network.lane
+    able = {a.id: lane(a.lane_id).speed_limit_mps * a.speed_factor for a in found.agents}
+    assert able['ego'] >= 12.0 - 1e-6
+    assert able['truck1'] > able['ego']
+
+
 def test_a_leader_drives_as_fast_as_its_follower_is_asked_to(
     grounded: Callable[[str], GroundedScenario],
 ) -> None:
@@ -73,6 +130,65 @@ def test_a_car_on_the_main_road_has_another_lane_beside_it(
     (car,) = found.agents
     edge = network.lane(car.lane_id).edge_id
     assert sum(lane.edge_id == edge for lane in network.driving_lanes('passenger')) > 1
+
+
+@pytest.mark.parametrize(
+    'prompt',
+    [
+        'A drone tracks a car. When the car drives faster than 8 m/s it changes lanes.',
+        'A drone tracks a bus. After 10 s the bus changes lane.',
+        'A van follows a truck. A drone tracks the van. After 15 s the truck changes lane.',
+    ],
+)
+def test_who_is_to_change_lane_keeps_to_a_straight_street_with_several_lanes_until_then(
+    prompt: str, grounded: Callable[[str], GroundedScenario], map_of: Callable[[str], MapModel]
+) -> None:
+    network = map_of('downtown').network
+    found = grounded(prompt)
+    changes = next(a for a in found.agents if a.id in ('car1', 'bus1', 'truck1'))
+    assert changes.lane_change_mode == 512
+    lane = network.lane(changes.lane_id)
+    assert sum(other.edge_id == lane.edge_id for other in network.driving_lanes('passenger')) > 1
+    ahead = Polyline(changes.route_xy_m)
+    (_, _, hx, hy), (_, _, there_x, there_y) = ahead.at(0.0), ahead.at(60.0)
+    assert hx * there_x + hy * there_y > 0.99
+
+
+def test_nobody_passes_who_changes_lane(grounded: Callable[[str], GroundedScenario]) -> None:
+    prompt = 'A van and a truck drive in a row. A drone tracks the truck.'
+    factors = [a.speed_factor for a in grounded(prompt).agents]
+    assert factors[0] < factors[1]
+    factors = [
+        a.speed_factor for a in grounded(f'{prompt} The truck changes lanes after 15 s.').agents
+    ]
+    assert factors[0] == factors[1]
+
+
+@pytest.mark.parametrize(
+    'prompt',
+    [
+        'A car yields to a bus. A drone tracks the car.',
+        'A drone tracks the car. When the bus is within 30 m of the car, the car yields.',
+    ],
+)
+def test_who_is_yielded_to_comes_from_behind_in_the_lane_to_the_left(
+    prompt: str, grounded: Callable[[str], GroundedScenario]
+) -> None:
+    found = {a.id: a for a in grounded(prompt).agents}
+    car, bus = found['car1'], found['bus1']
+    dx, dy = bus.x_m - car.x_m, bus.y_m - car.y_m
+    assert dx * car.heading_x + dy * car.heading_y < -30.0
+    assert 2.5 < dy * car.heading_x - dx * car.heading_y < 4.5
+
+
+def test_who_slows_down_to_a_speed_drives_faster_before(
+    grounded: Callable[[str], GroundedScenario], map_of: Callable[[str], MapModel]
+) -> None:
+    found = grounded('A drone tracks a car. The car slows to 12 m/s.')
+    (car,) = found.agents
+    assert car.drive_speed_mps is None
+    limit_mps = map_of('downtown').network.lane(car.lane_id).speed_limit_mps
+    assert limit_mps * car.speed_factor >= 15.0
 
 
 @pytest.mark.parametrize('distance_m', [30.0, 50.0])

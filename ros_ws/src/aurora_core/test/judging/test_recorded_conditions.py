@@ -35,8 +35,14 @@ def _recorded(quantity: str, aspect: str) -> dict[str, Any]:
     return found
 
 
+# Kinds that there were not when the conditions were recorded.
+SINCE = {
+    'angle_swept', 'climb_delay', 'at_place', 'distance_fraction', 'lane_kept_after', 'traffic',
+}  # fmt: skip
+
+
 def test_every_kind_was_recorded_before() -> None:
-    assert {row['arguments']['kind'] for row in ROWS} == set(KINDS)
+    assert {row['arguments']['kind'] for row in ROWS} == set(KINDS) - SINCE
 
 
 @pytest.mark.parametrize('row', ROWS, ids=lambda row: str(row['recorded']['id']))

@@ -30,10 +30,10 @@ def _write(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, data: bytes) -> None
 
 def test_every_type_of_the_vocabulary_has_a_record() -> None:
     types = load_agent_types()
-    assert set(types) == {t.value for t in AgentType} - {'rsu'}
+    assert set(types) == {t.value for t in AgentType}
     assert list(types) == sorted(types)
     assert types['bus'].length_m > types['car'].length_m > types['motorcycle'].length_m
-    assert [n for n, record in types.items() if record.is_person] == ['pedestrian']
+    assert [n for n, record in types.items() if record.is_person] == ['pedestrian', 'rsu']
 
 
 @pytest.mark.parametrize(

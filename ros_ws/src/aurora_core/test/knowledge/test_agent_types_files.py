@@ -23,6 +23,7 @@ SAME = {
 }
 VOCABULARY = {
     'car',
+    'rsu',
     'truck',
     'bus',
     'van',
@@ -56,7 +57,7 @@ def test_both_say_the_same() -> None:
         assert types[name].attrib['vClass'] == row['vclass']
         for attribute, field in SAME.items():
             assert float(types[name].attrib[attribute]) == row[field], (name, field)
-    assert [name for name, row in _table().items() if row['is_person']] == ['pedestrian']
+    assert [name for name, row in _table().items() if row['is_person']] == ['pedestrian', 'rsu']
 
 
 def test_motion_has_no_chance_and_nobody_runs_red_lights() -> None:
@@ -74,5 +75,5 @@ def test_limits_of_the_contract_can_be_reached() -> None:
     assert table['pedestrian']['max_speed_mps'] == 3.0
     # "brake" means at least 4 m/s² for every motor vehicle.
     for name, row in table.items():
-        if name not in ('bicycle', 'pedestrian'):
+        if name not in ('bicycle', 'pedestrian', 'rsu'):
             assert row['decel_mps2'] >= 4.0, name

@@ -108,13 +108,26 @@ def test_zone_with_its_ceiling_under_its_floor_is_refused(tmp_path: Path) -> Non
         read_zones(_write(tmp_path, {'properties': zone, 'geometry': geometry}))
 
 
-def test_landmark_without_an_approach_is_refused(tmp_path: Path) -> None:
+def test_landmark_without_an_approach_is_refused(tmp_path: Path, junction: MapModel) -> None:
     feature = {
         'properties': {'name': 'N', 'kind': 'park'},
         'geometry': {'type': 'Point', 'coordinates': [1, 2]},
     }
     with pytest.raises(MapError, match='approach_lane_id'):
-        read_landmarks(_write(tmp_path, feature))
+        read_landmarks(_write(tmp_path, feature), junction.network)
+
+
+def test_landmark_beside_the_end_of_its_lane_is_refused(
+    tmp_path: Path, junction: MapModel
+) -> None:
+    lane = junction.network.driving_lanes('passenger')[0]
+    where = {'approach_lane_id': lane.id, 'approach_pos_m': lane.length_m + 0.01}
+    feature = {
+        'properties': {'name': 'N', 'kind': 'park'} | where,
+        'geometry': {'type': 'Point', 'coordinates': [1, 2]},
+    }
+    with pytest.raises(MapError, match='N: position'):
+        read_landmarks(_write(tmp_path, feature), junction.network)
 
 
 def test_missing_file_is_refused(tmp_path: Path) -> None:

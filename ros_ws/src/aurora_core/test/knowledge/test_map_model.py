@@ -11,8 +11,9 @@ from pathlib import Path
 import pytest
 
 from aurora_core.errors import MapError
+from aurora_core.knowledge.map_folders import list_maps
 from aurora_core.knowledge.map_manifest import describe_file, read_manifest, write_manifest
-from aurora_core.knowledge.map_model import MapModel, list_maps, load_map, load_map_folder
+from aurora_core.knowledge.map_model import MapModel, load_map, load_map_folder
 
 
 def _copy(model: MapModel, tmp_path: Path) -> Path:

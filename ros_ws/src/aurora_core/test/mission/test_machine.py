@@ -70,7 +70,7 @@ def _route(mission_id: str = 'm1', **changes: Any) -> MissionPlan:
     return MissionPlan(**(fields | changes))
 
 
-def _machine(*missions: MissionPlan) -> MissionMachine:
+def _machine(*missions: MissionPlan, **changes: Any) -> MissionMachine:
     plan = UavPlan(
         id='uav1',
         system_id=1,
@@ -80,6 +80,7 @@ def _machine(*missions: MissionPlan) -> MissionMachine:
         landing_spots=(HOME,),
         missions=missions,
         safe_altitude_m=60.0,
+        **changes,
     )
     return MissionMachine(plan, SETTINGS, DT_S)
 
@@ -321,9 +322,8 @@ def test_route_is_captured_at_its_first_point_and_flown_to_its_last() -> None:
     follower.until(lambda: machine.captured)
     capture = machine.capture_tick
     assert capture is not None
-    assert (
-        sqrt((follower.states[capture][0] - 30.0) ** 2 + follower.states[capture][1] ** 2) <= 1.0
-    )
+    x, y = follower.states[capture][:2]
+    assert sqrt((x - 30.0) ** 2 + y**2) <= _route().capture_horizontal_m
     follower.until(lambda: machine.missions_done)
     for x, y, z in _route().waypoints:
         nearest = min(
@@ -456,3 +456,104 @@ def test_land_now_on_the_ground_changes_nothing(when: str) -> None:
     assert machine.phase_name == ('idle' if when == 'before' else 'landing')
     follower.step()
     assert follower.rows[-1][UavCommandColumn.MODE] == UavMode.IDLE
+
+
+def test_a_mission_that_waits_is_held_for_where_the_one_before_ended() -> None:
+    second = _hover('m2', hover_point=(-40.0, 20.0, 30.0), waits=True)
+    machine = _machine(_hover(), second)
+    machine.start()
+    follower = _Follower(machine)
+    follower.until(lambda: machine.phase == UavPhase.HOLDING)
+    for _ in range(400):
+        follower.step()
+    assert machine.phase == UavPhase.HOLDING
+    assert not machine.missions_done
+    assert follower.state[:3] == pytest.approx([40.0, 0.0, 30.0], abs=0.5)
+    machine.change_to('m2')
+    follower.until(lambda: machine.missions_done)
+    assert follower.state[:2] == pytest.approx([-40.0, 20.0], abs=1.0)
+    assert machine.captured_missions == {'m1', 'm2'}
+
+
+def test_an_event_ends_a_mission_at_once_and_never_goes_back() -> None:
+    machine = _machine(_hover(until_event=True), _route('m2', waits=True))
+    machine.start()
+    follower = _Follower(machine)
+    follower.until(lambda: machine.captured)
+    for _ in range(400):  # five times as long as planned
+        follower.step()
+    assert machine.phase == UavPhase.MISSION
+    machine.change_to('m2')
+    follower.step()
+    assert machine.phase == UavPhase.MISSION + 1
+    machine.change_to('m1')
+    follower.step()
+    assert machine.phase == UavPhase.MISSION + 1
+
+
+def test_a_first_mission_that_waits_keeps_a_uav_on_the_ground() -> None:
+    machine = _machine(_hover(waits=True))
+    machine.start()
+    follower = _Follower(machine)
+    for _ in range(100):
+        follower.step()
+    assert machine.waits_on_ground
+    assert follower.state[UavColumn.Z] == 0.0
+    machine.change_to('m1')
+    follower.until(lambda: machine.captured)
+    assert follower.phases() == [UavPhase.IDLE, UavPhase.ASCENT, UavPhase.MISSION]
+
+
+@pytest.mark.parametrize('mission', [_hover(duration_s=20.0), _route(speed_mps=3.0)])
+def test_a_climb_that_an_event_asks_for_lasts_to_the_end_of_the_mission(
+    mission: MissionPlan,
+) -> None:
+    machine = _machine(mission, _hover('m2', duration_s=10.0))
+    machine.start()
+    follower = _Follower(machine)
+    follower.until(lambda: machine.captured)
+    machine.climb_to(45.0)
+    follower.until(lambda: machine.phase == UavPhase.MISSION + 1)
+    assert follower.state[UavColumn.Z] == pytest.approx(45.0, abs=0.5)
+    follower.until(lambda: machine.missions_done)
+    assert follower.state[UavColumn.Z] == pytest.approx(30.0, abs=0.5)
+
+
+def test_a_uav_that_is_not_to_land_holds_its_place() -> None:
+    machine = _machine(_hover(), lands=False)
+    machine.start()
+    follower = _Follower(machine)
+    follower.until(lambda: machine.done)
+    assert machine.missions_done
+    assert not machine.landed
+    assert follower.phases()[-1] == UavPhase.HOLDING
+    assert follower.state[:3] == pytest.approx([40.0, 0.0, 30.0], abs=0.5)
+
+
+@pytest.mark.parametrize('duration_s', [20.0, 30.0])
+def test_a_route_with_a_duration_ends_with_it(duration_s: float) -> None:
+    machine = _machine(_route(duration_s=duration_s))
+    machine.start()
+    follower = _Follower(machine)
+    follower.until(lambda: machine.missions_done)
+    assert machine.capture_tick is not None
+    lasted = follower.first_row(UavPhase.LANDING) - machine.capture_tick
+    assert lasted == round(duration_s / DT_S)
+
+
+def test_a_route_is_flown_again_until_its_event() -> None:
+    square = ((30.0, 0.0, 30.0), (50.0, 0.0, 30.0), (50.0, 20.0, 30.0), (30.0, 0.0, 30.0))
+    for waypoints in (square, _route().waypoints):
+        machine = _machine(_route(waypoints=waypoints, until_event=True), _hover('m2', waits=True))
+        machine.start()
+        follower = _Follower(machine)
+        follower.until(lambda: machine.captured)  # noqa: B023
+        assert machine.is_on_first_lap
+        follower.until(lambda: not machine.is_on_first_lap)  # noqa: B023
+        for _ in range(400):
+            follower.step()
+        assert machine.phase == UavPhase.MISSION
+        moved = [abs(s[UavColumn.VX]) + abs(s[UavColumn.VY]) for s in follower.states[-200:]]
+        assert max(moved) > 1.0
+        machine.change_to('m2')
+        follower.until(lambda: machine.missions_done)  # noqa: B023

@@ -22,8 +22,10 @@ from trace_cases import Case, judge, result, spec
 
 from aurora_core.conditions.derive import derive_conditions
 from aurora_core.outcomes.condition import Condition
+from aurora_core.outcomes.schedule import PlanFacts
 from aurora_core.outcomes.verdict import Reason
 from aurora_core.spec.parameter import Unit
+from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.trace.trace import Trace
 
 _FOLDER = Path(__file__).parent
@@ -65,10 +67,13 @@ class Row:
         outcome = 'none' if self.margin is None else 'good' if self.margin >= 0.0 else 'bad'
         return '-'.join(part for part in (self.id, outcome, self.what) if part)
 
+    def request(self) -> tuple[ScenarioSpec, PlanFacts]:
+        """The row's request and its plan; the run that was built for them is not kept."""
+        return _request(self)
+
     def conditions(self) -> tuple[Condition, ...]:
         """All conditions of the row's request."""
-        case = self.make()
-        return derive_conditions(case.spec, case.facts, LIMITS, TOLERANCES).conditions
+        return _conditions(self)
 
     def outcome(self, condition: Condition) -> Outcome:
         """What the row shows of its condition."""
@@ -95,6 +100,17 @@ class Row:
         assert math.isfinite(found.margin)
         condition = next(c for c in self.conditions() if c.id == self.id)
         assert found.satisfied is (self.outcome(condition) is Outcome.SATISFIED)
+
+
+@cache
+def _request(row: Row) -> tuple[ScenarioSpec, PlanFacts]:
+    case = row.make()
+    return case.spec, case.facts
+
+
+@cache
+def _conditions(row: Row) -> tuple[Condition, ...]:
+    return derive_conditions(*row.request(), LIMITS, TOLERANCES).conditions
 
 
 def kind_of(condition: Condition) -> str:

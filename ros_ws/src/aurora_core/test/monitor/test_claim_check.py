@@ -120,7 +120,7 @@ def _outcome_of_its_own(case: Any) -> None:
         (_end_too_early, 'end', 'the record goes to'),
         (_end_twice, 'end', 'a second time'),
         (_horizon_too_early, 'end', 'horizon claimed at'),
-        (_finished_in_the_air, 'end', 'had not landed'),
+        (_finished_in_the_air, 'end', 'was not over yet'),
         (_outcome_of_its_own, 'end', 'unknown outcome'),
     ],
 )

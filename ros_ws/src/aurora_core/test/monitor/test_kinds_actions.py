@@ -58,9 +58,9 @@ def _gains(do: str) -> Callable[[int, float], Case]:
     return make
 
 
-def _changes_lane(tick: int, at_s: float) -> Case:
+def _changes_lane(tick: int, at_s: float, back: int = T, lanes: int = 2) -> Case:
     case = _car('change_lane', np.full(T, 5.0), at_s)
-    case.run.agents[0].y[tick:] = 3.3
+    case.run.agents[0].y[tick:back] = 3.3
     case.world = replace(
         case.world,
         lanes=tuple(
@@ -71,10 +71,25 @@ def _changes_lane(tick: int, at_s: float) -> Case:
                 width_m=3.3,
                 speed_limit_mps=10.0,
             )
-            for k in range(2)
+            for k in range(lanes)
         ),
     )
     return case
+
+
+def _slides(tick: int) -> Case:
+    """It takes 3 s to get to the other lane, which shows after the tick."""
+    case = _changes_lane(T, AT_S)
+    case.run.agents[0].y[:] = np.clip(3.3 / 60 * (TICK - tick), 0.0, 3.3)
+    return case
+
+
+def _waits() -> Case:
+    """It stands from 14 s to 18 s."""
+    case = _changes_lane(365, AT_S)
+    case.run.agents[0].speed[280:360] = 0.0
+    at_s = number(AT_S, Unit.SECOND, explicit=True)
+    return _later(case, trigger={'on': 'time', 'at_s': at_s})
 
 
 def _crosses(tick: int, at_s: float) -> Case:
@@ -115,11 +130,11 @@ def _lands(tick: int, at_s: float) -> Case:
     return _flown({'do': 'land'}, flight(1401, HOME, 30.0, landing=tick), at_s)
 
 
-def _ascends(tick: int, at_s: float, asked_m: float = 60.0) -> Case:
-    """It climbs to 30 m, and at the tick on to 60 m."""
+def _ascends(tick: int, at_s: float, asked_m: float = 60.0, to_m: float = 60.0) -> Case:
+    """It climbs to 30 m, and at the tick goes on to 60 m or another altitude."""
 
     def path(k: int) -> tuple[float, float, float]:
-        return (100.0, 0.0, 60.0 if k >= tick else 30.0)
+        return (100.0, 0.0, to_m if k >= tick else 30.0)
 
     one = flight(1401, HOME, 30.0, path, landing=900)
     return _flown({'do': 'ascend', 'altitude_m': number(asked_m)}, one, at_s)
@@ -245,6 +260,42 @@ def _rows(do: str, make: Callable[[int, float], Case]) -> tuple[Row, ...]:
 
 
 NEVER = Reason.PREMISE_NEVER
+# Down it goes with 0.1 m per tick, and 0.6 of 3 m/s need 8.3 s for 15 m.
+DESCENDED = (
+    Row(id='e1.within', make=lambda: _ascends(310, AT_S, 15.0, 15.0), margin=0.5, what='descends'),
+    Row(
+        id='e1.within',
+        make=lambda: _ascends(310, AT_S, 15.0),
+        margin=1.0 - 29.95,
+        within=0.2,
+        what='climbs-instead',
+    ),
+    Row(
+        id='e1.completed',
+        make=lambda: _ascends(310, AT_S, 15.0, 15.0),
+        margin=2.0 - (7.0 - 15.0 / 1.8),
+        within=0.06,
+        what='descends',
+    ),
+)
+# It is within 2 m of 60 m after 140 steps of 0.2 m; 0.6 of 5 m/s need 10 s, 13.3 s to 70 m.
+CLIMBED = (
+    Row(
+        id='e1.completed',
+        make=lambda: _ascends(310, AT_S),
+        margin=2.0 - (7.5 - 10.0),
+        within=0.06,
+        what='climb',
+    ),
+    Row(
+        id='e1.completed',
+        make=lambda: _ascends(310, AT_S, 70.0),
+        margin=2.0 - (1101 * 0.05 - 40.0 / 3.0),
+        within=0.06,
+        what='climb',
+    ),
+    Row(id='e1.completed', make=lambda: _ascends(310, 99.0), reason=NEVER, what='climb'),
+)
 # Without facts of its type an agent has 1.5 m/s^2; 2 s more are allowed.
 ALLOWED_S, RATE = 2.0, 1.5
 
@@ -264,6 +315,10 @@ COMPLETED = (
     _completed(lambda: _to('accelerate', 14.0), 0.55, 4.0, 'gain'),
     _completed(lambda: _to('brake', 5.0, 5.0), 0.8, 5.0, 'brake-to'),
     _completed(lambda: _to('slow', 9.5, 8.0), 5.05, 2.0, 'slow-never'),
+    # 3 s are needed to change lane.
+    Row(id='e1.completed', make=lambda: _changes_lane(310, AT_S), margin=ALLOWED_S - (0.5 - 3.0)),
+    Row(id='e1.completed', make=lambda: _changes_lane(T, AT_S), margin=ALLOWED_S - (5.05 - 3.0)),
+    Row(id='e1.completed', make=lambda: _changes_lane(310, 99.0), reason=NEVER, what='lane'),
     _completed(lambda: _to('start', 1.0, 2.5, from_mps=0.0), 5.05, 2.5, 'start-never'),
     # There was no time left for it.
     Row(id='e1.completed', make=lambda: _to('stop', 1.0), margin=-0.05, what='stop-short'),
@@ -274,6 +329,23 @@ COMPLETED = (
     Row(id='e1.happens', make=lambda: _untold(_stands()), reason=NEVER, what='stands'),
     # Who stands when it is told to stop has nothing to do.
     Row(id='e1.within', make=_stands, margin=1.0, what='stands'),
+)
+# 2 s are asked on the other lane, where there is one.
+LANE = (
+    Row(id='e1.within', make=lambda: _slides(310), margin=1.0 - 0.55, what='slides'),
+    Row(id='e1.within', make=lambda: _slides(320), margin=1.0 - 1.05, what='slides'),
+    # It stands for 3 s when it is due: these do not count.
+    Row(id='e1.within', make=_waits, margin=1.0 - 0.25, what='waits'),
+    Row(id='e1.time', make=_waits, margin=0.25, what='waits'),
+    Row(id='e1.completed', make=lambda: _slides(310), margin=2.0 - 0.2, what='slides'),
+    Row(id='e1.lane', make=lambda: _changes_lane(310, AT_S), margin=4.5 - 2.0),
+    Row(id='e1.lane', make=lambda: _changes_lane(310, AT_S, back=330), margin=1.0 - 2.0),
+    Row(id='e1.lane', make=lambda: _changes_lane(T, AT_S), margin=0.0 - 2.0, what='never'),
+    Row(id='e1.lane', make=lambda: _changes_lane(310, 99.0), reason=NEVER),
+    *(
+        Row(id=name, make=lambda: _changes_lane(310, AT_S, lanes=1), reason=NEVER, what='one-lane')
+        for name in ('e1.lane', 'e1.within', 'e1.completed')
+    ),
 )
 # It has to stand until 15 s, or from when it has stopped until it is to start again.
 SET_OFF = (
@@ -313,6 +385,9 @@ ROWS = (
         within=0.05,
     ),
     *COMPLETED,
+    *CLIMBED,
+    *DESCENDED,
+    *LANE,
     *SET_OFF,
     *DELAYED,
     Row(id='e1.passed', make=lambda: _yields(0.0), margin=50.0, within=0.3),

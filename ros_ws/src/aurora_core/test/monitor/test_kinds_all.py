@@ -36,7 +36,7 @@ def _seen() -> tuple[dict[str, set[Outcome]], set[str]]:
         conditions = row.conditions()
         asked.update(kind_of(condition) for condition in conditions)
         mine = next(condition for condition in conditions if condition.id == row.id)
-        for kind in _kinds(mine, row.make().spec):
+        for kind in _kinds(mine, row.request()[0]):
             shown[kind].add(row.outcome(mine))
     return shown, asked
 

@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 from kind_rows import Row, cut, done_at, gone
 from trace_builder import FloatArray, number
-from trace_cases import Case, convoy_case, ground_case, spec, tailgate_case
+from trace_cases import Case, convoy_case, ground_case, ramp, spec, tailgate_case
 
 from aurora_core.knowledge.world import CentreLine
 from aurora_core.outcomes.verdict import Reason
-from aurora_core.spec.parameter import Unit
+from aurora_core.spec.parameter import Bound, Unit
 from aurora_core.spec.scenario import Behavior, Placement
 from aurora_core.spec.vocabulary import BehaviorKind as B
 from aurora_core.spec.vocabulary import Relation
@@ -49,6 +49,20 @@ def _bus(x: float) -> Case:
     """The bus is asked 20 m ahead of the ego; here it is at x."""
     case = convoy_case()
     case.run.agents[1].x += x - 20.0
+    return case
+
+
+def _kept(bound: Bound, mps: float = 10.0, *, throughout: bool = False) -> Case:
+    """The bus starts 20 m ahead, drives at `mps`, and is to keep 20 m, or 20.5 m at most."""
+    top = mps / 10.0
+    asked_m = 20.5 if bound is Bound.AT_MOST else 20.0
+    case = convoy_case(bus1=ramp(1401, 0, 10.0) * top)
+    bus = case.spec.agents[1]
+    distance = number(asked_m, explicit=True, bound=bound)
+    place = bus.placements[0].model_copy(update={'distance_m': distance, 'throughout': throughout})
+    agents = list(case.spec.agents)
+    agents[1] = bus.model_copy(update={'placements': (place,)})
+    case.spec = case.spec.model_copy(update={'agents': tuple(agents)})
     return case
 
 
@@ -274,6 +288,46 @@ PLACEMENTS = (
     Row(id='bus1.placed.kept', make=convoy_case, margin=1.0 - 0.8),
     Row(id='bus1.placed.kept', make=_leaves_route, margin=0.5 - 0.8),
     Row(id='bus1.placed.kept', make=lambda: cut(convoy_case(), 900), reason=SHORT),
+    # All along instead of for 80 % of the time.
+    Row(
+        id='bus1.placed.kept',
+        make=lambda: _kept(Bound.EXACTLY, throughout=True),
+        margin=0.0,
+        what='throughout',
+    ),
+    # At 11 m/s it is 0.5 m farther away after 2.25 s.
+    Row(id='bus1.placed.distance_kept', make=lambda: _kept(Bound.AT_MOST), margin=1.0 - 0.8),
+    Row(
+        id='bus1.placed.distance_kept',
+        make=lambda: _kept(Bound.AT_MOST, 11.0),
+        margin=45 / 1050 - 0.8,
+        within=0.01,
+    ),
+    Row(
+        id='bus1.placed.distance_kept',
+        make=lambda: _kept(Bound.AT_LEAST, 11.0),
+        margin=1.0 - 0.8,
+        what='at-least',
+    ),
+    # 1 m more is allowed: at 10.01 m/s all the time, at 10.5 m/s for 4.5 s.
+    Row(
+        id='bus1.placed.distance_kept',
+        make=lambda: _kept(Bound.EXACTLY, 10.01, throughout=True),
+        margin=0.0,
+        what='throughout',
+    ),
+    Row(
+        id='bus1.placed.distance_kept',
+        make=lambda: _kept(Bound.EXACTLY, 10.5, throughout=True),
+        margin=4.5 / 52.5 - 1.0,
+        within=0.02,
+        what='throughout',
+    ),
+    Row(
+        id='bus1.placed.distance_kept',
+        make=lambda: cut(_kept(Bound.AT_MOST), 900),
+        reason=SHORT,
+    ),
     # East is 90 degrees; 15 are allowed.
     Row(id='car1.placed.bearing', make=lambda: _bearing(100.0), margin=15.0 - 10.0),
     Row(id='car1.placed.bearing', make=lambda: _bearing(60.0), margin=15.0 - 30.0),

@@ -12,11 +12,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from kind_rows import Row, gone
-from trace_builder import FloatArray
+from trace_builder import FloatArray, number
 from trace_cases import Case, ground_case
 
 from aurora_core.knowledge.world import CentreLine
 from aurora_core.outcomes.verdict import Reason
+from aurora_core.spec.parameter import Bound, Unit
 from aurora_core.spec.scenario import Behavior
 from aurora_core.spec.vocabulary import BehaviorKind as B
 
@@ -66,6 +67,13 @@ def _yields(own: FloatArray, other: float, x: float = -30.0, y: float = 3.3) -> 
     return case
 
 
+def _slows_to(end_mps: float, asked_mps: float = 5.0, bound: Bound = Bound.EXACTLY) -> Case:
+    """From 10 m/s after 10 s."""
+    asked = number(asked_mps, Unit.METRE_PER_SECOND, explicit=True)
+    behavior = Behavior(kind=B.SLOW, speed_mps=asked.model_copy(update={'bound': bound}))
+    return ground_case(behavior, np.where(TICK < 200, 10.0, end_mps))
+
+
 SLOWS = np.where(TICK < 100, 8.0, 2.0)
 WAITS = np.where(TICK < 200, 0.0, 8.0)
 NEVER, GONE = Reason.PREMISE_NEVER, Reason.TARGET_GONE
@@ -84,6 +92,17 @@ ROWS = (
     Row(id='car1.emergency_run', make=lambda: _run(9.5), margin=-0.5 - 1.0),
     Row(id='car1.emergency_run', make=lambda: _run(0.0), reason=NEVER),
     Row(id='car1.emergency_run', make=lambda: _run(12.0, lanes=0), reason=NEVER, what='no-street'),
+    # 5 m/s after 7 m/s, within 1 m/s; at most 5 m/s is at most 6 m/s.
+    Row(id='car1.slow.speed', make=lambda: _slows_to(4.5), margin=1.0 - 0.5),
+    Row(id='car1.slow.speed', make=lambda: _slows_to(7.5), margin=1.0 - 2.5),
+    Row(id='car1.slow.speed', make=lambda: _slows_to(2.0), margin=1.0 - 3.0, what='too-slow'),
+    Row(
+        id='car1.slow.speed',
+        make=lambda: _slows_to(2.0, bound=Bound.AT_MOST),
+        margin=6.0 - 2.0,
+        what='at-most',
+    ),
+    Row(id='car1.slow.speed', make=lambda: _slows_to(9.0, 9.0), reason=NEVER),
     # 2 m/s less are asked before the other one has passed.
     Row(id='car1.yield', make=lambda: _yields(SLOWS, 10.0), margin=6.0 - 2.0),
     Row(id='car1.yield', make=lambda: _yields(WAITS, 10.0), margin=8.0 - 2.0, what='waits'),

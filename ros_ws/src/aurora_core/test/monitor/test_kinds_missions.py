@@ -25,6 +25,15 @@ HOVER_CAPTURED = 165
 TRACK_CAPTURED = 247
 
 
+def _stays_up(landing: int | None = None) -> Case:
+    """The UAV is not to land; it does at a tick, or never."""
+    case = hover_case(landing=landing)
+    (hover,) = case.spec.missions
+    stays = hover.model_copy(update={'ends_in_flight': True})
+    case.spec = spec(**{**dict(case.spec), 'missions': (stays,)})
+    return case
+
+
 def _late_hover() -> Case:
     """The UAV goes to its hover point after tick 900 only."""
     case = hover_case()
@@ -150,6 +159,14 @@ ROWS = (
     # Not down at the last sample, 70 s: at the earliest one tick later.
     Row(id='uav1.landed', make=lambda: hover_case(landing=None), margin=-0.05),
     Row(id='uav1.landed', make=lambda: cut(hover_case(), 1000), reason=SHORT),
+    # 10 m are allowed.
+    Row(id='m1.over', make=lambda: hover_case(ego_y=-9.0), margin=10.0 - 9.0),
+    Row(id='m1.over', make=hover_case, margin=10.0 - 15.0),
+    Row(id='m1.over', make=lambda: gone(hover_case(), 0, 0), reason=Reason.TARGET_GONE),
+    # 1 m is in the air; its mission begins at tick 140 or 141, at 28 m and rising.
+    Row(id='uav1.stays_up', make=_stays_up, margin=28.4 - 1.0, within=0.21),
+    Row(id='uav1.stays_up', make=lambda: _stays_up(1000), margin=0.0 - 1.0),
+    Row(id='uav1.stays_up', make=lambda: grounded(_stays_up()), reason=Reason.EMPTY_PHASE),
     # Catching up from the west, the bearing is more than 15 degrees off 10 degrees until the lead
     # is 35 m * tan(5 degrees) = 3.06 m: 3.26 s after capture, or 65 ticks.
     Row(

@@ -29,12 +29,15 @@ def _corner(k: int) -> tuple[float, float, float]:
     return RADIUS_M * math.cos(angle), RADIUS_M * math.sin(angle), 30.0
 
 
-def _orbit(flown_m: float) -> Case:
-    """A drone starts below the first point of a circle of 40 m and flies one of `flown_m`."""
+def _orbit(flown_m: float, turns: float = 8.0 * 35.0 / RADIUS_M / (2.0 * math.pi)) -> Case:
+    """A drone starts below the first point of a circle of 40 m and flies one of `flown_m`.
+
+    Unless told how often round it goes it flies at 8 m/s until it lands after 35 s.
+    """
     ticks = 1401
 
     def path(k: int) -> tuple[float, float, float]:
-        angle = max(0, k - 200) * DT_S * 8.0 / RADIUS_M
+        angle = min(max(0, k - 200) * DT_S * 8.0 / RADIUS_M, turns * 2.0 * math.pi)
         return flown_m * math.cos(angle), flown_m * math.sin(angle), 30.0
 
     request = spec(
@@ -60,6 +63,16 @@ def _orbit(flown_m: float) -> Case:
     )
     run = Run(ticks=ticks, flights=[flight(ticks, (RADIUS_M, 0.0), 30.0, path, landing=900)])
     return Case(spec=request, facts=facts, world=world(), run=run)
+
+
+def _circling(asked_mps: float) -> Case:
+    """An orbit that is asked with some speed and flown with 8 m/s."""
+    case = _orbit(RADIUS_M)
+    (plan,) = case.spec.missions
+    speed = number(asked_mps, Unit.METRE_PER_SECOND, explicit=True)
+    plan = plan.model_copy(update={'speed_mps': speed})
+    case.spec = case.spec.model_copy(update={'missions': (plan,)})
+    return case
 
 
 def _elsewhere() -> Case:
@@ -120,6 +133,9 @@ ROWS = (
     Row(id='m1.centre', make=lambda: gone(survey_case(), 0, 0), reason=Reason.TARGET_GONE),
     Row(id='m1.speed', make=lambda: _speed(8.0), margin=1.0 - 0.8),
     Row(id='m1.speed', make=lambda: _speed(8.0, speed=6.9), margin=0.0 - 0.8),
+    # The chords of a circle are short, but nobody brakes between them.
+    Row(id='m1.speed', make=lambda: _circling(8.0), margin=1.0 - 0.8, what='orbit'),
+    Row(id='m1.speed', make=lambda: _circling(10.0), margin=0.0 - 0.8, what='orbit'),
     # 16 m/s need 85 m to be reached and 85 m to brake: no leg has that.
     Row(id='m1.speed', make=lambda: _speed(16.0), reason=EMPTY),
     # 3 m are allowed at each end of the 100 m and of the 60 m.
@@ -133,6 +149,17 @@ ROWS = (
     Row(id='m1.radius', make=lambda: _orbit(42.0), margin=5.0 - 2.0),
     Row(id='m1.radius', make=lambda: _orbit(46.0), margin=5.0 - 6.0),
     Row(id='m1.radius', make=lambda: grounded(_orbit(42.0)), reason=EMPTY),
+    # One turn, within 15 deg.
+    Row(id='m1.turn', make=lambda: _orbit(40.0, 1.0), margin=15.0, within=0.1),
+    Row(id='m1.turn', make=lambda: _orbit(40.0, 336.0 / 360.0), margin=15.0 - 24.0, within=0.1),
+    Row(
+        id='m1.turn',
+        make=lambda: _orbit(40.0, 396.0 / 360.0),
+        margin=15.0 - 36.0,
+        within=0.1,
+        what='farther',
+    ),
+    Row(id='m1.turn', make=lambda: grounded(_orbit(40.0, 1.0)), reason=EMPTY),
 )
 
 

@@ -15,6 +15,7 @@ from kind_rows import Row, cut, gone
 from trace_builder import driver, number
 from trace_cases import Case, ground_case, hover_case, spec
 
+from aurora_core.knowledge.world import CentreLine
 from aurora_core.outcomes.verdict import Reason
 from aurora_core.spec.parameter import Bound, Unit
 from aurora_core.spec.scenario import Behavior
@@ -69,7 +70,32 @@ def _lasting(seconds: float) -> Case:
     return _drive(world={'duration_s': number(seconds, Unit.SECOND, explicit=True)})
 
 
+def _traffic(cars: int, away_m: float = 100.0) -> Case:
+    """600 m of one street are within 300 m, on which 3 cars per km are 1.8 cars: 2 are due."""
+    case = _drive(world={'traffic_density': 'low'})
+    line = np.array([(-1000.0, 0.0), (1000.0, 0.0)])
+    lanes = tuple(
+        CentreLine(
+            lane_id=f'a_{k}', street_name='A', points=line + np.array([0.0, 3.3 * k]), width_m=3.3,
+            speed_limit_mps=10.0,
+        )
+        for k in range(2)
+    )  # fmt: skip
+    case.world = replace(case.world, lanes=lanes)
+    for k in range(cars):
+        still = np.zeros(case.run.ticks)
+        x = away_m + 10.0 * k
+        case.run.agents.append(driver(f'more{k}', 'car', x, still, y=3.3, role='background'))
+    return case
+
+
 ROWS = (
+    # 0.7 to 1.5 of what is due are allowed.
+    Row(id='world.traffic', make=lambda: _traffic(2), margin=1.0 - 0.7),
+    Row(id='world.traffic', make=lambda: _traffic(3), margin=0.0, what='three'),
+    Row(id='world.traffic', make=lambda: _traffic(4), margin=1.5 - 2.0, what='four'),
+    Row(id='world.traffic', make=lambda: _traffic(2, 400.0), margin=-0.7, what='far'),
+    Row(id='world.traffic', make=lambda: cut(_traffic(2), 200), reason=SHORT),
     Row(id='scene.car', make=_drive, margin=0.0),
     Row(id='scene.car', make=lambda: _also(_drive(), 'car', 'background'), margin=0.0, what='bg'),
     Row(id='scene.car', make=lambda: _also(_drive(), 'car'), margin=-1.0, what='one-more'),

@@ -23,8 +23,6 @@ from aurora_core.spec.scenario import ScenarioSpec
 
 # What no run can do yet, or what no condition is about; each with what the product says instead.
 OPEN = {
-    # Nobody carries it out: `not_judged`.
-    ('World', 'traffic_density'),
     # What is said of these is `not_encoded`, see `conditions/unsaid.py`.
     ('UavMission', 'dwell_s'),
     ('Link', 'occlusion'),
@@ -71,11 +69,11 @@ def _owner(spec: ScenarioSpec, path: str) -> tuple[str, str]:
 
 
 def _depends(row: Row) -> set[tuple[str, str]]:
-    case = row.make()
-    explicit = _all_explicit(case.spec)
+    asked, facts = row.request()
+    explicit = _all_explicit(asked)
 
     def derive(spec: ScenarioSpec) -> Sequence[Condition]:
-        return derive_conditions(spec, case.facts, LIMITS, TOLERANCES).conditions
+        return derive_conditions(spec, facts, LIMITS, TOLERANCES).conditions
 
     found = conditions_depending(explicit, derive(explicit), derive)
     return {_owner(explicit, path) for path, ids in found.items() if row.id in ids}
@@ -100,7 +98,7 @@ def test_every_field_has_a_run_on_which_a_condition_fails() -> None:
     for row in all_rows():
         if row.margin is None or row.shows is not Outcome.VIOLATED:
             continue
-        spec = _all_explicit(row.make().spec)
+        spec = _all_explicit(row.request()[0])
         if {_owner(spec, path) for path in paths_stated(spec)} - judged:
             judged |= _depends(row)
     assert asked - judged == OPEN

@@ -21,7 +21,7 @@ def _results(tb: ModuleType, case: Any) -> dict[str, Any]:
 
 
 def test_a_hover_that_keeps_everything_is_verified(tb: ModuleType) -> None:
-    verdict = tb.judge(tb.hover_case(drift=1.5))
+    verdict = tb.judge(tb.hover_case(drift=1.5, ego_y=-9.0))
     assert verdict.status is VerdictStatus.VERIFIED, [
         r.explanation for r in verdict.results if not r.satisfied
     ]

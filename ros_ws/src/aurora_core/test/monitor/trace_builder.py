@@ -134,6 +134,8 @@ def flight(
     x, y, z = home[0], home[1], 0.0
     ascent_end = landed = None
     phase = UavPhase.ASCENT
+    flown: list[tuple[float, ...]] = []
+    told: list[tuple[float, ...]] = []
     for k in range(ticks):
         before = (x, y, z)
         mode = UavMode.IDLE
@@ -160,16 +162,18 @@ def flight(
         if landing is not None and k > landing and z == 0.0 and landed is None:
             landed = k
         down = k == 0 or landed is not None
-        states[k, UavColumn.X : UavColumn.Z + 1] = (x, y, z)
-        velocity = (np.array((x, y, z)) - np.array(before)) / DT_S
-        states[k, UavColumn.VX : UavColumn.VZ + 1] = velocity
-        states[k, UavColumn.MODE] = mode
-        states[k, UavColumn.LANDED] = float(down)
-        states[k, UavColumn.ARMED] = float(not down)
-        commands[k, UavCommandColumn.MODE] = mode
-        commands[k, UavCommandColumn.X : UavCommandColumn.Z + 1] = (x, y, z)
-        commands[k, UavCommandColumn.VX : UavCommandColumn.VZ + 1] = velocity
-        commands[k, UavCommandColumn.PHASE] = phase_value
+        flown.append((x, y, z, *((a - b) / DT_S for a, b in zip((x, y, z), before, strict=True))))
+        told.append((int(mode), phase_value, float(down)))
+    way, marks = np.array(flown), np.array(told, dtype=np.float64)
+    states[:, UavColumn.X : UavColumn.Z + 1] = way[:, :3]
+    states[:, UavColumn.VX : UavColumn.VZ + 1] = way[:, 3:]
+    states[:, UavColumn.MODE] = marks[:, 0]
+    states[:, UavColumn.LANDED] = marks[:, 2]
+    states[:, UavColumn.ARMED] = 1.0 - marks[:, 2]
+    commands[:, UavCommandColumn.X : UavCommandColumn.Z + 1] = way[:, :3]
+    commands[:, UavCommandColumn.VX : UavCommandColumn.VZ + 1] = way[:, 3:]
+    commands[:, UavCommandColumn.MODE] = marks[:, 0]
+    commands[:, UavCommandColumn.PHASE] = marks[:, 1]
     commands[0] = 0.0
     assert phase is UavPhase.ASCENT
     return Flight(

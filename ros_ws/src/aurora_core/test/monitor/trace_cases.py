@@ -247,10 +247,11 @@ def hover_case(
     weather: str = 'clear',
     altitude_error: float = 0.0,
     explicit_s: float | None = None,
+    ego_y: float = -15.0,
 ) -> Case:
-    """A drone hovers 30 m above (100, 0) up to tick `landing`; the ego stands 15 m away."""
+    """A drone hovers 30 m above (100, 0) up to tick `landing`; the ego stands beside it."""
     ticks = 1401
-    ego = driver('ego', 'car', 100.0, np.zeros(ticks), y=-15.0, role='ego')
+    ego = driver('ego', 'car', 100.0, np.zeros(ticks), y=ego_y, role='ego')
 
     def path(k: int) -> tuple[float, float, float]:
         late = k > 600

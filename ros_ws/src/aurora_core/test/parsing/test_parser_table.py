@@ -57,7 +57,7 @@ def _agent(agent: GroundAgent) -> str:
         if place.bearing_deg is not None:
             words.append(f'bearing {_p(place.bearing_deg)}')
         if place.kept_in_motion:
-            words.append('kept')
+            words.append('throughout' if place.throughout else 'kept')
         parts.append(f'{place.relation.value}({" ".join(words)})')
     for behavior in agent.behaviors:
         words = [behavior.target] if behavior.target else []

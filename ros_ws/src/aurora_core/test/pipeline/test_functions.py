@@ -57,8 +57,12 @@ def altered(agsg: Agsg, **texts: str) -> Agsg:
     )
 
 
+def worked_out(world: WorldModel, agsg: Agsg) -> Plan | NotComparable:
+    return recorded_plan(_KNOWN, world, conditions_from_json(world.conditions_json), agsg)
+
+
 def plan_of(world: WorldModel, agsg: Agsg) -> Plan:
-    plan = recorded_plan(_KNOWN, world, agsg)
+    plan = worked_out(world, agsg)
     assert isinstance(plan, Plan)
     return plan
 
@@ -103,7 +107,7 @@ def basis_of(agsg: Agsg, table: str, **changes: object) -> dict[str, Any]:
 
 def held(execution: Execution, world: WorldModel, agsg: Agsg, *, as_recorded: bool) -> Held:
     conditions = conditions_from_json(world.conditions_json)
-    plan = recorded_plan(_KNOWN, world, agsg)
+    plan = worked_out(world, agsg)
     return held_against(conditions, execution.roster, world, plan, as_recorded=as_recorded)
 
 
@@ -207,7 +211,7 @@ def test_without_a_basis_that_can_be_read_nothing_is_claimed(
     agsg, execution = grounded
     value = None if basis is None else basis_of(agsg, 'tolerances', of_tomorrow=1.0)
     older = regrounded(agsg, basis=value)
-    assert isinstance(recorded_plan(_KNOWN, execution.world, older), NotComparable)
+    assert isinstance(worked_out(execution.world, older), NotComparable)
     found = held(execution, execution.world, older, as_recorded=False)
     assert names(found) == {('configuration', 'record')}
     assert 'as recorded' in found.findings[0].text
@@ -254,7 +258,7 @@ def test_a_graph_without_a_grounding_cannot_be_judged(
 ) -> None:
     agsg, execution = grounded
     with pytest.raises(VerificationError, match='does not fit'):
-        recorded_plan(_KNOWN, execution.world, altered(agsg, grounding=''))
+        worked_out(execution.world, altered(agsg, grounding=''))
 
 
 def test_a_uav_without_a_mission_is_grounded_as_one_that_hovers() -> None:

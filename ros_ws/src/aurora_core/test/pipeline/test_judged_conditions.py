@@ -23,9 +23,9 @@ def _grounded(prompt: str) -> tuple[set[str], tuple[str, ...]]:
 
 
 def test_a_manoeuvre_that_nobody_carries_out_is_incomplete_and_not_judged() -> None:
-    conditions, missing = _grounded('A car turns left at the intersection; a drone tracks it.')
-    assert missing == ('car1: behaviour turn_left',)
-    assert 'car1.turn_left' not in conditions
+    conditions, missing = _grounded('A bicycle changes lane; a drone tracks it.')
+    assert missing == ('bicycle1: behaviour change_lane',)
+    assert 'bicycle1.change_lane' not in conditions
     assert 'm1.tracked' in conditions
 
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from aurora_core.planning.durations import lasting
+from aurora_core.planning.complete import lasting
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.scenario import ScenarioSpec, StatedCondition, Uav, UavMission, World
 from aurora_core.spec.vocabulary import MissionMode

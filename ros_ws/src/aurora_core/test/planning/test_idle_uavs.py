@@ -1,14 +1,22 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""A UAV of which no mission is asked hovers over the scene."""
+"""A UAV of which no mission is asked hovers over the scene, or tracks what it reports."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 
-from aurora_core.planning.idle_uavs import hovering
+from aurora_core.planning.complete import hovering
 from aurora_core.spec.parameter import Parameter, Provenance
-from aurora_core.spec.scenario import GroundAgent, ScenarioSpec, Uav, UavMission
+from aurora_core.spec.scenario import (
+    Event,
+    GroundAgent,
+    ScenarioSpec,
+    SendMessage,
+    SpeedTrigger,
+    Uav,
+    UavMission,
+)
 from aurora_core.spec.vocabulary import AgentType, MissionMode
 
 Make = Callable[..., Parameter]
@@ -50,3 +58,14 @@ def test_only_those_without_a_mission_get_one(parameter: Make) -> None:
 def test_nothing_changes_where_everybody_flies(parameter: Make) -> None:
     spec = hovering(_spec(parameter))
     assert hovering(spec) is spec
+
+
+def test_who_reports_what_a_vehicle_does_tracks_it(parameter: Make) -> None:
+    fast = SpeedTrigger(on='speed_above', who='m2', value_mps=parameter(9.0, 'm/s'))
+    report = SendMessage(do='send_message', sender='uav1', receiver='uav3')
+    events = (Event(id='e1', trigger=fast, action=report),)
+    spec = ScenarioSpec.model_validate({**dict(_spec(parameter)), 'events': events})
+    sender, relay = hovering(spec).missions[1:]
+    assert (sender.mode, sender.target) == (MissionMode.TRACK, 'm2')
+    assert sender.target_inferred
+    assert (relay.mode, relay.target) == (MissionMode.HOVER, None)

@@ -9,9 +9,16 @@ from itertools import combinations
 
 from aurora_core.knowledge.limits import Limits
 from aurora_core.outcomes.grounded import GroundedScenario
-from aurora_core.planning.layers import layered
+from aurora_core.planning.complete import layered
 from aurora_core.spec.parameter import Parameter
-from aurora_core.spec.scenario import GroundAgent, ScenarioSpec, Uav, UavMission
+from aurora_core.spec.scenario import (
+    Event,
+    GroundAgent,
+    ScenarioSpec,
+    SendMessage,
+    Uav,
+    UavMission,
+)
 from aurora_core.spec.vocabulary import AgentType, MissionMode
 
 Make = Callable[..., Parameter]
@@ -43,6 +50,13 @@ def test_free_altitudes_are_stacked(parameter: Make, limits: Limits) -> None:
     spec = _spec(parameter, ('u1', 30.0, False), ('u2', 30.0, False), ('u3', 30.0, False))
     assert _heights(layered(spec, limits)) == [30.0, 40.0, 50.0]
     assert _heights(spec) == [30.0, 30.0, 30.0]
+
+
+def test_who_is_told_something_is_lowest(parameter: Make, limits: Limits) -> None:
+    spec = _spec(parameter, ('u1', 30.0, False), ('u2', 30.0, False))
+    tell = SendMessage(do='send_message', sender='u1', receiver='u2')
+    spec = spec.model_copy(update={'events': (Event(id='e1', action=tell),)})
+    assert _heights(layered(spec, limits)) == [40.0, 30.0]
 
 
 def test_stated_altitudes_stay_and_the_others_make_room(parameter: Make, limits: Limits) -> None:

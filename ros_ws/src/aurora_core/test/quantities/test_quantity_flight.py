@@ -116,7 +116,7 @@ def _route(k: int) -> tuple[float, float, float]:
 def test_waypoints_are_passed_in_order(tb: ModuleType) -> None:
     view = _view(tb, 600, flights=[tb.flight(600, (0.0, 0.0), 30.0, _route)])
     uav = view.body('uav1')
-    found = passages(view, uav, SQUARE, (3.0, 2.0), 180, 600)
+    found = passages(view.reference(uav.body_id), SQUARE, (3.0, 2.0), 180, 600)
     assert [p.tick is not None for p in found] == [True] * 4
     assert [p.nearest_m for p in found] == pytest.approx([0.0] * 4, abs=0.3)
     flown = legs(SQUARE, found)
@@ -130,7 +130,7 @@ def test_waypoints_are_passed_in_order(tb: ModuleType) -> None:
 def test_a_missed_waypoint_is_told_by_its_closest_approach(tb: ModuleType) -> None:
     view = _view(tb, 600, flights=[tb.flight(600, (0.0, 0.0), 30.0, _route)])
     points = (*SQUARE[:2], (52.0, 20.0, 30.0), SQUARE[3])
-    found = passages(view, view.body('uav1'), points, (3.0, 2.0), 180, 600)
+    found = passages(view.reference('uav1'), points, (3.0, 2.0), 180, 600)
     assert found[2].tick is None
     assert found[2].nearest_m == pytest.approx(12.0)
     assert found[3].tick is not None
@@ -139,7 +139,7 @@ def test_a_missed_waypoint_is_told_by_its_closest_approach(tb: ModuleType) -> No
 def test_a_waypoint_at_the_wrong_altitude_is_not_visited(tb: ModuleType) -> None:
     view = _view(tb, 600, flights=[tb.flight(600, (0.0, 0.0), 30.0, _route)])
     points = ((40.0, 0.0, 34.0),)
-    (found,) = passages(view, view.body('uav1'), points, (3.0, 2.0), 180, 600)
+    (found,) = passages(view.reference('uav1'), points, (3.0, 2.0), 180, 600)
     assert found.tick is None
     assert found.nearest_m == pytest.approx(4.0 * 3.0 / 2.0)
 
@@ -147,7 +147,7 @@ def test_a_waypoint_at_the_wrong_altitude_is_not_visited(tb: ModuleType) -> None
 def test_waypoints_out_of_order_do_not_count(tb: ModuleType) -> None:
     view = _view(tb, 600, flights=[tb.flight(600, (0.0, 0.0), 30.0, _route)])
     points = (SQUARE[2], SQUARE[1])
-    found = passages(view, view.body('uav1'), points, (3.0, 2.0), 180, 600)
+    found = passages(view.reference('uav1'), points, (3.0, 2.0), 180, 600)
     assert found[0].tick is not None
     assert found[1].tick is None
 

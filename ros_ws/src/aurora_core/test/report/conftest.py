@@ -218,6 +218,7 @@ def make_judged(verdict: Verdict, *clauses: ClauseReport) -> JudgedBag:
         hashes=TraceHashes(trace_sha256='a' * 64, motion_sha256='b' * 64),
         verdict=verdict,
         clauses=clauses or (text,),
+        facts=make_facts(verdict=verdict),
     )
 
 

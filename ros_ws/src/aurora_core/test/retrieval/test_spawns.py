@@ -6,7 +6,8 @@ from __future__ import annotations
 
 import pytest
 
-from aurora_core.knowledge.map_model import list_maps, load_map
+from aurora_core.knowledge.map_folders import list_maps
+from aurora_core.knowledge.map_model import load_map
 from aurora_core.retrieval.record import Record
 from aurora_core.retrieval.spawns import spawn_records
 

@@ -10,7 +10,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from aurora_core.stl.online_kept import Kept
+from aurora_core.stl.online_streams import Kept
 
 
 @settings(max_examples=100, deadline=None, derandomize=True)

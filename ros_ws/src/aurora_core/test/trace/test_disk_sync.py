@@ -42,11 +42,12 @@ def test_an_error_is_told_at_the_next_request(monkeypatch: pytest.MonkeyPatch) -
         raise OSError(5, 'Input/output error')
 
     monkeypatch.setattr(os, 'fsync', broken_disk)
+    others = set(threading.enumerate())
     sync = DiskSync(7)
+    (mine,) = set(threading.enumerate()) - others
     sync.request()
-    for thread in threading.enumerate():
-        if thread.name == 'disk-sync':
-            thread.join(WAIT_S)
+    mine.join(WAIT_S)
+    assert not mine.is_alive()
     with pytest.raises(OSError, match='Input/output'):
         sync.request()
     sync.close()

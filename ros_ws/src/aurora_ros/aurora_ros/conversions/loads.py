@@ -10,6 +10,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from aurora_core.errors import AirSimulatorError, GroundSimulatorError, MapError
 from aurora_core.knowledge.config_files import config_path
+from aurora_core.knowledge.map_folders import map_folder
 from aurora_core.knowledge.map_manifest import read_manifest
 from aurora_core.knowledge.map_model import NET_NAME
 from aurora_core.ports.simulators import AirLoad, GroundAgentLoad, GroundLoad, UavHome
@@ -44,7 +45,7 @@ def ground_load(request: LoadGround.Request) -> GroundLoad:
         MapError: The map is missing, changed, or not the one of the request.
         GroundSimulatorError: The agents cannot be read.
     """
-    folder = config_path('maps', request.map_name)
+    folder = map_folder(request.map_name)
     manifest = read_manifest(folder)
     if manifest.digest != request.map_digest:
         raise MapError(

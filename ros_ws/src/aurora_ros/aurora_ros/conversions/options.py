@@ -8,10 +8,8 @@ import json
 from pathlib import Path
 from typing import Any
 
-from pydantic import ValidationError
-
 from aurora_core.errors import SpecError
-from aurora_core.pipeline.stages import RunRequest
+from aurora_core.pipeline.stages import RunRequest, request_of
 
 # The short name that people type, and the field it stands for.
 _SHORT_NAMES = {'map': 'map_name'}
@@ -29,20 +27,9 @@ def run_request(prompt: str, options: str) -> RunRequest:
     Raises:
         SpecError: The options are not a JSON object of known names and values.
     """
-    try:
-        fields = {_SHORT_NAMES.get(name, name): value for name, value in _given(options).items()}
-        fields.pop(_RUNS_DIRECTORY, None)
-        return RunRequest.model_validate({**fields, 'prompt': prompt})
-    except ValidationError as err:
-        known = ', '.join(name for name in RunRequest.model_fields if name != 'prompt')
-        raise SpecError(
-            f'options_json is not valid: {_told(err)}', hint=f'a JSON object with any of: {known}'
-        ) from err
-
-
-def _told(err: ValidationError) -> str:
-    errors = err.errors(include_input=False, include_url=False)
-    return '; '.join(f'{".".join(map(str, e["loc"]))}: {e["msg"]}' for e in errors)
+    fields = {_SHORT_NAMES.get(name, name): value for name, value in _given(options).items()}
+    fields.pop(_RUNS_DIRECTORY, None)
+    return request_of({**fields, 'prompt': prompt}, 'options_json')
 
 
 def runs_directory(options: str) -> Path | None:

@@ -5,7 +5,9 @@
 from __future__ import annotations
 
 import dataclasses
+import shutil
 from array import array
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -14,7 +16,7 @@ pytest.importorskip('rclpy')
 
 from aurora_core.errors import AirSimulatorError, ConfigError, GroundSimulatorError, MapError
 from aurora_core.knowledge.config_files import config_path
-from aurora_core.knowledge.map_manifest import read_manifest
+from aurora_core.knowledge.map_manifest import read_manifest, write_manifest
 from aurora_core.ports.simulators import AirLoad, GroundAgentLoad, GroundLoad, UavHome
 from aurora_ros.conversions.loads import air_load, ground_load, ground_request, uav_request
 
@@ -99,3 +101,23 @@ def test_uneven_arrays_are_refused() -> None:
     request.home_yaw_enu_rad = array('d', [0.0])
     with pytest.raises(AirSimulatorError, match='load of the UAVs'):
         air_load(request)
+
+
+def test_a_map_of_the_user_is_found_by_its_name(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    folder = shutil.copytree(FOLDER, tmp_path / 'mine')
+    manifest = read_manifest(folder)
+    write_manifest(folder, manifest.model_copy(update={'name': 'mine'}))
+    monkeypatch.setenv('AURORA_MAPS', str(tmp_path))
+    load = dataclasses.replace(GROUND, map_name='mine', map_digest=read_manifest(folder).digest)
+    request = ground_request(load, run_id='r', run_number=1, horizon_s=1.0, listeners=0)
+    assert ground_load(request).net_path == folder / 'net.xml.gz'
+
+
+@pytest.mark.parametrize('name', ['../maps/junction', 'atlantis', ''])
+def test_a_name_that_is_no_map_is_refused(name: str) -> None:
+    load = dataclasses.replace(GROUND, map_name=name)
+    request = ground_request(load, run_id='r', run_number=1, horizon_s=1.0, listeners=0)
+    with pytest.raises(MapError, match='there is no map'):
+        ground_load(request)

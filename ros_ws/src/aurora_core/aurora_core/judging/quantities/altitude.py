@@ -27,6 +27,9 @@ from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import Event, UavAction
 from aurora_core.trace.layout import UavCommandColumn
 
+# Who is to stay in the air is higher than this above ground (m).
+AIRBORNE_M = 1.0
+
 
 class Altitude(StatedSeries):
     """Height of a UAV above ground, metres."""
@@ -91,6 +94,19 @@ def limits(
         ),
         arguments=CommandedAltitude(**inputs.common, window=Window.ON_MISSION, missions=missions),
         source=EVERY_RUN,
+    )
+
+
+def stays_up(inputs: Inputs, missions: tuple[MissionArguments, ...], source: Source) -> Condition:
+    """Return that a UAV is in the air from its last mission to the end of the run."""
+    uav = missions[-1].uav
+    return condition(
+        id=f'{uav}.stays_up',
+        sentence=f'{uav} is in the air from its last mission to the end of the run',
+        of=(uav,),
+        target=Target(op='>', threshold=AIRBORNE_M, unit='m'),
+        arguments=Altitude(**inputs.common, window=Window.TO_THE_END, missions=missions),
+        source=source,
     )
 
 

@@ -40,8 +40,9 @@ class AltitudeFraction(OfMission):
         ticks = context.window(condition)
         if isinstance(ticks, Missing):
             return ticks
+        good = self.altitude.good(context.position(self.mission)[:, 2])
         values = motion.altitude(context.view, context.view.body(condition.of[0]))
-        good, what = self.altitude.good(values), f'{condition.of[0]} kept its altitude'
+        what = f'{condition.of[0]} kept its altitude'
         return share_of(context, ticks, good, values, what, self.phase_topics)
 
 

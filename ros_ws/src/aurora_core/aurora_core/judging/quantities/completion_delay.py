@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""How late what an event makes a ground agent do is complete."""
+"""How late what an event makes an agent or a UAV do is complete."""
 
 from __future__ import annotations
 
@@ -21,27 +21,32 @@ from aurora_core.judging.build import (
 )
 from aurora_core.judging.evaluation import Context, Evaluation, Later, at_tick, ground_topics
 from aurora_core.judging.happening import agent_action, never_happened
+from aurora_core.judging.mission import climb_mps, descent_mps
 from aurora_core.judging.quantity import OfEvent
 from aurora_core.outcomes.condition import Condition
 from aurora_core.quantities import motion
 from aurora_core.quantities.actions import ends_with_mps
+from aurora_core.quantities.lane_changes import LANE_CHANGE_S
+from aurora_core.quantities.ticks import first_tick
 from aurora_core.spec.parameter import Parameter, Provenance
 from aurora_core.spec.quantity import QuantityName
-from aurora_core.spec.scenario import AgentAction, Event
+from aurora_core.spec.scenario import AgentAction, Event, UavAction
 
-# Actions that end with a speed of their own, and what is said of them without a number.
+# Actions that end with a speed or lane of their own, and what is said of them without a number.
 ENDS = {
     'stop': 'has stopped',
     'slow': 'has slowed down to half its speed',
     'accelerate': 'has gained its speed',
+    'change_lane': 'is in the middle of another lane',
 }
 
 
 class CompletionDelay(OfEvent):
     """Time from when an action is due to its completion, beyond what it needs, seconds.
 
-    It needs the change of speed divided by what the agent can do. An action without a trigger is
-    never late: it has to be complete at some time.
+    It needs the change of speed divided by what the agent can do; a change of lane has its time,
+    from when there is another lane. An action without a trigger is never late: it has to be
+    complete at some time.
 
     Attributes:
         goal_mps: Stated speed that it ends with, 0 where none is stated.
@@ -66,7 +71,11 @@ class CompletionDelay(OfEvent):
         gone = context.gone(condition, np.array([due], dtype=np.intp))
         if gone is not None:
             return gone
+        possible = times.possible_tick(self.event, due)
+        if possible is None:
+            return never_happened(context, condition, f'{self.event} was possible nowhere')
         before_mps, needed_s = self._needed(context, condition, action, due)
+        needed_s += context.time_s(possible - due)
         topics = ground_topics(condition)
         begin = f'{self.event} was due at {context.time_s(due):.2f} s with {before_mps:.2f} m/s'
         done = times.completion_tick(self.event)
@@ -93,6 +102,8 @@ class CompletionDelay(OfEvent):
             raise VerificationError(f'condition {condition.id} has no rules of actions')
         speed = motion.speed(context.view, context.view.body(action.agent))
         before_mps = float(speed[due])
+        if action.do == 'change_lane':
+            return before_mps, LANE_CHANGE_S
         goal_mps = ends_with_mps(action, before_mps, rules)
         change_mps = 0.0 if goal_mps is None else abs(goal_mps - before_mps)
         return before_mps, change_mps / self.acceleration_mps2
@@ -103,6 +114,80 @@ class CompletionDelay(OfEvent):
             return never_happened(context, condition, f'{self.event} was never complete')
         story = f'{self.event} was complete at {context.time_s(done):.2f} s'
         return at_tick(done, 0.0, story, ground_topics(condition))
+
+
+class ClimbDelay(OfEvent):
+    """Time from when a climb is due to its end, beyond what it needs, seconds.
+
+    Attributes:
+        altitude_m: Where it leads, above ground.
+        tolerance_m: On that.
+        climb_mps: Rate at which the UAV can climb on average.
+        descent_mps: Rate at which it can sink.
+    """
+
+    name = QuantityName.COMPLETION_DELAY
+    kind: Literal['climb_delay'] = 'climb_delay'
+    altitude_m: FiniteFloat
+    tolerance_m: FiniteFloat
+    climb_mps: FiniteFloat
+    descent_mps: FiniteFloat
+
+    def measure(self, context: Context, condition: Condition) -> Evaluation:
+        """Return that time; who is not up when it has to be is late."""
+        (uav,) = condition.of
+        due = context.events.due_tick(self.event)
+        if due is None or due >= context.view.ticks:
+            return never_happened(context, condition, f'{self.event} was never due')
+        z_m = motion.altitude(context.view, context.view.body(uav))
+        rise_m = self.altitude_m - float(z_m[due])
+        needed_s = max(rise_m / self.climb_mps, -rise_m / self.descent_mps)
+        topics = (f'uav/state[{uav}]',)
+        begin = (
+            f'{uav} was told to change its altitude at {context.time_s(due):.2f} s, '
+            f'{z_m[due]:.2f} m high'
+        )
+        there = first_tick(np.abs(z_m - self.altitude_m) <= self.tolerance_m, due)
+        if there is not None:
+            took_s = context.time_s(there - due)
+            story = f'{begin}; it was there {took_s:.2f} s later, {needed_s:.2f} s were needed'
+            return at_tick(there, took_s - needed_s, story, topics)
+        waited_s = context.time_s(context.view.ticks - due) - needed_s
+        if waited_s > condition.threshold or context.complete(condition):
+            late_s = max(waited_s, condition.threshold + context.view.dt_s)
+            story = f'{begin}; it never got to {number(self.altitude_m)} m'
+            return at_tick(due, late_s, story, topics, later=Later.RISES, provisional=True)
+        return context.short(condition)
+
+
+def of_climb(
+    inputs: Inputs, event: Event, action: UavAction, altitude: Parameter, source: Source
+) -> Condition:
+    """Return that a UAV is soon where an event makes it climb to."""
+    allowed_s = inputs.tolerances.action_done_s
+    rates = climb_mps(inputs), descent_mps(inputs)
+    if altitude.provenance is Provenance.EXPLICIT:
+        source = stated_by(source, altitude)
+    return condition(
+        id=f'{event.id}.completed',
+        sentence=(
+            f'{action.uav} is {number(altitude.value)} m high at most {number(allowed_s)} s later '
+            f'than {number(rates[0])} m/s up and {number(rates[1])} m/s down allow'
+        ),
+        of=(action.uav,),
+        target=Target(op='<=', threshold=allowed_s, unit='s'),
+        arguments=ClimbDelay(
+            **inputs.of_event(event.id),
+            altitude_m=altitude.value,
+            tolerance_m=inputs.tolerances.altitude_m.of(
+                altitude.value, approximate=altitude.approximate
+            ),
+            climb_mps=rates[0],
+            descent_mps=rates[1],
+        ),
+        source=source,
+        every_sample=False,
+    )
 
 
 def implied(
@@ -128,12 +213,12 @@ def implied(
         if goal.provenance is Provenance.EXPLICIT:
             source = stated_by(source, goal)
     allowed_s = inputs.tolerances.action_done_s
+    allow = f'{number(least)} m/s^2 allow'
+    if action.do == 'change_lane':
+        allow = f'{number(LANE_CHANGE_S)} s after it had one to change to'
     return condition(
         id=f'{event.id}.completed',
-        sentence=(
-            f'{action.agent} {done} at most {number(allowed_s)} s later than '
-            f'{number(least)} m/s^2 allow'
-        ),
+        sentence=f'{action.agent} {done} at most {number(allowed_s)} s later than {allow}',
         of=(action.agent,),
         target=Target(op='<=', threshold=allowed_s, unit='s'),
         arguments=CompletionDelay(

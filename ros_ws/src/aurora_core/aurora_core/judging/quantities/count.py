@@ -16,10 +16,9 @@ from aurora_core.outcomes.condition import Condition, Window
 from aurora_core.spec.parameter import Provenance, Span
 from aurora_core.spec.prohibitions import ForbiddenAgent
 from aurora_core.spec.quantity import QuantityName
-from aurora_core.spec.requirements import SceneCount
-from aurora_core.spec.vocabulary import AgentType, Role
+from aurora_core.spec.requirements import SceneCount, types_counted
+from aurora_core.spec.vocabulary import Role
 
-UAV_TYPE = 'uav'
 _EXACT = Tolerance(absolute=0.0, relative=0.0)
 
 
@@ -73,19 +72,6 @@ def implied(
         arguments=Count(**inputs.common, types=(kind,)),
         source=Source(ids=ids, spans=spans),
     )
-
-
-def types_counted(kind: str) -> tuple[str, ...]:
-    """Return the types of the vocabulary that a stated number is about.
-
-    Args:
-        kind: A type, `uav`, `vehicle`, `person` or `body` (all of them).
-    """
-    walks = AgentType.PEDESTRIAN.value
-    stands = AgentType.RSU.value
-    drives = tuple(t.value for t in AgentType if t.value not in (walks, stands))
-    groups = {'vehicle': drives, 'person': (walks,), 'body': (*drives, walks, UAV_TYPE)}
-    return groups.get(kind, (kind,))
 
 
 def stated(inputs: Inputs, count: SceneCount) -> Condition:

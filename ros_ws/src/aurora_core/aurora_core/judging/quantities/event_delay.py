@@ -15,7 +15,7 @@ from aurora_core.judging.quantity import OfEvent
 from aurora_core.outcomes.condition import Condition
 from aurora_core.quantities.ticks import whole_ticks
 from aurora_core.spec.quantity import QuantityName
-from aurora_core.spec.scenario import Order
+from aurora_core.spec.scenario import AgentAction, Event, Order
 
 
 class EventDelay(OfEvent):
@@ -40,9 +40,17 @@ class EventDelay(OfEvent):
             first, fresh = trigger + whole_ticks(self.after_s, context.view.dt_s), True
         action = context.events.action_tick(self.event, first, begins_there=fresh)
         begin = trigger_story(context, self.event, trigger)
+        possible = context.events.possible_tick(self.event, first)
+        if possible is None:
+            return never_happened(context, condition, f'{begin}; it was possible nowhere then')
+        if possible > first:
+            # The time for which it was not possible does not count.
+            trigger += possible - first
+            begin = f'{begin}; it was possible from {context.time_s(possible):.2f} s on'
         if action is not None:
             return _carried_out(context, self.event, begin, trigger, action)
         waited_s = context.time_s(context.view.ticks - trigger)
+        waited_s -= context.events.hidden_s(self.event)
         if waited_s > condition.threshold:
             story = f'{begin}; {self.event} was not carried out in the {waited_s:.2f} s after it'
             topics = EVENT_TOPICS
@@ -98,15 +106,17 @@ def _carried_out(
 
 
 def within(
-    inputs: Inputs, event_id: str, latest_s: float, after_s: float, source: Source
+    inputs: Inputs, event: Event, latest_s: float, after_s: float, source: Source
 ) -> Condition:
     """Return that an event is carried out soon enough after its trigger."""
+    changes = isinstance(event.action, AgentAction) and event.action.do == 'change_lane'
+    where = ', apart from the time without another lane to change to' if changes else ''
     return condition(
-        id=f'{event_id}.within',
-        sentence=f'{event_id} happens within {number(latest_s)} s of its trigger',
-        of=(event_id,),
+        id=f'{event.id}.within',
+        sentence=f'{event.id} happens within {number(latest_s)} s of its trigger{where}',
+        of=(event.id,),
         target=Target(op='<=', threshold=latest_s, unit='s'),
-        arguments=EventDelay(**inputs.of_event(event_id), after_s=after_s),
+        arguments=EventDelay(**inputs.of_event(event.id), after_s=after_s),
         source=source,
         every_sample=False,
     )
@@ -127,16 +137,34 @@ def not_before(inputs: Inputs, event_id: str, first_s: float, source: Source) ->
 
 
 def in_order(
-    inputs: Inputs, order: Order, name: str, sentence: str, target: Target, source: Source
+    inputs: Inputs,
+    order: Order,
+    name: str,
+    sentence: str,
+    target: Target,
+    source: Source,
+    awaiting: Event | None = None,
 ) -> Condition:
-    """Return that one event comes before another one, or within some time of it."""
+    """Return that one event comes before another one, or within some time of it.
+
+    Args:
+        inputs: What conditions are derived from.
+        order: The order.
+        name: Of the condition, behind the id of the order.
+        sentence: The condition in words.
+        target: Bound on the time between the two (s).
+        source: Where the order is stated.
+        awaiting: Event that waits for the end of what comes first; it acts not before then.
+    """
     return condition(
         id=f'{order.id}.{name}',
         sentence=sentence,
         signal=f'time_between({order.first},{order.then})',
         of=(order.first, order.then),
         target=target,
-        arguments=TimeBetween(**inputs.of_event(order.then)),
+        arguments=TimeBetween(**inputs.of_event(order.then))
+        if awaiting is None
+        else DelayOfFirst(**inputs.of_event(awaiting.id)),
         source=source,
         every_sample=False,
     )

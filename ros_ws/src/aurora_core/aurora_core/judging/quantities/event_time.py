@@ -36,6 +36,11 @@ class EventTime(OfEvent):
             tick = moment(context, self.event)
         if tick is None:
             return never_happened(context, condition, f'{self.event} never happened')
+        due = context.events.due_tick(self.event)
+        if self.part == 'action' and due is not None:
+            # The time for which it was not possible does not count.
+            possible = context.events.possible_tick(self.event, due)
+            tick -= 0 if possible is None else possible - due
         value = context.time_s(tick)
         return at_tick(tick, value, f'{self.event} happened at {value:.2f} s', ('events',))
 

@@ -26,7 +26,9 @@ from aurora_core.quantities import free_road, motion
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import Behavior, GroundAgent
-from aurora_core.spec.vocabulary import AgentType
+from aurora_core.spec.vocabulary import AgentType, Relation
+
+_BEHIND = (Relation.BEHIND, Relation.BEFORE, Relation.SAME_LANE)
 
 
 class _KeptSpeed(Quantity):
@@ -88,7 +90,7 @@ class WalkingSpeed(_KeptSpeed):
 class FreeSpeed(_KeptSpeed):
     """Of a vehicle: the samples on a free road count.
 
-    The second body of the condition is no leader that keeps it from its speed.
+    The other bodies of the condition are no leaders that keep it from its speed.
 
     Attributes:
         settle_m: Way that it needs to reach its speed.
@@ -114,15 +116,34 @@ class FreeSpeed(_KeptSpeed):
         return free, 'drove free of leaders and junctions'
 
 
+def _followed(inputs: Inputs, agent: GroundAgent, behavior: Behavior) -> tuple[str, ...]:
+    """Return who may be in front and excuses nothing.
+
+    Whoever is there because the request says so, and who is to go as fast.
+    """
+    named = [behavior.target or '']
+    named += [p.of or '' for p in agent.placements if p.relation in _BEHIND]
+    for other in inputs.spec.agents:
+        ahead = any(p.of == agent.id and p.relation is Relation.AHEAD for p in other.placements)
+        named += [other.id] if ahead or _as_fast(other, behavior) else []
+    known = [n for n in named if n != agent.id and inputs.agent(n) is not None]
+    return tuple(dict.fromkeys(known))
+
+
+def _as_fast(other: GroundAgent, behavior: Behavior) -> bool:
+    wanted = behavior.speed_mps
+    told = [b.speed_mps.value for b in other.behaviors if b.speed_mps is not None]
+    return wanted is not None and wanted.value in told
+
+
 def implied(
     inputs: Inputs, agent: GroundAgent, behavior: Behavior, speed: Parameter, name: str
 ) -> Condition:
     """Return that an agent has its stated speed wherever it can."""
     t = inputs.tolerances
     walks = agent.type is AgentType.PEDESTRIAN
-    known = inputs.agent(behavior.target or '')
     # Whom it follows is no leader that keeps it from its speed: both are asked together.
-    of = (agent.id,) if known is None or walks else (agent.id, known.id)
+    of = (agent.id,) if walks else (agent.id, *_followed(inputs, agent, behavior))
     slack = t.route_speed_mps.of(speed.value, approximate=speed.approximate)
     where = f'with no {"other " if len(of) > 1 else ""}leader or junction within'
     rest = 'while it walks' if walks else f'{where} {number(t.free_road_m)} m'

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""How long a vehicle keeps to the lane that it has changed to."""
+"""How long a vehicle keeps to the lane that it has changed to, at some time or after an event."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from typing import Literal
 
 import numpy as np
 
+from aurora_core.judging.build import Inputs, Source, Target, condition, number
 from aurora_core.judging.evaluation import (
     Context,
     Evaluation,
@@ -17,7 +18,8 @@ from aurora_core.judging.evaluation import (
     at_tick,
     ground_topics,
 )
-from aurora_core.judging.quantity import Quantity
+from aurora_core.judging.happening import agent_action, never_happened
+from aurora_core.judging.quantity import OfEvent, Quantity
 from aurora_core.judging.until import existing_until
 from aurora_core.outcomes.condition import Condition, Window
 from aurora_core.outcomes.verdict import Reason
@@ -32,6 +34,7 @@ from aurora_core.quantities.lanes import (
 )
 from aurora_core.quantities.ticks import whole_ticks
 from aurora_core.spec.quantity import QuantityName
+from aurora_core.spec.scenario import AgentAction, Event
 
 
 class LaneChange(Quantity):
@@ -66,6 +69,60 @@ class LaneChange(Quantity):
             f'for {kept_s:.2f} s'
         )
         return at_tick(tick, kept_s, story, ground_topics(condition), later=Later.RISES)
+
+
+class LaneKeptAfter(OfEvent):
+    """Time for which a lane was kept after the change to it that an event asks for, s."""
+
+    name = QuantityName.LANE_CHANGE
+    kind: Literal['lane_kept_after'] = 'lane_kept_after'
+
+    def measure(self, context: Context, condition: Condition) -> Evaluation:
+        """Return the time from when the vehicle got to the other lane."""
+        action = agent_action(context, condition, self.event)
+        times = context.events
+        due = 0 if self.untold(context) else times.due_tick(self.event)
+        possible = None if due is None else times.possible_tick(self.event, due)
+        if due is None or possible is None:
+            what = 'due' if due is None else 'possible'
+            return never_happened(context, condition, f'{self.event} was never {what}')
+        view = context.view
+        body = view.body(action.agent)
+        lanes = lane_of(view, body)
+        topics = ground_topics(condition)
+        begins = times.action_tick(self.event, due)
+        if begins is None:
+            story = f'{body.body_id} kept to its lane'
+            return at_tick(possible, 0.0, story, topics, later=Later.RISES, provisional=True)
+        changes = lane_change_ticks(view, lanes)
+        tick = next(t for t in changes if t >= begins)
+        back = next((t for t in changes if t > tick), view.ticks - 1)
+        kept_s = context.time_s(back - tick)
+        story = (
+            f'{body.body_id} got to the other lane at {context.time_s(tick):.2f} s and kept to it '
+            f'for {kept_s:.2f} s'
+        )
+        kept = back < view.ticks - 1
+        return at_tick(tick, kept_s, story, topics, later=Later.RISES, provisional=not kept)
+
+    def untold(self, context: Context) -> bool:
+        """Tell whether nobody says when the event happens."""
+        event = context.events.event(self.event)
+        return event is not None and event.trigger is None
+
+
+def after_event(inputs: Inputs, event: Event, action: AgentAction, source: Source) -> Condition:
+    """Return that an agent keeps to the lane that an event makes it change to."""
+    hold_s = inputs.tolerances.lane_hold_s
+    return condition(
+        id=f'{event.id}.lane',
+        sentence=f'{action.agent} keeps to the other lane for {number(hold_s)} s',
+        of=(action.agent,),
+        target=Target(op='>=', threshold=hold_s, unit='s'),
+        arguments=LaneKeptAfter(**inputs.of_event(event.id)),
+        source=source,
+        every_sample=False,
+    )
 
 
 def _kept(changes: list[int], lanes: LaneArray, end: int, least: int) -> list[int]:

@@ -4,19 +4,26 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Literal
 
 from pydantic import FiniteFloat
 
+from aurora_core.document import omitted
+from aurora_core.geometry.kernel import norm2
 from aurora_core.judging.build import Inputs, Source, Target, condition, number
 from aurora_core.judging.evaluation import Context, Evaluation, Later, Missing, at_tick
 from aurora_core.judging.quantity import OfMission
-from aurora_core.judging.route import route_flown
+from aurora_core.judging.route import is_broken_off, route_flown
 from aurora_core.judging.until import not_yet
 from aurora_core.outcomes.condition import Condition, MissionArguments, Window
 from aurora_core.outcomes.verdict import Reason
 from aurora_core.quantities.phases import FlightPhases
 from aurora_core.spec.quantity import QuantityName
+
+# Time that a route may take: so much of what its stated speed gives, and so long per point (s).
+_SLOW_SHARE = 1.5
+_CORNER_S = 4.0
 
 
 class PhaseOrder(OfMission):
@@ -92,10 +99,16 @@ class PhaseTime(OfMission):
 
 
 class TimeAfterRoute(OfMission):
-    """How long before the end of its phase a route was flown, seconds; negative: it was not."""
+    """How long before the end of its phase a route was flown, seconds; negative: it was not.
+
+    Attributes:
+        allowed_s: Where an event may break the route off: time that it may take. Of one that is
+            still under way then the time that is left counts.
+    """
 
     name = QuantityName.MISSION_COMPLETED
     kind: Literal['time_after_route'] = 'time_after_route'
+    allowed_s: FiniteFloat | None = omitted(None)
 
     def measure(self, context: Context, condition: Condition) -> Evaluation:
         """Return that time; a missed route ended at least one tick before it was done."""
@@ -104,6 +117,11 @@ class TimeAfterRoute(OfMission):
         if missing is not None:
             return missing
         phase = context.phase(mission, self.touchdown_m)
+        if self.allowed_s is not None and is_broken_off(context, condition, mission):
+            assert phase.capture_tick is not None  # nothing is missing
+            took_s = context.time_s(phase.stop_tick - phase.capture_tick)
+            story = f'{mission.uav} had been on its route for {took_s:.2f} s when it was ended'
+            return at_tick(phase.stop_tick - 1, self.allowed_s - took_s, story, self.phase_topics)
         flown = route_flown(context, condition, mission)
         last = flown[-1]
         missed = [k for k, passage in enumerate(flown) if passage.tick is None]
@@ -163,18 +181,25 @@ def in_order(
 def completed(inputs: Inputs, mission: MissionArguments, *, id: str, source: Source) -> Condition:
     """Return that a mission lasts as long as planned, or that its route is flown."""
     uav, planned_s = mission.uav, mission.planned_s
-    if planned_s is None:
+    if mission.waypoints:
+        until = '' if mission.left_by is None else f', or is on it when {mission.left_by} ends it'
         return condition(
             id=id,
-            sentence=(f'{uav} has flown the whole route of {mission.mission} when the phase ends'),
+            sentence=(
+                f'{uav} has flown the whole route of {mission.mission} when the phase ends{until}'
+            ),
             signal=f'time_after_route({uav},{mission.mission})',
             of=(uav,),
             target=Target(op='>=', threshold=0.0, unit='s'),
-            arguments=TimeAfterRoute(**inputs.common, mission=mission),
+            arguments=TimeAfterRoute(
+                **inputs.common, mission=mission, allowed_s=_allowed_s(inputs, mission)
+            ),
             source=source,
             every_sample=False,
         )
-    least_s = max(0.0, planned_s - inputs.tolerances.duration_s.of(planned_s))
+    least_s = 0.0
+    if planned_s is not None and mission.left_by is None:
+        least_s = max(0.0, planned_s - inputs.tolerances.duration_s.of(planned_s))
     return condition(
         id=id,
         sentence=f'{uav} stays on {mission.mission} for at least {number(least_s)} s',
@@ -185,6 +210,16 @@ def completed(inputs: Inputs, mission: MissionArguments, *, id: str, source: Sou
         source=source,
         every_sample=False,
     )
+
+
+def _allowed_s(inputs: Inputs, mission: MissionArguments) -> float | None:
+    """Return the time that a route which an event may end takes at most, None for all others."""
+    facts = inputs.mission_facts(mission.mission)
+    if mission.left_by is None or facts is None:
+        return None
+    way_m = sum(norm2(b[0] - a[0], b[1] - a[1]) for a, b in pairwise(mission.waypoints))
+    corners_s = _CORNER_S * len(mission.waypoints)
+    return _SLOW_SHARE * way_m / facts.transit_speed_mps + corners_s
 
 
 def deadline(

@@ -17,7 +17,11 @@ from aurora_core.spec.quantity import QuantityName
 
 
 class PatternCentre(OfMission):
-    """Distance from the centre of the pattern to the target at t = 0, metres."""
+    """Distance from the centre of the pattern, or the hover point, to the target at t = 0, metres.
+
+    A landmark that is a building is where its middle is; of a hover over its roof, or over the
+    street before it from where it is seen, the nearest one of them counts.
+    """
 
     name = QuantityName.PATTERN_CENTRE
     kind: Literal['pattern_centre'] = 'pattern_centre'
@@ -31,11 +35,28 @@ class PatternCentre(OfMission):
         target = condition.of[1]
         if not context.view.present(target)[0]:
             return Missing(reason=Reason.TARGET_GONE, story=f'{target} is absent at t = 0', tick=0)
-        x, y = pattern_centre(self.mission.waypoints)
-        at = context.view.reference(target)[0]
-        value = float(distance_2d(float(at[0]) - x, float(at[1]) - y))
-        story = f'the centre of the pattern is {value:.2f} m from {target} at t = 0'
+        hovers = not self.mission.waypoints and self.mission.point_m is not None
+        point = self.mission.point_m or (0.0, 0.0)
+        x, y = point if hovers else pattern_centre(self.mission.waypoints)
+        value = self._away_m(context, target, (x, y), hovers=hovers)
+        what = 'hover point' if hovers else 'centre of the pattern'
+        story = f'the {what} is {value:.2f} m from {target} at t = 0'
         return at_tick(0, value, story, (f'state[{target}]',))
+
+    def _away_m(
+        self, context: Context, target: str, point: tuple[float, float], *, hovers: bool
+    ) -> float:
+        x, y = point
+        at = context.view.reference(target)[0]
+        before_m = float(distance_2d(float(at[0]) - x, float(at[1]) - y))
+        building = context.view.geometry.building_of(target)
+        if building is None:
+            return before_m
+        middle = building.centre
+        away_m = float(distance_2d(middle[0] - x, middle[1] - y))
+        if not hovers:
+            return away_m
+        return 0.0 if building.is_below(x, y) else min(away_m, before_m)
 
 
 def implied(inputs: Inputs, mission: MissionArguments, target: str, source: Source) -> Condition:
@@ -46,6 +67,22 @@ def implied(inputs: Inputs, mission: MissionArguments, target: str, source: Sour
         sentence=(
             f'the pattern of {mission.uav} is centred within {number(limit)} m of {target} '
             'at t = 0'
+        ),
+        of=(mission.uav, target),
+        target=Target(op='<=', threshold=limit, unit='m'),
+        arguments=PatternCentre(**inputs.common, mission=mission),
+        source=source,
+        every_sample=False,
+    )
+
+
+def of_hover(inputs: Inputs, mission: MissionArguments, target: str, source: Source) -> Condition:
+    """Return that a UAV hovers over its target."""
+    limit = inputs.tolerances.pattern_centre_m
+    return condition(
+        id=f'{mission.mission}.over',
+        sentence=(
+            f'the hover point of {mission.uav} is within {number(limit)} m of {target} at t = 0'
         ),
         of=(mission.uav, target),
         target=Target(op='<=', threshold=limit, unit='m'),

@@ -42,9 +42,9 @@ class PatternExtent(OfMission):
         if isinstance(ticks, Missing):
             return ticks
         uav = self.mission.uav
+        topics = route_topics(condition)
         value = extent(context.view.reference(uav)[ticks], self.axis)
         story = f'{uav} flew {value:.2f} m far along that side of its pattern'
-        topics = route_topics(condition)
         return at_tick(int(ticks[-1]), value, story, topics, later=Later.RISES)
 
 

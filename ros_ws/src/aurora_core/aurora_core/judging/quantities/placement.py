@@ -14,6 +14,7 @@ from aurora_core.judging.build import (
     Inputs,
     Source,
     Target,
+    bound_words,
     condition,
     number,
     number_target,
@@ -39,7 +40,7 @@ from aurora_core.outcomes.condition import Condition, Window
 from aurora_core.outcomes.verdict import Reason
 from aurora_core.quantities import motion
 from aurora_core.quantities.ticks import first_tick
-from aurora_core.spec.parameter import Provenance
+from aurora_core.spec.parameter import Bound, Parameter, Provenance
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import Behavior, GroundAgent, Placement
 from aurora_core.spec.vocabulary import Place, Relation
@@ -88,20 +89,7 @@ class PlacedDistance(Quantity):
         gone = _absent(context, condition, 0)
         if gone is not None:
             return gone
-        return _one(condition, 0, self._distance(context, condition))
-
-    def _distance(self, context: Context, condition: Condition) -> FloatArray:
-        view = context.view
-        a, b = condition.of
-        if self.relation is Relation.BEFORE and not view.has(b):
-            return np.full(view.ticks, before_place(context, condition)[0])
-        if self.relation is Relation.AHEAD:
-            return context.along(b, a).lead_m
-        if self.relation in (Relation.BEHIND, Relation.BEFORE):
-            return context.along(a, b).lead_m
-        if self.relation is Relation.SAME_LANE:
-            return np.abs(context.along(b, a).lead_m)
-        return motion.horizontal_distance(view, a, b)
+        return _one(condition, 0, placed_distance_m(context, condition, self.relation))
 
 
 class PlacedBearing(Quantity):
@@ -196,6 +184,24 @@ class Overtaking(Quantity):
         return at_tick(farthest, most_m, evidence=topics, later=Later.RISES)
 
 
+def placed_distance_m(context: Context, condition: Condition, relation: Relation) -> FloatArray:
+    """Return how far apart two bodies are as a relation means it, (T,) metres.
+
+    Ahead, behind, before and in the same lane: along the route; all others straight.
+    """
+    view = context.view
+    a, b = condition.of
+    if relation is Relation.BEFORE and not view.has(b):
+        return np.full(view.ticks, before_place(context, condition)[0])
+    if relation is Relation.AHEAD:
+        return context.along(b, a).lead_m
+    if relation in (Relation.BEHIND, Relation.BEFORE):
+        return context.along(a, b).lead_m
+    if relation is Relation.SAME_LANE:
+        return np.abs(context.along(b, a).lead_m)
+    return motion.horizontal_distance(view, a, b)
+
+
 def _absent(context: Context, condition: Condition, tick: int) -> Missing | None:
     return context.gone(condition, np.array([tick], dtype=np.intp))
 
@@ -229,7 +235,7 @@ def implied(
     if distance is not None and distance.provenance is Provenance.EXPLICIT:
         yield condition(
             id=f'{name}.distance',
-            sentence=f'{agent.id} is {number(distance.value)} m {words} {of} at t = 0',
+            sentence=f'{agent.id} is {_so_far(distance)} {words} {of} at t = 0',
             signal=f'distance_{relation.value}({agent.id},{of})',
             of=pair,
             target=number_target(distance, inputs.placement_tolerance(agent.id)),
@@ -251,6 +257,11 @@ def implied(
         )
 
 
+def _so_far(distance: Parameter) -> str:
+    exact = distance.bound is Bound.EXACTLY
+    return f'{"" if exact else f"{bound_words(distance)} "}{number(distance.value)} m'
+
+
 def offset_m(inputs: Inputs, relation: Relation) -> float:
     """Return how far from a route a body may be, metres."""
     if relation in (Relation.SAME_LANE, Relation.ADJACENT_LANE):
@@ -262,7 +273,7 @@ def near_m(inputs: Inputs, relation: Relation, of: str) -> float:
     """Return how far apart is still near, or at, metres."""
     if relation is Relation.NEAR:
         return inputs.tolerances.near_m
-    on = relation in (Relation.ON, Relation.PARKED_AT)
+    on = relation in (Relation.ON, Relation.PARKED_AT, Relation.AT)
     strip = on and of == Place.ROADSIDE
     return inputs.tolerances.roadside_m if strip else inputs.tolerances.arrival_m
 

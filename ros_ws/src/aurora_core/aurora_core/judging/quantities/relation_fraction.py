@@ -6,12 +6,14 @@ from __future__ import annotations
 
 from typing import Literal
 
+import numpy as np
 from pydantic import FiniteFloat
 
 from aurora_core.judging.build import (
     Inputs,
     Source,
     Target,
+    bound_words,
     condition,
     number,
     stated_by,
@@ -25,14 +27,15 @@ from aurora_core.judging.evaluation import (
     TickArray,
     ground_topics,
 )
-from aurora_core.judging.quantities.placement import near_m, offset_m
+from aurora_core.judging.quantities.placement import near_m, offset_m, placed_distance_m
 from aurora_core.judging.quantity import OfMission, Quantity
 from aurora_core.judging.relations import RELATION_WORDS, bearing_error, relation_slack
 from aurora_core.judging.shares import share_of
+from aurora_core.knowledge.limits import Tolerance
 from aurora_core.outcomes.condition import Condition, MissionArguments, Window
-from aurora_core.spec.parameter import Parameter
+from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.quantity import QuantityName
-from aurora_core.spec.scenario import GroundAgent
+from aurora_core.spec.scenario import GroundAgent, Placement
 from aurora_core.spec.vocabulary import Relation
 
 
@@ -61,6 +64,38 @@ class RelationFraction(Quantity):
         good = values >= 0.0 if self.relation is Relation.BESIDE else values > 0.0
         a, b = condition.of
         what = f'{a} was {RELATION_WORDS[self.relation]} {b}'
+        return _share(context, condition, ticks, good, values, what)
+
+
+class DistanceFraction(Quantity):
+    """Share of the time in which two agents are as far apart as their relation asks for.
+
+    Attributes:
+        relation: Which one; it says how the distance is measured.
+        low_m: Least distance; None: any.
+        high_m: Greatest distance; None: any.
+    """
+
+    name = QuantityName.RELATION_FRACTION
+    kind: Literal['distance_fraction'] = 'distance_fraction'
+    window: Window = Window.MISSIONS
+    relation: Relation
+    low_m: FiniteFloat | None
+    high_m: FiniteFloat | None
+
+    def measure(self, context: Context, condition: Condition) -> Evaluation:
+        """Return the share; who is absent is at no distance."""
+        ticks = context.window(condition)
+        if isinstance(ticks, Missing):
+            return ticks
+        values = placed_distance_m(context, condition, self.relation)
+        good = np.ones(len(values), dtype=np.bool_)
+        if self.low_m is not None:
+            good &= values >= self.low_m
+        if self.high_m is not None:
+            good &= values <= self.high_m
+        a, b = condition.of
+        what = f'{a} kept its distance from {b}'
         return _share(context, condition, ticks, good, values, what)
 
 
@@ -102,10 +137,10 @@ def _share(
 
 
 def kept(
-    inputs: Inputs, agent: GroundAgent, relation: Relation, of: str, name: str, source: Source
+    inputs: Inputs, agent: GroundAgent, placement: Placement, of: str, name: str, source: Source
 ) -> Condition:
     """Return that a relation is kept in motion."""
-    share = inputs.tolerances.relation_fraction
+    relation, share = placement.relation, _least_share(inputs, placement)
     return condition(
         id=f'{name}.kept',
         sentence=(
@@ -125,6 +160,50 @@ def kept(
         source=source,
         every_sample=False,
     )
+
+
+def distance_kept(
+    inputs: Inputs, agent: GroundAgent, placement: Placement, of: str, name: str
+) -> Condition | None:
+    """Return that a stated distance is kept in motion, None where it is that at t = 0 only."""
+    distance = placement.distance_m
+    if distance is None or not placement.keeps_distance:
+        return None
+    share = _least_share(inputs, placement)
+    low_m, high_m = _ends_m(distance, inputs.placement_tolerance(agent.id))
+    words = RELATION_WORDS[placement.relation]
+    binds = '' if distance.bound is Bound.EXACTLY else f'{bound_words(distance)} '
+    return condition(
+        id=f'{name}.distance_kept',
+        sentence=(
+            f'{agent.id} stays {binds}{number(distance.value)} m {words} {of} for '
+            f'{number(100 * share)} % of the time until the last mission ends'
+        ),
+        signal=f'distance_{placement.relation.value}_fraction({agent.id},{of})',
+        of=(agent.id, of),
+        target=Target(op='>=', threshold=share, unit='1'),
+        fraction=share,
+        arguments=DistanceFraction(
+            **inputs.common, relation=placement.relation, low_m=low_m, high_m=high_m
+        ),
+        source=Source(ids=(agent.id,), spans=(distance.span,), provenance=distance.provenance),
+        every_sample=False,
+    )
+
+
+def _least_share(inputs: Inputs, placement: Placement) -> float:
+    """Return for how much of the time a placement has to hold."""
+    return 1.0 if placement.throughout else inputs.tolerances.relation_fraction
+
+
+def _ends_m(distance: Parameter, tolerance: Tolerance) -> tuple[float | None, float | None]:
+    """Return the least and the greatest distance that a stated one allows, metres."""
+    slack_m = tolerance.of(distance.value, approximate=distance.approximate)
+    if distance.bound is Bound.AT_LEAST:
+        return distance.value, None
+    if distance.bound is Bound.AT_MOST:
+        return None, distance.value
+    return distance.value - slack_m, distance.value + slack_m
 
 
 def bearing_kept(

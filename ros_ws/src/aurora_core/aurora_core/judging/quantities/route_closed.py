@@ -35,7 +35,7 @@ class RouteClosed(OfMission):
         tick, off_m = flown[-1].nearest_tick, flown[-1].nearest_m
         if any(passage.tick is None for passage in flown[:-1]):
             tick = context.phase(mission, self.touchdown_m).stop_tick - 1
-            end = context.view.reference(mission.uav)[tick : tick + 1]
+            end = context.position(mission)[tick : tick + 1]
             tolerances_m = (mission.waypoint_horizontal_m, mission.altitude_tolerance_m)
             off_m = float(approach(end, mission.waypoints[-1], *tolerances_m)[0])
         story = f'{mission.uav} came within {off_m:.2f} m of where its route began'

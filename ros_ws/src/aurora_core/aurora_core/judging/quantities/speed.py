@@ -10,7 +10,15 @@ from typing import Literal
 import numpy as np
 from pydantic import FiniteFloat
 
-from aurora_core.judging.build import EVERY_RUN, Inputs, Target, condition, number
+from aurora_core.judging.build import (
+    EVERY_RUN,
+    Inputs,
+    Source,
+    Target,
+    bound_words,
+    condition,
+    number,
+)
 from aurora_core.judging.evaluation import (
     Context,
     Evaluation,
@@ -28,7 +36,9 @@ from aurora_core.outcomes.condition import Condition, Window
 from aurora_core.outcomes.verdict import Reason
 from aurora_core.quantities import motion
 from aurora_core.quantities.ticks import first_tick
+from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.quantity import QuantityName
+from aurora_core.spec.scenario import GroundAgent
 
 # The length of a vector scaled to the limit may exceed it in the last bit.
 _ROUNDING = 1e-9
@@ -114,7 +124,9 @@ class SpeedAfterMoving(Series):
         values = self.values(context, condition)
         moved = first_tick(values >= self.moving_mps, 0, int(ticks[-1]) + 1)
         if moved is None:
-            return Missing(reason=Reason.PREMISE_NEVER, story=f'{condition.of[0]} never moved')
+            return Missing(
+                reason=Reason.PREMISE_NEVER, story=f'{condition.of[0]} never moved so fast'
+            )
         later = ticks[ticks >= moved]
         return Measured(ticks=later, values=values[later], evidence=self.topics(condition))
 
@@ -162,6 +174,31 @@ class GreatestDrop(Quantity):
         tick = int(np.argmax(drop))
         topics = ground_topics(condition)
         return at_tick(tick, float(drop[tick]), evidence=topics, later=Later.RISES)
+
+
+def slowed_to(inputs: Inputs, agent: GroundAgent, speed: Parameter, name: str) -> Condition:
+    """Return that an agent holds the speed that it is to slow down to, after a higher one."""
+    t = inputs.tolerances
+    faster_mps = speed.value + t.slow_by_mps
+    slack = t.action_speed_mps.of(speed.value, approximate=speed.approximate)
+    bounded = speed.bound is Bound.AT_MOST
+    return condition(
+        id=f'{name}.speed',
+        sentence=(
+            f'{agent.id} drives {bound_words(speed)} {number(speed.value)} m/s for '
+            f'{number(t.stop_hold_s)} s after at least {number(faster_mps)} m/s'
+        ),
+        of=(agent.id,),
+        target=Target(
+            op='<=' if bounded else '==',
+            threshold=speed.value + slack if bounded else speed.value,
+            tolerance=None if bounded else slack,
+            unit='m/s',
+        ),
+        hold_s=t.stop_hold_s,
+        arguments=SpeedAfterMoving(**inputs.common, moving_mps=faster_mps),
+        source=Source(ids=(agent.id,), spans=(speed.span,), provenance=speed.provenance),
+    )
 
 
 def ground_limits(

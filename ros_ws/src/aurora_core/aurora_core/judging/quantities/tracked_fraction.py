@@ -32,7 +32,8 @@ class TrackedFraction(OfMission):
         if isinstance(ticks, Missing):
             return ticks
         name, target = condition.of
-        good = tracked(context.view, context.view.body(name), target, rule)
+        uav, point = context.view.body(name), context.position(self.mission)
+        good = tracked(context.view, uav, target, rule, point)
         apart = motion.horizontal_distance(context.view, name, target)
         what = f'{name} tracked {target}'
         return share_of(context, ticks, good, apart, what, self.phase_topics)

@@ -20,7 +20,7 @@ from aurora_core.judging.evaluation import (
 from aurora_core.judging.quantity import Quantity
 from aurora_core.judging.until import moving_until
 from aurora_core.outcomes.condition import Condition, Window
-from aurora_core.quantities.angle import compass_bearing_deg
+from aurora_core.quantities.angle import compass_bearing_deg, turned_deg
 from aurora_core.quantities.ticks import whole_ticks
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.stl.windows import Extremum, sliding_clipped
@@ -50,10 +50,7 @@ class Turn(Quantity):
             return end
         rows = context.view.rows(context.view.body(condition.of[0]))[:end]
         heading = rows[:, GroundColumn.HEADING_X], rows[:, GroundColumn.HEADING_Y]
-        bearing = compass_bearing_deg(*heading)
-        step = bearing[1:] - bearing[:-1]
-        step = np.where(step > 180.0, step - 360.0, np.where(step < -180.0, step + 360.0, step))
-        turned = np.concatenate(([0.0], np.add.accumulate(step)))  # clockwise since t = 0
+        turned = turned_deg(compass_bearing_deg(*heading))
         if self.side == 'left':
             turned = -turned
         width = whole_ticks(self.within_s, context.view.dt_s) + 1

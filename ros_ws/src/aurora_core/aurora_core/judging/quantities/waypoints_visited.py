@@ -18,7 +18,13 @@ from aurora_core.judging.build import (
 )
 from aurora_core.judging.evaluation import Context, Evaluation, Later, Measured, at_tick
 from aurora_core.judging.quantity import OfMission
-from aurora_core.judging.route import route_flown, route_topics
+from aurora_core.judging.route import (
+    is_broken_off,
+    off_leg_m,
+    route_flown,
+    route_topics,
+    visited,
+)
 from aurora_core.outcomes.condition import Condition, MissionArguments
 from aurora_core.quantities.waypoints import Passage
 from aurora_core.spec.parameter import Parameter
@@ -37,6 +43,8 @@ class WaypointDistance(OfMission):
         if missing is not None:
             return missing
         flown = route_flown(context, condition, self.mission)
+        if is_broken_off(context, condition, self.mission):
+            return self._up_to_the_event(context, condition, visited(flown))
         worst = int(np.argmax([passage.nearest_m for passage in flown]))
         story = (
             f'{_visits(self.mission, flown)}'
@@ -46,6 +54,24 @@ class WaypointDistance(OfMission):
         return Measured(
             ticks=np.array([passage.nearest_tick for passage in flown], dtype=np.intp),
             values=np.array([passage.nearest_m for passage in flown]),
+            story=story,
+            evidence=route_topics(condition),
+            later=Later.ANY,
+        )
+
+    def _up_to_the_event(
+        self, context: Context, condition: Condition, done: tuple[Passage, ...]
+    ) -> Evaluation:
+        """Return one distance per waypoint before an event, and the one from the leg at it."""
+        off_m = off_leg_m(context, condition, self.mission)
+        last_tick = context.phase(self.mission, self.touchdown_m).stop_tick - 1
+        story = (
+            f'{self.mission.uav} had visited {len(done)} points of its route when '
+            f'{self.mission.left_by} ended it, {off_m:.2f} m from the way to the next one'
+        )
+        return Measured(
+            ticks=np.array([*(p.nearest_tick for p in done), last_tick], dtype=np.intp),
+            values=np.array([*(p.nearest_m for p in done), off_m]),
             story=story,
             evidence=route_topics(condition),
             later=Later.ANY,
@@ -66,23 +92,24 @@ class WaypointsVisited(OfMission):
         flown = route_flown(context, condition, self.mission)
         points = self.mission.waypoints
         again = points[0] == points[-1] and flown[-1].tick is not None
-        visited = sum(passage.tick is not None for passage in flown)
-        count = float(visited - 1 if again else visited)
+        passed = sum(passage.tick is not None for passage in flown)
+        count = float(passed - 1 if again else passed)
         story, topics = _visits(self.mission, flown), route_topics(condition)
         return at_tick(flown[-1].nearest_tick, count, story, topics, later=Later.RISES)
 
 
 def _visits(mission: MissionArguments, flown: tuple[Passage, ...]) -> str:
-    visited = sum(passage.tick is not None for passage in flown)
-    return f'{mission.uav} visited {visited} of {len(flown)} route points in order'
+    passed = sum(passage.tick is not None for passage in flown)
+    return f'{mission.uav} visited {passed} of {len(flown)} route points in order'
 
 
 def all_points(inputs: Inputs, mission: MissionArguments, source: Source) -> Condition:
     """Return that every point of a route is passed near enough."""
     uav = mission.uav
+    until = '' if mission.left_by is None else f', until {mission.left_by}'
     return condition(
         id=f'{mission.mission}.waypoints',
-        sentence=f'{uav} visits all {len(mission.waypoints)} points of its route in order',
+        sentence=f'{uav} visits all {len(mission.waypoints)} points of its route in order{until}',
         signal=f'waypoint_distance({uav})',
         of=(uav,),
         target=Target(op='<=', threshold=inputs.tolerances.waypoint_horizontal_m, unit='m'),

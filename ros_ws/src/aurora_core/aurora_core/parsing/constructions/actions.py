@@ -101,7 +101,8 @@ def agent_action(frame: Frame, *, triggered: bool = False) -> AgentAction | None
         return None
     speed = None
     adjunct = frame.attribute('speed')
-    if adjunct is not None and adjunct.measure is not None:
+    changes = adjunct is not None and adjunct.prep == 'by'  # `by 4 m/s` is no speed to reach
+    if adjunct is not None and adjunct.measure is not None and not changes:
         if not values.accepts('ground_speed', adjunct.measure):
             return None
         adjunct.used = True

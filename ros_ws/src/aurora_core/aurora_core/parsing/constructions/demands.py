@@ -34,7 +34,8 @@ _UNBROKEN = re.compile(
     r'\b(without (?:interruption|a break)|uninterrupted|consecutive|in one go|at a stretch)'
 )
 _MOST = re.compile(r'\b(max(?:imum|imal)?|limit(?:ed)?|at most)\b')
-# `within 60 s of that` does not count from the start.
+# `within 60 s of that` and `then lands within 60 s` do not count from the start.
+_THEN = re.compile(r'\b(?:then|afterwards?|thereafter|after (?:that|this)),?\s*$')
 _OF_THAT = re.compile(r'\s+(?:of|after|from|following)\s+(?:that|this|it)\b')
 _ENDS = re.compile(r'\b(on the ground|landed|lands?|down)\b')
 
@@ -262,7 +263,9 @@ def _deadline(frame: Frame) -> None:
         late = measure.bound is Bound.AT_MOST and adjunct.prep in ('', 'after', 'in')
         if not (late or adjunct.prep in ('by', 'within', 'before')):
             continue
-        counts = _OF_THAT.match(frame.scene.prompt[measure.end :].lower()) is None
+        ahead = frame.scene.prompt[: frame.piece.start].lower()
+        behind = frame.scene.prompt[measure.end :].lower()
+        counts = _THEN.search(ahead) is None and _OF_THAT.match(behind) is None
         if not counts or not values.accepts('condition_time', measure):
             continue
         adjunct.used = True

@@ -12,7 +12,7 @@ from aurora_core.parsing.atoms import NounKind
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.measures import COUNT, LENGTH, Measure
 from aurora_core.parsing.scene import MissionDraft
-from aurora_core.spec.parameter import Bound, Parameter
+from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.scenario import StatedCondition
 
 _FIELDS = (
@@ -109,11 +109,6 @@ def ranged_value(found: FlightValues, name: str, measure: Measure) -> Parameter 
         return None
     found.ranges.append((name, measure))
     return values.ranged(name, measure)
-
-
-def bounded(parameter: Parameter, prep: str) -> Parameter:
-    bound = {'below': Bound.AT_MOST, 'within': Bound.AT_MOST, 'beyond': Bound.AT_LEAST}.get(prep)
-    return parameter if bound is None else values.rebound(parameter, bound)
 
 
 def noun_target(frame: Frame, adjunct: Adjunct) -> str | None:

@@ -10,7 +10,6 @@ from aurora_core.parsing.atoms import AtomKind, NounKind
 from aurora_core.parsing.constructions.demands import keeps_off
 from aurora_core.parsing.constructions.flight_types import (
     FlightValues,
-    bounded,
     noun_target,
     ranged_value,
     stated_value,
@@ -53,7 +52,7 @@ def _altitude(frame: Frame, found: FlightValues, mode: MissionMode | None) -> No
             'altitude', adjunct.measure
         )
         if parameter is not None:
-            found.altitude = bounded(parameter, adjunct.prep)
+            found.altitude = values.bounded(parameter, adjunct.prep)
             use(found, adjunct)
             if adjunct.nouns:
                 found.target = noun_target(frame, adjunct)
@@ -83,7 +82,7 @@ def _standoff(
             if pattern is Pattern.ORBIT:
                 found.radius = parameter
             else:
-                found.standoff = bounded(parameter, adjunct.prep)
+                found.standoff = values.bounded(parameter, adjunct.prep)
             use(found, adjunct)
             if adjunct.nouns:
                 found.target = noun_target(frame, adjunct)
@@ -165,7 +164,7 @@ def _bare_length(frame: Frame, found: FlightValues, mode: MissionMode | None) ->
             and adjunct.prep in ('at', '', 'to', 'from', 'in', 'with', 'below', 'beyond')
             and found.altitude is None
         ):
-            found.altitude = ranged_value(found, 'altitude', measure) or bounded(
+            found.altitude = ranged_value(found, 'altitude', measure) or values.bounded(
                 values.explicit('altitude', measure), adjunct.prep
             )
             use(found, adjunct)

@@ -10,6 +10,7 @@ from aurora_core.parsing.atoms import ACTORS, AtomKind, NounKind, NounPhrase
 from aurora_core.parsing.constructions.places import (
     add_placement,
     gap,
+    is_throughout,
     named_reference,
     place_of,
     placements_of,
@@ -33,7 +34,6 @@ BEHAVIORS = {kind.value: kind for kind in BehaviorKind} | {
     'step_onto': BehaviorKind.CROSS,
     'visit': BehaviorKind.DRIVE,
     'reach': BehaviorKind.DRIVE,
-    'orbit': BehaviorKind.CIRCULATE,
     'trace': BehaviorKind.DRIVE,
 }
 
@@ -114,6 +114,10 @@ def behavior(frame: Frame) -> bool:
     made = Behavior(
         kind=kind, target=target, speed_mps=speed, closing_from_m=closing, span=frame.span
     )
+    if kind is BehaviorKind.CIRCULATE:
+        for adjunct in frame.free(AdjunctKind.OBJECT):
+            if any(n.kind is not NounKind.STREET for n in adjunct.nouns):
+                frame.flag(adjunct.start, adjunct.end)  # `around the block`: nobody does that
     for entity in subjects:
         own = tuple(p for p in placements if p.of != entity.id)
         add_behavior(entity, made, own)
@@ -392,7 +396,8 @@ def _placements(
                 relation=wanted,
                 of=target,
                 distance_m=distance or values.default('placement_distance'),
-                kept_in_motion=kept,
+                kept_in_motion=kept or is_throughout(frame),
+                throughout=is_throughout(frame),
                 span=frame.span,
             )
         )
@@ -403,6 +408,7 @@ def _placements(
             of=first.of,
             distance_m=closing,
             kept_in_motion=first.kept_in_motion,
+            throughout=first.throughout,
             span=first.span,
         )
     return tuple(made)

@@ -56,6 +56,23 @@ _PHRASE_RELATIONS = {
 }
 
 
+_THROUGHOUT = re.compile(
+    r'\b(always|never|at (?:all times|no (?:time|point)|any (?:time|point))|'
+    r'(?:all|the whole|the entire) (?:the )?time|throughout|all along|constant(?:ly)?|'
+    r'permanently|keep(?:s|ing)?|stay(?:s|ing)?|remain(?:s|ing)?)\b'
+)
+
+
+def is_throughout(frame: Frame) -> bool:
+    """Return whether a clause says that it holds all along: `always`, `stays`, `never more`."""
+    return says_throughout(frame.scene.prompt[frame.piece.start : frame.piece.end])
+
+
+def says_throughout(words: str) -> bool:
+    """Return whether words of the prompt ask for something all along."""
+    return _THROUGHOUT.search(words.lower()) is not None
+
+
 def add_placement(entity: Entity, placement: Placement) -> None:
     """Add a placement; one that is there already gets the stated distance."""
     for i, known in enumerate(entity.placements):
@@ -72,6 +89,7 @@ def add_placement(entity: Entity, placement: Placement) -> None:
                 distance_m=stated[0] if stated else known.distance_m or placement.distance_m,
                 bearing_deg=known.bearing_deg or placement.bearing_deg,
                 kept_in_motion=known.kept_in_motion or placement.kept_in_motion,
+                throughout=known.throughout or placement.throughout,
                 span=known.span,
             )
             return
@@ -141,7 +159,7 @@ def gap(frame: Frame) -> Parameter | None:
     if not values.accepts('placement_distance', adjunct.measure) or adjunct.prep == 'within':
         return None
     adjunct.used = True
-    return values.explicit('placement_distance', adjunct.measure)
+    return values.bounded(values.explicit('placement_distance', adjunct.measure), adjunct.prep)
 
 
 def placements_of(
@@ -305,13 +323,16 @@ def _relation(
         if not values.accepts('placement_distance', adjunct.measure):
             return None
         distance = values.explicit('placement_distance', adjunct.measure)
+        distance = values.bounded(distance, adjunct.prep)
     elif loose is not None:
         distance = loose
+    all_along = relation in _KEPT and is_throughout(frame)
     placement = Placement(
         relation=relation,
         of=of,
         distance_m=distance,
-        kept_in_motion=kept and relation in _KEPT,
+        kept_in_motion=all_along or (kept and relation in _KEPT),
+        throughout=all_along,
         span=adjunct.span,
     )
     if of is None and relation is not Relation.ONCOMING:

@@ -13,7 +13,7 @@ from itertools import pairwise
 from aurora_core.parsing import values
 from aurora_core.parsing.adjuncts import IN_A_ROW, Adjunct, AdjunctKind
 from aurora_core.parsing.atoms import ACTORS, NounKind, NounPhrase
-from aurora_core.parsing.constructions.places import DISTANT, add_placement
+from aurora_core.parsing.constructions.places import DISTANT, add_placement, is_throughout
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.measures import LENGTH
 from aurora_core.parsing.scene import Entity
@@ -54,7 +54,8 @@ def column(frame: Frame, subjects: tuple[Entity, ...], *, kept: bool) -> None:
             relation=Relation.BEHIND,
             of=before.id,
             distance_m=apart,
-            kept_in_motion=kept,
+            kept_in_motion=kept or is_throughout(frame),
+            throughout=is_throughout(frame),
             span=frame.span,
         )
         add_placement(entity, placement)
@@ -162,7 +163,13 @@ def _beside_whom(frame: Frame, one: Entity, other: Entity, relation: Relation) -
     pairs = ((one, other), (other, one))
     if not any(p.of == b.id and p.relation in DISTANT for a, b in pairs for p in a.placements):
         kept = frame.key == 'keep'
-        made = Placement(relation=relation, of=other.id, kept_in_motion=kept, span=frame.span)
+        made = Placement(
+            relation=relation,
+            of=other.id,
+            kept_in_motion=kept,
+            throughout=kept or is_throughout(frame),
+            span=frame.span,
+        )
         one.placements.append(made)
 
 

@@ -30,6 +30,7 @@ from aurora_core.parsing.llm.wording import Wording
 from aurora_core.parsing.parser import parse_offline
 from aurora_core.parsing.rules import settle
 from aurora_core.parsing.scene import ClauseDraft, Scene
+from aurora_core.parsing.telling_words import untold
 from aurora_core.spec.parameter import Span
 from aurora_core.spec.vocabulary import AgentType, ClauseStatus
 
@@ -91,6 +92,11 @@ def _outcome(reading: Reading, facts: PromptFacts, complaints: list[str]) -> Par
             question = ' '.join(dict.fromkeys(parts.scene.questions))
             return ParseOutcome(question=question, clauses=parts.scene.finished_clauses())
         spec = build(parts.scene)
+        complaints += [
+            f'{spec.prompt[span.start : span.end]!r} asks for something and nothing in the answer '
+            'carries it: make these words a clause that is not_encoded'
+            for span in untold(spec)
+        ]
     except ValidationError as err:
         complaints += _schema_complaints(err)
         return None

@@ -13,7 +13,6 @@ from dataclasses import replace
 
 from aurora_core.parsing import values
 from aurora_core.parsing.atoms import AtomKind
-from aurora_core.parsing.constructions.flight_types import bounded
 from aurora_core.parsing.llm.facts import PromptFacts, inside, overlap
 from aurora_core.parsing.llm.reading import Number
 from aurora_core.parsing.measures import UNREADABLE, Measure
@@ -157,7 +156,7 @@ class StatedNumbers:
             start = measure.second_start
         found = values.explicit(name, replace(measure, value=value, start=start))
         if found.bound is Bound.EXACTLY and name in _ONE_SIDED:
-            return bounded(found, self._preposition(measure))
+            return values.bounded(found, self._preposition(measure))
         return found
 
     def _preposition(self, measure: Measure) -> str:

@@ -7,7 +7,11 @@ Ids, roles, groups, defaults and inferred targets therefore come out as they do 
 
 from __future__ import annotations
 
-from aurora_core.parsing.constructions.places import add_placement, default_distance
+from aurora_core.parsing.constructions.places import (
+    add_placement,
+    default_distance,
+    says_throughout,
+)
 from aurora_core.parsing.llm.actors import Anchors, is_ego
 from aurora_core.parsing.llm.events import add_condition, add_event
 from aurora_core.parsing.llm.flights import add_link, add_mission
@@ -145,6 +149,7 @@ def _add_agent(agent: AgentReading, parts: Parts) -> None:
                 distance_m=distance or default_distance(said.relation),
                 bearing_deg=parts.number('bearing', said.bearing_deg, f'{where}.bearing_deg'),
                 kept_in_motion=said.kept_in_motion,
+                throughout=says_throughout(said.quote),
                 span=parts.span(said.quote, where),
             ),
         )
@@ -178,6 +183,7 @@ def _add_behavior(entity: Entity, said: BehaviorReading, where: str, parts: Part
             of=made.target,
             distance_m=closing or default('placement_distance'),
             kept_in_motion=made.kind is BehaviorKind.FOLLOW,
+            throughout=says_throughout(said.quote),
             span=made.span,
         ),
     )

@@ -169,6 +169,8 @@ def _phases(ax: Axes, track: Track, dt_s: float) -> None:
             name, colour = 'ascent', '#f3f5f8'
         elif phase >= UavPhase.LANDING:
             name, colour = 'landing', '#f3f5f8'
+        elif phase == UavPhase.HOLDING:
+            name, colour = 'holding', '#f3f5f8'
         elif phase >= UavPhase.MISSION:
             name, colour = 'mission', '#e6f0ea'
         else:

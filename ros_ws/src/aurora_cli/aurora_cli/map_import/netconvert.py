@@ -1,0 +1,98 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Run netconvert, which turns road descriptions into SUMO networks."""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import shutil
+import subprocess
+import sysconfig
+from collections.abc import Sequence
+from pathlib import Path
+
+from aurora_core.errors import MapError
+
+_LIMIT_S = 300.0
+_TYPEMAP_FOLDERS = ('data/typemap', 'share/sumo/data/typemap')
+_HINT = 'install the package eclipse-sumo of the version in requirements/ (`make setup` does)'
+
+
+def run_netconvert(
+    options: Sequence[str], *, typemaps: Sequence[str], out: Path, given: Path
+) -> Path:
+    """Write a network.
+
+    Args:
+        options: Input files and what is to be made of them.
+        typemaps: Names of netconvert's own type files, without `.typ.xml`.
+        out: Network to write; a log is written beside it.
+        given: File as the user named it, for messages.
+
+    Returns:
+        `out`.
+
+    Raises:
+        MapError: netconvert is missing, fails, takes longer than five minutes, or finds no road.
+    """
+    command = [_program(), *options, '--output-file', str(out)]
+    if typemaps:
+        folder = _typemap_folder()
+        command += ['--type-files', ','.join(str(folder / f'{n}.typ.xml') for n in typemaps)]
+    log = out.with_suffix('.log')
+    with log.open('wb') as stream:
+        # In a session of its own: Ctrl-C reaches us, and we stop it.
+        process = subprocess.Popen(
+            command,
+            stdin=subprocess.DEVNULL,
+            stdout=stream,
+            stderr=stream,
+            cwd=out.parent,
+            start_new_session=True,
+        )
+        try:
+            code = process.wait(timeout=_LIMIT_S)
+        except subprocess.TimeoutExpired as err:
+            raise MapError(
+                f'{given}: netconvert was not done after {_LIMIT_S:.0f} s',
+                hint='import a smaller part',
+            ) from err
+        finally:
+            if process.poll() is None:
+                process.kill()
+                process.wait()
+    if code != 0 or not out.is_file():
+        raise MapError(
+            f'{given} gives no road network: {_first_error(log, given)}',
+            hint='import a file that has streets for cars',
+        )
+    return out
+
+
+def _first_error(log: Path, given: Path) -> str:
+    text = log.read_text(encoding='utf-8', errors='replace')[:100_000]
+    lines = [line.strip() for line in text.splitlines() if line.strip()]
+    errors = [line.removeprefix('Error:').strip() for line in lines if line.startswith('Error')]
+    found = (errors or lines or ['netconvert says nothing'])[0]
+    return found.replace(str(log.parent / 'source'), given.name)[:200].rstrip('.')
+
+
+def _program() -> str:
+    beside = Path(sysconfig.get_path('scripts')) / 'netconvert'
+    found = str(beside) if beside.exists() else shutil.which('netconvert')
+    if found is None:
+        raise MapError('netconvert is not installed', hint=_HINT)
+    return found
+
+
+def _typemap_folder() -> Path:
+    """Return the folder with netconvert's type files: SUMO_HOME, the wheel, the system."""
+    spec = importlib.util.find_spec('sumo')
+    homes = [Path(place) for place in (spec.submodule_search_locations or ())] if spec else []
+    named = os.environ.get('SUMO_HOME')
+    for home in [*homes, *([Path(named)] if named else []), Path('/usr')]:
+        for below in _TYPEMAP_FOLDERS:
+            if (home / below / 'osmNetconvert.typ.xml').is_file():
+                return home / below
+    raise MapError("netconvert's type files are not installed", hint=_HINT)

@@ -1,0 +1,35 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""What waits for another part of the scenario does so in the run, not in the plan alone."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+import aurora
+
+
+@pytest.mark.parametrize(
+    ('prompt', 'condition'),
+    [
+        # The bus that ends the flight waits until there was a whole orbit to see.
+        (
+            'A drone orbits Harbor Market with a 60 m radius at 70 m; when a bus arrives at Union '
+            'Station the drone lands.',
+            'm1.turn',
+        ),
+        # The car waits until the person has left the street, not until it has stepped onto it.
+        (
+            'A pedestrian crosses the road after 8 s. The car only starts when the pedestrian has '
+            'finished crossing.',
+            'e2.not_before',
+        ),
+    ],
+)
+def test_a_wait_is_carried_out(here: Path, prompt: str, condition: str) -> None:
+    with aurora.Session(out='runs') as session:
+        done = session.run(prompt)
+    assert done.status == 'verified', done.conditions
+    assert condition in {c.id for c in done.conditions}

@@ -1,0 +1,98 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Make happen what an event waits for and nothing else brings about.
+
+"If the truck falls below 3 m/s, the ego brakes": left to traffic, the truck stops at a light and
+the ego has long been standing behind it. A driver whose speed nobody else decides slows down once
+everybody watches, and while who is to answer drives.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from aurora_core.execution.events import ON_THE_MOVE_MPS
+from aurora_core.execution.observe import Observation
+from aurora_core.mission.machine import MissionMachine
+from aurora_core.spec.scenario import AgentAction, Event, ScenarioSpec, SpeedTrigger
+from aurora_core.spec.vocabulary import BehaviorKind
+from aurora_core.trace.commands import GroundCommand
+from aurora_core.trace.layout import GroundCommandKind
+from aurora_core.trace.roster import Roster
+
+# So much below the speed that is waited for (m/s), and not before it has been driven for so long.
+_BELOW_MPS = 1.0
+_DRIVEN_S = 4.0
+
+_DECIDE_SPEED = frozenset(
+    {
+        BehaviorKind.STOP,
+        BehaviorKind.BRAKE,
+        BehaviorKind.SLOW,
+        BehaviorKind.WAIT,
+        BehaviorKind.PARK,
+        BehaviorKind.EMERGENCY_RUN,
+    }
+)
+
+
+class Premises:
+    """Slows down the drivers whose low speed an event waits for.
+
+    Args:
+        spec: The request.
+        roster: Row order.
+    """
+
+    def __init__(self, spec: ScenarioSpec, roster: Roster) -> None:
+        self._roster = roster
+        self._events = [e for e in spec.events if _is_left_to_chance(spec, e)]
+        self._driven: dict[str, int] = {}
+
+    def step(
+        self, tick: int, dt_s: float, seen: Observation, machines: Sequence[MissionMachine]
+    ) -> list[GroundCommand]:
+        """Return the commands of a tick."""
+        if not self._events:
+            return []
+        watched = all(m.first_capture_tick is not None for m in machines if not m.waits_on_ground)
+        commands = []
+        for event in tuple(self._events):
+            trigger = event.trigger
+            assert isinstance(trigger, SpeedTrigger)
+            row = self._roster.agent_index(trigger.who)
+            if row is None or not watched or not self._drive(event, trigger, seen):
+                self._driven.pop(event.id, None)
+                continue
+            if (tick - self._driven.setdefault(event.id, tick)) * dt_s < _DRIVEN_S:
+                continue
+            value = max(0.0, trigger.value_mps.value - _BELOW_MPS)
+            kind = GroundCommandKind.SET_SPEED
+            commands.append(GroundCommand(agent=row, kind=kind, value=value))
+            self._events.remove(event)
+        return commands
+
+    def _drive(self, event: Event, trigger: SpeedTrigger, seen: Observation) -> bool:
+        """Tell whether who is waited for, and who is to answer, are on the move."""
+        speed_mps = seen.speed_mps(trigger.who)
+        if speed_mps is None or speed_mps <= trigger.value_mps.value:
+            return False
+        if not isinstance(event.action, AgentAction):
+            return True
+        answer_mps = seen.speed_mps(event.action.agent)
+        return answer_mps is not None and answer_mps >= ON_THE_MOVE_MPS
+
+
+def _is_left_to_chance(spec: ScenarioSpec, event: Event) -> bool:
+    """Tell whether an event waits for a low speed of a driver whose speed nothing else decides."""
+    trigger = event.trigger
+    if not isinstance(trigger, SpeedTrigger) or trigger.on != 'speed_below':
+        return False
+    agent = next((a for a in spec.agents if a.id == trigger.who), None)
+    if agent is None:
+        return False
+    told = any(
+        isinstance(e.action, AgentAction) and e.action.agent == agent.id for e in spec.events
+    )
+    decided = any(b.kind in _DECIDE_SPEED or b.speed_mps is not None for b in agent.behaviors)
+    return not told and not decided

@@ -1,0 +1,45 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Where a street bends between two vehicles, they are nearer than the way between them is long.
+
+A stated distance is judged both ways, so it can be kept on a straight street only.
+"""
+
+from __future__ import annotations
+
+from aurora_core.geometry.kernel import norm2
+from aurora_core.grounding.sites import Site
+from aurora_core.knowledge.limits import Tolerance
+from aurora_core.spec.parameter import Provenance
+from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.spec.vocabulary import Relation
+
+_ALONG = (Relation.AHEAD, Relation.BEHIND)
+# The rest of the tolerance is for the simulator's way of counting on curves.
+_USED = 0.25
+
+
+def bends_between(spec: ScenarioSpec, site: Site, tolerance: Tolerance) -> bool:
+    """Tell whether a bend spoils a stated distance between two vehicles of the convoy.
+
+    Args:
+        spec: Request.
+        site: Place of the convoy.
+        tolerance: Of stated distances.
+    """
+    seats = {seat.agent.id: seat for seat in site.seated}
+    for agent in spec.agents:
+        for placement in agent.placements:
+            own, other = seats.get(agent.id), seats.get(placement.of or '')
+            stated = placement.distance_m
+            if own is None or other is None or stated is None:
+                continue
+            if stated.provenance is Provenance.DEFAULT or placement.relation not in _ALONG:
+                continue
+            x, y, _, _ = own.path.position_at(own.arc_m)
+            other_x, other_y, _, _ = other.path.position_at(other.arc_m)
+            straight_m = norm2(x - other_x, y - other_y)
+            slack_m = tolerance.of(stated.value, approximate=stated.approximate)
+            if abs(straight_m - abs(own.arc_m - other.arc_m)) > _USED * slack_m:
+                return True
+    return False

@@ -1,0 +1,177 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Places that vehicles stand at, pass, or stop at: what they ask of a site.
+
+A place with a point (a landmark, the intersection, the crosswalk) binds a vehicle in two ways: a
+placement says where it stands at t = 0, a behaviour or a trigger where its way has to lead.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from aurora_core.geometry.kernel import norm2
+from aurora_core.grounding.places import MapPlaces, arrivals, has_point
+from aurora_core.grounding.sites import SeatedAgent, Site
+from aurora_core.knowledge.agent_types import AgentTypeRecord
+from aurora_core.knowledge.limits import Tolerances
+from aurora_core.knowledge.map_model import MapModel
+from aurora_core.spec.scenario import GroundAgent, ScenarioSpec
+from aurora_core.spec.vocabulary import BehaviorKind, Relation
+
+# Who stands somewhere all along is there from t = 0.
+_STAYS = (BehaviorKind.WAIT, BehaviorKind.PARK)
+
+# These lead to a place, others (circulate) go round it or nowhere.
+_LEADS = (
+    BehaviorKind.STOP,
+    BehaviorKind.APPROACH,
+    BehaviorKind.DRIVE,
+    BehaviorKind.EMERGENCY_RUN,
+    BehaviorKind.TURN_LEFT,
+    BehaviorKind.TURN_RIGHT,
+)
+
+# A vehicle has at least this way to a place that it goes to, and at most that (m).
+_WAY_M = (40.0, 260.0)
+
+# Who stops where no place is named does so after this way (m), or before the way ends.
+STOP_AFTER_M = 60.0
+
+# Who stops at a place stops this far inside its surroundings (m).
+_INSIDE_M = 2.0
+
+# Sites are so far apart where a place says exactly where a vehicle stands (m).
+_NARROW_M = 2.5
+
+# Steps in which a spot to stop at is looked for (m).
+_STEP_M = 1.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Bound:
+    """What binds a vehicle to a place: within a distance, from t = 0 on or later.
+
+    Attributes:
+        stops: It comes to a stop there.
+    """
+
+    place: str
+    within_m: float
+    at_start: bool
+    stops: bool = False
+
+
+def stops(agent: GroundAgent) -> bool:
+    """Tell whether a vehicle is to come to a stop by itself, not by an event."""
+    return any(b.kind is BehaviorKind.STOP for b in agent.behaviors)
+
+
+class GoalFinder:
+    """Asks of sites what places mean for the vehicles on them.
+
+    Args:
+        map_model: Map.
+        types: Agent sizes.
+        tolerances: How near is near, and at.
+    """
+
+    def __init__(
+        self,
+        map_model: MapModel,
+        types: Mapping[str, AgentTypeRecord],
+        tolerances: Tolerances,
+    ) -> None:
+        self._map = map_model
+        self._places = MapPlaces(map_model)
+        self._types = types
+        self._tolerances = tolerances
+
+    def fits(self, spec: ScenarioSpec, site: Site) -> bool:
+        """Tell whether every vehicle of a site stands at, and comes to, its places."""
+        x, y, _, _ = site.origin()
+        for seat in site.seated:
+            for bound in self._bounds(spec, seat.agent):
+                point = self._places.point(bound.place, (x, y))
+                if bound.at_start:
+                    here = seat.path.position_at(seat.arc_m)
+                    if norm2(here[0] - point[0], here[1] - point[1]) > bound.within_m:
+                        return False
+                elif self._arc_near(seat, point, bound) is None:
+                    return False
+        return True
+
+    def spacing_m(self, spec: ScenarioSpec, default_m: float) -> float:
+        """Return how far apart sites may be, so that some of them is where a place asks."""
+        bounds = (b for agent in spec.agents for b in self._bounds(spec, agent))
+        narrow = any(b.at_start and b.within_m < default_m for b in bounds)
+        return _NARROW_M if narrow else default_m
+
+    def stop_arc_m(self, spec: ScenarioSpec, site: Site, seat: SeatedAgent) -> float | None:
+        """Return where on its way a vehicle stops (m), None when it does not by itself."""
+        if not stops(seat.agent):
+            return None
+        x, y, _, _ = site.origin()
+        for bound in self._bounds(spec, seat.agent):
+            if bound.stops:
+                return self._arc_near(seat, self._places.point(bound.place, (x, y)), bound)
+        return self._open_arc(seat, seat.arc_m + STOP_AFTER_M)
+
+    def _bounds(self, spec: ScenarioSpec, agent: GroundAgent) -> Iterator[_Bound]:
+        arrival_m = self._tolerances.arrival_m - _INSIDE_M
+        for placement in agent.placements:
+            of, relation = placement.of, placement.relation
+            if of is None or not has_point(of) or relation is Relation.BEFORE:
+                continue
+            near_m = arrival_m
+            if relation is Relation.NEAR:
+                stated = placement.distance_m
+                near_m = self._tolerances.near_m if stated is None else stated.value
+            yield _Bound(place=of, within_m=near_m, at_start=True)
+        for behavior in agent.behaviors:
+            if behavior.target is not None and has_point(behavior.target):
+                stays = behavior.kind in _STAYS
+                if stays or behavior.kind in _LEADS:
+                    yield _Bound(
+                        place=behavior.target,
+                        within_m=arrival_m,
+                        at_start=stays,
+                        stops=behavior.kind is BehaviorKind.STOP,
+                    )
+        for trigger in arrivals(spec, agent):
+            if has_point(trigger.place):
+                yield _Bound(place=trigger.place, within_m=arrival_m, at_start=False)
+
+    def _arc_near(
+        self, seat: SeatedAgent, point: tuple[float, float], bound: _Bound
+    ) -> float | None:
+        """Return where a way comes near a point at a fair distance (m along it), else None."""
+        low, high = (seat.arc_m + way_m for way_m in _WAY_M)
+        arc_m, _ = seat.path.line.project(
+            *point, near_s=(low + high) / 2.0, window_m=(high - low) / 2.0
+        )
+        half_m = self._types[seat.agent.type.value].length_m / 2.0
+        # Who stops stands neither on the place nor inside a junction: back along the way.
+        while low <= arc_m <= high:
+            x, y, _, _ = seat.path.position_at(arc_m)
+            away_m = norm2(x - point[0], y - point[1])
+            if away_m > bound.within_m + half_m:
+                return None
+            if not bound.stops or (away_m > half_m + _STEP_M and self._is_open(seat, arc_m)):
+                return arc_m
+            arc_m -= _STEP_M
+        return None
+
+    def _open_arc(self, seat: SeatedAgent, arc_m: float) -> float:
+        """Return the first place from `arc_m` on (m) that is not inside a junction."""
+        while arc_m < seat.path.length_m and not self._is_open(seat, arc_m):
+            arc_m += _STEP_M
+        return arc_m
+
+    def _is_open(self, seat: SeatedAgent, arc_m: float) -> bool:
+        """Tell whether a vehicle that stands there with its centre is on one street alone."""
+        room_m = self._types[seat.agent.type.value].length_m / 2.0 + _STEP_M
+        ends = (max(0.0, arc_m - room_m), min(seat.path.length_m, arc_m + room_m))
+        lanes = {seat.path.lane_position_at(end)[0] for end in ends}
+        return len(lanes) == 1 and not self._map.network.lane(next(iter(lanes))).is_internal

@@ -1,0 +1,92 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""How vehicles drive that keep a stated distance all the way.
+
+Whoever follows gets the gap at the start as the gap that it never goes below, and a time gap that
+adds next to nothing to it at speed; whoever is followed accelerates no harder than its follower.
+Several who follow one vehicle in line keep close, so that the last one still follows it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import pairwise
+
+from aurora_core.grounding.sites import SeatedAgent
+from aurora_core.knowledge.agent_types import AgentTypeRecord
+from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.spec.vocabulary import BehaviorKind, Relation
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class KeptGap:
+    """A vehicle that stays at a stated distance behind another one.
+
+    Attributes:
+        follower: Id.
+        leader: Id.
+        gap_m: Bumper to bumper at the start.
+        acceleration_mps2: What the follower can do.
+    """
+
+    follower: str
+    leader: str
+    gap_m: float
+    acceleration_mps2: float
+
+
+def kept_gaps(
+    spec: ScenarioSpec, seats: Mapping[str, SeatedAgent], types: Mapping[str, AgentTypeRecord]
+) -> tuple[KeptGap, ...]:
+    """Return the gaps that the request asks to be kept, of vehicles that have a place.
+
+    Args:
+        spec: The request.
+        seats: Places of the convoy by agent.
+        types: Agent sizes.
+    """
+    found = []
+    for agent in spec.agents:
+        for placement in agent.placements:
+            own, other = seats.get(agent.id), seats.get(placement.of or '')
+            if own is None or other is None or not placement.keeps_distance:
+                continue
+            if placement.relation is Relation.BEHIND:
+                found.append(_kept_gap(own, other, types))
+            elif placement.relation is Relation.AHEAD:
+                found.append(_kept_gap(other, own, types))
+    for agent in spec.agents:
+        for behavior in agent.behaviors:
+            own, other = seats.get(agent.id), seats.get(behavior.target or '')
+            if behavior.kind is BehaviorKind.FOLLOW and own is not None and other is not None:
+                found += _in_line(own, other, seats, types)
+    return tuple(dict.fromkeys(found))
+
+
+def _in_line(
+    own: SeatedAgent,
+    target: SeatedAgent,
+    seats: Mapping[str, SeatedAgent],
+    types: Mapping[str, AgentTypeRecord],
+) -> list[KeptGap]:
+    """Return the gaps of those between a follower and its target, so that it stays near enough."""
+    between = [
+        s
+        for s in seats.values()
+        if own.arc_m < s.arc_m < target.arc_m and s.member.lane_shift == own.member.lane_shift
+    ]
+    line = [own, *sorted(between, key=lambda s: s.arc_m), target]
+    return [_kept_gap(a, b, types) for a, b in pairwise(line)] if between else []
+
+
+def _kept_gap(
+    follower: SeatedAgent, leader: SeatedAgent, types: Mapping[str, AgentTypeRecord]
+) -> KeptGap:
+    own, other = (types[s.member.agent.type.value] for s in (follower, leader))
+    return KeptGap(
+        follower=follower.member.agent.id,
+        leader=leader.member.agent.id,
+        gap_m=max(0.0, leader.arc_m - follower.arc_m - (own.length_m + other.length_m) / 2.0),
+        acceleration_mps2=own.accel_mps2,
+    )

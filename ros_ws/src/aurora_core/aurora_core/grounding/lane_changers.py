@@ -1,0 +1,59 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Vehicles that are to change lane: who they are, and what that asks of their streets."""
+
+from __future__ import annotations
+
+from aurora_core.geometry.kernel import norm2
+from aurora_core.grounding.sites import ANY_CLASS, SeatedAgent, with_another_lane
+from aurora_core.knowledge.net_types import Lane
+from aurora_core.knowledge.road_network import RoadNetwork
+from aurora_core.quantities.lane_changes import ROOM_S
+from aurora_core.spec.own_events import keeps_to_lanes, own_events
+from aurora_core.spec.scenario import AgentAction, GroundAgent, ScenarioSpec
+
+# Share of a lane's length that its ends are apart where it is straight.
+_STRAIGHT = 0.995
+
+# SUMO bit set: no change of lane but the ordered one, which minds the others.
+ORDERED_CHANGES = 512
+
+
+def changes_lane(spec: ScenarioSpec, agent: GroundAgent) -> bool:
+    """Tell whether a vehicle is to change lane, by itself or by an event."""
+    ordered = any(
+        isinstance(e.action, AgentAction)
+        and e.action.do == 'change_lane'
+        and e.action.agent == agent.id
+        for e in (*spec.events, *own_events(spec))
+    )
+    return ordered and keeps_to_lanes(agent)
+
+
+def share_with_another_lane(
+    network: RoadNetwork, seat: SeatedAgent, way_m: float, pace_mps: float
+) -> float:
+    """Return the share of the way ahead of a vehicle on which it can change lane, in [0, 1].
+
+    Curves do not count: the box of a long vehicle is off the middle of its lane there.
+
+    Args:
+        network: Road network.
+        seat: Where it stands.
+        way_m: How much of its way counts, metres.
+        pace_mps: How fast it drives; a change of lane takes its way.
+    """
+    several = {lane.id for lane in with_another_lane(network.driving_lanes(ANY_CLASS))}
+    low, high, room_m = seat.arc_m, seat.arc_m + way_m, ROOM_S * pace_mps
+    streets = [
+        s
+        for s in seat.path.segments
+        if s.lane_id in several and not s.is_lane_change and _is_straight(network.lane(s.lane_id))
+    ]
+    open_m = sum(max(0.0, min(high, s.end_m - room_m) - max(low, s.start_m)) for s in streets)
+    return min(1.0, open_m / way_m)
+
+
+def _is_straight(lane: Lane) -> bool:
+    (ax, ay), (bx, by) = lane.polyline[0], lane.polyline[-1]
+    return norm2(bx - ax, by - ay) >= _STRAIGHT * lane.arc_length_m

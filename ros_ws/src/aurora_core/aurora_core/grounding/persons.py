@@ -1,0 +1,355 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Where persons stand, walk and cross at a site: on sidewalks, and over its crosswalk.
+
+The crosswalk of a scene is the crossing nearest to its anchor, as its intersection is the nearest
+one. Who crosses stands at its kerb, or where a placement says on the sidewalk that leads to it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+
+from aurora_core.geometry.kernel import norm2
+from aurora_core.grounding.convoy import DEFAULT_GAP_M, ENCOUNTER_ROOM_M, stands
+from aurora_core.grounding.pace import WALKING_MPS, own_speed_mps
+from aurora_core.grounding.places import MapPlaces, has_point
+from aurora_core.grounding.routes import RouteFinder
+from aurora_core.grounding.sites import ANY_CLASS, SeatedAgent, SeatedPerson, Site
+from aurora_core.knowledge.agent_types import AgentTypeRecord
+from aurora_core.knowledge.map_model import MapModel
+from aurora_core.knowledge.walk_path import WalkPath, kerb_to_kerb, sidewalk_of, walk_along
+from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
+from aurora_core.spec.events import sets_off
+from aurora_core.spec.parameter import Provenance
+from aurora_core.spec.reference import is_landmark
+from aurora_core.spec.scenario import (
+    AgentAction,
+    DistanceTrigger,
+    GroundAgent,
+    Placement,
+    ScenarioSpec,
+)
+from aurora_core.spec.vocabulary import AgentType, BehaviorKind, MissionMode, Place, Relation
+
+# Who waits stands this far before the end of the sidewalk (m), the next one behind the first.
+_KERB_M = 0.6
+_NEXT_M = 1.0
+
+# Who has crossed walks on this far (m), out of the way of the next one.
+_BEYOND_M = 6.0
+
+# Who walks and stops has walked so far (m).
+_STOP_AFTER_M = 15.0
+
+# Vehicles have at least this way to a crosswalk that a person uses, and at most that (m).
+_CROSSWALK_AHEAD_M = (20.0, 120.0)
+
+# The crosswalk lies on the way of the vehicles when it is no farther off it (m).
+_ON_WAY_M = 10.0
+
+# Of a place, the sidewalk is at most so far away (m).
+_BESIDE_PLACE_M = 50.0
+
+# Who stands on sidewalks: persons, and roadside units, which never go.
+ON_SIDEWALKS = (AgentType.PEDESTRIAN, AgentType.RSU)
+
+# Along or against the route of a vehicle, by relation.
+_ALONG = {
+    Relation.AHEAD: 1.0,
+    Relation.BEFORE: -1.0,
+    Relation.BEHIND: -1.0,
+    Relation.BESIDE: 0.0,
+    Relation.NEAR: 0.0,
+    Relation.RIGHT: 0.0,
+}
+# Whoever stands beside a vehicle stands where the sidewalk is: a distance cannot be chosen.
+_NO_DISTANCE = (Relation.BESIDE, Relation.RIGHT)
+
+# Who crosses the street in front of a vehicle.
+_BEFORE_IT = (Relation.AHEAD, Relation.BEFORE)
+# Who is to cross walks no farther than this to the crosswalk (m): it has to be seen to.
+_TO_CROSSWALK_M = 20.0
+
+_AT = (Relation.AT, Relation.NEAR, Relation.ON)
+
+
+@dataclass(frozen=True, slots=True)
+class _Spot:
+    """A walk, and where it begins (m along it)."""
+
+    path: WalkPath
+    arc_m: float
+
+
+def crosses(spec: ScenarioSpec, agent: GroundAgent) -> bool:
+    """Tell whether an agent is to cross a street, by itself or by an event."""
+    return any(b.kind is BehaviorKind.CROSS for b in agent.behaviors) or any(
+        isinstance(e.action, AgentAction) and e.action.agent == agent.id and e.action.do == 'cross'
+        for e in spec.events
+    )
+
+
+def can_stand(agent: GroundAgent, placement: Placement, spec: ScenarioSpec) -> bool:
+    """Tell whether a person can be placed so."""
+    vehicles = {a.id for a in spec.agents if a.type not in ON_SIDEWALKS}
+    of, relation = placement.of, placement.relation
+    if of in vehicles:
+        stated = placement.distance_m is not None and relation in _NO_DISTANCE
+        return relation in _ALONG and not stated and placement.bearing_deg is None
+    if placement.distance_m is not None and relation is not Relation.NEAR:
+        return False
+    grounds = (Place.CROSSWALK, Place.SIDEWALK, Place.ROADSIDE, Place.INTERSECTION)
+    at_place = of in grounds or is_landmark(of)
+    return relation in _AT and at_place
+
+
+class PersonPlacer:
+    """Places persons on one map.
+
+    Args:
+        map_model: Map.
+        types: Agent sizes.
+    """
+
+    def __init__(self, map_model: MapModel, types: Mapping[str, AgentTypeRecord]) -> None:
+        self._map = map_model
+        self._places = MapPlaces(map_model)
+        self._types = types
+        self._finder = RouteFinder(map_model.network, ANY_CLASS)
+
+    def seated(
+        self, spec: ScenarioSpec, persons: tuple[GroundAgent, ...], site: Site, run_s: float
+    ) -> Site | str:
+        """Return a site with its persons, or what it lacks.
+
+        Args:
+            spec: The request.
+            persons: Who is to be placed.
+            site: Where the vehicles stand.
+            run_s: How long they may walk.
+        """
+        walkers: list[SeatedPerson] = []
+        for agent in persons:
+            spot = self._spot(spec, agent, site, run_s, len(walkers))
+            if isinstance(spot, str):
+                return spot
+            walkers.append(SeatedPerson(agent=agent, path=spot.path, arc_m=spot.arc_m))
+        return replace(site, walkers=tuple(walkers))
+
+    def grounded(self, spec: ScenarioSpec, site: Site) -> Iterator[GroundedAgent]:
+        """Yield the persons of a site as they enter the run."""
+        for seat in site.walkers:
+            agent, path = seat.agent, seat.path
+            record = self._types[agent.type.value]
+            x, y, hx, hy = path.position_at(seat.arc_m)
+            stays = not _goes(spec, agent)
+            release, uav, mission = _release(spec, agent)
+            goal = self._map.network.lane(path.goal_lane_id).arc_length_m
+            beyond = _BEYOND_M + _NEXT_M * site.walkers.index(seat)
+            arrival = min(beyond, goal / 2.0) if crosses(spec, agent) else goal - _KERB_M
+            if any(b.kind is BehaviorKind.STOP for b in agent.behaviors):
+                arrival = min(arrival, seat.arc_m + _STOP_AFTER_M)
+            yield GroundedAgent(
+                id=agent.id,
+                type_name=agent.type.value,
+                is_person=True,
+                length_m=record.length_m,
+                width_m=record.width_m,
+                height_m=record.height_m,
+                role=agent.role.value,
+                edges=path.edge_ids[:1] if stays else path.edge_ids,
+                route_xy_m=_line_from(path, seat.arc_m),
+                lane_id=path.lane_id,
+                lane_position_m=seat.arc_m,
+                x_m=x,
+                y_m=y,
+                heading_x=hx,
+                heading_y=hy,
+                arrival_position_m=None if stays else arrival,
+                release=ReleaseOn.NEVER if stays else release,
+                release_uav=uav,
+                release_mission=mission,
+                drive_speed_mps=own_speed_mps(agent) or WALKING_MPS,
+                acceleration_mps2=record.accel_mps2,
+                deceleration_mps2=record.decel_mps2,
+            )
+
+    def _spot(
+        self, spec: ScenarioSpec, agent: GroundAgent, site: Site, run_s: float, number: int
+    ) -> _Spot | str:
+        """Return where a person stands and walks, or what is missing there."""
+        placed = self._beside_vehicle(spec, agent, site, number)
+        if crosses(spec, agent):
+            # Without a stated distance the crosswalk says how far ahead of the vehicle that is.
+            stated = any(
+                p.distance_m is not None and p.distance_m.provenance is Provenance.EXPLICIT
+                for p in agent.placements
+            )
+            ahead = any(p.relation in _BEFORE_IT for p in agent.placements)
+            return self._crossing(site, placed if stated or not ahead else None, number)
+        if isinstance(placed, str):
+            return placed
+        if placed is None:
+            placed = self._at_place(agent, site, number)
+        if placed is None:
+            return 'sidewalk'
+        if not _goes(spec, agent):
+            return placed
+        if any(b.kind is BehaviorKind.STOP for b in agent.behaviors):
+            return placed
+        way_m = (own_speed_mps(agent) or WALKING_MPS) * run_s
+        return self._onward(placed, way_m)
+
+    def _crossing(self, site: Site, placed: _Spot | str | None, number: int) -> _Spot | str:
+        """Return the walk over the crosswalk of a site."""
+        x, y, _, _ = site.origin()
+        crossing = self._places.crossing_near((x, y))
+        path = None if crossing is None else kerb_to_kerb(self._map.network, crossing)
+        if crossing is None or path is None or crossing.has_signal:
+            return 'crosswalk'
+        first = self._map.network.lane(path.lane_id)
+        if isinstance(placed, str):
+            return placed
+        if placed is not None:
+            same = placed.path.lane_id == path.lane_id
+            near = first.arc_length_m - placed.arc_m <= _TO_CROSSWALK_M
+            return _Spot(path, placed.arc_m) if same and near else 'crosswalk'
+        if site.seated and not self._ahead(site, path.line.at(first.arc_length_m)[:2]):
+            return 'crosswalk'
+        return _Spot(path, max(0.0, first.arc_length_m - _KERB_M - _NEXT_M * number))
+
+    def _ahead(self, site: Site, point: tuple[float, float]) -> bool:
+        """Tell whether a point lies on the way of the vehicles, ahead of all of them."""
+        along_m, aside_m = site.origin_path.line.project(*point)
+        front_m = max(s.arc_m for s in site.seated)
+        low, high = _CROSSWALK_AHEAD_M
+        return abs(aside_m) <= _ON_WAY_M and low <= along_m - front_m <= high
+
+    def _beside_vehicle(
+        self, spec: ScenarioSpec, agent: GroundAgent, site: Site, number: int
+    ) -> _Spot | str | None:
+        """Return the spot that a placement to a vehicle gives, None where there is no such."""
+        for placement in agent.placements:
+            seat = site.seat(placement.of or '')
+            if seat is None or placement.relation not in _ALONG:
+                continue
+            stated = placement.distance_m
+            sign = _ALONG[placement.relation]
+            away_m = sign * (DEFAULT_GAP_M if stated is None else stated.value)
+            return self._along(seat, away_m, 0) or 'sidewalk'
+        if agent.placements or crosses(spec, agent):
+            return None
+        for other, within_m in _met(spec, agent):
+            seat = site.seat(other)
+            if seat is not None:
+                return self._along(seat, within_m + ENCOUNTER_ROOM_M, number) or 'sidewalk'
+        return None
+
+    def _along(self, seat: SeatedAgent | SeatedPerson, away_m: float, number: int) -> _Spot | None:
+        """Return the sidewalk abreast of a point on the way of a vehicle."""
+        arc_m = seat.arc_m + away_m + _NEXT_M * number
+        if not 0.0 <= arc_m <= seat.path.length_m:
+            return None
+        x, y, _, _ = seat.path.position_at(arc_m)
+        edge = next((e for e in seat.path.edge_ids if self._abreast(e, (x, y)) is not None), None)
+        if edge is None:
+            return None
+        spot = self._abreast(edge, (x, y))
+        path = walk_along(self._map.network, (edge,))
+        return None if spot is None or path is None else _Spot(path, spot)
+
+    def _abreast(self, edge_id: str, point: tuple[float, float]) -> float | None:
+        """Return where on the sidewalk of an edge (m) one is abreast of a point on its road."""
+        lane = sidewalk_of(self._map.network, edge_id)
+        if lane is None:
+            return None
+        arc_m, aside_m = lane.line.project(*point)
+        inside = _KERB_M <= arc_m <= lane.arc_length_m - _KERB_M
+        return arc_m if inside and abs(aside_m) <= 2.0 * _ON_WAY_M else None
+
+    def _at_place(self, agent: GroundAgent, site: Site, number: int) -> _Spot | None:
+        """Return the spot at the place that the request names, else beside the anchor."""
+        x, y, _, _ = site.origin()
+        names = [p.of for p in agent.placements] + [b.target for b in agent.behaviors]
+        for name in names:
+            if name == Place.CROSSWALK:
+                crossing = self._places.crossing_near((x, y))
+                path = None if crossing is None else kerb_to_kerb(self._map.network, crossing)
+                if path is None:
+                    return None
+                lane = self._map.network.lane(path.lane_id)
+                back_m = _KERB_M + _NEXT_M * number
+                walk = walk_along(self._map.network, path.edge_ids[:1])
+                return None if walk is None else _Spot(walk, max(0.0, lane.arc_length_m - back_m))
+            if name is not None and has_point(name):
+                return self._nearest(self._places.point(name, (x, y)), number)
+        if site.seated:
+            front = max(site.seated, key=lambda s: s.arc_m)
+            return self._along(front, DEFAULT_GAP_M, number)
+        return self._nearest((x, y), number)
+
+    def _nearest(self, point: tuple[float, float], number: int) -> _Spot | None:
+        """Return the place on a sidewalk that is nearest to a point."""
+        lane_id, _, away_m = self._map.network.nearest_lane(*point, 'pedestrian')
+        lane = self._map.network.lane(lane_id)
+        path = walk_along(self._map.network, (lane.edge_id,))
+        if path is None or away_m > _BESIDE_PLACE_M:
+            return None
+        arc_m, _ = lane.line.project(*point)
+        low, high = _KERB_M, max(_KERB_M, lane.arc_length_m - _KERB_M)
+        return _Spot(path, min(high, max(low, arc_m + _NEXT_M * number)))
+
+    def _onward(self, spot: _Spot, way_m: float) -> _Spot | str:
+        """Return a walk that goes on along the street for a way (m)."""
+        edges = self._finder.straight_route(spot.path.edge_ids[0], spot.arc_m + way_m)
+        path = walk_along(self._map.network, edges) if edges else None
+        return 'sidewalk' if path is None else _Spot(path, spot.arc_m)
+
+
+def _goes(spec: ScenarioSpec, agent: GroundAgent) -> bool:
+    """Tell whether a person is to leave its place at some time."""
+    if crosses(spec, agent) or sets_off(spec.events, agent.id) is not None:
+        return True
+    return bool(agent.behaviors) and not stands(agent)
+
+
+def _met(spec: ScenarioSpec, agent: GroundAgent) -> Iterator[tuple[str, float]]:
+    """Yield who is to come near a person, and how near (m), by the triggers of events."""
+    for trigger in (e.trigger for e in spec.events):
+        if isinstance(trigger, DistanceTrigger) and trigger.on == 'distance_below':
+            if agent.id == trigger.a:
+                yield trigger.b, trigger.value_m.value
+            elif agent.id == trigger.b:
+                yield trigger.a, trigger.value_m.value
+
+
+def _release(spec: ScenarioSpec, agent: GroundAgent) -> tuple[ReleaseOn, str, str]:
+    """Return when a person may go, and whose doing that is.
+
+    Who is watched goes once the UAV that watches is ready: also who crosses where one hovers.
+    """
+    caused = any(
+        isinstance(e.action, AgentAction) and e.action.agent == agent.id and e.action.do == 'cross'
+        for e in spec.events
+    )
+    if caused or sets_off(spec.events, agent.id) is not None:
+        return ReleaseOn.EVENT, '', ''
+    holding = [m for m in spec.missions if m.mode is not MissionMode.NAVIGATE]
+    watching = [m for m in holding if m.target == agent.id] or holding
+    if watching:
+        return ReleaseOn.CAPTURED, watching[0].uav, watching[0].id
+    return ReleaseOn.START, '', ''
+
+
+def _line_from(path: WalkPath, arc_m: float) -> tuple[tuple[float, float], ...]:
+    """Return the rest of a walk as points (x, y), metres."""
+    x, y, _, _ = path.position_at(arc_m)
+    points = [(x, y)]
+    passed_m = 0.0
+    for a, b in zip(path.polyline[:-1], path.polyline[1:], strict=True):
+        passed_m += norm2(b[0] - a[0], b[1] - a[1])
+        if passed_m > arc_m + 0.01:
+            points.append(b)
+    return tuple(points)

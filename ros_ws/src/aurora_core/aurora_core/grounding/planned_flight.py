@@ -1,0 +1,53 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""A mission as it is planned at a site, or why it cannot be."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from aurora_core.knowledge.limits import Limits, Tolerances
+from aurora_core.mission.plan import MissionPlan
+from aurora_core.spec.parameter import Bound
+from aurora_core.spec.scenario import UavMission
+
+# So near to its altitude a UAV gets at the lowest one that is allowed (m).
+_ABOVE_LOWEST_M = 0.25
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PlannedFlight:
+    """A mission with its scores: clearance (m), share of samples seen."""
+
+    plan: MissionPlan
+    clearance_m: float
+    seen: float
+    over_street: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Rejected:
+    """Why a site does not do."""
+
+    reason: str
+
+
+def planned_height_m(mission: UavMission, limits: Limits, tolerances: Tolerances) -> float:
+    """Return the altitude to fly at: the stated one, or inside the bound that is stated."""
+    altitude = mission.altitude_m
+    inside = altitude_slack_m(mission, tolerances)
+    chosen = {Bound.AT_LEAST: inside, Bound.AT_MOST: -inside}.get(altitude.bound, 0.0)
+    low, high = limits.uav_altitude_min_m, limits.uav_altitude_max_m
+    return min(high, max(low, altitude.value + chosen)) if chosen else altitude.value
+
+
+def altitude_slack_m(mission: UavMission, tolerances: Tolerances) -> float:
+    """Return how far from its altitude a UAV may be on a mission."""
+    altitude = mission.altitude_m
+    return tolerances.altitude_m.of(altitude.value, approximate=altitude.approximate)
+
+
+def ascent_tolerance_m(mission: UavMission, limits: Limits, tolerances: Tolerances) -> float:
+    """Return how far below its altitude a UAV may begin: not where nobody may be commanded to."""
+    above_m = planned_height_m(mission, limits, tolerances) - limits.uav_altitude_min_m
+    return min(altitude_slack_m(mission, tolerances), max(above_m, _ABOVE_LOWEST_M))

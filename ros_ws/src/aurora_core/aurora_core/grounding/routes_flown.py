@@ -1,0 +1,195 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Plan the routes of UAVs: patterns round a point, clear of what stands there."""
+
+from __future__ import annotations
+
+import itertools
+from dataclasses import replace
+from math import pi, sin
+
+import shapely
+
+from aurora_core.grounding.airspace import Airspace
+from aurora_core.grounding.laps import REPEATED, Laps
+from aurora_core.grounding.patterns import pattern_points, place_pattern
+from aurora_core.grounding.planned_flight import (
+    PlannedFlight,
+    Rejected,
+    altitude_slack_m,
+    ascent_tolerance_m,
+    planned_height_m,
+)
+from aurora_core.knowledge.limits import Limits, Tolerances
+from aurora_core.knowledge.map_model import MapModel
+from aurora_core.knowledge.settings import GroundingSettings
+from aurora_core.mission.plan import MissionPlan
+from aurora_core.spec.parameter import Provenance
+from aurora_core.spec.scenario import UavMission
+from aurora_core.spec.vocabulary import Pattern
+
+# Planned share of a leg over a carriageway, beyond what the condition asks.
+SPARE_SHARE = 0.05
+
+# Radii of an orbit round a building whose radius nobody states, times the usual one.
+_WIDER = (1.5, 2.0, 3.0, 4.0)
+
+# Radius of an orbit and of a ring of waypoints (m).
+_RADIUS_M = 30.0
+# How far a UAV flies at its speed at least on a leg (m).
+_CRUISE_M = 30.0
+
+
+class RoutePlanner:
+    """Plans routes over one map.
+
+    Args:
+        map_model: Map.
+        airspace: Its buildings and zones.
+        limits: Limits in force.
+        tolerances: Tolerances in force.
+        settings: Search settings.
+        laps: Plans how often a route is flown.
+    """
+
+    def __init__(
+        self,
+        *,
+        map_model: MapModel,
+        airspace: Airspace,
+        limits: Limits,
+        tolerances: Tolerances,
+        settings: GroundingSettings,
+        laps: Laps,
+    ) -> None:
+        self._air = airspace
+        self._limits = limits
+        self._tolerances = tolerances
+        self._settings = settings
+        self._laps = laps
+        self._leg_share = min(1.0, tolerances.over_carriageway_share + SPARE_SHARE)
+        self._carriageway = map_model.network.carriageway
+        shapely.prepare(self._carriageway)
+
+    def plan(
+        self,
+        mission: UavMission,
+        centre: tuple[float, float, float, float],
+        *,
+        beside: bool = False,
+    ) -> PlannedFlight | Rejected:
+        """Return the plan of a route.
+
+        Args:
+            mission: What to fly.
+            centre: Of its pattern (x, y in m, ENU), and the direction of its first leg (unit).
+            beside: The centre is in a building: an orbit is as wide as it has to be.
+        """
+        radius = mission.radius_m
+        plain = self._around(mission, centre)
+        if not beside or mission.pattern is not Pattern.ORBIT or not isinstance(plain, Rejected):
+            return plain
+        if radius is None or radius.provenance is Provenance.EXPLICIT:
+            return plain
+        for factor in _WIDER:
+            wider = radius.model_copy(update={'value': factor * radius.value})
+            found = self._around(mission.model_copy(update={'radius_m': wider}), centre)
+            if not isinstance(found, Rejected):
+                return found
+        return plain
+
+    def _around(
+        self, mission: UavMission, centre: tuple[float, float, float, float]
+    ) -> PlannedFlight | Rejected:
+        """Plan a pattern round a point."""
+        assert mission.pattern is not None
+        assert mission.speed_mps is not None
+        count = 4 if mission.waypoint_count is None else round(mission.waypoint_count.value)
+        length, width = (p.value for p in mission.size_m) if mission.size_m else (100.0, 60.0)
+        points = pattern_points(
+            mission.pattern,
+            length_m=length,
+            width_m=width,
+            radius_m=_radius_m(mission, count, self._tolerances.route_acceleration_mps2),
+            waypoint_count=count,
+        )
+        if points is None or mission.speed_mps.value <= 0.0:
+            return Rejected(reason='pattern')
+        hx, hy = centre[2], centre[3]
+        shifts = self._settings.pattern_shifts_m
+        height_m = planned_height_m(mission, self._limits, self._tolerances)
+        slack_m = altitude_slack_m(mission, self._tolerances)
+        below_m = ascent_tolerance_m(mission, self._limits, self._tolerances)
+        best: PlannedFlight | None = None
+        headings = ((hx, hy), (-hy, hx)) if mission.pattern is not Pattern.ORBIT else ((hx, hy),)
+        for heading in headings:
+            for along in shifts if mission.over_streets else (0.0,):
+                middle = (centre[0] + along * hx, centre[1] + along * hy)
+                placed = place_pattern(points, middle, heading)
+                way = tuple((x, y, height_m) for x, y in placed)
+                clearance = self._air.way_clearance_m(way)
+                if clearance < self._settings.clearance_m:
+                    continue
+                over = self._over_street(placed)
+                if mission.over_a_road and over < self._leg_share:
+                    continue
+                if best is None or over > best.over_street:
+                    plan = MissionPlan(
+                        id=mission.id,
+                        mode=mission.mode,
+                        target=mission.target,
+                        altitude_m=height_m,
+                        capture_horizontal_m=self._tolerances.waypoint_horizontal_m,
+                        capture_altitude_m=slack_m,
+                        ascent_tolerance_m=below_m,
+                        waypoints=way,
+                        speed_mps=mission.speed_mps.value,
+                    )
+                    best = PlannedFlight(
+                        plan=plan, clearance_m=clearance, seen=1.0, over_street=over
+                    )
+        if best is None:
+            return Rejected(reason='clearance')
+        return replace(best, plan=self._lasting(mission, best.plan))
+
+    def _lasting(self, mission: UavMission, plan: MissionPlan) -> MissionPlan:
+        """Return a plan whose route is flown for the stated time, where one can go on with it."""
+        asked, speed = mission.duration_s, mission.speed_mps
+        if asked is None or asked.provenance is not Provenance.EXPLICIT or speed is None:
+            return plan
+        update: dict[str, object] = {'duration_s': asked.value}
+        if mission.pattern in REPEATED:
+            keeps_speed = speed.provenance is Provenance.EXPLICIT
+            way, speed_mps = self._laps.lasting(
+                plan.waypoints, plan.speed_mps, asked.value, keeps_speed=keeps_speed
+            )
+            update |= {'waypoints': way, 'speed_mps': speed_mps}
+        return plan.model_copy(update=update)
+
+    def _over_street(self, placed: tuple[tuple[float, float], ...]) -> float:
+        legs = [shapely.LineString([a, b]) for a, b in itertools.pairwise(placed)]
+        # Numbers that are tiny beside the map's coordinates give legs without a length.
+        return max(
+            (
+                float(leg.intersection(self._carriageway).length) / float(leg.length)
+                for leg in legs
+                if leg.length > 0.0
+            ),
+            default=0.0,
+        )
+
+
+def _radius_m(mission: UavMission, count: int, acceleration_mps2: float) -> float:
+    """Return the radius of an orbit or of a ring of waypoints: stated, else wide enough.
+
+    A stated speed shows on legs that are longer than the ways to get to it and to brake.
+    """
+    radius, speed = mission.radius_m, mission.speed_mps
+    radius_m = _RADIUS_M if radius is None else radius.value
+    said = radius is not None and radius.provenance is Provenance.EXPLICIT
+    if said or mission.pattern is not Pattern.WAYPOINTS or speed is None or count < 2:
+        return radius_m
+    if speed.provenance is not Provenance.EXPLICIT:
+        return radius_m
+    leg_m = speed.value * speed.value / acceleration_mps2 + _CRUISE_M
+    return max(radius_m, leg_m / (2.0 * sin(pi / count)))

@@ -1,0 +1,62 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""How far round its centre a UAV went on an orbit."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from aurora_core.judging.build import Inputs, Source, Target, condition, number
+from aurora_core.judging.evaluation import Context, Evaluation, Later, Missing, at_tick
+from aurora_core.judging.quantity import OfMission
+from aurora_core.judging.route import route_topics
+from aurora_core.outcomes.condition import Condition, MissionArguments
+from aurora_core.quantities.angle import compass_bearing_deg, turned_deg
+from aurora_core.quantities.waypoints import pattern_centre
+from aurora_core.spec.quantity import QuantityName
+
+_TURN_DEG = 360.0
+
+
+class AngleSwept(OfMission):
+    """Angle about the centre of a pattern from capture to the end of the phase, degrees.
+
+    What is flown one way and back again is not swept.
+    """
+
+    name = QuantityName.ANGLE_SWEPT
+    kind: Literal['angle_swept'] = 'angle_swept'
+
+    def measure(self, context: Context, condition: Condition) -> Evaluation:
+        """Return that angle, whichever way round."""
+        ticks = context.window(condition)
+        if isinstance(ticks, Missing):
+            return ticks
+        uav = self.mission.uav
+        x, y = pattern_centre(self.mission.waypoints)
+        point = context.view.reference(uav)[ticks]
+        bearing = compass_bearing_deg(point[:, 0] - x, point[:, 1] - y)
+        value = abs(float(turned_deg(bearing)[-1]))
+        story = f'{uav} went {value:.1f} deg round the centre of its pattern'
+        return at_tick(int(ticks[-1]), value, story, route_topics(condition), later=Later.ANY)
+
+
+def implied(
+    inputs: Inputs, mission: MissionArguments, source: Source, *, again: bool
+) -> Condition:
+    """Return that an orbit is one full turn, or one at least where its time is stated."""
+    tolerance_deg = inputs.tolerances.orbit_deg
+    return condition(
+        id=f'{mission.mission}.turn',
+        sentence=(
+            f'{mission.uav} goes {"at least " if again else ""}{number(_TURN_DEG)} deg round the '
+            f'centre of its orbit, within {number(tolerance_deg)} deg'
+        ),
+        of=(mission.uav,),
+        target=Target(op='>=', threshold=_TURN_DEG - tolerance_deg, unit='deg')
+        if again
+        else Target(op='==', threshold=_TURN_DEG, unit='deg', tolerance=tolerance_deg),
+        arguments=AngleSwept(**inputs.common, mission=mission),
+        source=source,
+        every_sample=False,
+    )

@@ -1,0 +1,102 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Whether an agent does at a place what it is to do there: stand, cross, or come by."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import numpy as np
+from pydantic import FiniteFloat
+
+from aurora_core.judging.build import Inputs, Source, Target, condition, number
+from aurora_core.judging.evaluation import (
+    Context,
+    Evaluation,
+    Later,
+    Missing,
+    at_tick,
+    ground_topics,
+)
+from aurora_core.judging.quantity import Quantity
+from aurora_core.outcomes.condition import Condition, Window
+from aurora_core.outcomes.verdict import Reason
+from aurora_core.quantities import motion
+from aurora_core.spec.quantity import QuantityName
+from aurora_core.spec.scenario import Behavior, GroundAgent
+from aurora_core.spec.vocabulary import BehaviorKind
+
+# Who does one of these does it standing.
+_STANDING = frozenset({BehaviorKind.STOP, BehaviorKind.WAIT, BehaviorKind.PARK})
+
+
+class AtPlace(Quantity):
+    """What is left of the distance to a place when an agent is nearest to it, metres.
+
+    Attributes:
+        near_m: How far from the place its front or rear may be.
+        still_mps: Only samples below this speed count; None: all of them.
+        hold_s: For how long it has to be that slow.
+    """
+
+    name = QuantityName.HORIZONTAL_DISTANCE
+    kind: Literal['at_place'] = 'at_place'
+    window: Window = Window.RUN
+    near_m: FiniteFloat
+    still_mps: FiniteFloat | None = None
+    hold_s: FiniteFloat = 0.0
+
+    def measure(self, context: Context, condition: Condition) -> Evaluation:
+        """Return the greatest slack; who never stands is nowhere."""
+        view = context.view
+        name, place = condition.of
+        there = view.present(name)
+        if self.still_mps is not None:
+            slow = motion.speed(view, view.body(name)) < self.still_mps
+            there = there & _lasting(slow, round(self.hold_s / view.dt_s))
+        ticks = np.flatnonzero(there)
+        if len(ticks) == 0:
+            if not context.complete(condition):
+                return context.short(condition)
+            return Missing(reason=Reason.PREMISE_NEVER, story=f'{name} never stood')
+        # From its nearest end: a bus at an intersection has its middle farther away than a car.
+        reach_m = self.near_m + view.body(name).entry.length_m / 2.0
+        left_m = reach_m - motion.horizontal_distance(view, name, place)
+        best = int(ticks[int(np.argmax(left_m[ticks]))])
+        topics = ground_topics(condition)
+        return at_tick(best, float(left_m[best]), evidence=topics, later=Later.RISES)
+
+
+def _lasting(good: np.ndarray, ticks: int) -> np.ndarray:
+    """Return which samples belong to a stretch of at least `ticks` steps that are good, (T,)."""
+    edges = np.flatnonzero(np.diff(np.concatenate(([0], good.astype(np.int8), [0]))))
+    lasting = np.zeros(len(good), dtype=np.bool_)
+    for begin, end in zip(edges[::2].tolist(), edges[1::2].tolist(), strict=True):
+        lasting[begin:end] = end - begin > ticks
+    return lasting
+
+
+def implied(
+    inputs: Inputs, agent: GroundAgent, behavior: Behavior, place: str, name: str
+) -> Condition:
+    """Return that an agent does what a behaviour says at a place."""
+    t = inputs.tolerances
+    stands = behavior.kind in _STANDING
+    # A crosswalk is crossed where its middle is, not on the other side of the intersection.
+    near_m = t.waypoint_horizontal_m if behavior.kind is BehaviorKind.CROSS else t.arrival_m
+    done = {BehaviorKind.CROSS: 'crosses'}.get(behavior.kind, 'stands' if stands else 'gets')
+    return condition(
+        id=f'{name}.at',
+        sentence=f'{agent.id} {done} within {number(near_m)} m of {place}',
+        signal=f'at_place({agent.id},{place})',
+        of=(agent.id, place),
+        target=Target(op='>=', threshold=0.0, unit='m'),
+        arguments=AtPlace(
+            **inputs.common,
+            near_m=near_m,
+            still_mps=t.stop_speed_mps if stands else None,
+            hold_s=t.stop_hold_s if stands else 0.0,
+        ),
+        source=Source(ids=(agent.id,), spans=(behavior.span or agent.span,)),
+        every_sample=False,
+    )

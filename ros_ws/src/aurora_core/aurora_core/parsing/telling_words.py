@@ -1,0 +1,210 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Words that ask for something though most of the grammar passes over them.
+
+`lands at the same time`, `takes off again`, `a slow bus`: such a word is known, so a clause can be
+read with it and mean no more than without it. The lexicon lists them under `telling`, each with
+what can carry its meaning. Where the clause became nothing of that kind, the words are returned,
+and admitted as not encoded. It looks at the specification alone, whoever wrote it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator
+from functools import lru_cache
+from itertools import pairwise
+
+from aurora_core.parsing.coverage import parameters
+from aurora_core.parsing.data_files import read_data
+from aurora_core.spec.parameter import Parameter, Provenance, Span, Unit
+from aurora_core.spec.scenario import (
+    Clause,
+    EventDoneTrigger,
+    MissionDoneTrigger,
+    ScenarioSpec,
+    UavMission,
+)
+from aurora_core.spec.vocabulary import BehaviorKind, ClauseStatus
+
+_PAUSES = ' \t\n,;.:-('
+# Rows about whole clauses, by their first words.
+_OPENINGS = ('cause', 'later')
+
+
+def untold(spec: ScenarioSpec) -> list[Span]:
+    """Return the telling words of encoded clauses that nothing in the specification carries."""
+    text = spec.prompt.lower()
+    found = []
+    for name, (pattern, carriers) in _rows().items():
+        if name in _OPENINGS:
+            spans = list(_openings(spec, pattern))
+        else:
+            spans = [Span(start=m.start(), end=m.end()) for m in pattern.finditer(text)]
+        for span in spans:
+            clauses = _encoded(spec, span)
+            if clauses and not any(_CARRIERS[n](spec, c) for n in carriers for c in clauses):
+                found.append(span)
+    return found
+
+
+def _openings(spec: ScenarioSpec, opening: re.Pattern[str]) -> Iterator[Span]:
+    """Yield the clauses that begin with certain words, each with them: `then | the bus stops`."""
+    for before, clause in pairwise(sorted(spec.clauses, key=lambda c: c.span.start)):
+        between = spec.prompt[before.span.end : clause.span.start]
+        start = before.span.end + len(between) - len(between.lstrip(_PAUSES))
+        start = min(start, clause.span.start)
+        if opening.match(spec.prompt.lower(), start):
+            yield Span(start=start, end=clause.span.end)
+
+
+def _encoded(spec: ScenarioSpec, span: Span) -> list[Clause]:
+    """Return the clauses that characters are part of, none where one of them is unread."""
+    touched = [c for c in spec.clauses if _meet(c.span, span)]
+    read = all(c.status is ClauseStatus.ENCODED for c in touched)
+    return touched if read else []
+
+
+def _meet(one: Span, other: Span) -> bool:
+    return one.start < other.end and other.start < one.end
+
+
+# --- what carries a meaning ----------------------------------------------------------------------
+
+
+def _timed(spec: ScenarioSpec, clause: Clause) -> bool:
+    """An element with a place in time: not only bodies, whose behaviours have none."""
+    bodies = {agent.id for agent in spec.agents}
+    return any(name not in bodies for name in clause.ids)
+
+
+def _no_act(spec: ScenarioSpec, clause: Clause) -> bool:
+    """A list of what is there, `and then there is a bus`: nobody does anything."""
+    behaviors = [b for a in spec.agents if a.id in clause.ids for b in a.behaviors]
+    return not any(b.span is None or _meet(b.span, clause.span) for b in behaviors)
+
+
+def _ground(spec: ScenarioSpec, clause: Clause) -> bool:
+    """Bodies on the ground alone."""
+    return set(clause.ids) <= {agent.id for agent in spec.agents}
+
+
+def _speed(spec: ScenarioSpec, clause: Clause) -> bool:
+    """A stated speed."""
+    return any(p.unit is Unit.METRE_PER_SECOND for p in _stated(spec))
+
+
+def _tailgate(spec: ScenarioSpec, clause: Clause) -> bool:
+    return any(
+        b.kind is BehaviorKind.TAILGATE
+        for a in spec.agents
+        if a.id in clause.ids
+        for b in a.behaviors
+    )
+
+
+def _length(spec: ScenarioSpec, clause: Clause) -> bool:
+    """A stated length in the clause."""
+    return any(p.unit is Unit.METRE and _inside(p, clause) for p in _stated(spec))
+
+
+def _time_of_day(spec: ScenarioSpec, clause: Clause) -> bool:
+    return spec.world.time_of_day_span is not None
+
+
+def _event(spec: ScenarioSpec, clause: Clause) -> bool:
+    return any(e.id in clause.ids for e in spec.events)
+
+
+def _sequence(spec: ScenarioSpec, clause: Clause) -> bool:
+    """An order, a chain of events, or the phases of one UAV, which follow each other."""
+    chained = any(
+        isinstance(e.trigger, EventDoneTrigger | MissionDoneTrigger) for e in spec.events
+    )
+    phases = [m.uav for m in spec.missions]
+    acting = {e.id for e in spec.agents if e.behaviors}
+    alone = len(set(phases)) == 1 < len(phases) and not acting
+    return bool(spec.orders) or chained or alone
+
+
+def _condition(spec: ScenarioSpec, clause: Clause) -> bool:
+    return any(c.id in clause.ids for c in spec.conditions)
+
+
+def _mission(spec: ScenarioSpec, clause: Clause) -> bool:
+    """A phase, whose values hold all along."""
+    return any(m.id in clause.ids for m in spec.missions)
+
+
+def _distances(spec: ScenarioSpec, clause: Clause) -> list[Parameter]:
+    acting = [a for a in spec.agents if a.id in clause.ids]
+    told = [p.distance_m for a in acting for p in a.placements if p.distance_m is not None]
+    return [p for p in told if p.provenance is Provenance.EXPLICIT and _inside(p, clause)]
+
+
+def _kept_distance(spec: ScenarioSpec, clause: Clause) -> bool:
+    """A distance that holds on the way, and not at t = 0 only."""
+    acting = [a for a in spec.agents if a.id in clause.ids]
+    return any(p.keeps_distance for a in acting for p in a.placements)
+
+
+def _no_distance(spec: ScenarioSpec, clause: Clause) -> bool:
+    return not _distances(spec, clause)
+
+
+def _alone(spec: ScenarioSpec, clause: Clause) -> bool:
+    """Nobody else could take a turn."""
+    return len(spec.uavs) < 2 and len(spec.agents) < 2
+
+
+def _earlier(spec: ScenarioSpec, clause: Clause) -> bool:
+    """A phase like an earlier one of the same UAV."""
+    told = [m for m in spec.missions if m.id in clause.ids]
+    return any(_alike(m, n) for m in told for n in spec.missions[: spec.missions.index(m)])
+
+
+def _alike(one: UavMission, other: UavMission) -> bool:
+    return (one.uav, one.mode, one.target) == (other.uav, other.mode, other.target)
+
+
+_CARRIERS: dict[str, Callable[[ScenarioSpec, Clause], bool]] = {
+    'timed': _timed,
+    'condition': _condition,
+    'mission': _mission,
+    'kept_distance': _kept_distance,
+    'no_distance': _no_distance,
+    'no_act': _no_act,
+    'ground': _ground,
+    'speed': _speed,
+    'tailgate': _tailgate,
+    'length': _length,
+    'time_of_day': _time_of_day,
+    'event': _event,
+    'sequence': _sequence,
+    'alone': _alone,
+    'earlier': _earlier,
+}
+
+
+def _stated(spec: ScenarioSpec) -> Iterator[Parameter]:
+    return (p for p in parameters(spec) if p.provenance is Provenance.EXPLICIT)
+
+
+def _inside(parameter: Parameter, clause: Clause) -> bool:
+    span = parameter.span
+    return span is not None and clause.span.start <= span.start and span.end <= clause.span.end
+
+
+# --- words ---------------------------------------------------------------------------------------
+
+
+@lru_cache(maxsize=1)
+def _rows() -> dict[str, tuple[re.Pattern[str], tuple[str, ...]]]:
+    rows = read_data('lexicon.yaml')['telling']
+    return {
+        name: (
+            re.compile(rf'\b(?:{"|".join(row["words"])})\b'),
+            tuple(row.get('carried_by', ())),
+        )
+        for name, row in rows.items()
+    }

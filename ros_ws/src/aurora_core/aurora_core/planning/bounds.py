@@ -1,0 +1,128 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Defaults that bend: what nobody states moves inside the bounds that a request does state.
+
+"Keeps below 25 m" says nothing of the altitude of a mission, and everything about it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from math import inf, sqrt
+
+from aurora_core.geometry.kernel import norm2
+from aurora_core.knowledge.limits import Limits
+from aurora_core.spec.parameter import Parameter, Provenance
+from aurora_core.spec.quantity import QuantityName
+from aurora_core.spec.scenario import AltitudeTrigger, ScenarioSpec, UavAction, UavMission
+from aurora_core.spec.vocabulary import MissionMode
+
+# Room between a default and a bound, for wind and for the lag behind a moving target (m).
+_ALTITUDE_ROOM_M = 1.5
+_STANDOFF_ROOM_M = 8.0
+# A trigger has to be passed, not touched (m).
+_PAST_M = 1.0
+# Share of a greatest distance in space that is altitude where both are free.
+_HEIGHT_SHARE = 0.7
+
+_IN_THE_PLANE = (QuantityName.HORIZONTAL_DISTANCE,)
+_IN_SPACE = (QuantityName.DISTANCE, QuantityName.SEPARATION)
+
+
+@dataclass(frozen=True, slots=True)
+class _Range:
+    """Where a number may lie (m)."""
+
+    low: float = -inf
+    high: float = inf
+
+    def near(self, value: float, room: float) -> float:
+        """Return the number nearest to `value` that is inside by `room`, or the middle."""
+        low, high = self.low + room, self.high - room
+        return (self.low + self.high) / 2.0 if low > high else min(max(value, low), high)
+
+
+def bent(spec: ScenarioSpec, limits: Limits) -> ScenarioSpec:
+    """Return the specification with default altitudes and standoffs inside its stated bounds.
+
+    Args:
+        spec: The request; it is not changed.
+        limits: Limits in force.
+    """
+    missions = tuple(_standing_off(spec, _at_altitude(spec, m, limits)) for m in spec.missions)
+    if missions == spec.missions:
+        return spec
+    return ScenarioSpec.model_validate({**dict(spec), 'missions': missions})
+
+
+def _at_altitude(spec: ScenarioSpec, mission: UavMission, limits: Limits) -> UavMission:
+    altitude = mission.altitude_m
+    if altitude.provenance is not Provenance.DEFAULT:
+        return mission
+    bounds = _stated(spec, (QuantityName.ALTITUDE,), {mission.uav})
+    value = max(bounds.near(altitude.value, _ALTITUDE_ROOM_M), _passed_m(spec, mission))
+    if mission.mode is MissionMode.TRACK and mission.target is not None:
+        reach_m = _stated(spec, _IN_SPACE, {mission.uav, mission.target}).high
+        if value > reach_m - _STANDOFF_ROOM_M:
+            value = _HEIGHT_SHARE * reach_m
+    value = min(max(value, limits.uav_altitude_min_m), limits.uav_altitude_max_m)
+    return mission.model_copy(update={'altitude_m': _moved(altitude, value, bounds)})
+
+
+def _passed_m(spec: ScenarioSpec, mission: UavMission) -> float:
+    """Return the altitude that a UAV has to pass in its first mission for an event to happen."""
+    own = [m for m in spec.missions if m.uav == mission.uav]
+    climbs = any(
+        isinstance(e.action, UavAction)
+        and e.action.uav == mission.uav
+        and e.action.altitude_m is not None
+        for e in spec.events
+    )
+    if mission.id != own[0].id or climbs:
+        return -inf
+    triggers = (e.trigger for e in spec.events if isinstance(e.trigger, AltitudeTrigger))
+    asked = [t.value_m.value for t in triggers if t.uav == mission.uav]
+    reached = [m.altitude_m.value for m in own if m.altitude_m.provenance is Provenance.EXPLICIT]
+    return max((z + _PAST_M for z in asked if z > max(reached, default=0.0)), default=-inf)
+
+
+def _standing_off(spec: ScenarioSpec, mission: UavMission) -> UavMission:
+    standoff = mission.standoff_m
+    if (
+        mission.mode is not MissionMode.TRACK
+        or mission.target is None
+        or standoff is None
+        or standoff.provenance is not Provenance.DEFAULT
+    ):
+        return mission
+    pair = {mission.uav, mission.target}
+    bounds = _stated(spec, _IN_THE_PLANE, pair)
+    value = bounds.near(standoff.value, _STANDOFF_ROOM_M)
+    in_space = _stated(spec, _IN_SPACE, pair)
+    height_m = mission.altitude_m.value
+    away_m = in_space.near(norm2(value, height_m), _STANDOFF_ROOM_M)
+    if away_m > norm2(value, height_m):
+        value = sqrt(away_m * away_m - height_m * height_m)
+    value = min(max(value, standoff.low), standoff.high)
+    return mission.model_copy(update={'standoff_m': _moved(standoff, value, bounds)})
+
+
+def _stated(spec: ScenarioSpec, quantities: Iterable[str], of: set[str]) -> _Range:
+    """Return the range that the conditions of a request leave to a quantity of some bodies."""
+    low, high = -inf, inf
+    for one in spec.conditions:
+        if one.quantity not in quantities or set(one.of) != of:
+            continue
+        if one.op in ('>=', '>', '=='):
+            low = max(low, one.value.value)
+        if one.op in ('<=', '<', '=='):
+            high = min(high, one.value.value)
+    return _Range(low, high)
+
+
+def _moved(parameter: Parameter, value: float, bounds: _Range) -> Parameter:
+    """Return a parameter with another value, and with the part of its domain inside bounds."""
+    low = min(value, max(parameter.low, bounds.low))
+    high = max(value, min(parameter.high, bounds.high))
+    return parameter.model_copy(update={'value': value, 'low': low, 'high': high})

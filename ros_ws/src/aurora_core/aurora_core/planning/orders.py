@@ -1,0 +1,80 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Carry out orders: what comes later, and for which nothing else is said, waits for the earlier.
+
+"The pedestrian crosses, and only afterwards the car starts": the car awaits the end of the
+crossing. Between two UAVs the later one waits on the ground for the end of the other's flight.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from aurora_core.planning.ids import free_ids
+from aurora_core.spec.events import (
+    AgentAction,
+    Event,
+    EventDoneTrigger,
+    UavAction,
+)
+from aurora_core.spec.flight_order import begun_by, end_of
+from aurora_core.spec.scenario import Order, ScenarioSpec, UavMission
+
+
+def waiting(spec: ScenarioSpec) -> ScenarioSpec:
+    """Return the request with a trigger for every event and mission that an order alone times.
+
+    Args:
+        spec: The request, whoever read it; returned as it is when no order needs that.
+    """
+    events = spec.events
+    ids = free_ids(spec, 'e')
+    for order in spec.orders:
+        events = _waits(spec, events, order, ids)
+    if events == spec.events:
+        return spec
+    return ScenarioSpec.model_validate({**dict(spec), 'events': events})
+
+
+def _waits(
+    spec: ScenarioSpec, events: tuple[Event, ...], order: Order, ids: Iterator[str]
+) -> tuple[Event, ...]:
+    trigger = end_of(spec, order.first)
+    if trigger is None:
+        return events
+    later = next((e for e in events if e.id == order.then), None)
+    if later is not None:
+        if later.trigger is not None or later.action is None or _awaits(events, order):
+            return events
+        if isinstance(trigger, EventDoneTrigger) and not isinstance(later.action, AgentAction):
+            return events  # what a UAV does has a moment of its own
+        timed = Event.model_validate({**dict(later), 'trigger': trigger})
+        return tuple(timed if e is later else e for e in events)
+    mission = next((m for m in spec.missions if m.id == order.then), None)
+    if mission is None or not _is_first_of_another(spec, mission, order.first):
+        return events
+    if begun_by(spec.model_copy(update={'events': events}), mission) is not None:
+        return events
+    takeoff = Event(
+        id=next(ids),
+        trigger=trigger,
+        action=UavAction(do='change_mission', uav=mission.uav, mission=mission.id),
+        span=order.span or mission.span,
+    )
+    return (*events, takeoff)
+
+
+def _awaits(events: tuple[Event, ...], order: Order) -> bool:
+    """Tell whether the earlier event waits for the later one already, by way of others."""
+    awaited = {e.id: e.trigger.event for e in events if isinstance(e.trigger, EventDoneTrigger)}
+    name: str | None = order.first
+    while name is not None:
+        if name == order.then:
+            return True
+        name = awaited.pop(name, None)
+    return False
+
+
+def _is_first_of_another(spec: ScenarioSpec, mission: UavMission, first: str) -> bool:
+    own = [m.id for m in spec.missions if m.uav == mission.uav]
+    return own[0] == mission.id and first not in own

@@ -1,0 +1,123 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""What a map lacks, and which requests that touches, in plain words."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+
+from aurora_core.knowledge.map_model import MapModel
+from aurora_core.knowledge.net_types import Point
+from aurora_core.knowledge.reach import edge_parts
+from aurora_core.knowledge.road_network import RoadNetwork
+
+# "closing from 45 meters" and a follow of half a minute need about this much road ahead (m).
+_LONG_M = 150.0
+_SHARE = 0.98
+# From one lane to the next no street turns so sharply.
+_FOLD_RAD = math.radians(100.0)
+_GUESSED = ('default', 'default of its kind')
+
+
+@dataclass(frozen=True, slots=True)
+class MapGap:
+    """Something that a map lacks, and what that means for requests."""
+
+    lacks: str
+    means: str
+
+    @property
+    def text(self) -> str:
+        """Both in one line."""
+        return f'{self.lacks}: {self.means}'
+
+
+def map_gaps(model: MapModel) -> tuple[MapGap, ...]:
+    """Return what a map lacks for some kinds of request, the weightiest first."""
+    return (*_roads(model.network), *_walking(model.network), *_surroundings(model))
+
+
+def _roads(network: RoadNetwork) -> Iterator[MapGap]:
+    lanes = network.driving_lanes('passenger')
+    parts = edge_parts(network, 'passenger')
+    length_m = {edge: network.edge(edge).length_m for part in parts for edge in part}
+    total_m = sum(length_m.values())
+    main_m = sum(length_m[edge] for edge in parts[0]) if parts else 0.0
+    if main_m < _SHARE * total_m:
+        yield MapGap(
+            f'unconnected roads ({1.0 - main_m / total_m:.0%} of the length)',
+            'vehicles that are placed there cannot come back, and none can be sent there',
+        )
+    folds = _folds(network)
+    if folds:
+        yield MapGap(
+            f'lanes that fold back on themselves at {", ".join(folds[:3])}'
+            + (f' and {len(folds) - 3} more' if len(folds) > 3 else ''),
+            'a vehicle that passes there jumps, and the run is violated for it',
+        )
+    by_edge = Counter(lane.edge_id for lane in lanes)
+    if all(count < 2 for count in by_edge.values()):
+        yield MapGap(
+            'no street with two lanes in a direction',
+            'no lane change, overtaking or cutting in',
+        )
+    if all(edge.length_m < _LONG_M for edge in network.edges.values()):
+        yield MapGap(
+            f'no street longer than {_LONG_M:.0f} m without a junction',
+            'fast or long manoeuvres, such as closing in from far behind, may find no room',
+        )
+    if not any(junction.has_signal for junction in network.junctions.values()):
+        yield MapGap('no traffic light', 'nothing can stop at or run a red light')
+    if not network.street_names:
+        yield MapGap('no street names', 'pictures and reports name lanes by their ids')
+
+
+def _folds(network: RoadNetwork) -> tuple[str, ...]:
+    """Return the junctions in which a lane goes on backwards, by id; turning round is none."""
+    found = set()
+    for link in network.connections:
+        lanes = [
+            network.lane(name) for name in (link.from_lane_id, *link.via_lane_ids, link.to_lane_id)
+        ]
+        drivable = all('passenger' in lane.allows for lane in (lanes[0], lanes[-1]))
+        if not drivable or link.direction == 't':
+            continue
+        for before, after in pairwise(lanes):
+            ends = _heading(*before.polyline[-2:])
+            begins = _heading(*after.polyline[:2])
+            if abs((begins - ends + math.pi) % math.tau - math.pi) > _FOLD_RAD:
+                found.add(network.edge(lanes[0].edge_id).to_junction)
+    return tuple(sorted(found))
+
+
+def _heading(a: Point, b: Point) -> float:
+    return math.atan2(b[1] - a[1], b[0] - a[0])
+
+
+def _walking(network: RoadNetwork) -> Iterator[MapGap]:
+    if not network.sidewalks:
+        yield MapGap('no walkway', 'no pedestrian can be placed')
+    elif not network.crossings:
+        yield MapGap('no crossing', 'no pedestrian can cross a street at a crosswalk')
+
+
+def _surroundings(model: MapModel) -> Iterator[MapGap]:
+    if not model.buildings:
+        yield MapGap(
+            'no buildings',
+            'nothing blocks a view, a radio link or a flight: such margins are optimistic',
+        )
+    guessed = sum(b.height_source in _GUESSED for b in model.buildings)
+    if guessed:
+        yield MapGap(
+            f'no measured height for {guessed} of {len(model.buildings)} buildings',
+            'their heights are defaults: clearances and views over them are guesses',
+        )
+    if not model.landmarks:
+        yield MapGap('no landmarks', 'no place can be named, as in "hovers over City Hall"')
+    if not model.bus_stops:
+        yield MapGap('no bus stops', 'buses stop nowhere in particular')

@@ -1,0 +1,138 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""What events change of the flight of a UAV: which missions wait for one, which ones it ends.
+
+A UAV flies its missions in the order listed. One that is the object of `change_mission` is entered
+only when that event acts: it ends the one before, or the hold after that.
+"""
+
+from __future__ import annotations
+
+from aurora_core.spec.events import (
+    Event,
+    EventDoneTrigger,
+    MissionDoneTrigger,
+    Trigger,
+    UavAction,
+)
+from aurora_core.spec.parameter import Parameter, Provenance
+from aurora_core.spec.scenario import ScenarioSpec, UavMission
+
+
+def is_next_anyway(event: Event) -> bool:
+    """Tell whether a change of mission waits for nothing but the end of the mission before."""
+    action, trigger = event.action, event.trigger
+    if not isinstance(action, UavAction) or action.do != 'change_mission':
+        return False
+    return trigger is None or (
+        isinstance(trigger, MissionDoneTrigger) and trigger.uav == action.uav
+    )
+
+
+def climbs_last(event: Event) -> bool:
+    """Tell whether a UAV is to climb once its missions are over, and not during one of them."""
+    action, trigger = event.action, event.trigger
+    return (
+        isinstance(action, UavAction)
+        and action.do == 'ascend'
+        and isinstance(trigger, MissionDoneTrigger)
+        and trigger.uav == action.uav
+    )
+
+
+def begun_by(spec: ScenarioSpec, mission: UavMission) -> Event | None:
+    """Return the event that a mission waits for, None when it follows the one before."""
+    return next(
+        (
+            e
+            for e in spec.events
+            if isinstance(e.action, UavAction)
+            and e.action.mission == mission.id
+            and e.action.uav == mission.uav
+            and not is_next_anyway(e)
+        ),
+        None,
+    )
+
+
+def end_of(spec: ScenarioSpec, element: str) -> Trigger | None:
+    """Return what an event waits for that comes after another one, or after a UAV's last mission.
+
+    None where nothing tells that end: of an event without an action, of a mission that its UAV
+    goes on from.
+    """
+    event = next((e for e in spec.events if e.id == element), None)
+    if event is not None:
+        done = EventDoneTrigger(on='event_done', event=element)
+        return None if event.action is None else done
+    mission = next((m for m in spec.missions if m.id == element), None)
+    if mission is None or [m.id for m in spec.missions if m.uav == mission.uav][-1] != element:
+        return None
+    return MissionDoneTrigger(on='mission_done', uav=mission.uav)
+
+
+def mission_after(spec: ScenarioSpec, mission: UavMission) -> UavMission | None:
+    """Return the next mission of the same UAV, None after the last one."""
+    own = [m for m in spec.missions if m.uav == mission.uav]
+    return next(iter(own[own.index(mission) + 1 :]), None)
+
+
+def left_by(spec: ScenarioSpec, mission: UavMission) -> Event | None:
+    """Return the event that may end a mission, None when only its own end does."""
+    after = mission_after(spec, mission)
+    if after is not None:
+        return begun_by(spec, after)
+    return next(iter(ending_landings(spec, mission.uav)), None)
+
+
+def ending_landings(spec: ScenarioSpec, uav: str) -> tuple[Event, ...]:
+    """Return the landings told of an event that a UAV awaits: nobody states when that is.
+
+    "Hovers until the bus stops": the event stands in the place of the duration. A landing that
+    waits for the end of the missions themselves ends nothing.
+    """
+    landings = _awaited(spec, uav, 'land')
+    return tuple(
+        e for e in landings if e.trigger is not None and not _waits_for_missions(spec, e, uav)
+    )
+
+
+def _waits_for_missions(spec: ScenarioSpec, event: Event, uav: str) -> bool:
+    """Tell whether an event, or one that it waits for, comes after the missions of a UAV."""
+    seen: set[str] = set()
+    while event.id not in seen:
+        seen.add(event.id)
+        trigger = event.trigger
+        if isinstance(trigger, MissionDoneTrigger):
+            return trigger.uav == uav
+        if isinstance(trigger, EventDoneTrigger):
+            event = next(e for e in spec.events if e.id == trigger.event)
+    return False
+
+
+def lasts_until_event(spec: ScenarioSpec, mission: UavMission) -> bool:
+    """Tell whether only an event ends a phase, or a patrol: nobody states how long it is."""
+    duration = mission.duration_s
+    unstated = duration is None or _is_default(duration)
+    return unstated and left_by(spec, mission) is not None
+
+
+def awaits_climbs(spec: ScenarioSpec, uav: str) -> tuple[Event, ...]:
+    """Return the climbs that a UAV awaits before it lands: nobody states when that is."""
+    return tuple(e for e in _awaited(spec, uav, 'ascend') if not climbs_last(e))
+
+
+def _awaited(spec: ScenarioSpec, uav: str, do: str) -> tuple[Event, ...]:
+    """Return the events of a UAV's action, none where the length of its last mission is stated."""
+    last = next((m for m in reversed(spec.missions) if m.uav == uav), None)
+    if last is None or (last.duration_s is not None and not _is_default(last.duration_s)):
+        return ()
+    return tuple(
+        e
+        for e in spec.events
+        if isinstance(e.action, UavAction) and e.action.do == do and e.action.uav == uav
+    )
+
+
+def _is_default(duration: Parameter) -> bool:
+    return duration.provenance is Provenance.DEFAULT

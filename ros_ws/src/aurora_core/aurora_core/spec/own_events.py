@@ -1,0 +1,88 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Behaviours that are one action at some time: the events that nobody listed."""
+
+from __future__ import annotations
+
+from typing import get_args
+
+from aurora_core.spec.events import AgentAction, AgentDo, DistanceTrigger, Event, bodies_of
+from aurora_core.spec.parameter import Parameter, Provenance, Unit
+from aurora_core.spec.scenario import Behavior, GroundAgent, ScenarioSpec
+from aurora_core.spec.vocabulary import AgentType, BehaviorKind
+
+# Behaviours that are carried out as the action of the same name.
+ONCE = frozenset({BehaviorKind.SLOW, BehaviorKind.YIELD, BehaviorKind.CHANGE_LANE})
+
+# One yields to somebody who is this near (m).
+YIELDS_WITHIN_M = 30.0
+
+# These do not drive in the lanes for cars.
+_NO_LANES = frozenset({AgentType.PEDESTRIAN, AgentType.RSU, AgentType.BICYCLE})
+
+
+def keeps_to_lanes(agent: GroundAgent) -> bool:
+    """Tell whether an agent drives in the lanes for cars."""
+    return agent.type not in _NO_LANES
+
+
+def is_once(spec: ScenarioSpec, agent: GroundAgent, behavior: Behavior) -> bool:
+    """Tell whether a behaviour is an action that the agent can take at some time."""
+    if behavior.kind is BehaviorKind.YIELD:
+        drivers = {a.id for a in spec.agents if keeps_to_lanes(a)}
+        return agent.id in drivers and behavior.target in drivers - {agent.id}
+    if behavior.kind is BehaviorKind.CHANGE_LANE:
+        return keeps_to_lanes(agent)
+    return behavior.kind is BehaviorKind.SLOW and agent.type not in (
+        AgentType.PEDESTRIAN,
+        AgentType.RSU,
+    )
+
+
+def own_events(spec: ScenarioSpec) -> tuple[Event, ...]:
+    """Return the events that behaviours stand for, with ids that no listed event has.
+
+    Nobody says when they happen, but one yields once the other one is near.
+    """
+    taken = {event.id for event in spec.events}
+    found: list[Event] = []
+    for agent in spec.agents:
+        for behavior in agent.behaviors:
+            if not is_once(spec, agent, behavior):
+                continue
+            number = len(found) + 1
+            while f'own{number}' in taken:
+                number += 1
+            taken.add(f'own{number}')
+            found.append(_event(f'own{number}', agent, behavior))
+    return tuple(found)
+
+
+def let_pass(spec: ScenarioSpec, event: Event) -> str | None:
+    """Return the agent that an event makes another one yield to, None where it is not one."""
+    if not isinstance(event.action, AgentAction) or event.action.do != 'yield':
+        return None
+    bodies = bodies_of(event) - {event.action.agent}
+    others = [agent.id for agent in spec.agents if agent.id in bodies]
+    return others[0] if len(others) == 1 else None
+
+
+def _event(event_id: str, agent: GroundAgent, behavior: Behavior) -> Event:
+    do: AgentDo = next(do for do in get_args(AgentDo) if do == behavior.kind.value)
+    trigger = None
+    if behavior.kind is BehaviorKind.YIELD and behavior.target is not None:
+        near = Parameter(
+            value=YIELDS_WITHIN_M,
+            unit=Unit.METRE,
+            low=YIELDS_WITHIN_M,
+            high=YIELDS_WITHIN_M,
+            provenance=Provenance.DEFAULT,
+        )
+        trigger = DistanceTrigger(on='distance_below', a=behavior.target, b=agent.id, value_m=near)
+    speed = behavior.speed_mps if behavior.kind is BehaviorKind.SLOW else None
+    return Event(
+        id=event_id,
+        trigger=trigger,
+        action=AgentAction(do=do, agent=agent.id, value_mps=speed),
+        span=behavior.span,
+    )

@@ -1,0 +1,61 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""A low speed that an event waits for comes about while everybody watches and drives."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+
+from aurora_core.spec.parameter import Parameter
+from aurora_core.spec.scenario import AgentAction, Event, SpeedTrigger
+from aurora_core.trace.layout import GroundCommandKind
+
+Make = Callable[..., Parameter]
+Build = Callable[..., Any]
+SLOWED = int(GroundCommandKind.SET_SPEED)
+
+
+def _waits(make: Make, on: str = 'speed_below') -> Event:
+    trigger = SpeedTrigger.model_validate({'on': on, 'who': 'van1', 'value_mps': make(3.0, 'm/s')})
+    return Event(id='e1', trigger=trigger, action=AgentAction(do='brake', agent='ego'))
+
+
+def _slowed(scene: Any) -> list[tuple[int, str, int, float]]:
+    return [c for c in scene.commands() if c[:3][1:] == ('van1', SLOWED)]
+
+
+def _drive(scene: Any, van_mps: float, ego_mps: float, ticks: int) -> None:
+    scene.put('van1', 40.0, speed=van_mps).put('ego', 0.0, speed=ego_mps)
+    scene.follow(ticks)
+
+
+def test_it_slows_down_once_it_was_driven_for_a_while(stage: Build, parameter: Make) -> None:
+    scene = stage(events=(_waits(parameter),))
+    _drive(scene, 10.0, 10.0, 400)
+    ((tick, _, _, value),) = _slowed(scene)
+    assert value == pytest.approx(2.0)
+    captured = scene.machines[0].capture_tick
+    assert captured is not None
+    assert tick >= captured + 80
+
+
+@pytest.mark.parametrize(('van_mps', 'ego_mps'), [(2.0, 10.0), (10.0, 1.0)])
+def test_it_waits_for_those_who_do_not_drive(
+    stage: Build, parameter: Make, van_mps: float, ego_mps: float
+) -> None:
+    scene = stage(events=(_waits(parameter),))
+    _drive(scene, van_mps, ego_mps, 400)
+    assert _slowed(scene) == []
+
+
+def test_what_something_else_decides_is_left_to_it(stage: Build, parameter: Make) -> None:
+    stops = Event(id='e2', action=AgentAction(do='stop', agent='van1'))
+    scene = stage(events=(_waits(parameter), stops))
+    _drive(scene, 10.0, 10.0, 400)
+    assert [value for *_, value in _slowed(scene)] == [0.0]  # the stop that is asked for
+    scene = stage(events=(_waits(parameter, 'speed_above'),))
+    _drive(scene, 10.0, 10.0, 400)
+    assert _slowed(scene) == []

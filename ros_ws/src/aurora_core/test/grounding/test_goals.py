@@ -1,0 +1,85 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Vehicles stand at, come to and stop at the places that a request names."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import dist
+
+import pytest
+import shapely
+
+from aurora_core.grounding.places import MapPlaces
+from aurora_core.knowledge.map_model import MapModel
+from aurora_core.outcomes.grounded import GroundedAgent, GroundedScenario
+from aurora_core.spec.scenario import ScenarioSpec
+
+Read = Callable[..., ScenarioSpec]
+Ground = Callable[..., GroundedScenario]
+Maps = Callable[[str], MapModel]
+First = Callable[[str, str], tuple[GroundedAgent, tuple[float, float], MapModel]]
+
+ARRIVAL_M = 15.0
+
+
+@pytest.fixture
+def first(read_prompt: Read, ground: Ground, map_of: Maps) -> First:
+    """The first vehicle of a prompt, the point of a place there, and the map."""
+
+    def of(prompt: str, place: str) -> tuple[GroundedAgent, tuple[float, float], MapModel]:
+        found = ground(read_prompt(prompt, 'downtown'), 'downtown')
+        assert isinstance(found, GroundedScenario), found
+        the_map = map_of('downtown')
+        at = the_map.network.position_on_lane(found.anchor_lane, found.anchor_position_m)
+        return found.agents[0], MapPlaces(the_map).point(place, at[:2]), the_map
+
+    return of
+
+
+@pytest.mark.parametrize(
+    ('prompt', 'place', 'within_m'),
+    [
+        ('A car stands near Union Station.', 'landmark:Union Station', 50.0),
+        ('A truck is waiting at the intersection.', 'intersection', ARRIVAL_M),
+    ],
+)
+def test_who_stands_at_a_place_is_there(
+    first: First, prompt: str, place: str, within_m: float
+) -> None:
+    agent, point, _ = first(prompt, place)
+    assert dist((agent.x_m, agent.y_m), point) <= within_m
+
+
+@pytest.mark.parametrize(
+    ('prompt', 'place'),
+    [
+        ('A bus stops at Union Station.', 'landmark:Union Station'),
+        ('A bus stops at the intersection.', 'intersection'),
+        ('A car stops at the crosswalk.', 'crosswalk'),
+    ],
+)
+def test_who_stops_at_a_place_stops_on_the_way_there(
+    first: First, prompt: str, place: str
+) -> None:
+    agent, point, the_map = first(prompt, place)
+    lane = the_map.network.lane(agent.stop_lane_id)
+    assert not lane.is_internal
+    x, y, _, _ = the_map.network.position_on_lane(agent.stop_lane_id, agent.stop_position_m)
+    assert dist((x, y), point) <= ARRIVAL_M + agent.length_m / 2.0
+    # Not on top of the place: whoever looks at it could not see it.
+    assert dist((x, y), point) > agent.length_m / 2.0
+    assert dist((agent.x_m, agent.y_m), (x, y)) > 20.0
+
+
+def test_a_way_leads_past_the_place_that_it_is_to_come_to(first: First) -> None:
+    prompt = 'A drone tracks a firetruck, which drives to Mercy Hospital.'
+    agent, point, _ = first(prompt, 'landmark:Mercy Hospital')
+    assert shapely.LineString(agent.route_xy_m).distance(shapely.Point(point)) <= ARRIVAL_M
+    assert agent.stop_lane_id == ''
+
+
+def test_who_stops_anywhere_has_driven(first: First) -> None:
+    agent, _, the_map = first('A car drives and stops.', 'main_road')
+    x, y, _, _ = the_map.network.position_on_lane(agent.stop_lane_id, agent.stop_position_m)
+    assert dist((agent.x_m, agent.y_m), (x, y)) > 20.0

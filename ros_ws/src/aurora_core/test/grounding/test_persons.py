@@ -1,0 +1,97 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Persons stand on sidewalks, cross at crosswalks, and go when somebody watches."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import dist
+
+import pytest
+import shapely
+
+from aurora_core.grounding.places import MapPlaces
+from aurora_core.knowledge.map_model import MapModel
+from aurora_core.outcomes.grounded import GroundedAgent, GroundedScenario, ReleaseOn
+from aurora_core.spec.scenario import ScenarioSpec
+
+Ground = Callable[[str], tuple[GroundedScenario, MapModel]]
+
+
+@pytest.fixture
+def grounded(
+    read_prompt: Callable[..., ScenarioSpec],
+    ground: Callable[..., GroundedScenario],
+    map_of: Callable[[str], MapModel],
+) -> Ground:
+    """Ground a prompt on the downtown map."""
+
+    def of(prompt: str) -> tuple[GroundedScenario, MapModel]:
+        found = ground(read_prompt(prompt, 'downtown'), 'downtown')
+        assert isinstance(found, GroundedScenario), found
+        return found, map_of('downtown')
+
+    return of
+
+
+def _persons(found: GroundedScenario) -> list[GroundedAgent]:
+    return [a for a in found.agents if a.is_person]
+
+
+@pytest.mark.parametrize(
+    'prompt',
+    [
+        'A pedestrian walks on the sidewalk at 1.4 m/s; a drone tracks the pedestrian at 20 m.',
+        'Three pedestrians walk on the sidewalk.',
+        'A pedestrian waits at the crosswalk while a bus drives.',
+        'A drone hovers over the crosswalk at 30 m; a pedestrian crosses at the crosswalk.',
+        'A pedestrian stands near City Hall.',
+    ],
+)
+def test_everybody_stands_on_a_sidewalk(grounded: Ground, prompt: str) -> None:
+    found, the_map = grounded(prompt)
+    persons = _persons(found)
+    assert persons
+    assert found.unsupported == ()
+    for person in persons:
+        lane = the_map.network.lane(person.lane_id)
+        assert lane.allows == {'pedestrian'}
+        assert lane.edge_id == person.edges[0]
+        spot = shapely.Point(person.x_m, person.y_m)
+        assert the_map.network.sidewalk_area.buffer(0.1).contains(spot)
+        assert person.route_xy_m[0] == pytest.approx((person.x_m, person.y_m))
+    assert len({(p.x_m, p.y_m) for p in persons}) == len(persons)
+
+
+def test_who_crosses_goes_from_kerb_to_kerb_ahead_of_the_car(grounded: Ground) -> None:
+    found, the_map = grounded('A pedestrian crosses at the crosswalk ahead; the ego car drives.')
+    (person,) = _persons(found)
+    (ego,) = (a for a in found.agents if not a.is_person)
+    way = shapely.LineString(person.route_xy_m)
+    assert way.crosses(shapely.LineString(ego.route_xy_m))
+    anchor = the_map.network.position_on_lane(found.anchor_lane, found.anchor_position_m)[:2]
+    middle = MapPlaces(the_map).point('crosswalk', anchor)
+    assert way.distance(shapely.Point(middle)) < 2.0
+
+
+def test_a_stated_distance_is_kept_along_the_street(grounded: Ground) -> None:
+    found, _ = grounded('A pedestrian stands 30 m ahead of the ego car.')
+    (person,) = _persons(found)
+    (ego,) = (a for a in found.agents if not a.is_person)
+    along = (person.x_m - ego.x_m) * ego.heading_x + (person.y_m - ego.y_m) * ego.heading_y
+    assert along == pytest.approx(30.0, abs=1.0)
+    assert dist((person.x_m, person.y_m), (ego.x_m, ego.y_m)) < 40.0
+
+
+@pytest.mark.parametrize(
+    ('prompt', 'release'),
+    [
+        ('A drone tracks a pedestrian, who walks on the sidewalk.', ReleaseOn.CAPTURED),
+        ('A pedestrian walks on the sidewalk.', ReleaseOn.START),
+        ('A pedestrian waits at the crosswalk.', ReleaseOn.NEVER),
+        ('A pedestrian crosses after 20 s.', ReleaseOn.EVENT),
+    ],
+)
+def test_when_a_person_goes(grounded: Ground, prompt: str, release: ReleaseOn) -> None:
+    (person,) = _persons(grounded(prompt)[0])
+    assert person.release is release

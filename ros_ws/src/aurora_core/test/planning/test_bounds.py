@@ -1,0 +1,111 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Default altitudes and standoffs lie inside what a request states of them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import hypot
+from typing import Any
+
+import pytest
+
+from aurora_core.knowledge.config_files import config_path
+from aurora_core.knowledge.limits import load_limits
+from aurora_core.planning.bounds import bent
+from aurora_core.spec.parameter import Parameter
+from aurora_core.spec.scenario import (
+    AltitudeTrigger,
+    Event,
+    GroundAgent,
+    ScenarioSpec,
+    StatedCondition,
+    Uav,
+    UavMission,
+)
+from aurora_core.spec.vocabulary import AgentType, MissionMode
+
+Make = Callable[..., Parameter]
+LIMITS = load_limits(config_path('limits.json'))
+
+
+def _spec(make: Make, *conditions: dict[str, Any], stated: bool = False, **more: Any) -> Any:
+    mission = UavMission(
+        id='m1',
+        uav='uav1',
+        mode=MissionMode.TRACK,
+        target='van1',
+        altitude_m=make(30.0, explicit=stated),
+        standoff_m=make(0.0, explicit=stated),
+        duration_s=make(30.0, 's'),
+    )
+    return ScenarioSpec(
+        prompt='x',
+        agents=tuple(GroundAgent(id=name, type=AgentType.VAN) for name in ('van1', 'ego')),
+        uavs=(Uav(id='uav1'),),
+        missions=(mission,),
+        conditions=tuple(
+            StatedCondition(id=f'c{k}', **fields) for k, fields in enumerate(conditions)
+        ),
+        **more,
+    )
+
+
+def _flown(spec: ScenarioSpec) -> tuple[float, float]:
+    (mission,) = bent(spec, LIMITS).missions
+    assert mission.standoff_m is not None
+    return mission.altitude_m.value, mission.standoff_m.value
+
+
+def _says(make: Make, quantity: str, op: str, metres: float, *of: str) -> dict[str, Any]:
+    value = make(metres, explicit=True)
+    return {'quantity': quantity, 'of': of or ('uav1',), 'op': op, 'value': value}
+
+
+@pytest.mark.parametrize(
+    ('bounds', 'low', 'high'),
+    [
+        ([('<=', 25.0)], 20.0, 24.0),
+        ([('>=', 45.0)], 46.0, 50.0),
+        ([('>=', 60.0), ('<=', 64.0)], 61.0, 63.0),
+        ([('>=', 10.0)], 30.0, 30.0),
+        ([('<=', 1.0)], 3.0, 3.0),  # nobody flies that low
+    ],
+)
+def test_an_altitude_that_nobody_states_is_inside_its_bounds(
+    parameter: Make, bounds: list[tuple[str, float]], low: float, high: float
+) -> None:
+    said = (_says(parameter, 'altitude', op, metres) for op, metres in bounds)
+    assert low <= _flown(_spec(parameter, *said))[0] <= high
+
+
+def test_stated_numbers_stay(parameter: Make) -> None:
+    low = _says(parameter, 'altitude', '<=', 25.0)
+    far = _says(parameter, 'horizontal_distance', '>=', 50.0, 'uav1', 'van1')
+    assert _flown(_spec(parameter, low, far, stated=True)) == (30.0, 0.0)
+
+
+def test_a_least_distance_sets_the_standoff(parameter: Make) -> None:
+    plane = _says(parameter, 'horizontal_distance', '>=', 50.0, 'uav1', 'van1')
+    assert 55.0 <= _flown(_spec(parameter, plane))[1] <= 65.0
+    space = _says(parameter, 'distance', '>=', 50.0, 'van1', 'uav1')
+    altitude_m, standoff_m = _flown(_spec(parameter, space))
+    assert 55.0 <= hypot(altitude_m, standoff_m) <= 65.0
+    of_others = _says(parameter, 'distance', '>=', 50.0, 'van1', 'ego')
+    assert _flown(_spec(parameter, of_others)) == (30.0, 0.0)
+
+
+def test_a_greatest_distance_brings_it_down(parameter: Make) -> None:
+    near = _says(parameter, 'distance', '<=', 25.0, 'uav1', 'van1')
+    altitude_m, standoff_m = _flown(_spec(parameter, near))
+    assert 10.0 <= altitude_m <= 20.0
+    assert standoff_m == 0.0
+
+
+def test_an_altitude_that_an_event_waits_for_is_passed(parameter: Make) -> None:
+    reached = AltitudeTrigger(
+        on='altitude_reached', uav='uav1', value_m=parameter(55.0, explicit=True)
+    )
+    events = (Event(id='e1', trigger=reached),)
+    assert 55.0 < _flown(_spec(parameter, events=events))[0] <= 58.0
+    assert _flown(_spec(parameter, events=events, stated=True))[0] == 30.0
