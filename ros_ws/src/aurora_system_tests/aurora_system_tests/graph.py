@@ -9,6 +9,7 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
+from aurora_ros.matching import wait_until
 from aurora_ros.testing.domains import own_domain
 from aurora_ros.testing.partner import Partner, partner
 from aurora_ros.testing.processes import NodeProcess
@@ -46,16 +47,22 @@ class RunningGraph:
     start: Callable[[str], NodeProcess]
 
     def restart(self, name: str) -> None:
-        """Kill what is left of a node and start it again."""
+        """Kill what is left of a node and start it again; return when the partner has heard it."""
         self.nodes[name].kill()
         self.nodes[name].ready_file.unlink(missing_ok=True)
         self.nodes[name] = self.start(name)
         self.nodes[name].await_ready()
+        # Before that, the dead one is the only one that serves, for all the partner knows.
+        watch, pid = self.play.watch, self.nodes[name].pid
+        if watch.was_heard(name):
+            wait_until(lambda: watch.process(name)[0] == pid, HEARD_WITHIN_S)
 
     def logs(self) -> str:
         """What the nodes have printed, for a failing test."""
         return '\n'.join(f'--- {name}\n{node.log}' for name, node in self.nodes.items())
 
+
+HEARD_WITHIN_S = 10.0
 
 Arguments = Callable[[int], Mapping[str, Sequence[str]]]
 
