@@ -346,7 +346,10 @@ def _change_lane(case: Case, agent: str, window: Window) -> Acted:
         if first <= tick <= last + reach:
             time = float(case.scene.times[tick])
             why = f'{agent} is on another lane at {time:.2f} s'
-            return Acted(graded(held, not held and _at_end(case, tick), why), time, time)
+            # Done when it is there, or when it has been there for as long as that has to last.
+            kept = min(time + limits.LANE_HELD_S, case.scene.end_s)
+            judged = graded(held, not held and _at_end(case, tick), why)
+            return Acted(judged, time, kept, done_from_s=time)
     seen = [round(float(case.scene.times[t]), 1) for t, _ in changes]
     return _never(case, window, f'{agent} does not change lane (changes at {seen} s)')
 

@@ -18,6 +18,7 @@ from aurora_bench.checker.answers import (
     decide,
     does_not,
     graded,
+    holds,
 )
 from aurora_bench.checker.case import Case, Requirement
 from aurora_bench.checker.flown import flight, flown
@@ -197,6 +198,10 @@ def _over_time(
     dt_s, times = case.scene.dt_s, case.scene.times
     counted = narrow & np.isfinite(row)
     if not counted.any():
+        # Missions that share no time: what holds all along holds in them, too.
+        along = np.isfinite(row)
+        if along.any() and true[along].all() and requirement.get('hold_s') is None:
+            return holds(f'{label} all along, though no sample is in the phase')
         return does_not(f'{label}: no sample in the phase')
     least, most = float(row[counted].min()), float(row[counted].max())
     why = f'{label} {least:.2f} to {most:.2f}, asked {op} {value:g}'

@@ -26,6 +26,16 @@ from aurora_bench.checker.triggers import Fired, Instant, fired
 # Triggers of a state count from their first time; of happenings any one may be meant.
 HAPPENINGS = ('message_received', 'mission_done', 'event_done', 'arrives')
 MOST_INSTANTS = 40
+OWN_FLIGHT = ('ascend', 'change_mission', 'land')
+STATES = (
+    'distance_below',
+    'distance_above',
+    'visible',
+    'occluded',
+    'arrives',
+    'speed_below',
+    'speed_above',
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,6 +146,12 @@ def _ready_s(case: Case, requirement: Requirement, action: Mapping[str, Any]) ->
         for body in case.bodies(actor):
             if scene.bodies[body].is_uav:
                 ready = max(ready, float(scene.times[ascent_end_tick(scene, body)]))
+    trigger = requirement.get('trigger') or {}
+    if action.get('do') in OWN_FLIGHT and trigger.get('on') in STATES:
+        # What ends or changes a mission counts once that has begun: from its capture on.
+        for body in case.bodies(action.get('uav')):
+            captured = uav_actions.first_captured(case, body)
+            ready = ready if captured is None else max(ready, float(scene.times[captured]))
     for order in case.annotation.requirements:
         if order['kind'] != 'order' or order.get('then') != requirement.get('ref'):
             continue

@@ -11,7 +11,16 @@ from typing import Any
 import numpy as np
 
 from aurora_bench.checker import limits
-from aurora_bench.checker.answers import Judged, cannot_tell, decide, does_not, graded, holds
+from aurora_bench.checker.answers import (
+    Judged,
+    Outcome,
+    any_of,
+    cannot_tell,
+    decide,
+    does_not,
+    graded,
+    holds,
+)
 from aurora_bench.checker.flights import corners
 from aurora_bench.checker.numbers import Wanted, wanted
 from aurora_bench.checker.phases import Segment
@@ -74,6 +83,23 @@ def leg_speed(flight: Flight, requirement: Mapping[str, Any], window: slice) -> 
     asked = wanted(requirement, 'speed_mps', flight.variation, limits.SPEED)
     if asked is None:
         return holds('')
+    scene = flight.scene
+    whole = _leg_speed(flight, requirement, window, asked)
+    xy = scene.xy(flight.uav)[window]
+    turns = corners(xy)
+    if whole.outcome is Outcome.HOLDS or len(turns) < 3:
+        return whole
+    # The way to the pattern is no leg of it.
+    return any_of([whole, _leg_speed(flight, requirement, _from(window, turns[1]), asked)])
+
+
+def _from(window: slice, later: int) -> slice:
+    return slice(window.start + later, window.stop)
+
+
+def _leg_speed(
+    flight: Flight, requirement: Mapping[str, Any], window: slice, asked: Wanted
+) -> Judged:
     scene = flight.scene
     xy, speed = scene.xy(flight.uav)[window], scene.speed(flight.uav)[window]
     if requirement.get('pattern') == 'orbit':

@@ -21,6 +21,7 @@ from aurora_bench.checker.answers import (
     holds,
 )
 from aurora_bench.checker.flight import Flight, altitude, avoided, leg_speed, level_of
+from aurora_bench.checker.flights import corners
 from aurora_bench.checker.numbers import wanted
 from aurora_bench.checker.places import GENERAL
 from aurora_bench.checker.recording import BoolArray, FloatArray
@@ -31,6 +32,8 @@ from aurora_bench.checker.sight import visible
 # The hover point is not recorded; the median of the phase stands for it, with this doubt.
 HOVER_DOUBT_M = 1.0
 HOVER_POINT_DOUBT_M = 0.5
+# Marks the reading of a tracking without a stated standoff as one from above.
+ABOVE = 'from above'
 
 
 def judge(flight: Flight, requirement: Mapping[str, Any]) -> Judged:
@@ -64,7 +67,9 @@ def captured_tick(flight: Flight, requirement: Mapping[str, Any]) -> int | None:
                 if len(ticks):
                     return flight.segment.start + int(ticks[0])
         return None
-    return flight.segment.start
+    # The way to a route is no part of it: it ends where the path turns first.
+    turns = corners(flight.scene.xy(flight.uav)[flight.ticks])
+    return flight.segment.start + (turns[1] if len(turns) > 2 else 0)
 
 
 def _duration(flight: Flight, requirement: Mapping[str, Any], early: int, late: int) -> Judged:
@@ -197,7 +202,10 @@ def tracked(
     altitude = scene.altitude(flight.uav)
     band = scene.limit('tracking_altitude_m')
     asked = wanted(requirement, 'standoff_m', flight.variation, limits.STANDOFF)
-    if asked is None:
+    if requirement.get(ABOVE):
+        low, high = 0.0, scene.limit('tracking_horizontal_m')
+        word = f'0 (default) to {high:g} m'
+    elif asked is None:
         inside = away[flight.ticks]
         inside = inside[len(inside) // 4 :]
         known = inside[np.isfinite(inside)]
@@ -220,7 +228,11 @@ def tracked(
 
 
 def _track(flight: Flight, requirement: Mapping[str, Any]) -> Judged:
-    readings = [_track_one(flight, requirement, t) for t in flight.targets]
+    asked: list[Mapping[str, Any]] = [requirement]
+    if requirement.get('standoff_m') is None and requirement.get('side') is None:
+        # Unstated, it is above its target, whatever the median of the way there shows.
+        asked.append({**requirement, ABOVE: True})
+    readings = [_track_one(flight, r, t) for t in flight.targets for r in asked]
     return any_of(readings) if readings else cannot_tell('nothing to track is annotated')
 
 

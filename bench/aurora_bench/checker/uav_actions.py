@@ -195,6 +195,15 @@ def ascend(case: Case, action: Mapping[str, Any], uav: str, window: Window) -> A
         return Acted(does_not(f'{uav} does not climb {_words(window)}'))
     begin = first + int(climbing[0])
     reached = np.flatnonzero(near[begin:])
+    if len(reached):
+        # What is left of an ascent is no climb of its own: this one begins after the last level.
+        way = rate[begin : begin + reached[0]]
+        level_at = np.flatnonzero((way <= 0.15) & (z[begin : begin + reached[0]] < level - slack))
+        later = begin + (int(level_at[-1]) + 1 if len(level_at) else 0)
+        if later > last:
+            why = f'{uav} climbs at {scene.times[later]:.2f} s, asked {_words(window)}'
+            return Acted(does_not(why))
+        reached, begin = reached - (later - begin), later
     start = float(scene.times[begin])
     if not len(reached):
         why = f'{uav} climbs from {start:.2f} s, highest {z[begin:].max():.2f} of {level:g} m'
@@ -204,6 +213,30 @@ def ascend(case: Case, action: Mapping[str, Any], uav: str, window: Window) -> A
     bound = abs(level - float(z[begin])) / 1.0 + 2.0
     why = f'{uav} climbs from {start:.2f} s, at {level:g} m at {done:.2f} s'
     return Acted(graded(done - start <= bound, window.free, why), start, done)
+
+
+def first_captured(case: Case, uav: str) -> int | None:
+    """Return when a UAV has captured its first mission, None where no annotation tells of one.
+
+    Climbs that change it are left out of account: they may wait for it.
+    """
+    found = segments(case.scene, uav)
+    own = [
+        r
+        for r in case.annotation.requirements
+        if r['kind'] == 'mission' and uav in case.bodies(r.get('uav')) and not r.get('negate')
+    ]
+    if not found or not own:
+        return None
+    whole = Flight(
+        scene=case.scene,
+        uav=uav,
+        segment=found[0],
+        targets=case.things(own[0].get('target')),
+        variation=case.variation,
+        until=found[0].end,
+    )
+    return missions.captured_tick(whole, own[0])
 
 
 def hand_over(case: Case, action: Mapping[str, Any], window: Window) -> Acted:

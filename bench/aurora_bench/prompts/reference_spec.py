@@ -14,7 +14,7 @@ from __future__ import annotations
 import argparse
 import itertools
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from pydantic import ValidationError
@@ -23,6 +23,7 @@ from aurora_bench.prompts.documents import Doc, read_documents, write_documents
 from aurora_bench.prompts.format import (
     AgentRequirement,
     AnnotatedPrompt,
+    EventRequirement,
     Requirement,
     UavRequirement,
     WorldRequirement,
@@ -164,7 +165,7 @@ class _Builder:
             self._spec['links'].append(link(r, self._new('link'), names, numbers))
         elif r.kind == 'event':
             found = event(r, names, numbers)
-            self._spec['events'].append(found)
+            self._spec['events'] += [found, *self._for_the_others(r, found)]
             if r.action is not None and r.action.do == 'change_mission':
                 ident, uav = found['action']['mission'], found['action']['uav']
                 self._spec['missions'].append(mission(r.action, ident, uav, names, numbers))
@@ -181,6 +182,15 @@ class _Builder:
         elif r.kind == 'condition':
             found = condition(r, self._new('condition'), names, numbers)
             self._spec['conditions'].append(found)
+
+    def _for_the_others(self, r: EventRequirement, first: Doc) -> Iterator[Doc]:
+        """Yield the event of each further member of a group that acts."""
+        agent = None if r.action is None else r.action.agent
+        # Stored references stay as they are; of those that run nothing may be left out.
+        members = () if agent is None or self._spans is None else self._members(agent)
+        for k, ident in enumerate(members[1:], start=2):
+            action = {**first['action'], 'agent': ident}
+            yield {**first, 'id': f'{first["id"]}_{k}', 'action': action}
 
     def _world(self, r: WorldRequirement, numbers: Numbers) -> None:
         if r.field == 'duration_s':

@@ -410,3 +410,28 @@ def test_when_somebody_stops_is_from_where_it_slows_down(
         {'do': 'send_message', 'sender': 'car1', 'receiver': 'van1'},
     )
     assert stage.says(tells) == outcome
+
+
+def test_the_end_of_an_ascent_is_no_climb_of_its_own(stage: Any) -> None:
+    """It comes up to 40 m at 21 s and goes on to 60 m at 30 s: not what was due at 20 s."""
+    stage.uav('drone', lambda t: (0, 0, np.interp(t, [19, 21, 30, 38], [36, 40, 40, 60])))
+    climb = {'do': 'ascend', 'uav': 'drone', 'altitude_m': 60}
+    assert stage.says(_event(AT_20, climb)) == 'does_not'
+    assert stage.says(_event({'on': 'time', 'at_s': 29.8}, climb)) == 'holds'
+
+
+@pytest.mark.parametrize(
+    ('start', 'outcome'), [(27.0, 'holds'), (29.0, 'holds'), (33, 'does_not')]
+)
+def test_a_lane_is_changed_when_it_is_there_or_has_been_kept(
+    stage: Any, start: float, outcome: str
+) -> None:
+    """On the other lane from about 21.5 s on: a chain counts from then to 2 s later."""
+    stage.drive('car1', 'car', 4.0, y=np.interp(stage.t, [20.5, 22.5], [-1.65, -4.95]))
+    stage.drive('bus1', 'bus', _profile((0, 0), (start, 0), (start + 4, 8)), x=-100)
+    then = _event(
+        {'on': 'event_done', 'event': 'e1', 'after_s': 5},
+        {'do': 'start', 'agent': 'bus1'},
+        ref='e2',
+    )
+    assert stage.says(then, _event(AT_20, _does('change_lane'))) == outcome

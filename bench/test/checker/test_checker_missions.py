@@ -317,3 +317,16 @@ def test_a_mission_is_judged_until_an_annotated_climb(stage: Any) -> None:
     }
     assert stage.says(HOVER) == 'does_not'
     assert stage.says(HOVER, climb) == 'holds'
+
+
+@pytest.mark.parametrize(('aside', 'outcome'), [(5.0, 'holds'), (15.0, 'does_not')])
+def test_without_a_standoff_a_uav_may_be_above_its_target(
+    stage: Any, aside: float, outcome: str
+) -> None:
+    """It comes from far away in 40 s; what it keeps then is what counts."""
+    stage.drive('car1', 'car', 8.0)
+    away = np.interp(stage.t, [0.0, 40.0], [300.0, aside])
+    swing = aside * np.sign(np.sin(stage.t))  # no distance of its own that it keeps
+    stage.uav('drone', lambda t: (8.0 * t - away + aside + swing, -1.65, 40.0))
+    without = {k: v for k, v in TRACK.items() if k not in ('standoff_m', 'duration_s')}
+    assert stage.says(without) == outcome

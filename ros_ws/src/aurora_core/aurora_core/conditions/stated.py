@@ -73,7 +73,7 @@ def stated_conditions(inputs: Inputs) -> Iterator[Condition | Underivable]:
 
 def _all(inputs: Inputs, stated: StatedCondition) -> Iterator[Condition]:
     if stated.quantity in _SERIES:
-        yield _series(inputs, stated)
+        yield from _each(inputs, stated)
     elif stated.quantity in _PHASES:
         yield from _phases(inputs, stated)
     elif stated.quantity == 'event_time':
@@ -125,10 +125,31 @@ def _when(inputs: Inputs, stated: StatedCondition, missions: tuple[UavMission, .
             raise CannotSayError('a stretch over several missions')
         return _When(window=Window.ON_MISSION, mission=flown[0], missions=flown)
     flies = any(uav.id in stated.of for uav in inputs.spec.uavs)
-    return _When(window=Window.AIRBORNE if flies else Window.MISSIONS)
+    # What nobody limits to a flight holds all along, after the last landing, too.
+    return _When(window=Window.AIRBORNE if flies else Window.RUN)
 
 
-def _series(inputs: Inputs, stated: StatedCondition) -> Condition:
+def _each(inputs: Inputs, stated: StatedCondition) -> Iterator[Condition]:
+    """Yield what is asked of one body, or of each of several: all of them have to keep to it."""
+    members = _members(inputs, stated.of)
+    if _SERIES[stated.quantity][1] > 1 or len(members) == 1:
+        yield _series(inputs, stated)
+        return
+    for name in members:
+        own = stated.model_copy(update={'of': (name,)})
+        yield _series(inputs, own, suffix=f'.{name}')
+
+
+def _members(inputs: Inputs, of: tuple[str, ...]) -> tuple[str, ...]:
+    """Return bodies with groups by their members, each once."""
+    found = []
+    for name in of:
+        group = [agent.id for agent in inputs.spec.agents if agent.group == name]
+        found += group or [name]
+    return tuple(dict.fromkeys(found))
+
+
+def _series(inputs: Inputs, stated: StatedCondition, suffix: str = '') -> Condition:
     kind, count = _SERIES[stated.quantity]
     of = _bodies(inputs, stated, count)
     target = target_of(inputs.tolerances, stated)
@@ -136,13 +157,13 @@ def _series(inputs: Inputs, stated: StatedCondition) -> Condition:
         if stated.hold_s is not None or stated.by_s is not None:
             raise CannotSayError('a share together with a stretch or a deadline')
         when = _when(inputs, stated, missions_of(inputs, stated))
-        return _share(inputs, stated, of, target, when)
+        return _share(inputs, stated, of, target, when, suffix)
     # A deadline counts from scenario start, not from the phase.
     when = _When(window=Window.RUN)
     if stated.by_s is None:
         when = _when(inputs, stated, missions_of(inputs, stated))
     return condition(
-        id=f'{stated.id}.holds',
+        id=f'{stated.id}.holds{suffix}',
         sentence=sentence_of(stated),
         of=of,
         target=target,
@@ -161,11 +182,12 @@ def _share(
     of: tuple[str, ...],
     target: Target,
     when: _When,
+    suffix: str,
 ) -> Condition:
     assert stated.fraction is not None
     fraction = stated.fraction.value
     return condition(
-        id=f'{stated.id}.share',
+        id=f'{stated.id}.share{suffix}',
         sentence=f'{sentence_of(stated)} for {number(100 * fraction)} % of the time',
         signal=f'{stated.quantity}_share({",".join(of)})',
         of=of,

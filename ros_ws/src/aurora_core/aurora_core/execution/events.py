@@ -25,7 +25,7 @@ from aurora_core.quantities.actions import (
 )
 from aurora_core.quantities.instant import Point3
 from aurora_core.spec.events import actor_of
-from aurora_core.spec.flight_order import is_next_anyway
+from aurora_core.spec.flight_order import counts_from_capture, is_next_anyway
 from aurora_core.spec.own_events import let_pass, own_events
 from aurora_core.spec.scenario import (
     AgentAction,
@@ -285,6 +285,10 @@ class EventRunner:
         action = event.action
         if is_next_anyway(event) and isinstance(action, UavAction) and action.mission is not None:
             return any(m.has_begun(action.mission) for m in machines if m.plan.id == action.uav)
+        if counts_from_capture(self._spec, event) and isinstance(event.action, UavAction):
+            own = [m for m in machines if m.plan.id == event.action.uav]
+            if any(m.first_capture_tick is None for m in own):
+                return False
         if event.trigger is not None:
             return holds(event, tick, dt_s, seen, self._progress)
         if not self._may_follow(event, tick):

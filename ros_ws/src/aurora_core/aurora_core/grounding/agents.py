@@ -181,9 +181,10 @@ class AgentPlacer:
         parked: bool,
     ) -> GroundedAgent | None:
         record = self._types[agent.type.value]
+        speed_mps = stated_speed_mps(spec, agent)
         network = self._map.network
         drivable, least_mps = brisk_lanes(
-            list(network.driving_lanes(record.vclass)), own_speed_mps(agent) or 0.0
+            list(network.driving_lanes(record.vclass)), speed_mps or 0.0
         )
         finder = RouteFinder(network, record.vclass, least_mps)
         low, high = self._settings.grounding.background_radius_m
@@ -202,7 +203,7 @@ class AgentPlacer:
         drawn = ((p, high) for p in _drawn(lanes, margin, generator))
         # A crowd that fills the surroundings may spread over the whole map.
         scanned = ((p, inf) for p in self._scanned(lanes, margin, centre))
-        pace_mps = own_speed_mps(agent) or self._settings.grounding.target_speed_mps
+        pace_mps = speed_mps or self._settings.grounding.target_speed_mps
         needed_m = needed_run_m(spec, agent, pace_mps)
         best: tuple[float, RoutePath, float] | None = None
         tries = 0
@@ -238,7 +239,7 @@ class AgentPlacer:
             arc_m,
             release=release,
             still=parked or stands(agent),
-            speed_mps=own_speed_mps(agent),
+            speed_mps=speed_mps,
             style={'speed_factor': _emergency_factor(agent)} if in_emergency(agent) else {},
             lane_changes=self._lane_changes(spec, agent, tied=False),
             stop_m=arc_m + STOP_AFTER_M if stops(agent) else None,
@@ -393,10 +394,15 @@ def _emergency_factor(agent: GroundAgent) -> float:
 
 
 def _urged(record: AgentTypeRecord, speed_mps: float | None) -> float:
-    """Return the factor with which a type goes faster than it likes to, 0 where it need not."""
-    if speed_mps is None or record.desired_speed_mps is None:
+    """Return the least factor with which a type drives a stated speed, 0 where none is stated.
+
+    The speed itself is commanded; this keeps neither the pace of the convoy nor the type's own
+    desire below it, up to the limit of the road.
+    """
+    if speed_mps is None:
         return 0.0
-    return speed_mps / record.desired_speed_mps if speed_mps > record.desired_speed_mps else 0.0
+    desired_mps = record.desired_speed_mps
+    return 1.0 if desired_mps is None else max(1.0, speed_mps / desired_mps)
 
 
 def _drawn(

@@ -177,6 +177,7 @@ class SceneSplit:
         oncoming: Vehicles in the other direction of a member's street.
         unsupported: Placements that grounding cannot realise yet, in words.
         before: The member that is placed before such a place, None when nobody is.
+        groups: Vehicles at places of their own, on roads of their own.
     """
 
     convoy: tuple[ConvoyMember, ...]
@@ -185,14 +186,19 @@ class SceneSplit:
     unsupported: tuple[str, ...]
     oncoming: tuple[GroundAgent, ...] = ()
     before: BeforePlace | None = None
+    groups: tuple[tuple[ConvoyMember, ...], ...] = ()
 
 
-def split_scene(spec: ScenarioSpec, tolerance: Tolerance = EXACT) -> SceneSplit:
+def split_scene(
+    spec: ScenarioSpec, tolerance: Tolerance = EXACT, *, apart: bool = False
+) -> SceneSplit:
     """Sort the agents of a scene into convoy, free vehicles and persons.
 
     Args:
         spec: The request.
         tolerance: Of placement distances: so far inside a one-sided one everybody is put.
+        apart: Who is bound to a place and related to nobody in the convoy has a road of its own.
+            Else the convoy's is tried for all: there they are near each other.
     """
     driving = [a for a in spec.agents if a.type not in (AgentType.PEDESTRIAN, AgentType.RSU)]
     ids = {a.id for a in driving}
@@ -226,15 +232,27 @@ def split_scene(spec: ScenarioSpec, tolerance: Tolerance = EXACT) -> SceneSplit:
         # A message has a range: who is to receive one is near those who are watched.
         targets |= {e.action.receiver for e in spec.events if isinstance(e.action, SendMessage)}
     tied = {i for t in ties for i in (t.agent, t.other)}
+    groups: list[tuple[ConvoyMember, ...]] = []
     for agent in vehicles:
-        if agent.id in offsets or agent.id not in targets | tied:
+        alone = {m.agent.id for members in groups for m in members}
+        if agent.id in offsets.keys() | alone or agent.id not in targets | tied:
             continue
         group = _solve(agent.id, ties)
+        if apart and any(bound_to_places(spec, by_id[i]) for i in group):
+            members = (
+                ConvoyMember(agent=by_id[i], offset_m=o, lane_shift=s)
+                for i, (o, s) in group.items()
+            )
+            groups.append(tuple(members))
+            continue
         front = max(place[0] for place in group.values())
         rear = min(place[0] for place in offsets.values())
         shift_m = rear - DETACHED_M - front
         offsets |= {i: (place[0] + shift_m, place[1]) for i, place in group.items()}
-    broken = {t.agent for t in ties if not _kept(t, offsets)}
+    places = offsets | {
+        m.agent.id: (m.offset_m, m.lane_shift) for members in groups for m in members
+    }
+    broken = {t.agent for t in ties if not _kept(t, places)}
     unsupported += [
         f'{a.id}: places that contradict each other' for a in vehicles if a.id in broken
     ]
@@ -244,8 +262,9 @@ def split_scene(spec: ScenarioSpec, tolerance: Tolerance = EXACT) -> SceneSplit:
         ConvoyMember(agent=by_id[i], offset_m=offset, lane_shift=shift)
         for i, (offset, shift) in offsets.items()
     )
-    free = tuple(a for a in vehicles if a.id not in offsets)
+    free = tuple(a for a in vehicles if a.id not in places)
     return SceneSplit(
+        groups=tuple(groups),
         convoy=convoy,
         free=free,
         persons=persons,

@@ -88,9 +88,17 @@ class GoalFinder:
         self._types = types
         self._tolerances = tolerances
 
-    def fits(self, spec: ScenarioSpec, site: Site) -> bool:
-        """Tell whether every vehicle of a site stands at, and comes to, its places."""
-        x, y, _, _ = site.origin()
+    def fits(
+        self, spec: ScenarioSpec, site: Site, anchor: tuple[float, float] | None = None
+    ) -> bool:
+        """Tell whether every vehicle of a site stands at, and comes to, its places.
+
+        Args:
+            spec: The request.
+            site: Where the vehicles stand.
+            anchor: Of the scene, x and y in m; the origin of the site when not given.
+        """
+        x, y = site.origin()[:2] if anchor is None else anchor
         for seat in site.seated:
             for bound in self._bounds(spec, seat.agent):
                 point = self._places.point(bound.place, (x, y))

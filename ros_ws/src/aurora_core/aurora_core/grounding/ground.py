@@ -18,6 +18,7 @@ from aurora_core.grounding.columns import Column, climbs_to_m, columns, nearest_
 from aurora_core.grounding.convoy import SceneSplit, split_scene
 from aurora_core.grounding.flights import FlightPlanner
 from aurora_core.grounding.goals import GoalFinder
+from aurora_core.grounding.groups import GroupPlacer
 from aurora_core.grounding.lane_changers import changes_lane, share_with_another_lane
 from aurora_core.grounding.laps import Laps
 from aurora_core.grounding.oncoming import OncomingPlacer
@@ -101,7 +102,17 @@ class Grounder:
             spec: What to ground.
             seed: Seed of the run (background traffic).
         """
-        split = split_scene(spec, self._tolerances.placement_vehicle_m)
+        tolerance = self._tolerances.placement_vehicle_m
+        found = self._ground(spec, split_scene(spec, tolerance), seed)
+        if isinstance(found, GroundingFailure):
+            apart = split_scene(spec, tolerance, apart=True)
+            again = self._ground(spec, apart, seed) if apart.groups else found
+            found = found if isinstance(again, GroundingFailure) else again
+        return found
+
+    def _ground(
+        self, spec: ScenarioSpec, split: SceneSplit, seed: int
+    ) -> GroundedScenario | GroundingFailure:
         planner = FlightPlanner(
             map_model=self._map,
             airspace=self._air,
@@ -124,6 +135,15 @@ class Grounder:
         persons = PersonPlacer(self._map, self._types)
         oncoming = OncomingPlacer(self._map, self._types)
         ranked = self._ranked_sites(spec, split, run_m)
+        groups = GroupPlacer(
+            self._map,
+            self._types,
+            self._goals,
+            self._settings.grounding,
+            spec,
+            split.groups if ranked else (),
+            run_m,
+        )
         rejected: Counter[str] = Counter()
         best: _Option | None = None
         scored = 0
@@ -132,6 +152,10 @@ class Grounder:
             if best is not None and (enough or best.score.joint >= _PERFECT):
                 break
             met = oncoming.seated(split.oncoming, site, run_m)
+            if isinstance(met, str):
+                rejected[met] += 1
+                continue
+            met = groups.seated(met)
             if isinstance(met, str):
                 rejected[met] += 1
                 continue

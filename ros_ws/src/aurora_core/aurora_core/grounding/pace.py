@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from aurora_core.knowledge.limits import Limits
 from aurora_core.knowledge.settings import GroundingSettings
 from aurora_core.spec.own_events import own_events
+from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import (
     DistanceTrigger,
     GroundAgent,
@@ -34,6 +35,9 @@ EMERGENCY_FACTOR = 1.2
 
 # Who has to be faster than a number drives so much faster (m/s).
 _FASTER_MPS = 0.7
+
+# Who is never to be faster than a number drives so much slower (m/s).
+_BELOW_CAP_MPS = 0.5
 
 # Who is to slow down to a speed drives so much faster before (m/s).
 _SLOWS_BY_MPS = 4.0
@@ -136,8 +140,21 @@ def stated_speed_mps(spec: ScenarioSpec, agent: GroundAgent) -> float | None:
         and e.trigger.who == agent.id
         and agent.type is not AgentType.PEDESTRIAN
     ]
-    speeds = (own_speed_mps(agent), *followers, *awaited)
+    speeds = (own_speed_mps(agent), *followers, *awaited, _capped_mps(spec, agent))
     return next((speed for speed in speeds if speed is not None), None)
+
+
+def _capped_mps(spec: ScenarioSpec, agent: GroundAgent) -> float | None:
+    """Return how fast an agent drives that is never to be faster than a number, None if free."""
+    caps = [
+        one.value.value
+        for one in spec.conditions
+        if one.quantity == QuantityName.SPEED
+        and one.op in ('<=', '<')
+        and one.by_s is None
+        and (agent.id in one.of or agent.group in one.of)
+    ]
+    return max(0.0, min(caps) - _BELOW_CAP_MPS) if caps else None
 
 
 def fastest_stated_mps(spec: ScenarioSpec, agents: Iterable[GroundAgent]) -> float:

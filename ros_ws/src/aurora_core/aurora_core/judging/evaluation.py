@@ -269,9 +269,19 @@ class Context:
             onset_mps2=moments.onset_mps2 if moments is not None else 0.0,
             actions=moments.actions if moments is not None else None,
             flights=flights,
+            captured=self._first_captured,
             links=self.links,
         )
         return EventTimes(self.view, self.spec, rules)
+
+    def _first_captured(self, uav: str) -> int | None:
+        """Return when a UAV has captured its first mission, at the height that it states."""
+        touchdown_m = self.conditions[0].arguments.touchdown_m
+        first = next((m for m in self.mission_arguments if (m.uav, m.index) == (uav, 0)), None)
+        if first is None:
+            return None
+        flight, body = self.flight(first, touchdown_m), self.view.body(uav)
+        return mission_phase(self.view, body, 0, flight, first.capture_rule).capture_tick
 
     def window(self, condition: Condition, after_s: float = 0.0) -> TickArray | Missing:
         """Return the ticks that a condition is about, or why there are none.

@@ -21,6 +21,8 @@ from aurora_core.spec.vocabulary import MissionMode
 # Room between a default and a bound, for wind and for the lag behind a moving target (m).
 _ALTITUDE_ROOM_M = 1.5
 _STANDOFF_ROOM_M = 8.0
+# The same for a speed, for gusts and corners (m/s).
+_SPEED_ROOM_MPS = 1.0
 # A trigger has to be passed, not touched (m).
 _PAST_M = 1.0
 # Share of a greatest distance in space that is altitude where both are free.
@@ -44,13 +46,15 @@ class _Range:
 
 
 def bent(spec: ScenarioSpec, limits: Limits) -> ScenarioSpec:
-    """Return the specification with default altitudes and standoffs inside its stated bounds.
+    """Return the specification with default altitudes, standoffs and speeds in its stated bounds.
 
     Args:
         spec: The request; it is not changed.
         limits: Limits in force.
     """
-    missions = tuple(_standing_off(spec, _at_altitude(spec, m, limits)) for m in spec.missions)
+    missions = tuple(
+        _at_speed(spec, _standing_off(spec, _at_altitude(spec, m, limits))) for m in spec.missions
+    )
     if missions == spec.missions:
         return spec
     return ScenarioSpec.model_validate({**dict(spec), 'missions': missions})
@@ -106,6 +110,15 @@ def _standing_off(spec: ScenarioSpec, mission: UavMission) -> UavMission:
         value = sqrt(away_m * away_m - height_m * height_m)
     value = min(max(value, standoff.low), standoff.high)
     return mission.model_copy(update={'standoff_m': _moved(standoff, value, bounds)})
+
+
+def _at_speed(spec: ScenarioSpec, mission: UavMission) -> UavMission:
+    speed = mission.speed_mps
+    if speed is None or speed.provenance is not Provenance.DEFAULT:
+        return mission
+    bounds = _stated(spec, (QuantityName.SPEED,), {mission.uav})
+    value = min(max(bounds.near(speed.value, _SPEED_ROOM_MPS), speed.low), speed.high)
+    return mission.model_copy(update={'speed_mps': _moved(speed, value, bounds)})
 
 
 def _stated(spec: ScenarioSpec, quantities: Iterable[str], of: set[str]) -> _Range:

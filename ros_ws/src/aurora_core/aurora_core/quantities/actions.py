@@ -38,6 +38,9 @@ CROSSED_M = 2.0
 # A UAV has climbed to an altitude when it is this close to it (m).
 CLIMBED_M = 1.0
 
+# It has reached one at so little below it (m): what it is told to hold it may never quite exceed.
+REACHED_M = 0.5
+
 
 class ActionRules(Document):
     """What actions are measured with; the tolerances in force, as they travel in conditions.

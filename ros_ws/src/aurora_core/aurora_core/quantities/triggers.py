@@ -9,6 +9,7 @@ count from the end of the observer's ascent on.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -20,6 +21,7 @@ from aurora_core.quantities import motion
 from aurora_core.quantities.actions import (
     CLIMBED_M,
     CROSSED_M,
+    REACHED_M,
     ActionRules,
     completion_index,
     holds_already,
@@ -36,7 +38,7 @@ from aurora_core.quantities.phases import FlightPhases
 from aurora_core.quantities.sight import sight_series
 from aurora_core.quantities.ticks import first_tick, whole_ticks
 from aurora_core.quantities.view import RunView
-from aurora_core.spec.flight_order import is_next_anyway
+from aurora_core.spec.flight_order import counts_from_capture, is_next_anyway
 from aurora_core.spec.scenario import (
     AgentAction,
     AltitudeTrigger,
@@ -83,6 +85,7 @@ class EventRules:
         onset_mps2: Change of speed with which slowing down or speeding up begins.
         actions: When the actions of ground agents are complete; None where no event is judged.
         flights: Phases of each UAV's flight.
+        captured: Gives the tick at which a UAV has captured its first mission, None if never.
         links: Links of the specification.
     """
 
@@ -91,6 +94,7 @@ class EventRules:
     arrival_m: float
     actions: ActionRules | None
     flights: dict[str, FlightPhases]
+    captured: Callable[[str], int | None]
     links: tuple[LinkModel, ...]
 
 
@@ -158,6 +162,8 @@ class EventTimes:
     def done_tick(self, event_id: str) -> int | None:
         """Return the tick from which on other events may follow this one: its completion."""
         event, trigger = self.event(event_id), self.trigger_tick(event_id)
+        if event is not None and event.action is None:
+            return self.due_tick(event_id)
         if event is not None and isinstance(event.action, AgentAction):
             return self.completion_tick(event_id)
         if event is not None and isinstance(event.action, UavAction):
@@ -334,13 +340,22 @@ class EventTimes:
                 mask = trigger_series(view, trigger, self.rules)
                 if mask is None:
                     return None
-                start = 0
+                start = self._counts_from(event)
+                if start is None:
+                    return None
                 if trigger.on in NEEDS_CHANGE:
-                    before = first_tick(self._before_change(trigger, mask))
+                    before = first_tick(self._before_change(trigger, mask), start)
                     if before is None:
                         return None
                     start = before
                 return first_tick(mask, start)
+
+    def _counts_from(self, event: Event) -> int | None:
+        """Return the tick from which on a trigger counts, None where that never comes."""
+        action = event.action
+        if isinstance(action, UavAction) and counts_from_capture(self.spec, event):
+            return self.rules.captured(action.uav)
+        return 0
 
     def _before_change(self, trigger: StateTrigger, mask: BoolArray) -> BoolArray:
         """Return where a change can still come: it does not hold, or what is lost was seen."""
@@ -375,7 +390,8 @@ def trigger_series(
             first = whole_ticks(trigger.at_s.value, view.dt_s)
             return np.arange(view.ticks) >= first
         case AltitudeTrigger():
-            return motion.altitude(view, view.body(trigger.uav)) >= trigger.value_m.value
+            reached_m = trigger.value_m.value - REACHED_M
+            return motion.altitude(view, view.body(trigger.uav)) >= reached_m
         case VisibilityTrigger():
             sight = sight_series(view, trigger.observer, trigger.target).visible
             mask = sight if trigger.on == 'visible' else ~sight

@@ -9,11 +9,15 @@ only when that event acts: it ends the one before, or the hold after that.
 from __future__ import annotations
 
 from aurora_core.spec.events import (
+    ArrivalTrigger,
+    DistanceTrigger,
     Event,
     EventDoneTrigger,
     MissionDoneTrigger,
+    SpeedTrigger,
     Trigger,
     UavAction,
+    VisibilityTrigger,
 )
 from aurora_core.spec.parameter import Parameter, Provenance
 from aurora_core.spec.scenario import ScenarioSpec, UavMission
@@ -38,6 +42,22 @@ def climbs_last(event: Event) -> bool:
         and isinstance(trigger, MissionDoneTrigger)
         and trigger.uav == action.uav
     )
+
+
+def counts_from_capture(spec: ScenarioSpec, event: Event) -> bool:
+    """Tell whether an event that changes a flight counts only once its UAV is where it should be.
+
+    "Hovers at 20 m; when it sees a person it climbs to 50 m": a person in sight on the way up
+    ends no hover that has not begun. What a clock or an altitude triggers does not wait.
+    """
+    if not isinstance(event.action, UavAction):
+        return False
+    if not isinstance(
+        event.trigger, DistanceTrigger | VisibilityTrigger | SpeedTrigger | ArrivalTrigger
+    ):
+        return False
+    first = next((m for m in spec.missions if m.uav == event.action.uav), None)
+    return first is not None and begun_by(spec, first) is None
 
 
 def begun_by(spec: ScenarioSpec, mission: UavMission) -> Event | None:

@@ -175,7 +175,6 @@ def test_what_cannot_be_said_yet_is_reported(tb: ModuleType) -> None:
         ('e3', 'an event without trigger and action'),
         ('e4', 'message from ego to van1: no link'),
         ('l1', 'a link without a message'),
-        ('c1', 'condition on speed of uav1, ego'),
         ('c2', 'hover_drift without a mission of uav1'),
     }
 

@@ -75,7 +75,7 @@ def test_a_limit_on_drift_is_one_condition_per_hover(tb: ModuleType) -> None:
             'tracked_fraction without a mission of uav1, ego',
         ),
         ('speed', ('intersection',), '', 'condition on speed of intersection'),
-        ('speed', ('uav1', 'ego'), '', 'condition on speed of uav1, ego'),
+        ('distance', ('uav1',), '', 'condition on distance of uav1'),
         ('separation', ('uav1', 'uav1'), '', 'condition on separation of uav1, uav1'),
         ('delivered', ('uav1', 'ego'), '', 'delivered without a link of uav1, ego'),
         ('waypoints_visited', ('uav1',), '', 'waypoints_visited without a mission of uav1'),
@@ -136,3 +136,13 @@ def test_a_share_that_is_asked_exactly_has_no_tolerance(tb: ModuleType) -> None:
     (one,) = _stated(made)
     assert one.formula == 'visible_fraction(uav1,bus1) == 0.9 +- 0 1'
     assert one.scale == pytest.approx(0.09)
+
+
+def test_what_is_asked_of_several_is_asked_of_each_all_along(tb: ModuleType) -> None:
+    mps = {'value': tb.number(12.0, Unit.METRE_PER_SECOND)}
+    made = _stated(_derive(tb, tb.tailgate_case(), 'speed', ('van1', 'ego'), op='<=', **mps))
+    assert [(c.id, c.of) for c in made] == [
+        ('c1.holds.van1', ('van1',)),
+        ('c1.holds.ego', ('ego',)),
+    ]
+    assert {c.arguments.window for c in made} == {Window.RUN}

@@ -137,7 +137,7 @@ def test_a_body_that_is_gone_is_at_no_distance(stage: Build, parameter: Make) ->
 def test_altitude(stage: Build, parameter: Make) -> None:
     trigger = AltitudeTrigger(on='altitude_reached', uav='uav1', value_m=parameter(25.0))
     scene = stage(events=(_event(trigger),))
-    for z in (0.0, 24.99, 25.0):
+    for z in (0.0, 24.49, 24.5):  # what it holds there may never quite exceed 25 m
         scene.fly('uav1', 0.0, 0.0, z).step()
     assert _triggered(scene) == [(2, 'e1')]
 
@@ -564,3 +564,20 @@ def test_a_run_does_not_wait_for_what_cannot_happen(stage: Build) -> None:
     made.put('van1', 0.0).put('ego', 20.0)
     made.follow(1500)
     assert next(detail for _, _, detail in made.notes(ScenarioEventKind.FINISHED)) == 'finished'
+
+
+@pytest.mark.parametrize('changes', [True, False])
+def test_what_changes_a_flight_waits_until_that_has_begun(
+    stage: Build, parameter: Make, changes: bool
+) -> None:
+    """A UAV that sees the van on its way to its place: no reason to leave that yet."""
+    near = DistanceTrigger(on='distance_below', a='uav1', b='van1', value_m=parameter(200.0))
+    climb = UavAction(do='ascend', uav='uav1', altitude_m=parameter(50.0))
+    scene = stage(events=(_event(near, climb if changes else None),))
+    scene.put('van1', 10.0).fly('uav1', 90.0, 0.0, 29.0).step(3)
+    assert _triggered(scene) == ([] if changes else [(0, 'e1')])
+    if changes:
+        machine = scene.machines[0]
+        scene.fly('uav1', 10.0, 0.0, 30.0).step(4)
+        assert machine.first_capture_tick is not None
+        assert [tick for tick, _ in _triggered(scene)] == [machine.first_capture_tick]

@@ -83,3 +83,15 @@ def test_who_stops_anywhere_has_driven(first: First) -> None:
     agent, _, the_map = first('A car drives and stops.', 'main_road')
     x, y, _, _ = the_map.network.position_on_lane(agent.stop_lane_id, agent.stop_position_m)
     assert dist((agent.x_m, agent.y_m), (x, y)) > 20.0
+
+
+def test_who_stands_elsewhere_has_a_road_of_its_own(
+    read_prompt: Read, ground: Ground, map_of: Maps
+) -> None:
+    prompt = 'A bus is parked at Eastgate Stadium. A truck is parked at Harbor Market.'
+    found = ground(read_prompt(prompt, 'downtown'), 'downtown')
+    assert isinstance(found, GroundedScenario), found
+    places = MapPlaces(map_of('downtown'))
+    for agent, landmark in zip(found.agents, ('Eastgate Stadium', 'Harbor Market'), strict=True):
+        point = places.point(f'landmark:{landmark}', (0.0, 0.0))
+        assert dist((agent.x_m, agent.y_m), point) <= ARRIVAL_M

@@ -114,6 +114,18 @@ def _cruise(speed: FloatArray, *, leader: float | None = None, lane: float | Non
     return case
 
 
+def _told_otherwise(at_s: float) -> Case:
+    """From 8 m/s it slows to 5 m/s in the middle of the run; an event says so at some time."""
+    case = _cruise(_then(8.0, 5.0))
+    event = {
+        'id': 'e1',
+        'trigger': {'on': 'time', 'at_s': number(at_s, Unit.SECOND)},
+        'action': {'do': 'slow', 'agent': 'car1'},
+    }
+    case.spec = spec(**{**dict(case.spec), 'events': (event,)})
+    return case
+
+
 def _follower(own: float, *, third: float | None = None) -> Case:
     """car1 is asked to follow car2 with 8 m/s; a third car may drive in front of both."""
     asked = number(8.0, Unit.METRE_PER_SECOND, explicit=True)
@@ -169,7 +181,27 @@ BEHAVIOURS = (
         margin=1.0 - 0.8,
         what='leader',
     ),
-    Row(id='car1.drive.speed', make=lambda: _cruise(_steady(8.0), leader=54.4), reason=EMPTY),
+    # What it was told to change at 10 s does not count against it; told at 19 s, it does.
+    Row(id='car1.drive.speed', make=lambda: _told_otherwise(10.0), margin=1.0 - 0.8, what='told'),
+    Row(
+        id='car1.drive.speed',
+        make=lambda: _told_otherwise(19.0),
+        margin=(200 - 54) / (380 - 54) - 0.8,
+        what='told',
+    ),
+    # Somebody is so near all the way: no excuse.
+    Row(
+        id='car1.drive.speed',
+        make=lambda: _cruise(_steady(8.0), leader=54.4),
+        margin=1.0 - 0.8,
+        what='led',
+    ),
+    Row(
+        id='car1.drive.speed',
+        make=lambda: _cruise(_steady(6.5), leader=54.4),
+        margin=0.0 - 0.8,
+        what='led',
+    ),
     Row(
         id='car1.drive.speed',
         make=lambda: done_at(_cruise(_steady(8.0), lane=99.0), 361),
@@ -181,7 +213,12 @@ BEHAVIOURS = (
     # Whom it follows does not keep it from its speed, a third car 49.9 m ahead does.
     Row(id='car1.follow.speed', make=lambda: _follower(7.5), margin=1.0 - 0.8),
     Row(id='car1.follow.speed', make=lambda: _follower(6.5), margin=0.0 - 0.8),
-    Row(id='car1.follow.speed', make=lambda: _follower(8.0, third=54.4), reason=EMPTY),
+    Row(
+        id='car1.follow.speed',
+        make=lambda: _follower(8.0, third=54.4),
+        margin=1.0 - 0.8,
+        what='led',
+    ),
     # 1 m/s is allowed; waiting at the kerb does not count.
     Row(id='car1.walk.speed', make=lambda: _walker(_then(0.0, 1.2)), margin=1.0 - 0.8),
     Row(id='car1.walk.speed', make=lambda: _walker(_steady(2.8)), margin=0.0 - 0.8),

@@ -23,7 +23,7 @@ from aurora_core.spec.scenario import (
     Uav,
     UavMission,
 )
-from aurora_core.spec.vocabulary import AgentType, MissionMode
+from aurora_core.spec.vocabulary import AgentType, MissionMode, Pattern
 
 Make = Callable[..., Parameter]
 LIMITS = load_limits(config_path('limits.json'))
@@ -109,3 +109,29 @@ def test_an_altitude_that_an_event_waits_for_is_passed(parameter: Make) -> None:
     events = (Event(id='e1', trigger=reached),)
     assert 55.0 < _flown(_spec(parameter, events=events))[0] <= 58.0
     assert _flown(_spec(parameter, events=events, stated=True))[0] == 30.0
+
+
+@pytest.mark.parametrize(
+    ('op', 'bound', 'low', 'high'), [('<=', 5.0, 3.0, 4.5), ('>=', 10.0, 10.5, 12.0)]
+)
+def test_a_speed_that_nobody_states_is_inside_its_bounds(
+    parameter: Make, op: str, bound: float, low: float, high: float
+) -> None:
+    speed = parameter(8.0, 'm/s', explicit=False).model_copy(update={'low': 2.0, 'high': 15.0})
+    route = UavMission(
+        id='m1',
+        uav='uav1',
+        mode=MissionMode.NAVIGATE,
+        altitude_m=parameter(30.0),
+        speed_mps=speed,
+        pattern=Pattern.ORBIT,
+        radius_m=parameter(30.0),
+    )
+    value = parameter(bound, 'm/s', explicit=True)
+    asked = StatedCondition.model_validate(
+        {'id': 'c1', 'quantity': 'speed', 'of': ('uav1',), 'op': op, 'value': value}
+    )
+    spec = ScenarioSpec(prompt='x', uavs=(Uav(id='uav1'),), missions=(route,), conditions=(asked,))
+    (mission,) = bent(spec, LIMITS).missions
+    assert mission.speed_mps is not None
+    assert low <= mission.speed_mps.value <= high

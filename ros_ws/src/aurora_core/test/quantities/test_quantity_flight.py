@@ -181,6 +181,7 @@ def _times(tb: ModuleType, *events: Event, place: bool = False) -> EventTimes:
         arrival_m=15.0,
         actions=action_rules(tb.TOLERANCES),
         flights={'uav1': flight_phases(view, view.body('uav1'), 30.0, 2.0, 0.3)},
+        captured=lambda _uav: 150,
         links=(),
     )
     return EventTimes(view, request, rules)
@@ -211,7 +212,7 @@ def test_trigger_ticks(tb: ModuleType) -> None:
     assert tick(never) is None
     assert tick(
         AltitudeTrigger(on='altitude_reached', uav='uav1', value_m=metre(15.0))
-    ) == pytest.approx(75, abs=1)
+    ) == pytest.approx(73, abs=1)
     assert tick(VisibilityTrigger(on='visible', observer='uav1', target='ego')) == pytest.approx(
         140, abs=1
     )
@@ -249,3 +250,11 @@ def test_events_that_wait_for_each_other_never_happen(tb: ModuleType) -> None:
     a = _event(EventDoneTrigger(on='event_done', event='e2'), action={'do': 'land', 'uav': 'uav1'})
     b = a.model_validate(dict(a) | {'id': 'e2', 'trigger': {'on': 'event_done', 'event': 'e1'}})
     assert _times(tb, a, b).trigger_tick('e1') is not None  # the landing itself is seen
+
+
+def test_what_changes_a_flight_counts_from_its_capture(tb: ModuleType) -> None:
+    near = DistanceTrigger(on='distance_below', a='van1', b='ego', value_m=tb.number(500.0))
+    climb = {'do': 'ascend', 'uav': 'uav1', 'altitude_m': tb.number(60.0)}
+    assert _times(tb, _event(near)).trigger_tick('e1') == 0
+    # `captured` of the rules is at tick 150.
+    assert _times(tb, _event(near, action=climb)).trigger_tick('e1') == 150

@@ -17,7 +17,13 @@ from aurora_core.judging.build import (
     condition,
     number,
 )
-from aurora_core.judging.evaluation import BoolArray, Context, Evaluation, FloatArray, Missing
+from aurora_core.judging.evaluation import (
+    BoolArray,
+    Context,
+    Evaluation,
+    FloatArray,
+    Missing,
+)
 from aurora_core.judging.quantity import PerSample, Quantity
 from aurora_core.judging.shares import share_of
 from aurora_core.outcomes.condition import Condition, Window
@@ -25,9 +31,10 @@ from aurora_core.outcomes.verdict import Reason
 from aurora_core.quantities import free_road, motion
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.quantity import QuantityName
-from aurora_core.spec.scenario import Behavior, GroundAgent
+from aurora_core.spec.scenario import AgentAction, Behavior, GroundAgent
 from aurora_core.spec.vocabulary import AgentType, Relation
 
+_OTHER_SPEED = frozenset({'brake', 'stop', 'slow', 'accelerate', 'yield'})
 _BEHIND = (Relation.BEHIND, Relation.BEFORE, Relation.SAME_LANE)
 
 
@@ -47,8 +54,10 @@ class _KeptSpeed(Quantity):
     @abstractmethod
     def free(
         self, context: Context, condition: Condition, values: FloatArray
-    ) -> tuple[BoolArray, str]:
+    ) -> tuple[BoolArray, str, bool]:
         """Return which samples count, and what it never did when none does.
+
+        Last, whether later samples only add to them.
 
         Args:
             context: The run.
@@ -66,13 +75,27 @@ class _KeptSpeed(Quantity):
             return gone
         body = context.view.body(condition.of[0])
         values = motion.speed(context.view, body)
-        free, never = self.free(context, condition, values)
+        free, never, growing = self.free(context, condition, values)
+        ticks = ticks[ticks < _told_otherwise(context, condition.of)]
         ticks = ticks[free[ticks]]
         if len(ticks) == 0:
             return Missing(reason=Reason.EMPTY_PHASE, story=f'{body.body_id} never {never}')
         what = f'{body.body_id} kept its speed'
         topics = tuple(f'state[{name}]' for name in condition.of)
-        return share_of(context, ticks, self.speed.good(values), values, what, topics)
+        good = self.speed.good(values)
+        return share_of(context, ticks, good, values, what, topics, growing=growing)
+
+
+def _told_otherwise(context: Context, of: tuple[str, ...]) -> int:
+    """Return the tick from which on an event gives one of some bodies another speed."""
+    due = [
+        context.events.due_tick(event.id)
+        for event in context.spec.events
+        if isinstance(event.action, AgentAction)
+        and event.action.agent in of
+        and event.action.do in _OTHER_SPEED
+    ]
+    return min((tick for tick in due if tick is not None), default=context.view.ticks)
 
 
 class WalkingSpeed(_KeptSpeed):
@@ -82,9 +105,9 @@ class WalkingSpeed(_KeptSpeed):
 
     def free(
         self, context: Context, condition: Condition, values: FloatArray
-    ) -> tuple[BoolArray, str]:
+    ) -> tuple[BoolArray, str, bool]:
         """Return where it walks."""
-        return values >= self.moving_mps, 'walked'
+        return values >= self.moving_mps, 'walked', True
 
 
 class FreeSpeed(_KeptSpeed):
@@ -105,15 +128,19 @@ class FreeSpeed(_KeptSpeed):
 
     def free(
         self, context: Context, condition: Condition, values: FloatArray
-    ) -> tuple[BoolArray, str]:
+    ) -> tuple[BoolArray, str, bool]:
         """Return where the road is free."""
         view = context.view
         body, *followed = (view.body(name) for name in condition.of)
         besides = tuple(other.body_id for other in followed)
         free = free_road.under_way(view, body, self.moving_mps, self.settle_m)
         free &= free_road.free_of_junctions(view, body, self.free_m)
-        free &= free_road.free_of_leaders(view, body, self.free_m, self.lane_offset_m, besides)
-        return free, 'drove free of leaders and junctions'
+        alone = free & free_road.free_of_leaders(
+            view, body, self.free_m, self.lane_offset_m, besides
+        )
+        never = 'drove free of junctions'
+        # Where somebody is ahead all the way, that is no excuse.
+        return (alone, never, True) if alone.any() else (free, never, False)
 
 
 def _followed(inputs: Inputs, agent: GroundAgent, behavior: Behavior) -> tuple[str, ...]:
@@ -147,6 +174,11 @@ def implied(
     slack = t.route_speed_mps.of(speed.value, approximate=speed.approximate)
     where = f'with no {"other " if len(of) > 1 else ""}leader or junction within'
     rest = 'while it walks' if walks else f'{where} {number(t.free_road_m)} m'
+    told = any(
+        isinstance(e.action, AgentAction) and e.action.agent in of and e.action.do in _OTHER_SPEED
+        for e in inputs.spec.events
+    )
+    rest += ', until it or who is ahead of it is told otherwise' if told else ''
     wanted = PerSample.of(speed, slack)
     return condition(
         id=f'{name}.speed',
