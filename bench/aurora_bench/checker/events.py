@@ -109,9 +109,10 @@ def _answered(
     action: Mapping[str, Any],
     instants: tuple[Instant, ...],
 ) -> Happened:
-    ready = _ready_s(case, requirement, action)
+    ready, at_last = _ready_s(case, requirement, action)
     usable = tuple(
-        i if i.late_s >= ready else Instant(max(i.early_s, ready), ready) for i in instants
+        i if i.late_s >= at_last else Instant(max(i.early_s, ready), max(i.late_s, at_last))
+        for i in instants
     )
     tried = [_act(case, requirement, action, Window(i.early_s, i.late_s)) for i in usable]
     good = [k for k, a in enumerate(tried) if a.judged.outcome is Outcome.HOLDS]
@@ -136,8 +137,10 @@ def _answered(
     return _became(cannot_tell(f'{why}, {first}'), best)
 
 
-def _ready_s(case: Case, requirement: Requirement, action: Mapping[str, Any]) -> float:
-    """Return the time from which the event can happen: after the ascent, after what it follows."""
+def _ready_s(
+    case: Case, requirement: Requirement, action: Mapping[str, Any]
+) -> tuple[float, float]:
+    """Return from when on the event can happen, and at the latest can: after what it follows."""
     scene, ready = case.scene, 0.0
     actors = [action.get('uav')]
     if action.get('do') == 'send_message':
@@ -146,12 +149,15 @@ def _ready_s(case: Case, requirement: Requirement, action: Mapping[str, Any]) ->
         for body in case.bodies(actor):
             if scene.bodies[body].is_uav:
                 ready = max(ready, float(scene.times[ascent_end_tick(scene, body)]))
+    at_last = 0.0
     trigger = requirement.get('trigger') or {}
     if action.get('do') in OWN_FLIGHT and trigger.get('on') in STATES:
         # What ends or changes a mission counts once that has begun: from its capture on.
         for body in case.bodies(action.get('uav')):
             captured = uav_actions.first_captured(case, body)
-            ready = ready if captured is None else max(ready, float(scene.times[captured]))
+            if captured is not None:
+                ready = max(ready, float(scene.times[captured[0]]))
+                at_last = max(at_last, float(scene.times[captured[1]]))
     for order in case.annotation.requirements:
         if order['kind'] != 'order' or order.get('then') != requirement.get('ref'):
             continue
@@ -159,7 +165,7 @@ def _ready_s(case: Case, requirement: Requirement, action: Mapping[str, Any]) ->
         if first is not None and first is not requirement:
             start = happened(case, first).start_s
             ready = max(ready, start) if start is not None else ready
-    return ready
+    return ready, max(ready, at_last)
 
 
 def _done(case: Case, event: str) -> Fired:

@@ -139,7 +139,9 @@ def _same_lane(case: Case, requirement: Requirement, body: str, other: str) -> J
     if np.isnan(lateral):
         return _by_lane(case, body, other, same=True)
     why = f'{body} {lateral:.2f} m beside the way of {other}, {abs(float(gaps[0])):.2f} m along it'
-    parts = [graded(lateral <= 1.2 and heading > 0.7, lateral <= 1.8, why)]
+    by_way = graded(lateral <= 1.2 and heading > 0.7, lateral <= 1.8, why)
+    # Who pulls out soon leaves the other's way; the lane at t = 0 is what counts.
+    parts = [any_of([by_way, _by_lane(case, body, other, same=True)])]
     if asked is not None:
         parts.append(decide(asked.counts(abs(float(gaps[0]))), f'{why}, asked {asked.text()} m'))
     return all_of(parts)

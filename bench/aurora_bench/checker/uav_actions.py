@@ -215,10 +215,12 @@ def ascend(case: Case, action: Mapping[str, Any], uav: str, window: Window) -> A
     return Acted(graded(done - start <= bound, window.free, why), start, done)
 
 
-def first_captured(case: Case, uav: str) -> int | None:
-    """Return when a UAV has captured its first mission, None where no annotation tells of one.
+def first_captured(case: Case, uav: str) -> tuple[int, int] | None:
+    """Return the first and the last tick at which a UAV may have captured its first mission.
 
-    Climbs that change it are left out of account: they may wait for it.
+    None where no annotation tells of one. Climbs that change it are left out of account: they may
+    wait for it. Where a hover is left soon, its point does not show: it may have been reached at
+    any time until the UAV stands still, or goes.
     """
     found = segments(case.scene, uav)
     own = [
@@ -236,7 +238,11 @@ def first_captured(case: Case, uav: str) -> int | None:
         variation=case.variation,
         until=found[0].end,
     )
-    return missions.captured_tick(whole, own[0])
+    early = missions.captured_tick(whole, own[0])
+    if early is None or own[0].get('mode') != 'hover':
+        return None if early is None else (early, early)
+    still = np.flatnonzero(case.scene.speed(uav)[early : found[0].end] < limits.STOPPED_MPS)
+    return early, early + int(still[0]) if len(still) else found[0].end
 
 
 def hand_over(case: Case, action: Mapping[str, Any], window: Window) -> Acted:

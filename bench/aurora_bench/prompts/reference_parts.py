@@ -49,6 +49,9 @@ _MISSION_NUMBERS = (
 )  # fmt: skip
 
 
+_TOWARDS_ONE = frozenset({'overtake', 'yield'})
+
+
 class Numbers:
     """Parameters of one requirement; a stated range is the domain."""
 
@@ -122,7 +125,13 @@ def placement(r: PlacementRequirement, names: Names, numbers: Numbers) -> Doc:
 
 
 def behavior(r: BehaviorRequirement, names: Names, numbers: Numbers) -> Doc:
-    """Return a behaviour."""
+    """Return a behaviour.
+
+    Raises:
+        NotExpressibleError: It is about several bodies: a specification names one.
+    """
+    if r.target is not None and len(names.all(r.target)) > 1 and r.behavior in _TOWARDS_ONE:
+        raise NotExpressibleError(f'{r.behavior} of several')
     return {'kind': r.behavior, 'target': names.one(r.target), **numbers.of(r, ('speed_mps',))}
 
 

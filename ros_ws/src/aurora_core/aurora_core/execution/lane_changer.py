@@ -54,23 +54,30 @@ class LaneChanger:
         """Return the lane that an agent is on, as an index in the world's lanes."""
         return int(lanes_of_rows(self._world, seen.ground(row)[None, :])[0])
 
-    def goal(self, row: int, seen: Observation) -> int | None:
-        """Return the lane that an agent can change to now, None when there is none."""
+    def goal(self, row: int, seen: Observation, *, back: bool = False) -> int | None:
+        """Return the lane that an agent can change to now, None when there is none.
+
+        Args:
+            row: Which agent.
+            seen: States of the tick.
+            back: The lane to the right before the one to the left.
+        """
         state = seen.ground(row)
         if not can_change(self._world, state[None, :], self._driving_mps)[0]:
             return None
         beside = lanes_beside(self._world, self.lane(row, seen))
+        beside = beside[::-1] if back else beside
         return next((k for k in beside if self._is_free(k, row, seen)), None)
 
-    def commands(self, row: int, goal: int) -> list[GroundCommand]:
-        """Return what lets an agent change to a lane."""
+    def commands(self, row: int, goal: int, *, stays_s: float = _STAYS_S) -> list[GroundCommand]:
+        """Return what lets an agent change to a lane, and keep to it for some time (s)."""
         index = int(self._world.lanes[goal].lane_id.rpartition('_')[2])
         return [
             GroundCommand(
                 agent=row, kind=GroundCommandKind.SET_LANE_CHANGE_MODE, value=ROUTE_CHANGES
             ),
             GroundCommand(
-                agent=row, kind=GroundCommandKind.CHANGE_LANE, value=index, value2=_STAYS_S
+                agent=row, kind=GroundCommandKind.CHANGE_LANE, value=index, value2=stays_s
             ),
         ]
 

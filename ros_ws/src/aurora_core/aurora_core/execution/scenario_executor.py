@@ -20,6 +20,7 @@ from aurora_core.execution.events import EventRunner
 from aurora_core.execution.landing import PATIENCE_S, landing_spot
 from aurora_core.execution.lane_changer import LaneChanger
 from aurora_core.execution.observe import Observation
+from aurora_core.execution.overtaker import Overtaker
 from aurora_core.execution.premises import Premises
 from aurora_core.execution.step_output import StepOutput
 from aurora_core.grounding.airspace import Airspace
@@ -97,6 +98,7 @@ class ScenarioExecutor:
         self._seen: dict[tuple[str, str], bool] = {}
         self._runner = self._run_events(EventRunner)
         self._premises = Premises(setup.spec, setup.roster)
+        self._overtaker = Overtaker(setup.spec, setup.roster, self._lanes())
         self._done_tick: int | None = None
         self._landing_since: dict[int, int] = {}
         self._sight = InstantSight(setup.geometry, setup.roster)
@@ -116,6 +118,7 @@ class ScenarioExecutor:
         rows = self._fly(tick, uav, seen)
         commands += self._release(tick)
         commands += self._premises.step(tick, s.roster.dt_s, seen, s.machines)
+        commands += self._overtaker.step(seen)
         commands += self._runner.step(tick, s.roster.dt_s, seen, s.machines, self.note)
         links = self._step_links(tick, seen)
         sights = self._sights(tick, seen)
@@ -148,18 +151,21 @@ class ScenarioExecutor:
         """Return what sets the events of the scenario off."""
         s = self._setup
         stopping = frozenset(i for i, a in enumerate(s.agents) if a.stop_lane_id)
-        lanes = LaneChanger(s.geometry.world, s.roster, s.action_rules.start_mps)
         return kind(
             s.spec,
             s.roster,
             s.links,
             s.arrival_m,
             s.action_rules,
-            lanes,
+            self._lanes(),
             self._set_off,
             lambda row: self._drive_command(row, s.agents[row]),
             stopping,
         )
+
+    def _lanes(self) -> LaneChanger:
+        s = self._setup
+        return LaneChanger(s.geometry.world, s.roster, s.action_rules.start_mps)
 
     def _initial_commands(self) -> list[GroundCommand]:
         commands = []

@@ -7,7 +7,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from aurora_core.execution.observe import Observation
-from aurora_core.quantities.actions import REACHED_M
+from aurora_core.quantities.actions import CLIMBED_M
 from aurora_core.quantities.triggers import NEEDS_CHANGE
 from aurora_core.spec.scenario import (
     AltitudeTrigger,
@@ -78,7 +78,7 @@ def _state_holds(
         return distance >= trigger.value_m.value
     if isinstance(trigger, AltitudeTrigger):
         point = observation.position(trigger.uav)
-        return point is not None and point[2] >= trigger.value_m.value - REACHED_M
+        return point is not None and point[2] >= trigger.value_m.value - CLIMBED_M
     if isinstance(trigger, SpeedTrigger):
         speed = observation.speed_mps(trigger.who)
         if speed is None:

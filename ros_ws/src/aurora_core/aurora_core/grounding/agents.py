@@ -5,8 +5,8 @@
 from __future__ import annotations
 
 import itertools
+from collections import Counter
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from math import inf, sqrt
 
 import numpy as np
@@ -20,15 +20,17 @@ from aurora_core.grounding.kept_gaps import KeptGap, kept_gaps
 from aurora_core.grounding.lane_changers import ORDERED_CHANGES, changes_lane
 from aurora_core.grounding.pace import (
     EMERGENCY_FACTOR,
+    PACED,
     Encounter,
     convoy_pace_mps,
     encounters,
     fastest_stated_mps,
     in_emergency,
-    moves,
     own_speed_mps,
+    partings,
     stated_speed_mps,
 )
+from aurora_core.grounding.releases import Release, convoy_release, own_release
 from aurora_core.grounding.routes import RouteFinder
 from aurora_core.grounding.sites import (
     SeatedAgent,
@@ -45,14 +47,10 @@ from aurora_core.knowledge.net_types import Lane
 from aurora_core.knowledge.route_path import RoutePath
 from aurora_core.knowledge.settings import Settings
 from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
-from aurora_core.spec.events import sets_off
-from aurora_core.spec.flight_order import begun_by, left_by
+from aurora_core.spec.own_events import overtakings
 from aurora_core.spec.scenario import (
-    ArrivalTrigger,
     GroundAgent,
     ScenarioSpec,
-    TimeTrigger,
-    UavMission,
 )
 from aurora_core.spec.vocabulary import BehaviorKind, MissionMode, Place
 
@@ -66,17 +64,14 @@ _SLOWEST_MPS = 8.0
 _TRIES = 400
 _SCAN_M = 5.0
 
+# Time gap of each of several that follow one: the last one has to be near it, too (s).
+_IN_LINE_S = 0.6
+
+# Who overtakes is so much faster (m/s).
+_PASSES_BY_MPS = 4.0
+
 # Routes tried for one on which no signal is in the way.
 _RUNS_TRIED = 60
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Release:
-    """When the convoy may start, and whose doing that is."""
-
-    on: ReleaseOn = ReleaseOn.START
-    uav: str = ''
-    mission: str = ''
 
 
 class AgentPlacer:
@@ -108,10 +103,11 @@ class AgentPlacer:
         """Return the convoy's members in the order of the specification."""
         factor = self._convoy_factor(spec, site)
         meetings = encounters(spec)
-        release = _release(spec, split)
+        release = convoy_release(spec, split)
         seats = {s.agent.id: s for s in (*site.seated, *site.others)}
         front_m = max((s.arc_m for s in site.seated), default=0.0)
         gaps = kept_gaps(spec, seats, self._types)
+        in_line = _in_line(spec)
         parting = any(changes_lane(spec, s.agent) for s in site.seated)
         placed = []
         for agent in spec.agents:
@@ -120,7 +116,8 @@ class AgentPlacer:
                 continue
             # Who is slower would be passed once one of them has another lane.
             is_front = seat.arc_m >= front_m or parting
-            style = self._style(agent, factor, seats, meetings, gaps, is_front=is_front)
+            style = self._style(agent, factor, seats, meetings, gaps, in_line, is_front=is_front)
+            style |= self._passing_style(spec, agent, factor, seats)
             parked = parks(spec, agent)
             still = parked or stands(agent)
             placed.append(
@@ -128,7 +125,7 @@ class AgentPlacer:
                     agent,
                     seat.path,
                     seat.arc_m,
-                    release=_own_release(spec, agent, release),
+                    release=own_release(spec, agent, release),
                     still=still,
                     speed_mps=stated_speed_mps(spec, agent),
                     style=style,
@@ -157,7 +154,7 @@ class AgentPlacer:
         found = {a.id: a for a in placed}
         missing = []
         for agent in split.free:
-            release = _own_release(spec, agent, _Release())
+            release = own_release(spec, agent, Release())
             others = list(found.values())
             grounded = self._free_agent(
                 spec, agent, release, (x0, y0), others, run_m, generator, parked=parks(spec, agent)
@@ -172,7 +169,7 @@ class AgentPlacer:
         self,
         spec: ScenarioSpec,
         agent: GroundAgent,
-        release: _Release,
+        release: Release,
         centre: tuple[float, float],
         others: list[GroundedAgent],
         run_m: float,
@@ -270,7 +267,7 @@ class AgentPlacer:
         path: RoutePath,
         arc_m: float,
         *,
-        release: _Release,
+        release: Release,
         still: bool,
         speed_mps: float | None,
         style: dict[str, float],
@@ -349,6 +346,7 @@ class AgentPlacer:
         seats: Mapping[str, SeatedAgent],
         meetings: tuple[Encounter, ...],
         gaps: tuple[KeptGap, ...],
+        in_line: frozenset[str],
         *,
         is_front: bool,
     ) -> dict[str, float]:
@@ -377,6 +375,8 @@ class AgentPlacer:
             return {'speed_factor': _emergency_factor(agent)}
         behind = self._settings.grounding.convoy_speed_factor_behind
         style = {'speed_factor': factor if is_front else factor * behind}
+        if agent.id in in_line:
+            style |= {'time_gap_s': _IN_LINE_S}
         for gap in gaps:
             if gap.follower == agent.id:
                 style |= {'min_gap_m': gap.gap_m, 'time_gap_s': run.dt_s}
@@ -385,6 +385,56 @@ class AgentPlacer:
                     gap.acceleration_mps2, style.get('gentle_mps2', gap.acceleration_mps2)
                 )
         return style
+
+    def _passing_style(
+        self,
+        spec: ScenarioSpec,
+        agent: GroundAgent,
+        factor: float,
+        seats: Mapping[str, SeatedAgent],
+    ) -> dict[str, float]:
+        """Return what lets those who overtake be faster than those who are overtaken.
+
+        So it is with those who are to get away from each other.
+        """
+        pairs, grounding = overtakings(spec), self._settings.grounding
+        agents = {a.id: a for a in spec.agents}
+        passed = [other for one, other in pairs if one == agent.id]
+        if passed:
+            speeds = [own_speed_mps(agents[other]) or 0.0 for other in passed]
+            brisk = max(speeds) + _PASSES_BY_MPS > grounding.target_speed_mps
+            return {'speed_factor': 1.0 if brisk else factor}
+        slow = [other for _, other in pairs]
+        # Whom they follow is as slow as they are.
+        for name in slow:
+            slow += [
+                b.target
+                for b in agents[name].behaviors
+                if b.target in agents and b.kind in PACED and b.target not in slow
+            ]
+        lasts = (_last(pair, seats) for pair in partings(spec))
+        slow += [name for name in lasts if name is not None]
+        slowed = agent.id in slow and own_speed_mps(agent) is None
+        return {'speed_factor': factor * grounding.chased_speed_factor} if slowed else {}
+
+
+def _in_line(spec: ScenarioSpec) -> frozenset[str]:
+    """Return the vehicles of which several follow one: they keep together."""
+    followed = [
+        (b.target, agent.id)
+        for agent in spec.agents
+        for b in agent.behaviors
+        if b.kind is BehaviorKind.FOLLOW
+    ]
+    count = Counter(target for target, _ in followed)
+    return frozenset(agent for target, agent in followed if count[target] > 1)
+
+
+def _last(pair: frozenset[str], seats: Mapping[str, SeatedAgent]) -> str | None:
+    """Return which of two vehicles on one road is behind, None where they are on two."""
+    if not pair <= seats.keys():
+        return None
+    return min(sorted(pair), key=lambda name: seats[name].arc_m)
 
 
 def _emergency_factor(agent: GroundAgent) -> float:
@@ -424,69 +474,3 @@ def line_from(path: RoutePath, arc_m: float) -> tuple[tuple[float, float], ...]:
         if passed_m > arc_m + 0.01:
             points.append(b)
     return tuple(points)
-
-
-def _own_release(spec: ScenarioSpec, agent: GroundAgent, release: _Release) -> _Release:
-    """Return when an agent may start: whoever an event lets set off waits for it."""
-    waits = sets_off(spec.events, agent.id) is not None
-    return _Release(on=ReleaseOn.EVENT) if waits else release
-
-
-def _release(spec: ScenarioSpec, split: SceneSplit) -> _Release:
-    """Hold the convoy until the UAV that watches it is ready, or has finished with it."""
-    members = {m.agent.id: m.agent for m in split.convoy}
-    on_time = any(
-        isinstance(e.trigger, TimeTrigger) and getattr(e.action, 'agent', None) in members
-        for e in spec.events
-    )
-    if on_time:  # What happens at a stated time does not wait for a UAV.
-        return _Release()
-    for mission in spec.missions:
-        target = members.get(mission.target or '')
-        if target is None or mission.mode is MissionMode.NAVIGATE:
-            continue
-        if begun_by(spec, mission) is not None:
-            before = _watched_from(spec, mission)
-            if before is None:
-                continue
-            return _Release(on=ReleaseOn.CAPTURED, uav=before.uav, mission=before.id)
-        if mission.mode is MissionMode.HOVER and not moves(spec, target):
-            return _Release(on=ReleaseOn.OBSERVED, uav=mission.uav)
-        last = _captured_last(spec, mission)
-        return _Release(on=ReleaseOn.CAPTURED, uav=last.uav, mission=last.id)
-    arriving = {t.who for t in (e.trigger for e in spec.events) if isinstance(t, ArrivalTrigger)}
-    for mission in spec.missions:
-        ends = left_by(spec, mission)
-        awaited = None if ends is None else ends.trigger
-        flies = mission.mode is MissionMode.NAVIGATE
-        if flies and isinstance(awaited, ArrivalTrigger) and awaited.who in members:
-            # Broken off before its first lap is over, a route would not show.
-            return _Release(on=ReleaseOn.LAPPED, uav=mission.uav, mission=mission.id)
-    met = {name for m in encounters(spec) for name in (m.actor, m.other)} | arriving
-    for mission in spec.missions:
-        if met & set(members):
-            return _Release(on=ReleaseOn.ASCENDED, uav=mission.uav)
-    return _Release()
-
-
-def _watched_from(spec: ScenarioSpec, mission: UavMission) -> UavMission | None:
-    """Return the mission in which a UAV awaits the event that lets another one begin."""
-    own = [m for m in spec.missions if m.uav == mission.uav]
-    before = [m for m in own[: own.index(mission)] if begun_by(spec, m) is None]
-    return before[-1] if before else None
-
-
-def _captured_last(spec: ScenarioSpec, mission: UavMission) -> UavMission:
-    """Return which of the UAVs that begin by watching the same body is ready last.
-
-    The highest one; nobody has to catch up with a target that another one has set free.
-    """
-    first = {m.uav: m for m in reversed(spec.missions)}.values()
-    if mission not in first:
-        return mission
-    sharing = [
-        m
-        for m in first
-        if m.target == mission.target and m.mode is mission.mode and begun_by(spec, m) is None
-    ]
-    return max((mission, *sharing), key=lambda m: m.altitude_m.value)

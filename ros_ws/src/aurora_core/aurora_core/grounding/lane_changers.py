@@ -9,7 +9,7 @@ from aurora_core.grounding.sites import ANY_CLASS, SeatedAgent, with_another_lan
 from aurora_core.knowledge.net_types import Lane
 from aurora_core.knowledge.road_network import RoadNetwork
 from aurora_core.quantities.lane_changes import ROOM_S
-from aurora_core.spec.own_events import keeps_to_lanes, own_events
+from aurora_core.spec.own_events import keeps_to_lanes, overtakings, own_events
 from aurora_core.spec.scenario import AgentAction, GroundAgent, ScenarioSpec
 
 # Share of a lane's length that its ends are apart where it is straight.
@@ -27,7 +27,8 @@ def changes_lane(spec: ScenarioSpec, agent: GroundAgent) -> bool:
         and e.action.agent == agent.id
         for e in (*spec.events, *own_events(spec))
     )
-    return ordered and keeps_to_lanes(agent)
+    passes = any(one == agent.id for one, _ in overtakings(spec))
+    return (ordered or passes) and keeps_to_lanes(agent)
 
 
 def share_with_another_lane(

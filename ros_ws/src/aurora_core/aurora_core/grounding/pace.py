@@ -16,6 +16,7 @@ from aurora_core.knowledge.settings import GroundingSettings
 from aurora_core.spec.own_events import own_events
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import (
+    AgentAction,
     DistanceTrigger,
     GroundAgent,
     ScenarioSpec,
@@ -39,11 +40,15 @@ _FASTER_MPS = 0.7
 # Who is never to be faster than a number drives so much slower (m/s).
 _BELOW_CAP_MPS = 0.5
 
+# Who is to accelerate to a speed drives so much slower before, but not slower than that (m/s).
+_GAINS_MPS = 5.0
+_LEAST_MPS = 3.0
+
 # Who is to slow down to a speed drives so much faster before (m/s).
 _SLOWS_BY_MPS = 4.0
 
 # Who does this drives as fast as the one that it does it to.
-_PACED = frozenset({BehaviorKind.FOLLOW, BehaviorKind.TAILGATE})
+PACED = frozenset({BehaviorKind.FOLLOW, BehaviorKind.TAILGATE})
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -63,6 +68,19 @@ def encounters(spec: ScenarioSpec) -> tuple[Encounter, ...]:
         for t in (e.trigger for e in (*spec.events, *own_events(spec)))
         if isinstance(t, DistanceTrigger)
         and t.on == 'distance_below'
+        and t.a in vehicles
+        and t.b in vehicles
+    )
+
+
+def partings(spec: ScenarioSpec) -> tuple[frozenset[str], ...]:
+    """Return the pairs of vehicles that an event waits for to get far from each other."""
+    vehicles = {a.id for a in spec.agents if a.type is not AgentType.PEDESTRIAN}
+    return tuple(
+        frozenset((t.a, t.b))
+        for t in (e.trigger for e in spec.events)
+        if isinstance(t, DistanceTrigger)
+        and t.on == 'distance_above'
         and t.a in vehicles
         and t.b in vehicles
     )
@@ -130,7 +148,7 @@ def stated_speed_mps(spec: ScenarioSpec, agent: GroundAgent) -> float | None:
     followers = [
         own_speed_mps(a)
         for a in spec.agents
-        if any(b.kind in _PACED and b.target == agent.id for b in a.behaviors)
+        if any(b.kind in PACED and b.target == agent.id for b in a.behaviors)
     ]
     awaited = [
         e.trigger.value_mps.value + _FASTER_MPS
@@ -140,8 +158,26 @@ def stated_speed_mps(spec: ScenarioSpec, agent: GroundAgent) -> float | None:
         and e.trigger.who == agent.id
         and agent.type is not AgentType.PEDESTRIAN
     ]
-    speeds = (own_speed_mps(agent), *followers, *awaited, _capped_mps(spec, agent))
+    gains = _gains_from_mps(spec, agent)
+    speeds = (own_speed_mps(agent), *followers, *awaited, gains, _capped_mps(spec, agent))
     return next((speed for speed in speeds if speed is not None), None)
+
+
+def _gains_to_mps(spec: ScenarioSpec, agent: GroundAgent) -> list[float]:
+    """Return the speeds that an agent is to accelerate to."""
+    return [
+        e.action.value_mps.value
+        for e in spec.events
+        if isinstance(e.action, AgentAction)
+        and (e.action.agent, e.action.do) == (agent.id, 'accelerate')
+        and e.action.value_mps is not None
+    ]
+
+
+def _gains_from_mps(spec: ScenarioSpec, agent: GroundAgent) -> float | None:
+    """Return how fast an agent drives before it accelerates to a speed, None if it does not."""
+    goals = _gains_to_mps(spec, agent)
+    return max(_LEAST_MPS, min(goals) - _GAINS_MPS) if goals else None
 
 
 def _capped_mps(spec: ScenarioSpec, agent: GroundAgent) -> float | None:
@@ -164,7 +200,10 @@ def fastest_stated_mps(spec: ScenarioSpec, agents: Iterable[GroundAgent]) -> flo
     """
     bound = (agent for agent in agents if not in_emergency(agent))
     return max(
-        (max(stated_speed_mps(spec, agent) or 0.0, slows_from_mps(agent)) for agent in bound),
+        (
+            max([stated_speed_mps(spec, a) or 0.0, slows_from_mps(a), *_gains_to_mps(spec, a)])
+            for a in bound
+        ),
         default=0.0,
     )
 

@@ -35,11 +35,9 @@ FROM_MOTION = frozenset({'brake', 'stop', 'yield', 'slow', 'change_lane'})
 # way to the crossing people brush the kerb (m).
 CROSSED_M = 2.0
 
-# A UAV has climbed to an altitude when it is this close to it (m).
+# A UAV has climbed to an altitude, or reached it, when it is this close to it (m): what it is told
+# to hold it may never quite exceed.
 CLIMBED_M = 1.0
-
-# It has reached one at so little below it (m): what it is told to hold it may never quite exceed.
-REACHED_M = 0.5
 
 
 class ActionRules(Document):

@@ -21,7 +21,6 @@ from aurora_core.quantities import motion
 from aurora_core.quantities.actions import (
     CLIMBED_M,
     CROSSED_M,
-    REACHED_M,
     ActionRules,
     completion_index,
     holds_already,
@@ -390,7 +389,7 @@ def trigger_series(
             first = whole_ticks(trigger.at_s.value, view.dt_s)
             return np.arange(view.ticks) >= first
         case AltitudeTrigger():
-            reached_m = trigger.value_m.value - REACHED_M
+            reached_m = trigger.value_m.value - CLIMBED_M
             return motion.altitude(view, view.body(trigger.uav)) >= reached_m
         case VisibilityTrigger():
             sight = sight_series(view, trigger.observer, trigger.target).visible

@@ -58,6 +58,18 @@ def own_events(spec: ScenarioSpec) -> tuple[Event, ...]:
     return tuple(found)
 
 
+def overtakings(spec: ScenarioSpec) -> tuple[tuple[str, str], ...]:
+    """Return who is to overtake whom, of those who keep to lanes."""
+    ids = {agent.id for agent in spec.agents if agent.type is not AgentType.PEDESTRIAN}
+    return tuple(
+        (agent.id, behavior.target)
+        for agent in spec.agents
+        if keeps_to_lanes(agent)
+        for behavior in agent.behaviors
+        if behavior.kind is BehaviorKind.OVERTAKE and behavior.target in ids - {agent.id}
+    )
+
+
 def let_pass(spec: ScenarioSpec, event: Event) -> str | None:
     """Return the agent that an event makes another one yield to, None where it is not one."""
     if not isinstance(event.action, AgentAction) or event.action.do != 'yield':

@@ -214,3 +214,34 @@ def test_a_line_over_the_main_road_lies_over_a_carriageway(
     leg = shapely.LineString([start, end])
     surface = map_of('downtown').network.carriageway
     assert float(leg.intersection(surface).length) >= 0.8 * length_m
+
+
+def test_who_overtakes_is_faster_and_has_a_second_lane(
+    grounded: Callable[[str], GroundedScenario], map_of: Callable[[str], MapModel]
+) -> None:
+    found = grounded('A drone tracks a bus. A car behind the bus overtakes it.')
+    car, bus = (next(a for a in found.agents if a.type_name == kind) for kind in ('car', 'bus'))
+    assert car.speed_factor > 1.5 * bus.speed_factor
+    assert car.lane_change_mode == 512, 'only when it is ordered to'
+    network = map_of('downtown').network
+    street = network.edge(network.lane(car.lane_id).edge_id)
+    lanes = [network.lane(name) for name in street.lane_ids]
+    assert len([lane for lane in lanes if 'passenger' in lane.allows]) > 1
+
+
+def test_who_is_to_gain_speed_drives_slower_before(
+    grounded: Callable[[str], GroundedScenario],
+) -> None:
+    found = grounded('A car drives along the road. After 20 s the car accelerates to 13 m/s.')
+    assert found.agents[0].drive_speed_mps == 8.0
+
+
+def test_who_is_to_fall_back_is_slower_than_the_one_ahead(
+    grounded: Callable[[str], GroundedScenario],
+) -> None:
+    found = grounded(
+        'A drone tracks a van. A car drives 20 m behind the van. When the distance between the '
+        'car and the van exceeds 60 m, the drone lands.'
+    )
+    van, car = (next(a for a in found.agents if a.type_name == kind) for kind in ('van', 'car'))
+    assert car.speed_factor < 0.8 * van.speed_factor

@@ -99,7 +99,7 @@ def _fog(metres: float) -> Case:
 
 
 def _ordered(first: str, then: str, within_s: float | None = None, **alert: bool) -> Case:
-    """The alert e1 at 32.25 s and the milestone e2: 29 m are reached at 7.15 s."""
+    """The alert e1 at 32.25 s and the milestone e2: 29 m are reached at 7.05 s."""
     case = tailgate_case(**alert)
     reached = {'on': 'altitude_reached', 'uav': 'uav1', 'value_m': number(29.0)}
     order: dict[str, object] = {'id': 'o1', 'first': first, 'then': then}
@@ -185,8 +185,8 @@ ROWS = (
     Row(id='e1.time', make=lambda: _at(30.0), margin=0.6 - 2.25),
     Row(id='e1.time', make=lambda: _at(32.0, alert=False), reason=NEVER),
     # 29 m are reached with the 145th tick (by rounding perhaps with the next one).
-    Row(id='e1.happens', make=lambda: _milestone(29.0), margin=70.0 - 7.15, within=0.06),
-    Row(id='e1.happens', make=lambda: _milestone(29.0, 5.0), margin=5.0 - 7.15, within=0.06),
+    Row(id='e1.happens', make=lambda: _milestone(29.0), margin=70.0 - 7.05, within=0.06),
+    Row(id='e1.happens', make=lambda: _milestone(29.0, 5.0), margin=5.0 - 7.05, within=0.06),
     Row(id='e1.happens', make=lambda: _milestone(99.0), reason=NEVER),
     Row(id='e1.after_capture', make=tailgate_case, margin=TRIGGER_S - CAPTURED_S, within=0.06),
     Row(
@@ -225,13 +225,13 @@ ROWS = (
     Row(id='e1.latency', make=lambda: _latency(2), margin=2.0),
     Row(id='e1.latency', make=lambda: _latency(5), margin=2.0 - 3.0),
     Row(id='e1.latency', make=lambda: _latency(2, lost=9), reason=NEVER),
-    # From 7.15 s to 32.25 s.
-    Row(id='o1.holds', make=lambda: _ordered('e2', 'e1'), margin=25.1, within=0.06),
-    Row(id='o1.holds', make=lambda: _ordered('e1', 'e2'), margin=-25.1, within=0.06),
+    # From 7.05 s to 32.25 s.
+    Row(id='o1.holds', make=lambda: _ordered('e2', 'e1'), margin=25.2, within=0.06),
+    Row(id='o1.holds', make=lambda: _ordered('e1', 'e2'), margin=-25.2, within=0.06),
     Row(id='o1.holds', make=lambda: _ordered('e2', 'e1', alert=False), reason=NEVER),
     Row(id='o1.holds', make=lambda: cut(_ordered('e2', 'e1'), 640), reason=SHORT),
-    Row(id='o1.within', make=lambda: _ordered('e2', 'e1', 26.0), margin=0.9, within=0.06),
-    Row(id='o1.within', make=lambda: _ordered('e2', 'e1', 20.0), margin=-5.1, within=0.06),
+    Row(id='o1.within', make=lambda: _ordered('e2', 'e1', 26.0), margin=0.8, within=0.06),
+    Row(id='o1.within', make=lambda: _ordered('e2', 'e1', 20.0), margin=-5.2, within=0.06),
     Row(id='o1.within', make=lambda: _ordered('e2', 'e1', 26.0, alert=False), reason=NEVER),
 )
 

@@ -178,7 +178,7 @@ def test_milestones_have_to_happen(tb: ModuleType) -> None:
     case.spec = tb.spec(**{**dict(case.spec), 'events': (*case.spec.events, event)})
     case.run.claim(145, ScenarioEventKind.TRIGGERED, 'e2')
     found = _results(tb, case)['e2.happens']
-    assert found.margin == pytest.approx(70.0 - 7.15, abs=0.06)
+    assert found.margin == pytest.approx(70.0 - 7.05, abs=0.06)
     event['trigger']['value_m'] = tb.number(99.0)  # type: ignore[index]
     case.spec = tb.spec(**{**dict(case.spec), 'events': (case.spec.events[0], event)})
     assert _results(tb, case)['e2.happens'].reason is Reason.PREMISE_NEVER

@@ -212,7 +212,7 @@ def test_trigger_ticks(tb: ModuleType) -> None:
     assert tick(never) is None
     assert tick(
         AltitudeTrigger(on='altitude_reached', uav='uav1', value_m=metre(15.0))
-    ) == pytest.approx(73, abs=1)
+    ) == pytest.approx(71, abs=1)
     assert tick(VisibilityTrigger(on='visible', observer='uav1', target='ego')) == pytest.approx(
         140, abs=1
     )

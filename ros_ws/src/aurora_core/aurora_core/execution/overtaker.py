@@ -1,0 +1,85 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Let vehicles overtake: pull out behind the other one, pass it, and pull in again ahead of it.
+
+A driver that the simulator leaves to itself stays behind where it has no reason to hurry.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from aurora_core.execution.lane_changer import LaneChanger
+from aurora_core.execution.observe import Observation
+from aurora_core.spec.own_events import overtakings
+from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.trace.commands import GroundCommand
+from aurora_core.trace.roster import Roster
+
+# It pulls out this close behind the other one, and in again this far ahead of it (m, bumper to
+# bumper).
+_OUT_M = 30.0
+_IN_M = 10.0
+
+# The lane to pass on is kept for so long (s): longer than it takes to pass on any street.
+_PASSES_S = 60.0
+
+
+@dataclass(slots=True)
+class _Passing:
+    """One overtaking: `row` passes `other`.
+
+    Attributes:
+        left: The lane that it pulled out of, None while it is behind.
+        done: It has pulled in again, or is over all lanes that it could.
+    """
+
+    row: int
+    other: int
+    left: int | None = None
+    done: bool = False
+
+
+class Overtaker:
+    """The overtakings of a run.
+
+    Args:
+        spec: The request.
+        roster: Row order.
+        lanes: Orders changes of lane.
+    """
+
+    def __init__(self, spec: ScenarioSpec, roster: Roster, lanes: LaneChanger) -> None:
+        self._roster = roster
+        self._lanes = lanes
+        rows = (
+            (roster.agent_index(agent), roster.agent_index(other))
+            for agent, other in overtakings(spec)
+        )
+        self._passing = [
+            _Passing(row=row, other=other)
+            for row, other in rows
+            if row is not None and other is not None
+        ]
+
+    def step(self, seen: Observation) -> list[GroundCommand]:
+        """Return the commands of a tick."""
+        return [c for one in self._passing if not one.done for c in self._step(one, seen)]
+
+    def _step(self, one: _Passing, seen: Observation) -> list[GroundCommand]:
+        if one.left is None:
+            gap_m = seen.ahead_m(one.row, self._roster.agents[one.other].body_id)
+            if not 0.0 < gap_m <= _OUT_M:
+                return []
+            goal = self._lanes.goal(one.row, seen)
+            if goal is None:
+                return []
+            one.left = self._lanes.lane(one.row, seen)
+            return self._lanes.commands(one.row, goal, stays_s=_PASSES_S)
+        if seen.ahead_m(one.other, self._roster.agents[one.row].body_id) < _IN_M:
+            return []
+        goal = self._lanes.goal(one.row, seen, back=True)
+        if goal is None:
+            return []
+        one.done = True
+        return self._lanes.commands(one.row, goal)

@@ -1,0 +1,135 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""When vehicles may set off: with the run, or once the UAV that watches them is ready."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from aurora_core.grounding.convoy import SceneSplit
+from aurora_core.grounding.pace import encounters, moves
+from aurora_core.outcomes.grounded import ReleaseOn
+from aurora_core.spec.events import actor_of, sets_off
+from aurora_core.spec.flight_order import begun_by, left_by
+from aurora_core.spec.scenario import (
+    ArrivalTrigger,
+    DistanceTrigger,
+    GroundAgent,
+    ScenarioSpec,
+    SendMessage,
+    TimeTrigger,
+    UavMission,
+)
+from aurora_core.spec.vocabulary import MissionMode
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Release:
+    """When the convoy may start, and whose doing that is."""
+
+    on: ReleaseOn = ReleaseOn.START
+    uav: str = ''
+    mission: str = ''
+
+
+def own_release(spec: ScenarioSpec, agent: GroundAgent, release: Release) -> Release:
+    """Return when an agent may start: whoever an event lets set off waits for it.
+
+    Of whom nothing is said but that a UAV tells it something stays within reach until that has
+    landed.
+    """
+    if sets_off(spec.events, agent.id) is not None:
+        return Release(on=ReleaseOn.EVENT)
+    teller = _told_by(spec, agent)
+    return release if teller is None else Release(on=ReleaseOn.OBSERVED, uav=teller)
+
+
+def _told_by(spec: ScenarioSpec, agent: GroundAgent) -> str | None:
+    """Return the UAV that stays at a place and sends a message to an agent without a motion."""
+    if moves(spec, agent) or any(m.target == agent.id for m in spec.missions):
+        return None
+    staying = {m.uav for m in spec.missions} - {
+        m.uav for m in spec.missions if m.mode is not MissionMode.HOVER
+    }
+    told = (e.action for e in spec.events if isinstance(e.action, SendMessage))
+    return next((a.sender for a in told if a.receiver == agent.id and a.sender in staying), None)
+
+
+def convoy_release(spec: ScenarioSpec, split: SceneSplit) -> Release:
+    """Hold the convoy until the UAV that watches it is ready, or has finished with it."""
+    members = {m.agent.id: m.agent for m in split.convoy}
+    on_time = any(
+        isinstance(e.trigger, TimeTrigger) and getattr(e.action, 'agent', None) in members
+        for e in spec.events
+    )
+    if on_time:  # What happens at a stated time does not wait for a UAV.
+        return Release()
+    for mission in spec.missions:
+        target = members.get(mission.target or '')
+        if target is None or mission.mode is MissionMode.NAVIGATE:
+            continue
+        if begun_by(spec, mission) is not None:
+            before = _watched_from(spec, mission)
+            if before is None:
+                continue
+            # Whom a UAV has to come upon waits where it will be.
+            watched = mission if _comes_upon(spec, mission) else before
+            return Release(on=ReleaseOn.CAPTURED, uav=watched.uav, mission=watched.id)
+        if mission.mode is MissionMode.HOVER and not moves(spec, target):
+            return Release(on=ReleaseOn.OBSERVED, uav=mission.uav)
+        last = _captured_last(spec, mission)
+        return Release(on=ReleaseOn.CAPTURED, uav=last.uav, mission=last.id)
+    arriving = {t.who for t in (e.trigger for e in spec.events) if isinstance(t, ArrivalTrigger)}
+    for mission in spec.missions:
+        ends = left_by(spec, mission)
+        awaited = None if ends is None else ends.trigger
+        flies = mission.mode is MissionMode.NAVIGATE
+        if flies and isinstance(awaited, ArrivalTrigger) and awaited.who in members:
+            # Broken off before its first lap is over, a route would not show.
+            return Release(on=ReleaseOn.LAPPED, uav=mission.uav, mission=mission.id)
+    met = {name for m in encounters(spec) for name in (m.actor, m.other)} | arriving
+    # Who is reported by a UAV waits until that is up and can see it.
+    flying = {uav.id for uav in spec.uavs}
+    sent = [e for e in spec.events if isinstance(e.action, SendMessage)]
+    met |= {actor_of(e) or '' for e in sent if getattr(e.action, 'sender', '') in flying}
+    for mission in spec.missions:
+        if met & set(members):
+            return Release(on=ReleaseOn.ASCENDED, uav=mission.uav)
+    return Release()
+
+
+def _comes_upon(spec: ScenarioSpec, mission: UavMission) -> bool:
+    """Tell whether a mission begins when its UAV, on a route, gets near its target."""
+    event = begun_by(spec, mission)
+    trigger = None if event is None else event.trigger
+    before = _watched_from(spec, mission)
+    return (
+        isinstance(trigger, DistanceTrigger)
+        and trigger.on == 'distance_below'
+        and {trigger.a, trigger.b} == {mission.uav, mission.target}
+        and before is not None
+        and before.mode is MissionMode.NAVIGATE
+    )
+
+
+def _watched_from(spec: ScenarioSpec, mission: UavMission) -> UavMission | None:
+    """Return the mission in which a UAV awaits the event that lets another one begin."""
+    own = [m for m in spec.missions if m.uav == mission.uav]
+    before = [m for m in own[: own.index(mission)] if begun_by(spec, m) is None]
+    return before[-1] if before else None
+
+
+def _captured_last(spec: ScenarioSpec, mission: UavMission) -> UavMission:
+    """Return which of the UAVs that begin by watching the same body is ready last.
+
+    The highest one; nobody has to catch up with a target that another one has set free.
+    """
+    first = {m.uav: m for m in reversed(spec.missions)}.values()
+    if mission not in first:
+        return mission
+    sharing = [
+        m
+        for m in first
+        if m.target == mission.target and m.mode is mission.mode and begun_by(spec, m) is None
+    ]
+    return max((mission, *sharing), key=lambda m: m.altitude_m.value)
