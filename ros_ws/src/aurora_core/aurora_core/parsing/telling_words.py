@@ -19,17 +19,22 @@ from aurora_core.parsing.coverage import parameters
 from aurora_core.parsing.data_files import read_data
 from aurora_core.spec.parameter import Parameter, Provenance, Span, Unit
 from aurora_core.spec.scenario import (
+    AgentAction,
     Clause,
     EventDoneTrigger,
     MissionDoneTrigger,
     ScenarioSpec,
+    SendMessage,
+    TimeTrigger,
+    UavAction,
     UavMission,
+    VisibilityTrigger,
 )
-from aurora_core.spec.vocabulary import BehaviorKind, ClauseStatus
+from aurora_core.spec.vocabulary import BehaviorKind, ClauseStatus, MissionMode
 
 _PAUSES = ' \t\n,;.:-('
 # Rows about whole clauses, by their first words.
-_OPENINGS = ('cause', 'later')
+_OPENINGS = ('as_long_as', 'because', 'cause', 'later', 'meanwhile')
 
 
 def untold(spec: ScenarioSpec) -> list[Span]:
@@ -50,7 +55,10 @@ def untold(spec: ScenarioSpec) -> list[Span]:
 
 def _openings(spec: ScenarioSpec, opening: re.Pattern[str]) -> Iterator[Span]:
     """Yield the clauses that begin with certain words, each with them: `then | the bus stops`."""
-    for before, clause in pairwise(sorted(spec.clauses, key=lambda c: c.span.start)):
+    clauses = sorted(spec.clauses, key=lambda c: c.span.start)
+    if clauses and opening.match(spec.prompt.lower()):
+        yield Span(start=0, end=clauses[0].span.end)
+    for before, clause in pairwise(clauses):
         between = spec.prompt[before.span.end : clause.span.start]
         start = before.span.end + len(between) - len(between.lstrip(_PAUSES))
         start = min(start, clause.span.start)
@@ -121,10 +129,14 @@ def _sequence(spec: ScenarioSpec, clause: Clause) -> bool:
     chained = any(
         isinstance(e.trigger, EventDoneTrigger | MissionDoneTrigger) for e in spec.events
     )
-    phases = [m.uav for m in spec.missions]
+    return bool(spec.orders) or chained or _phases(spec, clause)
+
+
+def _phases(spec: ScenarioSpec, clause: Clause) -> bool:
+    """Several phases of one UAV, and nobody else who acts."""
+    uavs = [m.uav for m in spec.missions]
     acting = {e.id for e in spec.agents if e.behaviors}
-    alone = len(set(phases)) == 1 < len(phases) and not acting
-    return bool(spec.orders) or chained or alone
+    return len(set(uavs)) == 1 < len(uavs) and not acting
 
 
 def _condition(spec: ScenarioSpec, clause: Clause) -> bool:
@@ -152,6 +164,92 @@ def _no_distance(spec: ScenarioSpec, clause: Clause) -> bool:
     return not _distances(spec, clause)
 
 
+def _linked(spec: ScenarioSpec, clause: Clause) -> bool:
+    """What ties a clause to another in time: an event, a condition, an order.
+
+    A flight does where nobody acts but once, or it watches who does.
+    """
+    told = {e.id for e in spec.events} | {c.id for c in spec.conditions}
+    if told & set(clause.ids) or _sequence(spec, clause):
+        return True
+    watched = {m.target for m in spec.missions}
+    acting = {a.id for a in spec.agents if any(b.kind in _ONCE for b in a.behaviors)}
+    # Whoever is watched, and those about, set out when that begins.
+    tracked = any(m.mode is MissionMode.TRACK for m in spec.missions)
+    flies = any(m.id in clause.ids for m in spec.missions)
+    return acting <= watched or tracked or (not flies and len(acting) < 2)
+
+
+def _tied(spec: ScenarioSpec, clause: Clause) -> bool:
+    """An element with a place in time that is tied to what the other clause says."""
+    return _timed(spec, clause) and _linked(spec, clause)
+
+
+def _caused(spec: ScenarioSpec, clause: Clause) -> bool:
+    """An event that waits for what others do, and not for a time."""
+    return any(
+        e.trigger is not None and not isinstance(e.trigger, TimeTrigger)
+        for e in spec.events
+        if e.id in clause.ids
+    )
+
+
+def _exclusive(spec: ScenarioSpec, clause: Clause) -> bool:
+    """Events whose actions are judged not to come before their triggers."""
+    events = [e for e in spec.events if e.id in clause.ids] or [
+        e for e in spec.events if not isinstance(e.trigger, TimeTrigger)
+    ]
+    bound = (
+        isinstance(e.action, SendMessage | UavAction)
+        or (isinstance(e.action, AgentAction) and e.action.do in _NOT_BEFORE)
+        for e in events
+    )
+    return bool(events) and all(bound)
+
+
+def _uav_event(spec: ScenarioSpec, clause: Clause) -> bool:
+    return any(isinstance(e.action, UavAction) for e in spec.events)
+
+
+def _looks(spec: ScenarioSpec, clause: Clause) -> bool:
+    """Something about sight, or a flight that watches a body of the clause."""
+    bodies = {agent.id for agent in spec.agents}
+    return (
+        any(isinstance(e.trigger, VisibilityTrigger) for e in spec.events)
+        or any(c.quantity.startswith('visible') for c in spec.conditions)
+        or any(m.target in bodies for m in spec.missions if m.id in clause.ids)
+    )
+
+
+def _watches(spec: ScenarioSpec, clause: Clause) -> bool:
+    """A flight that watches something, be it a place."""
+    return any(m.target is not None for m in spec.missions if m.id in clause.ids)
+
+
+def _waits(spec: ScenarioSpec, clause: Clause) -> bool:
+    standing = (BehaviorKind.WAIT, BehaviorKind.PARK)
+    return any(b.kind in standing for a in spec.agents if a.id in clause.ids for b in a.behaviors)
+
+
+def _row(spec: ScenarioSpec, clause: Clause) -> bool:
+    """Places of the bodies of a clause behind each other."""
+    ids = {agent.id for agent in spec.agents}
+    told = [a for a in spec.agents if a.id in clause.ids]
+    return any(p.of in ids for a in told for p in a.placements) or any(
+        b.target in ids for a in told for b in a.behaviors
+    )
+
+
+def _closed(spec: ScenarioSpec, clause: Clause) -> bool:
+    """What says how many bodies there are, or forbids some."""
+    return bool(spec.counts) or bool(spec.prohibitions) or bool(spec.world.traffic_density)
+
+
+def _at_the_same_time(spec: ScenarioSpec, clause: Clause) -> bool:
+    """Not a length but a moment: `at the same time`, which has a row of its own."""
+    return re.search(r'\bat the same (?:moment|time)\b', clause.text.lower()) is not None
+
+
 def _alone(spec: ScenarioSpec, clause: Clause) -> bool:
     """Nobody else could take a turn."""
     return len(spec.uavs) < 2 and len(spec.agents) < 2
@@ -167,7 +265,37 @@ def _alike(one: UavMission, other: UavMission) -> bool:
     return (one.uav, one.mode, one.target) == (other.uav, other.mode, other.target)
 
 
+# Behaviours with a moment of their own: when that is nothing says but an event.
+_ONCE = frozenset(
+    {
+        BehaviorKind.STOP,
+        BehaviorKind.BRAKE,
+        BehaviorKind.SLOW,
+        BehaviorKind.TURN_LEFT,
+        BehaviorKind.TURN_RIGHT,
+        BehaviorKind.CHANGE_LANE,
+        BehaviorKind.OVERTAKE,
+        BehaviorKind.YIELD,
+        BehaviorKind.CROSS,
+    }
+)
+
+# Actions of agents that are never to come before their triggers (semantics: "not before").
+_NOT_BEFORE = frozenset({'start', 'cross', 'change_lane'})
+
 _CARRIERS: dict[str, Callable[[ScenarioSpec, Clause], bool]] = {
+    'linked': _linked,
+    'caused': _caused,
+    'tied': _tied,
+    'exclusive': _exclusive,
+    'phases': _phases,
+    'uav_event': _uav_event,
+    'looks': _looks,
+    'waits': _waits,
+    'watches': _watches,
+    'row': _row,
+    'closed': _closed,
+    'at_the_same_time': _at_the_same_time,
     'timed': _timed,
     'condition': _condition,
     'mission': _mission,

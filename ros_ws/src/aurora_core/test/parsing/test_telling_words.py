@@ -43,11 +43,36 @@ def _unread(prompt: str) -> list[str]:
         ('A van overtakes a bus before the bus stops.', 'before the bus stops'),
         ('A car changes into the left lane after 10 s.', 'into the left'),
         ('A bus stops and a car stops, in this order.', 'in this order'),
+        ('A van stops while a drone hovers over City Hall at 40 m.', 'while'),
+        ('A van stops before a drone takes off and hovers at 40 m.', 'before'),
+        ('After a drone has hovered over City Hall and landed, a van turns left.', 'After'),
+        ('A drone tracks a van, and after 20 seconds of tracking the van stops.', 'of tracking'),
+        ('A van is stopped ahead of the ego car.', 'is stopped'),
+        (
+            'A drone tracks a bus at 40 m; no other vehicle comes within 30 m of the bus.',
+            'no other',
+        ),
+        ('A drone hovers over City Hall at 50 m. It sees a van.', 'sees a'),
+        ('A van stops next to a parked bus.', 'stops next to'),
+        ('A pedestrian crosses in front of a bus.', 'crosses in front of'),
+        ('A van stops after 20 s and stops again after 50 s.', 'stops again'),
+        ('A van turns around and drives back.', 'turns around'),
+        ('A drone tracks a van for 20 s and flies home.', 'flies home'),
+        ('A van stops after 30 s because a pedestrian crosses the street.', 'because'),
+        (
+            'A drone tracks a van for 20 s, then hovers over City Hall just as long.',
+            'just as long',
+        ),
+        ('A drone hovers 10 m above the roof of City Hall.', 'the roof'),
+        ('A drone flies along Market Street at 40 m.', 'along Market'),
+        ('A drone tracks a convoy of three trucks.', 'convoy of three'),
+        ('A pedestrian sprints across the street.', 'sprints across'),
+        ('The ego brakes only when a van comes within 20 m of it.', 'only when'),
         ('A drone is the only vehicle in the air and hovers over City Hall.', 'only vehicle'),
     ],
 )
 def test_admitted(prompt: str, quoted: str) -> None:
-    assert any(quoted in text for text in _unread(prompt)), _unread(prompt)
+    assert any(quoted.lower() in text.lower() for text in _unread(prompt)), _unread(prompt)
 
 
 @pytest.mark.parametrize(
@@ -56,6 +81,12 @@ def test_admitted(prompt: str, quoted: str) -> None:
         'A drone hovers over City Hall, tracks a bus for 20 s, then hovers over City Hall again.',
         'A police car follows a speeding motorcycle, which drives at 20 m/s.',
         'A van tailgates the ego car closely.',
+        'A motorcycle overtakes a van while a drone tracks the van.',
+        'A bus drives along while a drone hovers over City Hall.',
+        'A drone hovers over City Hall for 20 s and only then tracks a bus.',
+        'When the drone sees a bus, it lands; before that it hovers over City Hall.',
+        'Ten seconds into the scenario the bus brakes.',
+        'A drone flies a straight line of 200 m over City Hall.',
         'A foggy evening; a drone hovers over City Hall.',
         'A drone hovers over City Hall, tracks a bus and lands, in this order.',
         'A drone hovers over City Hall for 20 s and then lands.',
