@@ -45,7 +45,8 @@ from aurora_core.errors import MapError
         ['doctor', '--no-such-option'],
         ['bench', '--anything', 'x'],
         ['map', 'import', 'file', '--name', 'x'],
-        ['map', 'measure', 'downtown'],
+        ['map', 'measure', 'atlantis'],
+        ['map', 'measure'],
     ],
 )
 def test_usage_errors_leave_with_64_and_say_why(

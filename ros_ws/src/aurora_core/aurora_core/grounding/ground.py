@@ -33,6 +33,7 @@ from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.basis import Basis
 from aurora_core.knowledge.limits import Limits, Tolerances, hover_capture_m
 from aurora_core.knowledge.map_model import MapModel
+from aurora_core.knowledge.map_records import SpawnTable
 from aurora_core.knowledge.settings import Settings
 from aurora_core.mission.plan import UavPlan
 from aurora_core.outcomes.grounded import AnchorScore, GroundedScenario
@@ -71,6 +72,7 @@ class Grounder:
         settings: Search settings.
         basis: What the grounding says it was made with.
         executor_version: Version of the executor that will run it, written there too.
+        spawns: Where vehicle types were measured to stand; None where the map was not measured.
     """
 
     def __init__(
@@ -82,10 +84,12 @@ class Grounder:
         settings: Settings,
         basis: Basis | None = None,
         executor_version: int = 0,
+        spawns: SpawnTable | None = None,
     ) -> None:
         self._map = map_model
         self._basis = basis
         self._executor_version = executor_version
+        self._spawns = spawns
         self._types = types
         self._limits = limits
         self._tolerances = tolerances
@@ -119,7 +123,7 @@ class Grounder:
             },
             laps=Laps(self._settings),
         )
-        run_s = horizon_s(spec, self._limits)
+        run_s = horizon_s(spec, self._limits, self._settings.flight)
         run_m = run_s * self._drive_speed(spec, split) + 300.0
         persons = PersonPlacer(self._map, self._types)
         oncoming = OncomingPlacer(self._map, self._types)
@@ -177,6 +181,7 @@ class Grounder:
             split.before,
             least_limit_mps=stated,
             several_lanes=any(changes_lane(spec, m.agent) for m in split.convoy),
+            spawns=self._spawns,
         )
         for site in found:
             if not self._goals.fits(spec, site):

@@ -36,8 +36,8 @@ def config(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A copy of the configuration that a test may change."""
     copy = tmp_path / 'config'
     for folder in ('knowledge', 'maps'):
-        shutil.copytree(config_root() / folder, copy / folder)
-    for file in ('limits.json', 'tolerances.json', 'settings.json'):
+        shutil.copytree(config_root() / folder, copy / folder, ignore_dangling_symlinks=True)
+    for file in ('limits.json', 'tolerances.json', 'settings.json', 'multirotor.json'):
         shutil.copy(config_root() / file, copy)
     monkeypatch.setenv(ENVIRONMENT_VARIABLE, str(copy))
     return copy
@@ -87,7 +87,7 @@ def test_a_changed_limit_changes_context_and_check(
 
 
 def test_a_changed_size_and_speed_of_a_type_change_context_and_check(config: Path) -> None:
-    file = config / 'knowledge' / 'agent_types.json'
+    file = config / 'knowledge' / 'measured' / 'agent_types.json'
     rows = json.loads(file.read_text())['types']
     change(
         file,
