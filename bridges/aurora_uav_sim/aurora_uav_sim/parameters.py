@@ -12,6 +12,8 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
+from functools import lru_cache
+from pathlib import Path
 from typing import Any, TypeVar
 
 from aurora_core.errors import ConfigError
@@ -140,12 +142,17 @@ _Part = TypeVar('_Part', MultirotorParameters, ControlParameters, EnergyParamete
 
 
 def installed_model() -> MultirotorModel:
-    """Return the vehicle of the configuration folder.
+    """Return the vehicle of the configuration folder; the file is read once as long as it stays.
 
     Raises:
         ConfigError: The file is missing, or lacks a number, or has one that is not above 0.
     """
     path = config_path(MODEL_FILE)
+    return _model(path, path.stat().st_mtime_ns)
+
+
+@lru_cache(maxsize=4)
+def _model(path: Path, _changed_ns: int) -> MultirotorModel:
     try:
         table = read_json(path, CONFIG_BYTES)
         return MultirotorModel(
