@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import permutations
 from pathlib import Path
 
 import libsumo
@@ -20,7 +21,9 @@ _PATIENCE = 1.5
 _WAIT_S = 150.0
 _SLOWEST_MPS = 1.0
 # Pairs of sidewalks that are tried for a crossing, the nearest ones first.
-_MOST_PAIRS = 6
+_MOST_PAIRS = 8
+# From an island, over one more crossing and the corner behind it, to the sidewalk there.
+_MOST_HOPS = 3
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -155,20 +158,26 @@ class _Corners:
 
     def _pairs(self, lane_id: str) -> Iterator[tuple[float, str, str, float, float]]:
         corners = sorted(lane for lane in self._meets.get(lane_id, ()) if lane.startswith(':'))
-        for first_corner in corners:
-            for last_corner in corners:
-                if first_corner == last_corner:
-                    continue
-                for first in self._sidewalks(first_corner):
-                    for last in self._sidewalks(last_corner):
-                        if self._network.edge_of(first) == self._network.edge_of(last):
-                            continue
-                        begin_m, first_off_m = self._near(first, first_corner)
-                        end_m, last_off_m = self._near(last, last_corner)
-                        yield first_off_m + last_off_m, first, last, begin_m, end_m
+        reached = {corner: self._sidewalks(corner, lane_id) for corner in corners}
+        for first_corner, last_corner in permutations(corners, 2):
+            for first in reached[first_corner]:
+                for last in reached[last_corner]:
+                    if self._network.edge_of(first) == self._network.edge_of(last):
+                        continue
+                    begin_m, first_off_m = self._near(first, first_corner)
+                    end_m, last_off_m = self._near(last, last_corner)
+                    yield first_off_m + last_off_m, first, last, begin_m, end_m
 
-    def _sidewalks(self, corner: str) -> list[str]:
-        return sorted(lane for lane in self._meets.get(corner, ()) if not lane.startswith(':'))
+    def _sidewalks(self, corner: str, crossing: str) -> list[str]:
+        """Return the sidewalks at a corner, or behind other crossings of an island there."""
+        seen, found = {corner, crossing}, set[str]()
+        front = [corner]
+        for _ in range(_MOST_HOPS):
+            met = sorted({lane for here in front for lane in self._meets.get(here, ())} - seen)
+            seen.update(met)
+            found.update(lane for lane in met if not lane.startswith(':'))
+            front = [lane for lane in met if lane.startswith(':')]
+        return sorted(found)
 
     def _near(self, lane_id: str, corner: str) -> tuple[float, float]:
         """Return a position on a sidewalk near a corner, and how far that is."""
