@@ -147,7 +147,7 @@ def _facts(model: MapModel) -> dict[str, Any]:
         'no_fly_zones': [
             f'{zone.name} ({zone.floor_m:g} to {zone.ceiling_m:g} m)' for zone in model.zones
         ],
-        'bus_stops': [stop.name for stop in model.bus_stops],
+        'bus_stops': [stop.name or stop.id for stop in model.bus_stops],
         'parking_places': sum(len(area.places) for area in model.parking_areas),
         'measured': measured_state(model),
     }

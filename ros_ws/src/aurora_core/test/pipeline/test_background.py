@@ -143,7 +143,7 @@ def test_templates_are_what_the_parser_fills_in() -> None:
 def test_every_map_and_landmark_is_there() -> None:
     known = installed_knowledge()
     told = {r.id: r.data for r in registries(known, 'downtown')}['maps']
-    assert told['all'] == ['downtown', 'junction']
+    assert told['all'] == ['downtown', 'helsinki', 'junction']
     ids = {record.id for record in map_records(known, 'downtown')}
     assert {f'landmark:{mark.name}' for mark in known.map('downtown').landmarks} <= ids
 
