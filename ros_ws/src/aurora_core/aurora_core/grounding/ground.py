@@ -126,7 +126,7 @@ class Grounder:
         run_s = horizon_s(spec, self._limits, self._settings.flight)
         run_m = run_s * self._drive_speed(spec, split) + 300.0
         persons = PersonPlacer(self._map, self._types)
-        oncoming = OncomingPlacer(self._map, self._types)
+        oncoming = OncomingPlacer(self._map, self._types, self._spawns)
         ranked = self._ranked_sites(spec, split, run_m)
         rejected: Counter[str] = Counter()
         best: _Option | None = None
@@ -276,12 +276,19 @@ class Grounder:
         persons: PersonPlacer,
     ) -> GroundedScenario:
         uavs = tuple(planner.with_landing_spots(u, best.site) for u in best.uavs)
-        placer = AgentPlacer(self._map, self._types, self._settings, self._limits, self._goals)
+        placer = AgentPlacer(
+            self._map, self._types, self._settings, self._limits, self._goals, self._spawns
+        )
         agents = [*placer.convoy(spec, split, best.site), *persons.grounded(spec, best.site)]
         generator = stream(seed, 'grounding:background')
         agents, missing = placer.free(spec, split, best.site, agents, run_m, generator)
         traffic = TrafficPlacer(
-            self._map, self._types, self._settings.grounding, self._limits, self._tolerances
+            self._map,
+            self._types,
+            self._settings.grounding,
+            self._limits,
+            self._tolerances,
+            self._spawns,
         )
         homes = [(uav.home_x_m, uav.home_y_m) for uav in uavs]
         draws = stream(seed, 'grounding:traffic')

@@ -19,7 +19,7 @@ from aurora_core.grounding.places import MapPlaces, nearest_to
 from aurora_core.grounding.routes import RouteFinder
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.map_model import MapModel
-from aurora_core.knowledge.map_records import SpawnTable
+from aurora_core.knowledge.map_records import SpawnTable, may_stand
 from aurora_core.knowledge.net_types import Lane
 from aurora_core.knowledge.road_network import RoadNetwork
 from aurora_core.knowledge.route_path import RoutePath
@@ -239,8 +239,8 @@ def sites(
 
 def _stands(site: Site, spawns: SpawnTable | None) -> bool:
     """Tell whether every member can be put where it is to be."""
-    return spawns is None or all(
-        spawns.accepts(seat.agent.type.value, seat.lane_id, seat.lane_position_m)
+    return all(
+        may_stand(spawns, seat.agent.type.value, seat.lane_id, seat.lane_position_m)
         for seat in site.seated
     )
 

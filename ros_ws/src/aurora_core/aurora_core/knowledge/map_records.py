@@ -118,6 +118,11 @@ class SpawnTable:
         return bool(self.table[self.type_names.index(type_name), sample] != REFUSED)
 
 
+def may_stand(spawns: SpawnTable | None, type_name: str, lane_id: str, arc_m: float) -> bool:
+    """Tell whether a type can be put on a lane; on a map that was not measured it may be."""
+    return spawns is None or spawns.accepts(type_name, lane_id, arc_m)
+
+
 @dataclass(frozen=True, kw_only=True)
 class MeasuredMap:
     """The records of a map with their arrays.
