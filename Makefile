@@ -45,7 +45,7 @@ bench-%: ## one benchmark or campaign: lockstep, latency, faults, bags, graphs, 
 lock: ## resolve requirements/*.in anew, with hashes (needs Python 3.11 and 3.12)
 	@tools/lock.sh
 
-maps: ## build the shipped maps from their sources
+maps: ## build the shipped maps from their sources, and measure them
 	@tools/setup.sh --dev
 	@tools/maps.sh
 

@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 from aurora_uav_sim.compiled import Controller, Multirotor, SetPoint
 from aurora_uav_sim.control import MOTORS_OFF, Motors
-from aurora_uav_sim.parameters import ControlParameters, MultirotorParameters
+from aurora_uav_sim.parameters import installed_model
 from aurora_uav_sim.settings import AutopilotSettings, restore_defaults
 from aurora_uav_sim.wind import Wind
 
@@ -103,8 +103,9 @@ class Autopilot:
     """
 
     def __init__(self) -> None:
-        self._limits = ControlParameters()
-        self.body = Multirotor(MultirotorParameters())
+        model = installed_model()
+        self._limits = model.control
+        self.body = Multirotor(model.body)
         self.wind = Wind()
         self.settings = AutopilotSettings()
         self._controller = Controller(self.body, self._limits)

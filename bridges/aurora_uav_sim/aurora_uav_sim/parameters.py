@@ -3,12 +3,22 @@
 """What the simulated vehicle is made of and how its controller is tuned.
 
 The vehicle is a 1.5 kg quadrotor in X layout of the size of the 3DR Iris, with body drag low
-enough to exceed every contract limit by 15 % or more (20.7 m/s, +5.75 m/s, -3.45 m/s, 138 m).
+enough to exceed every contract limit by 15 % or more (20.7 m/s, +5.75 m/s, -3.45 m/s, 138 m). Its
+numbers are in `config/multirotor.json`; `aurora map measure` measures what it does with them.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from functools import lru_cache
+from pathlib import Path
+from typing import Any, TypeVar
+
+from aurora_core.errors import ConfigError
+from aurora_core.files import CONFIG_BYTES, read_json
+from aurora_core.knowledge.config_files import config_path
 
 # Standard gravity. Source: CODATA / ISO 80000-3.
 GRAVITY_MPS2 = 9.80665
@@ -37,17 +47,17 @@ class MultirotorParameters:
         ground_friction: Friction coefficient of the legs on the ground.
     """
 
-    mass_kg: float = 1.5
-    inertia_roll_kgm2: float = 0.029125
-    inertia_pitch_kgm2: float = 0.029125
-    inertia_yaw_kgm2: float = 0.055225
-    motor_offset_m: float = 0.18
-    motor_max_thrust_n: float = 7.07
-    motor_lag_s: float = 0.02
-    yaw_moment_m: float = 0.06
-    drag_linear_nspm: float = 0.15
-    drag_quadratic_ns2pm2: float = 0.012
-    ground_friction: float = 0.6
+    mass_kg: float
+    inertia_roll_kgm2: float
+    inertia_pitch_kgm2: float
+    inertia_yaw_kgm2: float
+    motor_offset_m: float
+    motor_max_thrust_n: float
+    motor_lag_s: float
+    yaw_moment_m: float
+    drag_linear_nspm: float
+    drag_quadratic_ns2pm2: float
+    ground_friction: float
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -79,22 +89,91 @@ class ControlParameters:
         thrust_min_fraction: Idle thrust of a motor while armed, share of its maximum.
     """
 
-    position_gain_hz: float = 1.3
-    velocity_gain_hz: float = 3.2
-    velocity_integral_hz2: float = 0.8
-    integral_limit_mps2: float = 4.0
-    attitude_gain_hz: float = 7.0
-    yaw_gain_hz: float = 2.5
-    rate_gain_hz: float = 18.0
-    yaw_rate_gain_hz: float = 6.0
-    tilt_rate_limit_radps: float = 4.0
-    yaw_rate_limit_radps: float = 1.6
-    tan_tilt_limit: float = 1.0
-    horizontal_speed_limit_mps: float = 21.5
-    climb_limit_mps: float = 6.0
-    descent_limit_mps: float = 3.6
-    horizontal_acceleration_limit_mps2: float = 8.0
-    vertical_acceleration_limit_mps2: float = 5.0
-    braking_mps2: float = 4.0
-    vertical_braking_mps2: float = 3.0
-    thrust_min_fraction: float = 0.03
+    position_gain_hz: float
+    velocity_gain_hz: float
+    velocity_integral_hz2: float
+    integral_limit_mps2: float
+    attitude_gain_hz: float
+    yaw_gain_hz: float
+    rate_gain_hz: float
+    yaw_rate_gain_hz: float
+    tilt_rate_limit_radps: float
+    yaw_rate_limit_radps: float
+    tan_tilt_limit: float
+    horizontal_speed_limit_mps: float
+    climb_limit_mps: float
+    descent_limit_mps: float
+    horizontal_acceleration_limit_mps2: float
+    vertical_acceleration_limit_mps2: float
+    braking_mps2: float
+    vertical_braking_mps2: float
+    thrust_min_fraction: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EnergyParameters:
+    """What a flight takes from the battery; flights do not end by it, plans ask for it.
+
+    Attributes:
+        battery_wh: Energy of the full battery; ours, so that the endurance of a hover exceeds the
+            contract limit like every other figure.
+        usable_share: Share of it that is flown.
+        rotor_radius_m: Of each of the four rotors (the 10-inch propellers of the 3DR Iris).
+        efficiency: Ideal power of a hover over electrical power, rotor and motor together.
+    """
+
+    battery_wh: float
+    usable_share: float
+    rotor_radius_m: float
+    efficiency: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MultirotorModel:
+    """A vehicle: its body, how its controller is tuned, what its flight takes."""
+
+    body: MultirotorParameters
+    control: ControlParameters
+    energy: EnergyParameters
+
+
+MODEL_FILE = 'multirotor.json'
+_Part = TypeVar('_Part', MultirotorParameters, ControlParameters, EnergyParameters)
+
+
+def installed_model() -> MultirotorModel:
+    """Return the vehicle of the configuration folder; the file is read once as long as it stays.
+
+    Raises:
+        ConfigError: The file is missing, or lacks a number, or has one that is not above 0.
+    """
+    path = config_path(MODEL_FILE)
+    return _model(path, path.stat().st_mtime_ns)
+
+
+@lru_cache(maxsize=4)
+def _model(path: Path, _changed_ns: int) -> MultirotorModel:
+    try:
+        table = read_json(path, CONFIG_BYTES)
+        return MultirotorModel(
+            body=_part(MultirotorParameters, table['body']),
+            control=_part(ControlParameters, table['control']),
+            energy=_part(EnergyParameters, table['energy']),
+        )
+    except OSError as err:
+        raise ConfigError(f'{path} cannot be read: {err}', hint='run make setup') from err
+    except (ValueError, LookupError, TypeError) as err:
+        raise ConfigError(
+            f'{path} is not valid: {err}', hint='compare with the shipped file'
+        ) from err
+
+
+def _part(kind: type[_Part], row: Mapping[str, Any]) -> _Part:
+    names = {field.name for field in fields(kind)}
+    if set(row) != names:
+        raise ValueError(f'expected {", ".join(sorted(names))}, found {", ".join(sorted(row))}')
+    values = {name: float(row[name]) for name in row}
+    for name, value in values.items():
+        if not (math.isfinite(value) and value > 0.0):
+            raise ValueError(f'{name} = {value} has to be above 0')
+    return kind(**values)

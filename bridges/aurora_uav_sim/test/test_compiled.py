@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import importlib.util
 import os
 import random
@@ -12,7 +13,13 @@ from typing import Any
 import pytest
 
 from aurora_uav_sim import compiled, control, multirotor
-from aurora_uav_sim.parameters import ControlParameters, MultirotorParameters
+from aurora_uav_sim.parameters import (
+    ControlParameters,
+    MultirotorParameters,
+    installed_model,
+)
+
+MODEL = installed_model()
 
 needs_compiled = pytest.mark.skipif(
     not compiled.IS_COMPILED, reason='the physics step is not compiled here'
@@ -78,8 +85,11 @@ def throw(pair: Pair, chance: random.Random) -> None:
 @pytest.mark.parametrize('seed', range(4))
 def test_every_step_from_any_state_has_the_same_bits(seed: int) -> None:
     chance = random.Random(seed)
-    body = MultirotorParameters(inertia_roll_kgm2=0.03, mass_kg=chance.uniform(1.0, 2.0))
-    pair = Pair(body, ControlParameters(tan_tilt_limit=chance.uniform(0.3, 1.5)))
+    body = dataclasses.replace(
+        MODEL.body, inertia_roll_kgm2=0.03, mass_kg=chance.uniform(1.0, 2.0)
+    )
+    limits = dataclasses.replace(MODEL.control, tan_tilt_limit=chance.uniform(0.3, 1.5))
+    pair = Pair(body, limits)
     for _ in range(1000):
         throw(pair, chance)
         for _ in range(3):
@@ -97,7 +107,7 @@ def test_every_step_from_any_state_has_the_same_bits(seed: int) -> None:
 
 @needs_compiled
 def test_reset_is_the_same() -> None:
-    pair = Pair(MultirotorParameters(), ControlParameters())
+    pair = Pair(MODEL.body, MODEL.control)
     throw(pair, random.Random(1))
     for body, controller in zip(pair.bodies, pair.controllers, strict=True):
         body.reset(0.6, 0.8)
@@ -107,12 +117,12 @@ def test_reset_is_the_same() -> None:
 
 @needs_compiled
 def test_what_is_not_its_own_is_refused() -> None:
-    limits = ControlParameters()
+    limits = MODEL.control
     plain: Any = control.SetPoint(limits)
-    body = compiled.Multirotor(MultirotorParameters())
+    body = compiled.Multirotor(MODEL.body)
     with pytest.raises(TypeError, match='compiled set-point'):
         compiled.Controller(body, limits).update(0.01, plain)
-    wrong: Any = multirotor.Multirotor(MultirotorParameters())
+    wrong: Any = multirotor.Multirotor(MODEL.body)
     with pytest.raises(TypeError, match='compiled set-point'):
         compiled.Controller(wrong, limits).update(0.01, compiled.SetPoint(limits))
     short: Any = (1.0, 2.0)

@@ -14,8 +14,10 @@ from hypothesis import strategies as st
 from aurora_uav_sim.arithmetic import sin_cos
 from aurora_uav_sim.control import Controller, SetPoint, braking_speed
 from aurora_uav_sim.multirotor import Multirotor
-from aurora_uav_sim.parameters import ControlParameters, MultirotorParameters
+from aurora_uav_sim.parameters import installed_model
 from aurora_uav_sim.wind import Wind, wind_stream
+
+MODEL = installed_model()
 
 H = 0.01
 # Contract limits and the room that is asked above them.
@@ -27,8 +29,8 @@ class Flight:
     """A vehicle in the air with its controller; `fly` runs it."""
 
     def __init__(self, height_m: float = 30.0) -> None:
-        self.limits = ControlParameters()
-        self.body = Multirotor(MultirotorParameters())
+        self.limits = MODEL.control
+        self.body = Multirotor(MODEL.body)
         self.controller = Controller(self.body, self.limits)
         self.target = SetPoint(self.limits)
         self.wind = Wind()
@@ -212,16 +214,16 @@ def test_recovers_upside_down() -> None:
 def test_motors_stay_within_their_limits(
     thrust: float, torque_x: float, torque_y: float, torque_z: float
 ) -> None:
-    body = MultirotorParameters()
-    controller = Controller(Multirotor(body), ControlParameters())
+    body = MODEL.body
+    controller = Controller(Multirotor(body), MODEL.control)
     motors = controller._mix(thrust, torque_x, torque_y, torque_z)
-    low = ControlParameters().thrust_min_fraction * body.motor_max_thrust_n
+    low = MODEL.control.thrust_min_fraction * body.motor_max_thrust_n
     assert all(low - 1e-9 <= f <= body.motor_max_thrust_n + 1e-9 for f in motors)
 
 
 def test_motors_make_the_torques_asked() -> None:
-    body = MultirotorParameters()
-    f0, f1, f2, f3 = Controller(Multirotor(body), ControlParameters())._mix(14.7, 0.3, -0.2, 0.05)
+    body = MODEL.body
+    f0, f1, f2, f3 = Controller(Multirotor(body), MODEL.control)._mix(14.7, 0.3, -0.2, 0.05)
     assert f0 + f1 + f2 + f3 == pytest.approx(14.7)
     assert body.motor_offset_m * (f1 + f2 - f0 - f3) == pytest.approx(0.3)
     assert body.motor_offset_m * (f1 + f3 - f0 - f2) == pytest.approx(-0.2)

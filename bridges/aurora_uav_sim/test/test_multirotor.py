@@ -12,9 +12,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from aurora_uav_sim.multirotor import Multirotor
-from aurora_uav_sim.parameters import GRAVITY_MPS2, MultirotorParameters
+from aurora_uav_sim.parameters import GRAVITY_MPS2, MultirotorParameters, installed_model
 
-PARAMETERS = MultirotorParameters()
+PARAMETERS = installed_model().body
 NO_DRAG = dataclasses.replace(PARAMETERS, drag_linear_nspm=0.0, drag_quadratic_ns2pm2=0.0)
 H = 0.01
 OFF = (0.0, 0.0, 0.0, 0.0)

@@ -27,6 +27,7 @@ from aurora_core.report.run_report import RunReport
 from aurora_core.report.status import Status
 from aurora_core.report.verify_report import VerifyReport
 from aurora_llm.parse import check_model_name, read_prompt
+from aurora_uav_sim.parameters import installed_model
 
 _RUNS = Path('runs')
 # What the first run of a process would have to load.
@@ -64,6 +65,7 @@ class Session:
             import_module(name)
         self.check(_SMALL)
         installed().parts(_MAP)
+        installed_model()
         return self
 
     def __exit__(self, *_: object) -> None:

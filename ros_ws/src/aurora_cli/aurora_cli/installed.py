@@ -21,6 +21,11 @@ def installed() -> Knowledge:
     return _of(config_path(), own_maps_folder())
 
 
+def forget() -> None:
+    """Load anew what is installed when it is next asked for: it was measured again."""
+    _of.cache_clear()
+
+
 @lru_cache(maxsize=1)
 def _of(_config: Path, _own_maps: Path) -> Knowledge:
     return installed_knowledge()

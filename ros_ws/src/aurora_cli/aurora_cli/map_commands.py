@@ -10,7 +10,6 @@ from typing import Annotated
 import typer
 
 from aurora_cli.finish import Json, finish
-from aurora_cli.output import UsageProblem
 
 maps = typer.Typer(help='Maps: bundled ones and your own.', rich_markup_mode=None)
 
@@ -79,12 +78,15 @@ def examine_map(
     finish(command, as_json=as_json)
 
 
-@maps.command(
-    'measure',
-    hidden=True,
-    add_help_option=False,
-    context_settings={'allow_extra_args': True, 'ignore_unknown_options': True},
-)
-def measure_map() -> None:
-    """Not available in this version."""
-    raise UsageProblem('map measure is not available in this version')
+@maps.command('measure')
+def measure_map(
+    name: Annotated[str, typer.Argument(help='Name of the map.')], as_json: Json = False
+) -> None:
+    """Measure a map and the vehicle models in the simulators; minutes at most."""
+
+    def command() -> int:
+        from aurora_cli.commands.map_measure import map_measure_command
+
+        return map_measure_command(name, as_json=as_json)
+
+    finish(command, as_json=as_json)

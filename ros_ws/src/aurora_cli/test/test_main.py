@@ -45,7 +45,8 @@ from aurora_core.errors import MapError
         ['doctor', '--no-such-option'],
         ['bench', '--anything', 'x'],
         ['map', 'import', 'file', '--name', 'x'],
-        ['map', 'measure', 'downtown'],
+        ['map', 'measure', 'atlantis'],
+        ['map', 'measure'],
     ],
 )
 def test_usage_errors_leave_with_64_and_say_why(
@@ -96,7 +97,7 @@ def test_help_loads_nothing_heavy() -> None:
 def test_maps_are_listed_and_shown(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     assert run_command_line(['map', 'list', '--json']) == 0
     names = [entry['name'] for entry in json.loads(capsys.readouterr().out)['maps']]
-    assert names == ['downtown', 'junction']
+    assert names == ['downtown', 'helsinki', 'junction']
     picture = tmp_path / 'map.png'
     assert run_command_line(['map', 'show', 'junction', '--json', '--picture', str(picture)]) == 0
     facts = json.loads(capsys.readouterr().out)

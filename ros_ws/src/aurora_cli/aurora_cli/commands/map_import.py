@@ -48,7 +48,11 @@ def import_command(file: Path, name: str | None, *, as_json: bool) -> int:
     for gap in facts['gaps']:
         line(console, f'  {gap}')
     line(console, 'seconds: ' + ', '.join(f'{k} {v:.1f}' for k, v in done.seconds.items()))
-    line(console, f'Use it with --map {model.name}; more: aurora map show {model.name}')
+    line(
+        console,
+        f'Measure it: aurora map measure {model.name}; use it with --map {model.name}; more: '
+        f'aurora map show {model.name}',
+    )
     return 0
 
 

@@ -9,9 +9,13 @@ from typing import Any
 
 from aurora_cli.files import write_file
 from aurora_cli.output import UsageProblem, answer_console, print_json, quiet_stdout, say
-from aurora_core.errors import MapError
+from aurora_core.errors import ConfigError, MapError
+from aurora_core.knowledge.config_files import config_path
+from aurora_core.knowledge.limits import load_limits
 from aurora_core.knowledge.map_folders import bundled_maps, list_maps, own_maps
 from aurora_core.knowledge.map_model import MapModel, load_map
+from aurora_core.knowledge.map_records import load_measured_map
+from aurora_core.knowledge.settings import load_settings
 from aurora_core.report.terminal import line, print_table
 
 
@@ -60,6 +64,16 @@ def known_map(name: str) -> MapModel:
     if name not in known:
         raise UsageProblem(f'there is no map {name}; there are {", ".join(known)}')
     return load_map(name)
+
+
+def measured_state(model: MapModel) -> str:
+    """Return 'yes' of a map whose records fit what is installed, else what to do about it."""
+    limits = load_limits(config_path('limits.json'))
+    try:
+        found = load_measured_map(model, load_settings().run.dt_s, limits.clearance_min_m)
+    except ConfigError as err:
+        return f'no longer: {err}'
+    return 'yes' if found is not None else f'no (aurora map measure {model.name})'
 
 
 def show_command(name: str, picture: Path | None, *, as_json: bool) -> int:
@@ -133,6 +147,7 @@ def _facts(model: MapModel) -> dict[str, Any]:
         'no_fly_zones': [
             f'{zone.name} ({zone.floor_m:g} to {zone.ceiling_m:g} m)' for zone in model.zones
         ],
-        'bus_stops': [stop.name for stop in model.bus_stops],
+        'bus_stops': [stop.name or stop.id for stop in model.bus_stops],
         'parking_places': sum(len(area.places) for area in model.parking_areas),
+        'measured': measured_state(model),
     }

@@ -199,7 +199,7 @@ def test_own_maps_are_listed_and_examined(
     city: MapModel, files: SimpleNamespace, call: Call
 ) -> None:
     _imported(call, files.xodr, 'road')
-    assert list_maps() == ('downtown', 'junction', 'road', 'small_city')
+    assert list_maps() == ('downtown', 'helsinki', 'junction', 'road', 'small_city')
     listed = json.loads(call('map', 'list', '--json').out)['maps']
     assert {entry['name']: entry['own'] for entry in listed}['road'] is True
     shown = json.loads(call('map', 'show', 'small_city', '--json').out)
@@ -218,6 +218,10 @@ def test_a_damaged_own_map_is_named_and_the_others_are_listed(city: MapModel, ca
     (map_folder(city.name) / 'landmarks.geojson').write_text('{}')
     done = call('map', 'list', '--json')
     assert done.code == 0
-    assert [m['name'] for m in json.loads(done.out)['maps']] == ['downtown', 'junction']
+    assert [m['name'] for m in json.loads(done.out)['maps']] == [
+        'downtown',
+        'helsinki',
+        'junction',
+    ]
     assert 'small_city' in done.err
     assert 'has changed' in done.err

@@ -43,6 +43,7 @@ from aurora_core.grounding.sites import (
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Limits
 from aurora_core.knowledge.map_model import MapModel
+from aurora_core.knowledge.map_records import SpawnTable, may_stand
 from aurora_core.knowledge.net_types import Lane
 from aurora_core.knowledge.route_path import RoutePath
 from aurora_core.knowledge.settings import Settings
@@ -83,6 +84,7 @@ class AgentPlacer:
         settings: Style of driving.
         limits: Limits in force.
         goals: Where vehicles stop by themselves.
+        spawns: Where vehicle types were measured to stand.
     """
 
     def __init__(
@@ -92,8 +94,10 @@ class AgentPlacer:
         settings: Settings,
         limits: Limits,
         goals: GoalFinder,
+        spawns: SpawnTable | None = None,
     ) -> None:
         self._goals = goals
+        self._spawns = spawns
         self._map = map_model
         self._types = types
         self._settings = settings
@@ -208,6 +212,8 @@ class AgentPlacer:
             x, y, _, _ = network.position_on_lane(lane.id, position)
             away = sqrt((x - centre[0]) ** 2 + (y - centre[1]) ** 2)
             if not low <= away <= reach or not self._apart(x, y, others):
+                continue
+            if not may_stand(self._spawns, record.name, lane.id, position):
                 continue
             edges = finder.wandering_route(lane.edge_id, run_m, generator)
             try:

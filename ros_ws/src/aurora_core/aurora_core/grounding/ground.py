@@ -34,6 +34,7 @@ from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.basis import Basis
 from aurora_core.knowledge.limits import Limits, Tolerances, hover_capture_m
 from aurora_core.knowledge.map_model import MapModel
+from aurora_core.knowledge.map_records import SpawnTable
 from aurora_core.knowledge.settings import Settings
 from aurora_core.mission.plan import UavPlan
 from aurora_core.outcomes.grounded import AnchorScore, GroundedScenario
@@ -72,6 +73,7 @@ class Grounder:
         settings: Search settings.
         basis: What the grounding says it was made with.
         executor_version: Version of the executor that will run it, written there too.
+        spawns: Where vehicle types were measured to stand; None where the map was not measured.
     """
 
     def __init__(
@@ -83,10 +85,12 @@ class Grounder:
         settings: Settings,
         basis: Basis | None = None,
         executor_version: int = 0,
+        spawns: SpawnTable | None = None,
     ) -> None:
         self._map = map_model
         self._basis = basis
         self._executor_version = executor_version
+        self._spawns = spawns
         self._types = types
         self._limits = limits
         self._tolerances = tolerances
@@ -130,10 +134,10 @@ class Grounder:
             },
             laps=Laps(self._settings),
         )
-        run_s = horizon_s(spec, self._limits)
+        run_s = horizon_s(spec, self._limits, self._settings.flight)
         run_m = run_s * self._drive_speed(spec, split) + 300.0
         persons = PersonPlacer(self._map, self._types)
-        oncoming = OncomingPlacer(self._map, self._types)
+        oncoming = OncomingPlacer(self._map, self._types, self._spawns)
         ranked = self._ranked_sites(spec, split, run_m)
         groups = GroupPlacer(
             self._map,
@@ -201,6 +205,7 @@ class Grounder:
             split.before,
             least_limit_mps=stated,
             several_lanes=any(changes_lane(spec, m.agent) for m in split.convoy),
+            spawns=self._spawns,
         )
         for site in found:
             if not self._goals.fits(spec, site):
@@ -295,12 +300,19 @@ class Grounder:
         persons: PersonPlacer,
     ) -> GroundedScenario:
         uavs = tuple(planner.with_landing_spots(u, best.site) for u in best.uavs)
-        placer = AgentPlacer(self._map, self._types, self._settings, self._limits, self._goals)
+        placer = AgentPlacer(
+            self._map, self._types, self._settings, self._limits, self._goals, self._spawns
+        )
         agents = [*placer.convoy(spec, split, best.site), *persons.grounded(spec, best.site)]
         generator = stream(seed, 'grounding:background')
         agents, missing = placer.free(spec, split, best.site, agents, run_m, generator)
         traffic = TrafficPlacer(
-            self._map, self._types, self._settings.grounding, self._limits, self._tolerances
+            self._map,
+            self._types,
+            self._settings.grounding,
+            self._limits,
+            self._tolerances,
+            self._spawns,
         )
         homes = [(uav.home_x_m, uav.home_y_m) for uav in uavs]
         draws = stream(seed, 'grounding:traffic')

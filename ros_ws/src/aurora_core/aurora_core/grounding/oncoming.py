@@ -14,6 +14,7 @@ from aurora_core.grounding.routes import RouteFinder
 from aurora_core.grounding.sites import SeatedAgent, Site
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.map_model import MapModel
+from aurora_core.knowledge.map_records import SpawnTable, may_stand
 from aurora_core.spec.parameter import Provenance
 from aurora_core.spec.scenario import GroundAgent
 from aurora_core.spec.vocabulary import Relation
@@ -37,11 +38,18 @@ class OncomingPlacer:
     Args:
         map_model: Map.
         types: Agent sizes.
+        spawns: Where vehicle types were measured to stand.
     """
 
-    def __init__(self, map_model: MapModel, types: Mapping[str, AgentTypeRecord]) -> None:
+    def __init__(
+        self,
+        map_model: MapModel,
+        types: Mapping[str, AgentTypeRecord],
+        spawns: SpawnTable | None = None,
+    ) -> None:
         self._network = map_model.network
         self._types = types
+        self._spawns = spawns
 
     def seated(self, agents: tuple[GroundAgent, ...], site: Site, run_m: float) -> Site | str:
         """Return a site with its oncoming vehicles, or what it lacks.
@@ -116,6 +124,8 @@ class OncomingPlacer:
         if not room_m <= along_m <= lane.arc_length_m - room_m:
             return None
         position_m = along_m / lane.arc_length_m * lane.length_m
+        if not may_stand(self._spawns, record.name, lane.id, position_m):
+            return None
         try:
             path = self._network.route_path(edges, record.vclass, start_lane_id=lane.id)
         except MapError:

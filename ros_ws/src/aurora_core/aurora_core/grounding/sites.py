@@ -19,6 +19,7 @@ from aurora_core.grounding.places import MapPlaces, nearest_to
 from aurora_core.grounding.routes import RouteFinder
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.map_model import MapModel
+from aurora_core.knowledge.map_records import SpawnTable, may_stand
 from aurora_core.knowledge.net_types import Lane
 from aurora_core.knowledge.road_network import RoadNetwork
 from aurora_core.knowledge.route_path import RoutePath
@@ -171,6 +172,7 @@ def sites(
     least_limit_mps: float = 0.0,
     *,
     several_lanes: bool = False,
+    spawns: SpawnTable | None = None,
 ) -> Iterator[Site]:
     """Yield every site of the map in a fixed order.
 
@@ -183,6 +185,7 @@ def sites(
         before: A member that stands before a place; only such sites are yielded.
         least_limit_mps: Streets have this speed limit, or the highest one that the map has.
         several_lanes: Only on streets with several lanes for cars per direction.
+        spawns: Where vehicle types were measured to stand.
     """
     centres: Sequence[tuple[float, float]] = ()
     if before is not None:
@@ -229,9 +232,17 @@ def sites(
                 site = None
                 if exact_m is not None:
                     site = _site(map_model, convoy, types, edges, lane.id, exact_m, paths)
-            if site is not None:
+            if site is not None and _stands(site, spawns):
                 yield site
             arc_m += spacing_m
+
+
+def _stands(site: Site, spawns: SpawnTable | None) -> bool:
+    """Tell whether every member can be put where it is to be."""
+    return all(
+        may_stand(spawns, seat.agent.type.value, seat.lane_id, seat.lane_position_m)
+        for seat in site.seated
+    )
 
 
 def brisk_lanes(lanes: list[Lane], stated_mps: float) -> tuple[list[Lane], float]:

@@ -11,6 +11,7 @@ from __future__ import annotations
 from math import ceil
 
 from aurora_core.knowledge.limits import Limits
+from aurora_core.knowledge.settings import FlightDefaults
 from aurora_core.spec.flight_order import begun_by
 from aurora_core.spec.own_events import own_events
 from aurora_core.spec.scenario import (
@@ -24,25 +25,35 @@ from aurora_core.spec.scenario import (
 )
 from aurora_core.spec.vocabulary import MissionMode, Pattern
 
-# Slow speeds and times used for the bound, each below what the multirotor does.
+# Slow speeds and times used for the bound: the most that a plan counts on, and the share of the
+# rates that the multirotor is flown at.
 _CLIMB_MPS = 1.5
 _SINK_MPS = 0.8
+_CLIMB_SHARE = 0.375
+_SINK_SHARE = 0.32
 _CORNER_S = 8.0
 _TRANSIT_S = 40.0
 _EVENT_S = 45.0
 _SLOWEST_MPS = 0.2
 
 
-def horizon_s(spec: ScenarioSpec, limits: Limits) -> float:
-    """Return the stated duration, else an upper bound of the time needed (whole seconds)."""
+def horizon_s(spec: ScenarioSpec, limits: Limits, flight: FlightDefaults | None = None) -> float:
+    """Return the stated duration, else an upper bound of the time needed (whole seconds).
+
+    Args:
+        spec: What is asked for.
+        limits: Limits in force.
+        flight: Rates at which the multirotor is flown, within what it was measured to do.
+    """
     if spec.world.duration_s is not None:
         return spec.world.duration_s.value
+    up_and_down = _seconds_per_m(flight)
     by_uav: dict[str, float] = {}
     for mission in spec.missions:
         first = mission.uav not in by_uav
         need = by_uav.get(mission.uav, 0.0) + _mission_s(mission)
         if first:
-            need += mission.altitude_m.value * (1.0 / _CLIMB_MPS + 1.0 / _SINK_MPS) + _TRANSIT_S
+            need += mission.altitude_m.value * up_and_down + _TRANSIT_S
         by_uav[mission.uav] = need
     latest = max(
         (e.trigger.at_s.value for e in spec.events if isinstance(e.trigger, TimeTrigger)),
@@ -51,17 +62,27 @@ def horizon_s(spec: ScenarioSpec, limits: Limits) -> float:
     # Who waits for an event may have to wait for all that the others do.
     waits = any(begun_by(spec, m) is not None for m in spec.missions)
     flown_s = sum(by_uav.values()) if waits else max(by_uav.values(), default=0.0)
-    need = flown_s + latest + sum(_event_s(spec, e) for e in (*spec.events, *own_events(spec)))
+    events = (*spec.events, *own_events(spec))
+    need = flown_s + latest + sum(_event_s(spec, e, up_and_down) for e in events)
     return float(min(limits.duration_max_s, max(limits.horizon_inferred_min_s, ceil(need))))
 
 
-def _event_s(spec: ScenarioSpec, event: Event) -> float:
+def _seconds_per_m(flight: FlightDefaults | None) -> float:
+    """Return the time for one metre up and down again."""
+    if flight is None:
+        return 1.0 / _CLIMB_MPS + 1.0 / _SINK_MPS
+    climb_mps = min(_CLIMB_MPS, _CLIMB_SHARE * flight.climb_mps)
+    sink_mps = min(_SINK_MPS, _SINK_SHARE * flight.descent_mps)
+    return 1.0 / climb_mps + 1.0 / sink_mps
+
+
+def _event_s(spec: ScenarioSpec, event: Event, up_and_down: float) -> float:
     """Return the time for an event to come about, with its stated delays and its message."""
     need = _EVENT_S + event.waits_s
     if isinstance(event.trigger, EventDoneTrigger) and event.trigger.after_s is not None:
         need += event.trigger.after_s.value
     if isinstance(event.action, UavAction) and event.action.altitude_m is not None:
-        need += event.action.altitude_m.value * (1.0 / _CLIMB_MPS + 1.0 / _SINK_MPS)
+        need += event.action.altitude_m.value * up_and_down
     if isinstance(event.action, SendMessage):
         pair = (event.action.sender, event.action.receiver)
         for link in spec.links:

@@ -18,6 +18,7 @@ from aurora_core.grounding.routes import RouteFinder
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_model import MapModel
+from aurora_core.knowledge.map_records import SpawnTable, may_stand
 from aurora_core.knowledge.net_types import Lane
 from aurora_core.knowledge.route_path import arc_at
 from aurora_core.knowledge.settings import GroundingSettings
@@ -60,6 +61,7 @@ class TrafficPlacer:
         settings: How far traffic spreads.
         limits: How many agents there may be.
         tolerances: How much traffic a density is, and how near.
+        spawns: Where vehicle types were measured to stand.
     """
 
     def __init__(
@@ -69,7 +71,9 @@ class TrafficPlacer:
         settings: GroundingSettings,
         limits: Limits,
         tolerances: Tolerances,
+        spawns: SpawnTable | None = None,
     ) -> None:
+        self._spawns = spawns
         self._limits = limits
         self._tolerances = tolerances
         self._network = map_model.network
@@ -113,6 +117,8 @@ class TrafficPlacer:
             x, y, hx, hy = self._network.position_on_lane(lane.id, position_m)
             gap_m = self._settings.background_gap_m
             if any(norm2(x - u, y - v) < gap_m for u, v in taken):
+                continue
+            if not may_stand(self._spawns, _TYPE.value, lane.id, position_m):
                 continue
             way = self._way(lane, position_m, centre, streets, run_m, generator)
             share = 0.0 if way is None else self._share_near(way[1], centre)

@@ -8,16 +8,13 @@ from collections.abc import Iterator
 
 from aurora_core.errors import VerificationError
 from aurora_core.judging.build import Inputs
-from aurora_core.knowledge.limits import hover_capture_m
+from aurora_core.knowledge.limits import climb_share_mps, descent_share_mps, hover_capture_m
 from aurora_core.outcomes.condition import ClimbArguments, MissionArguments
 from aurora_core.outcomes.schedule import MissionFacts
 from aurora_core.spec.flight_order import climbs_last, left_by
 from aurora_core.spec.parameter import Bound, Parameter, Provenance
 from aurora_core.spec.scenario import UavAction, UavMission
 from aurora_core.spec.vocabulary import MissionMode
-
-# Share of the greatest climb rate that a climb has on average, with its beginning and its end.
-_CLIMB_SHARE = 0.6
 
 
 def mission_arguments(inputs: Inputs, mission: UavMission) -> MissionArguments:
@@ -80,12 +77,14 @@ def mission_arguments(inputs: Inputs, mission: UavMission) -> MissionArguments:
 
 def climb_mps(inputs: Inputs) -> float:
     """Return how fast a UAV climbs at least on average when an event asks for it, in m/s."""
-    return _CLIMB_SHARE * inputs.limits.uav_climb_max_mps
+    measured = inputs.facts.climb_mps
+    return climb_share_mps(inputs.limits) if measured is None else measured
 
 
 def descent_mps(inputs: Inputs) -> float:
     """Return how fast a UAV sinks at least on average when an event asks for it, in m/s."""
-    return _CLIMB_SHARE * inputs.limits.uav_descent_max_mps
+    measured = inputs.facts.descent_mps
+    return descent_share_mps(inputs.limits) if measured is None else measured
 
 
 def _climbs(inputs: Inputs, mission: UavMission, from_m: float) -> Iterator[ClimbArguments]:

@@ -22,6 +22,9 @@ NotNegative = Annotated[float, Field(ge=0.0)]
 Share = Annotated[float, Field(gt=0.0, le=1.0)]
 Range = tuple[NotNegative, NotNegative]
 
+# Share of the greatest climb rate that a climb has on average, with its beginning and its end.
+_CLIMB_SHARE = 0.6
+
 
 class _Table(BaseModel):
     model_config = ConfigDict(frozen=True, extra='forbid', allow_inf_nan=False)
@@ -175,6 +178,16 @@ def hover_drift_limit_m(weather: str, limits: Limits, tolerances: Tolerances) ->
     """Return the drift allowed while hovering in a weather: more in wind."""
     windy = limits.wind_mean_mps[weather] > 0.0 or limits.wind_gust_mps[weather] > 0.0
     return tolerances.hover_drift_wind_m if windy else tolerances.hover_drift_calm_m
+
+
+def climb_share_mps(limits: Limits) -> float:
+    """Return the rate that a climb has on average where the vehicle climbs at the limit."""
+    return _CLIMB_SHARE * limits.uav_climb_max_mps
+
+
+def descent_share_mps(limits: Limits) -> float:
+    """Return the rate that a descent has on average where the vehicle sinks at the limit."""
+    return _CLIMB_SHARE * limits.uav_descent_max_mps
 
 
 def hover_capture_m(spec: ScenarioSpec, uav: str, limits: Limits, tolerances: Tolerances) -> float:

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from pydantic import FiniteFloat
 
-from aurora_core.document import Document
+from aurora_core.document import Document, omitted
 from aurora_core.spec.vocabulary import MissionMode
 
 SCHEDULE_VERSION = 1
@@ -64,11 +64,16 @@ class PlanFacts(Document):
         horizon_s: Simulated time by which everything, landing included, has to be done.
         missions: In the order of the specification.
         agents: Ground agents that have a place.
+        climb_mps: Mean rate of a climb where the multirotor was measured to do less than the
+            limits let expect; None: what these do.
+        descent_mps: The same downwards, positive.
     """
 
     horizon_s: FiniteFloat
     missions: tuple[MissionFacts, ...] = ()
     agents: tuple[AgentFacts, ...] = ()
+    climb_mps: FiniteFloat | None = omitted(None)
+    descent_mps: FiniteFloat | None = omitted(None)
 
 
 class Schedule(Document):

@@ -15,7 +15,9 @@ from aurora_core.knowledge.basis import Basis, Tables
 from aurora_core.knowledge.config_files import config_path
 from aurora_core.knowledge.limits import Limits, Tolerances, load_limits, load_tolerances
 from aurora_core.knowledge.map_model import MapModel, load_map
+from aurora_core.knowledge.map_records import MeasuredMap, load_measured_map
 from aurora_core.knowledge.settings import Settings, load_settings
+from aurora_core.knowledge.uav_record import UavRecord, load_uav_record, within
 from aurora_core.knowledge.world import WorldModel
 from aurora_core.report.versions import AURORA_VERSION
 
@@ -30,7 +32,8 @@ class Knowledge:
         limits: Limits in force.
         tolerances: Tolerances in force.
         settings: Settings of grounding and execution.
-        types: Ground agents by type.
+        types: Ground agents by type, as measured.
+        uav: The multirotor as measured; it is never planned to do more.
     """
 
     def __init__(
@@ -40,14 +43,19 @@ class Knowledge:
         tolerances: Tolerances,
         settings: Settings,
         types: Mapping[str, AgentTypeRecord],
+        uav: UavRecord,
     ) -> None:
         self.limits = limits
         self.tolerances = tolerances
-        self.settings = settings
+        self.settings = Settings(
+            grounding=settings.grounding, flight=within(settings.flight, uav), run=settings.run
+        )
         self.types = types
+        self.uav = uav
         tables = Tables(limits=self.limits, tolerances=self.tolerances, settings=self.settings)
         self.basis = Basis.of(AURORA_VERSION, tables)
         self._maps: dict[str, MapModel] = {}
+        self._measured: dict[str, MeasuredMap | None] = {}
         self._grounders: dict[str, Grounder] = {}
         self._parts: dict[str, MapParts] = {}
 
@@ -56,6 +64,18 @@ class Knowledge:
         if name not in self._maps:
             self._maps[name] = load_map(name)
         return self._maps[name]
+
+    def measured(self, name: str) -> MeasuredMap | None:
+        """Return the records of a map, None where it was not measured.
+
+        Raises:
+            ConfigError: They are damaged, or were made of something else than is installed.
+        """
+        if name not in self._measured:
+            self._measured[name] = load_measured_map(
+                self.map(name), self.settings.run.dt_s, self.limits.clearance_min_m
+            )
+        return self._measured[name]
 
     def parts(self, name: str) -> MapParts:
         """Return what the runs on a map share."""
@@ -66,6 +86,7 @@ class Knowledge:
     def grounder(self, name: str) -> Grounder:
         """Return the grounder of a map."""
         if name not in self._grounders:
+            measured = self.measured(name)
             self._grounders[name] = Grounder(
                 self.map(name),
                 self.types,
@@ -74,6 +95,7 @@ class Knowledge:
                 self.settings,
                 self.basis,
                 EXECUTOR_VERSION,
+                None if measured is None else measured.spawns,
             )
         return self._grounders[name]
 
@@ -91,11 +113,12 @@ def installed_knowledge() -> Knowledge:
     """Return the knowledge that the configuration folder holds.
 
     Raises:
-        ConfigError: A file is missing or broken.
+        ConfigError: A file is missing or broken, or was measured of something else.
     """
     return Knowledge(
         limits=load_limits(config_path('limits.json')),
         tolerances=load_tolerances(config_path('tolerances.json')),
         settings=load_settings(),
         types=load_agent_types(),
+        uav=load_uav_record(),
     )

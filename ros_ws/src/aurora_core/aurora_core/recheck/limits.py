@@ -99,7 +99,7 @@ def _ends(name: str) -> tuple[float, float] | None:
     table = read_config('limits.json')
     parts = name.split('/')
     if len(parts) == 3 and (parts[0], parts[2]) == ('agent_types', 'max_speed_mps'):
-        rows = read_config('knowledge', 'agent_types.json')['types']
+        rows = read_config('knowledge', 'measured', 'agent_types.json')['types']
         row = next((r for r in rows if r['name'] == parts[1]), None)
         if row is None:
             return None

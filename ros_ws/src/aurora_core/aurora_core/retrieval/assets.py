@@ -69,7 +69,7 @@ def _type(
 ) -> Record:
     if kind.value not in types:
         about = 'fixed unit beside the road that exchanges messages'
-        return _asset(kind.value, words, 'knowledge/agent_types.json', {}, about)
+        return _asset(kind.value, words, 'knowledge/measured/agent_types.json', {}, about)
     record = types[kind.value]
     data: dict[str, JsonValue] = {
         'length_m': record.length_m,
@@ -80,7 +80,7 @@ def _type(
         'decel_mps2': record.decel_mps2,
     }
     about = 'walks on foot' if record.is_person else 'drives on the road'
-    return _asset(kind.value, words, 'knowledge/agent_types.json', data, about)
+    return _asset(kind.value, words, 'knowledge/measured/agent_types.json', data, about)
 
 
 def _asset(name: str, words: Words, source: str, data: dict[str, JsonValue], about: str) -> Record:

@@ -68,7 +68,7 @@ def registry_records(
         unsaid: The parser's values for what a prompt leaves out, SI, angles in degrees.
     """
     return (
-        _registry('agent_types', 'knowledge/agent_types.json', _types(types, limits)),
+        _registry('agent_types', 'knowledge/measured/agent_types.json', _types(types, limits)),
         _registry('mission_templates', 'parsing/defaults.yaml', _templates(unsaid)),
         _registry('limits', 'limits.json', limits.model_dump(mode='json')),
         _registry('maps', f'maps/{map_model.name}', _map(map_model, maps)),

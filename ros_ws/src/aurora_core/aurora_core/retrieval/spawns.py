@@ -7,6 +7,7 @@ Every spot is on a lane of the network, or a place of a parking row; grounding r
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 from math import atan2, degrees
 
@@ -138,12 +139,15 @@ def _landmarks(map_model: MapModel) -> Iterator[Record]:
 
 
 def _stops(map_model: MapModel) -> Iterator[Record]:
+    # In foreign data many stops have no name, and two of one street often the same.
+    count = Counter(stop.name for stop in map_model.bus_stops)
     for stop in map_model.bus_stops:
         lane = map_model.network.lane(stop.lane_id)
         street = map_model.network.edge(lane.edge_id).street_name
         data = _on_lane(map_model, stop.lane_id, (stop.start_pos_m + stop.end_pos_m) / 2.0)
         about = f'bus stop on {street}'
-        yield _record(map_model, 'bus_stop', stop.name, 'stops.add.xml', about, data)
+        name = stop.name if count[stop.name] == 1 else f'{stop.name} ({stop.id})'.strip()
+        yield _record(map_model, 'bus_stop', name or stop.id, 'stops.add.xml', about, data)
 
 
 def _parking(map_model: MapModel) -> Iterator[Record]:

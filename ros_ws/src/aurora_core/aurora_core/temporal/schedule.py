@@ -6,17 +6,23 @@ from __future__ import annotations
 
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.time_need import horizon_s
-from aurora_core.knowledge.limits import Limits
+from aurora_core.knowledge.limits import Limits, climb_share_mps, descent_share_mps
+from aurora_core.knowledge.settings import FlightDefaults
 from aurora_core.mission.plan import MissionPlan, UavPlan
 from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.outcomes.schedule import AgentFacts, MissionFacts, PlanFacts, Schedule
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.spec.vocabulary import MissionMode
 
+# Mean rate of a climb over the rate that it is flown at, with its beginning and its end.
+_RATE_SHARE = 0.75
+
 
 def plan_time(spec: ScenarioSpec, grounded: GroundedScenario, limits: Limits) -> Schedule:
     """Return the schedule of a grounded scenario."""
-    horizon = horizon_s(spec, limits)
+    basis = grounded.basis
+    flight = None if basis is None else basis.tables().settings.flight
+    horizon = horizon_s(spec, limits, flight)
     missions = tuple(
         _facts(uav, mission, k, grounded)
         for uav in grounded.uavs
@@ -35,10 +41,20 @@ def plan_time(spec: ScenarioSpec, grounded: GroundedScenario, limits: Limits) ->
         horizon_s=horizon,
         missions=tuple(sorted(missions, key=lambda f: order[f.mission])),
         agents=agents,
+        **({} if flight is None else _slow_rates(flight, limits)),
     )
     return Schedule(
         horizon_s=horizon, stated_horizon=spec.world.duration_s is not None, facts=facts
     )
+
+
+def _slow_rates(flight: FlightDefaults, limits: Limits) -> dict[str, float]:
+    """Return the mean rates of climbs and descents that are below what limits let expect."""
+    rates = {
+        'climb_mps': (_RATE_SHARE * flight.climb_mps, climb_share_mps(limits)),
+        'descent_mps': (_RATE_SHARE * flight.descent_mps, descent_share_mps(limits)),
+    }
+    return {name: flown for name, (flown, usual) in rates.items() if flown < usual}
 
 
 def _facts(

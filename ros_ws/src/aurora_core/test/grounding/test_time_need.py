@@ -11,6 +11,7 @@ import pytest
 
 from aurora_core.grounding.time_need import horizon_s
 from aurora_core.knowledge.limits import Limits
+from aurora_core.knowledge.settings import FlightDefaults, Settings
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.scenario import (
     Event,
@@ -160,3 +161,15 @@ def test_events_get_their_delays_and_their_messages(limits: Limits, parameter: M
     after = EventDoneTrigger(on='event_done', event='e1', after_s=parameter(60.0, 's'))
     assert need(Event(id='e1'), Event(id='e2', trigger=after)) >= plain + 60.0
     assert need(Event(id='e1', action=send)) == plain + 12.0 + 20.0
+
+
+def test_a_multirotor_that_climbs_slowly_gets_the_time(
+    limits: Limits, settings: Settings, parameter: Make
+) -> None:
+    high = _spec(parameter, missions=(_track(parameter, 'm1', 'u1', 30.0, 120.0),))
+    usual = horizon_s(high, limits)
+    assert horizon_s(high, limits, settings.flight) == usual
+    slow = FlightDefaults.model_validate(
+        settings.flight.model_dump() | {'climb_mps': 1.0, 'descent_mps': 0.5}
+    )
+    assert horizon_s(high, limits, slow) > usual + 120.0 / 1.0 + 120.0 / 0.5

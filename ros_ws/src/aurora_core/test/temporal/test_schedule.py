@@ -9,9 +9,13 @@ from math import sqrt
 
 import pytest
 
-from aurora_core.knowledge.limits import Limits
+from aurora_core.judging.build import Inputs
+from aurora_core.judging.mission import climb_mps, descent_mps
+from aurora_core.knowledge.basis import Basis, Tables
+from aurora_core.knowledge.limits import Limits, Tolerances
+from aurora_core.knowledge.settings import Settings
 from aurora_core.outcomes.grounded import GroundedScenario
-from aurora_core.outcomes.schedule import Schedule
+from aurora_core.outcomes.schedule import PlanFacts, Schedule
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.temporal.schedule import plan_time
 
@@ -98,3 +102,26 @@ def test_canonical_json_round_trip(read_prompt: Read, ground: Ground, limits: Li
     again = Schedule.model_validate_json(schedule.canonical_json())
     assert again == schedule
     assert again.canonical_json() == schedule.canonical_json()
+
+
+def test_rates_are_told_where_the_multirotor_does_less_than_the_limits(
+    read_prompt: Read, ground: Ground, limits: Limits, tolerances: Tolerances, settings: Settings
+) -> None:
+    spec = read_prompt(PROMPTS[2], 'junction')
+    found = ground(spec, 'junction')
+
+    def facts(**flight: float) -> PlanFacts:
+        changed = Settings.model_validate(
+            settings.model_dump() | {'flight': settings.flight.model_dump() | flight}
+        )
+        tables = Tables(limits=limits, tolerances=tolerances, settings=changed)
+        basis = Basis.of('0', tables)
+        made = GroundedScenario.model_validate(found.model_dump() | {'basis': basis.model_dump()})
+        return plan_time(spec, made, limits).facts
+
+    assert facts() == plan_time(spec, found, limits).facts
+    assert 'climb_mps' not in facts().model_dump()
+    slow = facts(climb_mps=2.0, descent_mps=1.0)
+    assert (slow.climb_mps, slow.descent_mps) == (1.5, 0.75)
+    inputs = Inputs(spec=spec, facts=slow, limits=limits, tolerances=tolerances)
+    assert (climb_mps(inputs), descent_mps(inputs)) == (1.5, 0.75)

@@ -1,0 +1,194 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""`aurora map measure`: all or nothing, the same each time, and what it says is then used."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+
+from aurora_cli import installed
+from aurora_cli.map_measure import measure
+from aurora_core.knowledge.config_files import ENVIRONMENT_VARIABLE, config_root
+from aurora_core.knowledge.map_model import load_map
+from aurora_core.outcomes.grounded import GroundedScenario
+from aurora_core.pipeline.functions import parse_stage
+
+Call = Callable[..., SimpleNamespace]
+FAST_TRUCK = 'A truck drives at 15 m/s. A drone tracks it.'
+TRUCK = 'A drone tracks a truck.'
+
+
+@pytest.fixture
+def config(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A copy of the configuration that a test may change, in force."""
+    copy = tmp_path / 'config'
+    shutil.copytree(config_root(), copy, ignore_dangling_symlinks=True)
+    monkeypatch.setenv(ENVIRONMENT_VARIABLE, str(copy))
+    installed.forget()
+    return copy
+
+
+def _files(folder: Path) -> dict[str, bytes]:
+    return {
+        str(path.relative_to(folder)): path.read_bytes()
+        for path in sorted(folder.rglob('*'))
+        if path.is_file()
+    }
+
+
+def _edit(path: Path, old: str, new: str) -> None:
+    text = path.read_text(encoding='utf-8')
+    assert old in text
+    path.write_text(text.replace(old, new), encoding='utf-8')
+
+
+def _grounded(prompt: str) -> GroundedScenario:
+    known = installed.installed()
+    parsed = parse_stage(known, prompt, 'junction', 1).agsg
+    assert parsed is not None
+    found = known.grounder('junction').ground(parsed.spec, 1)
+    assert isinstance(found, GroundedScenario)
+    return found
+
+
+def test_the_shipped_records_are_what_is_measured(config: Path, call: Call) -> None:
+    knowledge = config / 'knowledge'
+    shipped = _files(knowledge)
+    shutil.rmtree(knowledge)
+    for name in ('downtown', 'junction'):
+        done = call('map', 'measure', name, '--json')
+        assert done.code == 0, done.err
+        facts = json.loads(done.out)
+        assert facts['records']['map_name'] == name
+        assert all(row['stands'] == row['tried'] for row in facts['records']['spawns'])
+        assert {'vehicles', 'multirotor', 'spawn points', 'walks'} <= facts['seconds'].keys()
+        assert 'aurora: walks' in done.err
+    assert set(_files(knowledge)) <= set(shipped)
+    for name, data in _files(knowledge).items():
+        # Another zlib may pack the arrays differently; their digest is in the records.
+        assert data == shipped[name] or name.endswith('.npz'), name
+
+
+def test_measuring_again_changes_no_byte(config: Path, call: Call) -> None:
+    first = call('map', 'measure', 'junction')
+    before = _files(config)
+    assert call('map', 'measure', 'junction').code == first.code == 0
+    assert _files(config) == before
+    assert 'car stands at' in first.out
+
+
+def test_a_changed_vehicle_is_refused_until_measured_and_then_used(
+    config: Path, call: Call
+) -> None:
+    before = _grounded(TRUCK).agents
+    assert call('check', '--map', 'junction', FAST_TRUCK).code == 0
+    _edit(
+        config / 'maps' / 'vtypes.add.xml',
+        'length="8.50" width="2.50" height="3.40" maxSpeed="36.00" accel="1.30"',
+        'length="9.50" width="2.50" height="3.40" maxSpeed="12.00" accel="0.90"',
+    )
+    installed.forget()
+    refused = call('check', '--map', 'junction', FAST_TRUCK)
+    assert refused.code == 4
+    assert 'measured with vtypes_sha256' in refused.out
+    assert 'measure again: aurora map measure' in refused.out
+    assert call('map', 'measure', 'junction').code == 0
+    infeasible = call('check', '--map', 'junction', '--json', FAST_TRUCK)
+    assert infeasible.code == 5
+    (certificate,) = json.loads(infeasible.out)['feasibility']['certificates']
+    assert certificate['limit'] == 12.0
+    (old,) = [a for a in before if a.type_name == 'truck']
+    (new,) = [a for a in _grounded(TRUCK).agents if a.type_name == 'truck']
+    assert (old.length_m, old.acceleration_mps2) == (8.5, 1.3)
+    assert (new.length_m, new.acceleration_mps2) == (9.5, 0.9)
+    # The other map was measured with the former truck.
+    other = call('check', '--map', 'downtown', TRUCK)
+    assert other.code == 4
+    assert 'measure again: aurora map measure downtown' in other.out
+
+
+def test_a_changed_multirotor_is_refused_until_measured_and_then_planned_with(
+    config: Path, call: Call
+) -> None:
+    high = 'A drone hovers at 100 m over the ego car for 10 seconds.'
+    before = json.loads(call('check', '--map', 'junction', '--json', high).out)
+    _edit(config / 'multirotor.json', '"climb_limit_mps": 6.0', '"climb_limit_mps": 1.0')
+    installed.forget()
+    refused = call('check', '--map', 'junction', high)
+    assert refused.code == 4
+    assert 'measured with multirotor_sha256' in refused.out
+    assert call('map', 'measure', 'junction').code == 0
+    flight = installed.installed().settings.flight
+    assert flight.climb_mps == pytest.approx(1.0, abs=0.01)
+    after = json.loads(call('check', '--map', 'junction', '--json', high).out)
+    assert after['horizon_s'] > before['horizon_s'] + 100.0
+
+
+def test_a_clearance_that_changes_is_measured_again(config: Path, call: Call) -> None:
+    _edit(config / 'limits.json', '"clearance_min_m": 3.0', '"clearance_min_m": 4.0')
+    installed.forget()
+    refused = call('check', '--map', 'junction', TRUCK)
+    assert refused.code == 4
+    assert 'measured with clearance_m 3.0, here is 4.0' in refused.out
+    assert call('map', 'measure', 'junction').code == 0
+    assert call('check', '--map', 'junction', TRUCK).code == 0
+
+
+def test_a_stop_on_the_way_leaves_what_was_there(
+    config: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    before = _files(config)
+
+    def stopped(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(measure, 'probe_walks', stopped)
+    with pytest.raises(KeyboardInterrupt):
+        measure.measure(load_map('junction'), lambda _: None)
+    assert _files(config) == before
+
+
+def test_records_that_cannot_be_written(
+    config: Path, call: Call, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shutil.rmtree(config / 'knowledge' / 'maps')
+    (config / 'knowledge' / 'maps').write_text('no folder')
+    done = call('map', 'measure', 'junction')
+    assert done.code == 4
+    assert 'cannot be written' in done.err
+
+
+def test_a_workspace_links_to_what_is_written_into_its_sources(
+    config: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, call: Call
+) -> None:
+    share = tmp_path / 'share'
+    for path in config.rglob('*'):
+        if path.is_file() and 'knowledge' not in path.relative_to(config).parts:
+            link = share / path.relative_to(config)
+            link.parent.mkdir(parents=True, exist_ok=True)
+            link.symlink_to(path)
+    shutil.rmtree(config / 'knowledge')
+    monkeypatch.setenv(ENVIRONMENT_VARIABLE, str(share))
+    installed.forget()
+    assert call('map', 'measure', 'junction').code == 0
+    linked = _files(share / 'knowledge')
+    assert linked == _files(config / 'knowledge')
+    assert 'measured/agent_types.json' in linked
+    assert (share / 'knowledge' / 'measured' / 'agent_types.json').is_symlink()
+
+
+def test_doctor_and_show_tell_what_was_measured(config: Path, call: Call) -> None:
+    shown = json.loads(call('map', 'show', 'junction', '--json').out)
+    assert shown['measured'] == 'yes'
+    shutil.rmtree(config / 'knowledge' / 'maps' / 'junction')
+    done = call('map', 'doctor', 'junction')
+    assert done.code == 1
+    assert 'aurora map measure junction' in done.out
+    assert call('map', 'measure', 'junction').code == 0
+    assert 'aurora map measure junction' not in call('map', 'doctor', 'junction').out

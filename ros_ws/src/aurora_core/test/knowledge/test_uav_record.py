@@ -1,0 +1,91 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The record of the multirotor: above the contract limits, and a cap on what is planned."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from aurora_core.errors import ConfigError
+from aurora_core.knowledge.config_files import config_path
+from aurora_core.knowledge.limits import load_limits
+from aurora_core.knowledge.settings import load_settings
+from aurora_core.knowledge.uav_record import RECORDS, UavRecord, load_uav_record, within
+
+
+def test_every_figure_exceeds_its_limit_by_fifteen_percent() -> None:
+    limits, record = load_limits(config_path('limits.json')), load_uav_record()
+    assert record.speed_mps >= 1.15 * limits.uav_speed_max_mps
+    assert record.climb_mps >= 1.15 * limits.uav_climb_max_mps
+    assert record.descent_mps >= 1.15 * limits.uav_descent_max_mps
+    assert record.endurance_s >= 1.15 * limits.uav_endurance_s
+
+
+def test_faster_means_longer_stops_wider_turns_and_more_lag() -> None:
+    record = load_uav_record()
+    for figures in (
+        [row.distance_m for row in record.braking],
+        [row.overshoot_m for row in record.turns],
+        [row.lag_m for row in record.lags],
+        [row.drift_m for row in record.drifts],
+    ):
+        assert figures == sorted(figures)
+        assert len(figures) > 2
+
+
+def test_the_shipped_motion_is_within_what_was_measured() -> None:
+    flight = load_settings().flight
+    assert within(flight, load_uav_record()) == flight
+
+
+@pytest.mark.parametrize(
+    ('measured', 'planned', 'value'),
+    [
+        ('speed_mps', 'speed_max_mps', 7.0),
+        ('climb_mps', 'climb_mps', 1.5),
+        ('descent_mps', 'descent_mps', 1.0),
+        ('acceleration_mps2', 'acceleration_mps2', 2.0),
+    ],
+)
+def test_a_weaker_vehicle_is_planned_to_do_less(measured: str, planned: str, value: float) -> None:
+    record = UavRecord.model_validate(load_uav_record().model_dump() | {measured: value})
+    flight = load_settings().flight
+    assert within(flight, record).model_dump() == flight.model_dump() | {planned: value}
+
+
+def test_the_record_of_another_model_is_refused(config: Path) -> None:
+    model = config / 'multirotor.json'
+    model.write_text(model.read_text().replace('"mass_kg": 1.5', '"mass_kg": 2.5'))
+    with pytest.raises(ConfigError, match='measured with multirotor_sha256') as caught:
+        load_uav_record()
+    assert caught.value.hint.startswith('measure again: aurora map measure downtown')
+
+
+@pytest.mark.parametrize(
+    ('change', 'named'),
+    [
+        (lambda t: t['multirotor'].update(climb_mps=0.0), 'climb_mps'),
+        (lambda t: t['multirotor'].pop('braking'), 'braking'),
+        (lambda t: t.pop('multirotor'), 'multirotor'),
+        (lambda t: t.pop('made_of'), 'made_of'),
+    ],
+)
+def test_a_bad_record_is_named(config: Path, change: Any, named: str) -> None:
+    path = config.joinpath(*RECORDS)
+    table = json.loads(path.read_text())
+    change(table)
+    path.write_text(json.dumps(table))
+    with pytest.raises(ConfigError) as caught:
+        load_uav_record()
+    assert named in caught.value.message
+
+
+def test_a_missing_record_names_the_command(config: Path) -> None:
+    config.joinpath(*RECORDS).unlink()
+    with pytest.raises(ConfigError) as caught:
+        load_uav_record()
+    assert 'aurora map measure downtown' in str(caught.value)
