@@ -64,7 +64,7 @@ def ground_stage(known: Knowledge, agsg: Agsg, seed: int) -> GroundingOutcome:
     grounded = known.grounder(spec.world.map_name).ground(spec, seed)
     if isinstance(grounded, GroundingFailure):
         return GroundingOutcome(failure=grounded)
-    schedule = plan_time(spec, grounded, known.limits)
+    schedule = plan_time(spec, grounded, known.limits, known.tolerances)
     planned = plan_conditions(spec, grounded, schedule, known.limits, known.tolerances)
     graph = build_agsg(
         spec,

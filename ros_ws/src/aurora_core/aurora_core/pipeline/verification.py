@@ -198,7 +198,8 @@ def _plan(
     here = known.basis
     spec = agsg.spec
     # Requests were once recorded as they were read; completing changes nothing of a complete one.
-    schedule = plan_time(complete(spec, tables.limits), grounded, tables.limits)
+    whole = complete(spec, tables.limits)
+    schedule = plan_time(whole, grounded, tables.limits, tables.tolerances)
     planned = plan_conditions(spec, grounded, schedule, tables.limits, tables.tolerances)
     rebuilt = _rebuilt_world(known, spec, grounded, tables.limits)
     foreign = basis.differences(here)
@@ -234,7 +235,7 @@ def _documents(
         yield finding('configuration', 'digest', text)
     if agsg.conditions != conditions:
         yield finding('graph', 'conditions', 'graph and world tell of different conditions')
-    if agsg.schedule != schedule:
+    if agsg.schedule not in (schedule, schedule.without_times):
         yield finding('graph', 'schedule', 'not the one that request and grounding give')
     if agsg.map_name != grounded.map_name:
         text = f'requested on {agsg.map_name}, grounded on {grounded.map_name}'
