@@ -79,6 +79,8 @@ class _Search:
 
     def alone(self, find: _Find) -> Iterator[Cycle]:
         """Yield the circles without any demand, and then one for each demand that has one."""
+        if not find([*self._core, *chain.from_iterable(self._asked)]):
+            return  # as nearly always
         while found := find(self._core):
             yield found
             self._core = [link for link in self._core if link not in found]

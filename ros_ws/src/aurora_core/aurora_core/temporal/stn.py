@@ -113,7 +113,8 @@ class Stn(Generic[Reason]):
             return ()
         times = np.zeros(count, dtype=np.int64)
         through = np.full(count, -1, dtype=np.intp)
-        for _ in range(count):
+        rounds = 0
+        while True:
             reached = times[self._from] + self._bounds
             better = times.copy()
             np.minimum.at(better, self._to, reached)
@@ -122,12 +123,24 @@ class Stn(Generic[Reason]):
                 return ()
             through[self._to[used]] = used
             times = better
-        # A point that still moves after as many rounds as there are points hangs on a circle.
-        return self._circle(through, int(self._to[used[0]]))
+            rounds += 1
+            # Who moves after as many rounds as there are points hangs on a circle; most circles
+            # are short, and there long before.
+            if rounds & (rounds - 1) == 0:
+                point = self._on_circle(through)
+                if point is not None:
+                    return self._circle(through, point)
+
+    def _on_circle(self, through: npt.NDArray[np.intp]) -> int | None:
+        """Return a point to which one comes again by the edges that moved points last."""
+        count = len(self.points)
+        before = np.append(np.where(through < 0, count, self._from[through]), count)
+        for _ in range(count.bit_length()):
+            before = before[before]
+        caught = before[before < count]
+        return int(caught[0]) if len(caught) else None
 
     def _circle(self, through: npt.NDArray[np.intp], point: int) -> tuple[Edge[Reason], ...]:
-        for _ in self.points:
-            point = int(self._from[through[point]])
         found: list[Edge[Reason]] = []
         at = point
         while not found or at != point:
