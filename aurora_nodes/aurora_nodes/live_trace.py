@@ -79,7 +79,7 @@ class LiveTrace:
         return LiveScene(
             roster=messages.read_roster(found[messages.ROSTER]),
             world=world,
-            spec=graph.spec,
+            spec=graph.realised_spec,
             conditions=graph.conditions,
         )
 

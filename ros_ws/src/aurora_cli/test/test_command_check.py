@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from aurora_cli.main import run_command_line
+from aurora_core.report.status import ExitCode
 
 
 @pytest.fixture
@@ -52,6 +53,27 @@ def test_a_file_may_hold_the_prompt(empty: Path, capsys: pytest.CaptureFixture[s
 def test_people_get_a_table(empty: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run_command_line(['check', 'A drone hovers at 30 meters over the ego car.']) == 0
     assert capsys.readouterr().out.startswith('FEASIBLE')
+
+
+def test_people_are_told_when_things_can_be(
+    empty: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    prompt = 'A drone hovers over City Hall at 50 m for 20 s. At 30 s the bus brakes.'
+    assert run_command_line(['check', prompt]) == 0
+    table = capsys.readouterr().out.partition('When it can be')[2]
+    rows = {tuple(line.split()) for line in table.splitlines()}
+    assert ('e1', '29.4', 's', '30.6', 's') in rows
+    assert any(row[:5] == ('the', 'beginning', 'of', 'm1', '9.6') for row in rows)
+
+
+def test_times_that_exclude_each_other_where_it_was_placed_are_told(
+    empty: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    prompt = 'The scenario lasts 15 s. A drone hovers at 60 m over City Hall.'
+    assert run_command_line(['check', prompt]) == ExitCode.UNKNOWN
+    shown = capsys.readouterr().out
+    assert 'When it can be' not in shown
+    assert 'exclude each other where it was placed: the scenario lasts 15 s; the landing' in shown
 
 
 @pytest.mark.parametrize('command', [['check'], ['run'], ['graph', '-o', 'graph.json']])

@@ -99,7 +99,7 @@ def run(folder: Path) -> Counted:
 
 def test_every_stage_is_entered_once_and_text_is_read_at_the_borders(tmp_path: Path) -> None:
     counted = run(tmp_path)
-    assert len(WAY) == 21
+    assert len(WAY) == 23
     assert counted.entered == Counter(WAY)
     assert counted.read == BORDERS
 

@@ -79,7 +79,7 @@ def _write_plots(content: BagContent, agsg: Agsg, verdict: Verdict, folder: Path
             f'{folder} cannot be created: {err.strerror or err}', hint='name another folder'
         ) from err
     conditions = agsg.conditions
-    signals = signals_for_plot(content.trace, content.world, conditions, agsg.spec)
+    signals = signals_for_plot(content.trace, content.world, conditions, agsg.realised_spec)
     results = {result.id: result for result in verdict.results}
     for number, signal in enumerate(signals, start=1):
         say(f'aurora: plot {number} of {len(signals)}: {signal.condition_id}')

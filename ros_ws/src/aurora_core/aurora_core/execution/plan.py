@@ -28,6 +28,7 @@ from aurora_core.mission.setpoint import FlightSettings
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.grounded import GroundedAgent, GroundedScenario
 from aurora_core.outcomes.schedule import Schedule
+from aurora_core.outcomes.triggers import as_realised
 from aurora_core.ports.simulators import AirLoad, GroundAgentLoad, GroundLoad, UavHome
 from aurora_core.quantities.actions import action_rules
 from aurora_core.quantities.world_geometry import WorldGeometry
@@ -168,6 +169,7 @@ def build_stepper(
         ExecutionError: An event sends a message without a link, or a fault hits nobody.
     """
     _check_links(spec)
+    spec = as_realised(spec, grounded)
     limits, dt_s = geometry.world.limits, roster.dt_s
     acting = in_order(faults)
     flight = FlightSettings(**settings.flight.model_dump())

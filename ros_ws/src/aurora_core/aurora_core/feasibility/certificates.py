@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from aurora_core.outcomes.feasibility import Certificate, Fact, Rule
+from aurora_core.outcomes.feasibility import Certificate, Fact, Rule, TimeBound
 from aurora_core.spec.parameter import Parameter, Span
 
 
@@ -17,8 +17,9 @@ def contradiction(
     sentence: str,
     span: Span | None = None,
     facts: Iterable[Fact] = (),
+    chain: tuple[TimeBound, ...] = (),
 ) -> Certificate:
-    """Return the proof that two stated things exclude each other."""
+    """Return the proof that stated things exclude each other."""
     return Certificate(
         kind='contradiction',
         reason=reason,
@@ -27,6 +28,7 @@ def contradiction(
         sentence=sentence,
         rule=rule,
         facts=tuple(facts),
+        chain=chain,
     )
 
 

@@ -4,10 +4,10 @@
 
 from __future__ import annotations
 
-from aurora_core.feasibility.stated import is_stated
 from aurora_core.knowledge.limits import Limits, Tolerance, Tolerances
 from aurora_core.outcomes.feasibility import Fact, FactSource
 from aurora_core.spec.parameter import Parameter
+from aurora_core.spec.stated import is_stated
 
 
 def says(path: str, value: Parameter | float | str | None) -> tuple[Fact, ...]:

@@ -12,7 +12,6 @@ from collections.abc import Iterator
 
 from aurora_core.feasibility.certificates import beyond, contradiction
 from aurora_core.feasibility.facts import limit_facts, says, tolerance_facts
-from aurora_core.feasibility.stated import is_stated, least, most
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.outcomes.feasibility import Certificate, Fact, Rule
 from aurora_core.spec.parameter import Bound, Parameter
@@ -25,6 +24,7 @@ from aurora_core.spec.scenario import (
     StatedCondition,
     UavMission,
 )
+from aurora_core.spec.stated import is_stated, least, most
 from aurora_core.spec.vocabulary import MissionMode
 
 # Quantities that say how far two stay from each other.

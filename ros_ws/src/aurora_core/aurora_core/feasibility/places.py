@@ -9,11 +9,11 @@ from dataclasses import dataclass
 
 from aurora_core.feasibility.certificates import contradiction
 from aurora_core.feasibility.facts import says, tolerance_facts
-from aurora_core.feasibility.stated import is_stated
 from aurora_core.knowledge.limits import Tolerances
 from aurora_core.outcomes.feasibility import Certificate, Fact, Rule
 from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.scenario import GroundAgent, Placement, ScenarioSpec
+from aurora_core.spec.stated import is_stated
 from aurora_core.spec.vocabulary import Relation
 
 # Axis and side of the relations that have an opposite.

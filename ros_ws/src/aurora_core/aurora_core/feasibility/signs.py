@@ -10,10 +10,10 @@ from pydantic import BaseModel
 
 from aurora_core.feasibility.certificates import contradiction
 from aurora_core.feasibility.facts import says
-from aurora_core.feasibility.stated import is_stated
 from aurora_core.outcomes.feasibility import Certificate, Rule
 from aurora_core.spec.parameter import Bound, Parameter, Unit
 from aurora_core.spec.scenario import ScenarioSpec, UavMission
+from aurora_core.spec.stated import is_stated
 from aurora_core.spec.vocabulary import MissionMode, Pattern
 
 _REASONS = {

@@ -15,12 +15,12 @@ from collections.abc import Iterator, Sequence
 import shapely
 
 from aurora_core.feasibility.facts import limit_facts, map_fact, says, tolerance_facts
-from aurora_core.feasibility.stated import is_stated, least, most
 from aurora_core.geometry.frames import offset_at_bearing
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_types import Landmark, NoFlyZone
 from aurora_core.outcomes.feasibility import Certificate, Fact, Rule
 from aurora_core.spec.scenario import ScenarioSpec, UavMission
+from aurora_core.spec.stated import is_stated, least, most
 from aurora_core.spec.vocabulary import ClauseStatus, MissionMode, Pattern
 
 _LANDMARK = 'landmark:'

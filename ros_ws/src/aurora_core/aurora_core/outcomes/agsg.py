@@ -20,6 +20,7 @@ from aurora_core.document import Document
 from aurora_core.outcomes.condition import Condition, conditions_to_json
 from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.outcomes.schedule import Schedule
+from aurora_core.outcomes.triggers import as_realised
 from aurora_core.spec.parameter import Provenance, Span, Unit
 from aurora_core.spec.scenario import ScenarioSpec
 
@@ -139,6 +140,11 @@ class Agsg(Document):
             schedule='' if self.schedule is None else self.schedule.canonical_json(),
             conditions=conditions_to_json(self.conditions),
         )
+
+    @property
+    def realised_spec(self) -> ScenarioSpec:
+        """The request as it is carried out and judged: with the triggers of its grounding."""
+        return self.spec if self.grounding is None else as_realised(self.spec, self.grounding)
 
     @property
     def sha256(self) -> str:

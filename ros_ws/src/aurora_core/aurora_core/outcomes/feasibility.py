@@ -5,8 +5,9 @@
 from __future__ import annotations
 
 from enum import StrEnum
+from typing import Self
 
-from pydantic import FiniteFloat
+from pydantic import FiniteFloat, model_validator
 
 from aurora_core.document import Document, omitted
 from aurora_core.spec.parameter import Span
@@ -33,7 +34,7 @@ class Rule(StrEnum):
     FLIGHT_BAND = 'flight_band'  # a condition that a stated flight cannot meet
     PURSUIT = 'pursuit'  # a target faster than UAVs fly
     AFAR = 'afar'  # a tracked target that is to stay farther away than a standoff may be
-    BATTERY = 'battery'  # phases that last longer together than the battery
+    BATTERY = 'battery'  # phases, or a whole flight, longer than the battery lasts
     DEADLINE = 'deadline'  # earlier than anything can be done
     HORIZON = 'horizon'  # what does not fit into the stated duration
     ORDER = 'order'  # a circle of orders, or an order against stated times
@@ -64,6 +65,61 @@ class Fact(Document):
     value: FiniteFloat | str
 
 
+class BoundKind(StrEnum):
+    """Why one time point comes so long after another one at least, or at most."""
+
+    START = 'start'  # nothing comes before t = 0
+    TIME = 'time'  # a trigger at a stated time
+    CAUSE = 'cause'  # an event waits for the end of another one
+    MESSAGE = 'message'  # a message is received after it was sent
+    SIGHT = 'sight'  # a UAV looks out once it is up
+    DONE = 'done'  # a UAV's missions are over
+    DELAY = 'delay'  # what happens comes after its trigger, by a stated delay
+    SOON = 'soon'  # and within the time that tolerances leave
+    END = 'end'  # what happens ends after it began
+    BEGUN = 'begun'  # a mission that an event begins
+    CLIMB = 'climb'  # from the ground to an altitude
+    SEQUENCE = 'sequence'  # missions of one UAV, after its ascent, in their order
+    PHASE = 'phase'  # the stated duration of a mission
+    ROUTE = 'route'  # the way along a stated pattern
+    WAY = 'way'  # the way to where a mission begins
+    SINK = 'sink'  # from an altitude to the ground
+    BATTERY = 'battery'  # from take-off to touchdown
+    ORDER = 'order'  # what is asked to come later, and within which time
+    DEADLINE = 'deadline'  # a stated condition on a time
+    HORIZON = 'horizon'  # the stated duration of the scenario
+    INSIDE = 'inside'  # what has to happen before the scenario ends
+
+
+class TimeBound(Document):
+    """One bound of a chain: either a least or a greatest value.
+
+    Attributes:
+        earlier: Time point: `start`, `end`, `events/e1` (with `/trigger` before and `/done` after
+            it), `uavs/u1/takeoff`, `/up`, `/landed`, `missions/m1/captured`, `/over`,
+            `conditions/c1`.
+        later: Another one.
+        least_s: Seconds by which `later` comes after `earlier` at least.
+        most_s: The same, at most.
+        of: Path of the element that it comes from.
+        words: The same for people.
+    """
+
+    earlier: str
+    later: str
+    least_s: FiniteFloat | None = None
+    most_s: FiniteFloat | None = None
+    kind: BoundKind
+    of: str
+    words: str
+
+    @model_validator(mode='after')
+    def _one_side(self) -> Self:
+        if (self.least_s is None) is (self.most_s is None):
+            raise ValueError('a bound on times has either a least or a greatest value')
+        return self
+
+
 class Certificate(Document):
     """Proof of infeasibility that separate code can check again.
 
@@ -79,6 +135,8 @@ class Certificate(Document):
         listing: Closed list that lacks the element (missing_element, unsupported).
         rule: How it argues; None for what a closed list lacks.
         facts: What it rests on beside `requested`, `limit` and `listing`.
+        chain: Bounds on times in a circle, each beginning where the one before ends: together
+            they ask a point to come before itself.
     """
 
     kind: str
@@ -95,6 +153,7 @@ class Certificate(Document):
     sentence: str
     rule: Rule | None = omitted(None)
     facts: tuple[Fact, ...] = omitted(())
+    chain: tuple[TimeBound, ...] = omitted(())
 
 
 class FeasibilityVerdict(Document):

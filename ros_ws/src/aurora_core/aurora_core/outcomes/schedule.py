@@ -76,6 +76,20 @@ class PlanFacts(Document):
     descent_mps: FiniteFloat | None = omitted(None)
 
 
+class PlannedTime(Document):
+    """When a time point can be, as the plan leaves it.
+
+    Attributes:
+        point: As in a certificate (`outcomes.feasibility.TimeBound`), for example `events/e1`.
+        earliest_s: From scenario start, by what is fastest.
+        latest_s: The same, by what is asked for and the horizon.
+    """
+
+    point: str
+    earliest_s: FiniteFloat
+    latest_s: FiniteFloat
+
+
 class Schedule(Document):
     """When things have to be done.
 
@@ -83,9 +97,18 @@ class Schedule(Document):
         horizon_s: Hard end of the run.
         stated_horizon: The prompt states the duration: the run lasts exactly that long.
         facts: What conditions quote.
+        times: When events, missions and landings can be; empty when `conflict` says why not.
+        conflict: What excludes itself where it was grounded; elsewhere it may be possible.
     """
 
     schema_version: int = SCHEDULE_VERSION
     horizon_s: FiniteFloat
     stated_horizon: bool
     facts: PlanFacts
+    times: tuple[PlannedTime, ...] = omitted(())
+    conflict: str = omitted('')
+
+    @property
+    def without_times(self) -> Schedule:
+        """The same as versions wrote it that did not work the times out."""
+        return self.model_copy(update={'times': (), 'conflict': ''})

@@ -17,6 +17,7 @@ from aurora_core.pipeline.knowledge import Knowledge
 from aurora_core.pipeline.planned import plan_conditions
 from aurora_core.pipeline.reading import parser_digest
 from aurora_core.planning.complete import complete
+from aurora_core.temporal.retarget import retargeted
 from aurora_core.temporal.schedule import plan_time
 
 
@@ -64,7 +65,8 @@ def ground_stage(known: Knowledge, agsg: Agsg, seed: int) -> GroundingOutcome:
     grounded = known.grounder(spec.world.map_name).ground(spec, seed)
     if isinstance(grounded, GroundingFailure):
         return GroundingOutcome(failure=grounded)
-    schedule = plan_time(spec, grounded, known.limits)
+    grounded = retargeted(spec, grounded, known.limits)
+    schedule = plan_time(spec, grounded, known.limits, known.tolerances)
     planned = plan_conditions(spec, grounded, schedule, known.limits, known.tolerances)
     graph = build_agsg(
         spec,

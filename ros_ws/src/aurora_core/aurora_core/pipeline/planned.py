@@ -14,6 +14,7 @@ from aurora_core.outcomes.condition import Condition
 from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.outcomes.grounding import Unjudged
 from aurora_core.outcomes.schedule import Schedule
+from aurora_core.outcomes.triggers import as_realised
 from aurora_core.spec.scenario import ScenarioSpec
 
 
@@ -40,6 +41,7 @@ def plan_conditions(
     tolerances: Tolerances,
 ) -> PlannedConditions:
     """Return the conditions of a grounded request, and what they leave out."""
+    spec = as_realised(spec, grounded)
 
     def derive(asked: ScenarioSpec) -> Derivation:
         made = derive_conditions(asked, schedule.facts, limits, tolerances)

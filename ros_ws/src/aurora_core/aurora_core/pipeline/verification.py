@@ -30,6 +30,7 @@ from aurora_core.pipeline.reading import doubts_of_reading
 from aurora_core.pipeline.recompute import recomputed
 from aurora_core.planning.complete import complete
 from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.temporal.retarget import retargeted
 from aurora_core.temporal.schedule import plan_time
 from aurora_core.trace.bag_content import BagContent
 
@@ -119,7 +120,13 @@ def judge_content(
     if recompute and isinstance(plan, Plan) and not plan.other_version:
         found = recomputed_content(known, content, agsg)
     verdict = verify(
-        content.trace, content.world, conditions, agsg.spec, plan, found, as_recorded=as_recorded
+        content.trace,
+        content.world,
+        conditions,
+        agsg.realised_spec,
+        plan,
+        found,
+        as_recorded=as_recorded,
     )
     return Judged(verdict=verdict, plan=plan, conditions=conditions)
 
@@ -198,7 +205,8 @@ def _plan(
     here = known.basis
     spec = agsg.spec
     # Requests were once recorded as they were read; completing changes nothing of a complete one.
-    schedule = plan_time(complete(spec, tables.limits), grounded, tables.limits)
+    whole = complete(spec, tables.limits)
+    schedule = plan_time(whole, grounded, tables.limits, tables.tolerances)
     planned = plan_conditions(spec, grounded, schedule, tables.limits, tables.tolerances)
     rebuilt = _rebuilt_world(known, spec, grounded, tables.limits)
     foreign = basis.differences(here)
@@ -212,6 +220,7 @@ def _plan(
         seed=grounded.seed,
         documents=(
             *_documents(conditions, agsg, grounded, schedule),
+            *_triggers(grounded, retargeted(whole, grounded, tables.limits)),
             *_reading(known, spec, tables.limits, is_here=rebuilt is not None),
         ),
         version=basis.version,
@@ -234,11 +243,17 @@ def _documents(
         yield finding('configuration', 'digest', text)
     if agsg.conditions != conditions:
         yield finding('graph', 'conditions', 'graph and world tell of different conditions')
-    if agsg.schedule != schedule:
+    if agsg.schedule not in (schedule, schedule.without_times):
         yield finding('graph', 'schedule', 'not the one that request and grounding give')
     if agsg.map_name != grounded.map_name:
         text = f'requested on {agsg.map_name}, grounded on {grounded.map_name}'
         yield finding('graph', 'map', text)
+
+
+def _triggers(grounded: GroundedScenario, again: GroundedScenario) -> Iterator[Finding]:
+    """Yield where triggers were moved to other values than their places ask for."""
+    if grounded.realised != again.realised:
+        yield finding('graph', 'triggers', 'not those that request and grounding give')
 
 
 def _reading(

@@ -34,9 +34,9 @@ _DERIVATIONS: Mapping[Rule, _Derivation] = MappingProxyType(
         Rule.PURSUIT: flights.pursuit,
         Rule.AFAR: flights.afar,
         Rule.BATTERY: schedule.battery,
-        Rule.DEADLINE: schedule.deadline,
-        Rule.HORIZON: schedule.horizon,
-        Rule.ORDER: schedule.order,
+        Rule.DEADLINE: schedule.times,
+        Rule.HORIZON: schedule.times,
+        Rule.ORDER: schedule.times,
         Rule.PLACEMENT: places.placement,
         Rule.ZONE: zones.zone,
     }

@@ -11,6 +11,7 @@ from pydantic import FiniteFloat
 
 from aurora_core.document import Document
 from aurora_core.outcomes.feasibility import Feasibility, FeasibilityVerdict
+from aurora_core.outcomes.schedule import PlannedTime
 from aurora_core.report.build import build_report
 from aurora_core.report.facts import RunFacts
 from aurora_core.report.run_report import ClauseReport, ErrorReport, RealisedReport
@@ -52,6 +53,8 @@ class CheckReport(Document):
 
     Attributes:
         horizon_s: Simulated time that a run would take at most, None when nothing was grounded.
+        times: When events, missions and landings can be at the earliest and at the latest.
+        conflict: What excludes itself where it was grounded, in words; '' for nothing.
     """
 
     schema_version: Literal[1] = 1
@@ -64,6 +67,8 @@ class CheckReport(Document):
     feasibility: FeasibilityVerdict | None = None
     conditions: tuple[PlannedCondition, ...] = ()
     horizon_s: FiniteFloat | None = None
+    times: tuple[PlannedTime, ...] = ()
+    conflict: str = ''
     requested_and_realised: tuple[RealisedReport, ...] = ()
     question: str | None = None
     error: ErrorReport | None = None
@@ -89,6 +94,8 @@ def build_check(facts: RunFacts) -> CheckReport:
             PlannedCondition(id=c.id, sentence=c.sentence, formula=c.formula) for c in conditions
         ),
         horizon_s=schedule.horizon_s if schedule is not None else None,
+        times=schedule.times if schedule is not None else (),
+        conflict=_conflict(facts),
         requested_and_realised=report.requested_and_realised,
         question=report.question,
         error=report.error,
@@ -116,9 +123,16 @@ def _result(
     placed = facts.grounding is not None and facts.grounding.agsg is not None
     if not placed or feasibility is None or feasibility.result is not Feasibility.FEASIBLE:
         return CheckResult.UNKNOWN
+    if _conflict(facts):
+        return CheckResult.UNKNOWN
     if any(clause.status.is_open for clause in clauses):
         return CheckResult.INCOMPLETE
     return CheckResult.FEASIBLE
+
+
+def _conflict(facts: RunFacts) -> str:
+    schedule = facts.graph.schedule if facts.graph is not None else None
+    return schedule.conflict if schedule is not None else ''
 
 
 def _summary(result: CheckResult, run_summary: str, facts: RunFacts) -> str:
@@ -128,10 +142,8 @@ def _summary(result: CheckResult, run_summary: str, facts: RunFacts) -> str:
         return 'Inside every limit and placed, but a clause of the prompt is not encoded.'
     if result is CheckResult.UNKNOWN:
         failure = facts.grounding.failure if facts.grounding is not None else None
-        why = (
-            f': no place was found ({failure.reason}; {failure.tried} tried)'
-            if failure is not None
-            else ''
-        )
+        why = ': its times exclude each other where it was placed' if _conflict(facts) else ''
+        if failure is not None:
+            why = f': no place was found ({failure.reason}; {failure.tried} tried)'
         return f'Neither proved feasible nor infeasible{why}.'
     return run_summary

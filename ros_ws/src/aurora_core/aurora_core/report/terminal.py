@@ -23,6 +23,7 @@ from aurora_core.report.status import Status
 from aurora_core.report.summary import margin_value
 from aurora_core.report.verify_report import VerifyOutcome, VerifyReport
 from aurora_core.report.visible import one_line
+from aurora_core.temporal.words import named
 
 _COLOURS = {
     Status.VERIFIED: 'green',
@@ -97,6 +98,18 @@ def print_check(report: CheckReport, console: Console) -> None:
         console,
     )
     print_realised(report.requested_and_realised, console)
+    print_table(
+        'When it can be',
+        ('what', 'earliest', 'latest'),
+        [
+            (named(time.point), f'{time.earliest_s:.1f} s', f'{time.latest_s:.1f} s')
+            for time in report.times
+        ],
+        console,
+        right=(1, 2),
+    )
+    if report.conflict:
+        line(console, f'times    exclude each other where it was placed: {report.conflict}')
     if report.horizon_s is not None:
         line(console, f'horizon  {report.horizon_s:g} s of simulated time')
 

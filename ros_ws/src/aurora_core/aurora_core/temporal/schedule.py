@@ -1,24 +1,28 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""Plan the time of a grounded scenario: the horizon and the facts that conditions quote."""
+"""Plan the time of a grounded scenario: horizon, times, and the facts that conditions quote."""
 
 from __future__ import annotations
 
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.time_need import horizon_s
-from aurora_core.knowledge.limits import Limits, climb_share_mps, descent_share_mps
+from aurora_core.knowledge.limits import Limits, Tolerances, climb_share_mps, descent_share_mps
 from aurora_core.knowledge.settings import FlightDefaults
 from aurora_core.mission.plan import MissionPlan, UavPlan
 from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.outcomes.schedule import AgentFacts, MissionFacts, PlanFacts, Schedule
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.spec.vocabulary import MissionMode
+from aurora_core.temporal.links import Basis
+from aurora_core.temporal.times import planned_times
 
 # Mean rate of a climb over the rate that it is flown at, with its beginning and its end.
 _RATE_SHARE = 0.75
 
 
-def plan_time(spec: ScenarioSpec, grounded: GroundedScenario, limits: Limits) -> Schedule:
+def plan_time(
+    spec: ScenarioSpec, grounded: GroundedScenario, limits: Limits, tolerances: Tolerances
+) -> Schedule:
     """Return the schedule of a grounded scenario."""
     basis = grounded.basis
     flight = None if basis is None else basis.tables().settings.flight
@@ -43,8 +47,16 @@ def plan_time(spec: ScenarioSpec, grounded: GroundedScenario, limits: Limits) ->
         agents=agents,
         **({} if flight is None else _slow_rates(flight, limits)),
     )
+    plan = {facts.mission: facts for facts in missions}
+    times, conflict = planned_times(
+        Basis(spec=spec, limits=limits, tolerances=tolerances, plan=plan), horizon
+    )
     return Schedule(
-        horizon_s=horizon, stated_horizon=spec.world.duration_s is not None, facts=facts
+        horizon_s=horizon,
+        stated_horizon=spec.world.duration_s is not None,
+        facts=facts,
+        times=times,
+        conflict=conflict,
     )
 
 

@@ -29,7 +29,7 @@ def full(
     def build(name: str) -> Agsg:
         spec = read_prompt(name)
         grounded = ground(spec)
-        schedule = plan_time(spec, grounded, limits)
+        schedule = plan_time(spec, grounded, limits, tolerances)
         conditions = derive_conditions(spec, schedule.facts, limits, tolerances).conditions
         return build_agsg(
             spec,

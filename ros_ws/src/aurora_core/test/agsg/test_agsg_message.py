@@ -35,7 +35,7 @@ def agsg(
     """A grounded graph with everything in it."""
     spec = read_prompt('tailgate')
     grounded = ground(spec)
-    schedule = plan_time(spec, grounded, limits)
+    schedule = plan_time(spec, grounded, limits, tolerances)
     conditions = derive_conditions(spec, schedule.facts, limits, tolerances).conditions
     return build_agsg(
         spec,

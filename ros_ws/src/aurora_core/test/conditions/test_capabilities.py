@@ -34,7 +34,7 @@ class Scene:
         return unsupported(self.spec, self.found)
 
     def judged(self) -> set[str]:
-        facts = plan_time(self.spec, self.found, self._limits).facts
+        facts = plan_time(self.spec, self.found, self._limits, self._tolerances).facts
         derived = derive_conditions(self.spec, facts, self._limits, self._tolerances)
         return {c.id for c in judgeable(derived.conditions, self.spec, self.found)}
 

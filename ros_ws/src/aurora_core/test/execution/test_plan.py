@@ -139,6 +139,7 @@ def graph(
     read_prompt: Callable[..., ScenarioSpec],
     ground: Callable[..., GroundedScenario],
     limits: Limits,
+    tolerances: Tolerances,
 ) -> Callable[[str], Agsg]:
     """Build the grounded graph of a prompt on the junction map."""
 
@@ -150,7 +151,7 @@ def graph(
             map_digest=found.map_digest,
             stage=Stage.GROUNDED,
             grounding=found,
-            schedule=plan_time(spec, found, limits),
+            schedule=plan_time(spec, found, limits, tolerances),
         )
 
     return build

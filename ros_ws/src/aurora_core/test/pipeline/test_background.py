@@ -115,7 +115,7 @@ def test_a_changed_limit_changes_context_and_verifier(config: Path) -> None:
     spec = spec_of('Two drones hover over the ego car.')
     grounded = known.grounder(MAP).ground(spec, 1)
     assert isinstance(grounded, GroundedScenario)
-    facts = plan_time(spec, grounded, known.limits).facts
+    facts = plan_time(spec, grounded, known.limits, known.tolerances).facts
     conditions = derive_conditions(spec, facts, known.limits, known.tolerances).conditions
     told = json.loads(shown().registries_text())['limits']['separation_min_m']
     assert told == 6.5

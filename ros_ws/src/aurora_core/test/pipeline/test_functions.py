@@ -153,10 +153,14 @@ def test_what_was_loosened_is_derived_as_recorded_and_named(
     ours = {c.id: c for c in conditions_from_json(agsg.texts.conditions)}
     changed = [c for c in plan.conditions if c != ours[c.id]]
     assert changed
-    # With conditions that go with it nothing is left but the difference to what is installed.
+    # With conditions and times that go with it nothing is left but the difference to what is
+    # installed.
     text = conditions_to_json(plan.conditions)
     forged = altered(forged, conditions=text)
     world = replace(execution.world, conditions_json=text)
+    assert ('graph', 'schedule') in names(held(execution, world, forged, as_recorded=True))
+    assert agsg.schedule is not None
+    forged = altered(forged, schedule=agsg.schedule.without_times.canonical_json())
     found = held(execution, world, forged, as_recorded=False)
     assert names(found) == {('configuration', 'tolerances.altitude_m.absolute')}
     assert '50.0 (here' in found.findings[0].text

@@ -35,12 +35,12 @@ PROMPTS = [
 
 @pytest.mark.parametrize('prompt', PROMPTS)
 def test_facts_are_those_of_the_plan(
-    prompt: str, read_prompt: Read, ground: Ground, limits: Limits
+    prompt: str, read_prompt: Read, ground: Ground, limits: Limits, tolerances: Tolerances
 ) -> None:
     map_name = 'downtown' if prompt == 'survey' else 'junction'
     spec = read_prompt(prompt, map_name)
     found = ground(spec, map_name)
-    schedule = plan_time(spec, found, limits)
+    schedule = plan_time(spec, found, limits, tolerances)
     assert [f.mission for f in schedule.facts.missions] == [m.id for m in spec.missions]
     plans = {m.id: (u, m) for u in found.uavs for m in u.missions}
     for facts in schedule.facts.missions:
@@ -57,11 +57,11 @@ def test_facts_are_those_of_the_plan(
 
 
 def test_transit_is_the_way_to_the_first_point(
-    read_prompt: Read, ground: Ground, limits: Limits
+    read_prompt: Read, ground: Ground, limits: Limits, tolerances: Tolerances
 ) -> None:
     spec = read_prompt(PROMPTS[4])
     found = ground(spec)
-    first, second = plan_time(spec, found, limits).facts.missions
+    first, second = plan_time(spec, found, limits, tolerances).facts.missions
     uav = found.uavs[0]
     hover, start = uav.missions[0].hover_point, uav.missions[1].waypoints[0]
     assert hover is not None
@@ -76,11 +76,11 @@ def test_transit_is_the_way_to_the_first_point(
 
 
 def test_transit_to_a_target_ends_at_its_offset(
-    read_prompt: Read, ground: Ground, limits: Limits
+    read_prompt: Read, ground: Ground, limits: Limits, tolerances: Tolerances
 ) -> None:
     spec = read_prompt('convoy')
     found = ground(spec)
-    [facts] = plan_time(spec, found, limits).facts.missions
+    [facts] = plan_time(spec, found, limits, tolerances).facts.missions
     uav = found.uavs[0]
     plan = uav.missions[0]
     target = next(a for a in found.agents if a.id == plan.target)
@@ -90,15 +90,19 @@ def test_transit_to_a_target_ends_at_its_offset(
     )
 
 
-def test_a_stated_horizon_is_kept(read_prompt: Read, ground: Ground, limits: Limits) -> None:
+def test_a_stated_horizon_is_kept(
+    read_prompt: Read, ground: Ground, limits: Limits, tolerances: Tolerances
+) -> None:
     spec = read_prompt('The scenario lasts 90 seconds. A drone hovers 40 m above the ego car.')
-    schedule = plan_time(spec, ground(spec), limits)
+    schedule = plan_time(spec, ground(spec), limits, tolerances)
     assert (schedule.horizon_s, schedule.stated_horizon) == (90.0, True)
 
 
-def test_canonical_json_round_trip(read_prompt: Read, ground: Ground, limits: Limits) -> None:
+def test_canonical_json_round_trip(
+    read_prompt: Read, ground: Ground, limits: Limits, tolerances: Tolerances
+) -> None:
     spec = read_prompt('survey')
-    schedule = plan_time(spec, ground(spec), limits)
+    schedule = plan_time(spec, ground(spec), limits, tolerances)
     again = Schedule.model_validate_json(schedule.canonical_json())
     assert again == schedule
     assert again.canonical_json() == schedule.canonical_json()

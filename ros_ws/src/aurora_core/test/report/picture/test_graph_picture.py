@@ -37,7 +37,7 @@ def grounded(
     def build(name: str) -> Agsg:
         spec = read_prompt(name)
         placed = ground(spec)
-        facts = plan_time(spec, placed, limits).facts
+        facts = plan_time(spec, placed, limits, tolerances).facts
         conditions = derive_conditions(spec, facts, limits, tolerances).conditions
         return build_agsg(
             spec,
