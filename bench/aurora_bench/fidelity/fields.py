@@ -151,7 +151,7 @@ def behavior_fields(r: BehaviorRequirement, subject: Subject, rule: NumberRule) 
 
 _MISSION_NUMBERS = (
     'altitude_m', 'standoff_m', 'bearing_deg', 'duration_s', 'radius_m', 'waypoint_count',
-    'speed_mps',
+    'turns', 'speed_mps',
 )  # fmt: skip
 
 

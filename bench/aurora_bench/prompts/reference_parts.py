@@ -45,7 +45,7 @@ DEFAULTS: dict[str, tuple[float, float, float]] = {
 SIZE_M = (100.0, 60.0)
 _MISSION_NUMBERS = (
     'altitude_m', 'standoff_m', 'bearing_deg', 'duration_s', 'radius_m', 'waypoint_count',
-    'speed_mps',
+    'turns', 'speed_mps',
 )  # fmt: skip
 
 

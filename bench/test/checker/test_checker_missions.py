@@ -242,6 +242,20 @@ def test_an_orbit(stage: Any, turned: float, radius: float, outcome: str) -> Non
     assert stage.says(asked) == outcome
 
 
+@pytest.mark.parametrize(
+    ('turned', 'outcome'),
+    [(2.0, 'holds'), (1.0, 'does_not'), (2.1, 'cannot_tell'), (3.0, 'does_not')],
+)
+def test_turns_are_counted(stage: Any, turned: float, outcome: str) -> None:
+    def motion(t: Any) -> tuple[Any, Any, Any]:
+        angle = np.clip((t - 12.0) / 45.0, 0.0, 1.0) * 2.0 * np.pi * turned
+        return 210 + 60 * np.cos(angle), 15 + 60 * np.sin(angle), 40.0
+
+    stage.uav('drone', motion, ends=(58.0,))
+    asked = {**RECTANGLE, 'pattern': 'orbit', 'turns': 2, 'target': 'City Hall'}
+    assert stage.says(asked) == outcome
+
+
 def test_the_way_to_an_orbit_takes_nothing_off_it(stage: Any) -> None:
     def motion(t: Any) -> tuple[Any, Any, Any]:
         lap = np.clip((t - 12.0) / 45.0, 0.0, 1.0) * 2.0 * np.pi

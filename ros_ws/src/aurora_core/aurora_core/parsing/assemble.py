@@ -131,6 +131,7 @@ def _mission(draft: MissionDraft, altitude: Parameter, by_event: bool) -> UavMis
         size_m=(draft.size or _size(draft, pattern)) if sized else None,
         radius_m=radius,
         waypoint_count=count,
+        turns=draft.turns,
         speed_mps=speed,
         over_streets=draft.over_streets,
         ends_in_flight=draft.ends_in_flight,

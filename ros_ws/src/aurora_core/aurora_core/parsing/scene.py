@@ -83,6 +83,7 @@ class MissionDraft:
     size: tuple[Parameter, Parameter] | None = None
     radius: Parameter | None = None
     waypoint_count: Parameter | None = None
+    turns: Parameter | None = None
     speed: Parameter | None = None
     over_streets: bool = False
     ends_in_flight: bool = False

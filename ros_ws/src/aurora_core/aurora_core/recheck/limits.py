@@ -64,7 +64,7 @@ def _is_flown(spec: dict[str, Any], path: str) -> bool:
         return mission.get('pattern') in ('rectangle', 'lawnmower')
     return name == 'duration_s' or (
         mission.get('mode') == 'navigate'
-        and name in ('speed_mps', 'radius_m', 'waypoint_count', 'size_m/0')
+        and name in ('speed_mps', 'radius_m', 'waypoint_count', 'turns', 'size_m/0')
     )
 
 

@@ -113,7 +113,7 @@ def _waits_for_missions(spec: ScenarioSpec, event: Event, uav: str) -> bool:
 def lasts_until_event(spec: ScenarioSpec, mission: UavMission) -> bool:
     """Tell whether only an event ends a phase, or a patrol: nobody states how long it is."""
     duration = mission.duration_s
-    unstated = duration is None or _is_default(duration)
+    unstated = mission.turns is None and (duration is None or _is_default(duration))
     return unstated and left_by(spec, mission) is not None
 
 

@@ -121,6 +121,7 @@ class UavMission(Element):
         duration_s: Of the mission phase alone.
         dwell_s: How long the UAV stays at each waypoint of a route.
         size_m: Pattern size (length, width), metres.
+        turns: How often round an orbit goes; None: once, or as often as its time allows.
         over_streets: "over the streets"; see `over_a_road`.
         ends_in_flight: The request does not end with a landing.
     """
@@ -138,6 +139,7 @@ class UavMission(Element):
     size_m: tuple[Parameter, Parameter] | None = None
     radius_m: Parameter | None = None
     waypoint_count: Parameter | None = None
+    turns: Parameter | None = omitted(None)
     speed_mps: Parameter | None = None
     dwell_s: Parameter | None = omitted(None)
     over_streets: bool = False
@@ -164,6 +166,8 @@ class UavMission(Element):
             raise ValueError(f'mission {self.id}: {self.mode} needs duration_s')
         if self.mode is not MissionMode.NAVIGATE and self.dwell_s is not None:
             raise ValueError(f'mission {self.id}: only a route has waypoints to dwell at')
+        if self.pattern is not Pattern.ORBIT and self.turns is not None:
+            raise ValueError(f'mission {self.id}: only an orbit has turns')
         return self
 
 

@@ -180,6 +180,7 @@ class _Scene:
         mode = self.draw(st.sampled_from(MissionMode))
         route, track = mode is MissionMode.NAVIGATE, mode is MissionMode.TRACK
         size = (self.number(Unit.METRE), self.number(Unit.METRE))
+        pattern = self.draw(st.sampled_from(Pattern)) if route else None
         return {
             'id': name,
             'uav': self.flown[name],
@@ -192,10 +193,11 @@ class _Scene:
             'standoff_m': self.number(Unit.METRE) if track else self.maybe_number(Unit.METRE),
             'bearing_deg': self.maybe_number(Unit.DEGREE),
             'duration_s': self.maybe_number(Unit.SECOND) if route else self.number(Unit.SECOND),
-            'pattern': self.draw(st.sampled_from(Pattern)) if route else None,
+            'pattern': pattern,
             'size_m': self.maybe(st.just(size)),
             'radius_m': self.maybe_number(Unit.METRE),
             'waypoint_count': self.maybe_number(Unit.ONE),
+            'turns': self.maybe_number(Unit.ONE) if pattern is Pattern.ORBIT else None,
             'speed_mps': self.number(Unit.METRE_PER_SECOND) if route else None,
             'dwell_s': self.maybe_number(Unit.SECOND) if route else None,
             'over_streets': self.draw(st.booleans()),

@@ -42,12 +42,21 @@ def add_mission(said: MissionReading, parts: Parts) -> None:
             waypoint_count=parts.number(
                 'waypoint_count', said.waypoint_count, f'{where}.waypoint_count'
             ),
+            turns=_turns(said, parts),
             speed=parts.number('uav_speed', said.speed_mps, f'{where}.speed_mps'),
             over_streets=said.over_streets,
             ends_in_flight=said.ends_in_flight,
             span=parts.span(said.quote, where),
         )
     )
+
+
+def _turns(said: MissionReading, parts: Parts) -> Parameter | None:
+    where = f'{said.id}.turns'
+    if said.turns is not None and said.pattern is not Pattern.ORBIT:
+        parts.complaints.append(f'{where}: only an orbit has turns')
+        return None
+    return parts.number('turns', said.turns, where)
 
 
 def _size(said: MissionReading, parts: Parts) -> tuple[Parameter, Parameter] | None:

@@ -100,6 +100,7 @@ class MissionReading(Document):
     width_m: Number | None = None
     radius_m: Number | None = None
     waypoint_count: Number | None = None
+    turns: Number | None = None
     speed_mps: Number | None = None
     over_streets: bool = False
     ends_in_flight: bool = False

@@ -99,7 +99,7 @@ def honest_reading(spec: ScenarioSpec) -> dict[str, Any]:
                 'mode': m.mode.value,
                 'target': None if m.target_inferred else m.target,
                 **numbers(m, 'altitude_m', 'standoff_m', 'bearing_deg', 'duration_s', 'radius_m'),
-                **numbers(m, 'waypoint_count', 'speed_mps'),
+                **numbers(m, 'waypoint_count', 'turns', 'speed_mps'),
                 'length_m': number(m.size_m[0]) if m.size_m else None,
                 'width_m': number(m.size_m[1]) if m.size_m and m.size_m[1].value else None,
                 'pattern': m.pattern.value if m.pattern else None,
