@@ -157,7 +157,13 @@ _MISSION_NUMBERS = (
 
 def mission_names(r: MissionRequirement) -> list[str]:
     """Return the annotated fields of a mission."""
-    names = ['uav', 'mode', *_named(r.target, 'target'), *_named(r.pattern, 'pattern')]
+    names = [
+        'uav',
+        'mode',
+        *_named(r.target, 'target'),
+        *_named(r.pattern, 'pattern'),
+        *_named(r.side, 'side'),
+    ]
     return [*names, *_numbers(r, *_MISSION_NUMBERS), *_numbers(r, 'size_m')]
 
 
@@ -171,6 +177,8 @@ def mission_fields(
         fields['target'] = subject.binding.means(r.target, mission.target)
     if r.pattern is not None:
         fields['pattern'] = mission.pattern is r.pattern
+    if r.side is not None:
+        fields['side'] = mission.side is not None and mission.side.value == r.side
     for name in _numbers(r, *_MISSION_NUMBERS):
         fields[name] = rule.counts(name, getattr(r, name), getattr(mission, name))
     if r.size_m is not None:
@@ -238,7 +246,9 @@ _READ: dict[str, frozenset[str]] = {
     'uav': frozenset({'ref', 'count'}),
     'placement': frozenset({'agent', 'relation', 'of', 'distance_m', 'bearing_deg'}),
     'behavior': frozenset({'agent', 'behavior', 'target', 'speed_mps'}),
-    'mission': frozenset({'ref', 'uav', 'mode', 'target', 'pattern', 'size_m', *_MISSION_NUMBERS}),
+    'mission': frozenset(
+        {'ref', 'uav', 'mode', 'target', 'pattern', 'side', 'size_m', *_MISSION_NUMBERS}
+    ),
     'link': frozenset({'sender', 'receiver', 'loss', 'latency_s', 'range_m', 'retransmissions'}),
     'event': frozenset({'ref', 'trigger', 'action'}),
     'count': frozenset({'type', 'of', 'value', 'scope'}),

@@ -133,6 +133,7 @@ def mission(
     prefix = 'action.' if isinstance(r, Action) else ''
     mode = r.mode.value if r.mode is not None else ('track' if r.target else 'hover')
     found: Doc = {'id': ident, 'uav': uav, 'mode': mode, 'target': names.one(r.target)}
+    found |= {} if r.side is None else {'side': r.side}
     found |= {'altitude_m': default('altitude_m'), **numbers.of(r, _MISSION_NUMBERS, prefix)}
     if mode == 'track':
         found = {'standoff_m': default('standoff_m'), **found}

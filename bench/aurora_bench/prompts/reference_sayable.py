@@ -26,7 +26,7 @@ from aurora_core.spec.requirements import STATED_QUANTITIES
 from aurora_core.spec.vocabulary import Pattern
 
 _WIND = frozenset({'wind', 'wind_mps', 'wind_from_deg'})
-_OF_A_FLIGHT = ('side', 'start', 'end', 'avoid', 'avoid_m')
+_OF_A_FLIGHT = ('start', 'end', 'avoid', 'avoid_m')
 _OF_A_LINK = ('outage_s', 'rate_hz')
 _TRIGGERS = frozenset({'battery_below'})
 _ACTIONS = frozenset({'return_home', 'hand_over'})

@@ -31,6 +31,7 @@ _QUANTITIES = {
         QuantityName.NO_FLY_DISTANCE,
         QuantityName.PATTERN_EXTENT,
         QuantityName.ANGLE_SWEPT,
+        QuantityName.SIDE_FRACTION,
         QuantityName.COUNT,
         QuantityName.TRAFFIC,
         QuantityName.WORLD_SETTING,

@@ -10,6 +10,7 @@ from typing import Annotated, Self, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
+from aurora_core.document import omitted
 from aurora_core.errors import ConfigError
 from aurora_core.files import CONFIG_BYTES, read_json
 from aurora_core.spec.quantity import QuantityName
@@ -109,7 +110,8 @@ class Tolerances(_Table):
     duration_s: Tolerance
     bearing_deg: NotNegative
     pattern_centre_m: NotNegative
-    orbit_deg: NotNegative  # on the full turn of an orbit
+    orbit_deg: NotNegative  # on the turns of an orbit
+    side_deg: NotNegative = omitted(45.0)  # how far off its direction a side reaches
     capture_s: NotNegative
     tracked_fraction: Share
     visible_fraction: Share

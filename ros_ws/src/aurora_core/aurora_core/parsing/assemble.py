@@ -126,6 +126,7 @@ def _mission(draft: MissionDraft, altitude: Parameter, by_event: bool) -> UavMis
         altitude_m=altitude,
         standoff_m=standoff,
         bearing_deg=draft.bearing,
+        side=draft.side,
         duration_s=duration,
         pattern=pattern,
         size_m=(draft.size or _size(draft, pattern)) if sized else None,

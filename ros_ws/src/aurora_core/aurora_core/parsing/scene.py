@@ -26,6 +26,7 @@ from aurora_core.spec.vocabulary import (
     MissionMode,
     Pattern,
     Role,
+    Side,
     TimeOfDay,
     TrafficDensity,
     Weather,
@@ -76,6 +77,7 @@ class MissionDraft:
     altitude: Parameter | None = None
     standoff: Parameter | None = None
     bearing: Parameter | None = None
+    side: Side | None = None
     duration: Parameter | None = None
     pattern: Pattern | None = None
     pattern_assumed: bool = False

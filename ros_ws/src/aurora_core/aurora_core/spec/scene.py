@@ -21,6 +21,7 @@ from aurora_core.spec.vocabulary import (
     Place,
     Relation,
     Role,
+    Side,
     TimeOfDay,
     TrafficDensity,
     Weather,
@@ -118,6 +119,7 @@ class UavMission(Element):
         altitude_m: Above ground.
         standoff_m: Horizontal distance from the target (track).
         bearing_deg: Compass bearing of the UAV from the target, when stated.
+        side: Of the moving target, relative to its heading (track).
         duration_s: Of the mission phase alone.
         dwell_s: How long the UAV stays at each waypoint of a route.
         size_m: Pattern size (length, width), metres.
@@ -134,6 +136,7 @@ class UavMission(Element):
     altitude_m: Parameter
     standoff_m: Parameter | None = None
     bearing_deg: Parameter | None = None
+    side: Side | None = omitted(None)
     duration_s: Parameter | None = None
     pattern: Pattern | None = None
     size_m: tuple[Parameter, Parameter] | None = None
@@ -166,6 +169,8 @@ class UavMission(Element):
             raise ValueError(f'mission {self.id}: {self.mode} needs duration_s')
         if self.mode is not MissionMode.NAVIGATE and self.dwell_s is not None:
             raise ValueError(f'mission {self.id}: only a route has waypoints to dwell at')
+        if self.mode is not MissionMode.TRACK and self.side is not None:
+            raise ValueError(f'mission {self.id}: only who tracks keeps to a side')
         if self.pattern is not Pattern.ORBIT and self.turns is not None:
             raise ValueError(f'mission {self.id}: only an orbit has turns')
         return self

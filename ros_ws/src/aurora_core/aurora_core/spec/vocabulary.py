@@ -111,6 +111,15 @@ class Pattern(StrEnum):
     WAYPOINTS = 'waypoints'
 
 
+class Side(StrEnum):
+    """Of a moving target, relative to its heading."""
+
+    AHEAD = 'ahead'
+    BEHIND = 'behind'
+    LEFT = 'left'
+    RIGHT = 'right'
+
+
 class LinkOcclusion(StrEnum):
     """What it does to a message that something stands in the line of sight."""
 

@@ -10,7 +10,7 @@ from aurora_core.parsing.llm.reading import LinkReading, MissionReading
 from aurora_core.parsing.scene import LinkDraft, MissionDraft
 from aurora_core.parsing.values import default
 from aurora_core.spec.parameter import Parameter
-from aurora_core.spec.vocabulary import MissionMode, Pattern
+from aurora_core.spec.vocabulary import MissionMode, Pattern, Side
 
 
 def add_mission(said: MissionReading, parts: Parts) -> None:
@@ -35,6 +35,7 @@ def add_mission(said: MissionReading, parts: Parts) -> None:
             altitude=parts.number('altitude', said.altitude_m, f'{where}.altitude_m'),
             standoff=parts.number('standoff', said.standoff_m, f'{where}.standoff_m'),
             bearing=parts.number('bearing', said.bearing_deg, f'{where}.bearing_deg'),
+            side=_side(said, parts),
             duration=parts.number('mission_duration', said.duration_s, f'{where}.duration_s'),
             pattern=said.pattern if said.mode is MissionMode.NAVIGATE else None,
             size=_size(said, parts),
@@ -49,6 +50,13 @@ def add_mission(said: MissionReading, parts: Parts) -> None:
             span=parts.span(said.quote, where),
         )
     )
+
+
+def _side(said: MissionReading, parts: Parts) -> Side | None:
+    if said.side is not None and said.mode is not MissionMode.TRACK:
+        parts.complaints.append(f'{said.id}.side: only who tracks keeps to a side')
+        return None
+    return said.side
 
 
 def _turns(said: MissionReading, parts: Parts) -> Parameter | None:

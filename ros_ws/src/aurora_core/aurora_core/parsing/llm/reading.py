@@ -21,6 +21,7 @@ from aurora_core.spec.vocabulary import (
     MissionMode,
     Pattern,
     Relation,
+    Side,
     TimeOfDay,
     TrafficDensity,
     Weather,
@@ -94,6 +95,7 @@ class MissionReading(Document):
     altitude_m: Number | None = None
     standoff_m: Number | None = None
     bearing_deg: Number | None = None
+    side: Side | None = None
     duration_s: Number | None = None
     pattern: Pattern | None = None
     length_m: Number | None = None

@@ -102,6 +102,7 @@ def honest_reading(spec: ScenarioSpec) -> dict[str, Any]:
                 **numbers(m, 'waypoint_count', 'turns', 'speed_mps'),
                 'length_m': number(m.size_m[0]) if m.size_m else None,
                 'width_m': number(m.size_m[1]) if m.size_m and m.size_m[1].value else None,
+                'side': None if m.side is None else m.side.value,
                 'pattern': m.pattern.value if m.pattern else None,
                 'over_streets': m.over_streets,
                 'ends_in_flight': m.ends_in_flight,
