@@ -76,7 +76,7 @@ def _pattern(flight: Flight, requirement: Mapping[str, Any], xy: FloatArray) -> 
             judged = flights.waypoints(xy, int(count)) if count else _goes_there(flight, xy)
         case _:
             flown = len(flights.corners(xy))
-            if flown < 3:
+            if flown < (2 if pattern == 'line' else 3):
                 return does_not(f'no {pattern}: the path has {flown} corners')
             judged = cannot_tell(f'{pattern} without a size: {flown} corners')
     parts = [judged]

@@ -220,6 +220,10 @@ def test_a_line_and_a_lawnmower(make_stage: Any) -> None:
     _flies(stage, [(0, 30), (0, 0), (300, 0)])
     assert stage.says({**line, 'size_m': [300, 0]}) == 'holds'
     assert stage.says({**line, 'size_m': [270, 0]}) == 'does_not'
+    straight = make_stage()
+    _flies(straight, [(0, 0), (100, 0)])
+    assert straight.says(line) == 'cannot_tell'  # of any length; two corners are enough
+    assert straight.says({**RECTANGLE, 'pattern': 'rectangle'}) == 'does_not'
     mower = {**RECTANGLE, 'pattern': 'lawnmower'}
     stage = make_stage()
     legs = [(0, 0), (100, 0), (100, 20), (0, 20), (0, 40), (100, 40)]
