@@ -76,13 +76,14 @@ def for_all(parts: list[Fields], names: Iterable[str]) -> Fields:
 def world_fields(r: WorldRequirement, subject: Subject, rule: NumberRule) -> Fields:
     """Compare one field of the world; an unstated one has its default."""
     world = subject.spec.world
-    if r.field == 'duration_s':
-        return {'value': rule.counts('value', float(r.value), world.duration_s)}
+    if r.field in ('duration_s', 'wind_mps', 'wind_from_deg'):
+        return {'value': rule.counts('value', float(r.value), getattr(world, r.field))}
     found = {
         'weather': world.weather,
         'time_of_day': world.time_of_day,
         'map': world.map_name,
         'traffic_density': world.traffic_density or '',
+        'wind': world.wind or '',
     }.get(r.field)
     return {'value': found is not None and str(found) == str(r.value)}
 

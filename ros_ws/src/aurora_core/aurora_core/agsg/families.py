@@ -35,6 +35,7 @@ _QUANTITIES = {
         QuantityName.COUNT,
         QuantityName.TRAFFIC,
         QuantityName.WORLD_SETTING,
+        QuantityName.WIND,
     ),
     EdgeType.TEMPORAL: (
         QuantityName.EVENT_TIME,

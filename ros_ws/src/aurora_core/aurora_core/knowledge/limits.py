@@ -15,6 +15,7 @@ from aurora_core.errors import ConfigError
 from aurora_core.files import CONFIG_BYTES, read_json
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.spec.scene import World
 from aurora_core.spec.vocabulary import TimeOfDay, Weather
 
 # A limit or tolerance of zero would forbid everything; a share lies in (0, 1].
@@ -53,6 +54,7 @@ class Limits(_Table):
     horizon_inferred_min_s: NotNegative
     wind_mean_mps: dict[str, NotNegative]  # by weather
     wind_gust_mps: dict[str, NotNegative]  # by weather
+    wind_max_mps: NotNegative = omitted(15.0)  # mean of a wind that a request names
     uavs_max: Annotated[int, Field(ge=0)]
     agents_max: Annotated[int, Field(ge=0)]
 
@@ -173,9 +175,13 @@ class Tolerances(_Table):
 _T = TypeVar('_T', bound=_Table)
 
 
-def hover_drift_limit_m(weather: str, limits: Limits, tolerances: Tolerances) -> float:
-    """Return the drift allowed while hovering in a weather: more in wind."""
-    windy = limits.wind_mean_mps[weather] > 0.0 or limits.wind_gust_mps[weather] > 0.0
+def hover_drift_limit_m(world: World, limits: Limits, tolerances: Tolerances) -> float:
+    """Return the drift allowed while hovering in a world: more in wind, its own or a named one."""
+    weather = world.weather.value
+    mean_mps = limits.wind_mean_mps[weather]
+    if world.wind_mps is not None:
+        mean_mps = world.wind_mps.value
+    windy = mean_mps > 0.0 or limits.wind_gust_mps[weather] > 0.0
     return tolerances.hover_drift_wind_m if windy else tolerances.hover_drift_calm_m
 
 
@@ -190,7 +196,7 @@ def hover_capture_m(spec: ScenarioSpec, uav: str, limits: Limits, tolerances: To
         for c in spec.conditions
         if c.quantity == QuantityName.HOVER_DRIFT and uav in c.of and c.op in ('<', '<=')
     )
-    return min((hover_drift_limit_m(spec.world.weather.value, limits, tolerances), *stated))
+    return min((hover_drift_limit_m(spec.world, limits, tolerances), *stated))
 
 
 def load_limits(path: Path) -> Limits:

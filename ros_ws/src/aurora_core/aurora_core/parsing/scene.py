@@ -25,6 +25,7 @@ from aurora_core.spec.vocabulary import (
     ClauseStatus,
     MissionMode,
     Pattern,
+    RelativeWind,
     Role,
     Side,
     TimeOfDay,
@@ -140,6 +141,9 @@ class WorldDraft:
     time_of_day: TimeOfDay | None = None
     time_of_day_span: Span | None = None
     traffic: TrafficDensity | None = None
+    wind_speed: Parameter | None = None
+    wind_from: Parameter | None = None
+    wind: RelativeWind | None = None
     duration: Parameter | None = None
 
 

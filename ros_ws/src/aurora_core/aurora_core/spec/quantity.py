@@ -63,3 +63,4 @@ class QuantityName(StrEnum):
     PATTERN_EXTENT = 'pattern_extent'
     ANGLE_SWEPT = 'angle_swept'
     SIDE_FRACTION = 'side_fraction'
+    WIND = 'wind'

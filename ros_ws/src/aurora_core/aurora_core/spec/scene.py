@@ -20,6 +20,7 @@ from aurora_core.spec.vocabulary import (
     Pattern,
     Place,
     Relation,
+    RelativeWind,
     Role,
     Side,
     TimeOfDay,
@@ -31,7 +32,13 @@ from aurora_core.spec.vocabulary import (
 class World(Element):
     """Where and when: map name, weather, time of day, traffic, horizon (None = inferred).
 
+    A wind that is named, in one of three ways or several, replaces that of the weather; gusts are
+    those of the weather.
+
     Attributes:
+        wind_mps: Mean speed of the wind.
+        wind_from_deg: Compass bearing that it comes from; None: open.
+        wind: How it meets the longest leg, or the way of a tracked vehicle at capture.
         seed: The seed that the prompt asks for; None: that of the run.
     """
 
@@ -42,8 +49,17 @@ class World(Element):
     time_of_day_span: Span | None = None
     traffic_density: TrafficDensity | None = None
     duration_s: Parameter | None = None
+    wind_mps: Parameter | None = omitted(None)
+    wind_from_deg: Parameter | None = omitted(None)
+    wind: RelativeWind | None = omitted(None)
+    wind_span: Span | None = omitted(None)
     seed: Seed | None = omitted(None)
     span: Span | None = None
+
+    @property
+    def names_wind(self) -> bool:
+        """Tell whether the request says something of the wind itself."""
+        return not (self.wind_mps is None and self.wind_from_deg is None and self.wind is None)
 
 
 class Placement(Element):

@@ -50,6 +50,14 @@ class TrafficDensity(StrEnum):
     HIGH = 'high'
 
 
+class RelativeWind(StrEnum):
+    """How a wind meets who flies."""
+
+    CROSSWIND = 'crosswind'
+    HEADWIND = 'headwind'
+    TAILWIND = 'tailwind'
+
+
 class Place(StrEnum):
     """Place kinds; landmark names of the map are written `landmark:<name>`."""
 

@@ -28,6 +28,7 @@ from aurora_core.spec.vocabulary import (
     Pattern,
     Place,
     Relation,
+    RelativeWind,
     Side,
     TimeOfDay,
     TrafficDensity,
@@ -129,7 +130,7 @@ def test_every_action_stands_where_it_belongs() -> None:
     'words',
     [
         *(AgentType, MissionMode, Pattern, Side, Place, Relation),
-        *(Weather, TimeOfDay, TrafficDensity),
+        *(Weather, TimeOfDay, TrafficDensity, RelativeWind),
     ],
 )
 def test_the_page_knows_the_whole_vocabulary(words: type[StrEnum]) -> None:

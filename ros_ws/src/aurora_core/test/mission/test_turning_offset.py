@@ -74,4 +74,5 @@ def test_an_offset_of_nothing_stays_nothing() -> None:
     offset = TurningOffset((0.0, 0.0), SETTINGS, DT_S)
     for course in ((1.0, 0.0), (-1.0, 0.0)):
         place, velocity = offset.step((5.0 * course[0], 0.0), course)
-        assert (place, velocity) == (pytest.approx((0.0, 0.0)), pytest.approx((0.0, 0.0)))
+        assert place == pytest.approx((0.0, 0.0))
+        assert velocity == pytest.approx((0.0, 0.0))

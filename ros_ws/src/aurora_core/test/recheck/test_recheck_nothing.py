@@ -73,6 +73,21 @@ def test_what_has_no_extent_is_refused_with_a_proof(prompt: str, reason: str) ->
         assert recheck(proof, document).valid
 
 
+@pytest.mark.parametrize('speed_mps', [15.5, -1.0])
+def test_a_wind_beyond_its_limit_is_refused_with_a_proof(speed_mps: float) -> None:
+    spec = read(f'{ORBIT} 40 m at 40 m.')
+    asked = spec.missions[0].altitude_m.model_copy(
+        update={'value': speed_mps, 'unit': Unit.METRE_PER_SECOND}
+    )
+    spec = spec.model_copy(update={'world': spec.world.model_copy(update={'wind_mps': asked})})
+    verdict = check_stage(_KNOWN, build_agsg(spec, map_digest=''))
+    assert [(c.rule, c.reason) for c in verdict.certificates] == [(Rule.LIMIT, 'speed_limit')]
+    proof, document = verdict.certificates[0], spec.model_dump(mode='json')
+    assert recheck(proof, document).valid
+    inside = {**document['world'], 'wind_mps': {**document['world']['wind_mps'], 'value': 14.0}}
+    assert not recheck(proof, {**document, 'world': inside}).valid
+
+
 @pytest.mark.parametrize('turns', [0.0, -2.0])
 def test_an_orbit_without_turns_is_refused_with_a_proof(turns: float) -> None:
     spec = read(f'{ORBIT} 40 m at 40 m.')

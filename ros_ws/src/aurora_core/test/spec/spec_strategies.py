@@ -22,6 +22,7 @@ from aurora_core.spec.vocabulary import (
     Pattern,
     Place,
     Relation,
+    RelativeWind,
     Role,
     Side,
     TimeOfDay,
@@ -141,6 +142,10 @@ class _Scene:
             'time_of_day_span': self.span()['span'],
             'traffic_density': self.maybe(st.sampled_from(TrafficDensity)),
             'duration_s': self.maybe_number(Unit.SECOND),
+            'wind_mps': self.maybe_number(Unit.METRE_PER_SECOND),
+            'wind_from_deg': self.maybe_number(Unit.DEGREE),
+            'wind': self.maybe(st.sampled_from(RelativeWind)),
+            'wind_span': self.span()['span'],
             'seed': self.maybe(st.integers(0, SEED_MAX)),
             **self.span(),
         }

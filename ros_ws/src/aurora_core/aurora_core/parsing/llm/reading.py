@@ -21,6 +21,7 @@ from aurora_core.spec.vocabulary import (
     MissionMode,
     Pattern,
     Relation,
+    RelativeWind,
     Side,
     TimeOfDay,
     TrafficDensity,
@@ -53,6 +54,9 @@ class WorldReading(Document):
     time_of_day: TimeOfDay | None = None
     traffic_density: TrafficDensity | None = None
     duration_s: Number | None = None
+    wind_mps: Number | None = None
+    wind_from_deg: Number | None = None
+    wind: RelativeWind | None = None
 
 
 class PlacementReading(Document):
