@@ -213,7 +213,7 @@ def _action(a: Action, event_id: str, names: Names, numbers: Numbers) -> Doc:
     if a.do == 'send_message':
         sender = names.body(a.sender) if a.sender is not None else names.uav(None)
         return {'do': a.do, 'sender': sender, 'receiver': names.body(a.receiver)}
-    if a.do in ('land', 'ascend', 'change_mission'):
+    if a.do in ('land', 'return_home', 'ascend', 'change_mission'):
         found: Doc = {'do': a.do, 'uav': names.uav(a.uav)}
         if a.do == 'change_mission':
             return found | {'mission': f'{event_id}_mission'}

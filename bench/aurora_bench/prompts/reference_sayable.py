@@ -27,7 +27,7 @@ from aurora_core.spec.vocabulary import Pattern
 _OF_A_FLIGHT = ('start', 'end', 'avoid', 'avoid_m')
 _OF_A_LINK = ('outage_s', 'rate_hz')
 _TRIGGERS = frozenset({'battery_below'})
-_ACTIONS = frozenset({'return_home', 'hand_over'})
+_ACTIONS = frozenset({'hand_over'})
 
 
 def check_sayable(r: Requirement) -> None:

@@ -32,6 +32,7 @@ _QUANTITIES = {
         QuantityName.PATTERN_EXTENT,
         QuantityName.ANGLE_SWEPT,
         QuantityName.SIDE_FRACTION,
+        QuantityName.RETURN_DISTANCE,
         QuantityName.COUNT,
         QuantityName.TRAFFIC,
         QuantityName.WORLD_SETTING,

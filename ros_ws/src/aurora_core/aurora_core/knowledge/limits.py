@@ -114,6 +114,7 @@ class Tolerances(_Table):
     pattern_centre_m: NotNegative
     orbit_deg: NotNegative  # on the turns of an orbit
     side_deg: NotNegative = omitted(45.0)  # how far off its direction a side reaches
+    return_m: NotNegative = omitted(3.0)  # how far from its start who returns may land
     capture_s: NotNegative
     tracked_fraction: Share
     visible_fraction: Share

@@ -63,6 +63,7 @@ class UavPlan(Document):
         safe_altitude_m: Above every obstacle around, used when no way at mission altitude is free.
         lands: After its missions; else it holds where the last one ended.
         lands_after: Events that have to be over before it lands.
+        returns: It lands where it started, and nowhere else.
     """
 
     id: str
@@ -75,3 +76,4 @@ class UavPlan(Document):
     safe_altitude_m: FiniteFloat
     lands: bool = omitted(True)
     lands_after: tuple[str, ...] = omitted(())
+    returns: bool = omitted(False)

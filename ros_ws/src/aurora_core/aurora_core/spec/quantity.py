@@ -64,3 +64,4 @@ class QuantityName(StrEnum):
     ANGLE_SWEPT = 'angle_swept'
     SIDE_FRACTION = 'side_fraction'
     WIND = 'wind'
+    RETURN_DISTANCE = 'return_distance'

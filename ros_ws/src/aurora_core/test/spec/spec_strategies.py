@@ -276,7 +276,7 @@ class _Scene:
     def action(self) -> _Document | None:
         kinds = ['agent'] if self.agents else []
         kinds += ['send_message'] if len(self.bodies) > 1 else []
-        kinds += ['land', 'ascend'] if self.uavs else []
+        kinds += ['land', 'return_home', 'ascend'] if self.uavs else []
         kinds += ['change_mission'] if self.missions else []
         if not kinds:
             return None

@@ -160,6 +160,7 @@ class ActionReading(Document):
         'start',
         'cross',
         'land',
+        'return_home',
         'ascend',
         'change_mission',
     ]

@@ -11,7 +11,7 @@ import pytest
 
 from aurora_core.parsing.llm.check import Judgement
 from aurora_core.spec.parameter import Provenance
-from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.spec.scenario import ScenarioSpec, UavAction
 from aurora_core.spec.vocabulary import RelativeWind, Side
 
 Judge = Callable[..., Judgement]
@@ -88,6 +88,24 @@ def test_a_side_and_a_wind_are_read(judged: Judge) -> None:
     assert spec.world.wind is RelativeWind.CROSSWIND
     assert spec.world.wind_mps is not None
     assert (spec.world.wind_mps.value, spec.world.wind_from_deg) == (6.0, None)
+
+
+def test_a_return_is_read(judged: Judge) -> None:
+    prompt = 'A drone flies two turns round a bus on an orbit. After 60 s it returns to its start.'
+    reading = _orbit()
+    reading['events'] = [
+        {
+            'id': 'e',
+            'trigger': {'on': 'time', 'value': {'value': 60, 'unit': 's', 'quote': '60 s'}},
+            'action': {'do': 'return_home', 'subject': 'u'},
+            'quote': 'it returns to its start',
+        }
+    ]
+    said = {'quote': 'After 60 s it returns to its start', 'status': 'encoded', 'ids': ['e']}
+    reading['clauses'].append(said)
+    action = _spec(judged(reading, prompt)).events[0].action
+    assert isinstance(action, UavAction)
+    assert (action.do, action.uav, action.lands) == ('return_home', 'uav1', True)
 
 
 @pytest.mark.parametrize(
