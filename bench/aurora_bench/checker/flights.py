@@ -27,6 +27,8 @@ DOUBT_M = 3.0
 CORNER_M = 2.0
 # A flight to the first waypoint and one back from the last may hang on a pattern.
 SPARE_CORNERS = 3
+# So much of a circle may be flown on the way to its first point.
+ORBIT_DOUBT_DEG = 60.0
 
 
 def corners(xy: FloatArray, tolerance_m: float = CORNER_M) -> list[int]:
@@ -156,14 +158,15 @@ def _swept(angle: FloatArray) -> float:
 
 
 def orbit(
-    xy: FloatArray, centres: Sequence[FloatArray], radius_m: float | None, turns: float = 1.0
+    xy: FloatArray, centres: Sequence[FloatArray], radius_m: float | None, turns: float | None
 ) -> tuple[Judged, FloatArray | None]:
     """Return whether a circle was flown round one of the centres (without one: anywhere).
 
     Args:
         radius_m: None: any one radius, kept within the tolerance.
-        turns: How many times round.
+        turns: How many times round; None: once at least.
     """
+    asked = 360.0 * (1.0 if turns is None else turns)
     best, centre, why = -np.inf, None, 'no path'
     for middle in centres or [_fitted_centre(xy)]:
         delta = xy - middle
@@ -177,8 +180,16 @@ def orbit(
             swept = max(swept, _swept(angle[a:b]))
         if swept > best:
             best, centre = swept, middle
-            why = f'{np.degrees(swept):.0f} degrees at {radius:.0f} m (asked {turns:g} turns)'
-    return decide(np.degrees(best) >= 360.0 * turns - limits.ORBIT_DEG, why), centre
+            why = f'{np.degrees(swept):.0f} degrees at {radius:.0f} m'
+            why += f' (asked {asked / 360.0:g} turns)'
+    over = float(np.degrees(best)) - asked
+    enough = over >= -limits.ORBIT_DEG
+    if turns is None:
+        return decide(enough, why), centre
+    # The way to the first point of the circle may lie on it.
+    return graded(
+        enough and over <= limits.ORBIT_DEG, enough and over <= ORBIT_DOUBT_DEG, why
+    ), centre
 
 
 def _fitted_centre(xy: FloatArray) -> FloatArray:

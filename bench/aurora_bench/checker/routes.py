@@ -58,7 +58,7 @@ def _pattern(flight: Flight, requirement: Mapping[str, Any], xy: FloatArray) -> 
         case 'line' if size:
             judged, centre = flights.line(xy, float(size[0]))
         case 'orbit':
-            turns = float(requirement.get('turns') or 1.0)
+            turns = None if requirement.get('turns') is None else float(requirement['turns'])
             radius = requirement.get('radius_m')
             centres = [
                 xy for t in flight.targets if not scene.is_body(t) for xy in _centres(places, t)
@@ -76,7 +76,7 @@ def _pattern(flight: Flight, requirement: Mapping[str, Any], xy: FloatArray) -> 
             judged = flights.waypoints(xy, int(count)) if count else _goes_there(flight, xy)
         case _:
             flown = len(flights.corners(xy))
-            if flown < 3:
+            if flown < (2 if pattern == 'line' else 3):
                 return does_not(f'no {pattern}: the path has {flown} corners')
             judged = cannot_tell(f'{pattern} without a size: {flown} corners')
     parts = [judged]
@@ -97,7 +97,9 @@ def _centres(places: Any, name: str) -> Sequence[Any]:
     return (*(s.xy for s in spots), *(np.array([m.x, m.y]) for m in middles))
 
 
-def _orbit_of_body(flight: Flight, bodies: Sequence[str], radius: Any, turns: float) -> Judged:
+def _orbit_of_body(
+    flight: Flight, bodies: Sequence[str], radius: Any, turns: float | None
+) -> Judged:
     """Return whether a body is circled, where it stood at t = 0 or where it is."""
     scene = flight.scene
     step = max(1, round(0.2 / scene.dt_s))

@@ -15,6 +15,7 @@ from aurora_bench.checker.case import Case, Requirement
 from aurora_bench.checker.numbers import wanted
 from aurora_bench.checker.phases import segments
 from aurora_bench.checker.recording import FloatArray
+from aurora_bench.checker.winds import wind
 
 # Lanes that are so near and of one street are one street.
 STREET_M = 14.0
@@ -46,7 +47,7 @@ def world(case: Case, requirement: Requirement) -> Judged:
         case 'traffic_density':
             return _traffic(case, str(value))
         case 'wind_mps' | 'wind_from_deg' | 'wind' as field:
-            return _wind(case, field, value)
+            return wind(case, field, value)
         case other:
             return cannot_tell(f'field {other!r} is not known')
 
@@ -55,48 +56,6 @@ def _as_duration(case: Case, requirement: Requirement) -> dict[str, object]:
     own = case.variation.get(f'{requirement.get("id")}.value')
     own = case.variation.get(f'{requirement.get("id")}.duration_s', own)
     return {} if own is None else {f'{requirement.get("id")}.duration_s': own}
-
-
-def _wind(case: Case, field: str, value: object) -> Judged:
-    east, north = case.scene.world.wind_mps
-    speed = float(np.hypot(east, north))
-    if field == 'wind_mps' and isinstance(value, int | float):
-        slack = limits.tolerance((0.05, limits.REALISED_SHARE), float(value))
-        return decide(abs(speed - value) <= slack, f'mean wind {speed:.2f} m/s')
-    if speed < 0.05:
-        return does_not('no wind is recorded')
-    origin = float(np.degrees(np.arctan2(-east, -north)) % 360.0)
-    if field == 'wind_from_deg' and isinstance(value, int | float):
-        off = abs((origin - value + 180.0) % 360.0 - 180.0)
-        return decide(off <= limits.BEARING_DEG, f'wind from {origin:.0f} degrees')
-    angles = [a for uav in _uavs(case) for a in _to_legs(case, uav, np.array([east, north]))]
-    if not angles:
-        return cannot_tell(f'wind from {origin:.0f} degrees, no leg to compare it with')
-    want = {'tailwind': 0.0, 'headwind': 180.0, 'crosswind': 90.0}.get(str(value))
-    if want is None:
-        return cannot_tell(f'wind {value!r} is not known')
-    off = min(abs(a - want) for a in angles)
-    shown = [round(a) for a in angles]
-    return graded(off <= limits.SIDE_DEG, off <= 60.0, f'{shown} degrees to the longest leg')
-
-
-def _uavs(case: Case) -> list[str]:
-    return [b.body_id for b in case.scene.bodies.values() if b.is_uav]
-
-
-def _to_legs(case: Case, uav: str, wind: FloatArray) -> list[float]:
-    found = []
-    for segment in segments(case.scene, uav):
-        xy = case.scene.xy(uav)[segment.start : segment.end]
-        simple = (
-            shapely.get_coordinates(shapely.LineString(xy).simplify(2.0)) if len(xy) > 1 else xy
-        )
-        legs = np.diff(simple, axis=0)
-        if len(legs) and np.linalg.norm(legs, axis=1).max() > 5.0:
-            leg = legs[np.linalg.norm(legs, axis=1).argmax()]
-            cosine = leg @ wind / np.linalg.norm(leg) / np.linalg.norm(wind)
-            found.append(float(np.degrees(np.arccos(np.clip(cosine, -1.0, 1.0)))))
-    return found
 
 
 def _traffic(case: Case, value: str) -> Judged:

@@ -22,6 +22,7 @@ _WORDING = frozenset(
         'span',
         'weather_span',
         'time_of_day_span',
+        'wind_span',
         'group',
         'id',
         'kept_in_motion',

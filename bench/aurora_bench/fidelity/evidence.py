@@ -59,7 +59,7 @@ _WORDS: dict[str, str] = {
     'mission_done': 'finish|done|after',
     'send_message': 'warn|alert|messag|msg|inform|tell|report|send',
     'accelerate': 'accelerat', 'start': 'start|leav', 'change_mission': 'follow|hover|then',
-    'land': 'land', 'ascend': r'climb|ascend|up\b',
+    'land': 'land', 'return_home': 'return|home|back', 'ascend': r'climb|ascend|up\b',
     'tracked_fraction': 'track', 'visible_time': 'see|view|sight|visible',
     'visible_fraction': 'see|view|sight|visible',
     'separation': 'apart|separat|between|nearer|closer',

@@ -76,13 +76,14 @@ def for_all(parts: list[Fields], names: Iterable[str]) -> Fields:
 def world_fields(r: WorldRequirement, subject: Subject, rule: NumberRule) -> Fields:
     """Compare one field of the world; an unstated one has its default."""
     world = subject.spec.world
-    if r.field == 'duration_s':
-        return {'value': rule.counts('value', float(r.value), world.duration_s)}
+    if r.field in ('duration_s', 'wind_mps', 'wind_from_deg'):
+        return {'value': rule.counts('value', float(r.value), getattr(world, r.field))}
     found = {
         'weather': world.weather,
         'time_of_day': world.time_of_day,
         'map': world.map_name,
         'traffic_density': world.traffic_density or '',
+        'wind': world.wind or '',
     }.get(r.field)
     return {'value': found is not None and str(found) == str(r.value)}
 
@@ -151,13 +152,19 @@ def behavior_fields(r: BehaviorRequirement, subject: Subject, rule: NumberRule) 
 
 _MISSION_NUMBERS = (
     'altitude_m', 'standoff_m', 'bearing_deg', 'duration_s', 'radius_m', 'waypoint_count',
-    'speed_mps',
+    'turns', 'speed_mps',
 )  # fmt: skip
 
 
 def mission_names(r: MissionRequirement) -> list[str]:
     """Return the annotated fields of a mission."""
-    names = ['uav', 'mode', *_named(r.target, 'target'), *_named(r.pattern, 'pattern')]
+    names = [
+        'uav',
+        'mode',
+        *_named(r.target, 'target'),
+        *_named(r.pattern, 'pattern'),
+        *_named(r.side, 'side'),
+    ]
     return [*names, *_numbers(r, *_MISSION_NUMBERS), *_numbers(r, 'size_m')]
 
 
@@ -171,6 +178,8 @@ def mission_fields(
         fields['target'] = subject.binding.means(r.target, mission.target)
     if r.pattern is not None:
         fields['pattern'] = mission.pattern is r.pattern
+    if r.side is not None:
+        fields['side'] = mission.side is not None and mission.side.value == r.side
     for name in _numbers(r, *_MISSION_NUMBERS):
         fields[name] = rule.counts(name, getattr(r, name), getattr(mission, name))
     if r.size_m is not None:
@@ -238,7 +247,9 @@ _READ: dict[str, frozenset[str]] = {
     'uav': frozenset({'ref', 'count'}),
     'placement': frozenset({'agent', 'relation', 'of', 'distance_m', 'bearing_deg'}),
     'behavior': frozenset({'agent', 'behavior', 'target', 'speed_mps'}),
-    'mission': frozenset({'ref', 'uav', 'mode', 'target', 'pattern', 'size_m', *_MISSION_NUMBERS}),
+    'mission': frozenset(
+        {'ref', 'uav', 'mode', 'target', 'pattern', 'side', 'size_m', *_MISSION_NUMBERS}
+    ),
     'link': frozenset({'sender', 'receiver', 'loss', 'latency_s', 'range_m', 'retransmissions'}),
     'event': frozenset({'ref', 'trigger', 'action'}),
     'count': frozenset({'type', 'of', 'value', 'scope'}),

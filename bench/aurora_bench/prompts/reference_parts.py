@@ -45,7 +45,7 @@ DEFAULTS: dict[str, tuple[float, float, float]] = {
 SIZE_M = (100.0, 60.0)
 _MISSION_NUMBERS = (
     'altitude_m', 'standoff_m', 'bearing_deg', 'duration_s', 'radius_m', 'waypoint_count',
-    'speed_mps',
+    'turns', 'speed_mps',
 )  # fmt: skip
 
 
@@ -142,6 +142,7 @@ def mission(
     prefix = 'action.' if isinstance(r, Action) else ''
     mode = r.mode.value if r.mode is not None else ('track' if r.target else 'hover')
     found: Doc = {'id': ident, 'uav': uav, 'mode': mode, 'target': names.one(r.target)}
+    found |= {} if r.side is None else {'side': r.side}
     found |= {'altitude_m': default('altitude_m'), **numbers.of(r, _MISSION_NUMBERS, prefix)}
     if mode == 'track':
         found = {'standoff_m': default('standoff_m'), **found}
@@ -221,7 +222,7 @@ def _action(a: Action, event_id: str, names: Names, numbers: Numbers) -> Doc:
     if a.do == 'send_message':
         sender = names.body(a.sender) if a.sender is not None else names.uav(None)
         return {'do': a.do, 'sender': sender, 'receiver': names.body(a.receiver)}
-    if a.do in ('land', 'ascend', 'change_mission'):
+    if a.do in ('land', 'return_home', 'ascend', 'change_mission'):
         found: Doc = {'do': a.do, 'uav': names.uav(a.uav)}
         if a.do == 'change_mission':
             return found | {'mission': f'{event_id}_mission'}

@@ -18,18 +18,16 @@ from aurora_bench.prompts.format import (
     LinkRequirement,
     MissionRequirement,
     Requirement,
-    WorldRequirement,
     stated_fields,
 )
 from aurora_bench.prompts.reference_names import NotExpressibleError
 from aurora_core.spec.requirements import STATED_QUANTITIES
 from aurora_core.spec.vocabulary import Pattern
 
-_WIND = frozenset({'wind', 'wind_mps', 'wind_from_deg'})
-_OF_A_FLIGHT = ('side', 'start', 'end', 'turns', 'avoid', 'avoid_m')
+_OF_A_FLIGHT = ('start', 'end', 'avoid', 'avoid_m')
 _OF_A_LINK = ('outage_s', 'rate_hz')
 _TRIGGERS = frozenset({'battery_below'})
-_ACTIONS = frozenset({'return_home', 'hand_over'})
+_ACTIONS = frozenset({'hand_over'})
 
 
 def check_sayable(r: Requirement) -> None:
@@ -44,9 +42,7 @@ def check_sayable(r: Requirement) -> None:
 
 
 def _unsayable(r: Requirement) -> Iterator[str]:
-    if isinstance(r, WorldRequirement) and r.field in _WIND:
-        yield f'world {r.field}'
-    elif isinstance(r, CountRequirement) and (r.type is None or r.scope != 'scene'):
+    if isinstance(r, CountRequirement) and (r.type is None or r.scope != 'scene'):
         yield 'count of what has a name'
     elif isinstance(r, MissionRequirement):
         yield from (f'mission {what}' for what in _of_flight(r))

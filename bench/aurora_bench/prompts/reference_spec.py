@@ -41,9 +41,12 @@ from aurora_bench.prompts.reference_parts import (
 )
 from aurora_bench.prompts.reference_sayable import check_sayable
 from aurora_bench.prompts.reference_spans import StatedSpans
+from aurora_core.spec.parameter import unit_of
 from aurora_core.spec.scenario import ScenarioSpec
 
 _MOST_READINGS = 64
+# Fields of the world that are numbers.
+WORLD_NUMBERS = frozenset({'duration_s', 'wind_mps', 'wind_from_deg'})
 
 
 def reference_spec(prompt: AnnotatedPrompt, *, judged: bool = False) -> ScenarioSpec:
@@ -193,8 +196,9 @@ class _Builder:
             yield {**first, 'id': f'{first["id"]}_{k}', 'action': action}
 
     def _world(self, r: WorldRequirement, numbers: Numbers) -> None:
-        if r.field == 'duration_s':
-            self._spec['world']['duration_s'] = numbers.stated('value', float(r.value), 's')
+        if r.field in WORLD_NUMBERS:
+            number = numbers.stated('value', float(r.value), unit_of(r.field).value)
+            self._spec['world'][r.field] = number
         else:
             self._spec['world']['map_name' if r.field == 'map' else r.field] = r.value
 
@@ -202,7 +206,7 @@ class _Builder:
         """Forbid what must not be so, for the kinds that prompts forbid."""
         numbers = self._numbers(r)
         found: Doc = {'forbids': r.kind, 'id': self._new('no')}
-        if r.kind == 'world' and r.field != 'duration_s':
+        if r.kind == 'world' and r.field not in WORLD_NUMBERS:
             found['map_name' if r.field == 'map' else r.field] = r.value
         elif r.kind == 'placement':
             agent = self._names.agent(r.agent)

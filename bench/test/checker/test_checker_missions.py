@@ -220,6 +220,10 @@ def test_a_line_and_a_lawnmower(make_stage: Any) -> None:
     _flies(stage, [(0, 30), (0, 0), (300, 0)])
     assert stage.says({**line, 'size_m': [300, 0]}) == 'holds'
     assert stage.says({**line, 'size_m': [270, 0]}) == 'does_not'
+    straight = make_stage()
+    _flies(straight, [(0, 0), (100, 0)])
+    assert straight.says(line) == 'cannot_tell'  # of any length; two corners are enough
+    assert straight.says({**RECTANGLE, 'pattern': 'rectangle'}) == 'does_not'
     mower = {**RECTANGLE, 'pattern': 'lawnmower'}
     stage = make_stage()
     legs = [(0, 0), (100, 0), (100, 20), (0, 20), (0, 40), (100, 40)]
@@ -239,6 +243,20 @@ def test_an_orbit(stage: Any, turned: float, radius: float, outcome: str) -> Non
 
     stage.uav('drone', motion, ends=(58.0,))
     asked = {**RECTANGLE, 'pattern': 'orbit', 'radius_m': radius, 'target': 'City Hall'}
+    assert stage.says(asked) == outcome
+
+
+@pytest.mark.parametrize(
+    ('turned', 'outcome'),
+    [(2.0, 'holds'), (1.0, 'does_not'), (2.1, 'cannot_tell'), (3.0, 'does_not')],
+)
+def test_turns_are_counted(stage: Any, turned: float, outcome: str) -> None:
+    def motion(t: Any) -> tuple[Any, Any, Any]:
+        angle = np.clip((t - 12.0) / 45.0, 0.0, 1.0) * 2.0 * np.pi * turned
+        return 210 + 60 * np.cos(angle), 15 + 60 * np.sin(angle), 40.0
+
+    stage.uav('drone', motion, ends=(58.0,))
+    asked = {**RECTANGLE, 'pattern': 'orbit', 'turns': 2, 'target': 'City Hall'}
     assert stage.says(asked) == outcome
 
 

@@ -109,6 +109,38 @@ def test_traffic_without_a_vehicle_is_no_traffic(make_stage: Any) -> None:
     assert with_background(2).says(dense) == 'does_not'
 
 
+@pytest.mark.parametrize(
+    ('wind_mps', 'names'),
+    [((8.0, 0.0), {'tailwind'}), ((-8.0, 1.0), {'headwind'}), ((0.0, 8.0), {'crosswind'})],
+)
+def test_wind_and_the_heading_of_who_is_tracked(
+    stage: Any, wind_mps: tuple[float, float], names: set[str]
+) -> None:
+    stage.world = type(stage.world)(wind_mps=wind_mps)
+    stage.drive('bus1', 'bus', 10.0)
+    stage.uav('drone', lambda t: (10.0 * t, 0.0, 40.0), ends=(58.0,))
+    track = {
+        'kind': 'mission', 'uav': 'drone', 'mode': 'track', 'target': 'bus1',
+    }  # fmt: skip
+    held = {
+        name
+        for name in ('tailwind', 'headwind', 'crosswind')
+        if _says(stage, {'kind': 'world', 'field': 'wind', 'value': name}, track)[0] == 'holds'
+    }
+    assert held == names
+
+
+def test_a_hover_and_an_orbit_have_any_wind(stage: Any) -> None:
+    stage.world = type(stage.world)(wind_mps=(8.0, 0.0))
+    stage.uav('drone', lambda t: (0.0, 0.0, 40.0), ends=(58.0,))
+    flown: list[dict[str, Any]] = [{'mode': 'hover'}, {'mode': 'navigate', 'pattern': 'orbit'}]
+    for mission in flown:
+        asked = {'kind': 'mission', 'uav': 'drone', **mission}
+        for name in ('tailwind', 'headwind', 'crosswind'):
+            wind = {'kind': 'world', 'field': 'wind', 'value': name}
+            assert _says(stage, wind, asked)[0] == 'holds'
+
+
 def test_wind_as_recorded(stage: Any) -> None:
     stage.world = type(stage.world)(wind_mps=(0.0, -8.0))
     stage.uav('drone', lambda t: (4.0 * t, 0.0, 30.0))

@@ -68,6 +68,18 @@ def test_a_number_has_the_span_that_states_it_and_a_derived_one_the_prompt() -> 
     }  # fmt: skip
 
 
+def test_turns_are_asked_for_and_counted() -> None:
+    text = 'A drone flies two turns around Harbor Market on an orbit of 50 m radius at 8 m/s.'
+    prompt = asked({**ORBIT, 'target': 'Harbor Market', 'turns': 2}, text=text)
+    spec = reference_spec(prompt, judged=True)
+    turns = spec.missions[0].turns
+    assert turns is not None
+    assert turns.span is not None
+    assert (turns.value, turns.provenance) == (2.0, Provenance.EXPLICIT)
+    assert 'two' in text[turns.span.start : turns.span.end]
+    assert 'm1.turn' in condition_ids(spec)
+
+
 def test_what_is_not_annotated_stays_a_default() -> None:
     mission = reference_spec(asked({**ORBIT, 'pattern': 'rectangle'}), judged=True).missions[0]
     assert mission.size_m is not None

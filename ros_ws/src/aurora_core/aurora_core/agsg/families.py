@@ -31,9 +31,12 @@ _QUANTITIES = {
         QuantityName.NO_FLY_DISTANCE,
         QuantityName.PATTERN_EXTENT,
         QuantityName.ANGLE_SWEPT,
+        QuantityName.SIDE_FRACTION,
+        QuantityName.RETURN_DISTANCE,
         QuantityName.COUNT,
         QuantityName.TRAFFIC,
         QuantityName.WORLD_SETTING,
+        QuantityName.WIND,
     ),
     EdgeType.TEMPORAL: (
         QuantityName.EVENT_TIME,

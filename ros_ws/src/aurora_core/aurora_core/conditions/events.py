@@ -23,6 +23,7 @@ from aurora_core.judging.quantities import (
     event_delay,
     event_time,
     lane_change,
+    return_distance,
     sent_after_capture,
     speed_before_event,
     visible_at_send,
@@ -64,6 +65,10 @@ def event_conditions(inputs: Inputs) -> Iterator[Condition | Underivable]:
             yield altitude.climb(inputs, action, action.altitude_m, event, source)
             if event.trigger is not None and not climbs_last(event):
                 yield completion_delay.of_climb(inputs, event, action, action.altitude_m, source)
+        if isinstance(action, UavAction) and action.do == 'return_home':
+            flown = missions_of_uav(inputs, action.uav)
+            if flown:
+                yield return_distance.implied(inputs, event.id, flown, source)
         if isinstance(action, SendMessage):
             link = link_between(inputs.spec, action.sender, action.receiver)
             if link is None:

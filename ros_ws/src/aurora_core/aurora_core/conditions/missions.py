@@ -20,6 +20,7 @@ from aurora_core.judging.quantities import (
     pattern_centre,
     phase_duration,
     relation_fraction,
+    side_fraction,
     tracked_fraction,
     visible_fraction,
 )
@@ -103,6 +104,9 @@ def _track(
     if standoff := _stated(mission.standoff_m):
         source = stated_by(source, standoff)
     yield tracked_fraction.implied(inputs, arguments, target, source)
+    if mission.side is not None:
+        told = Source(ids=(mission.id,), spans=(mission.span,))
+        yield side_fraction.implied(inputs, arguments, mission.side, target, told)
     yield visible_fraction.implied(inputs, arguments, target, source)
 
 

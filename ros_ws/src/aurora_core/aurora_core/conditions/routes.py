@@ -49,7 +49,7 @@ def route_conditions(
         yield route_closed.implied(inputs, arguments, source)
     if mission.pattern is Pattern.ORBIT:
         lasts = mission.duration_s is not None or arguments.left_by is not None
-        yield angle_swept.implied(inputs, arguments, source, again=lasts)
+        yield angle_swept.implied(inputs, arguments, mission.turns, source, again=lasts)
     count = mission.waypoint_count
     if count is not None and count.provenance is Provenance.EXPLICIT:
         yield waypoints_visited.stated_count(inputs, arguments, count, source)

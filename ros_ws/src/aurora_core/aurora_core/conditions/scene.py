@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 from aurora_core.grounding.traffic import has_room_for_traffic
 from aurora_core.judging.build import Inputs
-from aurora_core.judging.quantities import count, run_duration, traffic, world_setting
+from aurora_core.judging.quantities import count, run_duration, traffic, wind, world_setting
 from aurora_core.judging.quantities.world_setting import Setting
 from aurora_core.outcomes.condition import Condition
 from aurora_core.spec.parameter import Provenance, Span
@@ -42,11 +42,24 @@ def _world(inputs: Inputs) -> Iterator[Condition]:
         # What the request leaves open may be any.
         if span is not None or asked != getattr(_WORLD, name):
             yield world_setting.implied(inputs, name, asked, span)
+    yield from _wind(inputs)
     if world.traffic_density is not None and has_room_for_traffic(inputs.spec):
         yield traffic.implied(inputs, world.traffic_density)
     duration = world.duration_s
     if duration is not None and duration.provenance is Provenance.EXPLICIT:
         yield run_duration.implied(inputs, duration)
+
+
+def _wind(inputs: Inputs) -> Iterator[Condition]:
+    """Yield that the wind is the one that is named."""
+    world = inputs.spec.world
+    speed, origin = world.wind_mps, world.wind_from_deg
+    if speed is not None and speed.provenance is Provenance.EXPLICIT:
+        yield wind.speed(inputs, speed)
+    if origin is not None and origin.provenance is Provenance.EXPLICIT:
+        yield wind.origin(inputs, origin)
+    if world.wind is not None:
+        yield wind.course(inputs, world.wind, world.wind_span)
 
 
 def _numbers(inputs: Inputs) -> Iterator[Condition]:

@@ -159,7 +159,7 @@ class EventRunner:
             or (
                 s.event.trigger is None
                 and isinstance(s.event.action, UavAction)
-                and s.event.action.do == 'land'
+                and s.event.action.lands
                 and s.event.action.uav == plan.id
                 and not self._may_follow(s.event, tick)
             )
@@ -293,7 +293,7 @@ class EventRunner:
             return holds(event, tick, dt_s, seen, self._progress)
         if not self._may_follow(event, tick):
             return False
-        if isinstance(event.action, UavAction) and event.action.do == 'land':
+        if isinstance(event.action, UavAction) and event.action.lands:
             # Nobody says when: a UAV lands after its missions.
             return event.action.uav in self._progress.missions_done
         # Nobody says when: once the UAVs watch, have flown the route that this may end, and once
@@ -425,7 +425,7 @@ def _least_mps(action: AgentAction) -> float:
 
 def _order(machine: MissionMachine, action: UavAction) -> None:
     """Let a UAV do what an event asks of it."""
-    if action.do == 'land':
+    if action.lands:
         machine.land_now()
     elif action.mission is not None:
         machine.change_to(action.mission)

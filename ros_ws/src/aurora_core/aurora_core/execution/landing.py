@@ -62,14 +62,15 @@ def landing_spot(
         for k, m in enumerate(machines)
         if k != index
     ]
+    home = (plan.home_x_m, plan.home_y_m)
     spots = sorted(
         (
             s
-            for s in plan.landing_spots
+            for s in ((home,) if plan.returns else plan.landing_spots)
             if all(norm2(s[0] - t[0], s[1] - t[1]) >= APART_M for t in taken)
         ),
         key=lambda s: (norm2(s[0] - x, s[1] - y), s),
-    ) or [(plan.home_x_m, plan.home_y_m)]
+    ) or [home]
     # Straight to the spot, or on until it has braked and back: it flies in between.
     beyond = (*machine.stop_point(uav[index]), z)
     free = []

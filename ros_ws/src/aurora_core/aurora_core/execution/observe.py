@@ -90,12 +90,14 @@ class Observation:
         return bool(driving.contains(np.array([point[:2]]))[0])
 
     def motion(self, body_id: str) -> TargetMotion | None:
-        """Return position and velocity of a ground agent, None when it is gone."""
+        """Return position, velocity and heading of a ground agent, None when it is gone."""
         row = self._roster.agent_index(body_id)
         if row is None or not instant.present(self._ground[row]):
             return None
         x, y, hx, hy, speed = self._ground[row, : GroundColumn.SPEED + 1].tolist()
-        return TargetMotion(x_m=x, y_m=y, vx_mps=hx * speed, vy_mps=hy * speed)
+        return TargetMotion(
+            x_m=x, y_m=y, vx_mps=hx * speed, vy_mps=hy * speed, heading_x=hx, heading_y=hy
+        )
 
     def line_of_sight(self, a: str, b: str) -> bool:
         """Whether no building and no third vehicle stands between two bodies."""

@@ -38,6 +38,7 @@ from aurora_core.spec.flight_order import (
     ending_landings,
     lasts_until_event,
     left_by,
+    returns_home,
 )
 from aurora_core.spec.scenario import Event, Link, ScenarioSpec, SendMessage
 from aurora_core.spec.vocabulary import Place
@@ -232,6 +233,7 @@ def plans_with_events(
                     for e in (*awaits_climbs(spec, u.id), *ending_landings(spec, u.id))
                     if awaited(e)
                 ),
+                'returns': any(awaited(e) for e in returns_home(spec, u.id)),
             }
         )
         for u in plans

@@ -205,6 +205,15 @@ def _rules(
             high=1.0,
             high_is_excluded=True,
         )
+    if spec.world.wind_mps is not None:
+        yield _Rule(
+            path='world/wind_mps',
+            parameter=spec.world.wind_mps,
+            reason='speed_limit',
+            limit_name='wind_max_mps',
+            low=0.0,
+            high=limits.wind_max_mps,
+        )
     if spec.world.duration_s is not None:
         yield _Rule(
             path='world/duration_s',

@@ -23,7 +23,7 @@ _REASONS = {
     Unit.ONE: 'comm_range',
 }
 # Pure numbers that count something, by the last part of their path.
-_COUNTS = frozenset({'waypoint_count', 'retransmissions'})
+_COUNTS = frozenset({'waypoint_count', 'retransmissions', 'turns'})
 # Flown along a width as well as a length; a line is [length, 0].
 _WIDE = frozenset({Pattern.RECTANGLE, Pattern.LAWNMOWER})
 
@@ -62,6 +62,8 @@ def _extents(mission: UavMission) -> Iterator[tuple[str, Parameter]]:
         yield 'radius_m', mission.radius_m
     if mission.waypoint_count is not None:
         yield 'waypoint_count', mission.waypoint_count
+    if mission.turns is not None:
+        yield 'turns', mission.turns
     if mission.size_m is not None:
         yield 'size_m/0', mission.size_m[0]
         if mission.pattern in _WIDE:

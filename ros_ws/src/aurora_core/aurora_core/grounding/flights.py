@@ -14,6 +14,7 @@ import numpy.typing as npt
 from aurora_core.geometry.frames import offset_at_bearing
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.airspace import Airspace
+from aurora_core.grounding.beside import side_first, side_offsets, turned_along, with_turns
 from aurora_core.grounding.laps import Laps
 from aurora_core.grounding.pace import moves
 from aurora_core.grounding.places import (
@@ -195,7 +196,12 @@ class FlightPlanner:
             return Rejected(reason='way_between_missions')
         first = _first_point(flights[0].plan, site)
         home = None
-        for spot in self._spots.near(first[0], first[1], 6 + 20 * len(taken)):
+        spots = self._spots.near(first[0], first[1], 6 + 20 * len(taken))
+        if flights[0].plan.offset_turns:
+            target = site.seat(flights[0].plan.target or '')
+            assert target is not None  # it was planned for its seat
+            spots = side_first(spots, target.path.position_at(target.arc_m)[:2], first[:2])
+        for spot in spots:
             far = all(
                 norm2(spot[0] - x, spot[1] - y) >= self._settings.home_spacing_m for x, y in taken
             )
@@ -263,18 +269,14 @@ class FlightPlanner:
         record = self._types[seat.agent.type.value]
         way_m = speed_mps * (mission.duration_s.value + 6.0)
         samples = samples_along(seat.path, seat.arc_m, way_m, self._settings.sample_spacing_m)
-        targets = np.column_stack(
-            (samples[:, 0], samples[:, 1], np.full(len(samples), record.height_m / 2.0))
-        )
+        samples = samples if mission.side is None else with_turns(samples)
+        targets = _at_height(samples[:, :2], record.height_m / 2.0)
         best: PlannedFlight | None = None
         for offset in self._offsets(mission, samples[0], self._share(spec, mission)):
-            points = np.column_stack(
-                (
-                    samples[:, 0] + offset[0],
-                    samples[:, 1] + offset[1],
-                    np.full(len(samples), self._planned_height_m(mission)),
-                )
-            )
+            beside = samples[:, :2] + np.array(offset)
+            if mission.side is not None:
+                beside = turned_along(offset, samples)
+            points = _at_height(beside, self._planned_height_m(mission))
             clearance = self._air.points_clearance_m(points)
             if clearance < self._settings.clearance_m:
                 continue
@@ -298,7 +300,7 @@ class FlightPlanner:
             m.uav
             for m in spec.missions
             if m.mode is MissionMode.TRACK
-            and m.target == mission.target
+            and (m.target, m.side) == (mission.target, mission.side)
             and abs(self._planned_height_m(m) - height_m) < self._apart_m
         ]
         uavs = list(dict.fromkeys(sharing))
@@ -309,6 +311,9 @@ class FlightPlanner:
     ) -> Iterator[tuple[float, float]]:
         own, count = share
         standoff = 0.0 if mission.standoff_m is None else mission.standoff_m.value
+        if mission.side is not None:
+            yield from side_offsets(mission.side, standoff, share)
+            return
         if standoff == 0.0:
             # Above the target there is room for one; several stand round it.
             angle = 2.0 * pi * own / count
@@ -379,6 +384,7 @@ class FlightPlanner:
             altitude_m=self._planned_height_m(mission),
             standoff_m=standoff,
             offset_m=offset_m,
+            offset_turns=mission.side is not None,
             capture_horizontal_m=horizontal,
             capture_altitude_m=self._limits.tracking_altitude_m if track else slack,
             ascent_tolerance_m=ascent_tolerance_m(mission, self._limits, self._tolerances),
@@ -464,6 +470,11 @@ class FlightPlanner:
         return [(x, y)]
 
 
+def _at_height(points: FloatArray, height_m: float) -> FloatArray:
+    """Return points (K, 3) of places (K, 2), all at one height."""
+    return np.column_stack((points, np.full(len(points), height_m)))
+
+
 def _distance(a: Point3, b: Point3) -> float:
     return norm2(norm2(a[0] - b[0], a[1] - b[1]), a[2] - b[2])
 
@@ -478,8 +489,9 @@ def _first_point(plan: MissionPlan, site: Site) -> Point3:
     if plan.mode is MissionMode.TRACK:
         seat = site.seat(plan.target or '')
         assert seat is not None
-        x, y, _, _ = seat.path.position_at(seat.arc_m)
-        return x + plan.offset_m[0], y + plan.offset_m[1], plan.altitude_m
+        x, y, hx, hy = seat.path.position_at(seat.arc_m)
+        to_x, to_y = plan.offset_from((hx, hy))
+        return x + to_x, y + to_y, plan.altitude_m
     if plan.hover_point is not None:
         return plan.hover_point
     return plan.waypoints[0]

@@ -30,6 +30,7 @@ from aurora_core.grounding.sites import Site, sites, tied_way_m
 from aurora_core.grounding.spots import SpotFinder
 from aurora_core.grounding.time_need import horizon_s
 from aurora_core.grounding.traffic import TrafficPlacer
+from aurora_core.grounding.wind import mean_wind_mps
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.basis import Basis
 from aurora_core.knowledge.limits import Limits, Tolerances, hover_capture_m
@@ -319,6 +320,7 @@ class Grounder:
         agents += traffic.placed(spec, agents, homes, run_m, draws)
         lane_id, position_m = best.site.origin_path.lane_position_at(best.site.origin_arc_m)
         weather = spec.world.weather.value
+        wind_mps = mean_wind_mps(spec, agents, uavs, self._limits, self._tolerances, seed)
         unsupported = (*split.unsupported, *missing)
         return GroundedScenario(
             map_name=self._map.name,
@@ -333,7 +335,8 @@ class Grounder:
             unsupported=unsupported,
             weather=weather,
             time_of_day=spec.world.time_of_day.value,
-            wind_mean_east_mps=self._limits.wind_mean_mps[weather],
+            wind_mean_east_mps=wind_mps[0],
+            wind_mean_north_mps=wind_mps[1],
             wind_gust_mps=self._limits.wind_gust_mps[weather],
             seed=seed,
             basis=self._basis,

@@ -63,14 +63,41 @@ class Laps:
         ):
             count -= 1
         laps = _repeated(way, count)
+        return laps, self._speed_mps(laps, goal_s)
+
+    def turned(
+        self,
+        way: Sequence[Point3],
+        turns: float,
+        speed_mps: float,
+        asked_s: float | None,
+        *,
+        keeps_speed: bool,
+    ) -> tuple[tuple[Point3, ...], float]:
+        """Return a closed route that goes round as often as asked, and the speed to fly it with.
+
+        Args:
+            way: One lap (x, y, z in m), closed.
+            turns: At least 1; the last lap may be a part of one.
+            speed_mps: Stated or usual speed.
+            asked_s: Time from its first point to the end, seconds; None: any.
+            keeps_speed: The speed is stated.
+        """
+        laps = _up_to(_repeated(way, ceil(turns)), turns * _length_m(way))
+        if asked_s is None or keeps_speed:
+            return laps, speed_mps
+        return laps, self._speed_mps(laps, asked_s - _EARLY_S)
+
+    def _speed_mps(self, way: Sequence[Point3], goal_s: float) -> float:
+        """Return the slowest speed with which a route is over in time, at most the fastest."""
         slow, fast = _SLOWEST_MPS, self._flight.speed_max_mps
         for _ in range(_SEARCH_STEPS):
             middle = (slow + fast) / 2.0
-            if self._time_s(laps, middle) > goal_s:
+            if self._time_s(way, middle) > goal_s:
                 slow = middle
             else:
                 fast = middle
-        return laps, fast
+        return fast
 
     def _cut(
         self, laps: tuple[Point3, ...], lap_m: float, speed_mps: float, goal_s: float

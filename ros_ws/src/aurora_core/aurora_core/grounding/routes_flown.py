@@ -153,15 +153,23 @@ class RoutePlanner:
         return replace(best, plan=self._lasting(mission, best.plan))
 
     def _lasting(self, mission: UavMission, plan: MissionPlan) -> MissionPlan:
-        """Return a plan whose route is flown for the stated time, where one can go on with it."""
+        """Return a plan whose route is flown as often, or for as long, as the request states."""
         asked, speed = mission.duration_s, mission.speed_mps
-        if asked is None or asked.provenance is not Provenance.EXPLICIT or speed is None:
+        states_time = asked is not None and asked.provenance is Provenance.EXPLICIT
+        asked_s = asked.value if asked is not None and states_time else None
+        if speed is None or (asked_s is None and mission.turns is None):
             return plan
-        update: dict[str, object] = {'duration_s': asked.value}
-        if mission.pattern in REPEATED:
-            keeps_speed = speed.provenance is Provenance.EXPLICIT
+        update: dict[str, object] = {} if asked_s is None else {'duration_s': asked_s}
+        keeps_speed = speed.provenance is Provenance.EXPLICIT
+        if mission.turns is not None:
+            turns = mission.turns.inside(self._tolerances.orbit_deg / 360.0)
+            way, speed_mps = self._laps.turned(
+                plan.waypoints, max(1.0, turns), plan.speed_mps, asked_s, keeps_speed=keeps_speed
+            )
+            update |= {'waypoints': way, 'speed_mps': speed_mps}
+        elif mission.pattern in REPEATED and asked_s is not None:
             way, speed_mps = self._laps.lasting(
-                plan.waypoints, plan.speed_mps, asked.value, keeps_speed=keeps_speed
+                plan.waypoints, plan.speed_mps, asked_s, keeps_speed=keeps_speed
             )
             update |= {'waypoints': way, 'speed_mps': speed_mps}
         return plan.model_copy(update=update)

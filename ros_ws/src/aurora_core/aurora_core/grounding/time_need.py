@@ -111,4 +111,5 @@ def _route_m(mission: UavMission) -> float:
         return length
     if mission.pattern is Pattern.LAWNMOWER:
         return length * (width / 20.0 + 2.0) + width
-    return 6.3 * radius
+    turns = mission.turns.value if mission.turns is not None else 1.0
+    return 6.3 * radius * max(1.0, turns)

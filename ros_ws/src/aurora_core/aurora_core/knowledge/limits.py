@@ -10,10 +10,12 @@ from typing import Annotated, Self, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
+from aurora_core.document import omitted
 from aurora_core.errors import ConfigError
 from aurora_core.files import CONFIG_BYTES, read_json
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.spec.scene import World
 from aurora_core.spec.vocabulary import TimeOfDay, Weather
 
 # A limit or tolerance of zero would forbid everything; a share lies in (0, 1].
@@ -55,6 +57,7 @@ class Limits(_Table):
     horizon_inferred_min_s: NotNegative
     wind_mean_mps: dict[str, NotNegative]  # by weather
     wind_gust_mps: dict[str, NotNegative]  # by weather
+    wind_max_mps: NotNegative = omitted(15.0)  # mean of a wind that a request names
     uavs_max: Annotated[int, Field(ge=0)]
     agents_max: Annotated[int, Field(ge=0)]
 
@@ -112,7 +115,9 @@ class Tolerances(_Table):
     duration_s: Tolerance
     bearing_deg: NotNegative
     pattern_centre_m: NotNegative
-    orbit_deg: NotNegative  # on the full turn of an orbit
+    orbit_deg: NotNegative  # on the turns of an orbit
+    side_deg: NotNegative = omitted(45.0)  # how far off its direction a side reaches
+    return_m: NotNegative = omitted(3.0)  # how far from its start who returns may land
     capture_s: NotNegative
     tracked_fraction: Share
     visible_fraction: Share
@@ -174,9 +179,13 @@ class Tolerances(_Table):
 _T = TypeVar('_T', bound=_Table)
 
 
-def hover_drift_limit_m(weather: str, limits: Limits, tolerances: Tolerances) -> float:
-    """Return the drift allowed while hovering in a weather: more in wind."""
-    windy = limits.wind_mean_mps[weather] > 0.0 or limits.wind_gust_mps[weather] > 0.0
+def hover_drift_limit_m(world: World, limits: Limits, tolerances: Tolerances) -> float:
+    """Return the drift allowed while hovering in a world: more in wind, its own or a named one."""
+    weather = world.weather.value
+    mean_mps = limits.wind_mean_mps[weather]
+    if world.wind_mps is not None:
+        mean_mps = world.wind_mps.value
+    windy = mean_mps > 0.0 or limits.wind_gust_mps[weather] > 0.0
     return tolerances.hover_drift_wind_m if windy else tolerances.hover_drift_calm_m
 
 
@@ -201,7 +210,7 @@ def hover_capture_m(spec: ScenarioSpec, uav: str, limits: Limits, tolerances: To
         for c in spec.conditions
         if c.quantity == QuantityName.HOVER_DRIFT and uav in c.of and c.op in ('<', '<=')
     )
-    return min((hover_drift_limit_m(spec.world.weather.value, limits, tolerances), *stated))
+    return min((hover_drift_limit_m(spec.world, limits, tolerances), *stated))
 
 
 def load_limits(path: Path) -> Limits:

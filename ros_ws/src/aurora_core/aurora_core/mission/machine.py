@@ -18,6 +18,7 @@ import numpy.typing as npt
 from aurora_core.geometry.kernel import norm2
 from aurora_core.mission.plan import MissionPlan, UavPlan
 from aurora_core.mission.setpoint import FlightSettings, PursuitReference, RouteReference
+from aurora_core.mission.turning_offset import TurningOffset
 from aurora_core.spec.vocabulary import MissionMode
 from aurora_core.trace.layout import UavColumn, UavMode, UavPhase
 
@@ -45,12 +46,14 @@ HOLD_S = 5.0
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class TargetMotion:
-    """What a mission needs to know of its target: position and velocity, ENU."""
+    """What a mission needs to know of its target: position, velocity, heading (unit), ENU."""
 
     x_m: float
     y_m: float
     vx_mps: float
     vy_mps: float
+    heading_x: float
+    heading_y: float
 
 
 class MissionMachine:
@@ -79,6 +82,7 @@ class MissionMachine:
         self._pursuit = PursuitReference(plan.home_x_m, plan.home_y_m, 0.0)
         self._route: RouteReference | None = None
         self._flown: MissionPlan | None = None
+        self._turning: TurningOffset | None = None
         self._landing_spot: tuple[float, float] | None = None
         self._return_altitude_m = 0.0
         self._descending = False
@@ -284,7 +288,7 @@ class MissionMachine:
             self._hold = self._rest_point()
             self._held_ticks = 0
         elif phase != _LANDING:
-            self.capture_tick = None
+            self.capture_tick = self._turning = None
             if self.phase != _ASCENT:  # a climb that is asked for during the ascent still counts
                 self._level_m = None
             self._index, self._laps = phase - _MISSION, 0
@@ -336,15 +340,22 @@ class MissionMachine:
     def _goal(
         self, mission: MissionPlan, target: TargetMotion | None
     ) -> tuple[tuple[float, float, float], tuple[float, float]]:
-        """Return the point of a holding mission and its velocity."""
+        """Return the point of a holding mission and its velocity; asked once a tick."""
         z_m = self._altitude_m(mission)
         if mission.hover_point is not None:
             x_m, y_m, _ = mission.hover_point
             return (x_m, y_m, z_m), (0.0, 0.0)
         if target is None:  # The target is gone: hold where the reference is.
             return (self._pursuit.x, self._pursuit.y, z_m), (0.0, 0.0)
-        x_m, y_m = target.x_m + mission.offset_m[0], target.y_m + mission.offset_m[1]
-        return (x_m, y_m, z_m), (target.vx_mps, target.vy_mps)
+        velocity = (target.vx_mps, target.vy_mps)
+        x_m, y_m = mission.offset_m
+        if mission.offset_turns:
+            if self._turning is None:
+                self._turning = TurningOffset(mission.offset_m, self._settings, self._dt)
+            heading = (target.heading_x, target.heading_y)
+            (x_m, y_m), (round_x, round_y) = self._turning.step(velocity, heading)
+            velocity = (velocity[0] + round_x, velocity[1] + round_y)
+        return (target.x_m + x_m, target.y_m + y_m, z_m), velocity
 
     def _capture(self, mission: MissionPlan, tick: int) -> None:
         self.capture_tick = tick

@@ -18,6 +18,7 @@ class MissionPlan(Document):
     Attributes:
         target: Agent id that is tracked, or observed from the hover point.
         offset_m: Track: horizontal vector from the target to the UAV, ENU.
+        offset_turns: It is (ahead of the target, to its left) instead, and turns with its course.
         capture_horizontal_m: Tolerance at capture: on the standoff, else in the plane.
         capture_altitude_m: Tolerance on the altitude at capture.
         ascent_tolerance_m: Tolerance on the altitude that ends the ascent.
@@ -35,6 +36,7 @@ class MissionPlan(Document):
     altitude_m: FiniteFloat
     standoff_m: FiniteFloat = 0.0
     offset_m: tuple[FiniteFloat, FiniteFloat] = (0.0, 0.0)
+    offset_turns: bool = omitted(False)
     capture_horizontal_m: FiniteFloat = 10.0
     capture_altitude_m: FiniteFloat = 2.0
     ascent_tolerance_m: FiniteFloat = 2.0
@@ -45,6 +47,13 @@ class MissionPlan(Document):
     waits: bool = omitted(False)
     until_event: bool = omitted(False)
 
+    def offset_from(self, heading: tuple[float, float]) -> tuple[float, float]:
+        """Return the vector from a target with a heading (unit vector) to the UAV, ENU metres."""
+        if not self.offset_turns:
+            return self.offset_m
+        (ahead, left), (hx, hy) = self.offset_m, heading
+        return ahead * hx - left * hy, ahead * hy + left * hx
+
 
 class UavPlan(Document):
     """A UAV with its take-off and landing spots (on the ground).
@@ -54,6 +63,7 @@ class UavPlan(Document):
         safe_altitude_m: Above every obstacle around, used when no way at mission altitude is free.
         lands: After its missions; else it holds where the last one ended.
         lands_after: Events that have to be over before it lands.
+        returns: It lands where it started, and nowhere else.
     """
 
     id: str
@@ -66,3 +76,4 @@ class UavPlan(Document):
     safe_altitude_m: FiniteFloat
     lands: bool = omitted(True)
     lands_after: tuple[str, ...] = omitted(())
+    returns: bool = omitted(False)

@@ -25,7 +25,9 @@ from aurora_core.spec.vocabulary import (
     ClauseStatus,
     MissionMode,
     Pattern,
+    RelativeWind,
     Role,
+    Side,
     TimeOfDay,
     TrafficDensity,
     Weather,
@@ -76,6 +78,7 @@ class MissionDraft:
     altitude: Parameter | None = None
     standoff: Parameter | None = None
     bearing: Parameter | None = None
+    side: Side | None = None
     duration: Parameter | None = None
     pattern: Pattern | None = None
     pattern_assumed: bool = False
@@ -83,6 +86,7 @@ class MissionDraft:
     size: tuple[Parameter, Parameter] | None = None
     radius: Parameter | None = None
     waypoint_count: Parameter | None = None
+    turns: Parameter | None = None
     speed: Parameter | None = None
     over_streets: bool = False
     ends_in_flight: bool = False
@@ -137,6 +141,9 @@ class WorldDraft:
     time_of_day: TimeOfDay | None = None
     time_of_day_span: Span | None = None
     traffic: TrafficDensity | None = None
+    wind_speed: Parameter | None = None
+    wind_from: Parameter | None = None
+    wind: RelativeWind | None = None
     duration: Parameter | None = None
 
 

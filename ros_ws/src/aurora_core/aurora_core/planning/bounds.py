@@ -23,6 +23,9 @@ _ALTITUDE_ROOM_M = 1.5
 _STANDOFF_ROOM_M = 8.0
 # The same for a speed, for gusts and corners (m/s).
 _SPEED_ROOM_MPS = 1.0
+# Who is on a side of a target is so far from it, and no nearer than that (m).
+_SIDE_M = 20.0
+_SIDE_LEAST_M = 10.0
 # A trigger has to be passed, not touched (m).
 _PAST_M = 1.0
 # Share of a greatest distance in space that is altitude where both are free.
@@ -100,6 +103,10 @@ def _standing_off(spec: ScenarioSpec, mission: UavMission) -> UavMission:
         or standoff.provenance is not Provenance.DEFAULT
     ):
         return mission
+    if mission.side is not None:
+        high = max(standoff.high, _SIDE_M)
+        beside = {'value': _SIDE_M, 'low': _SIDE_LEAST_M, 'high': high}
+        standoff = standoff.model_copy(update=beside)
     pair = {mission.uav, mission.target}
     bounds = _stated(spec, _IN_THE_PLANE, pair)
     value = bounds.near(standoff.value, _STANDOFF_ROOM_M)

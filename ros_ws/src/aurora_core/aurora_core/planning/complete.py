@@ -17,6 +17,7 @@ from aurora_core.spec.events import actor_of
 from aurora_core.spec.parameter import Parameter, Provenance
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import ScenarioSpec, SendMessage, StatedCondition, Uav, UavMission
+from aurora_core.spec.scene import World
 from aurora_core.spec.vocabulary import MissionMode
 
 # Sight is lost now and then: this much longer than the time of sight that is asked. A scenario of
@@ -31,7 +32,25 @@ def complete(spec: ScenarioSpec, limits: Limits) -> ScenarioSpec:
         spec: The request, whoever read it; it is not changed.
         limits: Limits in force.
     """
-    return layered(bent(lasting(waiting(hovering(spec))), limits), limits)
+    return layered(bent(lasting(waiting(hovering(blowing(spec, limits)))), limits), limits)
+
+
+def blowing(spec: ScenarioSpec, limits: Limits) -> ScenarioSpec:
+    """Return the specification with a speed for a wind that is named without one.
+
+    Args:
+        spec: The request, whoever read it; it is not changed.
+        limits: In force; where the weather has a wind it is as fast as that.
+    """
+    world = spec.world
+    if not world.names_wind or world.wind_mps is not None:
+        return spec
+    speed = values.default('wind_speed')
+    usual_mps = limits.wind_mean_mps[world.weather.value]
+    if usual_mps > 0.0:
+        speed = speed.model_copy(update={'value': usual_mps})
+    world = World.model_validate({**dict(world), 'wind_mps': speed})
+    return ScenarioSpec.model_validate({**dict(spec), 'world': world})
 
 
 def hovering(spec: ScenarioSpec) -> ScenarioSpec:

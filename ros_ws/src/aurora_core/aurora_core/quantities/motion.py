@@ -20,6 +20,9 @@ from aurora_core.trace.layout import GroundColumn, UavColumn, UavCommandColumn, 
 FloatArray = npt.NDArray[np.float64]
 BoolArray = npt.NDArray[np.bool_]
 
+# A body that is slower keeps the course that it had (m/s).
+COURSE_MPS = 0.5
+
 
 def distance(view: RunView, a: str, b: str) -> FloatArray:
     """Return the 3-D distance of two reference points in metres."""
@@ -50,6 +53,18 @@ def horizontal_speed(view: RunView, uav: Body) -> FloatArray:
     """Return the speed of a UAV over ground in m/s."""
     rows = view.rows(uav)
     return distance_2d(rows[:, UavColumn.VX], rows[:, UavColumn.VY])
+
+
+def course(view: RunView, body: Body) -> FloatArray:
+    """Return the heading of a ground body, (T, 2) unit vectors: while it stands, the last one.
+
+    Until it moves it is the one that it has at t = 0.
+    """
+    rows = view.rows(body)
+    moving = rows[:, GroundColumn.SPEED] > COURSE_MPS
+    last = np.maximum.accumulate(np.where(moving, np.arange(view.ticks), 0))
+    heading: FloatArray = rows[last, GroundColumn.HEADING_X : GroundColumn.HEADING_Y + 1]
+    return heading
 
 
 def commanded_speed(view: RunView, uav: Body) -> FloatArray:

@@ -11,6 +11,7 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 
+from aurora_core.geometry.kernel import norm2
 from aurora_core.quantities.kernels import distance_2d
 from aurora_core.quantities.ticks import first_tick
 from aurora_core.quantities.view import Body, RunView
@@ -165,6 +166,16 @@ def pattern_centre(waypoints: Sequence[Point3]) -> tuple[float, float]:
     x = [point[0] for point in waypoints]
     y = [point[1] for point in waypoints]
     return (min(x) + max(x)) / 2.0, (min(y) + max(y)) / 2.0
+
+
+def longest_leg(waypoints: Sequence[Point3]) -> tuple[Point3, Point3]:
+    """Return the two ends of the longest leg between waypoints, the first of equal ones."""
+    return max(pairwise(waypoints), key=lambda leg: norm2(*_across(leg)))
+
+
+def _across(leg: tuple[Point3, Point3]) -> tuple[float, float]:
+    a, b = leg
+    return b[0] - a[0], b[1] - a[1]
 
 
 # Points of a plan are rounded when they are written down, no more.

@@ -18,6 +18,7 @@ _LIMITS: dict[str, tuple[str | None, str]] = {
     'uav_endurance_s': (None, 'uav_endurance_s'),
     'vehicle_speed_max_mps': (None, 'vehicle_speed_max_mps'),
     'pedestrian_speed_max_mps': (None, 'pedestrian_speed_max_mps'),
+    'wind_max_mps': (None, 'wind_max_mps'),
     'duration_s': ('duration_min_s', 'duration_max_s'),
     'uavs_max': (None, 'uavs_max'),
     'agents_max': (None, 'agents_max'),
@@ -64,7 +65,7 @@ def _is_flown(spec: dict[str, Any], path: str) -> bool:
         return mission.get('pattern') in ('rectangle', 'lawnmower')
     return name == 'duration_s' or (
         mission.get('mode') == 'navigate'
-        and name in ('speed_mps', 'radius_m', 'waypoint_count', 'size_m/0')
+        and name in ('speed_mps', 'radius_m', 'waypoint_count', 'turns', 'size_m/0')
     )
 
 

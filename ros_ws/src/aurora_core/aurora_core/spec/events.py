@@ -118,9 +118,9 @@ class AgentAction(Element):
 
 
 class UavAction(Element):
-    """A UAV changes what it does."""
+    """A UAV changes what it does; `return_home` lands it where it started."""
 
-    do: Literal['land', 'ascend', 'change_mission']
+    do: Literal['land', 'return_home', 'ascend', 'change_mission']
     uav: Id
     altitude_m: Parameter | None = None
     mission: Id | None = None
@@ -132,6 +132,11 @@ class UavAction(Element):
         if self.do == 'ascend' and self.altitude_m is None:
             raise ValueError('ascend needs altitude_m')
         return self
+
+    @property
+    def lands(self) -> bool:
+        """Tell whether the UAV comes down for good, here or where it started."""
+        return self.do in ('land', 'return_home')
 
 
 EventAction = Annotated[SendMessage | AgentAction | UavAction, Field(discriminator='do')]

@@ -111,7 +111,7 @@ def ending_landings(spec: ScenarioSpec, uav: str) -> tuple[Event, ...]:
     "Hovers until the bus stops": the event stands in the place of the duration. A landing that
     waits for the end of the missions themselves ends nothing.
     """
-    landings = _awaited(spec, uav, 'land')
+    landings = _awaited(spec, uav, ('land', 'return_home'))
     return tuple(
         e for e in landings if e.trigger is not None and not _waits_for_missions(spec, e, uav)
     )
@@ -133,24 +133,33 @@ def _waits_for_missions(spec: ScenarioSpec, event: Event, uav: str) -> bool:
 def lasts_until_event(spec: ScenarioSpec, mission: UavMission) -> bool:
     """Tell whether only an event ends a phase, or a patrol: nobody states how long it is."""
     duration = mission.duration_s
-    unstated = duration is None or _is_default(duration)
+    unstated = mission.turns is None and (duration is None or _is_default(duration))
     return unstated and left_by(spec, mission) is not None
 
 
 def awaits_climbs(spec: ScenarioSpec, uav: str) -> tuple[Event, ...]:
     """Return the climbs that a UAV awaits before it lands: nobody states when that is."""
-    return tuple(e for e in _awaited(spec, uav, 'ascend') if not climbs_last(e))
+    return tuple(e for e in _awaited(spec, uav, ('ascend',)) if not climbs_last(e))
 
 
-def _awaited(spec: ScenarioSpec, uav: str, do: str) -> tuple[Event, ...]:
-    """Return the events of a UAV's action, none where the length of its last mission is stated."""
+def returns_home(spec: ScenarioSpec, uav: str) -> tuple[Event, ...]:
+    """Return the events that send a UAV back to where it started."""
+    return tuple(
+        e
+        for e in spec.events
+        if isinstance(e.action, UavAction) and (e.action.do, e.action.uav) == ('return_home', uav)
+    )
+
+
+def _awaited(spec: ScenarioSpec, uav: str, do: tuple[str, ...]) -> tuple[Event, ...]:
+    """Return the events of a UAV's actions, none where its last mission has a stated length."""
     last = next((m for m in reversed(spec.missions) if m.uav == uav), None)
     if last is None or (last.duration_s is not None and not _is_default(last.duration_s)):
         return ()
     return tuple(
         e
         for e in spec.events
-        if isinstance(e.action, UavAction) and e.action.do == do and e.action.uav == uav
+        if isinstance(e.action, UavAction) and e.action.do in do and e.action.uav == uav
     )
 
 

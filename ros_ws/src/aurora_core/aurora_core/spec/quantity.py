@@ -62,3 +62,6 @@ class QuantityName(StrEnum):
     ATTEMPTS = 'attempts'
     PATTERN_EXTENT = 'pattern_extent'
     ANGLE_SWEPT = 'angle_swept'
+    SIDE_FRACTION = 'side_fraction'
+    WIND = 'wind'
+    RETURN_DISTANCE = 'return_distance'

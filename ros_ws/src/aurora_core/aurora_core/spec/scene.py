@@ -20,7 +20,9 @@ from aurora_core.spec.vocabulary import (
     Pattern,
     Place,
     Relation,
+    RelativeWind,
     Role,
+    Side,
     TimeOfDay,
     TrafficDensity,
     Weather,
@@ -30,7 +32,13 @@ from aurora_core.spec.vocabulary import (
 class World(Element):
     """Where and when: map name, weather, time of day, traffic, horizon (None = inferred).
 
+    A wind that is named, in one of three ways or several, replaces that of the weather; gusts are
+    those of the weather.
+
     Attributes:
+        wind_mps: Mean speed of the wind.
+        wind_from_deg: Compass bearing that it comes from; None: open.
+        wind: How it meets the longest leg, or the way of a tracked vehicle at capture.
         seed: The seed that the prompt asks for; None: that of the run.
     """
 
@@ -41,8 +49,17 @@ class World(Element):
     time_of_day_span: Span | None = None
     traffic_density: TrafficDensity | None = None
     duration_s: Parameter | None = None
+    wind_mps: Parameter | None = omitted(None)
+    wind_from_deg: Parameter | None = omitted(None)
+    wind: RelativeWind | None = omitted(None)
+    wind_span: Span | None = omitted(None)
     seed: Seed | None = omitted(None)
     span: Span | None = None
+
+    @property
+    def names_wind(self) -> bool:
+        """Tell whether the request says something of the wind itself."""
+        return not (self.wind_mps is None and self.wind_from_deg is None and self.wind is None)
 
 
 class Placement(Element):
@@ -118,9 +135,11 @@ class UavMission(Element):
         altitude_m: Above ground.
         standoff_m: Horizontal distance from the target (track).
         bearing_deg: Compass bearing of the UAV from the target, when stated.
+        side: Of the moving target, relative to its heading (track).
         duration_s: Of the mission phase alone.
         dwell_s: How long the UAV stays at each waypoint of a route.
         size_m: Pattern size (length, width), metres.
+        turns: How often round an orbit goes; None: once, or as often as its time allows.
         over_streets: "over the streets"; see `over_a_road`.
         ends_in_flight: The request does not end with a landing.
     """
@@ -133,11 +152,13 @@ class UavMission(Element):
     altitude_m: Parameter
     standoff_m: Parameter | None = None
     bearing_deg: Parameter | None = None
+    side: Side | None = omitted(None)
     duration_s: Parameter | None = None
     pattern: Pattern | None = None
     size_m: tuple[Parameter, Parameter] | None = None
     radius_m: Parameter | None = None
     waypoint_count: Parameter | None = None
+    turns: Parameter | None = omitted(None)
     speed_mps: Parameter | None = None
     dwell_s: Parameter | None = omitted(None)
     over_streets: bool = False
@@ -164,6 +185,10 @@ class UavMission(Element):
             raise ValueError(f'mission {self.id}: {self.mode} needs duration_s')
         if self.mode is not MissionMode.NAVIGATE and self.dwell_s is not None:
             raise ValueError(f'mission {self.id}: only a route has waypoints to dwell at')
+        if self.mode is not MissionMode.TRACK and self.side is not None:
+            raise ValueError(f'mission {self.id}: only who tracks keeps to a side')
+        if self.pattern is not Pattern.ORBIT and self.turns is not None:
+            raise ValueError(f'mission {self.id}: only an orbit has turns')
         return self
 
 

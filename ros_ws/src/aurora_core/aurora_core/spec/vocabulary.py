@@ -50,6 +50,14 @@ class TrafficDensity(StrEnum):
     HIGH = 'high'
 
 
+class RelativeWind(StrEnum):
+    """How a wind meets who flies."""
+
+    CROSSWIND = 'crosswind'
+    HEADWIND = 'headwind'
+    TAILWIND = 'tailwind'
+
+
 class Place(StrEnum):
     """Place kinds; landmark names of the map are written `landmark:<name>`."""
 
@@ -109,6 +117,15 @@ class Pattern(StrEnum):
     LAWNMOWER = 'lawnmower'
     ORBIT = 'orbit'
     WAYPOINTS = 'waypoints'
+
+
+class Side(StrEnum):
+    """Of a moving target, relative to its heading."""
+
+    AHEAD = 'ahead'
+    BEHIND = 'behind'
+    LEFT = 'left'
+    RIGHT = 'right'
 
 
 class LinkOcclusion(StrEnum):

@@ -95,7 +95,8 @@ def _first(mission: MissionPlan, grounded: GroundedScenario) -> tuple[float, flo
         return mission.hover_point[0], mission.hover_point[1]
     for agent in grounded.agents:
         if agent.id == mission.target:
-            return agent.x_m + mission.offset_m[0], agent.y_m + mission.offset_m[1]
+            x_m, y_m = mission.offset_from((agent.heading_x, agent.heading_y))
+            return agent.x_m + x_m, agent.y_m + y_m
     return 0.0, 0.0
 
 

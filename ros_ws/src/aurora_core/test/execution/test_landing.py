@@ -13,6 +13,7 @@ import pytest
 from aurora_core.execution.landing import landing_spot, ways_apart_m
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.knowledge.map_types import Building
+from aurora_core.spec.scenario import Event, TimeTrigger, UavAction
 from aurora_core.trace.layout import UavColumn
 
 Point = tuple[float, float]
@@ -151,3 +152,18 @@ def test_who_turns_wide_keeps_clear_of_what_is_beside_the_spot(
         scene.follow(5)
         chosen.append(scene.machines[0].landing_spot)
     assert chosen == [near, far]
+
+
+@pytest.mark.parametrize(('do', 'spot'), [('land', (60.0, 0.0)), ('return_home', (0.0, 0.0))])
+def test_who_returns_lands_where_it_started_and_not_at_the_nearest_spot(
+    stage: Callable[..., Any], parameter: Callable[..., Any], do: Any, spot: Point
+) -> None:
+    at = TimeTrigger(on='time', at_s=parameter(30.0, 's'))
+    event = Event(id='e1', trigger=at, action=UavAction(do=do, uav='uav1'))
+    scene = stage(events=(event,), landing_spots=((60.0, 0.0), (0.0, 0.0)))
+    scene.put('van1', 55.0).follow(2400)
+    (machine,) = scene.machines
+    assert machine.landed
+    assert machine.landing_spot == spot
+    where = scene.uav[0, UavColumn.X : UavColumn.Y + 1]
+    assert np.hypot(*(where - np.array(spot))) <= 1.0

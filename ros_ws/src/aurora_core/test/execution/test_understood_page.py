@@ -28,6 +28,8 @@ from aurora_core.spec.vocabulary import (
     Pattern,
     Place,
     Relation,
+    RelativeWind,
+    Side,
     TimeOfDay,
     TrafficDensity,
     Weather,
@@ -126,7 +128,10 @@ def test_every_action_stands_where_it_belongs() -> None:
 
 @pytest.mark.parametrize(
     'words',
-    [AgentType, MissionMode, Pattern, Place, Relation, Weather, TimeOfDay, TrafficDensity],
+    [
+        *(AgentType, MissionMode, Pattern, Side, Place, Relation),
+        *(Weather, TimeOfDay, TrafficDensity, RelativeWind),
+    ],
 )
 def test_the_page_knows_the_whole_vocabulary(words: type[StrEnum]) -> None:
     said = ','.join(_rows('understood').values()).replace(';', ',').replace(' ', '')

@@ -126,6 +126,10 @@ PLACES: dict[str, tuple[Callable[[Make, Parameter], ScenarioSpec], str, Any, Any
         lambda _make, p: ScenarioSpec(prompt='x', world=World(duration_s=p)),
         's', 5.0, 1800.0, 'duration', 'world/duration_s',
     ),
+    'wind': (
+        lambda _make, p: ScenarioSpec(prompt='x', world=World(wind_mps=p)),
+        'm/s', 0.0, 15.0, 'speed_limit', 'world/wind_mps',
+    ),
     'altitude trigger': (
         lambda _make, p: _event(
             trigger=AltitudeTrigger(on='altitude_reached', uav='uav1', value_m=p)

@@ -4,6 +4,9 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+from math import hypot
+
 import pytest
 
 from aurora_core.grounding.laps import REPEATED, Laps
@@ -36,6 +39,10 @@ def flown_s(way: tuple[Point3, ...], speed_mps: float) -> float:
     return ticks * settings.run.dt_s
 
 
+def length_m(way: tuple[Point3, ...]) -> float:
+    return sum(hypot(b[0] - a[0], b[1] - a[1]) for a, b in pairwise(way))
+
+
 @pytest.mark.parametrize('pattern', sorted(REPEATED))
 @pytest.mark.parametrize('asked_s', [90.0, 200.0])
 def test_whole_laps_take_the_asked_time_at_a_speed_of_ones_own(
@@ -54,6 +61,28 @@ def test_a_stated_speed_is_kept_and_the_last_lap_is_cut(pattern: Pattern, asked_
     assert speed_mps == 5.0
     assert asked_s - SPARE_S - 1.0 <= flown_s(way, speed_mps) <= asked_s - SPARE_S
     assert has_shape(pattern, way)
+
+
+@pytest.mark.parametrize('turns', [1.0, 1.5, 2.0, 3.25])
+def test_an_orbit_goes_round_as_often_as_asked(turns: float) -> None:
+    one = lap(Pattern.ORBIT)
+    way, speed_mps = LAPS.turned(one, turns, 8.0, None, keeps_speed=False)
+    assert speed_mps == 8.0
+    assert has_shape(Pattern.ORBIT, way)
+    assert length_m(way) == pytest.approx(turns * length_m(one), abs=1.0)
+    assert way[: len(one)] == one
+
+
+@pytest.mark.parametrize(('keeps_speed', 'took_s'), [(True, None), (False, 90.0 - SPARE_S)])
+def test_turns_in_a_stated_time_are_flown_at_a_speed_of_ones_own(
+    keeps_speed: bool, took_s: float | None
+) -> None:
+    way, speed_mps = LAPS.turned(lap(Pattern.ORBIT), 2.0, 8.0, 90.0, keeps_speed=keeps_speed)
+    assert length_m(way) == pytest.approx(2.0 * length_m(lap(Pattern.ORBIT)))
+    if took_s is None:
+        assert speed_mps == 8.0
+    else:
+        assert flown_s(way, speed_mps) == pytest.approx(took_s, abs=0.5)
 
 
 def test_one_lap_is_flown_however_short_the_time() -> None:

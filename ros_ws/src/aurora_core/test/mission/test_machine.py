@@ -249,7 +249,14 @@ def test_hover_that_is_never_captured_never_ends() -> None:
 
 
 def _driving(tick: int) -> TargetMotion:
-    return TargetMotion(x_m=20.0 + 10.0 * tick * DT_S, y_m=8.0, vx_mps=10.0, vy_mps=0.0)
+    return _moving(20.0 + 10.0 * tick * DT_S, 8.0, 10.0)
+
+
+def _moving(x_m: float, y_m: float, speed_mps: float) -> TargetMotion:
+    """Along +x."""
+    return TargetMotion(
+        x_m=x_m, y_m=y_m, vx_mps=speed_mps, vy_mps=0.0, heading_x=1.0, heading_y=0.0
+    )
 
 
 def test_track_follows_at_its_offset() -> None:
@@ -271,12 +278,50 @@ def test_track_follows_at_its_offset() -> None:
     assert abs(sqrt((x - seen.x_m) ** 2 + (y - seen.y_m) ** 2) - 35.0) <= 5.0
 
 
+def test_track_keeps_to_its_side_when_the_target_turns() -> None:
+    plan = _track(
+        standoff_m=20.0,
+        offset_m=(-20.0, 0.0),
+        offset_turns=True,
+        capture_horizontal_m=5.0,
+        duration_s=60.0,
+    )
+    machine = _machine(plan)
+    machine.start()
+    follower = _Follower(machine)
+    corner = 1200
+
+    def driving(tick: int) -> TargetMotion:
+        if tick < corner:
+            return _moving(20.0 + 8.0 * tick * DT_S, 8.0, 8.0)
+        north = 8.0 + 8.0 * (tick - corner) * DT_S
+        return TargetMotion(
+            x_m=20.0 + 8.0 * corner * DT_S,
+            y_m=north,
+            vx_mps=0.0,
+            vy_mps=8.0,
+            heading_x=0.0,
+            heading_y=1.0,
+        )
+
+    follower.until(lambda: follower.tick == corner - 1, driving)
+    before, seen = follower.states[-1], driving(corner - 1)
+    assert (before[0] - seen.x_m, before[1] - seen.y_m) == pytest.approx((-20.0, 0.0), abs=1.0)
+    follower.until(lambda: follower.tick == corner + 200, driving)
+    after, seen = follower.states[-1], driving(corner + 200)
+    assert (after[0] - seen.x_m, after[1] - seen.y_m) == pytest.approx((0.0, -20.0), abs=1.0)
+    speeds = [
+        np.hypot(*row[UavCommandColumn.VX : UavCommandColumn.VY + 1]) for row in follower.rows
+    ]
+    assert max(speeds) <= SETTINGS.speed_max_mps + 1e-9
+
+
 def test_capture_asks_for_altitude_too() -> None:
     machine = _machine(_track(capture_altitude_m=2.0))
     machine.start()
     state = np.zeros(UAV_WIDTH)
     state[UavColumn.Z] = 28.5
-    here = TargetMotion(x_m=0.0, y_m=0.0, vx_mps=0.0, vy_mps=0.0)
+    here = _moving(0.0, 0.0, 0.0)
     machine.step(0, state, here)
     assert machine.ascended_tick == 0
     assert machine.capture_tick == 0

@@ -12,7 +12,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from kind_rows import Row
+from kind_rows import Row, cut
 from trace_builder import Flight, FloatArray, flight, number, world
 from trace_cases import Case, facts_of, ground_case, hover_case, mission, spec
 
@@ -130,6 +130,12 @@ def _lands(tick: int, at_s: float) -> Case:
     return _flown({'do': 'land'}, flight(1401, HOME, 30.0, landing=tick), at_s)
 
 
+def _returns(tick: int, at_s: float, away_m: float = 0.0) -> Case:
+    """It is told to return, and comes down over its start or `away_m` east of it."""
+    one = flight(1401, HOME, 30.0, lambda _k: (HOME[0] + away_m, HOME[1], 30.0), landing=tick)
+    return _flown({'do': 'return_home'}, one, at_s)
+
+
 def _ascends(tick: int, at_s: float, asked_m: float = 60.0, to_m: float = 60.0) -> Case:
     """It climbs to 30 m, and at the tick goes on to 60 m or another altitude."""
 
@@ -241,6 +247,7 @@ ACTIONS: dict[str, Callable[[int, float], Case]] = {
     'change_lane': _changes_lane,
     'cross': _crosses,
     'land': _lands,
+    'return_home': _returns,
     'ascend': _ascends,
     'change_mission': _next_mission,
 }
@@ -295,6 +302,13 @@ CLIMBED = (
         what='climb',
     ),
     Row(id='e1.completed', make=lambda: _ascends(310, 99.0), reason=NEVER, what='climb'),
+)
+# 3 m are allowed.
+RETURNED = (
+    Row(id='e1.returned', make=lambda: _returns(310, AT_S, 2.0), margin=3.0 - 2.0),
+    Row(id='e1.returned', make=lambda: _returns(310, AT_S, 9.0), margin=3.0 - 9.0),
+    Row(id='e1.returned', make=lambda: _returns(1390, AT_S), reason=NEVER),
+    Row(id='e1.returned', make=lambda: cut(_returns(310, AT_S), 350), reason=Reason.TRACE_SHORT),
 )
 # Without facts of its type an agent has 1.5 m/s^2; 2 s more are allowed.
 ALLOWED_S, RATE = 2.0, 1.5
@@ -387,6 +401,7 @@ ROWS = (
     *COMPLETED,
     *CLIMBED,
     *DESCENDED,
+    *RETURNED,
     *LANE,
     *SET_OFF,
     *DELAYED,

@@ -8,6 +8,9 @@ or (by rounding) 141.
 
 from __future__ import annotations
 
+from functools import partial
+
+import numpy as np
 import pytest
 from kind_rows import Row, cut, gone, grounded
 from trace_builder import TOLERANCES, building, flight, number, world
@@ -77,6 +80,26 @@ def _mission(case: Case, **values: object) -> Case:
 
 def _bearing(degrees: float) -> Case:
     return _mission(convoy_case(), bearing_deg=number(degrees, Unit.DEGREE, explicit=True))
+
+
+def _side(side: str, x: float = 1.0, y: float = 0.0, turned: int = 0) -> Case:
+    """The drone is 35 m north of the bus, whose heading is (x, y) from a tick on, before east."""
+    case = _mission(convoy_case(), side=side)
+    later = np.arange(case.run.ticks) >= turned
+    case.run.agents[1].heading = (np.where(later, x, 1.0), np.where(later, y, 0.0))
+    return case
+
+
+def _gone_from(side: str) -> Case:
+    return gone(_side(side), 1, 50)
+
+
+def _standing_turn() -> Case:
+    """The bus stands from tick 700 on and is then turned: its course stays what it was."""
+    case = _side('left', 0.0, 1.0, turned=700)
+    bus = case.run.agents[1]
+    bus.speed = np.where(np.arange(case.run.ticks) >= 700, 0.4, bus.speed)
+    return case
 
 
 def _standoff(metres: float) -> Case:
@@ -177,6 +200,30 @@ ROWS = (
     ),
     Row(id='m1.bearing', make=lambda: _bearing(20.0), margin=0.0 - 0.8),
     Row(id='m1.bearing', make=lambda: gone(_bearing(10.0), 1, 50), reason=GONE),
+    # At capture the bus has a lead of 19.36 m: within 45 degrees of the side already.
+    *(
+        row
+        for side, x, y in (
+            ('left', 1.0, 0.0),
+            ('right', -1.0, 0.0),
+            ('ahead', 0.0, 1.0),
+            ('behind', 0.0, -1.0),
+        )
+        for row in (
+            Row(id='m1.side', make=partial(_side, side, x, y), margin=1.0 - 0.8, what=side),
+            Row(id='m1.side', make=partial(_side, side, -x, -y), margin=0.0 - 0.8, what=side),
+            Row(id='m1.side', make=partial(_gone_from, side), reason=GONE, what=side),
+        )
+    ),
+    # The bus turns to the left at tick 700: the drone is ahead of it from then on.
+    Row(
+        id='m1.side',
+        make=lambda: _side('left', 0.0, 1.0, turned=700),
+        margin=(700 - TRACK_CAPTURED) / (1050 - TRACK_CAPTURED) - 0.8,
+        within=0.003,
+        what='turned',
+    ),
+    Row(id='m1.side', make=_standing_turn, margin=1.0 - 0.8, what='standing'),
     # The hover point is 15 m from the ego; worst at capture, 1.45 m farther. 5 m are allowed.
     Row(id='m1.standoff', make=lambda: _standoff(15.0), margin=5.0 - 1.45),
     Row(id='m1.standoff', make=lambda: _standoff(25.0), margin=5.0 - 10.0),

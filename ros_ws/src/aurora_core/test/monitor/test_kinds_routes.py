@@ -17,7 +17,7 @@ from trace_cases import Case, facts_of, mission, spec, survey_case
 
 from aurora_core.outcomes.schedule import MissionFacts
 from aurora_core.outcomes.verdict import Reason
-from aurora_core.spec.parameter import Unit
+from aurora_core.spec.parameter import Bound, Unit
 from aurora_core.spec.scenario import Uav
 from aurora_core.spec.vocabulary import MissionMode, Pattern
 
@@ -72,6 +72,15 @@ def _circling(asked_mps: float) -> Case:
     speed = number(asked_mps, Unit.METRE_PER_SECOND, explicit=True)
     plan = plan.model_copy(update={'speed_mps': speed})
     case.spec = case.spec.model_copy(update={'missions': (plan,)})
+    return case
+
+
+def _turning(asked: float, flown: float, bound: Bound = Bound.EXACTLY) -> Case:
+    """An orbit with a stated number of turns; the run is long enough for both."""
+    case = _orbit(RADIUS_M, flown)
+    (plan,) = case.spec.missions
+    turns = number(asked, Unit.ONE, explicit=True, bound=bound)
+    case.spec = spec(**{**dict(case.spec), 'missions': (dict(plan) | {'turns': turns},)})
     return case
 
 
@@ -160,6 +169,29 @@ ROWS = (
         what='farther',
     ),
     Row(id='m1.turn', make=lambda: grounded(_orbit(40.0, 1.0)), reason=EMPTY),
+    # A stated number of turns: neither fewer nor more, but for its bound.
+    Row(id='m1.turn', make=lambda: _turning(1.1, 1.1), margin=15.0, within=0.1, what='stated'),
+    Row(
+        id='m1.turn',
+        make=lambda: _turning(2.0, 1.0),
+        margin=15.0 - 360.0,
+        within=0.1,
+        what='one-of-two',
+    ),
+    Row(
+        id='m1.turn',
+        make=lambda: _turning(1.0, 1.1, Bound.AT_LEAST),
+        margin=36.0,
+        within=0.1,
+        what='at-least',
+    ),
+    Row(
+        id='m1.turn',
+        make=lambda: _turning(1.0, 1.1, Bound.AT_MOST),
+        margin=-36.0,
+        within=0.1,
+        what='at-most',
+    ),
 )
 
 

@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 from kind_rows import Row, cut, gone
 from trace_builder import driver, number
-from trace_cases import Case, ground_case, hover_case, spec
+from trace_cases import Case, convoy_case, ground_case, hover_case, spec, survey_case
 
-from aurora_core.knowledge.world import CentreLine
+from aurora_core.knowledge.world import CentreLine, Wind
 from aurora_core.outcomes.verdict import Reason
 from aurora_core.spec.parameter import Bound, Unit
 from aurora_core.spec.scenario import Behavior
@@ -89,7 +89,92 @@ def _traffic(cars: int, away_m: float = 100.0) -> Case:
     return case
 
 
+def _wind(east_mps: float, north_mps: float, case: Case | None = None, **asked: object) -> Case:
+    """A wind is recorded, of which something was asked."""
+    case = _drive() if case is None else case
+    case.spec = spec(**{**dict(case.spec), 'world': asked})
+    wind = Wind(mean_east_mps=east_mps, mean_north_mps=north_mps)
+    case.world = replace(case.world, wind=wind)
+    return case
+
+
+def _blowing(speed_mps: float, bound: Bound = Bound.EXACTLY) -> Case:
+    asked = number(5.0, Unit.METRE_PER_SECOND, explicit=True, bound=bound)
+    return _wind(0.6 * speed_mps, -0.8 * speed_mps, wind_mps=asked)
+
+
+def _from(from_deg: float, east_mps: float = 0.0, north_mps: float = -4.0) -> Case:
+    return _wind(east_mps, north_mps, wind_from_deg=number(from_deg, Unit.DEGREE, explicit=True))
+
+
 ROWS = (
+    # 1 % is allowed.
+    Row(id='world.wind_speed', make=lambda: _blowing(5.0), margin=0.05),
+    Row(id='world.wind_speed', make=lambda: _blowing(6.0), margin=0.05 - 1.0),
+    Row(id='world.wind_speed', make=lambda: cut(_blowing(5.0), 200), reason=SHORT),
+    Row(
+        id='world.wind_speed',
+        make=lambda: _blowing(6.0, Bound.AT_LEAST),
+        margin=1.0,
+        what='at-least',
+    ),
+    # The air goes south: it comes from the north. 15 degrees are allowed.
+    Row(id='world.wind_from', make=lambda: _from(350.0), margin=15.0 - 10.0),
+    Row(id='world.wind_from', make=lambda: _from(90.0), margin=15.0 - 90.0),
+    Row(id='world.wind_from', make=lambda: _from(0.0, 0.0, 0.0), margin=-165.0, what='still'),
+    Row(id='world.wind_from', make=lambda: cut(_from(0.0), 200), reason=SHORT),
+    # The first of the two long legs of the rectangle goes east, 45 degrees are allowed.
+    Row(
+        id='world.wind_course',
+        make=lambda: _wind(4.0, 0.0, survey_case(), wind='tailwind'),
+        margin=45.0,
+        what='tailwind',
+    ),
+    Row(
+        id='world.wind_course',
+        make=lambda: _wind(4.0, 0.0, survey_case(), wind='headwind'),
+        margin=45.0 - 180.0,
+        what='headwind',
+    ),
+    Row(
+        id='world.wind_course',
+        make=lambda: _wind(-3.0, 3.0, survey_case(), wind='crosswind'),
+        margin=0.0,
+        what='crosswind',
+        within=1e-6,
+    ),
+    # The bus drives east when it is captured.
+    Row(
+        id='world.wind_course',
+        make=lambda: _wind(-4.0, 0.0, convoy_case(), wind='headwind'),
+        margin=45.0,
+        what='track',
+    ),
+    Row(
+        id='world.wind_course',
+        make=lambda: _wind(0.0, 4.0, convoy_case(), wind='headwind'),
+        margin=45.0 - 90.0,
+        what='track',
+    ),
+    Row(
+        id='world.wind_course',
+        make=lambda: gone(_wind(-4.0, 0.0, convoy_case(), wind='headwind'), 1, 50),
+        reason=Reason.TARGET_GONE,
+        what='track',
+    ),
+    # Who hovers has no course; without wind it has no crosswind either.
+    Row(
+        id='world.wind_course',
+        make=lambda: _wind(4.0, 0.0, hover_case(), wind='crosswind'),
+        margin=45.0,
+        what='hover',
+    ),
+    Row(
+        id='world.wind_course',
+        make=lambda: _wind(0.0, 0.0, hover_case(), wind='crosswind'),
+        margin=45.0 - 180.0,
+        what='still',
+    ),
     # 0.7 to 1.5 of what is due are allowed.
     Row(id='world.traffic', make=lambda: _traffic(2), margin=1.0 - 0.7),
     Row(id='world.traffic', make=lambda: _traffic(3), margin=0.0, what='three'),

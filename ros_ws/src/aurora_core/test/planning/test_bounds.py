@@ -23,7 +23,7 @@ from aurora_core.spec.scenario import (
     Uav,
     UavMission,
 )
-from aurora_core.spec.vocabulary import AgentType, MissionMode, Pattern
+from aurora_core.spec.vocabulary import AgentType, MissionMode, Pattern, Side
 
 Make = Callable[..., Parameter]
 LIMITS = load_limits(config_path('limits.json'))
@@ -93,6 +93,25 @@ def test_a_least_distance_sets_the_standoff(parameter: Make) -> None:
     assert 55.0 <= hypot(altitude_m, standoff_m) <= 65.0
     of_others = _says(parameter, 'distance', '>=', 50.0, 'van1', 'ego')
     assert _flown(_spec(parameter, of_others)) == (30.0, 0.0)
+
+
+@pytest.mark.parametrize(('low_m', 'away_m'), [(None, (20.0, 20.0)), (50.0, (55.0, 65.0))])
+def test_a_side_is_kept_from_20_m_unless_the_request_says_more(
+    parameter: Make, low_m: float | None, away_m: tuple[float, float]
+) -> None:
+    says = [] if low_m is None else [_says(parameter, 'distance', '>=', low_m, 'uav1', 'van1')]
+    spec = _beside(_spec(parameter, *says))
+    altitude_m, standoff_m = _flown(spec)
+    assert away_m[0] <= (standoff_m if low_m is None else hypot(altitude_m, standoff_m))
+    assert standoff_m <= away_m[1]
+    near = _says(parameter, 'horizontal_distance', '<=', 12.0, 'uav1', 'van1')
+    assert _flown(_beside(_spec(parameter, near)))[1] == 10.0
+    assert _flown(_beside(_spec(parameter, stated=True)))[1] == 0.0
+
+
+def _beside(spec: ScenarioSpec) -> ScenarioSpec:
+    missions = tuple(m.model_copy(update={'side': Side.LEFT}) for m in spec.missions)
+    return spec.model_copy(update={'missions': missions})
 
 
 def test_a_greatest_distance_brings_it_down(parameter: Make) -> None:

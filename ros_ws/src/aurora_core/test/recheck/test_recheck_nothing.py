@@ -13,6 +13,7 @@ from aurora_core.outcomes.feasibility import Feasibility, Rule
 from aurora_core.pipeline.functions import check_stage, ground_stage, parse_stage
 from aurora_core.pipeline.knowledge import installed_knowledge
 from aurora_core.recheck import recheck
+from aurora_core.spec.parameter import Unit
 from aurora_core.spec.scenario import ScenarioSpec
 
 _KNOWN = installed_knowledge()
@@ -70,6 +71,32 @@ def test_what_has_no_extent_is_refused_with_a_proof(prompt: str, reason: str) ->
     document = spec.model_dump(mode='json')
     for proof in verdict.certificates:
         assert recheck(proof, document).valid
+
+
+@pytest.mark.parametrize('speed_mps', [15.5, -1.0])
+def test_a_wind_beyond_its_limit_is_refused_with_a_proof(speed_mps: float) -> None:
+    spec = read(f'{ORBIT} 40 m at 40 m.')
+    asked = spec.missions[0].altitude_m.model_copy(
+        update={'value': speed_mps, 'unit': Unit.METRE_PER_SECOND}
+    )
+    spec = spec.model_copy(update={'world': spec.world.model_copy(update={'wind_mps': asked})})
+    verdict = check_stage(_KNOWN, build_agsg(spec, map_digest=''))
+    assert [(c.rule, c.reason) for c in verdict.certificates] == [(Rule.LIMIT, 'speed_limit')]
+    proof, document = verdict.certificates[0], spec.model_dump(mode='json')
+    assert recheck(proof, document).valid
+    inside = {**document['world'], 'wind_mps': {**document['world']['wind_mps'], 'value': 14.0}}
+    assert not recheck(proof, {**document, 'world': inside}).valid
+
+
+@pytest.mark.parametrize('turns', [0.0, -2.0])
+def test_an_orbit_without_turns_is_refused_with_a_proof(turns: float) -> None:
+    spec = read(f'{ORBIT} 40 m at 40 m.')
+    (mission,) = spec.missions
+    asked = mission.altitude_m.model_copy(update={'value': turns, 'unit': Unit.ONE})
+    spec = spec.model_copy(update={'missions': (mission.model_copy(update={'turns': asked}),)})
+    verdict = check_stage(_KNOWN, build_agsg(spec, map_digest=''))
+    assert [(c.rule, c.reason) for c in verdict.certificates] == [(Rule.SIGN, 'count')]
+    assert recheck(verdict.certificates[0], spec.model_dump(mode='json')).valid
 
 
 @pytest.mark.parametrize('prompt', OPEN)

@@ -22,7 +22,9 @@ from aurora_core.spec.vocabulary import (
     Pattern,
     Place,
     Relation,
+    RelativeWind,
     Role,
+    Side,
     TimeOfDay,
     TrafficDensity,
     Weather,
@@ -140,6 +142,10 @@ class _Scene:
             'time_of_day_span': self.span()['span'],
             'traffic_density': self.maybe(st.sampled_from(TrafficDensity)),
             'duration_s': self.maybe_number(Unit.SECOND),
+            'wind_mps': self.maybe_number(Unit.METRE_PER_SECOND),
+            'wind_from_deg': self.maybe_number(Unit.DEGREE),
+            'wind': self.maybe(st.sampled_from(RelativeWind)),
+            'wind_span': self.span()['span'],
             'seed': self.maybe(st.integers(0, SEED_MAX)),
             **self.span(),
         }
@@ -180,6 +186,7 @@ class _Scene:
         mode = self.draw(st.sampled_from(MissionMode))
         route, track = mode is MissionMode.NAVIGATE, mode is MissionMode.TRACK
         size = (self.number(Unit.METRE), self.number(Unit.METRE))
+        pattern = self.draw(st.sampled_from(Pattern)) if route else None
         return {
             'id': name,
             'uav': self.flown[name],
@@ -191,11 +198,13 @@ class _Scene:
             'altitude_m': self.number(Unit.METRE),
             'standoff_m': self.number(Unit.METRE) if track else self.maybe_number(Unit.METRE),
             'bearing_deg': self.maybe_number(Unit.DEGREE),
+            'side': self.maybe(st.sampled_from(Side)) if track else None,
             'duration_s': self.maybe_number(Unit.SECOND) if route else self.number(Unit.SECOND),
-            'pattern': self.draw(st.sampled_from(Pattern)) if route else None,
+            'pattern': pattern,
             'size_m': self.maybe(st.just(size)),
             'radius_m': self.maybe_number(Unit.METRE),
             'waypoint_count': self.maybe_number(Unit.ONE),
+            'turns': self.maybe_number(Unit.ONE) if pattern is Pattern.ORBIT else None,
             'speed_mps': self.number(Unit.METRE_PER_SECOND) if route else None,
             'dwell_s': self.maybe_number(Unit.SECOND) if route else None,
             'over_streets': self.draw(st.booleans()),
@@ -267,7 +276,7 @@ class _Scene:
     def action(self) -> _Document | None:
         kinds = ['agent'] if self.agents else []
         kinds += ['send_message'] if len(self.bodies) > 1 else []
-        kinds += ['land', 'ascend'] if self.uavs else []
+        kinds += ['land', 'return_home', 'ascend'] if self.uavs else []
         kinds += ['change_mission'] if self.missions else []
         if not kinds:
             return None

@@ -92,6 +92,8 @@ def test_the_scene_itself_is_valid() -> None:
         ({'missions': [_HOVER | {'altitude_m': _number(low=8.0, high=7.0)}]}, 'low <= high'),
         # fields of a mode
         ({'missions': [_HOVER | {'dwell_s': _number('s')}]}, 'only a route'),
+        ({'missions': [_HOVER | {'side': 'left'}]}, 'only who tracks'),
+        ({'missions': [_ROUTE | {'turns': _number('1')}]}, 'only an orbit'),
         # references
         ({'missions': [_HOVER | {'target': 'uav1'}]}, 'its own target'),
         ({'links': [_LINK | {'receiver': 'uav1'}]}, 'cannot send to itself'),

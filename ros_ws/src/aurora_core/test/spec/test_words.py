@@ -109,6 +109,7 @@ _ACTIONS: dict[str, Scene] = {
         for do in typing.get_args(AgentAction.model_fields['do'].annotation)
     },
     'land': {'uav': 'uav1'},
+    'return_home': {'uav': 'uav1'},
     'ascend': {'uav': 'uav1', 'altitude_m': _number()},
     'change_mission': {'uav': 'uav1', 'mission': 'm1'},
 }

@@ -121,9 +121,9 @@ def test_rates_are_told_where_the_multirotor_does_less_than_the_limits(
         tables = Tables(limits=limits, tolerances=tolerances, settings=changed)
         basis = Basis.of('0', tables)
         made = GroundedScenario.model_validate(found.model_dump() | {'basis': basis.model_dump()})
-        return plan_time(spec, made, limits).facts
+        return plan_time(spec, made, limits, tolerances).facts
 
-    assert facts() == plan_time(spec, found, limits).facts
+    assert facts() == plan_time(spec, found, limits, tolerances).facts
     assert 'climb_mps' not in facts().model_dump()
     slow = facts(climb_mps=2.0, descent_mps=1.0)
     assert (slow.climb_mps, slow.descent_mps) == (1.5, 0.75)

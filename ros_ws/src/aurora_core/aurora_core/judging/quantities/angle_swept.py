@@ -6,13 +6,22 @@ from __future__ import annotations
 
 from typing import Literal
 
-from aurora_core.judging.build import Inputs, Source, Target, condition, number
+from aurora_core.judging.build import (
+    Inputs,
+    Source,
+    Target,
+    bound_words,
+    condition,
+    number,
+    stated_by,
+)
 from aurora_core.judging.evaluation import Context, Evaluation, Later, Missing, at_tick
 from aurora_core.judging.quantity import OfMission
 from aurora_core.judging.route import route_topics
 from aurora_core.outcomes.condition import Condition, MissionArguments
 from aurora_core.quantities.angle import compass_bearing_deg, turned_deg
 from aurora_core.quantities.waypoints import pattern_centre
+from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.quantity import QuantityName
 
 _TURN_DEG = 360.0
@@ -42,21 +51,52 @@ class AngleSwept(OfMission):
 
 
 def implied(
-    inputs: Inputs, mission: MissionArguments, source: Source, *, again: bool
+    inputs: Inputs,
+    mission: MissionArguments,
+    turns: Parameter | None,
+    source: Source,
+    *,
+    again: bool,
 ) -> Condition:
-    """Return that an orbit is one full turn, or one at least where its time is stated."""
+    """Return that an orbit goes round as often as stated.
+
+    Args:
+        inputs: The request and its plan.
+        mission: The orbit.
+        turns: Stated number of turns; None: one full turn.
+        source: Of the condition.
+        again: Where no number is stated it is one turn at least: its time is stated.
+    """
     tolerance_deg = inputs.tolerances.orbit_deg
+    if turns is not None:
+        words, target = _stated(turns, tolerance_deg)
+        source = stated_by(source, turns)
+    elif again:
+        words = f'at least {number(_TURN_DEG)} deg'
+        target = Target(op='>=', threshold=_TURN_DEG - tolerance_deg, unit='deg')
+    else:
+        words = f'{number(_TURN_DEG)} deg'
+        target = Target(op='==', threshold=_TURN_DEG, unit='deg', tolerance=tolerance_deg)
     return condition(
         id=f'{mission.mission}.turn',
         sentence=(
-            f'{mission.uav} goes {"at least " if again else ""}{number(_TURN_DEG)} deg round the '
-            f'centre of its orbit, within {number(tolerance_deg)} deg'
+            f'{mission.uav} goes {words} round the centre of its orbit, within '
+            f'{number(tolerance_deg)} deg'
         ),
         of=(mission.uav,),
-        target=Target(op='>=', threshold=_TURN_DEG - tolerance_deg, unit='deg')
-        if again
-        else Target(op='==', threshold=_TURN_DEG, unit='deg', tolerance=tolerance_deg),
+        target=target,
         arguments=AngleSwept(**inputs.common, mission=mission),
         source=source,
         every_sample=False,
     )
+
+
+def _stated(turns: Parameter, tolerance_deg: float) -> tuple[str, Target]:
+    """Return a stated number of turns as an angle: in words, and as a comparison."""
+    angle_deg = _TURN_DEG * turns.value
+    target = {
+        Bound.AT_LEAST: Target(op='>=', threshold=angle_deg, unit='deg'),
+        Bound.AT_MOST: Target(op='<=', threshold=angle_deg, unit='deg'),
+        Bound.EXACTLY: Target(op='==', threshold=angle_deg, unit='deg', tolerance=tolerance_deg),
+    }[turns.bound]
+    return f'{bound_words(turns)} {number(angle_deg)} deg ({number(turns.value)} turns)', target

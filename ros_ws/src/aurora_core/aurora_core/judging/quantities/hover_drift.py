@@ -37,7 +37,7 @@ class HoverDrift(OfMission):
 
 def implied(inputs: Inputs, mission: MissionArguments, source: Source) -> Condition:
     """Return that a UAV stays where it hovers, as far as the weather lets it."""
-    limit = hover_drift_limit_m(inputs.spec.world.weather.value, inputs.limits, inputs.tolerances)
+    limit = hover_drift_limit_m(inputs.spec.world, inputs.limits, inputs.tolerances)
     return condition(
         id=f'{mission.mission}.drift',
         sentence=f'{mission.uav} stays within {number(limit)} m of its hover point',

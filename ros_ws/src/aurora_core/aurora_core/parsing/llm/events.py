@@ -30,7 +30,7 @@ _TRIGGERS: dict[str, tuple[str, str, str, str]] = {
     'event_done': ('', 'event', 'after_s', 'trigger_time'),
     'mission_done': ('uav', '', '', 'delay'),
 }
-_UAV_ACTIONS = ('land', 'ascend', 'change_mission')
+_UAV_ACTIONS = ('land', 'return_home', 'ascend', 'change_mission')
 _CONDITION_VALUES = {
     Unit.METRE: 'condition_distance',
     Unit.SECOND: 'condition_time',

@@ -10,7 +10,7 @@ from aurora_core.parsing.llm.reading import LinkReading, MissionReading
 from aurora_core.parsing.scene import LinkDraft, MissionDraft
 from aurora_core.parsing.values import default
 from aurora_core.spec.parameter import Parameter
-from aurora_core.spec.vocabulary import MissionMode, Pattern
+from aurora_core.spec.vocabulary import MissionMode, Pattern, Side
 
 
 def add_mission(said: MissionReading, parts: Parts) -> None:
@@ -35,6 +35,7 @@ def add_mission(said: MissionReading, parts: Parts) -> None:
             altitude=parts.number('altitude', said.altitude_m, f'{where}.altitude_m'),
             standoff=parts.number('standoff', said.standoff_m, f'{where}.standoff_m'),
             bearing=parts.number('bearing', said.bearing_deg, f'{where}.bearing_deg'),
+            side=_side(said, parts),
             duration=parts.number('mission_duration', said.duration_s, f'{where}.duration_s'),
             pattern=said.pattern if said.mode is MissionMode.NAVIGATE else None,
             size=_size(said, parts),
@@ -42,12 +43,28 @@ def add_mission(said: MissionReading, parts: Parts) -> None:
             waypoint_count=parts.number(
                 'waypoint_count', said.waypoint_count, f'{where}.waypoint_count'
             ),
+            turns=_turns(said, parts),
             speed=parts.number('uav_speed', said.speed_mps, f'{where}.speed_mps'),
             over_streets=said.over_streets,
             ends_in_flight=said.ends_in_flight,
             span=parts.span(said.quote, where),
         )
     )
+
+
+def _side(said: MissionReading, parts: Parts) -> Side | None:
+    if said.side is not None and said.mode is not MissionMode.TRACK:
+        parts.complaints.append(f'{said.id}.side: only who tracks keeps to a side')
+        return None
+    return said.side
+
+
+def _turns(said: MissionReading, parts: Parts) -> Parameter | None:
+    where = f'{said.id}.turns'
+    if said.turns is not None and said.pattern is not Pattern.ORBIT:
+        parts.complaints.append(f'{where}: only an orbit has turns')
+        return None
+    return parts.number('turns', said.turns, where)
 
 
 def _size(said: MissionReading, parts: Parts) -> tuple[Parameter, Parameter] | None:

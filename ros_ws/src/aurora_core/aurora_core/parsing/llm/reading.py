@@ -21,6 +21,8 @@ from aurora_core.spec.vocabulary import (
     MissionMode,
     Pattern,
     Relation,
+    RelativeWind,
+    Side,
     TimeOfDay,
     TrafficDensity,
     Weather,
@@ -52,6 +54,9 @@ class WorldReading(Document):
     time_of_day: TimeOfDay | None = None
     traffic_density: TrafficDensity | None = None
     duration_s: Number | None = None
+    wind_mps: Number | None = None
+    wind_from_deg: Number | None = None
+    wind: RelativeWind | None = None
 
 
 class PlacementReading(Document):
@@ -94,12 +99,14 @@ class MissionReading(Document):
     altitude_m: Number | None = None
     standoff_m: Number | None = None
     bearing_deg: Number | None = None
+    side: Side | None = None
     duration_s: Number | None = None
     pattern: Pattern | None = None
     length_m: Number | None = None
     width_m: Number | None = None
     radius_m: Number | None = None
     waypoint_count: Number | None = None
+    turns: Number | None = None
     speed_mps: Number | None = None
     over_streets: bool = False
     ends_in_flight: bool = False
@@ -153,6 +160,7 @@ class ActionReading(Document):
         'start',
         'cross',
         'land',
+        'return_home',
         'ascend',
         'change_mission',
     ]

@@ -91,6 +91,9 @@ def _add_world(said: WorldReading, parts: Parts) -> None:
     draft.time_of_day_span = _word('time_of_day', said.time_of_day, parts)
     draft.traffic = said.traffic_density
     draft.duration = parts.number('scenario_duration', said.duration_s, 'world.duration_s')
+    draft.wind_speed = parts.number('wind_speed', said.wind_mps, 'world.wind_mps')
+    draft.wind_from = parts.number('wind_from', said.wind_from_deg, 'world.wind_from_deg')
+    draft.wind = said.wind
 
 
 def _word(

@@ -153,6 +153,7 @@ class Wording:
 
     def _lost_relations(self) -> None:
         placed = {p.relation.value for agent in self._reading.agents for p in agent.placements}
+        placed |= {m.side.value for m in self._reading.missions if m.side is not None}
         kinds = {b.kind.value for agent in self._reading.agents for b in agent.behaviors}
         if kinds & set(_BEHIND_ITS_TARGET):
             placed.add(Relation.BEHIND.value)
