@@ -10,6 +10,7 @@ import shapely
 from aurora_bench.checker import limits
 from aurora_bench.checker.answers import (
     Judged,
+    Outcome,
     all_of,
     any_of,
     cannot_tell,
@@ -141,7 +142,8 @@ def _same_lane(case: Case, requirement: Requirement, body: str, other: str) -> J
     why = f'{body} {lateral:.2f} m beside the way of {other}, {abs(float(gaps[0])):.2f} m along it'
     by_way = graded(lateral <= 1.2 and heading > 0.7, lateral <= 1.8, why)
     # Who pulls out soon leaves the other's way; the lane at t = 0 is what counts.
-    parts = [any_of([by_way, _by_lane(case, body, other, same=True)])]
+    by_lane = _by_lane(case, body, other, same=True)
+    parts = [by_lane if by_lane.outcome is Outcome.HOLDS else by_way]
     if asked is not None:
         parts.append(decide(asked.counts(abs(float(gaps[0]))), f'{why}, asked {asked.text()} m'))
     return all_of(parts)

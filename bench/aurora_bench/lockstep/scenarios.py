@@ -32,7 +32,8 @@ _STEP_M = 10
 _WAY_S = 40
 _SHORTEST_MISSION_S = 5
 _FEWEST_AGENTS = 2
-_SHORTEST_S = 10
+# Up to the first altitude, and the shortest mission.
+_SHORTEST_S = 12
 
 
 class ScenarioRefusedError(AuroraError):

@@ -73,6 +73,11 @@ class Numbers:
         self._variation = variation
         self._spans = spans
 
+    @property
+    def are_judged(self) -> bool:
+        """Whether the reference is one to be run."""
+        return self._spans is not None
+
     def stated(self, path: str, value: float, unit: str | None = None) -> Doc:
         """Return the parameter of an annotated number.
 
@@ -130,7 +135,9 @@ def behavior(r: BehaviorRequirement, names: Names, numbers: Numbers) -> Doc:
     Raises:
         NotExpressibleError: It is about several bodies: a specification names one.
     """
-    if r.target is not None and len(names.all(r.target)) > 1 and r.behavior in _TOWARDS_ONE:
+    # Stored references stay as they are; of those that run nothing may be left out.
+    several = r.target is not None and len(names.all(r.target)) > 1
+    if numbers.are_judged and several and r.behavior in _TOWARDS_ONE:
         raise NotExpressibleError(f'{r.behavior} of several')
     return {'kind': r.behavior, 'target': names.one(r.target), **numbers.of(r, ('speed_mps',))}
 

@@ -23,15 +23,15 @@ from aurora_bench.results import ResultsError
 from aurora_ros.processes import process_state
 from aurora_ros.testing.domains import own_domain
 
-SMALL = Configuration(agents=3, uavs=1, seconds=10)
-TICKS = 201
+SMALL = Configuration(agents=3, uavs=1, seconds=12)
+TICKS = 241
 
 
 def test_the_command_measures_the_local_engine(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(campaign, 'busy_share', lambda: 0.0)
-    options = '--quick --engines local --agents 3 --uavs 1 2 --seconds 10'
+    options = '--quick --engines local --agents 3 --uavs 1 2 --seconds 12'
     assert main([*options.split(), '--results', str(tmp_path)]) == 0
     assert sorted(path.name for path in tmp_path.iterdir()) == [
         f'lockstep.{kind}' for kind in ('json', 'md', 'png', 'svg')

@@ -211,6 +211,12 @@ def _uav_event(spec: ScenarioSpec, clause: Clause) -> bool:
     return any(isinstance(e.action, UavAction) for e in spec.events)
 
 
+def _return_home(spec: ScenarioSpec, clause: Clause) -> bool:
+    return any(
+        isinstance(e.action, UavAction) and e.action.do == 'return_home' for e in spec.events
+    )
+
+
 def _looks(spec: ScenarioSpec, clause: Clause) -> bool:
     """Something about sight, or a flight that watches a body of the clause."""
     bodies = {agent.id for agent in spec.agents}
@@ -291,6 +297,7 @@ _CARRIERS: dict[str, Callable[[ScenarioSpec, Clause], bool]] = {
     'phases': _phases,
     'uav_event': _uav_event,
     'looks': _looks,
+    'return_home': _return_home,
     'waits': _waits,
     'watches': _watches,
     'row': _row,

@@ -19,8 +19,8 @@ from aurora_core.spec.quantity import QuantityName
 class PatternCentre(OfMission):
     """Distance from the centre of the pattern, or the hover point, to the target at t = 0, metres.
 
-    A landmark that is a building is where its middle is; of a hover over its roof, or over the
-    street before it from where it is seen, the nearest one of them counts.
+    A landmark that is a building is where its middle is; a hover over its roof is over it. The
+    street before it is another place.
     """
 
     name = QuantityName.PATTERN_CENTRE
@@ -56,7 +56,7 @@ class PatternCentre(OfMission):
         away_m = float(distance_2d(middle[0] - x, middle[1] - y))
         if not hovers:
             return away_m
-        return 0.0 if building.is_below(x, y) else min(away_m, before_m)
+        return 0.0 if building.is_below(x, y) else away_m
 
 
 def implied(inputs: Inputs, mission: MissionArguments, target: str, source: Source) -> Condition:
