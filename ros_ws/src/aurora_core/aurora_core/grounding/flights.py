@@ -23,6 +23,7 @@ from aurora_core.grounding.places import (
     ROADS,
     MapPlaces,
     has_point,
+    over_edge,
     road_point,
 )
 from aurora_core.grounding.planned_flight import (
@@ -167,8 +168,13 @@ class FlightPlanner:
         targets = self._watched(spec, mission, site, centre, speed_mps)
         above = self._hover(mission, middle, targets, others)
         if building is not None and isinstance(above, Rejected):
-            # What stands for a building is the street before it; there it is seen.
-            return self._hover(mission, centre, targets, others)
+            # What stands for a building is the street before it: over a wide roof it is seen from
+            # the near edge, and where that is too high, from over the street.
+            edge = over_edge(building, centre)
+            over = self._hover(mission, (*edge, *centre[2:]), targets, others)
+            if isinstance(over, Rejected):
+                return self._hover(mission, centre, targets, others)
+            return over
         return above
 
     def _inside(self, mission: UavMission) -> UavMission:

@@ -38,6 +38,9 @@ POINTS = (Place.INTERSECTION, Place.CROSSWALK)
 # Streets cross where at least this many ways lead on; the end of a street is no intersection.
 _CROSSING_WAYS = 3
 
+# A hover over the edge of a roof is so far inside it (m).
+_ROOF_M = 4.0
+
 
 def place_positions(
     spec: ScenarioSpec, map_model: MapModel, grounded: GroundedScenario
@@ -195,3 +198,15 @@ def landmark_point(map_model: MapModel, name: str) -> Point2:
 def nearest_to(anchor: Point2, centres: Sequence[Point2]) -> Point2:
     """Return the centre nearest to a point; of equally near ones the first."""
     return min(centres, key=lambda c: norm2(c[0] - anchor[0], c[1] - anchor[1]))
+
+
+def over_edge(building: Building, street: Sequence[float]) -> tuple[float, float]:
+    """Return the point over a building's roof, a little inside it, nearest to a street (x, y)."""
+    (x, y), (to_x, to_y) = building.centre, street[:2]
+    away_m = norm2(to_x - x, to_y - y)
+    for k in range(int(away_m), 0, -1):
+        here = (x + (to_x - x) * k / away_m, y + (to_y - y) * k / away_m)
+        if building.is_below(*here):
+            back = max(0.0, k - _ROOF_M) / away_m
+            return x + (to_x - x) * back, y + (to_y - y) * back
+    return x, y

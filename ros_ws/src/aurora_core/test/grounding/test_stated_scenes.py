@@ -245,3 +245,20 @@ def test_who_is_to_fall_back_is_slower_than_the_one_ahead(
     )
     van, car = (next(a for a in found.agents if a.type_name == kind) for kind in ('van', 'car'))
     assert car.speed_factor < 0.8 * van.speed_factor
+
+
+@pytest.mark.parametrize(
+    ('place', 'altitude_m'), [('City Hall', 40.0), ('Eastgate Stadium', 80.0)]
+)
+def test_a_hover_over_a_building_is_over_its_roof(
+    grounded: Callable[[str], GroundedScenario],
+    map_of: Callable[[str], MapModel],
+    place: str,
+    altitude_m: float,
+) -> None:
+    """Over a wide roof, from where the street before it is still seen."""
+    found = grounded(f'A drone hovers over {place} at {altitude_m:g} m.')
+    x, y, z = found.uavs[0].missions[0].hover_point or (0.0, 0.0, 0.0)
+    building = next(b for b in map_of('downtown').buildings if b.name == place)
+    assert building.is_below(x, y)
+    assert z == altitude_m
