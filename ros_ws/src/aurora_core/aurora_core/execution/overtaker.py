@@ -30,13 +30,13 @@ class _Passing:
     """One overtaking: `row` passes `other`.
 
     Attributes:
-        left: The lane that it pulled out of, None while it is behind.
+        is_out: It has pulled out.
         done: It has pulled in again, or is over all lanes that it could.
     """
 
     row: int
     other: int
-    left: int | None = None
+    is_out: bool = False
     done: bool = False
 
 
@@ -67,14 +67,14 @@ class Overtaker:
         return [c for one in self._passing if not one.done for c in self._step(one, seen)]
 
     def _step(self, one: _Passing, seen: Observation) -> list[GroundCommand]:
-        if one.left is None:
+        if not one.is_out:
             gap_m = seen.ahead_m(one.row, self._roster.agents[one.other].body_id)
             if not 0.0 < gap_m <= _OUT_M:
                 return []
             goal = self._lanes.goal(one.row, seen)
             if goal is None:
                 return []
-            one.left = self._lanes.lane(one.row, seen)
+            one.is_out = True
             return self._lanes.commands(one.row, goal, stays_s=_PASSES_S)
         if seen.ahead_m(one.other, self._roster.agents[one.row].body_id) < _IN_M:
             return []

@@ -12,7 +12,6 @@ from math import inf, sqrt
 import numpy as np
 
 from aurora_core.errors import MapError
-from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.convoy import SceneSplit, parks, stands
 from aurora_core.grounding.free_run import free_run_m, needed_run_m
 from aurora_core.grounding.goals import STOP_AFTER_M, GoalFinder, stops
@@ -36,6 +35,7 @@ from aurora_core.grounding.sites import (
     SeatedAgent,
     Site,
     brisk_lanes,
+    line_from,
     on_main_roads,
     tied_way_m,
     with_another_lane,
@@ -468,15 +468,3 @@ def _drawn(
     for _ in range(_TRIES):
         lane = lanes[int(generator.integers(len(lanes)))]
         yield lane, margin + float(generator.random()) * (lane.length_m - 2.0 * margin)
-
-
-def line_from(path: RoutePath, arc_m: float) -> tuple[tuple[float, float], ...]:
-    """Return the path from `arc_m` on as points (x, y), metres."""
-    x, y, _, _ = path.position_at(arc_m)
-    points = [(x, y)]
-    passed_m = 0.0
-    for a, b in zip(path.polyline[:-1], path.polyline[1:], strict=True):
-        passed_m += norm2(b[0] - a[0], b[1] - a[1])
-        if passed_m > arc_m + 0.01:
-            points.append(b)
-    return tuple(points)

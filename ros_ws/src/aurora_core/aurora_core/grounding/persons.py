@@ -11,12 +11,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
-from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.convoy import DEFAULT_GAP_M, ENCOUNTER_ROOM_M, stands
 from aurora_core.grounding.pace import WALKING_MPS, own_speed_mps
 from aurora_core.grounding.places import MapPlaces, has_point
 from aurora_core.grounding.routes import RouteFinder
-from aurora_core.grounding.sites import ANY_CLASS, SeatedAgent, SeatedPerson, Site
+from aurora_core.grounding.sites import ANY_CLASS, SeatedAgent, SeatedPerson, Site, line_from
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.walk_path import WalkPath, kerb_to_kerb, sidewalk_of, walk_along
@@ -160,7 +159,7 @@ class PersonPlacer:
                 height_m=record.height_m,
                 role=agent.role.value,
                 edges=path.edge_ids[:1] if stays else path.edge_ids,
-                route_xy_m=_line_from(path, seat.arc_m),
+                route_xy_m=line_from(path, seat.arc_m),
                 lane_id=path.lane_id,
                 lane_position_m=seat.arc_m,
                 x_m=x,
@@ -341,15 +340,3 @@ def _release(spec: ScenarioSpec, agent: GroundAgent) -> tuple[ReleaseOn, str, st
     if watching:
         return ReleaseOn.CAPTURED, watching[0].uav, watching[0].id
     return ReleaseOn.START, '', ''
-
-
-def _line_from(path: WalkPath, arc_m: float) -> tuple[tuple[float, float], ...]:
-    """Return the rest of a walk as points (x, y), metres."""
-    x, y, _, _ = path.position_at(arc_m)
-    points = [(x, y)]
-    passed_m = 0.0
-    for a, b in zip(path.polyline[:-1], path.polyline[1:], strict=True):
-        passed_m += norm2(b[0] - a[0], b[1] - a[1])
-        if passed_m > arc_m + 0.01:
-            points.append(b)
-    return tuple(points)

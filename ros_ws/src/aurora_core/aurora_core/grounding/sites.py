@@ -14,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from aurora_core.errors import MapError
+from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.convoy import BeforePlace, ConvoyMember
 from aurora_core.grounding.places import MapPlaces, nearest_to
 from aurora_core.grounding.routes import RouteFinder
@@ -379,3 +380,15 @@ def samples_along(
     count = max(2, int((end_m - start_m) / spacing_m) + 1)
     step = (end_m - start_m) / (count - 1)
     return path.positions_at(np.minimum(end_m, start_m + np.arange(count) * step))
+
+
+def line_from(path: RoutePath | WalkPath, arc_m: float) -> tuple[tuple[float, float], ...]:
+    """Return the path from `arc_m` on as points (x, y), metres."""
+    x, y, _, _ = path.position_at(arc_m)
+    points = [(x, y)]
+    passed_m = 0.0
+    for a, b in zip(path.polyline[:-1], path.polyline[1:], strict=True):
+        passed_m += norm2(b[0] - a[0], b[1] - a[1])
+        if passed_m > arc_m + 0.01:
+            points.append(b)
+    return tuple(points)

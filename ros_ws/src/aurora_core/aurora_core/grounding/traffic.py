@@ -12,9 +12,9 @@ import numpy as np
 from aurora_core.errors import MapError
 from aurora_core.geometry.kernel import norm2
 from aurora_core.geometry.polyline import Polyline
-from aurora_core.grounding.agents import line_from
 from aurora_core.grounding.lane_changers import ORDERED_CHANGES
 from aurora_core.grounding.routes import RouteFinder
+from aurora_core.grounding.sites import line_from
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_model import MapModel
