@@ -354,11 +354,11 @@ _NO_SPEED = frozenset(
 
 
 def behavior_conditions(
-    inputs: Inputs, of: Sequence[GroundAgent]
+    inputs: Inputs, whose: Sequence[GroundAgent]
 ) -> Iterator[Condition | Underivable]:
     """Yield the conditions of all behaviours of some ground agents."""
     agents = {agent.id for agent in inputs.spec.agents}
-    for agent in of:
+    for agent in whose:
         if parks(inputs.spec, agent) and all(b.kind is not _PARK for b in agent.behaviors):
             yield from _implied(inputs, agent, Behavior(kind=_PARK), f'{agent.id}.parked')
         for index, behavior in enumerate(agent.behaviors):

@@ -21,11 +21,11 @@ _OF_AGENTS = frozenset(RELATION_WORDS) - {Relation.ON, Relation.PARKED_AT}
 
 
 def placement_conditions(
-    inputs: Inputs, of: Sequence[GroundAgent]
+    inputs: Inputs, whose: Sequence[GroundAgent]
 ) -> Iterator[Condition | Underivable]:
     """Yield the conditions of all placements of some ground agents."""
     agents = {agent.id for agent in inputs.spec.agents}
-    for agent in of:
+    for agent in whose:
         for index, placed in enumerate(agent.placements):
             relation, of = placed.relation, placed.of
             if of is None and relation is Relation.PARKED_AT:

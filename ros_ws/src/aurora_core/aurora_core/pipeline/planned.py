@@ -45,7 +45,7 @@ def plan_conditions(
 
     def derive(asked: ScenarioSpec, agent: str | None = None) -> Derivation:
         made = derive_conditions(asked, schedule.facts, limits, tolerances, agent)
-        return replace(made, conditions=judgeable(made.conditions, asked, grounded))
+        return replace(made, conditions=judgeable(made.conditions, asked, grounded, agent))
 
     derivation = derive(spec)
     return PlannedConditions(
