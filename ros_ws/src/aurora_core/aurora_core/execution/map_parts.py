@@ -39,10 +39,11 @@ class MapParts:
     landmarks: dict[str, tuple[float, float]]
 
 
-def map_parts(map_model: MapModel) -> MapParts:
-    """Return the parts of a map."""
+def map_parts(map_model: MapModel, airspace: Airspace | None = None) -> MapParts:
+    """Return the parts of a map, with its airspace when that exists already."""
     network = map_model.network
-    airspace = Airspace(map_model.buildings, map_model.zones)
+    if airspace is None:
+        airspace = Airspace(map_model.buildings, map_model.zones)
     crossings = (
         Surface(surface_id=c.id, kind=SurfaceKind.CROSSING, ring=np.array(c.polygon))
         for c in network.crossings
