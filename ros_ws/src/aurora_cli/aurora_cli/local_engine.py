@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from aurora_cli.collector import no_collection
 from aurora_core.execution.plan import Execution
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.feasibility import FeasibilityVerdict
@@ -78,5 +79,6 @@ class LocalStages:
 
     def verify(self, agsg: Agsg, bag: Path) -> Verdict:
         """Recompute every margin from the bag."""
-        self.verified, recorded = load_bag(bag)
-        return verify_content(self.known, self.verified, recorded)
+        with no_collection():
+            self.verified, recorded = load_bag(bag)
+            return verify_content(self.known, self.verified, recorded)

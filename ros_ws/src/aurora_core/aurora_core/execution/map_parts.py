@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 
 import numpy as np
@@ -77,12 +78,12 @@ def map_parts(map_model: MapModel, airspace: Airspace | None = None) -> MapParts
 
 
 def _areas(name: str, kind: SurfaceKind, area: shapely.MultiPolygon) -> tuple[Surface, ...]:
+    if area.is_empty:
+        return ()
+    _, points, (ends, rings, _) = shapely.to_ragged_array([area])
+    # Without the last point of each ring, which is its first one.
+    lines = [points[a : b - 1].copy() for a, b in itertools.pairwise(ends.tolist())]
     return tuple(
-        Surface(
-            surface_id=f'{name}_{k}',
-            kind=kind,
-            ring=np.array(polygon.exterior.coords)[:-1],
-            holes=tuple(np.array(hole.coords)[:-1] for hole in polygon.interiors),
-        )
-        for k, polygon in enumerate(area.geoms)
+        Surface(surface_id=f'{name}_{k}', kind=kind, ring=lines[a], holes=tuple(lines[a + 1 : b]))
+        for k, (a, b) in enumerate(itertools.pairwise(rings.tolist()))
     )
