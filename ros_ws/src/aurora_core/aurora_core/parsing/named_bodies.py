@@ -65,7 +65,8 @@ def unnamed(spec: ScenarioSpec, words: Sequence[Atom], part: frozenset[str]) -> 
 
 def _of_kinds(spec: ScenarioSpec, clause: Clause) -> bool:
     """A clause about kinds of bodies (`no other bicycle`), not about those that are there."""
-    return any(one.id in clause.ids for one in (*spec.counts, *spec.prohibitions))
+    counted = any(c.id in clause.ids for c in spec.counts)
+    return counted or any(p.id in clause.ids for p in spec.prohibitions)
 
 
 def strangers(spec: ScenarioSpec, atoms: Sequence[Atom]) -> list[Span]:
@@ -136,9 +137,14 @@ def taking_part(spec: ScenarioSpec, clause: Clause) -> frozenset[str]:
 
     Its elements are those that it names, and all whose words stand in it.
     """
-    parts = [(a.id, part) for a in spec.agents for part in (*a.placements, *a.behaviors)]
-    groups = (spec.missions, spec.events, spec.conditions, spec.links, spec.orders)
-    parts += [(e.id, e) for group in groups for e in group]
+    parts: list[tuple[str, BaseModel]] = []
+    for agent in spec.agents:
+        parts += [(agent.id, part) for part in (*agent.placements, *agent.behaviors)]
+    parts += [(m.id, m) for m in spec.missions]
+    parts += [(e.id, e) for e in spec.events]
+    parts += [(c.id, c) for c in spec.conditions]
+    parts += [(link.id, link) for link in spec.links]
+    parts += [(o.id, o) for o in spec.orders]
     by_id: dict[str, list[BaseModel]] = {}
     for name, part in parts:
         by_id.setdefault(name, []).append(part)
@@ -146,7 +152,8 @@ def taking_part(spec: ScenarioSpec, clause: Clause) -> frozenset[str]:
     told |= {name for name, part in parts if any(_meet(clause.span, s) for s in _spans(part))}
     for _ in range(2):
         told |= {word for name in told for part in by_id.get(name, ()) for word in _strings(part)}
-    return frozenset(told & {body.id for body in (*spec.agents, *spec.uavs)})
+    bodies = {agent.id for agent in spec.agents} | {uav.id for uav in spec.uavs}
+    return frozenset(told & bodies)
 
 
 def _meet(one: Span, other: Span) -> bool:
