@@ -19,6 +19,7 @@ from aurora_core.report.run_report import (
     RealisedReport,
     RunReport,
 )
+from aurora_core.report.said_back import ElementReport
 from aurora_core.report.status import Status
 from aurora_core.report.summary import margin_value
 from aurora_core.report.verify_report import VerifyOutcome, VerifyReport
@@ -68,6 +69,7 @@ def print_report(report: RunReport, console: Console, folder: Path | None = None
     headline(console, report.status.value, _COLOURS[report.status], report.summary)
     _question_and_error(report, console)
     print_clauses(report.clauses, console)
+    print_elements(report.elements, console)
     asked = [row for row in report.conditions if row.source]
     always = [row for row in report.conditions if not row.source]
     print_conditions('Conditions of the prompt', asked, console)
@@ -91,6 +93,7 @@ def print_check(report: CheckReport, console: Console) -> None:
     headline(console, report.result.value, _CHECK_COLOURS[report.result], report.summary)
     _question_and_error(report, console)
     print_clauses(report.clauses, console)
+    print_elements(report.elements, console)
     print_table(
         'A run would be judged by',
         ('condition', 'formula'),
@@ -169,6 +172,19 @@ def print_clauses(clauses: Sequence[ClauseReport], console: Console) -> None:
         ],
         console,
         bad=[k for k, c in enumerate(clauses) if c.status.is_open],
+    )
+
+
+def print_elements(elements: Sequence[ElementReport], console: Console) -> None:
+    """Print the request said back."""
+    print_table(
+        'Understood as',
+        ('', 'what', 'assumed'),
+        [
+            (one.id, one.text, f'assumed: {one.assumed}' if one.assumed else '')
+            for one in elements
+        ],
+        console,
     )
 
 
