@@ -13,6 +13,7 @@ from rich.table import Table
 
 from aurora_core.errors import AuroraError
 from aurora_core.report.check_report import CheckReport, CheckResult
+from aurora_core.report.clauses import status_word
 from aurora_core.report.run_report import (
     ClauseReport,
     ConditionReport,
@@ -55,6 +56,11 @@ _VERIFY_COLOURS = {
     VerifyOutcome.VIOLATED_AS_RECORDED: 'red',
 }
 
+# As in docs/glossary.md.
+_WORDS = {
+    'capture': 'the first moment at which a UAV has reached its altitude and its point or target',
+}
+
 Row = tuple[str, ...]
 
 
@@ -75,6 +81,7 @@ def print_report(report: RunReport, console: Console, folder: Path | None = None
     print_conditions('Conditions of the prompt', asked, console)
     print_conditions('Conditions of every run', always, console)
     print_realised(report.requested_and_realised, console)
+    print_words((row.sentence for row in report.conditions), console)
     for fault in report.faults:
         line(console, f'injected fault: {fault.kind} on {fault.subject} from {fault.at_s:g} s')
     if report.trace is not None:
@@ -101,6 +108,7 @@ def print_check(report: CheckReport, console: Console) -> None:
         console,
     )
     print_realised(report.requested_and_realised, console)
+    print_words((c.sentence for c in report.conditions), console)
     print_table(
         'When it can be',
         ('what', 'earliest', 'latest'),
@@ -164,7 +172,7 @@ def print_clauses(clauses: Sequence[ClauseReport], console: Console) -> None:
         ('', 'clause', 'became'),
         [
             (
-                clause.status.value.replace('_', ' '),
+                status_word(clause, clauses),
                 clause.text,
                 ', '.join(clause.ids) + (f' ({clause.note})' if clause.note else ''),
             )
@@ -186,6 +194,14 @@ def print_elements(elements: Sequence[ElementReport], console: Console) -> None:
         ],
         console,
     )
+
+
+def print_words(sentences: Iterable[str], console: Console) -> None:
+    """Explain the words of conditions that only AURORA uses, where they were printed."""
+    text = ' '.join(sentences)
+    for word, meaning in _WORDS.items():
+        if word in text:
+            line(console, f'{word:8} {meaning}')
 
 
 def print_realised(values: Iterable[RealisedReport], console: Console) -> None:
