@@ -141,7 +141,14 @@ def run_request(
         manifest=manifest,
         outputs=write_report,
     )
-    return Run(report=report, folder=folder.path, content=stages.verified)
+    return Run(report=report, folder=folder.path, content=_judged(report, folder, stages))
+
+
+def _judged(report: RunReport, folder: RunFolder, stages: LocalStages) -> BagContent | None:
+    """Return the bag that the report is about, when it was the last one to be read."""
+    if report.trace is None or folder.path / report.trace.bag != stages.verified_bag:
+        return None
+    return stages.verified
 
 
 def new_folder(root: Path) -> tuple[RunFolder, dict[str, Any]]:

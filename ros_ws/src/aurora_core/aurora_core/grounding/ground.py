@@ -21,6 +21,7 @@ from aurora_core.grounding.goals import GoalFinder
 from aurora_core.grounding.groups import GroupPlacer
 from aurora_core.grounding.lane_changers import changes_lane, share_with_another_lane
 from aurora_core.grounding.laps import Laps
+from aurora_core.grounding.not_there import NotThere
 from aurora_core.grounding.oncoming import OncomingPlacer
 from aurora_core.grounding.pace import fastest_stated_mps, watched_speed_mps
 from aurora_core.grounding.persons import PersonPlacer
@@ -40,6 +41,7 @@ from aurora_core.knowledge.settings import Settings
 from aurora_core.mission.plan import UavPlan
 from aurora_core.outcomes.grounded import AnchorScore, GroundedScenario
 from aurora_core.outcomes.grounding import GroundingFailure
+from aurora_core.outcomes.repair import AvoidedAnchor
 from aurora_core.ports.random_streams import stream
 from aurora_core.spec.scenario import ScenarioSpec
 
@@ -100,23 +102,30 @@ class Grounder:
         self._spots = SpotFinder(map_model, settings.grounding)
         self._goals = GoalFinder(map_model, types, tolerances)
 
-    def ground(self, spec: ScenarioSpec, seed: int) -> GroundedScenario | GroundingFailure:
+    def ground(
+        self, spec: ScenarioSpec, seed: int, avoided: tuple[AvoidedAnchor, ...] = ()
+    ) -> GroundedScenario | GroundingFailure:
         """Return the best grounding, or what every site lacked.
 
         Args:
             spec: What to ground.
             seed: Seed of the run (background traffic).
+            avoided: Where the scene was tried, and did not come true.
         """
         tolerance = self._tolerances.placement_vehicle_m
-        found = self._ground(spec, split_scene(spec, tolerance), seed)
+        found = self._ground(spec, split_scene(spec, tolerance), seed, avoided)
         if isinstance(found, GroundingFailure):
             apart = split_scene(spec, tolerance, apart=True)
-            again = self._ground(spec, apart, seed) if apart.groups else found
+            again = self._ground(spec, apart, seed, avoided) if apart.groups else found
             found = found if isinstance(again, GroundingFailure) else again
         return found
 
     def _ground(
-        self, spec: ScenarioSpec, split: SceneSplit, seed: int
+        self,
+        spec: ScenarioSpec,
+        split: SceneSplit,
+        seed: int,
+        avoided: tuple[AvoidedAnchor, ...],
     ) -> GroundedScenario | GroundingFailure:
         planner = FlightPlanner(
             map_model=self._map,
@@ -139,7 +148,8 @@ class Grounder:
         run_m = run_s * self._drive_speed(spec, split) + 300.0
         persons = PersonPlacer(self._map, self._types)
         oncoming = OncomingPlacer(self._map, self._types, self._spawns)
-        ranked = self._ranked_sites(spec, split, run_m)
+        elsewhere = NotThere(self._map.network, avoided)
+        ranked = [row for row in self._ranked_sites(spec, split, run_m) if elsewhere(row[1])]
         groups = GroupPlacer(
             self._map,
             self._types,
