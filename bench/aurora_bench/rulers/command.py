@@ -208,7 +208,13 @@ def _journal(
     head = JournalHead(
         campaign=ruler.name,
         files={file.name: file.sha256 for file in files},
-        options={'map': options.map, 'repair': str(options.repair), **own, **product_versions(), 'code': code},
+        options={
+            'map': options.map,
+            'repair': str(options.repair),
+            **own,
+            **product_versions(),
+            'code': code,
+        },
     )
     path = journal_path(place, options.name)
     return Journal(path, head, resume=options.resume is not None)

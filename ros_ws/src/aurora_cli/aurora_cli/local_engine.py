@@ -91,4 +91,4 @@ class LocalStages:
         self, agsg: Agsg, verdict: Verdict, bag: Path, past: tuple[Attempt, ...]
     ) -> Proposal:
         """Propose how to realise a violated request otherwise."""
-        return functions.repair_stage(agsg, verdict, past)
+        return functions.repair_stage(self.known, agsg, verdict, past)

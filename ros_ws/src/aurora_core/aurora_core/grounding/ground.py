@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 from aurora_core.grounding.agents import AgentPlacer
 from aurora_core.grounding.airspace import Airspace
+from aurora_core.grounding.allowed import allowed_sites
 from aurora_core.grounding.bends import bends_between
 from aurora_core.grounding.columns import Column, climbs_to_m, columns, nearest_points
 from aurora_core.grounding.convoy import SceneSplit, split_scene
@@ -21,7 +22,6 @@ from aurora_core.grounding.goals import GoalFinder
 from aurora_core.grounding.groups import GroupPlacer
 from aurora_core.grounding.lane_changers import changes_lane, share_with_another_lane
 from aurora_core.grounding.laps import Laps
-from aurora_core.grounding.not_there import NotThere
 from aurora_core.grounding.oncoming import OncomingPlacer
 from aurora_core.grounding.pace import fastest_stated_mps, watched_speed_mps
 from aurora_core.grounding.persons import PersonPlacer
@@ -41,7 +41,7 @@ from aurora_core.knowledge.settings import Settings
 from aurora_core.mission.plan import UavPlan
 from aurora_core.outcomes.grounded import AnchorScore, GroundedScenario
 from aurora_core.outcomes.grounding import GroundingFailure
-from aurora_core.outcomes.repair import AvoidedAnchor
+from aurora_core.outcomes.repair import RepairPlan
 from aurora_core.ports.random_streams import stream
 from aurora_core.spec.scenario import ScenarioSpec
 
@@ -103,20 +103,20 @@ class Grounder:
         self._goals = GoalFinder(map_model, types, tolerances)
 
     def ground(
-        self, spec: ScenarioSpec, seed: int, avoided: tuple[AvoidedAnchor, ...] = ()
+        self, spec: ScenarioSpec, seed: int, plan: RepairPlan | None = None
     ) -> GroundedScenario | GroundingFailure:
         """Return the best grounding, or what every site lacked.
 
         Args:
             spec: What to ground.
             seed: Seed of the run (background traffic).
-            avoided: Where the scene was tried, and did not come true.
+            plan: Where the scene may not be, or has to stay; its values are in `spec` already.
         """
         tolerance = self._tolerances.placement_vehicle_m
-        found = self._ground(spec, split_scene(spec, tolerance), seed, avoided)
+        found = self._ground(spec, split_scene(spec, tolerance), seed, plan)
         if isinstance(found, GroundingFailure):
             apart = split_scene(spec, tolerance, apart=True)
-            again = self._ground(spec, apart, seed, avoided) if apart.groups else found
+            again = self._ground(spec, apart, seed, plan) if apart.groups else found
             found = found if isinstance(again, GroundingFailure) else again
         return found
 
@@ -125,7 +125,7 @@ class Grounder:
         spec: ScenarioSpec,
         split: SceneSplit,
         seed: int,
-        avoided: tuple[AvoidedAnchor, ...],
+        plan: RepairPlan | None,
     ) -> GroundedScenario | GroundingFailure:
         planner = FlightPlanner(
             map_model=self._map,
@@ -148,8 +148,9 @@ class Grounder:
         run_m = run_s * self._drive_speed(spec, split) + 300.0
         persons = PersonPlacer(self._map, self._types)
         oncoming = OncomingPlacer(self._map, self._types, self._spawns)
-        elsewhere = NotThere(self._map.network, avoided)
-        ranked = [row for row in self._ranked_sites(spec, split, run_m) if elsewhere(row[1])]
+        ranked = self._ranked_sites(spec, split, run_m)
+        if plan is not None:
+            ranked = allowed_sites(ranked, plan, self._map.network)
         groups = GroupPlacer(
             self._map,
             self._types,

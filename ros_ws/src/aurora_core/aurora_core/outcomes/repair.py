@@ -13,7 +13,7 @@ from collections.abc import Mapping
 from enum import StrEnum
 from typing import Any
 
-from pydantic import BaseModel, FiniteFloat
+from pydantic import BaseModel, FiniteFloat, TypeAdapter, ValidationError
 
 from aurora_core.document import Document
 from aurora_core.errors import SpecError
@@ -29,13 +29,13 @@ class Step(StrEnum):
     GROUNDING = 'grounding'
 
 
-class AvoidedAnchor(Document):
-    """Where a scene was tried, and did not come true.
+class Anchor(Document):
+    """Where a scene was put.
 
     Attributes:
         lane: Of its origin.
         position_m: Arc length there.
-        whole_road: No scene starts on that street again; otherwise not near that place.
+        whole_road: To be avoided is all of its street; otherwise what is near that place.
     """
 
     lane: str
@@ -60,9 +60,16 @@ class ValueEdit(Document):
 
 
 class RepairPlan(Document):
-    """How a request is to be grounded otherwise than at first."""
+    """How a request is to be grounded otherwise than at first.
 
-    avoided: tuple[AvoidedAnchor, ...] = ()
+    Attributes:
+        avoided: Where the scene may not be.
+        kept: Where it is to stay; None: at the best place that is left.
+        values: What is realised otherwise.
+    """
+
+    avoided: tuple[Anchor, ...] = ()
+    kept: Anchor | None = None
     values: tuple[ValueEdit, ...] = ()
 
 
@@ -110,7 +117,7 @@ class Attempt(Document):
     step: Step | None = None
     plan: RepairPlan = RepairPlan()
     outcome: AttemptOutcome
-    anchor: AvoidedAnchor | None = None
+    anchor: Anchor | None = None
     scene: str = ''
     margins: Mapping[str, FiniteFloat | None] = {}
     failed: tuple[str, ...] = ()
@@ -131,6 +138,26 @@ class Attempt(Document):
         place = verdicts.index(self.outcome) if self.outcome in verdicts else -1
         known = [margin for margin in self.margins.values() if margin is not None]
         return place, -len(self.failed), min(known, default=0.0)
+
+
+_PAST: TypeAdapter[tuple[Attempt, ...]] = TypeAdapter(tuple[Attempt, ...])
+
+
+def past_json(past: tuple[Attempt, ...]) -> str:
+    """Return attempts as JSON text; `past_of` reads it."""
+    return _PAST.dump_json(past).decode('utf-8')
+
+
+def past_of(text: str) -> tuple[Attempt, ...]:
+    """Return the attempts of a JSON text.
+
+    Raises:
+        SpecError: It is none.
+    """
+    try:
+        return _PAST.validate_json(text)
+    except ValidationError as err:
+        raise SpecError(f'past_json is not valid: {err}') from err
 
 
 class ProposalOutcome(StrEnum):

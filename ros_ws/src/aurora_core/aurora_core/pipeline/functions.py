@@ -80,13 +80,10 @@ def ground_stage(
         SpecError: The plan would change what is locked.
     """
     spec = agsg.spec
-    if plan is None:
-        asked, avoided = spec, ()
-    else:
-        for why in locked_edits(agsg, plan):
-            raise SpecError(f'the request cannot be realised so: {why}')
-        asked, avoided = with_values(spec, plan.values), plan.avoided
-    grounded = known.grounder(spec.world.map_name).ground(asked, seed, avoided)
+    for why in () if plan is None else locked_edits(agsg, plan):
+        raise SpecError(f'the request cannot be realised so: {why}')
+    asked = spec if plan is None else with_values(spec, plan.values)
+    grounded = known.grounder(spec.world.map_name).ground(asked, seed, plan)
     if isinstance(grounded, GroundingFailure):
         return GroundingOutcome(failure=grounded)
     if plan is not None:
@@ -122,6 +119,8 @@ def execution_stage(
     )
 
 
-def repair_stage(agsg: Agsg, verdict: Verdict, past: tuple[Attempt, ...]) -> Proposal:
+def repair_stage(
+    known: Knowledge, agsg: Agsg, verdict: Verdict, past: tuple[Attempt, ...]
+) -> Proposal:
     """Propose what to try after a violated verdict; see `repair.propose`."""
-    return propose(agsg, verdict, past)
+    return propose(agsg, verdict, past, known.repair)

@@ -13,9 +13,9 @@ from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.outcomes.grounding import GroundingOutcome
 from aurora_core.outcomes.repair import (
+    Anchor,
     Attempt,
     AttemptOutcome,
-    AvoidedAnchor,
     Proposal,
     RepairPlan,
 )
@@ -138,9 +138,9 @@ def nothing_left(iteration: int, proposal: Proposal) -> RepairReport:
     )
 
 
-def anchor_of(grounded: GroundedScenario) -> AvoidedAnchor:
+def anchor_of(grounded: GroundedScenario) -> Anchor:
     """Return where a scene was put."""
-    return AvoidedAnchor(lane=grounded.anchor_lane, position_m=grounded.anchor_position_m)
+    return Anchor(lane=grounded.anchor_lane, position_m=grounded.anchor_position_m)
 
 
 def scene_digest(grounded: GroundedScenario) -> str:
@@ -208,5 +208,5 @@ def _edits(
             )
 
 
-def _place(anchor: AvoidedAnchor) -> str:
+def _place(anchor: Anchor) -> str:
     return f'{anchor.lane} at {anchor.position_m:.1f} m'

@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
 import yaml
 from pydantic import Field, NonNegativeFloat, NonNegativeInt, PositiveFloat, PositiveInt
 
@@ -15,6 +17,9 @@ from aurora_core.spec.parameter import Provenance
 
 # The paper bounds a numerical repair so.
 _MOST_PARAMETERS = 5
+
+
+Share = Annotated[float, Field(gt=0.0, le=1.0)]
 
 
 class ProvenanceWeights(Document):
@@ -35,6 +40,8 @@ class RepairSettings(Document):
     budget: NonNegativeInt
     groundings: PositiveInt
     most_parameters: PositiveInt = Field(le=_MOST_PARAMETERS)
+    singles: PositiveInt
+    steps: Annotated[tuple[Share, ...], Field(min_length=1)]
     epsilon: PositiveFloat
     lambda_sem: NonNegativeFloat
     weights: ProvenanceWeights

@@ -107,7 +107,7 @@ class FakeStages:
     def propose(
         self, agsg: Agsg, verdict: Verdict, bag: Path, past: tuple[Attempt, ...]
     ) -> Proposal:
-        return self.proposal or functions.repair_stage(agsg, verdict, past)
+        return self.proposal or functions.repair_stage(_KNOWN, agsg, verdict, past)
 
 
 class Clock:
