@@ -287,8 +287,8 @@ def _tell(
         len(silent_failures(judged)),
         unchecked_share(judged),
     )
-    head = [file_line(file) for file in files]
-    head += [repair_line(ruler.word, judged)] if judged else []
+    head = [repair_line(ruler.word, judged)] if judged else []
+    head += [file_line(file) for file in files]
     document: dict[str, Any] = {
         'files': [
             {'name': f.name, 'sha256': f.sha256, 'prompts': len(f.prompts), 'beyond': f.beyond}

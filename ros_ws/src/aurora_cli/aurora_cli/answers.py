@@ -128,7 +128,21 @@ def run_request(
 
         report, path = run_over_ros(request, root, control, tell)
         return Run(report=report, folder=path)
-    stages = LocalStages(installed())
+    return run_stages(request, LocalStages(installed()), root, control)
+
+
+def run_stages(request: RunRequest, stages: LocalStages, root: Path, control: RunControl) -> Run:
+    """Run a request with stages of this process; without picture and page.
+
+    Args:
+        request: Prompt and options.
+        stages: What is called.
+        root: Folder of the run folders, absolute.
+        control: Progress and cancel.
+
+    Raises:
+        AuroraError: The run folder cannot be written.
+    """
     folder, manifest = new_folder(root)
     report = run(
         request,

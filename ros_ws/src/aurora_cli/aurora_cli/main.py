@@ -192,6 +192,23 @@ def verify_bag(
     finish(command, as_json=as_json)
 
 
+@app.command('repair')
+def repair_run(
+    run_or_bag: RunOrBag,
+    repair: Repair = None,
+    out: Annotated[Path, typer.Option(help='Folder of the run folders.')] = Path('runs'),
+    as_json: Json = False,
+) -> None:
+    """Realise a recorded, violated request otherwise, in a run of its own."""
+
+    def command() -> int:
+        from aurora_cli.commands.repair import repair_command
+
+        return repair_command(run_or_bag, repair, out, as_json=as_json)
+
+    finish(command, as_json=as_json)
+
+
 @app.command('diff')
 def diff_runs(
     first: RunOrBag, second: RunOrBag, iteration: Iteration = None, as_json: Json = False

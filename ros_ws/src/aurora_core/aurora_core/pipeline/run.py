@@ -219,8 +219,7 @@ class _Run:
         The run is judged by its best realisation, the earliest one among equals; the request and
         what it is judged by stay as they are.
         """
-        asked = self.request.repair
-        budget = self.known.repair.budget if asked is None else asked
+        budget = self.budget()
         made = [first]
         past = [first.attempt]
         tries = self.known.repair.groundings if budget else 0
@@ -238,6 +237,15 @@ class _Run:
             self.note(grounding=best.grounding, execution=best.execution, verdict=best.verdict)
             self.note(iterations=len(made))
             self._share = None
+
+    def budget(self) -> int:
+        """Return how many co-simulations repair may spend.
+
+        Injected faults test what is said of them: unless it is asked for, nothing goes round them.
+        """
+        if self.request.repair is not None:
+            return self.request.repair
+        return 0 if self.request.faults else self.known.repair.budget
 
     def attempt(self, graph: Agsg, made: list[Realisation], past: list[Attempt]) -> bool:
         """Try the next proposal; False when there is none."""

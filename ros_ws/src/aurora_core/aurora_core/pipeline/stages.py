@@ -37,7 +37,7 @@ class RunRequest(Document):
             holds no secret.
         allow_relax: Repair may propose changes of the request itself.
         repair: Co-simulations that repair may spend after a violation; None: as many as
-            `config/repair.yaml` says.
+            `config/repair.yaml` says, and none where faults are injected.
         faults: Injected run-time faults; invisible to feasibility and monitor.
         history: Folder of past episodes that a language model may be shown, and that takes the run
             in when it is verified; None without one.
