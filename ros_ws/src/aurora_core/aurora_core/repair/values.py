@@ -11,6 +11,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import product
 
+import numpy as np
+import numpy.typing as npt
+
 from aurora_core.outcomes.agsg import Agsg, AgsgParameter
 from aurora_core.outcomes.repair import (
     Anchor,
@@ -25,6 +28,8 @@ from aurora_core.outcomes.repair import (
 from aurora_core.repair.helps import ANCHOR
 from aurora_core.repair.objective import objective
 from aurora_core.repair.settings import RepairSettings
+
+FloatArray = npt.NDArray[np.float64]
 
 # A value is not moved by less than this share of its domain.
 _LEAST_SHARE = 1e-3
@@ -87,16 +92,18 @@ def searched(
     if len(moved) < 2:
         return
     base = past[_index_of_best(past)].margins
-    slopes = {path: _slopes(path, _here(rows[path], agsg), base, past) for path in moved}
+    axes = [rows[path] for path in moved]
+    slopes = _slopes(axes, agsg, past)
+    width = np.array([row.high - row.low for row in axes])
+    at = np.array([_here(row, agsg) for row in axes])
     found = []
     for values in product(*(dict.fromkeys(steps) for steps in moved.values())):
-        point = dict(zip(moved, values, strict=True))
-        shifts = {path: value - _here(rows[path], agsg) for path, value in point.items()}
-        changed = {path: value for path, value in point.items() if shifts[path]}
+        shifts = np.array(values) - at
+        changed = {path: value for path, value, d in zip(moved, values, shifts, strict=True) if d}
         if len(changed) < 2:
             continue
-        predicted = _predicted(base, slopes, shifts)
-        edits = [(rows[path], value - rows[path].requested) for path, value in point.items()]
+        predicted = _predicted(base, slopes, shifts / width)
+        edits = [(row, value - row.requested) for row, value in zip(axes, values, strict=True)]
         found.append((objective(predicted.values(), edits, settings), changed, predicted))
     found.sort(key=lambda row: (row[0], sorted(row[1].items())))
     for value, changed, predicted in found:
@@ -172,33 +179,39 @@ def _secant(
 
 
 def _slopes(
-    path: str,
-    here: float,
-    base: Mapping[str, float | None],
-    past: Sequence[Attempt],
-) -> dict[str, float]:
-    """Return how the margin of each condition answers to a value, from its single edits."""
-    for attempt in reversed(past):
-        edits = attempt.plan.values
-        if attempt.step is not Step.ONE or not attempt.simulated or len(edits) != 1:
-            continue
-        shift = edits[0].realised - here
-        if edits[0].path == path and shift:
-            return {
-                name: (margin - base_margin) / shift
-                for name, margin in attempt.margins.items()
-                if margin is not None and (base_margin := base.get(name)) is not None
-            }
-    return {}
+    rows: Sequence[AgsgParameter], agsg: Agsg, past: Sequence[Attempt]
+) -> dict[str, FloatArray]:
+    """Return how each margin answers to each parameter, by shares of their domains.
+
+    The least answer that fits the differences of all realisations at this place to the best one.
+    """
+    best = past[_index_of_best(past)]
+    here = _anchor(agsg)
+    others = [a for a in past if a.simulated and a is not best and a.anchor == here]
+    if not others:
+        return {}
+    width = np.array([row.high - row.low for row in rows])
+    at = np.array([_here(row, agsg) for row in rows])
+    moved = np.array([[_value(row, a) for row in rows] for a in others])
+    answer = np.linalg.pinv((moved - at) / width)
+    found = {}
+    for name, margin in best.margins.items():
+        told = [a.margins.get(name) for a in others]
+        if margin is not None and None not in told:
+            found[name] = answer @ (np.array(told, dtype=float) - margin)
+    return found
+
+
+def _value(row: AgsgParameter, attempt: Attempt) -> float:
+    edits = attempt.plan.values
+    return next((edit.realised for edit in edits if edit.path == row.path), row.requested)
 
 
 def _predicted(
-    base: Mapping[str, float | None],
-    slopes: Mapping[str, Mapping[str, float]],
-    shifts: Mapping[str, float],
+    base: Mapping[str, float | None], slopes: Mapping[str, FloatArray], shares: FloatArray
 ) -> dict[str, float]:
     return {
-        name: margin + sum(slopes[path].get(name, 0.0) * shift for path, shift in shifts.items())
+        name: margin + (float(slopes[name] @ shares) if name in slopes else 0.0)
         for name, margin in base.items()
         if margin is not None
     }
