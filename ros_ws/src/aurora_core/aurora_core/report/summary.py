@@ -27,14 +27,15 @@ def summary_of(report: RunReport, grounding: GroundingOutcome | None) -> str:
     if report.status is Status.VERIFIED:
         return (
             f'Every condition holds at its original threshold ({held}) and every clause of the '
-            'prompt is encoded.'
+            f'prompt is encoded.{_repaired(report)}'
         )
     if report.status is Status.VERIFIED_AS_EDITED:
         return f'{held}, but only after a change of the request that you allowed.'
     if report.status is Status.INCOMPLETE:
         return f'What was encoded holds ({held}), but not all was encoded: {_lost(report)}.'
     if report.status is Status.VIOLATED:
-        return f'{held}. Violated: {_violated(report.conditions)}.{_unread(report)}'
+        why = f'Violated: {_violated(report.conditions)}.{_not_repaired(report)}'
+        return f'{held}. {why}{_unread(report)}'
     if report.status is Status.INCONCLUSIVE:
         return _inconclusive(report, grounding) + _unread(report)
     if report.status is Status.INFEASIBLE:
@@ -47,6 +48,26 @@ def summary_of(report: RunReport, grounding: GroundingOutcome | None) -> str:
     if report.status is Status.ERROR and report.error is not None:
         return f'{report.error.component} failed: {report.error.message}'
     return 'Cancelled by the user; nothing is claimed about the prompt.'
+
+
+def _repaired(report: RunReport) -> str:
+    """Return how many realisations it took, where the first one did not hold."""
+    tried = sum(repair.bag is not None for repair in report.repairs)
+    if not tried:
+        return ''
+    return f' It took {tried + 1} realisations; the request is unchanged.'
+
+
+def _not_repaired(report: RunReport) -> str:
+    """Return what repair tried in vain, and why it ended."""
+    if not report.repairs:
+        return ''
+    tried = sum(repair.bag is not None for repair in report.repairs)
+    last = report.repairs[-1]
+    why = f': {last.reason}' if last.bag is None else ''
+    if not tried:
+        return f' Repair had nothing to try{why}.'
+    return f' {tried} other realisation{"s" * (tried > 1)} did not hold either{why}.'
 
 
 def _lost(report: RunReport) -> str:

@@ -18,6 +18,7 @@ from aurora_core.report.run_report import (
     ClauseReport,
     ConditionReport,
     RealisedReport,
+    RepairReport,
     RunReport,
 )
 from aurora_core.report.said_back import ElementReport
@@ -82,6 +83,7 @@ def print_report(report: RunReport, console: Console, folder: Path | None = None
     print_conditions('Conditions of every run', always, console)
     print_realised(report.requested_and_realised, console)
     print_words((row.sentence for row in report.conditions), console)
+    print_repairs(report.repairs, console)
     for fault in report.faults:
         line(console, f'injected fault: {fault.kind} on {fault.subject} from {fault.at_s:g} s')
     if report.trace is not None:
@@ -93,6 +95,29 @@ def print_report(report: RunReport, console: Console, folder: Path | None = None
             line(console, f'disagreement at {finding.time_s:.2f} s: {finding.text}')
     if folder is not None:
         line(console, f'folder   {folder}')
+
+
+def print_repairs(repairs: Sequence[RepairReport], console: Console) -> None:
+    """Print every attempt of repair: what was tried, why, and what came of it."""
+    print_table(
+        'Repair',
+        ('run', 'step', 'came of it', 'realised otherwise', 'why'),
+        [
+            (
+                repair.bag or '-',
+                repair.kind.replace('_', ' ') or '-',
+                repair.outcome.replace('_', ' '),
+                '; '.join(f'{e.path} {_told(e.old)} to {_told(e.new)}' for e in repair.edits),
+                repair.reason,
+            )
+            for repair in repairs
+        ],
+        console,
+    )
+
+
+def _told(value: float | str | None) -> str:
+    return f'{value:g}' if isinstance(value, float) else str(value)
 
 
 def print_check(report: CheckReport, console: Console) -> None:
