@@ -42,6 +42,7 @@ LIMITS = StageLimits(
     execute_fixed_s=1.0,
     execute_per_simulated_s=1.0,
     verify_s=1.0,
+    repair_s=1.0,
     twin_limit_s=1.0,
 )
 

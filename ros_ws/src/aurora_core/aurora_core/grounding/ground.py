@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 from aurora_core.grounding.agents import AgentPlacer
 from aurora_core.grounding.airspace import Airspace
+from aurora_core.grounding.allowed import allowed_sites
 from aurora_core.grounding.bends import bends_between
 from aurora_core.grounding.columns import Column, climbs_to_m, columns, nearest_points
 from aurora_core.grounding.convoy import SceneSplit, split_scene
@@ -40,6 +41,7 @@ from aurora_core.knowledge.settings import Settings
 from aurora_core.mission.plan import UavPlan
 from aurora_core.outcomes.grounded import AnchorScore, GroundedScenario
 from aurora_core.outcomes.grounding import GroundingFailure
+from aurora_core.outcomes.repair import RepairPlan
 from aurora_core.ports.random_streams import stream
 from aurora_core.spec.scenario import ScenarioSpec
 
@@ -104,23 +106,30 @@ class Grounder:
         self._spots = SpotFinder(map_model, settings.grounding)
         self._goals = GoalFinder(map_model, types, tolerances)
 
-    def ground(self, spec: ScenarioSpec, seed: int) -> GroundedScenario | GroundingFailure:
+    def ground(
+        self, spec: ScenarioSpec, seed: int, plan: RepairPlan | None = None
+    ) -> GroundedScenario | GroundingFailure:
         """Return the best grounding, or what every site lacked.
 
         Args:
             spec: What to ground.
             seed: Seed of the run (background traffic).
+            plan: Where the scene may not be, or has to stay; its values are in `spec` already.
         """
         tolerance = self._tolerances.placement_vehicle_m
-        found = self._ground(spec, split_scene(spec, tolerance), seed)
+        found = self._ground(spec, split_scene(spec, tolerance), seed, plan)
         if isinstance(found, GroundingFailure):
             apart = split_scene(spec, tolerance, apart=True)
-            again = self._ground(spec, apart, seed) if apart.groups else found
+            again = self._ground(spec, apart, seed, plan) if apart.groups else found
             found = found if isinstance(again, GroundingFailure) else again
         return found
 
     def _ground(
-        self, spec: ScenarioSpec, split: SceneSplit, seed: int
+        self,
+        spec: ScenarioSpec,
+        split: SceneSplit,
+        seed: int,
+        plan: RepairPlan | None,
     ) -> GroundedScenario | GroundingFailure:
         planner = FlightPlanner(
             map_model=self._map,
@@ -144,6 +153,8 @@ class Grounder:
         persons = PersonPlacer(self._map, self._types)
         oncoming = OncomingPlacer(self._map, self._types, self._spawns)
         ranked = self._ranked_sites(spec, split, run_m)
+        if plan is not None:
+            ranked = allowed_sites(ranked, plan, self._map.network)
         groups = GroupPlacer(
             self._map,
             self._types,

@@ -21,6 +21,7 @@ from aurora_core.monitor.verify import verify
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.condition import Condition
 from aurora_core.outcomes.grounded import GroundedScenario
+from aurora_core.outcomes.repair import with_values
 from aurora_core.outcomes.schedule import Schedule
 from aurora_core.outcomes.verdict import Finding, Verdict
 from aurora_core.pipeline.functions import parse_context
@@ -30,6 +31,7 @@ from aurora_core.pipeline.reading import doubts_of_reading
 from aurora_core.pipeline.recompute import recomputed
 from aurora_core.planning.complete import complete
 from aurora_core.ports.progress import Progress, quietly
+from aurora_core.repair.lock import locked_edits
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.temporal.retarget import retargeted
 from aurora_core.temporal.schedule import plan_time
@@ -219,6 +221,8 @@ def _plan(
     spec = agsg.spec
     # Requests were once recorded as they were read; completing changes nothing of a complete one.
     whole = complete(spec, tables.limits)
+    if grounded.repair is not None:
+        whole = with_values(whole, grounded.repair.values)
     schedule = plan_time(whole, grounded, tables.limits, tables.tolerances)
     planned = plan_conditions(spec, grounded, schedule, tables.limits, tables.tolerances)
     rebuilt = _rebuilt_world(known, spec, grounded, tables.limits)
@@ -234,6 +238,7 @@ def _plan(
         documents=(
             *_documents(conditions, agsg, grounded, schedule),
             *_triggers(grounded, retargeted(whole, grounded, tables.limits)),
+            *_repair(agsg, grounded),
             *_reading(known, spec, tables.limits, is_here=rebuilt is not None),
         ),
         version=basis.version,
@@ -267,6 +272,12 @@ def _triggers(grounded: GroundedScenario, again: GroundedScenario) -> Iterator[F
     """Yield where triggers were moved to other values than their places ask for."""
     if grounded.realised != again.realised:
         yield finding('graph', 'triggers', 'not those that request and grounding give')
+
+
+def _repair(agsg: Agsg, grounded: GroundedScenario) -> Iterator[Finding]:
+    """Yield what was realised otherwise though it is locked."""
+    for why in () if grounded.repair is None else locked_edits(agsg, grounded.repair):
+        yield finding('graph', 'repair', why)
 
 
 def _reading(

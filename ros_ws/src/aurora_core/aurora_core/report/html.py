@@ -13,8 +13,10 @@ from jinja2 import Environment, StrictUndefined, Template
 from markupsafe import Markup
 
 from aurora_core.compiled import Compiled
+from aurora_core.report.clauses import status_word
 from aurora_core.report.run_report import RunReport
 from aurora_core.report.status import Status
+from aurora_core.report.summary import margin_value
 from aurora_core.report.visible import visible
 
 _TEMPLATE = Path(__file__).with_name('report.html.jinja')
@@ -80,6 +82,8 @@ def _environment() -> Environment:
         finalize=_legible,
     )
     environment.filters['number'] = number
+    environment.filters['margin_value'] = margin_value
+    environment.filters['status_word'] = status_word
     return environment
 
 
