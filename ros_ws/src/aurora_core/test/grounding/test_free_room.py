@@ -26,10 +26,10 @@ def test_places_are_nearest_first_and_never_near_who_stands_there(map_of: Maps) 
     places = list(room.scanned(lanes, 3.0))
     assert [p[2] for p in places] == sorted(p[2] for p in places)
 
-    taken = []
+    taken: list[tuple[float, float]] = []
     for number in range(20):
-        for places in (room.scanned(lanes, 3.0), room.drawn(lanes, 3.0, _generator(number))):
-            lane, position_m, away_m = next(iter(places))
+        for found in (room.scanned(lanes, 3.0), room.drawn(lanes, 3.0, _generator(number))):
+            lane, position_m, away_m = next(found)
             here = network.position_on_lane(lane.id, position_m)[:2]
             assert away_m == pytest.approx(dist(here, (x, y)))
             assert all(dist(here, other) >= GAP_M for other in taken)
