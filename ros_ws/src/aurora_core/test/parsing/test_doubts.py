@@ -77,7 +77,7 @@ def test_what_no_element_says_is_admitted(prompt: str, quoted: str) -> None:
         'The ego car is sandwiched between a truck 15 m ahead and a bus 20 m behind.',
         'The truck stops at 10 s, then the bus.',
         'A drone tracks a van after climbing to 40 m.',
-        'A drone hovers over City Hall at 15 m for 20 s, climbs to 45 m and hovers there for 30 s.',
+        'A drone hovers over City Hall at 15 m for 20 s, climbs to 45 m and hovers there.',
         'A drone tracks a van. The ego brakes because the drone has warned it.',
         'When the drone has finished its mission, a second drone lands.',
         'A car drives with a bus 20 m ahead of it and a van to its left.',
