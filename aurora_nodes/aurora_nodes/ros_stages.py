@@ -193,6 +193,7 @@ class RosStages:
                 agsg=agsg_message(agsg, self._run_id), bag_uri=str(bag.absolute())
             ),
             self._limits.verify_s,
+            while_working=True,
         )
         answer = response.verdict
         verdict = _document(Verdict, answer.verdict_json, on.VERIFY)

@@ -53,7 +53,7 @@ class Graph:
     def __init__(self, answer: Any, published: Any = None) -> None:
         self.answer, self.published = answer, published
 
-    def service(self, *_arguments: Any) -> Any:
+    def service(self, *_arguments: Any, **_options: Any) -> Any:
         return self.answer
 
     def action(self, *_arguments: Any, **_options: Any) -> Any:

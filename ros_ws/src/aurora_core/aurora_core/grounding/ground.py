@@ -205,6 +205,7 @@ class Grounder:
         grounding = self._settings.grounding
         way_m = tied_way_m(spec, grounding)
         stated = fastest_stated_mps(spec, (m.agent for m in split.convoy))
+        changing = {m.agent.id for m in split.convoy if changes_lane(spec, m.agent)}
         need_m = way_m if len(split.convoy) > 1 else _LOOKED_S / 2.0 * stated
         wanted = grounding.target_speed_mps
         ranked: list[tuple[float, Site]] = []
@@ -216,7 +217,7 @@ class Grounder:
             self._goals.spacing_m(spec, grounding.anchor_spacing_m),
             split.before,
             least_limit_mps=stated,
-            several_lanes=any(changes_lane(spec, m.agent) for m in split.convoy),
+            several_lanes=bool(changing),
             spawns=self._spawns,
         )
         for site in found:
@@ -231,7 +232,7 @@ class Grounder:
             if stated > 0.0:
                 road *= 0.5 + 0.5 * self._room_for(stated, site)
             for seat in site.seated:
-                if changes_lane(spec, seat.agent):
+                if seat.agent.id in changing:
                     road *= share_with_another_lane(
                         self._map.network, seat, way_m, stated or wanted
                     )

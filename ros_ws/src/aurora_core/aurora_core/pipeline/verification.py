@@ -30,6 +30,7 @@ from aurora_core.pipeline.planned import plan_conditions
 from aurora_core.pipeline.reading import doubts_of_reading
 from aurora_core.pipeline.recompute import recomputed
 from aurora_core.planning.complete import complete
+from aurora_core.ports.progress import Progress, quietly
 from aurora_core.repair.lock import locked_edits
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.temporal.retarget import retargeted
@@ -78,10 +79,15 @@ def verify_stage(known: Knowledge, bag: Path, *, recompute: bool = True) -> Verd
 
 
 def verify_content(
-    known: Knowledge, content: BagContent, agsg: Agsg, *, recompute: bool = True
+    known: Knowledge,
+    content: BagContent,
+    agsg: Agsg,
+    *,
+    recompute: bool = True,
+    progress: Progress = quietly,
 ) -> Verdict:
     """Compute every margin of a run, wherever its messages come from; see `judge_content`."""
-    return judge_content(known, content, agsg, recompute=recompute).verdict
+    return judge_content(known, content, agsg, recompute=recompute, progress=progress).verdict
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -100,6 +106,7 @@ def judge_content(
     *,
     as_recorded: bool = False,
     recompute: bool = True,
+    progress: Progress = quietly,
 ) -> Judged:
     """Compute every margin of a run.
 
@@ -111,16 +118,18 @@ def judge_content(
             they are others here.
         recompute: Step the executor over the recorded states, too. Only a benchmark that asks what
             the conditions find by themselves goes without.
+        progress: Called whenever a piece of the work is done.
 
     Raises:
         VerificationError: The grounding is missing, or nothing fits.
     """
     conditions = conditions_from_json(content.world.conditions_json)
     plan = recorded_plan(known, content.world, conditions, agsg)
+    progress()
     found: tuple[Finding, ...] = ()
     # What another version of the executor commands is not known here.
     if recompute and isinstance(plan, Plan) and not plan.other_version:
-        found = recomputed_content(known, content, agsg)
+        found = recomputed_content(known, content, agsg, progress)
     verdict = verify(
         content.trace,
         content.world,
@@ -129,11 +138,14 @@ def judge_content(
         plan,
         found,
         as_recorded=as_recorded,
+        progress=progress,
     )
     return Judged(verdict=verdict, plan=plan, conditions=conditions)
 
 
-def recomputed_content(known: Knowledge, content: BagContent, agsg: Agsg) -> tuple[Finding, ...]:
+def recomputed_content(
+    known: Knowledge, content: BagContent, agsg: Agsg, progress: Progress = quietly
+) -> tuple[Finding, ...]:
     """Return where a run of this version of the executor is not the executor's.
 
     Raises:
@@ -152,6 +164,7 @@ def recomputed_content(known: Knowledge, content: BagContent, agsg: Agsg) -> tup
         tolerances=tables.tolerances,
         settings=tables.settings,
         parts=known.parts_of(content.world),
+        progress=progress,
     )
 
 

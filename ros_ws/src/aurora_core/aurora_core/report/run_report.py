@@ -15,6 +15,7 @@ from aurora_core.knowledge.limits import Limits
 from aurora_core.outcomes.feasibility import FeasibilityVerdict
 from aurora_core.outcomes.repair import Implicated
 from aurora_core.outcomes.verdict import Finding, Reason, VerdictStatus
+from aurora_core.report.said_back import ElementReport
 from aurora_core.report.status import Status
 from aurora_core.spec.parameter import Provenance, Span
 from aurora_core.spec.vocabulary import ClauseStatus
@@ -231,6 +232,7 @@ class RunReport(Document):
         bags: Every bag of the run in the order of the iterations; None in reports of older
             versions.
         clauses: Every clause of the prompt.
+        elements: The request said back, each element in a sentence.
         conditions: Every success condition with its margin.
         timing: Wall seconds by stage.
         question: What was missing (status `not_understood`).
@@ -249,6 +251,7 @@ class RunReport(Document):
     digests: Digests
     limits: Limits | None = None
     clauses: tuple[ClauseReport, ...] = ()
+    elements: tuple[ElementReport, ...] = ()
     conditions: tuple[ConditionReport, ...] = ()
     feasibility: FeasibilityVerdict | None = None
     repairs: tuple[RepairReport, ...] = ()

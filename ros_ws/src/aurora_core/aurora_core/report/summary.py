@@ -11,6 +11,13 @@ from aurora_core.report.status import Status
 from aurora_core.trace.trace import Integrity
 
 _SHOWN = 3
+_WHY_NONE = {
+    Reason.PREMISE_NEVER: 'what it waits for never happened',
+    Reason.EMPTY_PHASE: 'that phase never began',
+    Reason.TARGET_GONE: 'the body was gone',
+    Reason.SAMPLES_MISSING: 'samples missing',
+    Reason.TRACE_SHORT: 'the record ends before',
+}
 
 
 def summary_of(report: RunReport, grounding: GroundingOutcome | None) -> str:
@@ -27,9 +34,10 @@ def summary_of(report: RunReport, grounding: GroundingOutcome | None) -> str:
     if report.status is Status.INCOMPLETE:
         return f'What was encoded holds ({held}), but not all was encoded: {_lost(report)}.'
     if report.status is Status.VIOLATED:
-        return f'{held}. Violated: {_violated(report.conditions)}.{_not_repaired(report)}'
+        why = f'Violated: {_violated(report.conditions)}.{_not_repaired(report)}'
+        return f'{held}. {why}{_unread(report)}'
     if report.status is Status.INCONCLUSIVE:
-        return _inconclusive(report, grounding)
+        return _inconclusive(report, grounding) + _unread(report)
     if report.status is Status.INFEASIBLE:
         return 'Refused before execution. ' + ' '.join(
             certificate.sentence
@@ -69,6 +77,12 @@ def _lost(report: RunReport) -> str:
     return '; '.join(f'“{c.text}”' + (f' ({c.note})' if c.note else '') for c in lost)
 
 
+def _unread(report: RunReport) -> str:
+    """Return what no run of this request could have shown, so that no headline hides it."""
+    lost = any(c.status.is_open for c in report.clauses)
+    return f' Not read or not judged: {_lost(report)}.' if lost else ''
+
+
 def _violated(rows: tuple[ConditionReport, ...]) -> str:
     failed = [row for row in rows if not row.satisfied]
     failed.sort(key=lambda row: (row.normalised is not None, row.normalised or 0.0, row.id))
@@ -89,7 +103,7 @@ def margin_text(row: ConditionReport) -> str:
 def margin_value(margin: float | None, unit: str, reason: Reason | None) -> str:
     """Return a margin with sign and unit, or why there is none."""
     if margin is None:
-        return reason.value.replace('_', ' ') if reason is not None else 'no margin'
+        return _WHY_NONE[reason] if reason is not None else 'no margin'
     return f'{margin:+.4g}' + ('' if unit in ('', '1') else f' {unit}')
 
 
