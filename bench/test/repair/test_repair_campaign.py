@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 
 from aurora_bench.repair.__main__ import goals, last_line
@@ -35,11 +37,15 @@ def test_a_fault_is_what_the_request_has_as_its_default(fault: Fault) -> None:
 
 def test_only_faults_that_show_are_counted() -> None:
     kind = next(iter(KINDS))
-    base = {'kind': kind, 'status': 'verified'}
+
+    def episode(key: str, **more: Any) -> Episode:
+        fields = {'key': key, 'kind': kind, 'status': 'verified', **more}
+        return Episode.model_validate(fields)
+
     episodes = [
-        Episode(key='a', **base, showed=True, repaired=True, simulations=1, localized=True),
-        Episode(key='b', **base, showed=True, repaired=False, simulations=5, localized=False),
-        Episode(key='c', **base, showed=False),
+        episode('a', showed=True, repaired=True, simulations=1, localized=True),
+        episode('b', showed=True, repaired=False, simulations=5, localized=False),
+        episode('c', showed=False),
     ]
     line = last_line(episodes)
     assert line.startswith('repaired 1 of 2 faults  0.500 ')
