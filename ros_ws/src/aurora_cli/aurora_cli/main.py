@@ -348,6 +348,7 @@ for _package, _help in (
     ),
     ('realise', 'Run what annotations say; count what is realised and what is contradicted.'),
     ('outcome', 'Run prompts to their verdicts; count the right ones and the silent failures.'),
+    ('repair', 'Plant faults with known causes; count those that repair finds and mends.'),
     ('record', 'Record the replies of language models, to repeat a campaign without them.'),
 ):
     bench.command(_package, help=_help, context_settings=Anything, add_help_option=False)(

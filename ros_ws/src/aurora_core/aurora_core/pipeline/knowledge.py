@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cached_property
 
 from aurora_core.errors import AuroraError
 from aurora_core.execution.map_parts import MapParts, map_parts
@@ -36,7 +37,6 @@ class Knowledge:
         settings: Settings of grounding and execution.
         types: Ground agents by type, as measured.
         uav: The multirotor as measured; it is never planned to do more.
-        repair: How repair searches; it decides nothing about a verdict.
     """
 
     def __init__(
@@ -47,7 +47,6 @@ class Knowledge:
         settings: Settings,
         types: Mapping[str, AgentTypeRecord],
         uav: UavRecord,
-        repair: RepairSettings,
     ) -> None:
         self.limits = limits
         self.tolerances = tolerances
@@ -56,7 +55,6 @@ class Knowledge:
         )
         self.types = types
         self.uav = uav
-        self.repair = repair
         tables = Tables(limits=self.limits, tolerances=self.tolerances, settings=self.settings)
         self.basis = Basis.of(AURORA_VERSION, tables)
         self._maps: dict[str, MapModel] = {}
@@ -64,6 +62,11 @@ class Knowledge:
         self._airspaces: dict[str, Airspace] = {}
         self._grounders: dict[str, Grounder] = {}
         self._parts: dict[str, MapParts] = {}
+
+    @cached_property
+    def repair(self) -> RepairSettings:
+        """How repair searches; read when it is first needed, it decides nothing else."""
+        return load_repair_settings()
 
     def map(self, name: str) -> MapModel:
         """Return a map by name (verified against its digest when first loaded)."""
@@ -134,5 +137,4 @@ def installed_knowledge() -> Knowledge:
         settings=load_settings(),
         types=load_agent_types(),
         uav=load_uav_record(),
-        repair=load_repair_settings(),
     )
