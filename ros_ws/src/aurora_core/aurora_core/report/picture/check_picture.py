@@ -118,13 +118,13 @@ def _box(grounded: GroundedScenario, model: MapModel, flights: _Flights) -> Box:
     if not points:
         west, south, east, north = model.bounds_m
         return Box(west=west, south=south, east=east, north=north)
-    east, north = [p[0] for p in points], [p[1] for p in points]
-    spare = max(_MARGIN_M, (_LEAST_M - (max(east) - min(east))) / 2.0)
+    across, along = [p[0] for p in points], [p[1] for p in points]
+    spare = max(_MARGIN_M, (_LEAST_M - (max(across) - min(across))) / 2.0)
     box = Box(
-        west=min(east) - spare,
-        south=min(north) - _MARGIN_M,
-        east=max(east) + spare,
-        north=max(north) + _MARGIN_M,
+        west=min(across) - spare,
+        south=min(along) - _MARGIN_M,
+        east=max(across) + spare,
+        north=max(along) + _MARGIN_M,
     )
     return box.with_aspect(_AXES[2] * _SIZE_IN[0] / (_AXES[3] * _SIZE_IN[1]))
 
@@ -215,7 +215,7 @@ def _anchors(ax: Axes, tried: Sequence[Tried], *, small: bool = False) -> None:
     ax.scatter(
         [t.x_m for t in fit],
         [t.y_m for t in fit],
-        c=[t.joint for t in fit],
+        c=[t.joint or 0.0 for t in fit],
         cmap=_SCORES,
         norm=Normalize(vmin=0.0, vmax=1.0),
         s=46.0 * size * size,
