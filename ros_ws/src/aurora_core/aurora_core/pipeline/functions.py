@@ -69,9 +69,7 @@ def check_stage(
     """
     spec = agsg.spec
     map_model = known.map(spec.world.map_name)
-    return check_request(
-        spec, map_model, known.limits, known.tolerances, known.types, without=without
-    )
+    return check_request(spec, map_model, known.limits, known.tolerances, known.types, without)
 
 
 def ground_stage(
