@@ -27,7 +27,7 @@ from aurora_core.grounding.pace import fastest_stated_mps, watched_speed_mps
 from aurora_core.grounding.persons import PersonPlacer
 from aurora_core.grounding.planned_flight import PlannedFlight, Rejected, planned_height_m
 from aurora_core.grounding.realised import realised_values
-from aurora_core.grounding.sites import Site, sites, tied_way_m
+from aurora_core.grounding.sites import Site, TriedSite, sites, tied_way_m
 from aurora_core.grounding.spots import SpotFinder
 from aurora_core.grounding.time_need import horizon_s
 from aurora_core.grounding.traffic import TrafficPlacer
@@ -107,7 +107,11 @@ class Grounder:
         self._goals = GoalFinder(map_model, types, tolerances)
 
     def ground(
-        self, spec: ScenarioSpec, seed: int, plan: RepairPlan | None = None
+        self,
+        spec: ScenarioSpec,
+        seed: int,
+        plan: RepairPlan | None = None,
+        tried: list[TriedSite] | None = None,
     ) -> GroundedScenario | GroundingFailure:
         """Return the best grounding, or what every site lacked.
 
@@ -115,12 +119,14 @@ class Grounder:
             spec: What to ground.
             seed: Seed of the run (background traffic).
             plan: Where the scene may not be, or has to stay; its values are in `spec` already.
+            tried: Takes every site that was looked at, in order; for pictures.
         """
+        tried = [] if tried is None else tried
         tolerance = self._tolerances.placement_vehicle_m
-        found = self._ground(spec, split_scene(spec, tolerance), seed, plan)
+        found = self._ground(spec, split_scene(spec, tolerance), seed, plan, tried)
         if isinstance(found, GroundingFailure):
             apart = split_scene(spec, tolerance, apart=True)
-            again = self._ground(spec, apart, seed, plan) if apart.groups else found
+            again = self._ground(spec, apart, seed, plan, tried) if apart.groups else found
             found = found if isinstance(again, GroundingFailure) else again
         return found
 
@@ -130,6 +136,7 @@ class Grounder:
         split: SceneSplit,
         seed: int,
         plan: RepairPlan | None,
+        tried: list[TriedSite],
     ) -> GroundedScenario | GroundingFailure:
         planner = FlightPlanner(
             map_model=self._map,
@@ -174,26 +181,32 @@ class Grounder:
             met = oncoming.seated(split.oncoming, site, run_m)
             if isinstance(met, str):
                 rejected[met] += 1
+                tried.append(TriedSite.of(site, why=met))
                 continue
             met = groups.seated(met)
             if isinstance(met, str):
                 rejected[met] += 1
+                tried.append(TriedSite.of(site, why=met))
                 continue
             peopled = persons.seated(spec, split.persons, met, run_s)
             if isinstance(peopled, str):
                 rejected[peopled] += 1
+                tried.append(TriedSite.of(site, why=peopled))
                 continue
             scored += 1
             option = self._option(spec, peopled, road, planner)
             if isinstance(option, Rejected):
                 rejected[option.reason] += 1
-            elif best is None or option.score.joint > best.score.joint:
+                tried.append(TriedSite.of(site, why=option.reason))
+                continue
+            tried.append(TriedSite.of(site, joint=option.score.joint))
+            if best is None or option.score.joint > best.score.joint:
                 best = option
         if best is None:
             reasons = dict(sorted(rejected.items()))
             most = max(reasons, key=lambda r: (reasons[r], r)) if reasons else 'road'
-            tried = sum(reasons.values())
-            return GroundingFailure(reason=most, tried=tried, rejected_by=reasons)
+            count = sum(reasons.values())
+            return GroundingFailure(reason=most, tried=count, rejected_by=reasons)
         return self._scenario(spec, split, best, scored, run_m, seed, planner, persons)
 
     def _drive_speed(self, spec: ScenarioSpec, split: SceneSplit) -> float:
