@@ -77,6 +77,7 @@ class Grounder:
         basis: What the grounding says it was made with.
         executor_version: Version of the executor that will run it, written there too.
         spawns: Where vehicle types were measured to stand; None where the map was not measured.
+        airspace: Of the map, when it exists already.
     """
 
     def __init__(
@@ -89,6 +90,7 @@ class Grounder:
         basis: Basis | None = None,
         executor_version: int = 0,
         spawns: SpawnTable | None = None,
+        airspace: Airspace | None = None,
     ) -> None:
         self._map = map_model
         self._basis = basis
@@ -98,7 +100,9 @@ class Grounder:
         self._limits = limits
         self._tolerances = tolerances
         self._settings = settings
-        self._air = Airspace(map_model.buildings, map_model.zones)
+        if airspace is None:
+            airspace = Airspace(map_model.buildings, map_model.zones)
+        self._air = airspace
         self._spots = SpotFinder(map_model, settings.grounding)
         self._goals = GoalFinder(map_model, types, tolerances)
 

@@ -10,6 +10,7 @@ from functools import cached_property
 from aurora_core.errors import AuroraError
 from aurora_core.execution.map_parts import MapParts, map_parts
 from aurora_core.execution.plan import EXECUTOR_VERSION
+from aurora_core.grounding.airspace import Airspace
 from aurora_core.grounding.ground import Grounder
 from aurora_core.knowledge.agent_types import AgentTypeRecord, load_agent_types
 from aurora_core.knowledge.basis import Basis, Tables
@@ -58,6 +59,7 @@ class Knowledge:
         self.basis = Basis.of(AURORA_VERSION, tables)
         self._maps: dict[str, MapModel] = {}
         self._measured: dict[str, MeasuredMap | None] = {}
+        self._airspaces: dict[str, Airspace] = {}
         self._grounders: dict[str, Grounder] = {}
         self._parts: dict[str, MapParts] = {}
 
@@ -87,7 +89,7 @@ class Knowledge:
     def parts(self, name: str) -> MapParts:
         """Return what the runs on a map share."""
         if name not in self._parts:
-            self._parts[name] = map_parts(self.map(name))
+            self._parts[name] = map_parts(self.map(name), self._airspace(name))
         return self._parts[name]
 
     def grounder(self, name: str) -> Grounder:
@@ -103,8 +105,15 @@ class Knowledge:
                 self.basis,
                 EXECUTOR_VERSION,
                 None if measured is None else measured.spawns,
+                self._airspace(name),
             )
         return self._grounders[name]
+
+    def _airspace(self, name: str) -> Airspace:
+        if name not in self._airspaces:
+            known = self.map(name)
+            self._airspaces[name] = Airspace(known.buildings, known.zones)
+        return self._airspaces[name]
 
     def parts_of(self, world: WorldModel) -> MapParts | None:
         """Return the parts of the installed map whose solids a recorded world has, else None."""
