@@ -116,7 +116,7 @@ class ScenarioExecutor:
         seen = Observation(s.roster, ground, uav, s.geometry, self._sight)
         commands = self._initial_commands() if tick == 0 else []
         rows = self._fly(tick, uav, seen)
-        commands += self._release(tick)
+        commands += self._release(tick, seen)
         commands += self._premises.step(tick, s.roster.dt_s, seen, s.machines)
         commands += self._overtaker.step(seen)
         commands += self._runner.step(tick, s.roster.dt_s, seen, s.machines, self.note)
@@ -207,7 +207,7 @@ class ScenarioExecutor:
         resume = GroundCommand(agent=index, kind=GroundCommandKind.RESUME)
         return [resume, self._drive_command(index, agent)]
 
-    def _release(self, tick: int) -> list[GroundCommand]:
+    def _release(self, tick: int, seen: Observation) -> list[GroundCommand]:
         commands: list[GroundCommand] = []
         if not self._held:
             return commands
@@ -228,7 +228,7 @@ class ScenarioExecutor:
                 )
                 or (agent.release is ReleaseOn.OBSERVED and machine.missions_done)
             )
-            if ready:
+            if ready or _is_neared(agent, seen):
                 self._held.discard(index)
                 self.note(tick, ScenarioEventKind.RELEASED, agent.id)
                 commands += self._start_commands(index, agent)
@@ -322,6 +322,14 @@ class ScenarioExecutor:
             if not machine.done:  # the usual answer
                 return False
         return self._runner.done and all(link.idle for link in self._setup.links)
+
+
+def _is_neared(agent: GroundedAgent, seen: Observation) -> bool:
+    """Tell whether the agent that another one waits for has come near."""
+    if agent.release is not ReleaseOn.NEARED:
+        return False
+    distance_m = seen.distance_m(agent.id, agent.release_agent)
+    return distance_m is not None and distance_m <= agent.release_within_m
 
 
 def _path(seen: Observation, sender: str, receiver: str) -> Path:
