@@ -17,6 +17,7 @@ import numpy.typing as npt
 
 from aurora_core.comm.link import MessageLink, Path
 from aurora_core.execution.events import EventRunner
+from aurora_core.execution.follower import Follower
 from aurora_core.execution.landing import PATIENCE_S, landing_spot
 from aurora_core.execution.lane_changer import LaneChanger
 from aurora_core.execution.observe import Observation
@@ -99,6 +100,7 @@ class ScenarioExecutor:
         self._runner = self._run_events(EventRunner)
         self._premises = Premises(setup.spec, setup.roster)
         self._overtaker = Overtaker(setup.spec, setup.roster, self._lanes())
+        self._follower = Follower(setup.spec, setup.roster, self._lanes(), self._drives)
         self._done_tick: int | None = None
         self._landing_since: dict[int, int] = {}
         self._sight = InstantSight(setup.geometry, setup.roster)
@@ -119,6 +121,7 @@ class ScenarioExecutor:
         commands += self._release(tick, seen)
         commands += self._premises.step(tick, s.roster.dt_s, seen, s.machines)
         commands += self._overtaker.step(seen)
+        commands += self._follower.step(tick, seen, self._held)
         commands += self._runner.step(tick, s.roster.dt_s, seen, s.machines, self.note)
         links = self._step_links(tick, seen)
         sights = self._sights(tick, seen)
@@ -159,7 +162,7 @@ class ScenarioExecutor:
             s.action_rules,
             self._lanes(),
             self._set_off,
-            lambda row: self._drive_command(row, s.agents[row]),
+            self._drives,
             stopping,
         )
 
@@ -197,6 +200,9 @@ class ScenarioExecutor:
             return GroundCommand(agent=index, kind=GroundCommandKind.RELEASE_SPEED)
         kind = GroundCommandKind.SET_SPEED
         return GroundCommand(agent=index, kind=kind, value=agent.drive_speed_mps)
+
+    def _drives(self, index: int) -> GroundCommand:
+        return self._drive_command(index, self._setup.agents[index])
 
     def _set_off(self, index: int) -> list[GroundCommand]:
         """Return the commands that let an agent drive, who may have been held until now."""

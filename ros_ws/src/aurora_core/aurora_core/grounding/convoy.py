@@ -19,7 +19,14 @@ from aurora_core.grounding.pace import (
     own_speed_mps,
 )
 from aurora_core.grounding.places import POINTS, bound_to_places, has_point
-from aurora_core.grounding.ties import IN_LINE_M, Tie, in_passing_lane, passing_pairs, queued
+from aurora_core.grounding.ties import (
+    IN_LINE_M,
+    Tie,
+    agreed,
+    in_passing_lane,
+    passing_pairs,
+    queued,
+)
 from aurora_core.knowledge.limits import EXACT, Tolerance
 from aurora_core.spec.own_events import let_cross
 from aurora_core.spec.parameter import Parameter, Provenance
@@ -208,7 +215,7 @@ def split_scene(
         for a in vehicles
         for t in _ties(a, by_id, unsupported, distances)
     ]
-    ties += _past_persons(spec, by_id, ties, speeds)
+    ties = agreed(ties + _past_persons(spec, by_id, ties, speeds))
     ties = queued(ties, {a.id: {b.kind for b in a.behaviors} for a in vehicles})
     origin = _origin(spec, vehicles, ties)
     if origin is None:
@@ -344,7 +351,13 @@ def _ties(
     return (
         _chasing(agent.id, passed if len(passed) > 1 else chased[:1], distances)
         or [
-            Tie(agent.id, meeting.other, -distances.between(agent.id, meeting.other, None), 0)
+            Tie(
+                agent.id,
+                meeting.other,
+                -distances.between(agent.id, meeting.other, None),
+                0,
+                guess=True,
+            )
             for meeting in distances.meetings
             # Nothing says where the actor is: it comes from behind.
             if meeting.actor == agent.id and meeting.other in by_id
@@ -359,7 +372,8 @@ def _chasing(agent: str, behaviors: Sequence[Behavior], distances: _Distances) -
         assert behavior.target is not None
         gap = behavior.closing_from_m
         distance_m = distances.between(agent, behavior.target, gap) + IN_LINE_M * number
-        ties.append(Tie(agent, behavior.target, -distance_m, 0, free=gap is None))
+        told = gap is not None
+        ties.append(Tie(agent, behavior.target, -distance_m, 0, free=not told, guess=not told))
     return ties
 
 
@@ -372,11 +386,11 @@ def _past_persons(
     for person, vehicle, within_m in met_persons(spec):
         for placement in person.placements:
             beside = placement.of
-            pair = frozenset((vehicle, beside))
+            pair = frozenset((vehicle, str(beside)))
             if beside in by_id and vehicle in by_id and len(pair) == 2 and pair not in tied:
                 tied.add(pair)
                 away_m = within_m + encounter_room_m(speeds.get(vehicle))
-                found.append(Tie(str(beside), vehicle, away_m, 0))
+                found.append(Tie(str(beside), vehicle, away_m, 0, guess=True))
     return found
 
 

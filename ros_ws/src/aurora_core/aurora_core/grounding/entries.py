@@ -49,8 +49,9 @@ def entry_speeds_mps(
         if seat.agent.id not in moving:
             continue
         record, lane = types[seat.agent.type.value], network.lane(seat.lane_id)
+        led_mps = [found.get(b.target or '', 0.0) for b in seat.agent.behaviors if b.kind in PACED]
         speed_mps = min(
-            stated_speed_mps(spec, seat.agent) or 0.0,
+            stated_speed_mps(spec, seat.agent) or max(led_mps, default=0.0),
             lane.speed_limit_mps,
             record.desired_speed_mps or lane.speed_limit_mps,
         )

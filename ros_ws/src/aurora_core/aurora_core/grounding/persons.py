@@ -159,9 +159,7 @@ class PersonPlacer:
             x, y, hx, hy = path.position_at(seat.arc_m)
             stays = not _goes(spec, agent)
             release = person_release(spec, agent)
-            goal = self._map.network.lane(path.goal_lane_id).arc_length_m
-            beyond = _BEYOND_M + _NEXT_M * site.walkers.index(seat)
-            arrival = min(beyond, goal / 2.0) if crosses(spec, agent) else goal - _KERB_M
+            arrival = self._arrival_m(spec, site, seat)
             if any(b.kind is BehaviorKind.STOP for b in agent.behaviors):
                 arrival = min(arrival, seat.arc_m + _STOP_AFTER_M)
             yield GroundedAgent(
@@ -190,6 +188,20 @@ class PersonPlacer:
                 acceleration_mps2=record.accel_mps2,
                 deceleration_mps2=record.decel_mps2,
             )
+
+    def _arrival_m(self, spec: ScenarioSpec, site: Site, seat: SeatedPerson) -> float:
+        """Return where a walk ends on its last sidewalk (m): nobody walks into who arrived."""
+        goal_m = self._map.network.lane(seat.path.goal_lane_id).arc_length_m
+        group = [w for w in site.walkers if w.path.goal_lane_id == seat.path.goal_lane_id]
+        number = group.index(seat)
+        if crosses(spec, seat.agent):
+            # The first one stands at the kerb and goes farthest.
+            first_m = min(_BEYOND_M, goal_m / 2.0)
+            next_m = min(_NEXT_M, (goal_m - _KERB_M - first_m) / len(group))
+            return first_m + next_m * (len(group) - 1 - number)
+        next_m = min(_NEXT_M, (goal_m - _KERB_M) / len(group))
+        ahead = sum(w.arc_m > seat.arc_m for w in group)
+        return goal_m - _KERB_M - next_m * ahead
 
     def _spot(
         self, spec: ScenarioSpec, agent: GroundAgent, site: Site, run_s: float, number: int

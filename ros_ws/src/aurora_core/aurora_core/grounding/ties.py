@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from math import copysign
 
 from aurora_core.spec.own_events import let_pass, own_events
 from aurora_core.spec.scenario import AgentAction, ScenarioSpec
@@ -22,7 +23,7 @@ IN_LINE_M = 15.0
 class Tie:
     """`agent` is `offset_m` ahead of `other` along the route, `lane_shift` lanes to its left.
 
-    Nobody says how far that is where it is `free`.
+    Nobody says how far that is where it is `free`, nor that at all where it is a `guess`.
     """
 
     agent: str
@@ -30,6 +31,19 @@ class Tie:
     offset_m: float
     lane_shift: int
     free: bool = False
+    guess: bool = False
+
+
+def agreed(ties: list[Tie]) -> list[Tie]:
+    """Return ties without guesses about two of whom something else is said."""
+    said = {frozenset((t.agent, t.other)) for t in ties if not t.guess}
+    found: list[Tie] = []
+    for tie in ties:
+        pair = frozenset((tie.agent, tie.other))
+        if not tie.guess or pair not in said:
+            found.append(tie)
+            said |= {pair}
+    return found
 
 
 def passing_pairs(spec: ScenarioSpec) -> frozenset[tuple[str, str]]:
@@ -57,31 +71,36 @@ def in_passing_lane(tie: Tie, passing: frozenset[tuple[str, str]]) -> Tie:
 
 
 def queued(ties: list[Tie], doing: Mapping[str, set[BehaviorKind]]) -> list[Tie]:
-    """Return ties in which those behind one other do not stand in one place.
+    """Return ties in which those behind, or ahead of, one other do not stand in one place.
 
     Who tailgates is next to it, others stand behind, and who overtakes is in the lane to the left.
     """
     found, tied = list(ties), Counter(i for t in ties for i in (t.agent, t.other))
-    groups: dict[tuple[str, int], list[Tie]] = {}
+    groups: dict[tuple[str, int, float], list[Tie]] = {}
     for tie in ties:
-        if tie.offset_m < 0.0:
-            groups.setdefault((tie.other, tie.lane_shift), []).append(tie)
-    for group in groups.values():
-        group.sort(key=lambda t: (_rank(doing[t.agent]), -t.offset_m, t.free, t.agent))
-        rear_m = 0.0
+        if tie.offset_m != 0.0:
+            side = copysign(1.0, tie.offset_m)
+            groups.setdefault((tie.other, tie.lane_shift, side), []).append(tie)
+    for (_, _, side), group in groups.items():
+        group.sort(
+            key=lambda t: (_rank(doing[t.agent], t.offset_m), abs(t.offset_m), t.free, t.agent)
+        )
+        last_m = 0.0
         for tie in group:
-            alone = tie.free and tied[tie.agent] == 1
-            if not alone or tie.offset_m <= rear_m - _QUEUE_M or rear_m == 0.0:
-                rear_m = min(rear_m, tie.offset_m)
-            elif BehaviorKind.OVERTAKE in doing[tie.agent]:
+            alone, away_m = tie.free and tied[tie.agent] == 1, abs(tie.offset_m)
+            if not alone or away_m >= last_m + _QUEUE_M or last_m == 0.0:
+                last_m = max(last_m, away_m)
+            elif side < 0.0 and BehaviorKind.OVERTAKE in doing[tie.agent]:
                 found[found.index(tie)] = replace(tie, lane_shift=tie.lane_shift + 1)
             else:
-                rear_m -= IN_LINE_M
-                found[found.index(tie)] = replace(tie, offset_m=rear_m)
+                last_m += IN_LINE_M
+                found[found.index(tie)] = replace(tie, offset_m=side * last_m)
     return found
 
 
-def _rank(kinds: set[BehaviorKind]) -> int:
+def _rank(kinds: set[BehaviorKind], offset_m: float) -> int:
+    if offset_m > 0.0:
+        return 0
     if BehaviorKind.TAILGATE in kinds:
         return 0
     return 2 if BehaviorKind.OVERTAKE in kinds else 1
