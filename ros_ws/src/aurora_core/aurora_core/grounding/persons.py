@@ -20,7 +20,7 @@ from aurora_core.grounding.pace import (
 )
 from aurora_core.grounding.places import MapPlaces, arrivals, has_point
 from aurora_core.grounding.releases import person_release
-from aurora_core.grounding.routes import RouteFinder
+from aurora_core.grounding.routes import route_finder
 from aurora_core.grounding.sites import ANY_CLASS, SeatedAgent, SeatedPerson, Site, line_from
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.map_model import MapModel
@@ -130,7 +130,7 @@ class PersonPlacer:
         self._map = map_model
         self._places = MapPlaces(map_model)
         self._types = types
-        self._finder = RouteFinder(map_model.network, ANY_CLASS)
+        self._finder = route_finder(map_model.network, ANY_CLASS)
 
     def seated(
         self, spec: ScenarioSpec, persons: tuple[GroundAgent, ...], site: Site, run_s: float
