@@ -78,6 +78,9 @@ _AT = (Relation.NEAR, Relation.AT, Relation.PARKED_AT)
 
 _ON = (Relation.ON, Relation.AT, Relation.PARKED_AT)
 
+# On which side of another vehicle one is.
+SIDES = frozenset({Relation.LEFT, Relation.RIGHT})
+
 # Who does one of these comes from behind.
 _CHASES = frozenset(
     {BehaviorKind.FOLLOW, BehaviorKind.TAILGATE, BehaviorKind.APPROACH, BehaviorKind.OVERTAKE}
@@ -215,6 +218,9 @@ def split_scene(
         for a in vehicles
         for t in _ties(a, by_id, unsupported, distances)
     ]
+    if apart:
+        # "From the left" to a place is another street, not the lane beside.
+        ties = [t for t in ties if not _comes_from_a_side(spec, by_id[t.agent], t)]
     ties = agreed(ties + _past_persons(spec, by_id, ties, speeds))
     ties = queued(ties, {a.id: {b.kind for b in a.behaviors} for a in vehicles})
     origin = _origin(spec, vehicles, ties)
@@ -375,6 +381,12 @@ def _chasing(agent: str, behaviors: Sequence[Behavior], distances: _Distances) -
         told = gap is not None
         ties.append(Tie(agent, behavior.target, -distance_m, 0, free=not told, guess=not told))
     return ties
+
+
+def _comes_from_a_side(spec: ScenarioSpec, agent: GroundAgent, tie: Tie) -> bool:
+    """Tell whether a tie says only from which side somebody comes who goes to a place."""
+    sides = {p.relation for p in agent.placements if p.of == tie.other}
+    return bool(sides) and sides <= SIDES and bound_to_places(spec, agent)
 
 
 def _past_persons(
