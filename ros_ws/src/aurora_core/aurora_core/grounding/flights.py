@@ -31,6 +31,8 @@ from aurora_core.grounding.planned_flight import (
     Rejected,
     altitude_slack_m,
     ascent_tolerance_m,
+    first_point,
+    last_point,
     planned_height_m,
 )
 from aurora_core.grounding.routes_flown import RoutePlanner
@@ -200,7 +202,7 @@ class FlightPlanner:
         """Choose the start of a UAV whose missions are planned; it could land there again."""
         if not self._ways_between_are_free(flights, site):
             return Rejected(reason='way_between_missions')
-        first = _first_point(flights[0].plan, site)
+        first = first_point(flights[0].plan, site)
         home = None
         spots = self._spots.near(first[0], first[1], 6 + 20 * len(taken))
         if flights[0].plan.offset_turns:
@@ -234,7 +236,7 @@ class FlightPlanner:
         """Exchange starts so that UAVs at one height do not meet on their first ways."""
         return uncrossed(
             plans,
-            [_first_point(p.missions[0], site) for p in plans],
+            [first_point(p.missions[0], site) for p in plans],
             self._air,
             apart_m=self._apart_m,
             clearance_m=self._settings.clearance_m,
@@ -248,8 +250,8 @@ class FlightPlanner:
         for before, after in pairwise(f.plan for f in flights):
             if before.mode is MissionMode.TRACK:
                 continue
-            x, y, z = _last_point(before)
-            to_x, to_y, to_z = _first_point(after, site)
+            x, y, z = last_point(before)
+            to_x, to_y, to_z = first_point(after, site)
             for height in {z, to_z}:
                 way = ((x, y, height), (to_x, to_y, height))
                 if self._air.way_clearance_m(way) < self._settings.clearance_m:
@@ -443,7 +445,7 @@ class FlightPlanner:
         assert mission.duration_s is not None
         way_m = speed_mps * mission.duration_s.value if moves(spec, seat.agent) else 0.0
         samples = samples_along(seat.path, seat.arc_m, way_m, self._settings.sample_spacing_m)
-        return np.column_stack((samples[:, :2], np.full(len(samples), height_m)))
+        return _at_height(samples[:, :2], height_m)
 
     def _centre(self, mission: UavMission, site: Site) -> tuple[float, float, float, float] | None:
         target = mission.target
@@ -472,7 +474,7 @@ class FlightPlanner:
             assert seat is not None
             way = samples_along(seat.path, seat.arc_m, 900.0, 60.0)
             return [(float(p[0]), float(p[1])) for p in way]
-        x, y, _ = _last_point(plan)
+        x, y, _ = last_point(plan)
         return [(x, y)]
 
 
@@ -483,21 +485,3 @@ def _at_height(points: FloatArray, height_m: float) -> FloatArray:
 
 def _distance(a: Point3, b: Point3) -> float:
     return norm2(norm2(a[0] - b[0], a[1] - b[1]), a[2] - b[2])
-
-
-def _last_point(plan: MissionPlan) -> Point3:
-    last = plan.waypoints[-1] if plan.waypoints else plan.hover_point
-    assert last is not None
-    return last
-
-
-def _first_point(plan: MissionPlan, site: Site) -> Point3:
-    if plan.mode is MissionMode.TRACK:
-        seat = site.seat(plan.target or '')
-        assert seat is not None
-        x, y, hx, hy = seat.path.position_at(seat.arc_m)
-        to_x, to_y = plan.offset_from((hx, hy))
-        return x + to_x, y + to_y, plan.altitude_m
-    if plan.hover_point is not None:
-        return plan.hover_point
-    return plan.waypoints[0]
