@@ -83,7 +83,8 @@ def _happened(case: Case, requirement: Requirement) -> Happened:
     instants = _delayed(requirement, trigger, when.instants)
     if not action:
         first = instants[0]
-        return Happened(holds(f'at {first.late_s:.2f} s'), first.early_s, first.late_s)
+        why = holds(f'at {first.late_s:.2f} s')
+        return Happened(why, first.early_s, first.late_s, first.early_s)
     return _answered(case, requirement, trigger, action, instants)
 
 

@@ -201,6 +201,16 @@ def _oncoming(case: Case, requirement: Requirement, body: str, other: str) -> Ju
     return all_of([graded(sure, maybe, why), _straight(case, requirement, body, other)])
 
 
+def _comes_to_a_place(case: Case, body: str) -> bool:
+    return any(
+        r['kind'] == 'behavior'
+        and r.get('behavior') == 'approach'
+        and body in case.bodies(r.get('agent'))
+        and not case.bodies(r.get('target'))
+        for r in case.annotation.flat()
+    )
+
+
 def _beside(case: Case, requirement: Requirement, body: str, other: str) -> Judged:
     forward, left = (float(v[0]) for v in frame(case.scene, body, other))
     relation = requirement.get('relation')
@@ -215,7 +225,9 @@ def _beside(case: Case, requirement: Requirement, body: str, other: str) -> Judg
     if requirement.get('distance_m') is None:
         gap = float(np.hypot(forward, left))
         sure, most = BESIDE_M
-        parts.append(graded(gap <= sure, gap <= most, f'{gap:.1f} m away'))
+        # "From the left" to a place says a side; how far away that begins nobody says.
+        near = gap <= most or _comes_to_a_place(case, body)
+        parts.append(graded(gap <= sure, near, f'{gap:.1f} m away'))
     return all_of(parts)
 
 

@@ -142,6 +142,15 @@ def behavior(r: BehaviorRequirement, names: Names, numbers: Numbers) -> Doc:
     return {'kind': r.behavior, 'target': names.one(r.target), **numbers.of(r, ('speed_mps',))}
 
 
+def behaviors(r: BehaviorRequirement, names: Names, numbers: Numbers) -> list[Doc]:
+    """Return the behaviours of a requirement: who yields to several does so to each of them."""
+    others = () if r.target is None else names.all(r.target)
+    if not numbers.are_judged or r.behavior not in _TOWARDS_ONE or len(others) < 2:
+        return [behavior(r, names, numbers)]
+    stated = numbers.of(r, ('speed_mps',))
+    return [{'kind': r.behavior, 'target': other, **stated} for other in others]
+
+
 def mission(
     r: MissionRequirement | Action, ident: str, uav: str, names: Names, numbers: Numbers
 ) -> Doc:

@@ -32,6 +32,7 @@ from aurora_bench.prompts.reference_names import Names, NotExpressibleError, id_
 from aurora_bench.prompts.reference_parts import (
     Numbers,
     behavior,
+    behaviors,
     condition,
     default_link,
     event,
@@ -156,7 +157,7 @@ class _Builder:
                 self._agents[ident]['placements'].append(placement(r, names, numbers))
         elif r.kind == 'behavior':
             for ident in self._members(r.agent):
-                self._agents[ident]['behaviors'].append(behavior(r, names, numbers))
+                self._agents[ident]['behaviors'] += behaviors(r, names, numbers)
         elif r.kind == 'mission':
             flyers = names.all(r.uav)
             if not set(flyers) <= set(names.uavs):

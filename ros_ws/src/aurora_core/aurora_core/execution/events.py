@@ -11,6 +11,7 @@ from aurora_core.comm.link import MessageLink, whole_ticks
 from aurora_core.execution.lane_changer import LaneChanger
 from aurora_core.execution.observe import Observation
 from aurora_core.execution.triggers import Progress, holds
+from aurora_core.execution.yielding import Yielding
 from aurora_core.geometry.kernel import norm2
 from aurora_core.mission.machine import MissionMachine
 from aurora_core.mission.plan import UavPlan
@@ -48,9 +49,6 @@ Note = Callable[[int, ScenarioEventKind, str, str], None]
 
 # Speed from which an agent can be seen to brake or stop (m/s).
 ON_THE_MOVE_MPS = 5.0
-
-# Who has let another one pass drives on when that is so far ahead, bumper to bumper (m).
-DRIVES_ON_M = 5.0
 
 # Loss of speed that shows as slowing down (m/s).
 _SHOWS_MPS = 2.5
@@ -128,7 +126,7 @@ class EventRunner:
         self._drive = drive
         self._spec = spec
         self._moved: set[int] = set()
-        self._yielding: dict[int, str] = {}
+        self._yielding = Yielding(spec, roster)
         self._links = links
         # What waits for a body that could not be placed never happens: the run ends without it,
         # as `incomplete`.
@@ -188,7 +186,7 @@ class EventRunner:
                 self._progress.looking.add(machine.plan.id)
             if machine.missions_done:
                 self._progress.missions_done.add(machine.plan.id)
-        commands = self._drive_on(seen)
+        commands = [self._drive(row) for row in self._yielding.passed(seen)]
         for state in self._states:
             if state.done:
                 continue
@@ -362,22 +360,13 @@ class EventRunner:
     def _note_yielding(self, event: Event, action: AgentAction) -> None:
         """Note whom an agent lets pass; what else it is to do later is left to that event."""
         row, other = self._roster.agent_index(action.agent), let_pass(self._spec, event)
-        acting = [
-            s.event.action
+        does = {
+            s.event.action.do
             for s in self._states
             if isinstance(s.event.action, AgentAction) and s.event.action.agent == action.agent
-        ]
-        if row is not None and other is not None and len(acting) == 1:
-            self._yielding[row] = other
-
-    def _drive_on(self, seen: Observation) -> list[GroundCommand]:
-        """Return what lets those drive on whom the other one has passed."""
-        passed = [
-            row for row, other in self._yielding.items() if seen.ahead_m(row, other) >= DRIVES_ON_M
-        ]
-        for row in passed:
-            del self._yielding[row]
-        return [self._drive(row) for row in passed]
+        }
+        if row is not None and other is not None and does == {'yield'}:
+            self._yielding.note(row, other)
 
     def _agent_commands(self, action: AgentAction, seen: Observation) -> list[GroundCommand]:
         row = self._roster.agent_index(action.agent)

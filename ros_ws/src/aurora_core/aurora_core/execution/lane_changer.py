@@ -69,6 +69,26 @@ class LaneChanger:
         beside = beside[::-1] if back else beside
         return next((k for k in beside if self._is_free(k, row, seen)), None)
 
+    def goal_beside(self, row: int, other: int, seen: Observation) -> int | None:
+        """Return the lane of another agent where one can change to it now, else None."""
+        wanted = self.lane(other, seen)
+        if not can_change(self._world, seen.ground(row)[None, :], self._driving_mps)[0]:
+            return None
+        beside = wanted in lanes_beside(self._world, self.lane(row, seen))
+        return wanted if beside and self._is_free(wanted, row, seen) else None
+
+    def is_in_the_middle(self, row: int, seen: Observation) -> bool:
+        """Tell whether an agent is in the middle of its lane."""
+        lane = self._world.lanes[self.lane(row, seen)]
+        return bool(off_lane_m(lane, seen.ground(row)[None, :])[0] <= CENTRED_M)
+
+    def are_on_two(self, row: int, other: int, seen: Observation) -> bool | None:
+        """Tell whether two agents are on two lanes of one street, None where on two streets."""
+        own, wanted = self.lane(row, seen), self.lane(other, seen)
+        if own == wanted:
+            return False
+        return True if other_lane(self._world, own, wanted) else None
+
     def commands(self, row: int, goal: int, *, stays_s: float = _STAYS_S) -> list[GroundCommand]:
         """Return what lets an agent change to a lane, and keep to it for some time (s)."""
         index = int(self._world.lanes[goal].lane_id.rpartition('_')[2])

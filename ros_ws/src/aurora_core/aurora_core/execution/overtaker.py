@@ -27,7 +27,7 @@ _PASSES_S = 60.0
 
 @dataclass(slots=True)
 class _Passing:
-    """One overtaking: `row` passes `other`.
+    """One overtaking: `row` passes `others`.
 
     Attributes:
         is_out: It has pulled out.
@@ -35,7 +35,7 @@ class _Passing:
     """
 
     row: int
-    other: int
+    others: tuple[int, ...]
     is_out: bool = False
     done: bool = False
 
@@ -52,31 +52,30 @@ class Overtaker:
     def __init__(self, spec: ScenarioSpec, roster: Roster, lanes: LaneChanger) -> None:
         self._roster = roster
         self._lanes = lanes
-        rows = (
-            (roster.agent_index(agent), roster.agent_index(other))
-            for agent, other in overtakings(spec)
-        )
-        self._passing = [
-            _Passing(row=row, other=other)
-            for row, other in rows
-            if row is not None and other is not None
-        ]
+        passed: dict[int, list[int]] = {}
+        for agent, other in overtakings(spec):
+            row, index = roster.agent_index(agent), roster.agent_index(other)
+            if row is not None and index is not None:
+                passed.setdefault(row, []).append(index)
+        self._passing = [_Passing(row=row, others=tuple(rows)) for row, rows in passed.items()]
 
     def step(self, seen: Observation) -> list[GroundCommand]:
         """Return the commands of a tick."""
         return [c for one in self._passing if not one.done for c in self._step(one, seen)]
 
     def _step(self, one: _Passing, seen: Observation) -> list[GroundCommand]:
+        agents = self._roster.agents
         if not one.is_out:
-            gap_m = seen.ahead_m(one.row, self._roster.agents[one.other].body_id)
-            if not 0.0 < gap_m <= _OUT_M:
+            gaps_m = [seen.ahead_m(one.row, agents[other].body_id) for other in one.others]
+            if not any(0.0 < gap_m <= _OUT_M for gap_m in gaps_m):
                 return []
             goal = self._lanes.goal(one.row, seen)
             if goal is None:
                 return []
             one.is_out = True
             return self._lanes.commands(one.row, goal, stays_s=_PASSES_S)
-        if seen.ahead_m(one.other, self._roster.agents[one.row].body_id) < _IN_M:
+        own = agents[one.row].body_id
+        if any(seen.ahead_m(other, own) < _IN_M for other in one.others):
             return []
         goal = self._lanes.goal(one.row, seen, back=True)
         if goal is None:

@@ -17,6 +17,7 @@ import numpy.typing as npt
 
 from aurora_core.comm.link import MessageLink, Path
 from aurora_core.execution.events import EventRunner
+from aurora_core.execution.follower import Follower
 from aurora_core.execution.landing import PATIENCE_S, landing_spot
 from aurora_core.execution.lane_changer import LaneChanger
 from aurora_core.execution.observe import Observation
@@ -99,6 +100,7 @@ class ScenarioExecutor:
         self._runner = self._run_events(EventRunner)
         self._premises = Premises(setup.spec, setup.roster)
         self._overtaker = Overtaker(setup.spec, setup.roster, self._lanes())
+        self._follower = Follower(setup.spec, setup.roster, self._lanes(), self._drives)
         self._done_tick: int | None = None
         self._landing_since: dict[int, int] = {}
         self._sight = InstantSight(setup.geometry, setup.roster)
@@ -116,9 +118,10 @@ class ScenarioExecutor:
         seen = Observation(s.roster, ground, uav, s.geometry, self._sight)
         commands = self._initial_commands() if tick == 0 else []
         rows = self._fly(tick, uav, seen)
-        commands += self._release(tick)
+        commands += self._release(tick, seen)
         commands += self._premises.step(tick, s.roster.dt_s, seen, s.machines)
         commands += self._overtaker.step(seen)
+        commands += self._follower.step(tick, seen, self._held)
         commands += self._runner.step(tick, s.roster.dt_s, seen, s.machines, self.note)
         links = self._step_links(tick, seen)
         sights = self._sights(tick, seen)
@@ -159,7 +162,7 @@ class ScenarioExecutor:
             s.action_rules,
             self._lanes(),
             self._set_off,
-            lambda row: self._drive_command(row, s.agents[row]),
+            self._drives,
             stopping,
         )
 
@@ -198,6 +201,9 @@ class ScenarioExecutor:
         kind = GroundCommandKind.SET_SPEED
         return GroundCommand(agent=index, kind=kind, value=agent.drive_speed_mps)
 
+    def _drives(self, index: int) -> GroundCommand:
+        return self._drive_command(index, self._setup.agents[index])
+
     def _set_off(self, index: int) -> list[GroundCommand]:
         """Return the commands that let an agent drive, who may have been held until now."""
         agent = self._setup.agents[index]
@@ -207,7 +213,7 @@ class ScenarioExecutor:
         resume = GroundCommand(agent=index, kind=GroundCommandKind.RESUME)
         return [resume, self._drive_command(index, agent)]
 
-    def _release(self, tick: int) -> list[GroundCommand]:
+    def _release(self, tick: int, seen: Observation) -> list[GroundCommand]:
         commands: list[GroundCommand] = []
         if not self._held:
             return commands
@@ -228,7 +234,7 @@ class ScenarioExecutor:
                 )
                 or (agent.release is ReleaseOn.OBSERVED and machine.missions_done)
             )
-            if ready:
+            if ready or _is_neared(agent, seen):
                 self._held.discard(index)
                 self.note(tick, ScenarioEventKind.RELEASED, agent.id)
                 commands += self._start_commands(index, agent)
@@ -322,6 +328,14 @@ class ScenarioExecutor:
             if not machine.done:  # the usual answer
                 return False
         return self._runner.done and all(link.idle for link in self._setup.links)
+
+
+def _is_neared(agent: GroundedAgent, seen: Observation) -> bool:
+    """Tell whether the agent that another one waits for has come near."""
+    if agent.release is not ReleaseOn.NEARED:
+        return False
+    distance_m = seen.distance_m(agent.id, agent.release_agent)
+    return distance_m is not None and distance_m <= agent.release_within_m
 
 
 def _path(seen: Observation, sender: str, receiver: str) -> Path:

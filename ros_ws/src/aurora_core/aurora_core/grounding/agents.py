@@ -13,6 +13,7 @@ import numpy as np
 
 from aurora_core.errors import MapError
 from aurora_core.grounding.convoy import SceneSplit, parks, stands
+from aurora_core.grounding.entries import entry_speeds_mps
 from aurora_core.grounding.free_room import FreeRoom
 from aurora_core.grounding.free_run import free_run_m, needed_run_m
 from aurora_core.grounding.goals import STOP_AFTER_M, GoalFinder, stops
@@ -48,7 +49,7 @@ from aurora_core.knowledge.map_records import SpawnTable, may_stand
 from aurora_core.knowledge.route_path import RoutePath
 from aurora_core.knowledge.settings import Settings
 from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
-from aurora_core.spec.own_events import overtakings
+from aurora_core.spec.own_events import let_cross, overtakings
 from aurora_core.spec.scenario import (
     GroundAgent,
     ScenarioSpec,
@@ -108,6 +109,7 @@ class AgentPlacer:
         front_m = max((s.arc_m for s in site.seated), default=0.0)
         gaps = kept_gaps(spec, seats, self._types)
         in_line = _in_line(spec)
+        entries = entry_speeds_mps(spec, seats, self._types, self._map.network)
         parting = any(changes_lane(spec, s.agent) for s in site.seated)
         placed = []
         for agent in spec.agents:
@@ -128,6 +130,7 @@ class AgentPlacer:
                     release=own_release(spec, agent, release),
                     still=still,
                     speed_mps=stated_speed_mps(spec, agent),
+                    entry_mps=entries.get(agent.id, 0.0),
                     style=style,
                     lane_changes=self._lane_changes(spec, agent, tied=len(site.seated) > 1),
                     stop_m=self._goals.stop_arc_m(spec, site, seat),
@@ -258,6 +261,7 @@ class AgentPlacer:
         lane_changes: int | None,
         stop_m: float | None,
         parked: bool = False,
+        entry_mps: float = 0.0,
     ) -> GroundedAgent:
         record = self._types[agent.type.value]
         lane_id, position_m = path.lane_position_at(arc_m)
@@ -288,6 +292,7 @@ class AgentPlacer:
             y_m=y,
             heading_x=hx,
             heading_y=hy,
+            speed_mps=0.0 if still or release.on is not ReleaseOn.START else entry_mps,
             speed_factor=max(style.get('speed_factor', 1.0), _urged(record, speed_mps)),
             time_gap_s=style.get('time_gap_s'),
             min_gap_m=style.get('min_gap_m'),
@@ -296,6 +301,8 @@ class AgentPlacer:
             release=ReleaseOn.NEVER if still else release.on,
             release_uav=release.uav,
             release_mission=release.mission,
+            release_agent=release.agent,
+            release_within_m=release.within_m,
             drive_speed_mps=speed_mps,
             acceleration_mps2=record.accel_mps2,
             deceleration_mps2=record.decel_mps2,
@@ -316,7 +323,8 @@ class AgentPlacer:
             m.mode is not MissionMode.NAVIGATE and site.seat(m.target or '') is not None
             for m in spec.missions
         )
-        if not watched and len(site.seated) < 2:
+        waits = any(site.seat(vehicle) is not None for vehicle, _ in let_cross(spec))
+        if not watched and not waits and len(site.seated) < 2:
             return 1.0
         fastest = site.fastest_mps(self._map.network, tied_way_m(spec, self._settings.grounding))
         stated = fastest_stated_mps(spec, (s.agent for s in site.seated))

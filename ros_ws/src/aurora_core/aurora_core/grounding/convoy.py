@@ -8,17 +8,31 @@ reference point from the convoy's origin (positive: ahead) and a lane shift (pos
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
-from aurora_core.grounding.pace import Encounter, encounters
+from aurora_core.grounding.pace import (
+    Encounter,
+    encounter_room_m,
+    encounters,
+    met_persons,
+    own_speed_mps,
+)
 from aurora_core.grounding.places import POINTS, bound_to_places, has_point
+from aurora_core.grounding.ties import (
+    IN_LINE_M,
+    Tie,
+    agreed,
+    in_passing_lane,
+    passing_pairs,
+    queued,
+)
 from aurora_core.knowledge.limits import EXACT, Tolerance
-from aurora_core.spec.own_events import let_pass, own_events
+from aurora_core.spec.own_events import let_cross
 from aurora_core.spec.parameter import Parameter, Provenance
 from aurora_core.spec.scenario import (
     AgentAction,
+    Behavior,
     GroundAgent,
     Placement,
     ScenarioSpec,
@@ -40,14 +54,6 @@ ALONG: dict[Relation, tuple[int, int]] = {
 
 # Gap of an agent that follows without a stated placement (contract default for vehicles).
 DEFAULT_GAP_M = 20.0
-
-# Distance beyond the trigger distance at which two vehicles that are to meet start.
-ENCOUNTER_ROOM_M = 15.0
-
-# Two vehicles whose places are nearer than this stand in each other's way, and how far apart they
-# line up behind a third one: the last one still has to follow it (m, centre to centre).
-_QUEUE_M = 14.0
-_IN_LINE_M = 15.0
 
 # Gap in front of a group of vehicles that nothing relates to those before it.
 DETACHED_M = 40.0
@@ -71,6 +77,14 @@ _MOVES = frozenset({BehaviorKind.DRIVE, BehaviorKind.WALK, BehaviorKind.CROSS, B
 _AT = (Relation.NEAR, Relation.AT, Relation.PARKED_AT)
 
 _ON = (Relation.ON, Relation.AT, Relation.PARKED_AT)
+
+# On which side of another vehicle one is.
+SIDES = frozenset({Relation.LEFT, Relation.RIGHT})
+
+# Who does one of these comes from behind.
+_CHASES = frozenset(
+    {BehaviorKind.FOLLOW, BehaviorKind.TAILGATE, BehaviorKind.APPROACH, BehaviorKind.OVERTAKE}
+)
 
 _STILL = frozenset({BehaviorKind.WAIT, BehaviorKind.PARK})
 
@@ -101,20 +115,6 @@ class ConvoyMember:
     lane_shift: int
 
 
-@dataclass(frozen=True, slots=True)
-class _Tie:
-    """`agent` is `offset_m` ahead of `other` along the route, `lane_shift` lanes to its left.
-
-    Nobody says how far that is where it is `free`.
-    """
-
-    agent: str
-    other: str
-    offset_m: float
-    lane_shift: int
-    free: bool = False
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Distances:
     """How far apart two vehicles of the convoy start.
@@ -122,10 +122,12 @@ class _Distances:
     Attributes:
         tolerance: So far inside a one-sided distance they are put.
         meetings: Encounters still to come.
+        speeds_mps: Stated ones of agents.
     """
 
     tolerance: Tolerance
     meetings: tuple[Encounter, ...]
+    speeds_mps: Mapping[str, float]
 
     def placed(self, agent: str, other: str | None, placement: Placement) -> float:
         """Return the distance that a placement asks for, metres.
@@ -144,7 +146,7 @@ class _Distances:
         if stated is not None and stated.provenance is Provenance.EXPLICIT:
             return stated.inside(self.tolerance.of(stated.value))
         room = [
-            m.within_m + ENCOUNTER_ROOM_M
+            m.within_m + encounter_room_m(self.speeds_mps.get(m.actor))
             for m in self.meetings
             if {m.actor, m.other} == {agent, other}
         ]
@@ -208,10 +210,19 @@ def split_scene(
     persons = tuple(a for a in spec.agents if a.type in (AgentType.PEDESTRIAN, AgentType.RSU))
     unsupported: list[str] = []
     by_id = {a.id: a for a in vehicles}
-    distances = _Distances(tolerance=tolerance, meetings=encounters(spec))
-    passing = _passing(spec)
-    ties = [_beside(t, passing) for a in vehicles for t in _ties(a, by_id, unsupported, distances)]
-    ties = _queued(ties, {a.id: {b.kind for b in a.behaviors} for a in vehicles})
+    speeds = {a.id: v for a in spec.agents if (v := own_speed_mps(a)) is not None}
+    distances = _Distances(tolerance=tolerance, meetings=encounters(spec), speeds_mps=speeds)
+    passing = passing_pairs(spec)
+    ties = [
+        in_passing_lane(t, passing)
+        for a in vehicles
+        for t in _ties(a, by_id, unsupported, distances)
+    ]
+    if apart:
+        # "From the left" to a place is another street, not the lane beside.
+        ties = [t for t in ties if not _comes_from_a_side(spec, by_id[t.agent], t)]
+    ties = agreed(ties + _past_persons(spec, by_id, ties, speeds))
+    ties = queued(ties, {a.id: {b.kind for b in a.behaviors} for a in vehicles})
     origin = _origin(spec, vehicles, ties)
     if origin is None:
         _, others = _before_place(vehicles, {}, distances)
@@ -228,6 +239,8 @@ def split_scene(
     # could be planned for it: further groups line up behind.
     targets = {m.target for m in spec.missions}
     targets |= {a.id for a in vehicles if bound_to_places(spec, a)}
+    targets |= {vehicle for vehicle, _ in let_cross(spec)}
+    targets |= {p.of for person in persons for p in person.placements}
     if targets & set(by_id):
         # A message has a range: who is to receive one is near those who are watched.
         targets |= {e.action.receiver for e in spec.events if isinstance(e.action, SendMessage)}
@@ -322,7 +335,7 @@ def _ties(
     by_id: dict[str, GroundAgent],
     unsupported: list[str],
     distances: _Distances,
-) -> list[_Tie]:
+) -> list[Tie]:
     others: dict[str, list[Placement]] = {}
     for placement in agent.placements:
         if placement.of in by_id and placement.relation in ALONG:
@@ -338,84 +351,64 @@ def _ties(
             for other, placements in others.items()
             for tie in _placed(agent.id, other, placements, distances)
         ]
-    for behavior in agent.behaviors:
-        chases = behavior.kind in (
-            BehaviorKind.FOLLOW,
-            BehaviorKind.TAILGATE,
-            BehaviorKind.APPROACH,
-            BehaviorKind.OVERTAKE,
-        )
-        if chases and behavior.target in by_id:
-            gap = behavior.closing_from_m
-            assert behavior.target is not None
-            distance = distances.between(agent.id, behavior.target, gap)
-            return [_Tie(agent.id, behavior.target, -distance, 0, free=gap is None)]
-    for meeting in distances.meetings:
-        # Nothing says where the actor is: it comes from behind.
-        if meeting.actor == agent.id and meeting.other in by_id:
-            distance = distances.between(agent.id, meeting.other, None)
-            return [_Tie(agent.id, meeting.other, -distance, 0)]
-    return []
-
-
-def _passing(spec: ScenarioSpec) -> frozenset[tuple[str, str]]:
-    """Return who is to pass whom; not where somebody says that they share a lane."""
-    sharing = {
-        frozenset((a.id, str(p.of)))
-        for a in spec.agents
-        for p in a.placements
-        if p.relation is Relation.SAME_LANE
-    }
-    pairs = (
-        (let_pass(spec, event), event.action.agent)
-        for event in (*spec.events, *own_events(spec))
-        if isinstance(event.action, AgentAction)
+    chased = [b for b in agent.behaviors if b.kind in _CHASES and b.target in by_id]
+    passed = [b for b in chased if b.kind is BehaviorKind.OVERTAKE]
+    # Of several that are overtaken, one drives ahead of the other.
+    return (
+        _chasing(agent.id, passed if len(passed) > 1 else chased[:1], distances)
+        or [
+            Tie(
+                agent.id,
+                meeting.other,
+                -distances.between(agent.id, meeting.other, None),
+                0,
+                guess=True,
+            )
+            for meeting in distances.meetings
+            # Nothing says where the actor is: it comes from behind.
+            if meeting.actor == agent.id and meeting.other in by_id
+        ][:1]
     )
-    return frozenset((a, b) for a, b in pairs if a is not None and {a, b} not in sharing)
 
 
-def _beside(tie: _Tie, passing: frozenset[tuple[str, str]]) -> _Tie:
-    """Return a tie with the one that is to pass in the lane to the left of the other one."""
-    if tie.lane_shift != 0:
-        return tie
-    shift = int((tie.agent, tie.other) in passing) - int((tie.other, tie.agent) in passing)
-    return replace(tie, lane_shift=shift)
+def _chasing(agent: str, behaviors: Sequence[Behavior], distances: _Distances) -> list[Tie]:
+    """Return the ties of an agent to those ahead of it that it does something to."""
+    ties = []
+    for number, behavior in enumerate(behaviors):
+        assert behavior.target is not None
+        gap = behavior.closing_from_m
+        distance_m = distances.between(agent, behavior.target, gap) + IN_LINE_M * number
+        told = gap is not None
+        ties.append(Tie(agent, behavior.target, -distance_m, 0, free=not told, guess=not told))
+    return ties
 
 
-def _queued(ties: list[_Tie], doing: Mapping[str, set[BehaviorKind]]) -> list[_Tie]:
-    """Return ties in which those behind one other do not stand in one place.
+def _comes_from_a_side(spec: ScenarioSpec, agent: GroundAgent, tie: Tie) -> bool:
+    """Tell whether a tie says only from which side somebody comes who goes to a place."""
+    sides = {p.relation for p in agent.placements if p.of == tie.other}
+    return bool(sides) and sides <= SIDES and bound_to_places(spec, agent)
 
-    Who tailgates is next to it, others stand behind, and who overtakes is in the lane to the left.
-    """
-    found, tied = list(ties), Counter(i for t in ties for i in (t.agent, t.other))
-    groups: dict[tuple[str, int], list[_Tie]] = {}
-    for tie in ties:
-        if tie.offset_m < 0.0:
-            groups.setdefault((tie.other, tie.lane_shift), []).append(tie)
-    for group in groups.values():
-        group.sort(key=lambda t: (_rank(doing[t.agent]), -t.offset_m, t.free, t.agent))
-        rear_m = 0.0
-        for tie in group:
-            alone = tie.free and tied[tie.agent] == 1
-            if not alone or tie.offset_m <= rear_m - _QUEUE_M or rear_m == 0.0:
-                rear_m = min(rear_m, tie.offset_m)
-            elif BehaviorKind.OVERTAKE in doing[tie.agent]:
-                found[found.index(tie)] = replace(tie, lane_shift=tie.lane_shift + 1)
-            else:
-                rear_m -= _IN_LINE_M
-                found[found.index(tie)] = replace(tie, offset_m=rear_m)
+
+def _past_persons(
+    spec: ScenarioSpec, by_id: Mapping[str, GroundAgent], ties: list[Tie], speeds: dict[str, float]
+) -> list[Tie]:
+    """Return the ties of vehicles beside which persons stand whom another vehicle comes near."""
+    tied = {frozenset((t.agent, t.other)) for t in ties}
+    found = []
+    for person, vehicle, within_m in met_persons(spec):
+        for placement in person.placements:
+            beside = placement.of
+            pair = frozenset((vehicle, str(beside)))
+            if beside in by_id and vehicle in by_id and len(pair) == 2 and pair not in tied:
+                tied.add(pair)
+                away_m = within_m + encounter_room_m(speeds.get(vehicle))
+                found.append(Tie(str(beside), vehicle, away_m, 0, guess=True))
     return found
-
-
-def _rank(kinds: set[BehaviorKind]) -> int:
-    if BehaviorKind.TAILGATE in kinds:
-        return 0
-    return 2 if BehaviorKind.OVERTAKE in kinds else 1
 
 
 def _placed(
     agent: str, other: str, placements: list[Placement], distances: _Distances
-) -> list[_Tie]:
+) -> list[Tie]:
     """Return the ties of an agent to one other: "ahead of it", "in the lane to its left"."""
     shifts = [ALONG[p.relation][1] for p in placements if ALONG[p.relation][1] != 0]
     shift = shifts[0] if shifts else 0
@@ -423,9 +416,9 @@ def _placed(
     # "In the same lane, 30 m behind it" says the lane once and the place once.
     exact = [p for p in along if p.relation is not Relation.SAME_LANE] or along[:1]
     if not exact:
-        return [_Tie(agent, other, 0.0, shift)]
+        return [Tie(agent, other, 0.0, shift)]
     return [
-        _Tie(
+        Tie(
             agent,
             other,
             ALONG[p.relation][0] * distances.placed(agent, other, p),
@@ -436,13 +429,13 @@ def _placed(
     ]
 
 
-def _kept(tie: _Tie, offsets: dict[str, tuple[float, int]]) -> bool:
+def _kept(tie: Tie, offsets: dict[str, tuple[float, int]]) -> bool:
     own, other = offsets[tie.agent], offsets[tie.other]
     along = own[0] - other[0] - tie.offset_m
     return abs(along) < _SAME_PLACE_M and own[1] - other[1] == tie.lane_shift
 
 
-def _origin(spec: ScenarioSpec, vehicles: list[GroundAgent], ties: list[_Tie]) -> str | None:
+def _origin(spec: ScenarioSpec, vehicles: list[GroundAgent], ties: list[Tie]) -> str | None:
     """Choose the origin: ego, else one that others refer to, else a target, else the first."""
     ids = [a.id for a in vehicles]
     ego = [a.id for a in vehicles if a.role is Role.EGO]
@@ -457,7 +450,7 @@ def _origin(spec: ScenarioSpec, vehicles: list[GroundAgent], ties: list[_Tie]) -
     return None
 
 
-def _solve(origin: str, ties: list[_Tie]) -> dict[str, tuple[float, int]]:
+def _solve(origin: str, ties: list[Tie]) -> dict[str, tuple[float, int]]:
     """Propagate offsets from the origin along the ties, in both directions."""
     offsets: dict[str, tuple[float, int]] = {origin: (0.0, 0)}
     changed = True

@@ -17,6 +17,7 @@ from aurora_core.grounding.sites import SeatedAgent, Site
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Tolerances
 from aurora_core.knowledge.map_model import MapModel
+from aurora_core.spec.reference import is_landmark
 from aurora_core.spec.scenario import GroundAgent, ScenarioSpec
 from aurora_core.spec.vocabulary import BehaviorKind, Relation
 
@@ -115,6 +116,21 @@ class GoalFinder:
         bounds = (b for agent in spec.agents for b in self._bounds(spec, agent))
         narrow = any(b.at_start and b.within_m < default_m for b in bounds)
         return _NARROW_M if narrow else default_m
+
+    def places_of(self, spec: ScenarioSpec, name: str) -> tuple[str, ...]:
+        """Return the places with a point that a vehicle is bound to."""
+        agents = (agent for agent in spec.agents if agent.id == name)
+        bounds = (bound.place for agent in agents for bound in self._bounds(spec, agent))
+        return tuple(dict.fromkeys(bounds))
+
+    def nearest_street_m(self, spec: ScenarioSpec, name: str, place: str) -> float | None:
+        """Return how far a landmark is from the nearest lane for a vehicle (m), else None."""
+        if not is_landmark(place):
+            return None
+        agent = next(a for a in spec.agents if a.id == name)
+        vclass = self._types[agent.type.value].vclass
+        point = self._places.point(place, (0.0, 0.0))
+        return self._map.network.nearest_lane(*point, vclass)[2]
 
     def stop_arc_m(self, spec: ScenarioSpec, site: Site, seat: SeatedAgent) -> float | None:
         """Return where on its way a vehicle stops (m), None when it does not by itself."""

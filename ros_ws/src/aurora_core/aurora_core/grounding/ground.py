@@ -8,7 +8,7 @@ Source: paper, "Joint road-airspace grounding", eq. (2).
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from aurora_core.grounding.agents import AgentPlacer
@@ -16,7 +16,7 @@ from aurora_core.grounding.airspace import Airspace
 from aurora_core.grounding.allowed import allowed_sites
 from aurora_core.grounding.bends import bends_between
 from aurora_core.grounding.columns import Column, climbs_to_m, columns, nearest_points
-from aurora_core.grounding.convoy import SceneSplit, split_scene
+from aurora_core.grounding.convoy import ConvoyMember, SceneSplit, split_scene
 from aurora_core.grounding.flights import FlightPlanner
 from aurora_core.grounding.goals import GoalFinder
 from aurora_core.grounding.groups import GroupPlacer
@@ -31,6 +31,7 @@ from aurora_core.grounding.sites import Site, TriedSite, sites, tied_way_m
 from aurora_core.grounding.spots import SpotFinder
 from aurora_core.grounding.time_need import horizon_s
 from aurora_core.grounding.traffic import TrafficPlacer
+from aurora_core.grounding.unplaced import lacked, on_no_street
 from aurora_core.grounding.wind import mean_wind_mps
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.basis import Basis
@@ -206,8 +207,18 @@ class Grounder:
             reasons = dict(sorted(rejected.items()))
             most = max(reasons, key=lambda r: (reasons[r], r)) if reasons else 'road'
             count = sum(reasons.values())
-            return GroundingFailure(reason=most, tried=count, rejected_by=reasons)
+            words = lacked(most, split) if ranked else self._no_street(spec, split, run_m)
+            return GroundingFailure(reason=most, tried=count, rejected_by=reasons, words=words)
         return self._scenario(spec, split, best, scored, run_m, seed, planner, persons)
+
+    def _no_street(self, spec: ScenarioSpec, split: SceneSplit, run_m: float) -> str:
+        """Return in words why no street has room for the convoy."""
+
+        def found(members: tuple[ConvoyMember, ...]) -> Iterator[Site]:
+            spacing_m = self._goals.spacing_m(spec, self._settings.grounding.anchor_spacing_m)
+            return sites(self._map, members, self._types, run_m, spacing_m, spawns=self._spawns)
+
+        return on_no_street(spec, split, self._goals, found)
 
     def _drive_speed(self, spec: ScenarioSpec, split: SceneSplit) -> float:
         stated = [

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
 from aurora_core.geometry.kernel import norm2
-from aurora_core.grounding.convoy import ConvoyMember
+from aurora_core.grounding.convoy import SIDES, ConvoyMember
 from aurora_core.grounding.goals import GoalFinder
 from aurora_core.grounding.lane_changers import changes_lane
 from aurora_core.grounding.pace import fastest_stated_mps
@@ -17,9 +17,13 @@ from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.settings import GroundingSettings
 from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.spec.vocabulary import Relation
 
 # Vehicles of two groups start at least so far from each other (m).
 _APART_M = 15.0
+
+# Who comes from a side starts at least so far on that side (m).
+_ASIDE_M = 10.0
 
 
 class GroupPlacer:
@@ -73,8 +77,10 @@ class GroupPlacer:
             found = next(
                 (
                     one.seated
-                    for one in candidates
-                    if self._goals.fits(self._spec, one, anchor) and _apart(one.seated, site)
+                    for one in _nearest_first(candidates, site)
+                    if self._goals.fits(self._spec, one, anchor)
+                    and _apart(one.seated, site)
+                    and all(_on_its_side(seat, site) for seat in one.seated)
                 ),
                 None,
             )
@@ -87,6 +93,34 @@ class GroupPlacer:
 def _best_first(found: Iterable[Site]) -> list[Site]:
     """Return sites by how far one drives there before the first signal."""
     return sorted(found, key=lambda site: -site.free_run_m)
+
+
+def _nearest_first(candidates: list[Site], site: Site) -> list[Site]:
+    """Return candidates in their order, but nearest first where they come from a side."""
+
+    def away_m(candidate: Site) -> float:
+        (x, y, _, _), (to_x, to_y, _, _) = candidate.origin(), site.origin()
+        return norm2(x - to_x, y - to_y)
+
+    members = (seat.agent for one in candidates[:1] for seat in one.seated)
+    sided = any(p.relation in SIDES for agent in members for p in agent.placements)
+    return sorted(candidates, key=away_m) if sided else candidates
+
+
+def _on_its_side(seat: SeatedAgent, site: Site) -> bool:
+    """Tell whether a vehicle is on the side of others on which it is to be."""
+    x, y, _, _ = seat.path.position_at(seat.arc_m)
+    for placement in seat.agent.placements:
+        other = site.seat(placement.of or '')
+        if other is None or placement.relation not in SIDES:
+            continue
+        to_x, to_y, hx, hy = other.path.position_at(other.arc_m)
+        left_m = (y - to_y) * hx - (x - to_x) * hy
+        forward_m = (x - to_x) * hx + (y - to_y) * hy
+        side_m = left_m if placement.relation is Relation.LEFT else -left_m
+        if side_m < max(_ASIDE_M, abs(forward_m)):
+            return False
+    return True
 
 
 def _apart(seats: tuple[SeatedAgent, ...], site: Site) -> bool:

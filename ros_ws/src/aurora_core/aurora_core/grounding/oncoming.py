@@ -19,8 +19,9 @@ from aurora_core.spec.parameter import Provenance
 from aurora_core.spec.scenario import GroundAgent
 from aurora_core.spec.vocabulary import Relation
 
-# Distance of an oncoming vehicle where the request states none (m): a few seconds from meeting.
-_MEETING_M = 60.0
+# Distances of an oncoming vehicle where the request states none (m): a few seconds from meeting,
+# the first one that the street has room for.
+_MEETING_M = (60.0, 80.0, 45.0, 35.0, 25.0)
 
 # So far inside a bound on the distance (m).
 _INSIDE_M = 2.0
@@ -75,7 +76,15 @@ class OncomingPlacer:
         told = placement if ahead is None else ahead
         stated = told.distance_m
         given = stated is not None and stated.provenance is Provenance.EXPLICIT
-        away_m = stated.inside(_INSIDE_M) if given and stated is not None else _MEETING_M
+        tried = (stated.inside(_INSIDE_M),) if given and stated is not None else _MEETING_M
+        straight = ahead is None
+        seats = (self._at(agent, met, away_m, run_m, straight=straight) for away_m in tried)
+        return next((seat for seat in seats if seat is not None), None)
+
+    def _at(
+        self, agent: GroundAgent, met: SeatedAgent, away_m: float, run_m: float, *, straight: bool
+    ) -> SeatedAgent | None:
+        """Return the place in the other direction at a distance, None where there is none."""
         arc_m = met.arc_m + away_m
         if arc_m > met.path.length_m:
             return None
@@ -83,7 +92,6 @@ class OncomingPlacer:
         opposite = None if street.is_internal else self._network.opposite_edge(street.edge_id)
         if opposite is None:
             return None
-        straight = ahead is None
         return self._on(agent, opposite, met, away_m, run_m, straight=straight)
 
     def _on(

@@ -47,6 +47,12 @@ _LEAST_MPS = 3.0
 # Who is to slow down to a speed drives so much faster before (m/s).
 _SLOWS_BY_MPS = 4.0
 
+# Distance beyond the trigger distance at which two that are to meet start: so much, and what a
+# stated speed needs to be reached and driven for so long (m, m/s^2, s).
+_ROOM_M = 15.0
+_GAINS_MPS2 = 1.5
+_DRIVES_S = 3.0
+
 # Who does this drives as fast as the one that it does it to.
 PACED = frozenset({BehaviorKind.FOLLOW, BehaviorKind.TAILGATE})
 
@@ -71,6 +77,30 @@ def encounters(spec: ScenarioSpec) -> tuple[Encounter, ...]:
         and t.a in vehicles
         and t.b in vehicles
     )
+
+
+def encounter_room_m(speed_mps: float | None) -> float:
+    """Return how much farther apart than a trigger says two start that are to meet, metres.
+
+    Args:
+        speed_mps: Stated speed of the one that comes, None where there is none.
+    """
+    if speed_mps is None:
+        return _ROOM_M
+    return _ROOM_M + speed_mps * speed_mps / (2.0 * _GAINS_MPS2) + _DRIVES_S * speed_mps
+
+
+def met_persons(spec: ScenarioSpec) -> tuple[tuple[GroundAgent, str, float], ...]:
+    """Return the persons that something is to come near, who that is, and how near (m)."""
+    persons = {a.id: a for a in spec.agents if a.type is AgentType.PEDESTRIAN}
+    found = []
+    for trigger in (e.trigger for e in spec.events):
+        if isinstance(trigger, DistanceTrigger) and trigger.on == 'distance_below':
+            for own, other in ((trigger.a, trigger.b), (trigger.b, trigger.a)):
+                if own in persons:
+                    found.append((persons[own], other, trigger.value_m.value))
+    # Two of them are to come as near as the farthest trigger says.
+    return tuple(sorted(found, key=lambda one: -one[2]))
 
 
 def partings(spec: ScenarioSpec) -> tuple[frozenset[str], ...]:

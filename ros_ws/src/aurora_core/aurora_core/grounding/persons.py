@@ -11,9 +11,15 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
-from aurora_core.grounding.convoy import DEFAULT_GAP_M, ENCOUNTER_ROOM_M, stands
-from aurora_core.grounding.pace import WALKING_MPS, own_speed_mps
-from aurora_core.grounding.places import MapPlaces, has_point
+from aurora_core.grounding.convoy import DEFAULT_GAP_M, stands
+from aurora_core.grounding.pace import (
+    WALKING_MPS,
+    encounter_room_m,
+    met_persons,
+    own_speed_mps,
+)
+from aurora_core.grounding.places import MapPlaces, arrivals, has_point
+from aurora_core.grounding.releases import person_release
 from aurora_core.grounding.routes import route_finder
 from aurora_core.grounding.sites import ANY_CLASS, SeatedAgent, SeatedPerson, Site, line_from
 from aurora_core.knowledge.agent_types import AgentTypeRecord
@@ -21,23 +27,29 @@ from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.walk_path import WalkPath, kerb_to_kerb, sidewalk_of, walk_along
 from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
 from aurora_core.spec.events import sets_off
+from aurora_core.spec.own_events import let_cross
 from aurora_core.spec.parameter import Provenance
 from aurora_core.spec.reference import is_landmark
 from aurora_core.spec.scenario import (
     AgentAction,
-    DistanceTrigger,
     GroundAgent,
     Placement,
     ScenarioSpec,
 )
-from aurora_core.spec.vocabulary import AgentType, BehaviorKind, MissionMode, Place, Relation
+from aurora_core.spec.vocabulary import AgentType, BehaviorKind, Place, Relation
 
 # Who waits stands this far before the end of the sidewalk (m), the next one behind the first.
 _KERB_M = 0.6
 _NEXT_M = 1.0
 
+# Who is to arrive at a crosswalk comes from so far away (m): not there yet at t = 0.
+_ARRIVES_FROM_M = 18.0
+
 # Who has crossed walks on this far (m), out of the way of the next one.
 _BEYOND_M = 6.0
+
+# Who stands behind a vehicle is so far from its bumper (m).
+_STANDS_BEHIND_M = 2.0
 
 # Who walks and stops has walked so far (m).
 _STOP_AFTER_M = 15.0
@@ -83,7 +95,9 @@ class _Spot:
 
 
 def crosses(spec: ScenarioSpec, agent: GroundAgent) -> bool:
-    """Tell whether an agent is to cross a street, by itself or by an event."""
+    """Tell whether an agent is to cross a street: by itself, by an event, or let pass."""
+    if any(person == agent.id for _, person in let_cross(spec)):
+        return True
     return any(b.kind is BehaviorKind.CROSS for b in agent.behaviors) or any(
         isinstance(e.action, AgentAction) and e.action.agent == agent.id and e.action.do == 'cross'
         for e in spec.events
@@ -144,10 +158,8 @@ class PersonPlacer:
             record = self._types[agent.type.value]
             x, y, hx, hy = path.position_at(seat.arc_m)
             stays = not _goes(spec, agent)
-            release, uav, mission = _release(spec, agent)
-            goal = self._map.network.lane(path.goal_lane_id).arc_length_m
-            beyond = _BEYOND_M + _NEXT_M * site.walkers.index(seat)
-            arrival = min(beyond, goal / 2.0) if crosses(spec, agent) else goal - _KERB_M
+            release = person_release(spec, agent)
+            arrival = self._arrival_m(spec, site, seat)
             if any(b.kind is BehaviorKind.STOP for b in agent.behaviors):
                 arrival = min(arrival, seat.arc_m + _STOP_AFTER_M)
             yield GroundedAgent(
@@ -167,13 +179,29 @@ class PersonPlacer:
                 heading_x=hx,
                 heading_y=hy,
                 arrival_position_m=None if stays else arrival,
-                release=ReleaseOn.NEVER if stays else release,
-                release_uav=uav,
-                release_mission=mission,
+                release=ReleaseOn.NEVER if stays else release.on,
+                release_uav=release.uav,
+                release_mission=release.mission,
+                release_agent=release.agent,
+                release_within_m=release.within_m,
                 drive_speed_mps=own_speed_mps(agent) or WALKING_MPS,
                 acceleration_mps2=record.accel_mps2,
                 deceleration_mps2=record.decel_mps2,
             )
+
+    def _arrival_m(self, spec: ScenarioSpec, site: Site, seat: SeatedPerson) -> float:
+        """Return where a walk ends on its last sidewalk (m): nobody walks into who arrived."""
+        goal_m = self._map.network.lane(seat.path.goal_lane_id).arc_length_m
+        group = [w for w in site.walkers if w.path.goal_lane_id == seat.path.goal_lane_id]
+        number = group.index(seat)
+        if crosses(spec, seat.agent):
+            # The first one stands at the kerb and goes farthest.
+            first_m = min(_BEYOND_M, goal_m / 2.0)
+            next_m = min(_NEXT_M, (goal_m - _KERB_M - first_m) / len(group))
+            return first_m + next_m * (len(group) - 1 - number)
+        next_m = min(_NEXT_M, (goal_m - _KERB_M) / len(group))
+        ahead = sum(w.arc_m > seat.arc_m for w in group)
+        return goal_m - _KERB_M - next_m * ahead
 
     def _spot(
         self, spec: ScenarioSpec, agent: GroundAgent, site: Site, run_s: float, number: int
@@ -187,7 +215,8 @@ class PersonPlacer:
                 for p in agent.placements
             )
             ahead = any(p.relation in _BEFORE_IT for p in agent.placements)
-            return self._crossing(site, placed if stated or not ahead else None, number)
+            back_m = _ARRIVES_FROM_M if any(True for _ in arrivals(spec, agent)) else _KERB_M
+            return self._crossing(site, placed if stated or not ahead else None, number, back_m)
         if isinstance(placed, str):
             return placed
         if placed is None:
@@ -201,8 +230,10 @@ class PersonPlacer:
         way_m = (own_speed_mps(agent) or WALKING_MPS) * run_s
         return self._onward(placed, way_m)
 
-    def _crossing(self, site: Site, placed: _Spot | str | None, number: int) -> _Spot | str:
-        """Return the walk over the crosswalk of a site."""
+    def _crossing(
+        self, site: Site, placed: _Spot | str | None, number: int, back_m: float
+    ) -> _Spot | str:
+        """Return the walk over the crosswalk of a site, begun so far before it (m)."""
         x, y, _, _ = site.origin()
         crossing = self._places.crossing_near((x, y))
         path = None if crossing is None else kerb_to_kerb(self._map.network, crossing)
@@ -217,7 +248,10 @@ class PersonPlacer:
             return _Spot(path, placed.arc_m) if same and near else 'crosswalk'
         if site.seated and not self._ahead(site, path.line.at(first.arc_length_m)[:2]):
             return 'crosswalk'
-        return _Spot(path, max(0.0, first.arc_length_m - _KERB_M - _NEXT_M * number))
+        begin_m = first.arc_length_m - back_m - _NEXT_M * number
+        if begin_m < 0.0 and back_m > _KERB_M:
+            return 'crosswalk'
+        return _Spot(path, max(0.0, begin_m))
 
     def _ahead(self, site: Site, point: tuple[float, float]) -> bool:
         """Tell whether a point lies on the way of the vehicles, ahead of all of them."""
@@ -236,15 +270,27 @@ class PersonPlacer:
                 continue
             stated = placement.distance_m
             sign = _ALONG[placement.relation]
-            away_m = sign * (DEFAULT_GAP_M if stated is None else stated.value)
+            away_m = sign * (self._near_m(seat) if stated is None else stated.value)
             return self._along(seat, away_m, 0) or 'sidewalk'
         if agent.placements or crosses(spec, agent):
             return None
-        for other, within_m in _met(spec, agent):
+        for person, other, within_m in met_persons(spec):
             seat = site.seat(other)
-            if seat is not None:
-                return self._along(seat, within_m + ENCOUNTER_ROOM_M, number) or 'sidewalk'
+            if person is agent and seat is not None:
+                room_m = encounter_room_m(own_speed_mps(seat.agent))
+                return self._along(seat, within_m + room_m, number) or 'sidewalk'
         return None
+
+    def _near_m(self, seat: SeatedAgent | SeatedPerson) -> float:
+        """Return how far from another agent somebody is of whom nobody says it (m).
+
+        Who stands behind a vehicle that stands is right behind it.
+        """
+        if not stands(seat.agent) and not any(
+            p.relation is Relation.PARKED_AT for p in seat.agent.placements
+        ):
+            return DEFAULT_GAP_M
+        return self._types[seat.agent.type.value].length_m / 2.0 + _STANDS_BEHIND_M
 
     def _along(self, seat: SeatedAgent | SeatedPerson, away_m: float, number: int) -> _Spot | None:
         """Return the sidewalk abreast of a point on the way of a vehicle."""
@@ -312,31 +358,3 @@ def _goes(spec: ScenarioSpec, agent: GroundAgent) -> bool:
     if crosses(spec, agent) or sets_off(spec.events, agent.id) is not None:
         return True
     return bool(agent.behaviors) and not stands(agent)
-
-
-def _met(spec: ScenarioSpec, agent: GroundAgent) -> Iterator[tuple[str, float]]:
-    """Yield who is to come near a person, and how near (m), by the triggers of events."""
-    for trigger in (e.trigger for e in spec.events):
-        if isinstance(trigger, DistanceTrigger) and trigger.on == 'distance_below':
-            if agent.id == trigger.a:
-                yield trigger.b, trigger.value_m.value
-            elif agent.id == trigger.b:
-                yield trigger.a, trigger.value_m.value
-
-
-def _release(spec: ScenarioSpec, agent: GroundAgent) -> tuple[ReleaseOn, str, str]:
-    """Return when a person may go, and whose doing that is.
-
-    Who is watched goes once the UAV that watches is ready: also who crosses where one hovers.
-    """
-    caused = any(
-        isinstance(e.action, AgentAction) and e.action.agent == agent.id and e.action.do == 'cross'
-        for e in spec.events
-    )
-    if caused or sets_off(spec.events, agent.id) is not None:
-        return ReleaseOn.EVENT, '', ''
-    holding = [m for m in spec.missions if m.mode is not MissionMode.NAVIGATE]
-    watching = [m for m in holding if m.target == agent.id] or holding
-    if watching:
-        return ReleaseOn.CAPTURED, watching[0].uav, watching[0].id
-    return ReleaseOn.START, '', ''

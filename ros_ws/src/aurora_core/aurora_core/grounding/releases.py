@@ -11,7 +11,9 @@ from aurora_core.grounding.pace import encounters, moves
 from aurora_core.outcomes.grounded import ReleaseOn
 from aurora_core.spec.events import actor_of, sets_off
 from aurora_core.spec.flight_order import begun_by, left_by
+from aurora_core.spec.own_events import YIELDS_WITHIN_M, let_cross
 from aurora_core.spec.scenario import (
+    AgentAction,
     ArrivalTrigger,
     DistanceTrigger,
     GroundAgent,
@@ -30,6 +32,8 @@ class Release:
     on: ReleaseOn = ReleaseOn.START
     uav: str = ''
     mission: str = ''
+    agent: str = ''
+    within_m: float = 0.0
 
 
 def own_release(spec: ScenarioSpec, agent: GroundAgent, release: Release) -> Release:
@@ -40,8 +44,56 @@ def own_release(spec: ScenarioSpec, agent: GroundAgent, release: Release) -> Rel
     """
     if sets_off(spec.events, agent.id) is not None:
         return Release(on=ReleaseOn.EVENT)
+    if release == Release() and any(vehicle == agent.id for vehicle, _ in let_cross(spec)):
+        return _watched(spec, '')
     teller = _told_by(spec, agent)
     return release if teller is None else Release(on=ReleaseOn.OBSERVED, uav=teller)
+
+
+def person_release(spec: ScenarioSpec, agent: GroundAgent) -> Release:
+    """Return when a person may go, and whose doing that is.
+
+    Who is watched goes once the UAV that watches is ready: also who crosses where one hovers. Who
+    is let pass goes when the vehicle that does so comes near, unless that waits for the person.
+    """
+    caused = any(
+        isinstance(e.action, AgentAction) and e.action.agent == agent.id and e.action.do == 'cross'
+        for e in spec.events
+    )
+    if caused or sets_off(spec.events, agent.id) is not None:
+        return Release(on=ReleaseOn.EVENT)
+    for vehicle, person in let_cross(spec):
+        if person == agent.id and not any(t.who == person for t in _arriving(spec)):
+            within_m = _yields_within_m(spec, vehicle, person)
+            return Release(on=ReleaseOn.NEARED, agent=vehicle, within_m=within_m)
+    return _watched(spec, agent.id)
+
+
+def _watched(spec: ScenarioSpec, agent: str) -> Release:
+    """Return the release by the UAV that watches an agent, else by one that stays anywhere."""
+    holding = [m for m in spec.missions if m.mode is not MissionMode.NAVIGATE]
+    watching = [m for m in holding if m.target == agent] or holding
+    if watching:
+        return Release(on=ReleaseOn.CAPTURED, uav=watching[0].uav, mission=watching[0].id)
+    return Release()
+
+
+def _arriving(spec: ScenarioSpec) -> list[ArrivalTrigger]:
+    triggers = (e.trigger for e in spec.events)
+    return [t for t in triggers if isinstance(t, ArrivalTrigger)]
+
+
+def _yields_within_m(spec: ScenarioSpec, vehicle: str, person: str) -> float:
+    """Return how near a vehicle comes before it lets a person cross, metres."""
+    near = [
+        e.trigger.value_m.value
+        for e in spec.events
+        if isinstance(e.trigger, DistanceTrigger)
+        and isinstance(e.action, AgentAction)
+        and (e.action.do, e.action.agent) == ('yield', vehicle)
+        and {e.trigger.a, e.trigger.b} == {vehicle, person}
+    ]
+    return min(near, default=YIELDS_WITHIN_M)
 
 
 def _told_by(spec: ScenarioSpec, agent: GroundAgent) -> str | None:
@@ -79,7 +131,7 @@ def convoy_release(spec: ScenarioSpec, split: SceneSplit) -> Release:
             return Release(on=ReleaseOn.OBSERVED, uav=mission.uav)
         last = _captured_last(spec, mission)
         return Release(on=ReleaseOn.CAPTURED, uav=last.uav, mission=last.id)
-    arriving = {t.who for t in (e.trigger for e in spec.events) if isinstance(t, ArrivalTrigger)}
+    arriving = {t.who for t in _arriving(spec)}
     for mission in spec.missions:
         ends = left_by(spec, mission)
         awaited = None if ends is None else ends.trigger

@@ -25,6 +25,7 @@ class ReleaseOn(StrEnum):
     CAPTURED = 'captured'  # a UAV has captured its target
     LAPPED = 'lapped'  # a UAV has flown its route once
     OBSERVED = 'observed'  # a UAV has finished watching it
+    NEARED = 'neared'  # another agent has come near
     EVENT = 'event'  # the event that lets it set off has happened
     NEVER = 'never'  # stands still
 
@@ -53,6 +54,8 @@ class GroundedAgent(Document):
         release: When it may start to move.
         release_uav: The UAV whose state releases it.
         release_mission: The mission whose capture releases it.
+        release_agent: The agent whose coming near releases it ...
+        release_within_m: ... and how near that is.
         drive_speed_mps: Stated speed, held from the release on (None: drives with the traffic).
         acceleration_mps2: What its type can do from rest.
         deceleration_mps2: And to slow down, without emergency.
@@ -94,6 +97,8 @@ class GroundedAgent(Document):
     stop_lane_id: str = omitted('')
     stop_position_m: FiniteFloat = omitted(0.0)
     gentle_mps2: FiniteFloat | None = omitted(None)
+    release_agent: str = omitted('')
+    release_within_m: FiniteFloat = omitted(0.0)
 
 
 class RealisedValue(Document):

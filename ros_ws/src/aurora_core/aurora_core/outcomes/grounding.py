@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from aurora_core.document import Document
+from aurora_core.document import Document, omitted
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.spec.parameter import Span
 
@@ -28,11 +28,26 @@ class Unjudged(Document):
 
 
 class GroundingFailure(Document):
-    """Why nothing was found: the demand that failed most often, and where it was tried."""
+    """Why nothing was found: the demand that failed most often, and where it was tried.
+
+    Attributes:
+        reason: What failed most often; `road` where no street had room for the vehicles.
+        tried: At how many places.
+        rejected_by: At how many of them each demand failed.
+        words: For people: what could not be placed, and what would fit.
+    """
 
     reason: str
     tried: int
     rejected_by: dict[str, int]
+    words: str = omitted('')
+
+    @property
+    def told(self) -> str:
+        """What to tell a person."""
+        if not self.words:
+            return f'{self.reason}; {self.tried} tried'
+        return self.words if self.tried == 0 else f'{self.words}; {self.tried} places tried'
 
 
 class GroundingOutcome(Document):

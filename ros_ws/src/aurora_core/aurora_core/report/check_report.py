@@ -148,6 +148,6 @@ def _summary(result: CheckResult, run_summary: str, facts: RunFacts) -> str:
         failure = facts.grounding.failure if facts.grounding is not None else None
         why = ': its times exclude each other where it was placed' if _conflict(facts) else ''
         if failure is not None:
-            why = f': no place was found ({failure.reason}; {failure.tried} tried)'
+            why = f': no place was found ({failure.told})'
         return f'Neither proved feasible nor infeasible{why}.'
     return run_summary

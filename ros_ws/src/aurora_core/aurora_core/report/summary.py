@@ -120,7 +120,7 @@ def _inconclusive(report: RunReport, grounding: GroundingOutcome | None) -> str:
     if failure is not None:
         return (
             f'Nothing was executed: no place on the map was found for the scenario '
-            f'({failure.reason}; {failure.tried} tried). That none exists is not proven.'
+            f'({failure.told}). That none exists is not proven.'
         )
     if report.trace is not None and report.trace.integrity is not Integrity.INTACT:
         notes = '; '.join(report.trace.notes).rstrip('.')

@@ -19,6 +19,7 @@ YIELDS_WITHIN_M = 30.0
 
 # These do not drive in the lanes for cars.
 _NO_LANES = frozenset({AgentType.PEDESTRIAN, AgentType.RSU, AgentType.BICYCLE})
+_ON_FOOT = frozenset({AgentType.PEDESTRIAN, AgentType.RSU})
 
 
 def keeps_to_lanes(agent: GroundAgent) -> bool:
@@ -29,14 +30,11 @@ def keeps_to_lanes(agent: GroundAgent) -> bool:
 def is_once(spec: ScenarioSpec, agent: GroundAgent, behavior: Behavior) -> bool:
     """Tell whether a behaviour is an action that the agent can take at some time."""
     if behavior.kind is BehaviorKind.YIELD:
-        drivers = {a.id for a in spec.agents if keeps_to_lanes(a)}
-        return agent.id in drivers and behavior.target in drivers - {agent.id}
+        others = {a.id for a in spec.agents if a.type is not AgentType.RSU} - {agent.id}
+        return agent.type not in _ON_FOOT and behavior.target in others
     if behavior.kind is BehaviorKind.CHANGE_LANE:
         return keeps_to_lanes(agent)
-    return behavior.kind is BehaviorKind.SLOW and agent.type not in (
-        AgentType.PEDESTRIAN,
-        AgentType.RSU,
-    )
+    return behavior.kind is BehaviorKind.SLOW and agent.type not in _ON_FOOT
 
 
 def own_events(spec: ScenarioSpec) -> tuple[Event, ...]:
@@ -77,6 +75,18 @@ def let_pass(spec: ScenarioSpec, event: Event) -> str | None:
     bodies = bodies_of(event) - {event.action.agent}
     others = [agent.id for agent in spec.agents if agent.id in bodies]
     return others[0] if len(others) == 1 else None
+
+
+def let_cross(spec: ScenarioSpec) -> tuple[tuple[str, str], ...]:
+    """Return which vehicle is to let which person cross its way."""
+    persons = {agent.id for agent in spec.agents if agent.type is AgentType.PEDESTRIAN}
+    pairs = (
+        (event.action.agent, let_pass(spec, event))
+        for event in (*spec.events, *own_events(spec))
+        if isinstance(event.action, AgentAction)
+    )
+    found = ((agent, other) for agent, other in pairs if other in persons and other is not None)
+    return tuple(dict.fromkeys((a, b) for a, b in found if a not in persons))
 
 
 def _event(event_id: str, agent: GroundAgent, behavior: Behavior) -> Event:

@@ -289,3 +289,32 @@ def test_background_alone_has_no_convoy() -> None:
 def test_a_scene_without_vehicles() -> None:
     split = split_scene(_spec(_agent('p', kind=AgentType.PEDESTRIAN)))
     assert (split.convoy, split.free) == ((), ())
+
+
+def test_several_ahead_of_one_do_not_stand_in_one_place() -> None:
+    cars = [_agent(name, (Relation.AHEAD, 'ego', None)) for name in ('a', 'b', 'c')]
+    places = _places(split_scene(_spec(EGO, *cars)))
+    assert [places[name][0] for name in ('a', 'b', 'c')] == [20.0, 35.0, 50.0]
+
+
+def test_several_who_are_overtaken_drive_one_ahead_of_the_other() -> None:
+    passes = tuple(Behavior(kind=BehaviorKind.OVERTAKE, target=name) for name in ('a', 'b'))
+    ego = _agent('ego').model_copy(update={'behaviors': passes})
+    places = _places(split_scene(_spec(ego, _agent('a'), _agent('b'))))
+    assert (places['a'], places['b']) == ((20.0, 0), (35.0, 0))
+
+
+def test_what_is_said_of_two_stands_before_what_is_guessed(parameter: Make) -> None:
+    """Who overtakes comes from behind: how far is said by where the other one is."""
+    ahead = _agent('a', (Relation.AHEAD, 'ego', 70.0), make=parameter)
+    ego = _agent('ego', does=(BehaviorKind.OVERTAKE, 'a'))
+    split = split_scene(_spec(ego, ahead))
+    assert _places(split)['a'] == (70.0, 0)
+    assert split.unsupported == ()
+
+
+def test_a_vehicle_beside_which_a_person_is_met_is_on_the_way_there(parameter: Make) -> None:
+    person = _agent('ped', (Relation.BEHIND, 'van', None), kind=AgentType.PEDESTRIAN)
+    near = DistanceTrigger(on='distance_below', a='ego', b='ped', value_m=parameter(25.0))
+    split = split_scene(_spec(EGO, _agent('van'), person, events=(Event(id='e1', trigger=near),)))
+    assert _places(split)['van'][0] == 25.0 + 15.0

@@ -339,27 +339,56 @@ def test_weather_gives_wind_and_sensing(read_prompt: Read, ground: Ground, limit
 
 
 @pytest.mark.parametrize(
-    ('prompt', 'reason'),
+    ('prompt', 'reason', 'told'),
     [
         # The houses around the junction stand in the way at this height.
         (
             'A drone flies a 120 m by 120 m rectangle at 4 m altitude around the intersection.',
             'clearance',
+            'a greater altitude would fit',
         ),
         # Sensing range at night in fog: 45 m.
-        ('In fog at night a drone tracks a motorcycle at 100 m altitude.', 'sight'),
+        ('In fog at night a drone tracks a motorcycle at 100 m altitude.', 'sight', 'not see'),
         # Their boxes would overlap.
-        ('A truck drives 2 m ahead of the ego car; a drone tracks the ego car.', 'road'),
+        (
+            'A truck drives 2 m ahead of the ego car; a drone tracks the ego car.',
+            'road',
+            'another distance would fit',
+        ),
     ],
 )
 def test_what_has_no_place_fails_with_its_reason(
-    prompt: str, reason: str, read_prompt: Read, ground: Ground
+    prompt: str, reason: str, told: str, read_prompt: Read, ground: Ground
 ) -> None:
     found = ground(read_prompt(prompt, 'junction'), 'junction')
     assert isinstance(found, GroundingFailure)
     assert found.reason == reason
+    assert told in found.told
+    assert f'{found.tried} ' in found.told or not found.tried
     assert found.tried == sum(found.rejected_by.values())
     assert (found.tried == 0) == (reason == 'road')
+
+
+@pytest.mark.parametrize(
+    ('prompt', 'told'),
+    [
+        (
+            'A bus is parked at Meadow Park.',
+            ('bus1', 'Meadow Park', 'nearest street is', 'another place'),
+        ),
+        (
+            'A truck is to the left of the ego car and waits at the intersection. The ego car '
+            'drives to Mercy Hospital.',
+            ('truck1', 'ego', 'would'),
+        ),
+    ],
+)
+def test_vehicles_without_a_street_are_named_with_what_would_fit(
+    prompt: str, told: tuple[str, ...], read_prompt: Read, ground: Ground
+) -> None:
+    found = ground(read_prompt(prompt, 'downtown'), 'downtown')
+    assert isinstance(found, GroundingFailure)
+    assert [word for word in told if word not in found.told] == []
 
 
 def test_a_stated_bearing_is_kept(

@@ -262,3 +262,16 @@ def test_a_hover_over_a_building_is_over_its_roof(
     building = next(b for b in map_of('downtown').buildings if b.name == place)
     assert building.is_below(x, y)
     assert z == altitude_m
+
+
+@pytest.mark.parametrize(('side', 'sign'), [('left', 1.0), ('right', -1.0)])
+def test_who_comes_from_a_side_to_a_place_is_on_another_street(
+    grounded: Callable[[str], GroundedScenario], side: str, sign: float
+) -> None:
+    waits = 'My car waits at the intersection. '
+    found = grounded(f'{waits}A truck is to the {side} of my car and approaches the intersection.')
+    agents = {agent.id: agent for agent in found.agents}
+    ego, truck = agents['ego'], agents['truck1']
+    assert truck.edges[0] != ego.edges[0]
+    x, y = truck.x_m - ego.x_m, truck.y_m - ego.y_m
+    assert sign * (y * ego.heading_x - x * ego.heading_y) >= 10.0

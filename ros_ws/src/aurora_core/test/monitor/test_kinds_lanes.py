@@ -19,6 +19,7 @@ from aurora_core.knowledge.world import CentreLine
 from aurora_core.outcomes.verdict import Reason
 from aurora_core.spec.parameter import Bound, Unit
 from aurora_core.spec.scenario import Behavior
+from aurora_core.spec.vocabulary import AgentType
 from aurora_core.spec.vocabulary import BehaviorKind as B
 
 T = 401  # 20 s
@@ -67,6 +68,16 @@ def _yields(own: FloatArray, other: float, x: float = -30.0, y: float = 3.3) -> 
     return case
 
 
+def _lets_cross(own: FloatArray, walks_from_s: float, over: float = 5.0) -> Case:
+    """car1 begins at 0; a person 40 m on walks at 1 m/s from 5 m right of its way to its left."""
+    case = ground_case(Behavior(kind=B.YIELD, target='ped1'), own, ped1=(40.0, _steady(0.0)))
+    person = case.spec.agents[1].model_copy(update={'type': AgentType.PEDESTRIAN})
+    case.spec = case.spec.model_copy(update={'agents': (case.spec.agents[0], person)})
+    case.run.agents[1].type = 'pedestrian'
+    case.run.agents[1].y[:] = np.clip(0.05 * (TICK - 20 * walks_from_s) - 5.0, -5.0, over)
+    return case
+
+
 def _slows_to(end_mps: float, asked_mps: float = 5.0, bound: Bound = Bound.EXACTLY) -> Case:
     """From 10 m/s after 10 s."""
     asked = number(asked_mps, Unit.METRE_PER_SECOND, explicit=True)
@@ -76,6 +87,7 @@ def _slows_to(end_mps: float, asked_mps: float = 5.0, bound: Bound = Bound.EXACT
 
 SLOWS = np.where(TICK < 100, 8.0, 2.0)
 WAITS = np.where(TICK < 200, 0.0, 8.0)
+STOPS = np.where(TICK < 60, 8.0, np.where(TICK < 200, 0.0, 8.0))
 NEVER, GONE = Reason.PREMISE_NEVER, Reason.TARGET_GONE
 ROWS = (
     # 2 s are asked: from tick 200 to tick 400.
@@ -124,6 +136,36 @@ ROWS = (
         make=lambda: _yields(SLOWS, 10.0, 30.0),
         reason=NEVER,
         what='ahead',
+    ),
+    # 2 m beyond the way at 7 s, when the car has driven 59 steps and is 2.25 m long before its
+    # middle; whom it does not wait for is behind it by then.
+    Row(
+        id='car1.yield.passed',
+        make=lambda: _lets_cross(STOPS, 0.0),
+        margin=40.0 - 59 * 0.4 - 2.25,
+        within=0.5,
+        what='on-foot',
+    ),
+    Row(
+        id='car1.yield.passed',
+        make=lambda: _lets_cross(_steady(8.0), 0.0),
+        margin=40.0 - 140 * 0.4 - 2.25,
+        within=0.5,
+        what='not-let-cross',
+    ),
+    # Whoever turns round in the middle of the street has not been let over it.
+    Row(
+        id='car1.yield.passed',
+        make=lambda: _lets_cross(STOPS, 0.0, over=1.0),
+        margin=-1.0,
+        what='turns-round',
+    ),
+    Row(id='car1.yield', make=lambda: _lets_cross(STOPS, 0.0), margin=8.0 - 2.0, what='on-foot'),
+    Row(
+        id='car1.yield',
+        make=lambda: _lets_cross(_steady(8.0), 0.0),
+        margin=0.0 - 2.0,
+        what='not-let-cross',
     ),
 )
 

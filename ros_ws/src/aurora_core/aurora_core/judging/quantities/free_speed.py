@@ -133,7 +133,9 @@ class FreeSpeed(_KeptSpeed):
         view = context.view
         body, *followed = (view.body(name) for name in condition.of)
         besides = tuple(other.body_id for other in followed)
-        free = free_road.under_way(view, body, self.moving_mps, self.settle_m)
+        # Who drives so fast from the start on has nothing to accelerate to.
+        settle_m = 0.0 if bool(self.speed.good(values[:1])[0]) else self.settle_m
+        free = free_road.under_way(view, body, self.moving_mps, settle_m)
         free &= free_road.free_of_junctions(view, body, self.free_m)
         alone = free & free_road.free_of_leaders(
             view, body, self.free_m, self.lane_offset_m, besides

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Yielding: one gets slower, or waits, and the other one passes first.
 
-The other one passes when it gets ahead on the way of the one that yields: it crosses that way,
-joins it, or overtakes there.
+Another vehicle passes when it gets ahead on the way of the one that yields: it crosses that way,
+joins it, or overtakes there. A person passes by getting over that way, to its other side.
 """
 
 from __future__ import annotations
@@ -32,6 +32,7 @@ from aurora_core.outcomes.condition import Condition, Window
 from aurora_core.outcomes.verdict import Reason
 from aurora_core.quantities import motion
 from aurora_core.quantities.ticks import first_tick
+from aurora_core.quantities.way_crossing import crossing_series
 from aurora_core.spec.events import bodies_of
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import AgentAction, Event
@@ -54,6 +55,8 @@ class _Yielding(Quantity):
         if isinstance(end, Missing):
             return end
         a, b = condition.of
+        if context.view.body(b).entry.is_person:
+            return self.of_person(context, condition, end)
         offset = context.along(a, b).offset_m[:end]
         if first_tick(offset <= self.offset_m) is None:
             story = f'{b} never came to the way of {a}'
@@ -78,6 +81,16 @@ class _Yielding(Quantity):
             start: First tick at which it is not.
         """
 
+    @abstractmethod
+    def of_person(self, context: Context, condition: Condition, end: int) -> Evaluation:
+        """Return the measurement where the other one is on foot.
+
+        Args:
+            context: The run.
+            condition: The condition that these arguments belong to.
+            end: Tick until which both are there.
+        """
+
 
 class PassedFirst(_Yielding):
     """By how much the other one gets ahead, metres."""
@@ -92,6 +105,11 @@ class PassedFirst(_Yielding):
         most_m = float(ahead[farthest])
         topics = ground_topics(condition)
         return at_tick(farthest, most_m, evidence=topics, later=Later.RISES)
+
+    def of_person(self, context: Context, condition: Condition, end: int) -> Evaluation:
+        """Return how far ahead the person was once it was over the way."""
+        tick, value_m = _crossing(context, condition, end)
+        return at_tick(tick, value_m, evidence=ground_topics(condition), later=Later.RISES)
 
 
 class SlowerBeforePassed(_Yielding):
@@ -108,9 +126,20 @@ class SlowerBeforePassed(_Yielding):
         self, context: Context, condition: Condition, ahead: FloatArray, start: int
     ) -> Evaluation:
         """Return the greatest drop; of who waited what it drives afterwards."""
-        passed = first_tick(ahead > 0.0, start)
+        return self._drop(context, condition, len(ahead), first_tick(ahead > 0.0, start))
+
+    def of_person(self, context: Context, condition: Condition, end: int) -> Evaluation:
+        """Return the greatest drop until the person is over the way."""
+        a, b = (context.view.body(name) for name in condition.of)
+        _, _, crossed = crossing_series(context.view, a, b)
+        return self._drop(context, condition, end, first_tick(crossed[:end]))
+
+    def _drop(
+        self, context: Context, condition: Condition, end: int, passed: int | None
+    ) -> Evaluation:
+        """Return the greatest drop until the other one has passed."""
         body = context.view.body(condition.of[0])
-        speed = motion.speed(context.view, body)[: len(ahead)]
+        speed = motion.speed(context.view, body)[:end]
         moved = first_tick(speed >= self.moving_mps)
         if moved is None:
             return Missing(reason=Reason.PREMISE_NEVER, story=f'{body.body_id} never moved')
@@ -151,18 +180,37 @@ class PassedAfter(OfEvent):
         if due >= end:
             return never_happened(context, condition, f'{self.event} was never due')
         a, b = condition.of
+        begin = trigger_story(context, self.event, due)
+        topics = ground_topics(condition)
+        if context.view.body(b).entry.is_person:
+            tick, value_m = _crossing(context, condition, end)
+            story = f'{begin}; {b} was {value_m:.2f} m ahead of {a}, or short of its other side'
+            return at_tick(tick, value_m, story, topics, later=Later.RISES, provisional=True)
         ahead = lead_on_route(context, a, b, self.offset_m)[:end]
         farthest = due + int(np.argmax(ahead[due:]))
         most_m = float(ahead[farthest])
-        begin = trigger_story(context, self.event, due)
         return at_tick(
             farthest,
             most_m,
             f'{begin}; {b} was at most {most_m:.2f} m ahead of {a} after that',
-            ground_topics(condition),
+            topics,
             later=Later.RISES,
             provisional=True,
         )
+
+
+def _crossing(context: Context, condition: Condition, end: int) -> tuple[int, float]:
+    """Return when a person was over the way of a vehicle, and how far ahead of its front then.
+
+    Of a person that never was, where it came nearest to that, and how far short of it (negative).
+    """
+    a, b = (context.view.body(name) for name in condition.of)
+    lead, beyond, crossed = crossing_series(context.view, a, b)
+    tick = first_tick(crossed[:end])
+    if tick is None:
+        nearest = int(np.argmax(beyond[:end]))
+        return nearest, float(beyond[nearest])
+    return tick, float(lead[tick]) - a.entry.length_m / 2.0
 
 
 def after_event(

@@ -1,0 +1,106 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Two vehicles on one road: how far one is ahead of the other, and in which lane."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from math import copysign
+
+from aurora_core.spec.own_events import let_pass, own_events
+from aurora_core.spec.scenario import AgentAction, ScenarioSpec
+from aurora_core.spec.vocabulary import BehaviorKind, Relation
+
+# Two vehicles whose places are nearer than this stand in each other's way, and how far apart they
+# line up behind a third one: the last one still has to follow it (m, centre to centre).
+_QUEUE_M = 14.0
+IN_LINE_M = 15.0
+
+
+@dataclass(frozen=True, slots=True)
+class Tie:
+    """`agent` is `offset_m` ahead of `other` along the route, `lane_shift` lanes to its left.
+
+    Nobody says how far that is where it is `free`, nor that at all where it is a `guess`.
+    """
+
+    agent: str
+    other: str
+    offset_m: float
+    lane_shift: int
+    free: bool = False
+    guess: bool = False
+
+
+def agreed(ties: list[Tie]) -> list[Tie]:
+    """Return ties without guesses about two of whom something else is said."""
+    said = {frozenset((t.agent, t.other)) for t in ties if not t.guess}
+    found: list[Tie] = []
+    for tie in ties:
+        pair = frozenset((tie.agent, tie.other))
+        if not tie.guess or pair not in said:
+            found.append(tie)
+            said |= {pair}
+    return found
+
+
+def passing_pairs(spec: ScenarioSpec) -> frozenset[tuple[str, str]]:
+    """Return who is to pass whom; not where somebody says that they share a lane."""
+    sharing = {
+        frozenset((a.id, str(p.of)))
+        for a in spec.agents
+        for p in a.placements
+        if p.relation is Relation.SAME_LANE
+    }
+    pairs = (
+        (let_pass(spec, event), event.action.agent)
+        for event in (*spec.events, *own_events(spec))
+        if isinstance(event.action, AgentAction)
+    )
+    return frozenset((a, b) for a, b in pairs if a is not None and {a, b} not in sharing)
+
+
+def in_passing_lane(tie: Tie, passing: frozenset[tuple[str, str]]) -> Tie:
+    """Return a tie with the one that is to pass in the lane to the left of the other one."""
+    if tie.lane_shift != 0:
+        return tie
+    shift = int((tie.agent, tie.other) in passing) - int((tie.other, tie.agent) in passing)
+    return replace(tie, lane_shift=shift)
+
+
+def queued(ties: list[Tie], doing: Mapping[str, set[BehaviorKind]]) -> list[Tie]:
+    """Return ties in which those behind, or ahead of, one other do not stand in one place.
+
+    Who tailgates is next to it, others stand behind, and who overtakes is in the lane to the left.
+    """
+    found, tied = list(ties), Counter(i for t in ties for i in (t.agent, t.other))
+    groups: dict[tuple[str, int, float], list[Tie]] = {}
+    for tie in ties:
+        if tie.offset_m != 0.0:
+            side = copysign(1.0, tie.offset_m)
+            groups.setdefault((tie.other, tie.lane_shift, side), []).append(tie)
+    for (_, _, side), group in groups.items():
+        group.sort(
+            key=lambda t: (_rank(doing[t.agent], t.offset_m), abs(t.offset_m), t.free, t.agent)
+        )
+        last_m = 0.0
+        for tie in group:
+            alone, away_m = tie.free and tied[tie.agent] == 1, abs(tie.offset_m)
+            if not alone or away_m >= last_m + _QUEUE_M or last_m == 0.0:
+                last_m = max(last_m, away_m)
+            elif side < 0.0 and BehaviorKind.OVERTAKE in doing[tie.agent]:
+                found[found.index(tie)] = replace(tie, lane_shift=tie.lane_shift + 1)
+            else:
+                last_m += IN_LINE_M
+                found[found.index(tie)] = replace(tie, offset_m=side * last_m)
+    return found
+
+
+def _rank(kinds: set[BehaviorKind], offset_m: float) -> int:
+    if offset_m > 0.0:
+        return 0
+    if BehaviorKind.TAILGATE in kinds:
+        return 0
+    return 2 if BehaviorKind.OVERTAKE in kinds else 1

@@ -1,0 +1,98 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Who follows another one that has changed lane changes after it, and does not pass it before."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from aurora_core.knowledge.world import CentreLine
+from aurora_core.outcomes.grounded import ReleaseOn
+from aurora_core.spec.parameter import Parameter
+from aurora_core.spec.scenario import AgentAction, Behavior, Event, TimeTrigger
+from aurora_core.spec.vocabulary import BehaviorKind
+from aurora_core.trace.layout import GroundCommandKind
+
+Build = Callable[..., Any]
+LANE = int(GroundCommandKind.CHANGE_LANE)
+SPEED = int(GroundCommandKind.SET_SPEED)
+FREE = int(GroundCommandKind.RELEASE_SPEED)
+
+STREET = tuple(
+    CentreLine(
+        lane_id=f'a_{index}',
+        street_name='',
+        points=np.array([(0.0, 3.3 * index), (600.0, 3.3 * index)]),
+        width_m=3.3,
+        speed_limit_mps=14.0,
+    )
+    for index in range(2)
+)
+
+
+def _scene(stage: Build, *behaviors: Behavior, **fields: Any) -> Any:
+    follows = Behavior(kind=BehaviorKind.FOLLOW, target='van1')
+    return stage(tracks={}, behaviors={'ego': (follows, *behaviors)}, lanes=STREET, **fields)
+
+
+def _of_ego(scene: Any, kind: int) -> list[float]:
+    return [value for _, agent, k, value in scene.commands() if agent == 'ego' and k == kind]
+
+
+def test_behind_on_one_lane_it_is_left_to_the_simulator(stage: Build) -> None:
+    scene = _scene(stage).put('van1', 200.0, speed=8.0).put('ego', 180.0, speed=8.0)
+    scene.step(3)
+    assert _of_ego(scene, LANE) == _of_ego(scene, SPEED) == []
+
+
+def test_it_changes_lane_after_the_other_one_once(stage: Build) -> None:
+    scene = _scene(stage).put('van1', 200.0, 3.3, 8.0).put('ego', 180.0, speed=8.0)
+    scene.step(5)
+    assert _of_ego(scene, LANE) == [1.0]
+    scene.put('ego', 180.0, 3.3, 8.0).step(3)
+    assert _of_ego(scene, LANE) == [1.0]
+    assert len(_of_ego(scene, FREE)) == 2, 'at the start, and once it is behind again'
+
+
+@pytest.mark.parametrize(
+    ('gap_m', 'slower'), [(19.0, 0.0), (9.0, 0.4 * 10.0), (-5.0, 0.4 * 24.0), (29.0, -0.4 * 10.0)]
+)
+def test_beside_it_keeps_a_gap(gap_m: float, slower: float, stage: Build) -> None:
+    """Two seconds and 3 m are kept at 8 m/s; nobody drives backwards."""
+    scene = _scene(stage).put('van1', 200.0, 3.3, 8.0)
+    scene.put('ego', 200.0 - 4.5 - gap_m, speed=8.0).step()
+    assert _of_ego(scene, SPEED) == [pytest.approx(max(0.0, 8.0 - slower))]
+
+
+def test_who_is_told_to_change_lane_does_not_change_back(
+    stage: Build, parameter: Callable[..., Parameter]
+) -> None:
+    later = TimeTrigger(on='time', at_s=parameter(100.0, 's'))
+    change = Event(id='e1', trigger=later, action=AgentAction(do='change_lane', agent='ego'))
+    scene = _scene(stage, events=(change,))
+    scene.put('van1', 200.0, speed=8.0).put('ego', 180.0, 3.3, 8.0).step(5)
+    assert _of_ego(scene, LANE) == []
+    assert _of_ego(scene, SPEED) != [], 'it stays behind all the same'
+
+
+def test_whose_speed_is_told_is_not_paced(stage: Build) -> None:
+    scene = _scene(stage, Behavior(kind=BehaviorKind.SLOW))
+    scene.put('van1', 200.0, 3.3, 4.0).put('ego', 180.0, speed=4.0).step(3)
+    assert _of_ego(scene, SPEED) == []
+
+
+def test_who_is_held_does_not_set_off(stage: Build) -> None:
+    scene = _scene(stage, releases={'ego': (ReleaseOn.NEVER, '')})
+    scene.put('van1', 200.0, 3.3, 8.0).put('ego', 180.0).step(3)
+    assert _of_ego(scene, SPEED) == [0.0]
+
+
+def test_far_away_it_is_left_to_itself(stage: Build) -> None:
+    scene = _scene(stage).put('van1', 200.0, 3.3, 8.0).put('ego', 180.0, speed=8.0)
+    scene.step()
+    scene.put('van1', 300.0, 3.3, 8.0).step()
+    assert len(_of_ego(scene, FREE)) == 2
