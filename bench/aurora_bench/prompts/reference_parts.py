@@ -204,7 +204,9 @@ def _trigger(t: Trigger, names: Names, numbers: Numbers) -> Doc:
         found |= {'a': names.body(t.a), 'b': names.one(t.b) or names.agent(None)}
         found['value_m'] = default('value_m')
     elif t.on in ('visible', 'occluded'):
-        found |= {'observer': names.uav(t.observer)}
+        # Nobody named: the UAV that looks down.
+        observer = names.uav(None) if t.observer is None else names.body(t.observer)
+        found |= {'observer': observer}
         found['target'] = names.one(t.target) or names.agent(None)
     elif t.on == 'altitude_reached':
         found |= {'uav': names.uav(t.uav), 'value_m': default('altitude_m')}

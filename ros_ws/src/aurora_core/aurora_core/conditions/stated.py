@@ -31,7 +31,7 @@ from aurora_core.judging.quantities.speed import Speed
 from aurora_core.judging.quantities.tracked_fraction import TrackedFraction
 from aurora_core.judging.quantities.visible_fraction import VisibleFraction
 from aurora_core.judging.quantities.visible_time import VisibleTime
-from aurora_core.judging.quantity import OfMission, PerSample
+from aurora_core.judging.quantity import OfMission, OfSight, PerSample
 from aurora_core.judging.series import StatedSeries
 from aurora_core.outcomes.condition import Condition, MissionArguments, Window
 from aurora_core.spec.parameter import Bound
@@ -47,7 +47,7 @@ _SERIES: dict[str, tuple[type[StatedSeries], int]] = {
     'speed': (Speed, 1),
 }
 # Quantities that are about mission phases, of one mode only where the third entry says so.
-_PHASES: dict[str, tuple[type[OfMission], int, MissionMode | None]] = {
+_PHASES: dict[str, tuple[type[OfMission] | type[OfSight], int, MissionMode | None]] = {
     'tracked_fraction': (TrackedFraction, 2, MissionMode.TRACK),
     'visible_fraction': (VisibleFraction, 2, None),
     'visible_time': (VisibleTime, 2, None),
@@ -214,7 +214,7 @@ class _AboutMissions(TypedDict):
     horizon_s: float
     touchdown_m: float
     window: Window
-    mission: MissionArguments
+    mission: MissionArguments | None
     missions: tuple[MissionArguments, ...]
 
 
@@ -223,10 +223,14 @@ def _phases(inputs: Inputs, stated: StatedCondition) -> Iterator[Condition]:
     kind, count, mode = _PHASES[stated.quantity]
     of = _bodies(inputs, stated, count)
     missions = missions_of(inputs, stated, mode)
-    if not missions:
+    looks = issubclass(kind, OfSight) and of[0] in {agent.id for agent in inputs.spec.agents}
+    if not missions and not looks:
         raise CannotSayError(f'{stated.quantity} without a mission of {", ".join(stated.of)}')
     if kind is VisibleTime:
         only(stated, 'hold_s')
+        parts = [(f'{stated.id}.holds', missions)]
+    elif not missions:
+        only(stated)
         parts = [(f'{stated.id}.holds', missions)]
     else:
         only(stated)
@@ -235,7 +239,6 @@ def _phases(inputs: Inputs, stated: StatedCondition) -> Iterator[Condition]:
             parts = [(f'{stated.id}.holds', missions)]
     for name, group in parts:
         when = _when(inputs, stated, group)
-        assert when.mission is not None  # there is one
         about: _AboutMissions = {
             **inputs.common,
             'window': when.window,

@@ -104,11 +104,13 @@ class Observation:
         return instant.radio_sight(self._geometry, self._roster, self._ground, self._uav, a, b)
 
     def sight(self, observer: str, target: str) -> tuple[bool, float]:
-        """Return whether a UAV sees a target, and the slant range to its sight point in metres."""
-        index = self._roster.uav_index(observer)
-        assert index is not None
-        return self._sight.see(self._uav[index], target, self._ground)
+        """Return whether a body sees a target, and the slant range to that in metres."""
+        return self._sight.see(observer, target, self._ground, self._uav)
+
+    def flies(self, name: str) -> bool:
+        """Tell whether a body is a UAV."""
+        return self._roster.uav_index(name) is not None
 
     def visible(self, observer: str, target: str) -> bool:
-        """Whether a UAV sees a target: present, in range and in sight."""
+        """Whether a body sees a target: present, in range and in sight."""
         return self.sight(observer, target)[0]

@@ -56,8 +56,8 @@ def holds(
             for receiver, sender in progress.received
         )
     now = _state_holds(trigger, observation, progress)
-    # Only what was seen can be lost from sight.
-    looks = not isinstance(trigger, VisibilityTrigger) or trigger.observer in progress.looking
+    # Only who looks can lose sight.
+    looks = not isinstance(trigger, VisibilityTrigger) or _looks(trigger, observation, progress)
     if not now and looks:
         progress.was_false.add(event.id)
     # Getting far, getting slow and losing sight are changes: what held from the start is none.
@@ -89,7 +89,12 @@ def _state_holds(
     if isinstance(trigger, ArrivalTrigger):
         distance = observation.distance_m(trigger.who, trigger.place)
         return distance is not None and distance <= progress.arrival_m
-    if trigger.observer not in progress.looking:
+    if not _looks(trigger, observation, progress):
         return False
     seen = observation.visible(trigger.observer, trigger.target)
     return seen if trigger.on == 'visible' else not seen
+
+
+def _looks(trigger: VisibilityTrigger, observation: Observation, progress: Progress) -> bool:
+    """Tell whether an observer looks out: on the ground all along, a UAV once it is up."""
+    return trigger.observer in progress.looking or not observation.flies(trigger.observer)

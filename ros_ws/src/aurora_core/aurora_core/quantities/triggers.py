@@ -4,7 +4,7 @@
 
 A trigger fires at the first tick at which its predicate holds. "Falls below", "loses sight" and
 "gets farther than" ask for a change: their predicate must have been false before. Sight triggers
-count from the end of the observer's ascent on.
+of UAVs count from the end of their ascent on.
 """
 
 from __future__ import annotations
@@ -394,6 +394,8 @@ def trigger_series(
         case VisibilityTrigger():
             sight = sight_series(view, trigger.observer, trigger.target).visible
             mask = sight if trigger.on == 'visible' else ~sight
+            if not view.body(trigger.observer).is_uav:
+                return mask
             flight = rules.flights.get(trigger.observer)
             ready = None if flight is None else flight.ascent_end_tick
             if ready is None:

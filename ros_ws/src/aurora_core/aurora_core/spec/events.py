@@ -37,7 +37,7 @@ class AltitudeTrigger(Element):
 
 
 class VisibilityTrigger(Element):
-    """A UAV sees (or loses sight of) a target."""
+    """A body sees (or loses sight of) a target."""
 
     on: Literal['visible', 'occluded']
     observer: Id

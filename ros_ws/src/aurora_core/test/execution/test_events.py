@@ -209,6 +209,24 @@ def test_who_was_never_seen_is_not_lost_from_sight(stage: Build) -> None:
     assert _triggered(scene) == [(6, 'e1')]
 
 
+@pytest.mark.parametrize(('x', 'seen'), [(30.0, [(0, 'e1')]), (-30.0, []), (100.0, [])])
+def test_a_driver_sees_at_once_what_is_ahead_and_not_behind_a_wall(
+    stage: Build, x: float, seen: list[tuple[int, str]]
+) -> None:
+    trigger = VisibilityTrigger(on='visible', observer='ego', target='van1')
+    scene = stage(events=(_event(trigger),), buildings=(WALL,))
+    scene.put('ego', 0.0).put('van1', x).step(2)
+    assert _triggered(scene) == seen
+
+
+def test_a_driver_loses_sight_of_whom_it_has_passed(stage: Build) -> None:
+    trigger = VisibilityTrigger(on='occluded', observer='ego', target='van1')
+    scene = stage(events=(_event(trigger),))
+    for x in (-30.0, 30.0, 10.0, -10.0):  # behind it from the start on is no loss
+        scene.put('ego', 0.0).put('van1', x).step()
+    assert _triggered(scene) == [(3, 'e1')]
+
+
 def test_on_its_way_home_a_uav_loses_nobody_from_sight(stage: Build) -> None:
     trigger = VisibilityTrigger(on='occluded', observer='uav1', target='van1')
     scene = stage(events=(_event(trigger),), buildings=(WALL,), hold_s=0.2)

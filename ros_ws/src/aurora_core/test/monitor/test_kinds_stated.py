@@ -102,6 +102,31 @@ GROUND = (
         reason=GONE,
         what='speed',
     ),
+    # The driver behind sees the one ahead all along (401 samples), who never sees it.
+    Row(
+        id='c1.holds',
+        make=lambda: _cars('visible_time', CARS[::-1], '>=', 15.0),
+        margin=T * 0.05 - 15.0,
+        what='driver',
+    ),
+    Row(
+        id='c1.holds',
+        make=lambda: _cars('visible_time', CARS, '>=', 1.0),
+        margin=0.0 - 1.0,
+        what='driver',
+    ),
+    Row(
+        id='c1.holds',
+        make=lambda: _cars('visible_fraction', CARS[::-1], '>=', 0.9),
+        margin=1.0 - 0.9,
+        what='driver',
+    ),
+    Row(
+        id='c1.holds',
+        make=lambda: _cars('visible_fraction', CARS, '>=', 0.5),
+        margin=0.0 - 0.5,
+        what='driver',
+    ),
     # 25 m at 1 s; 30 m at 2 s.
     Row(
         id='c1.holds',
