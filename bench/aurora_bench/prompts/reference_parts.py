@@ -176,7 +176,11 @@ def mission(
 
 def link(r: LinkRequirement, ident: str, names: Names, numbers: Numbers) -> Doc:
     """Return a link."""
-    given = numbers.of(r, ('loss', 'latency_s', 'range_m', 'retransmissions'))
+    given = numbers.of(r, ('loss', 'latency_s', 'range_m', 'retransmissions', 'rate_hz'))
+    if r.outage_s is not None:
+        given['outage_s'] = [
+            numbers.stated(f'outage_s.{k}', v, 's') for k, v in enumerate(r.outage_s)
+        ]
     return default_link(ident, names.body(r.sender), names.body(r.receiver)) | given
 
 

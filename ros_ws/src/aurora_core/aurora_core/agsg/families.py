@@ -60,6 +60,8 @@ _QUANTITIES = {
         QuantityName.DELIVERY_RATIO,
         QuantityName.LINK_RANGE,
         QuantityName.ATTEMPTS,
+        QuantityName.OUTAGE,
+        QuantityName.REPORT_GAP,
     ),
     EdgeType.BEHAVIORAL: (
         QuantityName.SPEED,

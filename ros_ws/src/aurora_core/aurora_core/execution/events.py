@@ -148,6 +148,11 @@ class EventRunner:
         """Whether every event has happened."""
         return all(s.done for s in self._states)
 
+    def next_message(self) -> int:
+        """Return the number of the next message of the run."""
+        self._messages += 1
+        return self._messages
+
     def received(self, receiver: str, sender: str) -> None:
         """Note a delivered message."""
         self._progress.received.add((receiver, sender))
@@ -345,8 +350,7 @@ class EventRunner:
             for link in self._links:
                 pair = (link.settings.sender, link.settings.receiver)
                 if pair == (action.sender, action.receiver):
-                    self._messages += 1
-                    link.send(tick, self._messages, event.id)
+                    link.send(tick, self.next_message(), event.id)
                     break
             return []
         if isinstance(action, UavAction):

@@ -399,6 +399,8 @@ def _link(
             interval_s=link.retransmission_interval_s.value,
             range_sight_m=limits.link_range_sight_m if stated is None else stated,
             range_blocked_m=limits.link_range_blocked_m if stated is None else stated,
+            outage_s=link.outage,
+            rate_hz=None if link.rate_hz is None else link.rate_hz.value,
         ),
         dt_s,
         link_stream(seed, link.id),

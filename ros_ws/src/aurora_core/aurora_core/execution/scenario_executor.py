@@ -22,6 +22,7 @@ from aurora_core.execution.lane_changer import LaneChanger
 from aurora_core.execution.observe import Observation
 from aurora_core.execution.overtaker import Overtaker
 from aurora_core.execution.premises import Premises
+from aurora_core.execution.reports import Reports
 from aurora_core.execution.step_output import StepOutput
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.mission.machine import MissionMachine
@@ -97,6 +98,7 @@ class ScenarioExecutor:
         self._phases = [int(UavPhase.IDLE)] * len(setup.machines)
         self._seen: dict[tuple[str, str], bool] = {}
         self._runner = self._run_events(EventRunner)
+        self._reports = Reports(setup.links, setup.roster.dt_s, self._runner.next_message)
         self._premises = Premises(setup.spec, setup.roster)
         self._overtaker = Overtaker(setup.spec, setup.roster, self._lanes())
         self._done_tick: int | None = None
@@ -120,6 +122,7 @@ class ScenarioExecutor:
         commands += self._premises.step(tick, s.roster.dt_s, seen, s.machines)
         commands += self._overtaker.step(seen)
         commands += self._runner.step(tick, s.roster.dt_s, seen, s.machines, self.note)
+        self._reports.step(tick, s.machines)
         links = self._step_links(tick, seen)
         sights = self._sights(tick, seen)
         outcome = self._outcome(tick)

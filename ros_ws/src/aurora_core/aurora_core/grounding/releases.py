@@ -15,6 +15,7 @@ from aurora_core.spec.scenario import (
     ArrivalTrigger,
     DistanceTrigger,
     GroundAgent,
+    Link,
     ScenarioSpec,
     SendMessage,
     TimeTrigger,
@@ -51,7 +52,8 @@ def _told_by(spec: ScenarioSpec, agent: GroundAgent) -> str | None:
     staying = {m.uav for m in spec.missions} - {
         m.uav for m in spec.missions if m.mode is not MissionMode.HOVER
     }
-    told = (e.action for e in spec.events if isinstance(e.action, SendMessage))
+    told: list[SendMessage | Link] = [link for link in spec.links if link.rate_hz is not None]
+    told += [e.action for e in spec.events if isinstance(e.action, SendMessage)]
     return next((a.sender for a in told if a.receiver == agent.id and a.sender in staying), None)
 
 

@@ -65,3 +65,5 @@ class QuantityName(StrEnum):
     SIDE_FRACTION = 'side_fraction'
     WIND = 'wind'
     RETURN_DISTANCE = 'return_distance'
+    OUTAGE = 'outage'
+    REPORT_GAP = 'report_gap'

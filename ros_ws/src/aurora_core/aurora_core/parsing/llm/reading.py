@@ -121,6 +121,9 @@ class LinkReading(Document):
     latency_s: Number | None = None
     range_m: Number | None = None
     retransmissions: Number | None = None
+    outage_from_s: Number | None = None
+    outage_to_s: Number | None = None
+    rate_hz: Number | None = None
     quote: Quote
 
 
