@@ -224,6 +224,9 @@ def _trigger(t: Trigger, names: Names, numbers: Numbers) -> Doc:
         found |= {'who': names.body(t.who), 'value_mps': default('value_mps')}
     elif t.on == 'event_done':
         found['event'] = names.moment(t.event or '')
+    elif t.on == 'battery_below':
+        found['uav'] = names.uav(t.uav)
+        found['value'] = numbers.stated('trigger.value', 0.5 if t.value is None else t.value, '1')
     elif t.on == 'mission_done':
         found['uav'] = names.uav(t.uav)
     elif t.on == 'time':

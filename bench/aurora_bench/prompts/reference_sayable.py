@@ -24,7 +24,6 @@ from aurora_core.spec.requirements import STATED_QUANTITIES
 from aurora_core.spec.vocabulary import Pattern
 
 _OF_A_FLIGHT = ('start', 'end', 'avoid', 'avoid_m')
-_TRIGGERS = frozenset({'battery_below'})
 _ACTIONS = frozenset({'hand_over'})
 
 
@@ -49,8 +48,6 @@ def _unsayable(r: Requirement) -> Iterator[str]:
     elif isinstance(r, EventRequirement):
         if r.once is False:
             yield 'event once'
-        if r.trigger is not None and r.trigger.on in _TRIGGERS:
-            yield f'trigger {r.trigger.on}'
         if r.action is not None and r.action.do in _ACTIONS:
             yield f'action {r.action.do}'
         if r.action is not None:

@@ -43,6 +43,7 @@ from aurora_bench.prompts.reference_sayable import check_sayable
 from aurora_bench.prompts.reference_spans import StatedSpans
 from aurora_core.spec.parameter import unit_of
 from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.spec.vocabulary import AgentType
 
 _MOST_READINGS = 64
 # Fields of the world that are numbers.
@@ -99,6 +100,9 @@ class _Builder:
             check_sayable(r)
             if isinstance(r, AgentRequirement | UavRequirement):
                 self._body(r)
+        if self._names.undeclared_rsu:
+            lists: Doc = {'placements': [], 'behaviors': []}
+            self._agents['rsu'] = {'id': 'rsu', 'type': AgentType.RSU, **lists}
         for r in self._requirements:
             if r.negate:
                 self._prohibit(r)

@@ -142,7 +142,7 @@ def test_an_extension_is_valid_and_a_wrong_one_is_named(
 SAYABLE = frozenset(
     {
         'count-of-type', 'beyond', 'side', 'turns', 'wind', 'wind-from', 'wind-speed', 'outage',
-        'rate',
+        'rate', 'battery-left', 'clearance', 'battery',
     }  # fmt: skip
 )
 UNSAYABLE = [(name, good) for name, good, *_ in EXTENSIONS if name not in SAYABLE]

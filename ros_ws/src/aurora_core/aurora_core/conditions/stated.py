@@ -22,6 +22,8 @@ from aurora_core.conditions.stated_values import (
 from aurora_core.judging.build import Inputs, Target, Underivable, condition, number
 from aurora_core.judging.mission import mission_arguments
 from aurora_core.judging.quantities.altitude import Altitude
+from aurora_core.judging.quantities.battery import Battery
+from aurora_core.judging.quantities.clearance import Clearance
 from aurora_core.judging.quantities.distance import Distance
 from aurora_core.judging.quantities.event_time import EventTime
 from aurora_core.judging.quantities.horizontal_distance import HorizontalDistance
@@ -45,7 +47,11 @@ _SERIES: dict[str, tuple[type[StatedSeries], int]] = {
     'separation': (Separation, 2),
     'altitude': (Altitude, 1),
     'speed': (Speed, 1),
+    'clearance': (Clearance, 2),
+    'battery': (Battery, 1),
 }
+# Of these what is asked holds from take-off to touchdown, not in the missions alone.
+_IN_THE_AIR = frozenset({'clearance', 'battery'})
 # Quantities that are about mission phases, of one mode only where the third entry says so.
 _PHASES: dict[str, tuple[type[OfMission] | type[OfSight], int, MissionMode | None]] = {
     'tracked_fraction': (TrackedFraction, 2, MissionMode.TRACK),
@@ -56,6 +62,7 @@ _PHASES: dict[str, tuple[type[OfMission] | type[OfSight], int, MissionMode | Non
 # What a place has, too.
 _OF_PLACES = frozenset(
     {'distance', 'horizontal_distance', 'tracked_fraction', 'visible_fraction', 'visible_time'}
+    | {'clearance'}
 )
 _BOUNDS = {'>=': Bound.AT_LEAST, '>': Bound.AT_LEAST, '<=': Bound.AT_MOST, '<': Bound.AT_MOST}
 
@@ -101,6 +108,8 @@ def _bodies(inputs: Inputs, stated: StatedCondition, count: int) -> tuple[str, .
     if len(set(of)) != len(of) or (len(of) != count and not group):
         raise _unknown(stated)
     known = {a.id for a in inputs.spec.agents} | {u.id for u in inputs.spec.uavs}
+    if stated.quantity in _IN_THE_AIR and of[0] not in {u.id for u in inputs.spec.uavs}:
+        raise _unknown(stated)
     for name in of:
         if name not in known and not (is_place(name) and stated.quantity in _OF_PLACES):
             raise _unknown(stated)
@@ -117,6 +126,8 @@ class _When:
 
 
 def _when(inputs: Inputs, stated: StatedCondition, missions: tuple[UavMission, ...]) -> _When:
+    if stated.quantity in _IN_THE_AIR:
+        return _When(window=Window.AIRBORNE)
     flown = tuple(mission_arguments(inputs, mission) for mission in missions)
     if len(flown) == 1:
         return _When(window=Window.PHASE, mission=flown[0])

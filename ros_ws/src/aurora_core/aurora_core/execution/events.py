@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from aurora_core.comm.link import MessageLink, whole_ticks
 from aurora_core.execution.lane_changer import LaneChanger
 from aurora_core.execution.observe import Observation
-from aurora_core.execution.triggers import Progress, holds
+from aurora_core.execution.triggers import BatteryRule, Progress, holds
 from aurora_core.geometry.kernel import norm2
 from aurora_core.mission.machine import MissionMachine
 from aurora_core.mission.plan import UavPlan
@@ -101,6 +101,7 @@ class EventRunner:
         roster: Row order.
         links: Message links.
         arrival_m: An agent this close to a place is there.
+        battery: What its level is counted by.
         rules: When the actions of ground agents are complete.
         lanes: Orders changes of lane.
         set_off: Gives the commands that let the agent of a row drive.
@@ -114,6 +115,7 @@ class EventRunner:
         roster: Roster,
         links: Sequence[MessageLink],
         arrival_m: float,
+        battery: BatteryRule,
         rules: ActionRules,
         lanes: LaneChanger,
         set_off: Callable[[int], list[GroundCommand]],
@@ -140,7 +142,8 @@ class EventRunner:
             e.id: {o.first for o in spec.orders if o.then == e.id and o.first in ids}
             for e in events
         }
-        self._progress = Progress(arrival_m=arrival_m)
+        self._touchdown_m = battery.touchdown_m
+        self._progress = Progress(arrival_m=arrival_m, endurance_s=battery.endurance_s)
         self._messages = 0
 
     @property
@@ -193,6 +196,9 @@ class EventRunner:
                 self._progress.looking.add(machine.plan.id)
             if machine.missions_done:
                 self._progress.missions_done.add(machine.plan.id)
+            if seen.airborne(machine.plan.id, self._touchdown_m):
+                flown = self._progress.airborne_ticks
+                flown[machine.plan.id] = flown.get(machine.plan.id, 0) + 1
         commands = self._drive_on(seen)
         for state in self._states:
             if state.done:

@@ -12,7 +12,7 @@ from aurora_core.mission.machine import TargetMotion
 from aurora_core.quantities import instant
 from aurora_core.quantities.instant_sight import InstantSight
 from aurora_core.quantities.world_geometry import WorldGeometry
-from aurora_core.trace.layout import GroundColumn
+from aurora_core.trace.layout import GroundColumn, UavColumn
 from aurora_core.trace.roster import Roster
 
 FloatArray = npt.NDArray[np.float64]
@@ -106,6 +106,14 @@ class Observation:
     def sight(self, observer: str, target: str) -> tuple[bool, float]:
         """Return whether a body sees a target, and the slant range to that in metres."""
         return self._sight.see(observer, target, self._ground, self._uav)
+
+    def airborne(self, uav: str, touchdown_m: float) -> bool:
+        """Tell whether a UAV is in the air, as `motion.airborne` does."""
+        index = self._roster.uav_index(uav)
+        if index is None:
+            return False
+        row = self._uav[index]
+        return bool(row[UavColumn.LANDED] < 0.5 or row[UavColumn.Z] > touchdown_m)
 
     def flies(self, name: str) -> bool:
         """Tell whether a body is a UAV."""

@@ -24,6 +24,7 @@ from aurora_core.execution.overtaker import Overtaker
 from aurora_core.execution.premises import Premises
 from aurora_core.execution.reports import Reports
 from aurora_core.execution.step_output import StepOutput
+from aurora_core.execution.triggers import BatteryRule
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.mission.machine import MissionMachine
 from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
@@ -59,6 +60,7 @@ class ExecutionSetup:
     Attributes:
         geometry: Solids and places of the world, the same that the monitor judges with.
         arrival_m: An agent this close to a place is there.
+        battery: What the level of a UAV's battery is counted by.
         action_rules: When the actions of ground agents are complete.
         landing_clearance_m: The way to a landing spot keeps this clearance.
         earliest_end_ticks: Runs with an inferred horizon do not end before.
@@ -74,6 +76,7 @@ class ExecutionSetup:
     geometry: WorldGeometry
     landing_clearance_m: float
     arrival_m: float
+    battery: BatteryRule
     action_rules: ActionRules
     horizon_ticks: int
     stated_horizon: bool
@@ -159,6 +162,7 @@ class ScenarioExecutor:
             s.roster,
             s.links,
             s.arrival_m,
+            s.battery,
             s.action_rules,
             self._lanes(),
             self._set_off,

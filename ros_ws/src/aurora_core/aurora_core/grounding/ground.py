@@ -20,10 +20,12 @@ from aurora_core.grounding.flights import FlightPlanner
 from aurora_core.grounding.goals import GoalFinder
 from aurora_core.grounding.groups import GroupPlacer
 from aurora_core.grounding.lane_changers import changes_lane, share_with_another_lane
+from aurora_core.grounding.keep_out import kept_out
 from aurora_core.grounding.laps import Laps
 from aurora_core.grounding.oncoming import OncomingPlacer
 from aurora_core.grounding.pace import fastest_stated_mps, watched_speed_mps
 from aurora_core.grounding.persons import PersonPlacer
+from aurora_core.grounding.places import MapPlaces
 from aurora_core.grounding.planned_flight import PlannedFlight, Rejected, planned_height_m
 from aurora_core.grounding.realised import realised_values
 from aurora_core.grounding.sites import Site, sites, tied_way_m
@@ -118,9 +120,10 @@ class Grounder:
     def _ground(
         self, spec: ScenarioSpec, split: SceneSplit, seed: int
     ) -> GroundedScenario | GroundingFailure:
+        keep_out = kept_out(spec, MapPlaces(self._map))
         planner = FlightPlanner(
             map_model=self._map,
-            airspace=self._air,
+            airspace=self._air.keeping_out(keep_out),
             spots=self._spots,
             types=self._types,
             limits=self._limits,
@@ -179,7 +182,8 @@ class Grounder:
             most = max(reasons, key=lambda r: (reasons[r], r)) if reasons else 'road'
             tried = sum(reasons.values())
             return GroundingFailure(reason=most, tried=tried, rejected_by=reasons)
-        return self._scenario(spec, split, best, scored, run_m, seed, planner, persons)
+        made = self._scenario(spec, split, best, scored, run_m, seed, planner, persons)
+        return made.model_copy(update={'keep_out': keep_out}) if keep_out else made
 
     def _drive_speed(self, spec: ScenarioSpec, split: SceneSplit) -> float:
         stated = [

@@ -271,6 +271,7 @@ class Context:
             flights=flights,
             captured=self._first_captured,
             links=self.links,
+            touchdown_m=touchdown_m,
         )
         return EventTimes(self.view, self.spec, rules)
 

@@ -83,6 +83,14 @@ class MissionDoneTrigger(Element):
     uav: Id
 
 
+class BatteryTrigger(Element):
+    """The battery of a UAV falls below a share of its charge (0..1)."""
+
+    on: Literal['battery_below']
+    uav: Id
+    value: Parameter
+
+
 Trigger = Annotated[
     DistanceTrigger
     | TimeTrigger
@@ -92,7 +100,8 @@ Trigger = Annotated[
     | MessageTrigger
     | SpeedTrigger
     | EventDoneTrigger
-    | MissionDoneTrigger,
+    | MissionDoneTrigger
+    | BatteryTrigger,
     Field(discriminator='on'),
 ]
 

@@ -66,4 +66,6 @@ class QuantityName(StrEnum):
     WIND = 'wind'
     RETURN_DISTANCE = 'return_distance'
     OUTAGE = 'outage'
+    BATTERY = 'battery'
+    CLEARANCE = 'clearance'
     REPORT_GAP = 'report_gap'

@@ -16,6 +16,7 @@ from aurora_core.spec.scenario import (
     AgentAction,
     AltitudeTrigger,
     ArrivalTrigger,
+    BatteryTrigger,
     DistanceTrigger,
     Event,
     EventDoneTrigger,
@@ -172,6 +173,15 @@ def test_speed_of_a_uav(stage: Build, parameter: Make) -> None:
     scene.uav[0, 3:6] = (3.0, 0.0, 4.0)
     scene.step()
     assert _triggered(scene) == [(1, 'e1')]
+
+
+def test_a_battery_is_counted_from_take_off(stage: Build, parameter: Make) -> None:
+    trigger = BatteryTrigger(on='battery_below', uav='uav1', value=parameter(0.9, '1'))
+    scene = stage(events=(_event(trigger),))
+    scene.step(30)  # on the ground it stays full
+    scene.fly('uav1', 0.0, 0.0, 5.0).step(40)
+    # A full one lasts 10 s here: after 20 ticks of 0.05 s in the air 0.9 is left, then less.
+    assert _triggered(scene) == [(50, 'e1')]
 
 
 def test_arrival(stage: Build) -> None:

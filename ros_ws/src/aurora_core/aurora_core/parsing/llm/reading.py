@@ -143,6 +143,7 @@ class TriggerReading(Document):
         'speed_above',
         'event_done',
         'mission_done',
+        'battery_below',
     ]
     subject: Name | None = None
     other: Reference | None = None
@@ -198,6 +199,8 @@ class ConditionReading(Document):
         'event_time',
         'delivery_latency',
         'delivery_ratio',
+        'clearance',
+        'battery',
     ]
     of: tuple[Reference, ...]
     op: Literal['<=', '<', '>=', '>', '==']
