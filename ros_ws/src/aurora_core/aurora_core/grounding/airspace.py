@@ -101,7 +101,14 @@ class Airspace:
 
     def seen_share(self, observers: FloatArray, targets: FloatArray, range_m: float) -> float:
         """Return the share of samples (T, 3) at which a target is in range and in sight."""
+        return float(np.count_nonzero(self.seen(observers, targets, range_m))) / len(observers)
+
+    def seen(
+        self, observers: FloatArray, targets: FloatArray, range_m: float
+    ) -> npt.NDArray[np.bool_]:
+        """Return (T,) where a target is in range and in sight from observers (T, 3), metres."""
         d = targets - observers
         in_range = np.sqrt(d[:, 0] * d[:, 0] + d[:, 1] * d[:, 1] + d[:, 2] * d[:, 2]) <= range_m
         free = self.sight.clearance_series(observers, targets) > 0.0
-        return float(np.count_nonzero(in_range & free)) / len(observers)
+        both: npt.NDArray[np.bool_] = in_range & free
+        return both

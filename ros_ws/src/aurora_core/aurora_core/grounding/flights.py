@@ -11,11 +11,13 @@ from math import cos, pi, sin
 import numpy as np
 import numpy.typing as npt
 
-from aurora_core.geometry.frames import offset_at_bearing
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.airspace import Airspace
-from aurora_core.grounding.beside import side_first, side_offsets, turned_along, with_turns
+from aurora_core.grounding.apart import sharing
+from aurora_core.grounding.beside import side_first, turned_along, with_turns
+from aurora_core.grounding.ends import first_point, last_point
 from aurora_core.grounding.laps import Laps
+from aurora_core.grounding.offsets import Spread, from_afar, is_lost, loses_sight, offsets
 from aurora_core.grounding.pace import moves
 from aurora_core.grounding.places import (
     ROAD_STEP_M,
@@ -52,9 +54,8 @@ Point3 = tuple[float, float, float]
 
 _SIGHT_HEIGHT_PLACE_M = 1.0
 
-# Half the distance of neighbours above one target, as a share of that of hovering ones: well
-# inside the tracking tolerance.
-_SHARED = 0.45
+# Where sight is to be lost now and then, more of the phase than has to be is seen.
+_SPARE = 0.08
 
 # Neighbours on a ring are as far apart as they have to be, to rounding.
 _ROUNDING_M = 1e-6
@@ -76,6 +77,9 @@ class FlightPlanner:
         settings: Search settings.
         sensing_range_m: Of the weather and time of day.
         hover_capture_m: How near each UAV comes to its point before it hovers.
+        apart_m: Distance of UAVs at one height.
+        layer_m: Difference of heights at which they may be over each other.
+        homes_m: Least distance of their starts, where the usual one does not do.
         laps: Plans how often a route is flown.
     """
 
@@ -91,6 +95,9 @@ class FlightPlanner:
         settings: GroundingSettings,
         sensing_range_m: float,
         hover_capture_m: Mapping[str, float],
+        apart_m: float,
+        layer_m: float,
+        homes_m: float,
         laps: Laps,
     ) -> None:
         self._air = airspace
@@ -101,7 +108,8 @@ class FlightPlanner:
         self._settings = settings
         self._range = sensing_range_m
         self._hover_capture_m = hover_capture_m
-        self._apart_m = 2.0 * limits.separation_min_m
+        self._apart_m, self._layer_m, self._wide_m = apart_m, layer_m, homes_m
+        self._spread = Spread(apart_m=apart_m, strict=homes_m > 0.0, bearings=settings.bearings)
         self._routes = RoutePlanner(
             map_model=map_model,
             airspace=airspace,
@@ -200,16 +208,19 @@ class FlightPlanner:
         """Choose the start of a UAV whose missions are planned; it could land there again."""
         if not self._ways_between_are_free(flights, site):
             return Rejected(reason='way_between_missions')
-        first = _first_point(flights[0].plan, site)
+        first = first_point(flights[0].plan, site)
         home = None
-        spots = self._spots.near(first[0], first[1], 6 + 20 * len(taken))
+        spots = self._spots.near(
+            first[0], first[1], (6 + 20 * len(taken)) * (4 if self._wide_m else 1)
+        )
         if flights[0].plan.offset_turns:
             target = site.seat(flights[0].plan.target or '')
             assert target is not None  # it was planned for its seat
             spots = side_first(spots, target.path.position_at(target.arc_m)[:2], first[:2])
         for spot in spots:
             far = all(
-                norm2(spot[0] - x, spot[1] - y) >= self._settings.home_spacing_m for x, y in taken
+                norm2(spot[0] - x, spot[1] - y) >= max(self._settings.home_spacing_m, self._wide_m)
+                for x, y in taken
             )
             top = (spot[0], spot[1], first[2])
             if far and self._air.way_clearance_m((top, first)) >= self._settings.clearance_m:
@@ -234,7 +245,7 @@ class FlightPlanner:
         """Exchange starts so that UAVs at one height do not meet on their first ways."""
         return uncrossed(
             plans,
-            [_first_point(p.missions[0], site) for p in plans],
+            [first_point(p.missions[0], site) for p in plans],
             self._air,
             apart_m=self._apart_m,
             clearance_m=self._settings.clearance_m,
@@ -248,8 +259,8 @@ class FlightPlanner:
         for before, after in pairwise(f.plan for f in flights):
             if before.mode is MissionMode.TRACK:
                 continue
-            x, y, z = _last_point(before)
-            to_x, to_y, to_z = _first_point(after, site)
+            x, y, z = last_point(before)
+            to_x, to_y, to_z = first_point(after, site)
             for height in {z, to_z}:
                 way = ((x, y, height), (to_x, to_y, height))
                 if self._air.way_clearance_m(way) < self._settings.clearance_m:
@@ -277,8 +288,33 @@ class FlightPlanner:
         samples = samples_along(seat.path, seat.arc_m, way_m, self._settings.sample_spacing_m)
         samples = samples if mission.side is None else with_turns(samples)
         targets = _at_height(samples[:, :2], record.height_m / 2.0)
+        share = self._share(spec, mission)
+        if loses_sight(spec, mission):
+            farthest_m = self._limits.uav_standoff_max_m
+            for asked in from_afar(mission, farthest_m):
+                found = self._watching(asked, samples, targets, share, gets_lost=True)
+                if found is not None and found.seen >= self._tolerances.visible_fraction + _SPARE:
+                    return found
+            return Rejected(reason='sight')
+        best = self._watching(mission, samples, targets, share)
+        if best is None:
+            return Rejected(reason='clearance')
+        if best.seen < self._tolerances.visible_fraction:
+            return Rejected(reason='sight')
+        return best
+
+    def _watching(
+        self,
+        mission: UavMission,
+        samples: FloatArray,
+        targets: FloatArray,
+        share: tuple[int, int],
+        *,
+        gets_lost: bool = False,
+    ) -> PlannedFlight | None:
+        """Return the flight that sees most of its target: for `gets_lost` not all along."""
         best: PlannedFlight | None = None
-        for offset in self._offsets(mission, samples[0], self._share(spec, mission)):
+        for offset in offsets(mission, samples[0], self._spread, share):
             beside = samples[:, :2] + np.array(offset)
             if mission.side is not None:
                 beside = turned_along(offset, samples)
@@ -286,58 +322,23 @@ class FlightPlanner:
             clearance = self._air.points_clearance_m(points)
             if clearance < self._settings.clearance_m:
                 continue
-            seen = self._air.seen_share(points, targets, self._range)
+            mask = self._air.seen(points, targets, self._range)
+            if gets_lost and not is_lost(mask):
+                continue
+            seen = float(np.count_nonzero(mask)) / len(mask)
             if best is None or (round(seen, 3), clearance) > (
                 round(best.seen, 3),
                 best.clearance_m,
             ):
                 plan = self._hold_plan(mission, offset_m=offset)
                 best = PlannedFlight(plan=plan, clearance_m=clearance, seen=seen, over_street=0.0)
-        if best is None:
-            return Rejected(reason='clearance')
-        if best.seen < self._tolerances.visible_fraction:
-            return Rejected(reason='sight')
         return best
 
     def _share(self, spec: ScenarioSpec, mission: UavMission) -> tuple[int, int]:
         """Return which one of how many UAVs this is that track one target at one height."""
-        height_m = self._planned_height_m(mission)
-        sharing = [
-            m.uav
-            for m in spec.missions
-            if m.mode is MissionMode.TRACK
-            and (m.target, m.side) == (mission.target, mission.side)
-            and abs(self._planned_height_m(m) - height_m) < self._apart_m
-        ]
-        uavs = list(dict.fromkeys(sharing))
+        same = sharing(spec, mission, self._limits)
+        uavs = list(dict.fromkeys(m.uav for m in same))
         return uavs.index(mission.uav), len(uavs)
-
-    def _offsets(
-        self, mission: UavMission, start: FloatArray, share: tuple[int, int] = (0, 1)
-    ) -> Iterator[tuple[float, float]]:
-        own, count = share
-        standoff = 0.0 if mission.standoff_m is None else mission.standoff_m.value
-        if mission.side is not None:
-            yield from side_offsets(mission.side, standoff, share)
-            return
-        if standoff == 0.0:
-            # Above the target there is room for one; several stand round it.
-            angle = 2.0 * pi * own / count
-            radius_m = 0.0 if count == 1 else _SHARED * self._apart_m / sin(pi / count)
-            yield radius_m * cos(angle), radius_m * sin(angle)
-            return
-        if mission.bearing_deg is not None:
-            yield offset_at_bearing(standoff, mission.bearing_deg.value)
-            return
-        hx, hy = float(start[2]), float(start[3])
-        # Behind the target first, then round it; the first of equal ones is taken. Of several
-        # UAVs each has a sector, with a gap to the next one.
-        bearings = self._settings.bearings
-        first = own * bearings // count + (1 if count > 1 else 0)
-        for k in range(first, (own + 1) * bearings // count):
-            angle = 2.0 * pi * k / bearings
-            c, s = cos(angle), sin(angle)
-            yield (-standoff * (hx * c - hy * s), -standoff * (hx * s + hy * c))
 
     def _hover_places(
         self,
@@ -346,7 +347,7 @@ class FlightPlanner:
         others: Sequence[Point3],
     ) -> Iterator[tuple[float, float]]:
         """Yield the offsets of a hover point: beside the centre where somebody hovers over it."""
-        yield from self._offsets(mission, np.array(centre))
+        yield from offsets(mission, np.array(centre), self._spread)
         stands_off = mission.standoff_m is not None and mission.standoff_m.value > 0.0
         middle = (centre[0], centre[1], self._planned_height_m(mission))
         if stands_off or self._apart(middle, others):
@@ -358,7 +359,11 @@ class FlightPlanner:
                 yield radius_m * cos(angle), radius_m * sin(angle)
 
     def _apart(self, point: Point3, others: Sequence[Point3]) -> bool:
-        return all(_distance(point, other) >= self._apart_m - _ROUNDING_M for other in others)
+        return all(
+            _distance(point, other) >= self._apart_m - _ROUNDING_M
+            or abs(point[2] - other[2]) >= self._layer_m - _ROUNDING_M
+            for other in others
+        )
 
     def _planned_height_m(self, mission: UavMission) -> float:
         return planned_height_m(mission, self._limits, self._tolerances)
@@ -472,7 +477,7 @@ class FlightPlanner:
             assert seat is not None
             way = samples_along(seat.path, seat.arc_m, 900.0, 60.0)
             return [(float(p[0]), float(p[1])) for p in way]
-        x, y, _ = _last_point(plan)
+        x, y, _ = last_point(plan)
         return [(x, y)]
 
 
@@ -483,21 +488,3 @@ def _at_height(points: FloatArray, height_m: float) -> FloatArray:
 
 def _distance(a: Point3, b: Point3) -> float:
     return norm2(norm2(a[0] - b[0], a[1] - b[1]), a[2] - b[2])
-
-
-def _last_point(plan: MissionPlan) -> Point3:
-    last = plan.waypoints[-1] if plan.waypoints else plan.hover_point
-    assert last is not None
-    return last
-
-
-def _first_point(plan: MissionPlan, site: Site) -> Point3:
-    if plan.mode is MissionMode.TRACK:
-        seat = site.seat(plan.target or '')
-        assert seat is not None
-        x, y, hx, hy = seat.path.position_at(seat.arc_m)
-        to_x, to_y = plan.offset_from((hx, hy))
-        return x + to_x, y + to_y, plan.altitude_m
-    if plan.hover_point is not None:
-        return plan.hover_point
-    return plan.waypoints[0]

@@ -13,14 +13,15 @@ from dataclasses import dataclass
 
 from aurora_core.grounding.agents import AgentPlacer
 from aurora_core.grounding.airspace import Airspace
+from aurora_core.grounding.apart import homes_m, layer_m, spacing_m
 from aurora_core.grounding.bends import bends_between
 from aurora_core.grounding.columns import Column, climbs_to_m, columns, nearest_points
 from aurora_core.grounding.convoy import SceneSplit, split_scene
 from aurora_core.grounding.flights import FlightPlanner
 from aurora_core.grounding.goals import GoalFinder
 from aurora_core.grounding.groups import GroupPlacer
-from aurora_core.grounding.lane_changers import changes_lane, share_with_another_lane
 from aurora_core.grounding.keep_out import kept_out
+from aurora_core.grounding.lane_changers import changes_lane, share_with_another_lane
 from aurora_core.grounding.laps import Laps
 from aurora_core.grounding.oncoming import OncomingPlacer
 from aurora_core.grounding.pace import fastest_stated_mps, watched_speed_mps
@@ -136,6 +137,9 @@ class Grounder:
                 uav.id: hover_capture_m(spec, uav.id, self._limits, self._tolerances)
                 for uav in spec.uavs
             },
+            apart_m=spacing_m(spec, self._limits),
+            layer_m=layer_m(spec, self._limits),
+            homes_m=homes_m(spec, self._limits),
             laps=Laps(self._settings),
         )
         run_s = horizon_s(spec, self._limits, self._settings.flight)

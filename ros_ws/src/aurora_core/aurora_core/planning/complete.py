@@ -8,6 +8,7 @@ prompt states is never touched.
 
 from __future__ import annotations
 
+from aurora_core.grounding.apart import layer_m
 from aurora_core.knowledge.limits import Limits
 from aurora_core.parsing import values
 from aurora_core.planning.bounds import bent
@@ -73,8 +74,10 @@ def reporting(spec: ScenarioSpec) -> ScenarioSpec:
         else Link.model_validate({**dict(link), 'rate_hz': values.default('link_rate')})
         for link in spec.links
     )
-    return spec if links == spec.links else ScenarioSpec.model_validate(
-        {**dict(spec), 'links': links}
+    return (
+        spec
+        if links == spec.links
+        else ScenarioSpec.model_validate({**dict(spec), 'links': links})
     )
 
 
@@ -174,9 +177,9 @@ def layered(spec: ScenarioSpec, limits: Limits) -> ScenarioSpec:
 
     Args:
         spec: The request; it is not changed.
-        limits: Limits in force; layers are twice the separation apart.
+        limits: Limits in force; layers are twice the separation apart, or what is asked.
     """
-    step_m = 2.0 * limits.separation_min_m
+    step_m = layer_m(spec, limits)
     taken: dict[str, set[float]] = {}
     for mission in spec.missions:
         if mission.altitude_m.provenance is Provenance.EXPLICIT:

@@ -233,7 +233,10 @@ class Link(Element):
 
     @model_validator(mode='after')
     def _outage_has_a_length(self) -> Self:
-        if self.outage_s is not None and not 0.0 <= self.outage_s[0].value < self.outage_s[1].value:
+        if (
+            self.outage_s is not None
+            and not 0.0 <= self.outage_s[0].value < self.outage_s[1].value
+        ):
             raise ValueError(f'link {self.id}: an outage begins at 0 s or later and then ends')
         if self.rate_hz is not None and self.rate_hz.value <= 0.0:
             raise ValueError(f'link {self.id}: rate_hz is above 0')

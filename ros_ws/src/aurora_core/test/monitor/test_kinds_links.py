@@ -114,11 +114,11 @@ ROWS = (
         margin=0.1 - 7.45,
         what='ends-early',
     ),
-    Row(id='l1.rate', make=lambda: _reports(20, skip=range(0, 1050)), reason=NEVER),
+    Row(id='l1.rate', make=lambda: _reports(20, skip=range(1050)), reason=NEVER),
     # Two steps are allowed.
     Row(id='l1.latency', make=lambda: _reports(20), margin=2.0),
     Row(id='l1.latency', make=lambda: _reports(20, late=7), margin=2.0 - 5.0),
-    Row(id='l1.latency', make=lambda: _reports(20, skip=range(0, 1050)), reason=NEVER),
+    Row(id='l1.latency', make=lambda: _reports(20, skip=range(1050)), reason=NEVER),
     # Reports pass every second: at 20.5 s nothing, from 20 to 30 s the middle one is 5 s deep.
     Row(id='l1.outage', make=lambda: _out(19.9, 20.8), margin=0.5 - 0.1, within=1e-6),
     Row(id='l1.outage', make=lambda: _out(20.0, 30.0), margin=0.5 - 5.0),

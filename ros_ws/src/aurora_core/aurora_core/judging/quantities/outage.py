@@ -61,9 +61,7 @@ def implied(inputs: Inputs, link: Link, outage_s: tuple[Parameter, Parameter]) -
         signal=f'passed_in_outage({link.id})',
         of=(link.sender, link.receiver),
         target=Target(op='<=', threshold=inputs.tolerances.outage_s, unit='s'),
-        arguments=Outage(
-            **inputs.common, link=link.id, from_s=begins.value, to_s=ends.value
-        ),
+        arguments=Outage(**inputs.common, link=link.id, from_s=begins.value, to_s=ends.value),
         source=Source(
             ids=(link.id,), spans=(begins.span, ends.span), provenance=begins.provenance
         ),

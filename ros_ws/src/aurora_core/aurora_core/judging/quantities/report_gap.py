@@ -64,11 +64,11 @@ class ReportGap(OfLink):
 
 def implied(inputs: Inputs, link: Link, rate_hz: Parameter) -> Condition:
     """Return that a body reports as often as it is said to."""
-    period_s = 1.0 / rate_hz.value
+    rate, period_s = number(rate_hz.value), 1.0 / rate_hz.value
     slack_s = inputs.tolerances.rate_share * period_s
     return condition(
         id=f'{link.id}.rate',
-        sentence=f'{link.sender} reports to {link.receiver} {number(rate_hz.value)} times a second',
+        sentence=f'{link.sender} reports to {link.receiver} {rate} times a second',
         signal=f'report_gap_off({link.id})',
         of=(link.sender, link.receiver),
         target=Target(op='<=', threshold=slack_s, unit='s'),
