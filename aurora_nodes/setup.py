@@ -24,6 +24,7 @@ setup(
             'parser = aurora_nodes.parser:main',
             'grounding = aurora_nodes.grounding:main',
             'executor = aurora_nodes.executor:main',
+            'repair = aurora_nodes.repair:main',
             'monitor = aurora_nodes.monitor:main',
             'recorder = aurora_nodes.recorder:main',
             'replay = aurora_nodes.replay:main',

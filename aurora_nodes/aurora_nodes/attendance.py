@@ -17,8 +17,9 @@ from aurora_ros.roll_call import Question, RollCall
 # In the order of dependence: of several dead ones the first is named.
 _ALWAYS = ('sync', 'sumo_bridge', 'recorder', 'monitor', 'executor')
 _AIR = 'uav_bridge'
+_REPAIR = 'repair'  # without it a violated run ends with its first verdict
 _AT_WORK = ('grounding', 'parser')  # needed while they work; the call to them notices
-EVERYBODY = (*_ALWAYS, _AIR, *_AT_WORK)
+EVERYBODY = (*_ALWAYS, _AIR, *_AT_WORK, _REPAIR)
 _UNKNOWN = (0, 0)  # process of a node that no heartbeat has told of
 _PAUSE_S = 0.05  # between two roll calls while somebody is missing
 
@@ -69,7 +70,7 @@ class Attendance:
             AuroraError: Somebody is missing; the first one is named.
         """
         supervision = self._supervision
-        everybody = (*_ALWAYS, *_AT_WORK, *self._known_air())
+        everybody = (*_ALWAYS, *_AT_WORK, *self._known())
         deadline_s = time.monotonic() + supervision.restart_s
         while not cancelled():
             absent = self._roll_call.absent(
@@ -129,9 +130,17 @@ class Attendance:
         self._needed = _ALWAYS
         self._processes = {name: self._watch.process(name) for name in _ALWAYS}
 
-    def _known_air(self) -> tuple[str, ...]:
-        """Return uav_bridge when there is one: without it, prompts on the ground still run."""
-        return (_AIR,) if self._watch.was_heard(_AIR) else ()
+    def _known(self) -> tuple[str, ...]:
+        """Return who is not needed by every run and is there.
+
+        Without uav_bridge prompts on the ground still run, without repair those that hold.
+        """
+        return tuple(name for name in (_AIR, _REPAIR) if self._watch.was_heard(name))
+
+    @property
+    def has_repair(self) -> bool:
+        """Whether a node repairs."""
+        return self._watch.was_heard(_REPAIR)
 
     def _dead(self) -> AuroraError | None:
         for name in self._needed:

@@ -4,6 +4,10 @@
 
 from __future__ import annotations
 
+from pydantic import ValidationError
+
+from aurora_core.errors import SpecError
+from aurora_core.outcomes.repair import RepairPlan
 from aurora_core.pipeline.functions import check_stage, ground_stage
 from aurora_core.pipeline.knowledge import installed_knowledge
 from aurora_msgs.srv import Check, GroundScenario
@@ -32,7 +36,9 @@ class GroundingNode(AuroraNode):
         self, request: GroundScenario.Request, response: GroundScenario.Response
     ) -> GroundScenario.Response:
         options = run_request('', request.options_json)
-        outcome = ground_stage(self._known, agsg(request.agsg), options.seed)
+        outcome = ground_stage(
+            self._known, agsg(request.agsg), options.seed, _plan(request.plan_json)
+        )
         response.outcome_json = outcome.model_dump_json()
         response.grounded = outcome.agsg is not None
         if outcome.agsg is not None:
@@ -45,6 +51,13 @@ class GroundingNode(AuroraNode):
         response.result = verdict.result.value
         response.feasibility_json = verdict.model_dump_json()
         return response
+
+
+def _plan(text: str) -> RepairPlan | None:
+    try:
+        return RepairPlan.model_validate_json(text) if text else None
+    except ValidationError as err:
+        raise SpecError(f'plan_json is not valid: {err}') from err
 
 
 def main() -> int:

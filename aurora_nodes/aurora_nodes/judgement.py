@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from aurora_core.outcomes.verdict import Finding, Verdict, VerdictStatus
 from aurora_core.pipeline.knowledge import Knowledge
 from aurora_core.pipeline.verification import graph_of, verify_content
+from aurora_core.ports.progress import Progress, quietly
 from aurora_core.report.comparison import compare
 from aurora_core.trace.bag_reader import BagContent
 from aurora_core.trace.hashing import trace_sha256
@@ -37,13 +38,16 @@ class Judgement:
     verdict: Verdict
 
 
-def judge(known: Knowledge, content: BagContent, where: str) -> Judgement:
+def judge(
+    known: Knowledge, content: BagContent, where: str, progress: Progress = quietly
+) -> Judgement:
     """Compute every margin of a run.
 
     Args:
         known: What is installed here.
         content: Its messages, from a bag or from the wire.
         where: Where they come from, for errors.
+        progress: Called whenever a piece of the work is done.
 
     Raises:
         VerificationError: There is no graph, or the conditions do not fit the trace.
@@ -58,7 +62,7 @@ def judge(known: Knowledge, content: BagContent, where: str) -> Judgement:
         trace_sha256=trace_sha256(trace, content.world),
         last_tick=last_tick,
         end_s=trace.time_s(last_tick),
-        verdict=verify_content(known, content, graph),
+        verdict=verify_content(known, content, graph, progress=progress),
     )
 
 

@@ -76,7 +76,12 @@ class MonitorNode(AuroraNode):
     ) -> VerifyTrace.Response:
         bag, asked = Path(request.bag_uri), request.agsg.sha256
         judgement = self._beside(
-            lambda: judge(self._known, read_bag(bag, self._definitions), str(bag))
+            lambda: judge(
+                self._known,
+                read_bag(bag, self._definitions),
+                str(bag),
+                self.heartbeat.came_further,
+            )
         )
         if asked and asked != judgement.graph_sha256:
             raise VerificationError(

@@ -17,12 +17,19 @@ from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.feasibility import FeasibilityVerdict
 from aurora_core.outcomes.grounding import GroundingOutcome
 from aurora_core.outcomes.parse import ParseOutcome
+from aurora_core.outcomes.repair import (
+    Attempt,
+    Proposal,
+    ProposalOutcome,
+    RepairPlan,
+    past_json,
+)
 from aurora_core.outcomes.verdict import Verdict
 from aurora_core.pipeline.stages import ExecutionResult, RunControl, RunRequest
 from aurora_core.ports.language_model import ModelCall
 from aurora_msgs.action import ExecuteScenario
 from aurora_msgs.msg import Verdict as VerdictMessage
-from aurora_msgs.srv import Check, GroundScenario, ParsePrompt, VerifyTrace
+from aurora_msgs.srv import Check, GroundScenario, ParsePrompt, ProposeRepair, VerifyTrace
 from aurora_nodes.answers import PublishedVerdicts, hold
 from aurora_nodes.attendance import Attendance
 from aurora_ros import interfaces as on
@@ -30,10 +37,11 @@ from aurora_ros.call import Caller
 from aurora_ros.conversions.messages import agsg as read_graph
 from aurora_ros.conversions.messages import agsg_message
 from aurora_ros.conversions.options import options_json
+from aurora_ros.conversions.verdict import verdict_message
 from aurora_ros.interfaces import Call
 from aurora_ros.parameters import require_positive
 
-CALLS = (on.PARSE, on.GROUND_SCENARIO, on.CHECK, on.EXECUTE, on.VERIFY)
+CALLS = (on.PARSE, on.GROUND_SCENARIO, on.CHECK, on.EXECUTE, on.VERIFY, on.REPAIR)
 
 _Document = TypeVar('_Document', bound=Document)
 
@@ -49,13 +57,14 @@ class StageLimits:
     execute_fixed_s: float
     execute_per_simulated_s: float
     verify_s: float
+    repair_s: float
     twin_limit_s: float
 
     def __post_init__(self) -> None:
         require_positive(
             self, 'parse_s', 'parse_model_s', 'ground_s', 'check_s', 'execute_fixed_s', 'verify_s'
         )
-        require_positive(self, 'execute_per_simulated_s', 'twin_limit_s')
+        require_positive(self, 'execute_per_simulated_s', 'repair_s', 'twin_limit_s')
 
 
 class RosStages:
@@ -114,9 +123,12 @@ class RosStages:
                 hold(on.PARSE, prompt=(request.prompt, spec.prompt))
         return outcome
 
-    def ground(self, agsg: Agsg, request: RunRequest) -> GroundingOutcome:
+    def ground(
+        self, agsg: Agsg, request: RunRequest, plan: RepairPlan | None = None
+    ) -> GroundingOutcome:
         """Let the grounding node find places and a schedule."""
-        response = self._stage(on.GROUND_SCENARIO, GroundScenario, agsg, request)
+        more = {} if plan is None else {'plan_json': plan.model_dump_json()}
+        response = self._stage(on.GROUND_SCENARIO, GroundScenario, agsg, request, **more)
         outcome = _document(GroundingOutcome, response.outcome_json, on.GROUND_SCENARIO)
         graph = read_graph(response.agsg) if response.grounded else None
         if graph is not None:
@@ -127,6 +139,7 @@ class RosStages:
                 request=(agsg.spec, graph.spec),
                 iteration=(agsg.iteration, graph.iteration),
                 seed=(request.seed, seed),
+                plan=(plan, None if graph.grounding is None else graph.grounding.repair),
             )
         return GroundingOutcome(**{**dict(outcome), 'agsg': graph})
 
@@ -180,6 +193,7 @@ class RosStages:
                 agsg=agsg_message(agsg, self._run_id), bag_uri=str(bag.absolute())
             ),
             self._limits.verify_s,
+            while_working=True,
         )
         answer = response.verdict
         verdict = _document(Verdict, answer.verdict_json, on.VERIFY)
@@ -199,12 +213,41 @@ class RosStages:
         self._caller.check_alone()
         return verdict
 
-    def _stage(self, call: Call, kind: Any, agsg: Agsg, request: RunRequest) -> Any:
+    def propose(
+        self, agsg: Agsg, verdict: Verdict, bag: Path, past: tuple[Attempt, ...]
+    ) -> Proposal:
+        """Let the repair node propose how to realise a violated request otherwise."""
+        if not self._attendance.has_repair:
+            return Proposal(
+                outcome=ProposalOutcome.EXHAUSTED,
+                reason='nobody repairs: start it with ros2 run aurora_nodes repair',
+            )
+        response = self._caller.service(
+            on.REPAIR,
+            ProposeRepair.Request(
+                agsg=agsg_message(agsg, self._run_id),
+                verdict=verdict_message(
+                    verdict,
+                    run_id=self._run_id,
+                    iteration=agsg.iteration,
+                    end_s=0.0,
+                    trace_sha256=self._trace_sha256,
+                ),
+                bag_uri=str(bag.absolute()),
+                past_json=past_json(past),
+            ),
+            self._limits.repair_s,
+        )
+        proposal = _document(Proposal, response.proposal_json, on.REPAIR)
+        hold(on.REPAIR, outcome=(proposal.outcome.value, response.outcome))
+        return proposal
+
+    def _stage(self, call: Call, kind: Any, agsg: Agsg, request: RunRequest, **more: str) -> Any:
         limit_s = self._limits.check_s if call is on.CHECK else self._limits.ground_s
         return self._caller.service(
             call,
             kind.Request(
-                agsg=agsg_message(agsg, self._run_id), options_json=options_json(request)
+                agsg=agsg_message(agsg, self._run_id), options_json=options_json(request), **more
             ),
             limit_s,
         )

@@ -42,6 +42,7 @@ LIMITS = StageLimits(
     execute_fixed_s=1.0,
     execute_per_simulated_s=1.0,
     verify_s=1.0,
+    repair_s=1.0,
     twin_limit_s=1.0,
 )
 
@@ -52,7 +53,7 @@ class Graph:
     def __init__(self, answer: Any, published: Any = None) -> None:
         self.answer, self.published = answer, published
 
-    def service(self, *_arguments: Any) -> Any:
+    def service(self, *_arguments: Any, **_options: Any) -> Any:
         return self.answer
 
     def action(self, *_arguments: Any, **_options: Any) -> Any:

@@ -30,6 +30,7 @@ def _work(options: argparse.Namespace, folder: Path) -> OutcomeWork:
         folder=folder,
         keep=options.keep is not None,
         map_name=options.map,
+        repair=options.repair,
         model=options.model,
         transcripts=options.transcripts,
     )

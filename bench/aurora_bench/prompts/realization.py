@@ -46,7 +46,7 @@ def realized(prompt: AnnotatedPrompt, folder: Path) -> tuple[Doc | None, RunRepo
         The realisation, None when the run is not verified, and the run's report.
     """
     run_folder = RunFolder(folder, new_run_id(datetime.now(UTC), b'ref'))
-    request = RunRequest(prompt=prompt.prompt, seed=SEED)
+    request = RunRequest(prompt=prompt.prompt, seed=SEED, repair=0)
     stages = WatchedStages(_with_clause(prompt.reference or {}))
     report = run(request, stages, stages.known, run_folder, RunControl(), MonotonicClock())
     if report.status != 'verified':

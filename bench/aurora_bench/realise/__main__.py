@@ -17,7 +17,10 @@ REALISE = Ruler(
     of=' feasible',
     takes=lambda prompt: prompt.feasibility != 'infeasible',
     work=lambda options, folder: RealiseWork(
-        folder=folder, keep=options.keep is not None, map_name=options.map
+        folder=folder,
+        keep=options.keep is not None,
+        map_name=options.map,
+        repair=options.repair,
     ),
 )
 

@@ -27,6 +27,7 @@ from aurora_bench.rulers.summary import (
     as_json,
     detail_tables,
     mean_seconds,
+    repair_line,
     right_share,
     silent_failures,
     total_tables,
@@ -133,6 +134,13 @@ def _parser(ruler: Ruler) -> argparse.ArgumentParser:
         help='each prompt with each of them',
     )
     parser.add_argument('--jobs', type=int, default=1, metavar='N', help='worker processes')
+    parser.add_argument(
+        '--repair',
+        type=int,
+        default=None,
+        metavar='N',
+        help='runs that repair may spend on each (default: as aurora run; 0: none)',
+    )
     parser.add_argument('--map', default='downtown', help='map of the runs')
     parser.add_argument('--only', default='', help='prompts whose id begins so')
     parser.add_argument(
@@ -162,6 +170,8 @@ def _parser(ruler: Ruler) -> argparse.ArgumentParser:
 def _check(options: argparse.Namespace) -> None:
     if options.jobs < 1:
         raise ConfigError(f'--jobs needs at least 1 worker, found {options.jobs}')
+    if options.repair is not None and options.repair < 0:
+        raise ConfigError(f'--repair needs a number from 0 on, found {options.repair}')
     if not options.limit_s > 0.0:
         raise ConfigError(f'--limit-s needs more than 0 s, found {options.limit_s:g}')
     if options.map not in list_maps():
@@ -198,7 +208,13 @@ def _journal(
     head = JournalHead(
         campaign=ruler.name,
         files={file.name: file.sha256 for file in files},
-        options={'map': options.map, **own, **product_versions(), 'code': code},
+        options={
+            'map': options.map,
+            'repair': str(options.repair),
+            **own,
+            **product_versions(),
+            'code': code,
+        },
     )
     path = journal_path(place, options.name)
     return Journal(path, head, resume=options.resume is not None)
@@ -271,7 +287,8 @@ def _tell(
         len(silent_failures(judged)),
         unchecked_share(judged),
     )
-    head = [file_line(file) for file in files]
+    head = [repair_line(ruler.word, judged)] if judged else []
+    head += [file_line(file) for file in files]
     document: dict[str, Any] = {
         'files': [
             {'name': f.name, 'sha256': f.sha256, 'prompts': len(f.prompts), 'beyond': f.beyond}
@@ -282,6 +299,7 @@ def _tell(
         'seeds': list(options.seeds),
         'jobs': options.jobs,
         'limit_s': options.limit_s,
+        'repair': options.repair,
         'wall_s': wall_s,
         **{name: str(getattr(options, name)) for name in ruler.own_options},
         **as_json(judged, details=not options.totals),

@@ -40,12 +40,14 @@ class RunWork(ABC):
         folder: Runs go below it.
         keep: They stay there.
         map_name: Map of the runs.
+        repair: Co-simulations that repair may spend; None: as the command.
         check: The checker; None: the independent one.
     """
 
     folder: Path
     keep: bool = False
     map_name: str = 'downtown'
+    repair: int | None = None
     check: Check | None = None
     _seconds: dict[str, float] = field(default_factory=dict, init=False)
 
@@ -111,6 +113,8 @@ class RunWork(ABC):
             said=said,
             trace_sha256=report.trace.sha256 if report.trace is not None else '',
             motion_sha256=report.trace.motion_sha256 if report.trace is not None else '',
+            repairs=max(0, report.metrics.iterations - 1),
+            repaired=_repaired(report),
         )
 
     def _checked(self, trial: Trial, ran: _Ran) -> tuple[tuple[Said, ...], Found | None]:
@@ -155,7 +159,12 @@ class RealiseWork(RunWork):
             )
         finally:
             self._seconds['reference'] = time.perf_counter() - begin
-        request = RunRequest(prompt=trial.prompt.prompt, seed=trial.seed, map_name=self.map_name)
+        request = RunRequest(
+            prompt=trial.prompt.prompt,
+            seed=trial.seed,
+            map_name=self.map_name,
+            repair=self.repair,
+        )
         return self.verified(trial, self.ran(request, place, WatchedStages(spec)))
 
 
@@ -180,6 +189,7 @@ class OutcomeWork(RunWork):
             model=self.model,
             transcripts=self.transcripts,
             history_frozen=True,
+            repair=self.repair,
         )
         ran = self.ran(request, place, WatchedStages())
         if trial.prompt.feasibility != 'infeasible':
@@ -192,6 +202,11 @@ class OutcomeWork(RunWork):
             words=found[1] if found is not None else (),
             summary=ran.report.summary,
         )
+
+
+def _repaired(report: RunReport) -> bool:
+    """Tell whether a run was verified by another realisation than its first one."""
+    return report.status is Status.VERIFIED and report.metrics.iterations > 1
 
 
 def refusal_cause(prompt: AnnotatedPrompt, report: RunReport) -> Found | None:

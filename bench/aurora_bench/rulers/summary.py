@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
+from statistics import median
 from typing import Any
 
 from aurora_bench.fidelity.summary import share_json
@@ -20,6 +21,23 @@ VERIFIED = 'verified'
 def right_share(trials: Sequence[JudgedTrial]) -> Share:
     """Return how many trials ended as they should."""
     return Share(met=sum(t.right for t in trials), total=len(trials))
+
+
+def repair_line(word: str, trials: Sequence[JudgedTrial]) -> str:
+    """Return what repair added: how many are right without it, and what it took.
+
+    Args:
+        word: What a right trial is called.
+        trials: All of them.
+    """
+    added = [t for t in trials if t.right and t.repaired]
+    tried = [t for t in trials if t.repairs]
+    spent = f', median co-simulations {median(t.repairs for t in added):g}' if added else ''
+    without = sum(t.right for t in trials) - len(added)
+    return (
+        f'{word} {without} of {len(trials)} without repair, {len(added)} more by it '
+        f'(of {len(tried)} tried{spent})'
+    )
 
 
 def silent_failures(trials: Sequence[JudgedTrial]) -> tuple[JudgedTrial, ...]:
@@ -115,6 +133,8 @@ def as_json(trials: Sequence[JudgedTrial], *, details: bool) -> dict[str, Any]:
             'of': unchecked_share(trials).total,
         },
         'accepted': len(accepted(trials)),
+        'repaired': sum(t.right and t.repaired for t in trials),
+        'repair_tried': sum(t.repairs > 0 for t in trials),
         'by_category': _split_json(trials, lambda t: t.category),
         'by_feasibility': _split_json(trials, lambda t: t.feasibility),
         'by_cause': {c.value: sum(t.cause is c for t in trials) for c in Cause},

@@ -60,6 +60,8 @@ class JudgedTrial(Document):
         said: The checker's answers; () for a run that is not verified.
         trace_sha256: '' without a trace.
         motion_sha256: '' without a trace.
+        repairs: Co-simulations that repair spent.
+        repaired: The first realisation did not hold, and another one does.
         seconds: Wall seconds by stage.
     """
 
@@ -76,6 +78,8 @@ class JudgedTrial(Document):
     said: tuple[Said, ...] = ()
     trace_sha256: str = ''
     motion_sha256: str = ''
+    repairs: int = 0
+    repaired: bool = False
     seconds: Mapping[str, FiniteFloat] = {}
 
     @property

@@ -9,6 +9,7 @@ from aurora_cli.local_engine import LocalStages
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.grounding import GroundingOutcome
 from aurora_core.outcomes.parse import ParseOutcome
+from aurora_core.outcomes.repair import RepairPlan
 from aurora_core.pipeline.functions import understood
 from aurora_core.pipeline.stages import RunRequest
 from aurora_core.spec.scenario import ScenarioSpec
@@ -37,7 +38,11 @@ class WatchedStages(LocalStages):
             return super().parse(request)
         return understood(self.known, ParseOutcome(spec=self._spec))
 
-    def ground(self, agsg: Agsg, request: RunRequest) -> GroundingOutcome:
-        """Ground the graph and remember the outcome."""
-        self.grounding = super().ground(agsg, request)
-        return self.grounding
+    def ground(
+        self, agsg: Agsg, request: RunRequest, plan: RepairPlan | None = None
+    ) -> GroundingOutcome:
+        """Ground the graph and remember the first outcome."""
+        outcome = super().ground(agsg, request, plan)
+        if plan is None:
+            self.grounding = outcome
+        return outcome

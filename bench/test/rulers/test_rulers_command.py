@@ -83,8 +83,9 @@ def test_the_last_line_and_the_causes_count_every_trial(
 ) -> None:
     assert measure(cheap, [str(file), '--results', str(tmp_path / 'res')]) == 0
     printed = capsys.readouterr()
-    *_, about_file, last = printed.out.splitlines()
+    *_, repaired, about_file, last = printed.out.splitlines()
     assert last == LAST
+    assert repaired == 'realised 2 of 5 without repair, 0 more by it (of 0 tried)'
     assert about_file.startswith('mine/own.jsonl  sha256 ')
     assert '[5/5]' in printed.err
     found = results(tmp_path / 'res')

@@ -48,7 +48,13 @@ def verified(monkeypatch: pytest.MonkeyPatch) -> None:
         (bag / 'metadata.yaml').write_text('')
         trace = SimpleNamespace(bag=bag.name, sha256='ab', motion_sha256='cd')
         timing = {'execute': 1.0}
-        return SimpleNamespace(status=Status.VERIFIED, summary='', trace=trace, timing=timing)
+        return SimpleNamespace(
+            status=Status.VERIFIED,
+            summary='',
+            trace=trace,
+            timing=timing,
+            metrics=SimpleNamespace(iterations=1),
+        )
 
     monkeypatch.setattr(runs, 'run', run)
 

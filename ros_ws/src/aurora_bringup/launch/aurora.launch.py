@@ -18,6 +18,7 @@ _NODES = (
     ('aurora_nodes', 'executor'),
     ('aurora_nodes', 'grounding'),
     ('aurora_nodes', 'parser'),
+    ('aurora_nodes', 'repair'),
     ('aurora_nodes', 'orchestrator'),
 )
 

@@ -21,6 +21,7 @@ AURORA_NODES=(
   'aurora_nodes executor'
   'aurora_nodes grounding'
   'aurora_nodes parser'
+  'aurora_nodes repair'
   'aurora_nodes orchestrator'
 )
 AURORA_NAMES=("${AURORA_NODES[@]#* }")

@@ -10,7 +10,7 @@ AURORA_STOP_GROUPS=(
   'sumo_bridge uav_bridge'
   'sync'
   'recorder'
-  'monitor grounding parser orchestrator uav_sim'
+  'monitor grounding parser repair orchestrator uav_sim'
 )
 
 # Each signal and how long it may take, in tenths of a second.

@@ -19,7 +19,7 @@ import pytest
 SCRIPTS = Path(__file__).resolve().parents[1] / 'scripts'
 NODES = (
     'uav_sim', 'sync', 'sumo_bridge', 'uav_bridge', 'recorder',
-    'monitor', 'executor', 'grounding', 'parser', 'orchestrator',
+    'monitor', 'executor', 'grounding', 'parser', 'repair', 'orchestrator',
 )  # fmt: skip
 DEADLINE_S = 20.0
 

@@ -116,6 +116,7 @@ class Session:
         model: str = 'offline',
         engine: Literal['local', 'ros'] = 'local',
         faults: Iterable[Fault | Mapping[str, Any]] = (),
+        repair: int | None = None,
         control: RunControl | None = None,
     ) -> Run:
         """Take a prompt through the whole chain. Other arguments: see `parse`.
@@ -132,6 +133,7 @@ class Session:
             engine: `local` (this process) or `ros` (the graph that runs, else one that is started
                 for the run; its nodes write to standard error).
             faults: Injected run-time faults.
+            repair: Runs that repair may spend after a violation; None: as the configuration says.
             control: Progress out, cancel in.
 
         Raises:
@@ -145,6 +147,7 @@ class Session:
             model=model,
             engine=engine,
             faults=tuple(faults),
+            repair=repair,
         )
         control = RunControl() if control is None else control
         done = run_request(request, (self._out if out is None else Path(out)).absolute(), control)
@@ -164,7 +167,7 @@ class Session:
 
         Args:
             path: Run folder, bag folder or MCAP file.
-            iteration: Repair iteration of a run folder, from 0; None: the last one.
+            iteration: Repair iteration of a run folder, from 0; None: the reported one.
             as_recorded: Judge by the version, limits, tolerances and map that it was recorded
                 with, though others are installed here.
 

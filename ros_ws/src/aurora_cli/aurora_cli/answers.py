@@ -128,7 +128,21 @@ def run_request(
 
         report, path = run_over_ros(request, root, control, tell)
         return Run(report=report, folder=path)
-    stages = LocalStages(installed())
+    return run_stages(request, LocalStages(installed()), root, control)
+
+
+def run_stages(request: RunRequest, stages: LocalStages, root: Path, control: RunControl) -> Run:
+    """Run a request with stages of this process; without picture and page.
+
+    Args:
+        request: Prompt and options.
+        stages: What is called.
+        root: Folder of the run folders, absolute.
+        control: Progress and cancel.
+
+    Raises:
+        AuroraError: The run folder cannot be written.
+    """
     folder, manifest = new_folder(root)
     report = run(
         request,
@@ -141,7 +155,14 @@ def run_request(
         manifest=manifest,
         outputs=write_report,
     )
-    return Run(report=report, folder=folder.path, content=stages.verified)
+    return Run(report=report, folder=folder.path, content=_judged(report, folder, stages))
+
+
+def _judged(report: RunReport, folder: RunFolder, stages: LocalStages) -> BagContent | None:
+    """Return the bag that the report is about, when it was the last one to be read."""
+    if report.trace is None or folder.path / report.trace.bag != stages.verified_bag:
+        return None
+    return stages.verified
 
 
 def new_folder(root: Path) -> tuple[RunFolder, dict[str, Any]]:

@@ -11,6 +11,7 @@ from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.feasibility import FeasibilityVerdict
 from aurora_core.outcomes.grounding import GroundingOutcome
 from aurora_core.outcomes.parse import ParseOutcome
+from aurora_core.outcomes.repair import Attempt, Proposal, RepairPlan
 from aurora_core.outcomes.verdict import Verdict
 from aurora_core.pipeline import functions
 from aurora_core.pipeline.knowledge import Knowledge
@@ -29,19 +30,23 @@ class LocalStages:
 
     Attributes:
         verified: The bag that the last verdict is about, as it was read back; None before.
+        verified_bag: Where that bag lies.
     """
 
     def __init__(self, known: Knowledge) -> None:
         self.known = known
         self.verified: BagContent | None = None
+        self.verified_bag: Path | None = None
 
     def parse(self, request: RunRequest) -> ParseOutcome:
         """Read the prompt."""
         return read_prompt(self.known, request)
 
-    def ground(self, agsg: Agsg, request: RunRequest) -> GroundingOutcome:
+    def ground(
+        self, agsg: Agsg, request: RunRequest, plan: RepairPlan | None = None
+    ) -> GroundingOutcome:
         """Ground the graph."""
-        return functions.ground_stage(self.known, agsg, request.seed)
+        return functions.ground_stage(self.known, agsg, request.seed, plan)
 
     def check(self, agsg: Agsg, request: RunRequest) -> FeasibilityVerdict:
         """Judge feasibility."""
@@ -79,4 +84,11 @@ class LocalStages:
     def verify(self, agsg: Agsg, bag: Path) -> Verdict:
         """Recompute every margin from the bag."""
         self.verified, recorded = load_bag(bag)
+        self.verified_bag = bag
         return verify_content(self.known, self.verified, recorded)
+
+    def propose(
+        self, agsg: Agsg, verdict: Verdict, bag: Path, past: tuple[Attempt, ...]
+    ) -> Proposal:
+        """Propose how to realise a violated request otherwise."""
+        return functions.repair_stage(self.known, agsg, verdict, past)

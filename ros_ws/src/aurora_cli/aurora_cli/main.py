@@ -70,9 +70,16 @@ Transcripts = Annotated[
 ]
 Seed = Annotated[int, typer.Option(help='Seed of everything that is drawn.')]
 Map = Annotated[str, typer.Option('--map', help='Map, see: aurora map list.')]
+Repair = Annotated[
+    int | None,
+    typer.Option(
+        min=0, metavar='N', help='Runs that repair may spend (default: see config/repair.yaml).'
+    ),
+]
+NoRepair = Annotated[bool, typer.Option('--no-repair', help='End with the first verdict.')]
 RunOrBag = Annotated[str, typer.Argument(metavar='RUN_OR_BAG', help='Run folder, run id or bag.')]
 Iteration = Annotated[
-    int | None, typer.Option(min=0, help='Repair iteration, counted from 0; default: the last.')
+    int | None, typer.Option(min=0, help='Repair iteration, from 0; default: the one reported.')
 ]
 Plots = Annotated[
     Path | None,
@@ -104,6 +111,8 @@ def run_prompt(
     allow_relax: Annotated[
         bool, typer.Option('--allow-relax', help='Repair may change the request itself.')
     ] = False,
+    repair: Repair = None,
+    no_repair: NoRepair = False,
     fault: Annotated[
         list[str] | None,
         typer.Option(metavar='JSON', help='Inject a run-time fault (for tests; repeatable).'),
@@ -129,6 +138,7 @@ def run_prompt(
             map_name=map_name,
             out=out,
             allow_relax=allow_relax,
+            repair=0 if no_repair else repair,
             seeds=seeds,
             faults=tuple(fault or ()),
         )
@@ -178,6 +188,23 @@ def verify_bag(
         return verify_command(
             run_or_bag, iteration, plots, as_recorded=as_recorded, as_json=as_json
         )
+
+    finish(command, as_json=as_json)
+
+
+@app.command('repair')
+def repair_run(
+    run_or_bag: RunOrBag,
+    repair: Repair = None,
+    out: Annotated[Path, typer.Option(help='Folder of the run folders.')] = Path('runs'),
+    as_json: Json = False,
+) -> None:
+    """Realise a recorded, violated request otherwise, in a run of its own."""
+
+    def command() -> int:
+        from aurora_cli.commands.repair import repair_command
+
+        return repair_command(run_or_bag, repair, out, as_json=as_json)
 
     finish(command, as_json=as_json)
 

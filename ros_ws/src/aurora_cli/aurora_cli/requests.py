@@ -37,6 +37,7 @@ class RunOptions:
     map_name: str = 'downtown'
     out: Path = Path('runs')
     allow_relax: bool = False
+    repair: int | None = None
     seeds: int | None = None
     faults: tuple[str, ...] = ()
 
@@ -75,6 +76,7 @@ def checked(options: RunOptions) -> RunRequest:
             'history_frozen': options.freeze_history,
             'transcripts': _absolute_folder(options.transcripts),
             'allow_relax': options.allow_relax,
+            'repair': options.repair,
             'faults': tuple(fault(text) for text in options.faults),
         }
     )

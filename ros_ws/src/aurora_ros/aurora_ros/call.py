@@ -124,7 +124,13 @@ class Caller:
             raise second_one(stranger)
 
     def service(
-        self, call: Call, request: Any, limit_s: float, *, await_restart: bool = True
+        self,
+        call: Call,
+        request: Any,
+        limit_s: float,
+        *,
+        await_restart: bool = True,
+        while_working: bool = False,
     ) -> Any:
         """Call a prepared service and return its response.
 
@@ -133,6 +139,7 @@ class Caller:
             request: Request message.
             limit_s: Wall-clock limit for server and answer together.
             await_restart: Give a server that is dead some seconds to come back.
+            while_working: The limit begins anew whenever the server says that it came further.
 
         Raises:
             ExecutionError: No server or a second one, no answer within the limit, or the server
@@ -146,7 +153,7 @@ class Caller:
         self._await_server(call, client.service_is_ready, deadline, limit_s)
         future = client.call_async(request)
         try:
-            self._await(future, call, deadline, limit_s)
+            self._await(future, call, deadline, limit_s, while_working=while_working)
         except ExecutionError:
             client.remove_pending_request(future)
             raise
@@ -255,9 +262,19 @@ class Caller:
                 )
             pause.wait(_POLL_S)
 
-    def _await(self, future: Future, call: Call, deadline: float, limit_s: float) -> None:
+    def _await(
+        self,
+        future: Future,
+        call: Call,
+        deadline: float,
+        limit_s: float,
+        *,
+        while_working: bool = False,
+    ) -> None:
         done = _event_of(future)
         while not done.wait(_LOOK_S):
+            if while_working and self._watch is not None:
+                deadline = max(deadline, self._watch.came_further_s(call.server) + limit_s)
             self._check(call, deadline, limit_s)
         err = future.exception()
         if err is not None:

@@ -40,6 +40,7 @@ class HeartbeatPublisher:
         self._message = Heartbeat(
             node=node.get_name(), state=Heartbeat.IDLE, pid=os.getpid(), pid_space=pid_space()
         )
+        self._steps = 0
         self._stop = threading.Event()
         self._thread = threading.Thread(target=self._run, name='heartbeat', daemon=True)
 
@@ -57,6 +58,11 @@ class HeartbeatPublisher:
     def at(self, tick: int) -> None:
         """Say which tick was handled last."""
         self._message.tick = tick
+
+    def came_further(self) -> None:
+        """Say that work for which there is no tick goes on: whoever waits for it goes on, too."""
+        self._steps += 1
+        self._message.detail = f'step {self._steps} of its work'
 
     def idle(self) -> None:
         """Say that no run is going on."""
@@ -93,6 +99,8 @@ class _Heard:
         pid: Process id, 0 when the process cannot be looked at from here.
         started: Start time of the process, to tell it from a later one with its id; 0 when it
             had ended before it could be looked at.
+        further_s: Steady time at which it said last that its work has come further.
+        detail: What it said then.
         busy: Whether the last heartbeat said so.
         run_number: That the last heartbeat named.
     """
@@ -100,6 +108,8 @@ class _Heard:
     at_s: float
     pid: int = 0
     started: int = 0
+    further_s: float = float('-inf')
+    detail: str = ''
     busy: bool = False
     run_number: int = 0
 
@@ -189,6 +199,11 @@ class HeartbeatWatch:
         heard = self._heard.get(name)
         return (heard.pid, heard.started) if heard is not None else (0, 0)
 
+    def came_further_s(self, name: str) -> float:
+        """Return the steady time at which a node said last that long work of it goes on."""
+        heard = self._heard.get(name)
+        return float('-inf') if heard is None else heard.further_s
+
     def hear(self, name: str) -> None:
         """Take in any sign of life: a heartbeat, or the answer to a call."""
         heard = self._heard.get(name)
@@ -202,6 +217,8 @@ class HeartbeatWatch:
         heard = self._heard[message.node]
         heard.busy = message.state == Heartbeat.BUSY
         heard.run_number = int(message.run_number)
+        if message.detail and message.detail != heard.detail:
+            heard.detail, heard.further_s = message.detail, heard.at_s
         pid = int(message.pid) if message.pid_space and message.pid_space == pid_space() else 0
         if pid != heard.pid:
             state = self._look(pid) if pid else None

@@ -72,6 +72,7 @@ NODES = (
     'parser',
     'grounding',
     'monitor',
+    'repair',
     'orchestrator',
     'replay',
 )
@@ -151,6 +152,7 @@ GROUND_SCENARIO = Call(name='ground_scenario', type=srv.GroundScenario, server='
 CHECK = Call(name='check', type=srv.Check, server='grounding')
 EXECUTE = Call(name='execute', type=action.ExecuteScenario, server='executor')
 VERIFY = Call(name='verify', type=srv.VerifyTrace, server='monitor')
+REPAIR = Call(name='repair', type=srv.ProposeRepair, server='repair')
 GROUND_LOAD = Call(name='ground/load', type=srv.LoadGround, server='sumo_bridge')
 UAV_LOAD = Call(name='uav/load', type=srv.LoadUav, server='uav_bridge')
 SYNC_LOAD = Call(name='sync/load', type=srv.LoadSync, server='sync')

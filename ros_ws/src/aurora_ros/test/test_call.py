@@ -1,12 +1,12 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""Calls that their maker gives up."""
+"""Calls that their maker gives up, and those that he goes on to wait for."""
 
 from __future__ import annotations
 
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from typing import Any
 
@@ -25,6 +25,8 @@ from aurora_core.errors import ExecutionError
 from aurora_msgs.action import ExecuteScenario
 from aurora_ros import interfaces as on
 from aurora_ros.call import Caller
+from aurora_ros.interfaces import Call
+from aurora_ros.matching import wait_until
 from aurora_ros.testing.domains import own_domain
 from aurora_ros.testing.partner import partner
 
@@ -65,17 +67,49 @@ class SlowServer:
         return ExecuteScenario.Result()
 
 
+class Watch:
+    """Hears of progress for a while, and of no death."""
+
+    def __init__(self, working_s: float) -> None:
+        self._until_s = time.monotonic() + working_s
+
+    def came_further_s(self, _name: str) -> float:
+        return min(time.monotonic(), self._until_s)
+
+    def cause_of_death(self, _name: str) -> str:
+        return ''
+
+    def is_dead(self, _name: str) -> bool:
+        return False
+
+    def hear(self, _name: str) -> None:
+        pass
+
+
+class SlowJudge:
+    """Answers after a while."""
+
+    def __init__(self, node: Node) -> None:
+        self.server = node.create_service(on.VERIFY.type, on.VERIFY.name, self._judge)
+
+    def _judge(self, _request: Any, response: Any) -> Any:
+        time.sleep(4.0 * SLOW_S)
+        return response
+
+
 @contextmanager
-def slow_server(domain: int) -> Iterator[SlowServer]:
+def slow_server(
+    domain: int, call: Call = on.EXECUTE, kind: Callable[[Node], Any] = SlowServer
+) -> Iterator[Any]:
     """Serve under the name of the node that should, and leave nothing in the domain."""
     context = Context()
     rclpy.init(context=context, domain_id=domain)
-    node = Node(on.EXECUTE.server, namespace=on.NAMESPACE, context=context)
+    node = Node(call.server, namespace=on.NAMESPACE, context=context)
     pool = MultiThreadedExecutor(context=context)
     pool.add_node(node)
     thread = threading.Thread(target=pool.spin, daemon=True)
     thread.start()
-    serving = SlowServer(node)
+    serving = kind(node)
     try:
         yield serving
     finally:
@@ -98,3 +132,26 @@ def test_a_goal_given_up_before_it_is_taken_is_cancelled_then() -> None:
         with pytest.raises(ExecutionError, match='a partner died'):
             caller.action(on.EXECUTE, ExecuteScenario.Goal(), 20.0)
         assert server.cancelled.wait(10.0)
+
+
+@pytest.mark.parametrize(('working_s', 'is_answered'), [(30.0, True), (0.0, False)])
+def test_an_answer_is_waited_for_beyond_the_limit_while_its_work_goes_on(
+    working_s: float, is_answered: bool
+) -> None:
+    with (
+        own_domain() as domain,
+        slow_server(domain, on.VERIFY, SlowJudge),
+        partner(domain) as play,
+    ):
+        caller = Caller(play.node, Watch(working_s))  # type: ignore[arg-type]
+        caller.prepare(on.VERIFY)
+
+        def call() -> None:
+            caller.service(on.VERIFY, on.VERIFY.type.Request(), SLOW_S, while_working=True)
+
+        assert wait_until(lambda: caller.is_served(on.VERIFY), 10.0)
+        if is_answered:
+            call()
+        else:
+            with pytest.raises(ExecutionError, match='did not answer'):
+                call()

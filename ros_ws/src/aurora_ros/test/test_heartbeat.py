@@ -171,3 +171,15 @@ def test_busy_is_what_the_node_said_last(watch: HeartbeatWatch) -> None:
     assert watch.is_busy('sync')
     hear_process(watch, 'sync', 7, Heartbeat.IDLE)
     assert not watch.is_busy('sync')
+
+
+def test_long_work_goes_on_as_long_as_a_node_says_how_far_it_is(
+    watch: HeartbeatWatch, clock: Clock
+) -> None:
+    watch._on_heartbeat(Heartbeat(node='monitor', detail='step 1 of its work'))
+    begun_s = clock.now_s
+    clock.now_s += 5.0
+    watch._on_heartbeat(Heartbeat(node='monitor', detail='step 1 of its work'))
+    assert watch.came_further_s('monitor') == begun_s
+    watch._on_heartbeat(Heartbeat(node='monitor', detail='step 2 of its work'))
+    assert watch.came_further_s('monitor') == clock.now_s

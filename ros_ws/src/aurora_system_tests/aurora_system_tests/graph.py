@@ -25,6 +25,7 @@ MODULES = {
     'parser': 'aurora_nodes.parser',
     'grounding': 'aurora_nodes.grounding',
     'monitor': 'aurora_nodes.monitor',
+    'repair': 'aurora_nodes.repair',
     'orchestrator': 'aurora_nodes.orchestrator',
 }
 ROS_NODES = tuple(name for name in MODULES if name != 'uav_sim')

@@ -25,8 +25,9 @@ def run_prompt(
     stages: Stages,
     faults: tuple[dict[str, object], ...] = (),
 ) -> tuple[RunReport, Path]:
-    """Run a prompt; return its report and the folder of its bag."""
-    request = RunRequest.model_validate({'prompt': prompt, 'seed': seed, 'faults': faults})
+    """Run a prompt once, without repair; return its report and the folder of its bag."""
+    asked = {'prompt': prompt, 'seed': seed, 'faults': faults, 'repair': 0}
+    request = RunRequest.model_validate(asked)
     run_id = new_run_id(datetime.now(UTC), os.urandom(3))
     run_folder = RunFolder(folder / f'{name.replace(" ", "_")}_{seed}', run_id)
     report = run(request, stages, installed(), run_folder, RunControl(), MonotonicClock())

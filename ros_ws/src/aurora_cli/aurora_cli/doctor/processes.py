@@ -10,7 +10,7 @@ from pathlib import Path
 # In the order of starting (aurora_bringup/scripts/common.bash).
 NODES = (
     'uav_sim', 'sync', 'sumo_bridge', 'uav_bridge', 'recorder', 'monitor', 'executor', 'grounding',
-    'parser', 'orchestrator',
+    'parser', 'repair', 'orchestrator',
 )  # fmt: skip
 
 

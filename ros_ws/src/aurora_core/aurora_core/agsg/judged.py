@@ -17,9 +17,10 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import Enum
+from operator import attrgetter
 from typing import Any, Literal, get_args, get_origin
 
-from pydantic import BaseModel, ValidationError
+from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
 from aurora_core.agsg.parameters import element_of, item_path
@@ -28,11 +29,14 @@ from aurora_core.outcomes.condition import Condition
 from aurora_core.outcomes.grounding import Unjudged
 from aurora_core.spec.parameter import Bound, Parameter, Provenance, Span
 from aurora_core.spec.reference import is_place
-from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.spec.scenario import GroundAgent, ScenarioSpec
 from aurora_core.spec.vocabulary import Place
 
 # Derives the conditions of a specification from the plan of the run.
 Derive = Callable[[ScenarioSpec], Sequence[Condition]]
+
+# Derives those of what one ground agent does and of where it is placed, by its id.
+DeriveOfAgent = Callable[[ScenarioSpec, str], Sequence[Condition]]
 
 # These say nothing about the run: names, where a word stands, who chose it, and roles, which
 # nobody can see.
@@ -70,8 +74,16 @@ class _Facet:
     is_number: bool = False
 
 
+# What a condition asks for; words and sources are aside.
+_ASIDE = {'sentence', 'spans', 'spec_ids', 'provenance', 'implied', 'scale', 'signal'}
+_asked = attrgetter(*(name for name in Condition.model_fields if name not in _ASIDE))
+
+
 def unjudged(
-    spec: ScenarioSpec, conditions: Sequence[Condition], derive: Derive
+    spec: ScenarioSpec,
+    conditions: Sequence[Condition],
+    derive: Derive,
+    derive_of_agent: DeriveOfAgent | None = None,
 ) -> tuple[Unjudged, ...]:
     """Return what a specification states and no condition depends on.
 
@@ -79,14 +91,19 @@ def unjudged(
         spec: The request.
         conditions: Those of the run.
         derive: How they were derived; called with specifications that differ in one value.
+        derive_of_agent: The same for one agent alone. In a crowd hardly anybody else's conditions
+            depend on what is stated of it, so that all of them need not be derived.
     """
-    document = spec.model_dump(mode='json')
-    known = _substance(conditions)
+    known = _by_id(conditions)
     about = {c.arguments.event for c in conditions if c.arguments.event is not None}
     about |= {name for c in conditions for name in c.of}
     found = []
     for facet in _facets(spec):
-        if _read_with(facet, spec) in about or _depends(document, facet, known, derive):
+        if _read_with(facet, spec) in about:
+            continue
+        if derive_of_agent is not None and _own_depend(spec, facet, derive_of_agent):
+            continue
+        if _depends(spec, facet, known, derive):
             continue
         found.append(
             Unjudged(
@@ -114,20 +131,19 @@ def conditions_depending(
         conditions: Those of the run.
         derive: How they were derived.
     """
-    document = spec.model_dump(mode='json')
-    known = _substance(conditions)
+    known = _by_id(conditions)
     found: dict[str, frozenset[str]] = {}
     for facet in _facets(spec):
         ids: set[str] = set()
         event = _read_with(facet, spec)
         if event is not None:
             ids |= {c.id for c in conditions if event == c.arguments.event or event in c.of}
-        for other in _changed(document, facet, derive):
+        for other in _changed(spec, facet, derive):
             if other is None:
                 # No plan has it: what is judged of the element is judged on one that fits.
                 ids |= {c.id for c in conditions if element_of(facet.path) in c.spec_ids}
                 continue
-            ids |= {name for name, text in known.items() if other.get(name) != text}
+            ids |= _differing(known, other)
         found[facet.path] = frozenset(ids)
     return found
 
@@ -143,48 +159,85 @@ def _read_with(facet: _Facet, spec: ScenarioSpec) -> str | None:
     return spec.events[int(facet.keys[1])].id if read else None
 
 
+def _own_depend(spec: ScenarioSpec, facet: _Facet, derive: DeriveOfAgent) -> bool:
+    """Tell whether a facet belongs to an agent whose own conditions are others when it changes.
+
+    Their ids are the agent's, so that nothing else could stand for one that is gone.
+    """
+    if facet.keys[0] != 'agents':
+        return False
+    agent = spec.agents[int(facet.keys[1])].id
+    known = _by_id(derive(spec, agent))
+    found = _changed(spec, facet, lambda asked: derive(asked, agent))
+    return any(other is None or _differing(known, other) for other in found)
+
+
 def _depends(
-    document: dict[str, Any], facet: _Facet, known: Mapping[str, str], derive: Derive
+    spec: ScenarioSpec, facet: _Facet, known: Mapping[str, Condition], derive: Derive
 ) -> bool:
     """Tell whether a condition is another one, or is gone, when a facet is changed."""
     tried = False
-    for other in _changed(document, facet, derive):
+    for other in _changed(spec, facet, derive):
         tried = True
-        if other is None or any(other.get(name) != text for name, text in known.items()):
+        if other is None or _differing(known, other):
             return True
     # What cannot be otherwise is judged with the element that it belongs to.
     return not tried
 
 
 def _changed(
-    document: dict[str, Any], facet: _Facet, derive: Derive
-) -> Iterator[dict[str, str] | None]:
+    spec: ScenarioSpec, facet: _Facet, derive: Derive
+) -> Iterator[Mapping[str, Condition] | None]:
     """Yield the conditions with each other value; None: the plan does not allow the value."""
     for other in facet.others:
         try:
-            changed = ScenarioSpec.model_validate(_with(document, facet.keys, other))
-        except ValidationError:
+            changed = _spec_with(spec, facet.keys, other)
+        except ValueError:
             continue
         try:
-            yield _substance(derive(changed))
+            yield _by_id(derive(changed))
         except AuroraError:
             yield None
 
 
-def _substance(conditions: Sequence[Condition]) -> dict[str, str]:
-    """Return what each condition asks for, words and sources aside."""
-    aside = {'sentence', 'spans', 'spec_ids', 'provenance', 'implied', 'scale', 'signal'}
-    return {c.id: str(c.model_dump(mode='json', exclude=aside)) for c in conditions}
+def _by_id(conditions: Sequence[Condition]) -> dict[str, Condition]:
+    return {c.id: c for c in conditions}
+
+
+def _differing(known: Mapping[str, Condition], other: Mapping[str, Condition]) -> set[str]:
+    """Return which conditions ask for something else, or are gone."""
+    return {
+        name
+        for name, condition in known.items()
+        if name not in other or _asked(other[name]) != _asked(condition)
+    }
+
+
+def _spec_with(spec: ScenarioSpec, keys: tuple[str | int, ...], other: Any) -> ScenarioSpec:
+    """Return a specification with another value at a place of it.
+
+    Raises:
+        ValueError: It does not fit there.
+    """
+    if keys[0] != 'agents':
+        return ScenarioSpec.model_validate(_with(spec, keys, other))
+    # Of a crowd, only who is another one is validated.
+    agent = spec.agents[int(keys[1])]
+    return spec.with_agent(GroundAgent.model_validate(_with(agent, keys[2:], other)))
 
 
 def _with(value: Any, keys: tuple[str | int, ...], other: Any) -> Any:
-    """Return a document with another value at a place of it."""
+    """Return what is validated to a value with another one at a place of it.
+
+    What does not lie on the way there is taken over as it is, and not validated again.
+    """
     if not keys:
         return other
     key, rest = keys[0], keys[1:]
-    if isinstance(value, list):
-        return [_with(v, rest, other) if k == key else v for k, v in enumerate(value)]
-    return {**value, key: _with(value.get(key), rest, other)}
+    if isinstance(value, tuple):
+        return tuple(_with(v, rest, other) if k == key else v for k, v in enumerate(value))
+    fields = {name: getattr(value, name) for name in type(value).model_fields}
+    return {**fields, key: _with(fields[str(key)], rest, other)}
 
 
 def _facets(spec: ScenarioSpec) -> Iterator[_Facet]:

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -353,10 +353,12 @@ _NO_SPEED = frozenset(
 )
 
 
-def behavior_conditions(inputs: Inputs) -> Iterator[Condition | Underivable]:
-    """Yield the conditions of all behaviours of ground agents."""
+def behavior_conditions(
+    inputs: Inputs, whose: Sequence[GroundAgent]
+) -> Iterator[Condition | Underivable]:
+    """Yield the conditions of all behaviours of some ground agents."""
     agents = {agent.id for agent in inputs.spec.agents}
-    for agent in inputs.spec.agents:
+    for agent in whose:
         if parks(inputs.spec, agent) and all(b.kind is not _PARK for b in agent.behaviors):
             yield from _implied(inputs, agent, Behavior(kind=_PARK), f'{agent.id}.parked')
         for index, behavior in enumerate(agent.behaviors):

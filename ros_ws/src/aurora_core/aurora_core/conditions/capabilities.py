@@ -60,22 +60,33 @@ def unsupported(spec: ScenarioSpec, grounded: GroundedScenario) -> tuple[str, ..
 
 
 def judgeable(
-    conditions: tuple[Condition, ...], spec: ScenarioSpec, grounded: GroundedScenario
+    conditions: tuple[Condition, ...],
+    spec: ScenarioSpec,
+    grounded: GroundedScenario,
+    agent: str | None = None,
 ) -> tuple[Condition, ...]:
-    """Leave out what cannot be placed or carried out yet; its clauses are `incomplete`."""
+    """Leave out what cannot be placed or carried out yet; its clauses are `incomplete`.
+
+    Args:
+        conditions: Those of a request, or of the placements and behaviours of `agent` alone.
+        spec: The request.
+        grounded: What has a place.
+        agent: The one ground agent that the conditions are derived from, None: all of them.
+    """
+    agents = [a for a in spec.agents if agent in (None, a.id)]
     absent = {a.id for a in spec.agents} - {a.id for a in grounded.agents}
     events = undone_events(spec, grounded)
     undone = [
-        behavior_id(agent, index)
-        for agent in spec.agents
-        for index, behavior in enumerate(agent.behaviors)
-        if not _can_do(spec, agent, behavior)
+        behavior_id(a, index)
+        for a in agents
+        for index, behavior in enumerate(a.behaviors)
+        if not _can_do(spec, a, behavior)
     ]
     undone += [
-        placement_id(agent, index)
-        for agent in spec.agents
-        for index, placement in enumerate(agent.placements)
-        if not _can_be_placed(agent, placement, spec)
+        placement_id(a, index)
+        for a in agents
+        for index, placement in enumerate(a.placements)
+        if not _can_be_placed(a, placement, spec)
     ]
     return tuple(
         c

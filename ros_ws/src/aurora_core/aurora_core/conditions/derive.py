@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
@@ -39,7 +40,11 @@ class Derivation:
 
 
 def derive_conditions(
-    spec: ScenarioSpec, facts: PlanFacts, limits: Limits, tolerances: Tolerances
+    spec: ScenarioSpec,
+    facts: PlanFacts,
+    limits: Limits,
+    tolerances: Tolerances,
+    agent: str | None = None,
 ) -> Derivation:
     """Return the success conditions of a request.
 
@@ -48,6 +53,7 @@ def derive_conditions(
         facts: What grounding chose.
         limits: Limits in force.
         tolerances: Tolerances and defaults of implied conditions.
+        agent: Only those of the placements and behaviours of this ground agent.
 
     Raises:
         VerificationError: Specification and facts do not fit each other.
@@ -55,24 +61,31 @@ def derive_conditions(
     inputs = Inputs(spec=spec, facts=facts, limits=limits, tolerances=tolerances)
     conditions: list[Condition] = []
     underivable: list[Underivable] = []
-    for item in _all(inputs):
+    for item in _all(inputs) if agent is None else _of_agent(inputs, agent):
         if isinstance(item, Condition):
             conditions.append(item)
         else:
             underivable.append(item)
     ids = [condition.id for condition in conditions]
-    repeated = sorted({i for i in ids if ids.count(i) > 1})
+    repeated = sorted(i for i, count in Counter(ids).items() if count > 1)
     if repeated:
         raise VerificationError(f'condition ids must be unique, repeated: {", ".join(repeated)}')
     return Derivation(conditions=tuple(conditions), underivable=tuple(underivable))
+
+
+def _of_agent(inputs: Inputs, name: str) -> Iterator[Condition | Underivable]:
+    agent = inputs.agent(name)
+    if agent is not None:
+        yield from placement_conditions(inputs, (agent,))
+        yield from behavior_conditions(inputs, (agent,))
 
 
 def _all(inputs: Inputs) -> Iterator[Condition | Underivable]:
     parts: tuple[Iterable[Condition | Underivable], ...] = (
         stated_conditions(inputs),
         mission_conditions(inputs),
-        placement_conditions(inputs),
-        behavior_conditions(inputs),
+        placement_conditions(inputs, inputs.spec.agents),
+        behavior_conditions(inputs, inputs.spec.agents),
         event_conditions(inputs),
         order_conditions(inputs),
         scene_conditions(inputs),

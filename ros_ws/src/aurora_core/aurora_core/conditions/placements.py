@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from aurora_core.judging.build import Inputs, Source, Underivable
 from aurora_core.judging.quantities import placement, relation_fraction
@@ -20,10 +20,12 @@ _OF_PLACES = frozenset(
 _OF_AGENTS = frozenset(RELATION_WORDS) - {Relation.ON, Relation.PARKED_AT}
 
 
-def placement_conditions(inputs: Inputs) -> Iterator[Condition | Underivable]:
-    """Yield the conditions of all placements of ground agents."""
+def placement_conditions(
+    inputs: Inputs, whose: Sequence[GroundAgent]
+) -> Iterator[Condition | Underivable]:
+    """Yield the conditions of all placements of some ground agents."""
     agents = {agent.id for agent in inputs.spec.agents}
-    for agent in inputs.spec.agents:
+    for agent in whose:
         for index, placed in enumerate(agent.placements):
             relation, of = placed.relation, placed.of
             if of is None and relation is Relation.PARKED_AT:

@@ -45,6 +45,7 @@ class Polyline:
                 f'polyline: at least two different points expected, found {len(self._x)}'
             )
         self.points: FloatArray = frozen(np.array([self._x, self._y]).T.copy())
+        self._tangents: FloatArray = frozen(np.array([self._tx, self._ty]).T.copy())
         self.cumulative_m: FloatArray = frozen(np.array(self._s))
         self.length_m = self._s[-1]
 
@@ -105,8 +106,7 @@ class Polyline:
         s = np.minimum(np.maximum(s_m, 0.0), self.length_m)
         k = np.searchsorted(self.cumulative_m, s, side='right') - 1
         k = np.minimum(k, len(self._step) - 1)
-        low, high = int(k.min()), int(k.max()) + 1
-        tangents = np.array([self._tx[low:high], self._ty[low:high]]).T[k - low]
+        tangents = self._tangents[k]
         rest = (s - self.cumulative_m[k])[:, None]
         return np.concatenate((self.points[k] + rest * tangents, tangents), axis=1)
 

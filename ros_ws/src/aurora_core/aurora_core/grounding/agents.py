@@ -6,13 +6,14 @@ from __future__ import annotations
 
 import itertools
 from collections import Counter
-from collections.abc import Iterator, Mapping
-from math import inf, sqrt
+from collections.abc import Mapping
+from math import inf
 
 import numpy as np
 
 from aurora_core.errors import MapError
 from aurora_core.grounding.convoy import SceneSplit, parks, stands
+from aurora_core.grounding.free_room import FreeRoom
 from aurora_core.grounding.free_run import free_run_m, needed_run_m
 from aurora_core.grounding.goals import STOP_AFTER_M, GoalFinder, stops
 from aurora_core.grounding.kept_gaps import KeptGap, kept_gaps
@@ -30,7 +31,7 @@ from aurora_core.grounding.pace import (
     stated_speed_mps,
 )
 from aurora_core.grounding.releases import Release, convoy_release, own_release
-from aurora_core.grounding.routes import RouteFinder
+from aurora_core.grounding.routes import route_finder
 from aurora_core.grounding.sites import (
     SeatedAgent,
     Site,
@@ -44,7 +45,6 @@ from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Limits
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.map_records import SpawnTable, may_stand
-from aurora_core.knowledge.net_types import Lane
 from aurora_core.knowledge.route_path import RoutePath
 from aurora_core.knowledge.settings import Settings
 from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
@@ -60,10 +60,6 @@ KERB_CLEARANCE_M = 0.3
 
 # Speed limit of the slowest streets (m/s).
 _SLOWEST_MPS = 8.0
-
-# Tries at random places before all places are looked through, and how far apart those are (m).
-_TRIES = 400
-_SCAN_M = 5.0
 
 # Time gap of each of several that follow one: the last one has to be near it, too (s).
 _IN_LINE_S = 0.6
@@ -156,17 +152,20 @@ class AgentPlacer:
         """
         x0, y0, _, _ = site.origin()
         found = {a.id: a for a in placed}
+        room = FreeRoom(self._map.network, (x0, y0), self._settings.grounding.background_gap_m)
+        for other in placed:
+            room.take(other.x_m, other.y_m)
         missing = []
         for agent in split.free:
             release = own_release(spec, agent, Release())
-            others = list(found.values())
             grounded = self._free_agent(
-                spec, agent, release, (x0, y0), others, run_m, generator, parked=parks(spec, agent)
+                spec, agent, release, room, run_m, generator, parked=parks(spec, agent)
             )
             if grounded is None:
                 missing.append(f'{agent.id}: no free lane within reach')
             else:
                 found[agent.id] = grounded
+                room.take(grounded.x_m, grounded.y_m)
         return [found[a.id] for a in spec.agents if a.id in found], tuple(missing)
 
     def _free_agent(
@@ -174,8 +173,7 @@ class AgentPlacer:
         spec: ScenarioSpec,
         agent: GroundAgent,
         release: Release,
-        centre: tuple[float, float],
-        others: list[GroundedAgent],
+        room: FreeRoom,
         run_m: float,
         generator: np.random.Generator,
         *,
@@ -187,7 +185,7 @@ class AgentPlacer:
         drivable, least_mps = brisk_lanes(
             list(network.driving_lanes(record.vclass)), speed_mps or 0.0
         )
-        finder = RouteFinder(network, record.vclass, least_mps)
+        finder = route_finder(network, record.vclass, least_mps)
         low, high = self._settings.grounding.background_radius_m
         lanes = [
             lane
@@ -201,17 +199,15 @@ class AgentPlacer:
         if not lanes:
             return None
         margin = record.length_m / 2.0 + 1.0
-        drawn = ((p, high) for p in _drawn(lanes, margin, generator))
+        drawn = ((p, high) for p in room.drawn(lanes, margin, generator))
         # A crowd that fills the surroundings may spread over the whole map.
-        scanned = ((p, inf) for p in self._scanned(lanes, margin, centre))
+        scanned = ((p, inf) for p in room.scanned(lanes, margin))
         pace_mps = speed_mps or self._settings.grounding.target_speed_mps
         needed_m = needed_run_m(spec, agent, pace_mps)
         best: tuple[float, RoutePath, float] | None = None
         tries = 0
-        for (lane, position), reach in itertools.chain(drawn, scanned):
-            x, y, _, _ = network.position_on_lane(lane.id, position)
-            away = sqrt((x - centre[0]) ** 2 + (y - centre[1]) ** 2)
-            if not low <= away <= reach or not self._apart(x, y, others):
+        for (lane, position, away_m), reach in itertools.chain(drawn, scanned):
+            if not low <= away_m <= reach:
                 continue
             if not may_stand(self._spawns, record.name, lane.id, position):
                 continue
@@ -248,24 +244,6 @@ class AgentPlacer:
             stop_m=arc_m + STOP_AFTER_M if stops(agent) else None,
             parked=parked,
         )
-
-    def _scanned(
-        self, lanes: list[Lane], margin: float, centre: tuple[float, float]
-    ) -> Iterator[tuple[Lane, float]]:
-        """Yield places all over the lanes, nearest to the centre first, for crowded scenes."""
-        places = []
-        for lane in lanes:
-            for k in range(int((lane.length_m - 2.0 * margin) / _SCAN_M) + 1):
-                position = margin + k * _SCAN_M
-                x, y, _, _ = self._map.network.position_on_lane(lane.id, position)
-                away2 = (x - centre[0]) ** 2 + (y - centre[1]) ** 2
-                places.append((away2, lane.id, position, lane))
-        for _, _, position, lane in sorted(places, key=lambda p: p[:3]):
-            yield lane, position
-
-    def _apart(self, x: float, y: float, others: list[GroundedAgent]) -> bool:
-        gap = self._settings.grounding.background_gap_m
-        return all(sqrt((x - o.x_m) ** 2 + (y - o.y_m) ** 2) >= gap for o in others)
 
     def _grounded(
         self,
@@ -459,12 +437,3 @@ def _urged(record: AgentTypeRecord, speed_mps: float | None) -> float:
         return 0.0
     desired_mps = record.desired_speed_mps
     return 1.0 if desired_mps is None else max(1.0, speed_mps / desired_mps)
-
-
-def _drawn(
-    lanes: list[Lane], margin: float, generator: np.random.Generator
-) -> Iterator[tuple[Lane, float]]:
-    """Yield random places on random lanes, `margin` (m) away from their ends."""
-    for _ in range(_TRIES):
-        lane = lanes[int(generator.integers(len(lanes)))]
-        yield lane, margin + float(generator.random()) * (lane.length_m - 2.0 * margin)

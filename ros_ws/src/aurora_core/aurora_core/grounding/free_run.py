@@ -17,7 +17,7 @@ _SOON_S = 20.0
 
 def free_run_m(path: RoutePath, arc_m: float) -> float:
     """Return the way from a place on a route to its next signal, or to its end, in metres."""
-    return next((s[0] for s in path.signals() if s[0] >= arc_m), path.length_m) - arc_m
+    return next((s[0] for s in path.signals if s[0] >= arc_m), path.length_m) - arc_m
 
 
 def needed_run_m(spec: ScenarioSpec, agent: GroundAgent, pace_mps: float) -> float:

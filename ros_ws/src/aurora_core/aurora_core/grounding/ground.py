@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 from aurora_core.grounding.agents import AgentPlacer
 from aurora_core.grounding.airspace import Airspace
+from aurora_core.grounding.allowed import allowed_sites
 from aurora_core.grounding.apart import homes_m, layer_m, spacing_m
 from aurora_core.grounding.bends import bends_between
 from aurora_core.grounding.columns import Column, climbs_to_m, columns, nearest_points
@@ -43,6 +44,7 @@ from aurora_core.knowledge.settings import Settings
 from aurora_core.mission.plan import UavPlan
 from aurora_core.outcomes.grounded import AnchorScore, GroundedScenario
 from aurora_core.outcomes.grounding import GroundingFailure
+from aurora_core.outcomes.repair import RepairPlan
 from aurora_core.ports.random_streams import stream
 from aurora_core.spec.scenario import ScenarioSpec
 
@@ -103,23 +105,30 @@ class Grounder:
         self._spots = SpotFinder(map_model, settings.grounding)
         self._goals = GoalFinder(map_model, types, tolerances)
 
-    def ground(self, spec: ScenarioSpec, seed: int) -> GroundedScenario | GroundingFailure:
+    def ground(
+        self, spec: ScenarioSpec, seed: int, plan: RepairPlan | None = None
+    ) -> GroundedScenario | GroundingFailure:
         """Return the best grounding, or what every site lacked.
 
         Args:
             spec: What to ground.
             seed: Seed of the run (background traffic).
+            plan: Where the scene may not be, or has to stay; its values are in `spec` already.
         """
         tolerance = self._tolerances.placement_vehicle_m
-        found = self._ground(spec, split_scene(spec, tolerance), seed)
+        found = self._ground(spec, split_scene(spec, tolerance), seed, plan)
         if isinstance(found, GroundingFailure):
             apart = split_scene(spec, tolerance, apart=True)
-            again = self._ground(spec, apart, seed) if apart.groups else found
+            again = self._ground(spec, apart, seed, plan) if apart.groups else found
             found = found if isinstance(again, GroundingFailure) else again
         return found
 
     def _ground(
-        self, spec: ScenarioSpec, split: SceneSplit, seed: int
+        self,
+        spec: ScenarioSpec,
+        split: SceneSplit,
+        seed: int,
+        plan: RepairPlan | None,
     ) -> GroundedScenario | GroundingFailure:
         keep_out = kept_out(spec, MapPlaces(self._map))
         planner = FlightPlanner(
@@ -147,6 +156,8 @@ class Grounder:
         persons = PersonPlacer(self._map, self._types)
         oncoming = OncomingPlacer(self._map, self._types, self._spawns)
         ranked = self._ranked_sites(spec, split, run_m)
+        if plan is not None:
+            ranked = allowed_sites(ranked, plan, self._map.network)
         groups = GroupPlacer(
             self._map,
             self._types,
@@ -202,6 +213,7 @@ class Grounder:
         grounding = self._settings.grounding
         way_m = tied_way_m(spec, grounding)
         stated = fastest_stated_mps(spec, (m.agent for m in split.convoy))
+        changing = {m.agent.id for m in split.convoy if changes_lane(spec, m.agent)}
         need_m = way_m if len(split.convoy) > 1 else _LOOKED_S / 2.0 * stated
         wanted = grounding.target_speed_mps
         ranked: list[tuple[float, Site]] = []
@@ -213,7 +225,7 @@ class Grounder:
             self._goals.spacing_m(spec, grounding.anchor_spacing_m),
             split.before,
             least_limit_mps=stated,
-            several_lanes=any(changes_lane(spec, m.agent) for m in split.convoy),
+            several_lanes=bool(changing),
             spawns=self._spawns,
         )
         for site in found:
@@ -228,7 +240,7 @@ class Grounder:
             if stated > 0.0:
                 road *= 0.5 + 0.5 * self._room_for(stated, site)
             for seat in site.seated:
-                if changes_lane(spec, seat.agent):
+                if seat.agent.id in changing:
                     road *= share_with_another_lane(
                         self._map.network, seat, way_m, stated or wanted
                     )

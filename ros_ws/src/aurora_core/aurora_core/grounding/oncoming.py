@@ -10,7 +10,7 @@ from dataclasses import replace
 from aurora_core.errors import MapError
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.convoy import ConvoyMember, oncoming_to
-from aurora_core.grounding.routes import RouteFinder
+from aurora_core.grounding.routes import route_finder
 from aurora_core.grounding.sites import SeatedAgent, Site
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.map_model import MapModel
@@ -109,7 +109,7 @@ class OncomingPlacer:
         record = self._types[agent.type.value]
         lanes = (self._network.lane(i) for i in self._network.edge(edge_id).lane_ids)
         lane = next((known for known in lanes if record.vclass in known.allows), None)
-        edges = RouteFinder(self._network, record.vclass).straight_route(edge_id, run_m)
+        edges = route_finder(self._network, record.vclass).straight_route(edge_id, run_m)
         if lane is None or not edges:
             return None
         x, y, hx, hy = met.path.position_at(met.arc_m)

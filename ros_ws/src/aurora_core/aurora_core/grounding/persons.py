@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 from aurora_core.grounding.convoy import DEFAULT_GAP_M, ENCOUNTER_ROOM_M, stands
 from aurora_core.grounding.pace import WALKING_MPS, own_speed_mps
 from aurora_core.grounding.places import MapPlaces, has_point
-from aurora_core.grounding.routes import RouteFinder
+from aurora_core.grounding.routes import route_finder
 from aurora_core.grounding.sites import ANY_CLASS, SeatedAgent, SeatedPerson, Site, line_from
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.map_model import MapModel
@@ -116,7 +116,7 @@ class PersonPlacer:
         self._map = map_model
         self._places = MapPlaces(map_model)
         self._types = types
-        self._finder = RouteFinder(map_model.network, ANY_CLASS)
+        self._finder = route_finder(map_model.network, ANY_CLASS)
 
     def seated(
         self, spec: ScenarioSpec, persons: tuple[GroundAgent, ...], site: Site, run_s: float

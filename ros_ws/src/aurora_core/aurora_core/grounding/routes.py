@@ -6,10 +6,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import lru_cache
+from operator import itemgetter
 
 import numpy as np
 
 from aurora_core.knowledge.road_network import RoadNetwork
+
+# Finders that are kept: of the classes and speeds that are asked for on the maps in use.
+_FINDERS = 32
 
 _ORDER = {'s': 0, 'R': 1, 'L': 2, 'r': 3, 'l': 4, 't': 9}
 
@@ -28,14 +32,16 @@ class RouteFinder:
         self._vclass = vclass
         self._least_limit_mps = least_limit_mps
         self._endless = self._edges_on_cycles()
+        self._lengths_m = {edge_id: network.edge(edge_id).length_m for edge_id in self._endless}
         self._following = lru_cache(maxsize=None)(self._ordered_successors)
+        self._is_slow = lru_cache(maxsize=None)(self._lies_below_limit)
 
     def straight_route(self, start_edge: str, length_m: float) -> tuple[str, ...]:
         """Return a route of at least `length_m`, going straight on where possible.
 
         Empty when the road from `start_edge` ends before.
         """
-        return self._extend(start_edge, length_m, lambda options: options[0])
+        return self._extend(start_edge, length_m, itemgetter(0))
 
     def turning_route(self, start_edge: str, length_m: float, side: str) -> tuple[str, ...]:
         """Return a route that turns at the end of its first street, then goes straight on.
@@ -113,7 +119,7 @@ class RouteFinder:
         """Whether one can drive on from this edge for ever."""
         return edge_id in self._endless
 
-    def _is_slow(self, edge_id: str) -> bool:
+    def _lies_below_limit(self, edge_id: str) -> bool:
         """Whether no lane of an edge has the speed limit that is preferred."""
         lanes = (self._network.lane(name) for name in self._network.edge(edge_id).lane_ids)
         return all(
@@ -128,10 +134,12 @@ class RouteFinder:
         if start_edge not in self._endless:
             return ()
         route = [start_edge]
-        length = self._network.edge(start_edge).length_m
+        edge, lengths_m = start_edge, self._lengths_m
+        length = lengths_m[edge]
         while length < length_m:
-            route.append(choose(self._following(route[-1])))
-            length += self._network.edge(route[-1]).length_m
+            edge = choose(self._following(edge))
+            route.append(edge)
+            length += lengths_m[edge]
         return tuple(route)
 
     def _directions(self, edge_id: str) -> dict[str, int]:
@@ -165,3 +173,9 @@ class RouteFinder:
             shrinking = bool(dead)
             edges -= dead
         return frozenset(edges)
+
+
+@lru_cache(maxsize=_FINDERS)
+def route_finder(network: RoadNetwork, vclass: str, least_limit_mps: float = 0.0) -> RouteFinder:
+    """Return the finder of a network, class and speed limit: the same one each time."""
+    return RouteFinder(network, vclass, least_limit_mps)

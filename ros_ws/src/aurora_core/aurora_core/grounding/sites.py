@@ -17,7 +17,7 @@ from aurora_core.errors import MapError
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.convoy import BeforePlace, ConvoyMember
 from aurora_core.grounding.places import MapPlaces, nearest_to
-from aurora_core.grounding.routes import RouteFinder
+from aurora_core.grounding.routes import route_finder
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.map_records import SpawnTable, may_stand
@@ -205,7 +205,7 @@ def sites(
         lanes = with_another_lane(lanes)
     lanes, least_mps = brisk_lanes(lanes, least_limit_mps)
     vclass = min(classes, key=lambda c: (len(network.driving_lanes(c)), c))
-    finder = RouteFinder(network, vclass, least_mps)
+    finder = route_finder(network, vclass, least_mps)
     side = _turn(convoy)
     back_m = max(
         (types[m.agent.type.value].length_m / 2.0 - m.offset_m for m in convoy), default=0.0
@@ -326,9 +326,7 @@ def _site(
         places = [path.lane_position_at(a) for a in (arc_m - half_m, arc_m, arc_m + half_m)]
         if any(network.lane(place[0]).is_internal for place in places):
             return None  # nobody starts inside a junction
-        if any(
-            c.start_m < arc_m + half_m and arc_m - half_m < c.end_m for c in path.lane_changes()
-        ):
+        if any(c.start_m < arc_m + half_m and arc_m - half_m < c.end_m for c in path.lane_changes):
             return None  # nor between two lanes
         seated.append(
             SeatedAgent(
@@ -346,7 +344,7 @@ def _site(
         return None
     rear = min((s.arc_m for s in seated), default=origin_arc_m)
     front = max((s.arc_m for s in seated), default=origin_arc_m)
-    signals = [s[0] for s in origin.signals() if s[0] >= rear]
+    signals = [s[0] for s in origin.signals if s[0] >= rear]
     return Site(
         origin_path=origin,
         origin_arc_m=origin_arc_m,

@@ -13,7 +13,7 @@ from aurora_core.errors import MapError
 from aurora_core.geometry.kernel import norm2
 from aurora_core.geometry.polyline import Polyline
 from aurora_core.grounding.lane_changers import ORDERED_CHANGES
-from aurora_core.grounding.routes import RouteFinder
+from aurora_core.grounding.routes import route_finder
 from aurora_core.grounding.sites import line_from
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Limits, Tolerances
@@ -80,7 +80,7 @@ class TrafficPlacer:
         self._record = types[_TYPE.value]
         self._settings = settings
         self._reach_m = settings.traffic_reach_share * tolerances.traffic_radius_m
-        self._finder = RouteFinder(self._network, self._record.vclass)
+        self._finder = route_finder(self._network, self._record.vclass)
 
     def placed(
         self,

@@ -27,6 +27,9 @@ from aurora_core.knowledge.route_path import RoutePath, arc_at, build_path
 from aurora_core.knowledge.surfaces import carriageway, parking_area, sidewalk_area, union
 
 _PEDESTRIAN = 'pedestrian'
+# Paths that are kept: requests of one length look at the same ones of all lanes again.
+_PATHS = 384
+
 # Beyond rounding: candidates this much farther than the nearest are compared exactly.
 _TIE_M = 0.01
 
@@ -48,6 +51,8 @@ class RoadNetwork:
             links.setdefault(connection.from_lane_id, []).append(connection)
         self._links = MappingProxyType({k: tuple(v) for k, v in links.items()})
         self._planner = LanePlanner(self._lanes, self._links)
+        self._driving_lanes: dict[str, tuple[Lane, ...]] = {}
+        self._paths: dict[tuple[tuple[str, ...], str, str | None], RoutePath] = {}
         self._successors: dict[tuple[str, str], tuple[str, ...]] = {}
         self._trees: dict[str, tuple[shapely.STRtree, tuple[Lane, ...]]] = {}
 
@@ -133,10 +138,12 @@ class RoadNetwork:
         Raises:
             MapError: When the network format knows no such class.
         """
-        _check_class(vclass)
-        return tuple(
-            lane for lane in self._data.lanes if not lane.is_internal and vclass in lane.allows
-        )
+        if vclass not in self._driving_lanes:
+            _check_class(vclass)
+            self._driving_lanes[vclass] = tuple(
+                lane for lane in self._data.lanes if not lane.is_internal and vclass in lane.allows
+            )
+        return self._driving_lanes[vclass]
 
     @cached_property
     def sidewalks(self) -> tuple[Lane, ...]:
@@ -237,6 +244,22 @@ class RoadNetwork:
         Raises:
             MapError: When the route is empty or not connected for the class.
         """
+        key = edge_ids, vclass, start_lane_id
+        if start_pos_m > 0.0:
+            return self._built_path(*key, start_pos_m)
+        if key not in self._paths:
+            if len(self._paths) >= _PATHS:
+                del self._paths[next(iter(self._paths))]
+            self._paths[key] = self._built_path(*key, 0.0)
+        return self._paths[key]
+
+    def _built_path(
+        self,
+        edge_ids: tuple[str, ...],
+        vclass: str,
+        start_lane_id: str | None,
+        start_pos_m: float,
+    ) -> RoutePath:
         _check_class(vclass)
         edges = tuple(self.edge(edge_id) for edge_id in edge_ids)
         if not edges:

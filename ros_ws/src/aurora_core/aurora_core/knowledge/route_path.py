@@ -7,7 +7,8 @@ from __future__ import annotations
 import bisect
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
+from functools import cached_property
 from itertools import pairwise
 from operator import attrgetter
 
@@ -52,7 +53,7 @@ class RouteSegment:
     signal_index: int
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True)
 class RoutePath:
     """A route as one line.
 
@@ -76,7 +77,7 @@ class RoutePath:
     @property
     def has_lane_change(self) -> bool:
         """Whether the route cannot be driven without changing lanes."""
-        return any(segment.is_lane_change for segment in self.segments)
+        return bool(self.lane_changes)
 
     def position_at(self, arc_m: float) -> tuple[float, float, float, float]:
         """Return x, y (m) and the unit heading at an arc length.
@@ -130,16 +131,18 @@ class RoutePath:
             hint='choose a lane and position on the route',
         )
 
+    @cached_property
     def signals(self) -> tuple[tuple[float, str, int], ...]:
-        """Return (arc length of the stop line, signal id, place in its state) in order."""
+        """(Arc length of the stop line, signal id, place in its state) in order."""
         return tuple(
             (s.end_m, s.signal_id, s.signal_index)
             for s in self.segments
             if s.signal_id is not None
         )
 
+    @cached_property
     def lane_changes(self) -> tuple[RouteSegment, ...]:
-        """Return the stretches on which the vehicle has to change lanes, in order.
+        """The stretches on which the vehicle has to change lanes, in order.
 
         Without any the line is exactly what the simulator drives. With some, the simulator
         chooses the place of each change itself unless it is commanded at `start_m`.
@@ -159,13 +162,40 @@ class RoutePath:
             )
 
 
+# Lane, from which lane it slides, arc lengths, positions on the lane, signal with its index.
+_Stretch = tuple[
+    Lane, str | None, tuple[float, float], tuple[float, float], tuple[str | None, int]
+]
+_NO_SIGNAL: tuple[str | None, int] = (None, -1)
+
+
 class _PathBuilder:
     """Collects points and stretches."""
 
     def __init__(self) -> None:
         self.points: list[Point] = []
-        self.segments: list[RouteSegment] = []
+        self._stretches: list[_Stretch] = []
         self._length_m = 0.0
+
+    @property
+    def segments(self) -> tuple[RouteSegment, ...]:
+        """The stretches in order."""
+        return tuple(
+            RouteSegment(
+                lane_id=lane.id,
+                edge_id=lane.edge_id,
+                is_internal=lane.is_internal,
+                is_lane_change=slides_from is not None,
+                from_lane_id=lane.id if slides_from is None else slides_from,
+                start_m=start_m,
+                end_m=end_m,
+                lane_start_pos_m=low_m,
+                lane_end_pos_m=high_m,
+                signal_id=signal[0],
+                signal_index=signal[1],
+            )
+            for lane, slides_from, (start_m, end_m), (low_m, high_m), signal in self._stretches
+        )
 
     def add(
         self,
@@ -204,28 +234,13 @@ class _PathBuilder:
             length_m = _length_m(tuple(joined))
         start_m = self._length_m
         self._length_m += length_m
-        self.segments.append(
-            RouteSegment(
-                lane_id=lane.id,
-                edge_id=lane.edge_id,
-                is_internal=lane.is_internal,
-                is_lane_change=slides_from is not None,
-                from_lane_id=lane.id if slides_from is None else slides_from,
-                start_m=start_m,
-                end_m=self._length_m,
-                lane_start_pos_m=pos_m[0],
-                lane_end_pos_m=pos_m[1],
-                signal_id=None,
-                signal_index=-1,
-            )
-        )
+        arcs_m = (start_m, self._length_m)
+        self._stretches.append((lane, slides_from, arcs_m, pos_m, _NO_SIGNAL))
 
     def end_with_signal(self, link: Connection) -> None:
         """Note the light that controls the end of the last stretch."""
-        last = self.segments.pop()
-        self.segments.append(
-            replace(last, signal_id=link.signal_id, signal_index=link.signal_index)
-        )
+        signal = (link.signal_id, link.signal_index)
+        self._stretches[-1] = (*self._stretches[-1][:-1], signal)
 
 
 def build_path(
@@ -255,7 +270,7 @@ def build_path(
         edge_ids=tuple(edge.id for edge in edges),
         polyline=polyline,
         line=Polyline(polyline),
-        segments=tuple(builder.segments),
+        segments=builder.segments,
     )
 
 

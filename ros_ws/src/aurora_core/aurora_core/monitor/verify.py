@@ -16,6 +16,7 @@ from aurora_core.monitor.plan_check import Held, NotComparable, Plan, held_again
 from aurora_core.monitor.sentences import explain, explain_missing
 from aurora_core.outcomes.condition import Condition
 from aurora_core.outcomes.verdict import ConditionResult, Finding, Reason, Verdict, VerdictStatus
+from aurora_core.ports.progress import Progress, after, quietly
 from aurora_core.quantities.ticks import whole_ticks
 from aurora_core.quantities.view import RunView
 from aurora_core.spec.scenario import ScenarioSpec
@@ -38,6 +39,7 @@ def verify(
     recomputed: Sequence[Finding] = (),
     *,
     as_recorded: bool = False,
+    progress: Progress = quietly,
 ) -> Verdict:
     """Recompute every margin.
 
@@ -52,6 +54,7 @@ def verify(
         plan: What the request gives when worked out anew; None compares nothing with it.
         recomputed: Where the record is not what the executor gives from its states.
         as_recorded: See `held_against`.
+        progress: Called after each condition.
 
     Raises:
         VerificationError: The conditions do not fit the trace: a body or an event is missing in
@@ -80,7 +83,9 @@ def verify(
         lost = Missing(reason=Reason.SAMPLES_MISSING, story='the first tick is missing')
         results = tuple(_without_margin(condition, lost, context) for condition in conditions)
     else:
-        results = tuple(judge(context, condition, cut=missing) for condition in conditions)
+        results = tuple(
+            after(progress, judge(context, condition, cut=missing)) for condition in conditions
+        )
         findings += cross_check(context)
         if isinstance(plan, Plan):
             findings += tuple(chance_findings(context, plan.seed))

@@ -11,6 +11,7 @@ from pydantic import FiniteFloat
 from aurora_core.document import Document, omitted
 from aurora_core.knowledge.basis import Basis
 from aurora_core.mission.plan import UavPlan
+from aurora_core.outcomes.repair import RepairPlan
 from aurora_core.spec.parameter import Provenance
 
 GROUNDING_VERSION = 1
@@ -137,3 +138,5 @@ class GroundedScenario(Document):
     configuration: str = ''
     # Version of the executor that it is for (`execution.plan.EXECUTOR_VERSION`), 0 in old ones.
     executor_version: int = 0
+    # What repair made otherwise than the first grounding; None where nothing.
+    repair: RepairPlan | None = omitted(None)

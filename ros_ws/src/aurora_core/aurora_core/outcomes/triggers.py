@@ -1,10 +1,11 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""Triggers as they were realised: what nobody states is moved to where a grounding can meet it."""
+"""A request as it is realised: what nobody states is moved to where a grounding can meet it."""
 
 from __future__ import annotations
 
 from aurora_core.outcomes.grounded import GroundedScenario
+from aurora_core.outcomes.repair import with_values
 from aurora_core.spec.parameter import Parameter, Provenance
 from aurora_core.spec.scenario import Event, ScenarioSpec, Trigger
 
@@ -27,14 +28,19 @@ def movable(trigger: Trigger | None) -> tuple[str, Parameter] | None:
 
 
 def as_realised(spec: ScenarioSpec, grounded: GroundedScenario) -> ScenarioSpec:
-    """Return a request with the triggers that its grounding was given.
+    """Return a request with the triggers and repaired values that its grounding was given.
 
-    Only defaults are moved, and inside their domain, whatever a recorded grounding says.
+    Only what nobody states is moved, and inside its domain, whatever a recorded grounding says.
 
     Args:
         spec: The request; it is not changed.
         grounded: Its grounding.
+
+    Raises:
+        SpecError: A repaired value is stated, is outside its domain, or is not in the request.
     """
+    if grounded.repair is not None:
+        spec = with_values(spec, grounded.repair.values)
     moved = {row.path: row.realised for row in grounded.realised}
     events = tuple(_realised(event, moved) for event in spec.events)
     if events == spec.events:

@@ -15,8 +15,8 @@ specification). One reading of them is an `attempt`; what it left unread gets a
 
 Nothing is dropped in silence. A construction marks every adjunct that it understood as used; what
 stays unused in an encoded clause becomes a clause of its own with the status `not_encoded`;
-`coverage` then looks for numbers and actors that went nowhere, `telling_words` for words that ask
-for something nothing carries.
+`coverage` then looks for numbers and actors that went nowhere, `doubts` for words that ask for
+something nothing carries.
 
 To add a word, write it in the list of its meaning in `lexicon.yaml`; forms and one-letter slips
 follow by themselves. To add a default, `defaults.yaml`. To add a construction, write a function
@@ -38,11 +38,11 @@ from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
 from aurora_core.parsing.attempt import attempt
 from aurora_core.parsing.closing import close_scene
 from aurora_core.parsing.coverage import in_no_clause, unaccounted
+from aurora_core.parsing.doubts import doubtful
 from aurora_core.parsing.landmarks import landmark_phrases
 from aurora_core.parsing.scene import ClauseDraft, Scene
 from aurora_core.parsing.second_look import second_look
 from aurora_core.parsing.tagging import tag
-from aurora_core.parsing.telling_words import untold
 from aurora_core.parsing.text import check_prompt_text
 from aurora_core.parsing.tokens import tokenize
 from aurora_core.spec.scenario import ScenarioSpec
@@ -102,7 +102,7 @@ def parse_offline(prompt: str, context: ParseContext) -> ParseOutcome:
         understood=scene.understood,
     )
     lost += in_no_clause(tagged.atoms, scene.finished_clauses())
-    lost += untold(spec)
+    lost += doubtful(spec, tagged.atoms)
     if lost:
         scene.clauses += [
             ClauseDraft(span=span, notes=['nothing in the scenario accounts for this'])

@@ -67,8 +67,14 @@ def _openings(spec: ScenarioSpec, opening: re.Pattern[str]) -> Iterator[Span]:
 
 
 def _encoded(spec: ScenarioSpec, span: Span) -> list[Clause]:
-    """Return the clauses that characters are part of, none where one of them is unread."""
+    """Return the clauses that characters are part of, none where one of them is unread.
+
+    Characters between two clauses belong to the one that they open.
+    """
     touched = [c for c in spec.clauses if _meet(c.span, span)]
+    if not touched:
+        behind = (c for c in spec.clauses if c.span.start >= span.end)
+        touched = sorted(behind, key=lambda c: c.span.start)[:1]
     read = all(c.status is ClauseStatus.ENCODED for c in touched)
     return touched if read else []
 
@@ -247,8 +253,8 @@ def _row(spec: ScenarioSpec, clause: Clause) -> bool:
 
 
 def _closed(spec: ScenarioSpec, clause: Clause) -> bool:
-    """What says how many bodies there are, or forbids some."""
-    return bool(spec.counts) or bool(spec.prohibitions) or bool(spec.world.traffic_density)
+    """What says how many bodies there are, or forbids some, or how dense the traffic is."""
+    return bool(spec.counts) or bool(spec.prohibitions) or 'world' in clause.ids
 
 
 def _at_the_same_time(spec: ScenarioSpec, clause: Clause) -> bool:

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from aurora_core.agsg.build import build_agsg
+from aurora_core.errors import SpecError
 from aurora_core.execution.faults import Fault
 from aurora_core.execution.plan import Execution, build_execution
 from aurora_core.feasibility.check import check_request
@@ -12,11 +13,16 @@ from aurora_core.outcomes.agsg import Agsg, Stage
 from aurora_core.outcomes.feasibility import FeasibilityVerdict
 from aurora_core.outcomes.grounding import GroundingFailure, GroundingOutcome
 from aurora_core.outcomes.parse import ParseContext, ParseOutcome
+from aurora_core.outcomes.repair import Attempt, Proposal, RepairPlan, with_values
+from aurora_core.outcomes.verdict import Verdict
 from aurora_core.parsing.parser import parse_offline
 from aurora_core.pipeline.knowledge import Knowledge
 from aurora_core.pipeline.planned import plan_conditions
 from aurora_core.pipeline.reading import parser_digest
 from aurora_core.planning.complete import complete
+from aurora_core.repair.lock import locked_edits
+from aurora_core.repair.propose import propose
+from aurora_core.repair.realise import repaired
 from aurora_core.temporal.retarget import retargeted
 from aurora_core.temporal.schedule import plan_time
 
@@ -59,19 +65,36 @@ def check_stage(known: Knowledge, agsg: Agsg) -> FeasibilityVerdict:
     )
 
 
-def ground_stage(known: Knowledge, agsg: Agsg, seed: int) -> GroundingOutcome:
-    """Ground a graph: places, routes, schedule, conditions."""
+def ground_stage(
+    known: Knowledge, agsg: Agsg, seed: int, plan: RepairPlan | None = None
+) -> GroundingOutcome:
+    """Ground a graph: places, routes, schedule, conditions.
+
+    Args:
+        known: What is installed here.
+        agsg: Graph of the request.
+        seed: Of the run.
+        plan: How it is to be realised otherwise than at first; None: the first time.
+
+    Raises:
+        SpecError: The plan would change what is locked.
+    """
     spec = agsg.spec
-    grounded = known.grounder(spec.world.map_name).ground(spec, seed)
+    for why in () if plan is None else locked_edits(agsg, plan):
+        raise SpecError(f'the request cannot be realised so: {why}')
+    asked = spec if plan is None else with_values(spec, plan.values)
+    grounded = known.grounder(spec.world.map_name).ground(asked, seed, plan)
     if isinstance(grounded, GroundingFailure):
         return GroundingOutcome(failure=grounded)
-    grounded = retargeted(spec, grounded, known.limits)
-    schedule = plan_time(spec, grounded, known.limits, known.tolerances)
+    if plan is not None:
+        grounded = repaired(grounded, plan)
+    grounded = retargeted(asked, grounded, known.limits)
+    schedule = plan_time(asked, grounded, known.limits, known.tolerances)
     planned = plan_conditions(spec, grounded, schedule, known.limits, known.tolerances)
     graph = build_agsg(
         spec,
         map_digest=known.map(spec.world.map_name).digest,
-        stage=Stage.GROUNDED,
+        stage=Stage.GROUNDED if plan is None else Stage.REPAIRED,
         iteration=agsg.iteration,
         grounding=grounded,
         schedule=schedule,
@@ -94,3 +117,10 @@ def execution_stage(
         faults=faults,
         parts=known.parts(agsg.map_name),
     )
+
+
+def repair_stage(
+    known: Knowledge, agsg: Agsg, verdict: Verdict, past: tuple[Attempt, ...]
+) -> Proposal:
+    """Propose what to try after a violated verdict; see `repair.propose`."""
+    return propose(agsg, verdict, past, known.repair)

@@ -19,6 +19,7 @@ from aurora_core.knowledge.map_records import MeasuredMap, load_measured_map
 from aurora_core.knowledge.settings import Settings, load_settings
 from aurora_core.knowledge.uav_record import UavRecord, load_uav_record, within
 from aurora_core.knowledge.world import WorldModel
+from aurora_core.repair.settings import RepairSettings, load_repair_settings
 from aurora_core.report.versions import AURORA_VERSION
 
 
@@ -34,6 +35,7 @@ class Knowledge:
         settings: Settings of grounding and execution.
         types: Ground agents by type, as measured.
         uav: The multirotor as measured; it is never planned to do more.
+        repair: How repair searches; it decides nothing about a verdict.
     """
 
     def __init__(
@@ -44,6 +46,7 @@ class Knowledge:
         settings: Settings,
         types: Mapping[str, AgentTypeRecord],
         uav: UavRecord,
+        repair: RepairSettings,
     ) -> None:
         self.limits = limits
         self.tolerances = tolerances
@@ -52,6 +55,7 @@ class Knowledge:
         )
         self.types = types
         self.uav = uav
+        self.repair = repair
         tables = Tables(limits=self.limits, tolerances=self.tolerances, settings=self.settings)
         self.basis = Basis.of(AURORA_VERSION, tables)
         self._maps: dict[str, MapModel] = {}
@@ -121,4 +125,5 @@ def installed_knowledge() -> Knowledge:
         settings=load_settings(),
         types=load_agent_types(),
         uav=load_uav_record(),
+        repair=load_repair_settings(),
     )

@@ -43,9 +43,9 @@ def plan_conditions(
     """Return the conditions of a grounded request, and what they leave out."""
     spec = as_realised(spec, grounded)
 
-    def derive(asked: ScenarioSpec) -> Derivation:
-        made = derive_conditions(asked, schedule.facts, limits, tolerances)
-        return replace(made, conditions=judgeable(made.conditions, asked, grounded))
+    def derive(asked: ScenarioSpec, agent: str | None = None) -> Derivation:
+        made = derive_conditions(asked, schedule.facts, limits, tolerances, agent)
+        return replace(made, conditions=judgeable(made.conditions, asked, grounded, agent))
 
     derivation = derive(spec)
     return PlannedConditions(
@@ -54,5 +54,10 @@ def plan_conditions(
             *unsupported(spec, grounded),
             *(f'{u.element}: {u.what}' for u in derivation.underivable),
         ),
-        unjudged=unjudged(spec, derivation.conditions, lambda asked: derive(asked).conditions),
+        unjudged=unjudged(
+            spec,
+            derivation.conditions,
+            lambda asked: derive(asked).conditions,
+            lambda asked, agent: derive(asked, agent).conditions,
+        ),
     )

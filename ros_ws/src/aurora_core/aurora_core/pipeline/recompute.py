@@ -23,11 +23,15 @@ from aurora_core.knowledge.world import WorldModel
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.verdict import Finding
 from aurora_core.pipeline.differences import Again, differences
+from aurora_core.ports.progress import Progress, quietly
 from aurora_core.quantities.world_geometry import WorldGeometry
 from aurora_core.trace.commands import GroundCommand
 from aurora_core.trace.layout import UAV_COMMAND_WIDTH
 from aurora_core.trace.records import EventRecord, LinkRecord, SightRecord
 from aurora_core.trace.trace import Integrity, Trace
+
+# Ticks after which progress is told.
+_TOLD_TICKS = 100
 
 
 def recomputed(
@@ -38,6 +42,7 @@ def recomputed(
     tolerances: Tolerances,
     settings: Settings,
     parts: MapParts | None = None,
+    progress: Progress = quietly,
 ) -> tuple[Finding, ...]:
     """Return where a recording is not what its executor gives from its states.
 
@@ -48,6 +53,7 @@ def recomputed(
         tolerances: Tolerances in force.
         settings: Settings in force.
         parts: Solids of that world, when they exist already.
+        progress: Called now and then on the way.
     """
     ticks = trace.missing_ticks[0] if trace.missing_ticks else trace.ticks
     grounded, schedule = agsg.grounding, agsg.schedule
@@ -80,7 +86,7 @@ def recomputed(
         )
     except (AuroraError, LookupError, ValueError, ArithmeticError) as err:
         return (_problem(f'the executor of this request cannot be built: {err}'),)
-    again = step_again(stepper, trace, ticks)
+    again = step_again(stepper, trace, ticks, progress)
     # Of a damaged recording claims may be lost, and that is said already.
     claims = trace.integrity is Integrity.INTACT and not trace.missing_ticks
     found = differences(trace, again, claims=claims and not again.problem)
@@ -98,8 +104,8 @@ def recorded_faults(trace: Trace) -> tuple[Fault, ...]:
     return tuple(read_fault(e.subject, e.detail) for e in trace.events if e.fault_kind)
 
 
-def step_again(stepper: Stepper, trace: Trace, ticks: int) -> Again:
-    """Step an executor through the first ticks of a recording."""
+def step_again(stepper: Stepper, trace: Trace, ticks: int, progress: Progress = quietly) -> Again:
+    """Step an executor through the first ticks of a recording; tell each hundred of them."""
     flown = np.zeros((ticks + 1, len(trace.roster.uavs), UAV_COMMAND_WIDTH))
     driven: list[tuple[GroundCommand, ...]] = [()]
     links: list[LinkRecord] = []
@@ -118,6 +124,8 @@ def step_again(stepper: Stepper, trace: Trace, ticks: int) -> Again:
         sights += output.sights
         events += output.events
         done = tick + 1
+        if done % _TOLD_TICKS == 0:
+            progress()
         if output.finished:
             finished = tick
             break

@@ -18,8 +18,18 @@ from typing import Any
 from aurora_core.errors import AuroraError
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.feasibility import Feasibility
+from aurora_core.outcomes.grounding import GroundingOutcome
+from aurora_core.outcomes.repair import Attempt, Proposal, ProposalOutcome, RepairPlan
+from aurora_core.outcomes.verdict import VerdictStatus
 from aurora_core.pipeline.history import remember
 from aurora_core.pipeline.knowledge import Knowledge
+from aurora_core.pipeline.repairing import (
+    Realisation,
+    nothing_left,
+    realised,
+    repair_report,
+    why_not,
+)
 from aurora_core.pipeline.stages import ExecutionResult, RunControl, RunRequest, Stages
 from aurora_core.ports.clock import SteadyClock
 from aurora_core.report.build import build_report
@@ -33,7 +43,7 @@ from aurora_core.report.run_folder import (
     RunFolder,
     StageFile,
 )
-from aurora_core.report.run_report import BagReport, RunReport
+from aurora_core.report.run_report import BagReport, RepairReport, RunReport
 
 _LOG = logging.getLogger(__name__)
 
@@ -44,9 +54,14 @@ _BEGINS = {
     'ground': 0.08,
     'execute': 0.2,
     'verify': 0.9,
+    'repair': 0.92,
     'report': 0.95,
     'done': 1.0,
 }
+
+
+# What repair goes on after: a candidate that cannot be decided is none that holds.
+_GO_ON = (VerdictStatus.VIOLATED, VerdictStatus.INCONCLUSIVE)
 
 
 class _Cancelled(Exception):  # noqa: N818  (control flow inside this file only)
@@ -75,6 +90,16 @@ class _Run:
         self.facts = facts
         self._dt_s = 0.0
         self._timing: dict[str, float] = {}
+        # Of the time for repair: what is over, and what an iteration takes of it.
+        self._share: tuple[float, float] | None = None
+
+    def progress(self, name: str, fraction: float, sim_s: float) -> None:
+        """Tell how far the run has come; it does not go back with a repair."""
+        if self._share is not None:
+            over, part = self._share
+            length = _BEGINS['report'] - _BEGINS['repair']
+            fraction = _BEGINS['repair'] + length * (over + part * fraction)
+        self.control.progress(name, fraction, sim_s)
 
     def note(self, **changes: Any) -> None:
         """Add facts."""
@@ -85,7 +110,7 @@ class _Run:
         """Time a stage; a cancel takes effect before it begins."""
         if self.control.cancelled():
             raise _Cancelled
-        self.control.progress(name, _BEGINS[name], 0.0)
+        self.progress(name, _BEGINS[name], 0.0)
         begin = self.clock.seconds()
         try:
             yield
@@ -106,10 +131,13 @@ class _Run:
         graph = self.understand()
         if graph is None:
             return
-        grounded = self.ground(graph)
-        if grounded is None:
+        grounding = self.ground(graph)
+        if grounding.agsg is None:
             return
-        self.execute(grounded, iteration=0)
+        self.keep(grounding.agsg)
+        first = self.execute(grounding, iteration=0)
+        if first.verdict.status is VerdictStatus.VIOLATED:
+            self.repair(graph, first)
 
     def understand(self) -> Agsg | None:
         """Parse and check the stated numbers; None when the run ends here."""
@@ -131,32 +159,39 @@ class _Run:
         self.folder.write_stage(StageFile.FEASIBILITY, 0, feasibility)
         return None if feasibility.result is Feasibility.INFEASIBLE else graph
 
-    def ground(self, graph: Agsg) -> Agsg | None:
-        """Find places, schedule and conditions; None when there is no place."""
+    def ground(self, graph: Agsg, plan: RepairPlan | None = None) -> GroundingOutcome:
+        """Find places, schedule and conditions; the graph is missing when there is no place."""
         with self.stage('ground'):
-            outcome = self.stages.ground(graph, self.request)
-            self.note(grounding=outcome)
-        if outcome.agsg is None:
-            return None
-        grounded = outcome.agsg
+            if plan is None:
+                outcome = self.stages.ground(graph, self.request)
+                self.note(grounding=outcome)
+                return outcome
+            return self.stages.ground(graph, self.request, plan)
+
+    def keep(self, grounded: Agsg) -> None:
+        """Write the documents that a grounded scenario is executed from."""
         self.folder.write_stage(StageFile.AGSG, grounded.iteration, grounded)
         self.folder.write_stage(StageFile.GROUNDING, grounded.iteration, grounded.texts.grounding)
         self.folder.write_stage(StageFile.SCHEDULE, grounded.iteration, grounded.texts.schedule)
-        return grounded
 
-    def execute(self, graph: Agsg, iteration: int) -> None:
+    def execute(
+        self, grounding: GroundingOutcome, iteration: int, proposal: Proposal | None = None
+    ) -> Realisation:
         """Run in lockstep and judge the trace."""
+        graph = grounding.agsg
+        assert graph is not None  # who found no place has nothing to execute
         bag = self.folder.bag_path(iteration)
         share = _BEGINS['verify'] - _BEGINS['execute']
         inner = RunControl(
-            progress=lambda name, done, sim_s: self.control.progress(
+            progress=lambda name, done, sim_s: self.progress(
                 name, _BEGINS['execute'] + share * done, sim_s
             ),
             cancelled=self.control.cancelled,
         )
         with self.stage('execute'):
             result = self.stages.execute(graph, bag, self.request, inner)
-            self.note(execution=self._execution(result, bag.name), iterations=iteration + 1)
+            execution = self._execution(result, bag.name)
+            self.note(execution=execution, iterations=iteration + 1)
             made = BagReport(
                 bag=bag.name,
                 iteration=iteration,
@@ -171,6 +206,86 @@ class _Run:
             verdict = self.stages.verify(graph, bag)
             self.note(verdict=verdict)
         self.folder.write_stage(StageFile.VERDICT, iteration, verdict)
+        return Realisation(
+            attempt=realised(iteration, grounding, verdict, proposal),
+            grounding=grounding,
+            execution=execution,
+            verdict=verdict,
+        )
+
+    def repair(self, graph: Agsg, first: Realisation) -> None:
+        """Realise a violated request otherwise, until it holds or the budget is spent.
+
+        The run is judged by its best realisation, the earliest one among equals; the request and
+        what it is judged by stay as they are.
+        """
+        budget = self.budget()
+        made = [first]
+        past = [first.attempt]
+        tries = self.known.repair.groundings if budget else 0
+        try:
+            while tries and len(made) <= budget and made[-1].verdict.status in _GO_ON:
+                tries -= 1
+                self._share = (len(made) - 1) / budget, 1.0 / budget
+                if not self.attempt(graph, made, past):
+                    break
+        except (_Cancelled, KeyboardInterrupt):
+            self._drop(len(made))
+            raise
+        finally:
+            best = max(made, key=lambda r: r.attempt.rank)
+            self.note(grounding=best.grounding, execution=best.execution, verdict=best.verdict)
+            self.note(iterations=len(made))
+            self._share = None
+
+    def budget(self) -> int:
+        """Return how many co-simulations repair may spend.
+
+        Injected faults test what is said of them: unless it is asked for, nothing goes round them.
+        """
+        if self.request.repair is not None:
+            return self.request.repair
+        return 0 if self.request.faults else self.known.repair.budget
+
+    def attempt(self, graph: Agsg, made: list[Realisation], past: list[Attempt]) -> bool:
+        """Try the next proposal; False when there is none."""
+        iteration = len(made)
+        best = max(made, key=lambda r: r.attempt.rank)
+        with self.stage('repair'):
+            bag = self.folder.path / best.execution.bag
+            proposal = self.stages.propose(best.graph, best.verdict, bag, tuple(past))
+        if proposal.outcome is not ProposalOutcome.EDITED:
+            self._tell(nothing_left(iteration, proposal))
+            return False
+        again = graph.model_copy(update={'iteration': iteration})
+        grounding = self.ground(again, proposal.plan)
+        unfit = why_not(iteration, proposal, grounding, made[0].grounding, past)
+        before = best.graph.grounding
+        if unfit is not None:
+            attempt, why = unfit
+            past.append(attempt)
+            self._tell(repair_report(proposal, attempt, before, why))
+            return True
+        assert grounding.agsg is not None  # `why_not` tells
+        self.folder.write_stage(StageFile.SPEC, iteration, grounding.agsg.spec)
+        if self.facts.feasibility is not None:
+            self.folder.write_stage(StageFile.FEASIBILITY, iteration, self.facts.feasibility)
+        self.keep(grounding.agsg)
+        done = self.execute(grounding, iteration, proposal)
+        made.append(done)
+        past.append(done.attempt)
+        told = repair_report(proposal, done.attempt, before)
+        self._tell(told)
+        self.folder.write_stage(StageFile.EDITS, iteration, told)
+        return True
+
+    def _tell(self, told: RepairReport) -> None:
+        self.note(repairs=(*self.facts.repairs, told))
+
+    def _drop(self, iteration: int) -> None:
+        """Take away what an iteration that was not finished has left."""
+        self.folder.discard(iteration)
+        self.note(bags=tuple(b for b in self.facts.bags if b.iteration < iteration))
 
     def _execution(self, result: ExecutionResult, name: str) -> ExecutionFacts:
         return ExecutionFacts(

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated, Any, Literal, Protocol
 
-from pydantic import AfterValidator, ConfigDict, ValidationError
+from pydantic import AfterValidator, ConfigDict, Field, ValidationError
 
 from aurora_core.document import Document
 from aurora_core.errors import SpecError
@@ -22,6 +22,7 @@ from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.feasibility import FeasibilityVerdict
 from aurora_core.outcomes.grounding import GroundingOutcome
 from aurora_core.outcomes.parse import ParseOutcome
+from aurora_core.outcomes.repair import Attempt, Proposal, RepairPlan
 from aurora_core.outcomes.verdict import Verdict
 from aurora_core.ports.model_name import check_no_secret
 from aurora_core.spec.seed import Seed
@@ -34,6 +35,9 @@ class RunRequest(Document):
         prompt: Byte-identical to what was typed.
         model: `offline`, or language models as `config/models.yaml` says; it is recorded, and
             holds no secret.
+        allow_relax: Repair may propose changes of the request itself.
+        repair: Co-simulations that repair may spend after a violation; None: as many as
+            `config/repair.yaml` says, and none where faults are injected.
         faults: Injected run-time faults; invisible to feasibility and monitor.
         history: Folder of past episodes that a language model may be shown, and that takes the run
             in when it is verified; None without one.
@@ -50,6 +54,7 @@ class RunRequest(Document):
     engine: Literal['local', 'ros'] = 'local'
     model: Annotated[str, AfterValidator(check_no_secret)] = 'offline'
     allow_relax: bool = False
+    repair: Annotated[int, Field(ge=0)] | None = None
     faults: tuple[Fault, ...] = ()
     history: Path | None = None
     history_frozen: bool = False
@@ -114,8 +119,13 @@ class Stages(Protocol):
     def parse(self, request: RunRequest) -> ParseOutcome:
         """Read the prompt."""
 
-    def ground(self, agsg: Agsg, request: RunRequest) -> GroundingOutcome:
-        """Find places, routes, a schedule and the conditions."""
+    def ground(
+        self, agsg: Agsg, request: RunRequest, plan: RepairPlan | None = None
+    ) -> GroundingOutcome:
+        """Find places, routes, a schedule and the conditions; with a plan, otherwise than before.
+
+        The graph's iteration is that of the realisation.
+        """
 
     def check(self, agsg: Agsg, request: RunRequest) -> FeasibilityVerdict:
         """Judge feasibility; called before grounding and again after it."""
@@ -127,3 +137,15 @@ class Stages(Protocol):
 
     def verify(self, agsg: Agsg, bag: Path) -> Verdict:
         """Recompute every margin from the bag."""
+
+    def propose(
+        self, agsg: Agsg, verdict: Verdict, bag: Path, past: tuple[Attempt, ...]
+    ) -> Proposal:
+        """Localize the faults of a violated run and propose how to realise it otherwise.
+
+        Args:
+            agsg: The best realisation so far.
+            verdict: Of its trace.
+            bag: Its recording.
+            past: Everything that was tried, in order.
+        """

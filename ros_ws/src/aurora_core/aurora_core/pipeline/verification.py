@@ -21,6 +21,7 @@ from aurora_core.monitor.verify import verify
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.condition import Condition
 from aurora_core.outcomes.grounded import GroundedScenario
+from aurora_core.outcomes.repair import with_values
 from aurora_core.outcomes.schedule import Schedule
 from aurora_core.outcomes.verdict import Finding, Verdict
 from aurora_core.pipeline.functions import parse_context
@@ -29,6 +30,8 @@ from aurora_core.pipeline.planned import plan_conditions
 from aurora_core.pipeline.reading import doubts_of_reading
 from aurora_core.pipeline.recompute import recomputed
 from aurora_core.planning.complete import complete
+from aurora_core.ports.progress import Progress, quietly
+from aurora_core.repair.lock import locked_edits
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.temporal.retarget import retargeted
 from aurora_core.temporal.schedule import plan_time
@@ -76,10 +79,15 @@ def verify_stage(known: Knowledge, bag: Path, *, recompute: bool = True) -> Verd
 
 
 def verify_content(
-    known: Knowledge, content: BagContent, agsg: Agsg, *, recompute: bool = True
+    known: Knowledge,
+    content: BagContent,
+    agsg: Agsg,
+    *,
+    recompute: bool = True,
+    progress: Progress = quietly,
 ) -> Verdict:
     """Compute every margin of a run, wherever its messages come from; see `judge_content`."""
-    return judge_content(known, content, agsg, recompute=recompute).verdict
+    return judge_content(known, content, agsg, recompute=recompute, progress=progress).verdict
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -98,6 +106,7 @@ def judge_content(
     *,
     as_recorded: bool = False,
     recompute: bool = True,
+    progress: Progress = quietly,
 ) -> Judged:
     """Compute every margin of a run.
 
@@ -109,16 +118,18 @@ def judge_content(
             they are others here.
         recompute: Step the executor over the recorded states, too. Only a benchmark that asks what
             the conditions find by themselves goes without.
+        progress: Called whenever a piece of the work is done.
 
     Raises:
         VerificationError: The grounding is missing, or nothing fits.
     """
     conditions = conditions_from_json(content.world.conditions_json)
     plan = recorded_plan(known, content.world, conditions, agsg)
+    progress()
     found: tuple[Finding, ...] = ()
     # What another version of the executor commands is not known here.
     if recompute and isinstance(plan, Plan) and not plan.other_version:
-        found = recomputed_content(known, content, agsg)
+        found = recomputed_content(known, content, agsg, progress)
     verdict = verify(
         content.trace,
         content.world,
@@ -127,11 +138,14 @@ def judge_content(
         plan,
         found,
         as_recorded=as_recorded,
+        progress=progress,
     )
     return Judged(verdict=verdict, plan=plan, conditions=conditions)
 
 
-def recomputed_content(known: Knowledge, content: BagContent, agsg: Agsg) -> tuple[Finding, ...]:
+def recomputed_content(
+    known: Knowledge, content: BagContent, agsg: Agsg, progress: Progress = quietly
+) -> tuple[Finding, ...]:
     """Return where a run of this version of the executor is not the executor's.
 
     Raises:
@@ -150,6 +164,7 @@ def recomputed_content(known: Knowledge, content: BagContent, agsg: Agsg) -> tup
         tolerances=tables.tolerances,
         settings=tables.settings,
         parts=known.parts_of(content.world),
+        progress=progress,
     )
 
 
@@ -206,6 +221,8 @@ def _plan(
     spec = agsg.spec
     # Requests were once recorded as they were read; completing changes nothing of a complete one.
     whole = complete(spec, tables.limits)
+    if grounded.repair is not None:
+        whole = with_values(whole, grounded.repair.values)
     schedule = plan_time(whole, grounded, tables.limits, tables.tolerances)
     planned = plan_conditions(spec, grounded, schedule, tables.limits, tables.tolerances)
     rebuilt = _rebuilt_world(known, spec, grounded, tables.limits)
@@ -221,6 +238,7 @@ def _plan(
         documents=(
             *_documents(conditions, agsg, grounded, schedule),
             *_triggers(grounded, retargeted(whole, grounded, tables.limits)),
+            *_repair(agsg, grounded),
             *_reading(known, spec, tables.limits, is_here=rebuilt is not None),
         ),
         version=basis.version,
@@ -254,6 +272,12 @@ def _triggers(grounded: GroundedScenario, again: GroundedScenario) -> Iterator[F
     """Yield where triggers were moved to other values than their places ask for."""
     if grounded.realised != again.realised:
         yield finding('graph', 'triggers', 'not those that request and grounding give')
+
+
+def _repair(agsg: Agsg, grounded: GroundedScenario) -> Iterator[Finding]:
+    """Yield what was realised otherwise though it is locked."""
+    for why in () if grounded.repair is None else locked_edits(agsg, grounded.repair):
+        yield finding('graph', 'repair', why)
 
 
 def _reading(

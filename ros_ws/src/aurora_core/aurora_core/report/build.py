@@ -24,6 +24,7 @@ from aurora_core.report.run_report import (
     RunReport,
     TraceReport,
 )
+from aurora_core.report.said_back import said_back
 from aurora_core.report.status import StatusFacts, status_of
 from aurora_core.report.summary import summary_of
 from aurora_core.spec.vocabulary import ClauseStatus
@@ -65,8 +66,10 @@ def build_report(facts: RunFacts) -> RunReport:
 def restated(report: RunReport, facts: RunFacts) -> RunReport:
     """Return a report with all that follows from recording and status worked out anew."""
     clauses, rows = _judged(facts)
+    spec = facts.parse.spec if facts.parse is not None else None
     changes: dict[str, object] = {
         'clauses': clauses,
+        'elements': () if spec is None else said_back(spec),
         'conditions': rows,
         'metrics': _metrics(facts, clauses, rows),
         'requested_and_realised': _realised(facts.graph),

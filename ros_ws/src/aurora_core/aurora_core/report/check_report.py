@@ -15,6 +15,7 @@ from aurora_core.outcomes.schedule import PlannedTime
 from aurora_core.report.build import build_report
 from aurora_core.report.facts import RunFacts
 from aurora_core.report.run_report import ClauseReport, ErrorReport, RealisedReport
+from aurora_core.report.said_back import ElementReport
 from aurora_core.report.status import ExitCode, Status
 from aurora_core.spec.scenario import ScenarioSpec
 
@@ -52,6 +53,7 @@ class CheckReport(Document):
     """The outcome of parse, grounding and feasibility.
 
     Attributes:
+        elements: The request said back, each element in a sentence.
         horizon_s: Simulated time that a run would take at most, None when nothing was grounded.
         times: When events, missions and landings can be at the earliest and at the latest.
         conflict: What excludes itself where it was grounded, in words; '' for nothing.
@@ -64,6 +66,7 @@ class CheckReport(Document):
     map: str
     seed: int
     clauses: tuple[ClauseReport, ...] = ()
+    elements: tuple[ElementReport, ...] = ()
     feasibility: FeasibilityVerdict | None = None
     conditions: tuple[PlannedCondition, ...] = ()
     horizon_s: FiniteFloat | None = None
@@ -89,6 +92,7 @@ def build_check(facts: RunFacts) -> CheckReport:
         map=facts.map_name,
         seed=facts.seed,
         clauses=report.clauses,
+        elements=report.elements,
         feasibility=report.feasibility,
         conditions=tuple(
             PlannedCondition(id=c.id, sentence=c.sentence, formula=c.formula) for c in conditions

@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from aurora_core.outcomes.grounding import Unjudged
 from aurora_core.outcomes.parse import ParseOutcome
 from aurora_core.report.facts import RunFacts
@@ -40,6 +42,20 @@ def clause_reports(facts: RunFacts) -> tuple[ClauseReport, ...]:
                 )
             )
     return tuple(reports)
+
+
+def status_word(clause: ClauseReport, clauses: Sequence[ClauseReport]) -> str:
+    """Return what became of a clause in words; `in part` where a piece of it was lost."""
+    lost = any(
+        other.status.is_open
+        and clause.span.start <= other.span.start
+        and other.span.end <= clause.span.end
+        for other in clauses
+        if other is not clause
+    )
+    if lost and clause.status is ClauseStatus.ENCODED:
+        return 'encoded in part'
+    return clause.status.value.replace('_', ' ')
 
 
 def _clauses(parse: ParseOutcome | None) -> tuple[Clause, ...]:

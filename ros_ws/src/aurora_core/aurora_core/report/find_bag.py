@@ -5,11 +5,14 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from aurora_core.errors import BagError
+from aurora_core.report.run_documents import read_document
 from aurora_core.report.run_folder import MANIFEST, PROMPT, REPORT, StageFile, is_run_id
+from aurora_core.report.run_report import RunReport
 from aurora_core.trace.bag_metadata import METADATA
 
 # As `RunFolder.bag_path` writes it: no leading zeroes, no digits of other scripts.
@@ -40,7 +43,7 @@ def find_bag(text: str, iteration: int | None) -> FoundBag:
 
     Args:
         text: RUN_OR_BAG.
-        iteration: `--iteration`; the last one when None.
+        iteration: `--iteration`; when None the one that the report is about, else the last one.
 
     Raises:
         BagError: There is no such thing.
@@ -84,8 +87,18 @@ def _in_run(path: Path, iteration: int | None) -> FoundBag:
     )
     if not numbers:
         raise BagError(f'{path} holds no bag: nothing was executed')
-    wanted = numbers[-1] if iteration is None else iteration
+    wanted = _judged(path, numbers) if iteration is None else iteration
     if wanted not in numbers:
         shown = ', '.join(str(number) for number in numbers)
         raise BagError(f'{path} has no iteration {wanted}; it has {shown}')
     return FoundBag(bag=path / f'bag.{wanted}', run=_place(path), iteration=wanted)
+
+
+def _judged(path: Path, numbers: Sequence[int]) -> int:
+    """Return the iteration that the report of a run is about, the last one when it tells none."""
+    report = read_document(path / REPORT, RunReport)
+    if not isinstance(report, RunReport) or report.trace is None:
+        return numbers[-1]
+    match = _BAG.fullmatch(report.trace.bag)
+    told = int(match[1]) if match is not None else numbers[-1]
+    return told if told in numbers else numbers[-1]

@@ -10,8 +10,10 @@ from pathlib import Path
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
+from aurora_core.report.clauses import status_word
 from aurora_core.report.run_report import RunReport
 from aurora_core.report.status import Status
+from aurora_core.report.summary import margin_value
 from aurora_core.report.visible import visible
 
 _TEMPLATE = 'report.html.jinja'
@@ -47,6 +49,8 @@ def report_html(report: RunReport, picture_png: bytes | None = None) -> str:
         finalize=_legible,
     )
     environment.filters['number'] = number
+    environment.filters['margin_value'] = margin_value
+    environment.filters['status_word'] = status_word
     picture = base64.b64encode(picture_png).decode('ascii') if picture_png is not None else ''
     return environment.get_template(_TEMPLATE).render(
         report=report,

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from aurora_core.agsg.document import agsg_from_json
@@ -264,10 +264,18 @@ def _report(run: Path, report: RunReport, iteration: int, bag: JudgedBag) -> Ite
                 f'{REPORT}, {name},', 'the graph', entry.graph_sha256, bag.agsg.sha256
             )
     yield from _request(report, bag)
-    if listed and listed[-1].bag == name:
-        yield from _last(report, listed[-1], bag)
-    elif listed and not (run / listed[-1].bag).exists():
-        yield unknown(f'{listed[-1].bag}, by which the run was judged, is missing')
+    judged = _judged(report, listed)
+    if judged is not None and judged.bag == name:
+        yield from _by_which_judged(report, judged, len(listed), bag)
+    elif judged is not None and not (run / judged.bag).exists():
+        yield unknown(f'{judged.bag}, by which the run was judged, is missing')
+
+
+def _judged(report: RunReport, listed: Sequence[BagReport]) -> BagReport | None:
+    """Return the bag that a report is about: of the best realisation."""
+    named = '' if report.trace is None else report.trace.bag
+    own = [entry for entry in listed if entry.bag == named]
+    return own[0] if own else (listed[-1] if listed else None)
 
 
 def _beside(run: Path, report: RunReport, iteration: int) -> Iterator[Doubt]:
@@ -338,7 +346,9 @@ def _injected(bag: JudgedBag) -> set[tuple[str, str]]:
     }
 
 
-def _last(report: RunReport, entry: BagReport, bag: JudgedBag) -> Iterator[Doubt]:
+def _by_which_judged(
+    report: RunReport, entry: BagReport, executions: int, bag: JudgedBag
+) -> Iterator[Doubt]:
     """Compare what a report claims with the bag that it was judged by."""
     trace = report.trace
     if trace is None or (trace.bag, trace.sha256) != (entry.bag, entry.trace_sha256):
@@ -350,7 +360,8 @@ def _last(report: RunReport, entry: BagReport, bag: JudgedBag) -> Iterator[Doubt
         yield altered(f'{REPORT} has other clauses than the bag gives')
     if bag.verdict.integrity is not Integrity.INTACT or report.status in _CLAIMS_NOTHING:
         return
-    found = first_difference(report, restated(report, bag.facts))
+    facts = replace(bag.facts, iterations=executions)
+    found = first_difference(report, restated(report, facts))
     if found is not None:
         path, told, given = found
         yield altered(f'{REPORT} has {path} {_short(told)}, the bag gives {_short(given)}')

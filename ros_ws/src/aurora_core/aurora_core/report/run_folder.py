@@ -7,6 +7,7 @@ from __future__ import annotations
 import json
 import os
 import re
+import shutil
 from collections.abc import Sequence
 from datetime import UTC, datetime
 from enum import StrEnum
@@ -111,6 +112,21 @@ class RunFolder:
     def bag_path(self, iteration: int) -> Path:
         """Return where the bag of an iteration is (the recorder makes it)."""
         return self.path / f'bag.{iteration}'
+
+    def discard(self, iteration: int) -> None:
+        """Take away the bag and the documents of an iteration, as far as there are any.
+
+        Raises:
+            ReportError: Something cannot be removed.
+        """
+        bag = self.bag_path(iteration)
+        try:
+            for kind in StageFile:
+                self.file(kind.name_at(iteration)).unlink(missing_ok=True)
+            if bag.exists():
+                shutil.rmtree(bag)
+        except OSError as err:
+            raise ReportError(f'{self.path} cannot be tidied: {err.strerror or err}') from err
 
     def file(self, name: str) -> Path:
         """Return the path of a file of the run.

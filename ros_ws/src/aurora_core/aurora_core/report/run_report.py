@@ -13,7 +13,9 @@ from aurora_core.document import Document
 from aurora_core.execution.faults import Fault
 from aurora_core.knowledge.limits import Limits
 from aurora_core.outcomes.feasibility import FeasibilityVerdict
+from aurora_core.outcomes.repair import Implicated
 from aurora_core.outcomes.verdict import Finding, Reason, VerdictStatus
+from aurora_core.report.said_back import ElementReport
 from aurora_core.report.status import Status
 from aurora_core.spec.parameter import Provenance, Span
 from aurora_core.spec.vocabulary import ClauseStatus
@@ -101,12 +103,27 @@ class MarginChange(Document):
 
 
 class RepairReport(Document):
-    """One iteration of repair."""
+    """One attempt of repair.
+
+    Attributes:
+        iteration: Whose files it is in; of an attempt without a simulation, the next one's.
+        kind: Step of the escalation.
+        edits: What was realised otherwise than in the realisation before.
+        margins: Of every condition, where it was simulated.
+        reason: Why it was tried, or why nothing was simulated.
+        outcome: What came of it, see `outcomes.repair.AttemptOutcome`.
+        bag: Folder of its bag, None where nothing was simulated.
+        implicated: What the fault localization put first.
+    """
 
     iteration: int
     kind: str
     edits: tuple[EditReport, ...] = ()
     margins: tuple[MarginChange, ...] = ()
+    reason: str = ''
+    outcome: str = ''
+    bag: str | None = None
+    implicated: tuple[Implicated, ...] = ()
 
 
 class RealisedReport(Document):
@@ -215,6 +232,7 @@ class RunReport(Document):
         bags: Every bag of the run in the order of the iterations; None in reports of older
             versions.
         clauses: Every clause of the prompt.
+        elements: The request said back, each element in a sentence.
         conditions: Every success condition with its margin.
         timing: Wall seconds by stage.
         question: What was missing (status `not_understood`).
@@ -233,6 +251,7 @@ class RunReport(Document):
     digests: Digests
     limits: Limits | None = None
     clauses: tuple[ClauseReport, ...] = ()
+    elements: tuple[ElementReport, ...] = ()
     conditions: tuple[ConditionReport, ...] = ()
     feasibility: FeasibilityVerdict | None = None
     repairs: tuple[RepairReport, ...] = ()

@@ -11,6 +11,13 @@ from aurora_core.report.status import Status
 from aurora_core.trace.trace import Integrity
 
 _SHOWN = 3
+_WHY_NONE = {
+    Reason.PREMISE_NEVER: 'what it waits for never happened',
+    Reason.EMPTY_PHASE: 'that phase never began',
+    Reason.TARGET_GONE: 'the body was gone',
+    Reason.SAMPLES_MISSING: 'samples missing',
+    Reason.TRACE_SHORT: 'the record ends before',
+}
 
 
 def summary_of(report: RunReport, grounding: GroundingOutcome | None) -> str:
@@ -20,16 +27,17 @@ def summary_of(report: RunReport, grounding: GroundingOutcome | None) -> str:
     if report.status is Status.VERIFIED:
         return (
             f'Every condition holds at its original threshold ({held}) and every clause of the '
-            'prompt is encoded.'
+            f'prompt is encoded.{_repaired(report)}'
         )
     if report.status is Status.VERIFIED_AS_EDITED:
         return f'{held}, but only after a change of the request that you allowed.'
     if report.status is Status.INCOMPLETE:
         return f'What was encoded holds ({held}), but not all was encoded: {_lost(report)}.'
     if report.status is Status.VIOLATED:
-        return f'{held}. Violated: {_violated(report.conditions)}.'
+        why = f'Violated: {_violated(report.conditions)}.{_not_repaired(report)}'
+        return f'{held}. {why}{_unread(report)}'
     if report.status is Status.INCONCLUSIVE:
-        return _inconclusive(report, grounding)
+        return _inconclusive(report, grounding) + _unread(report)
     if report.status is Status.INFEASIBLE:
         return 'Refused before execution. ' + ' '.join(
             certificate.sentence
@@ -42,11 +50,37 @@ def summary_of(report: RunReport, grounding: GroundingOutcome | None) -> str:
     return 'Cancelled by the user; nothing is claimed about the prompt.'
 
 
+def _repaired(report: RunReport) -> str:
+    """Return how many realisations it took, where the first one did not hold."""
+    tried = sum(repair.bag is not None for repair in report.repairs)
+    if not tried:
+        return ''
+    return f' It took {tried + 1} realisations; the request is unchanged.'
+
+
+def _not_repaired(report: RunReport) -> str:
+    """Return what repair tried in vain, and why it ended."""
+    if not report.repairs:
+        return ''
+    tried = sum(repair.bag is not None for repair in report.repairs)
+    last = report.repairs[-1]
+    why = f': {last.reason}' if last.bag is None else ''
+    if not tried:
+        return f' Repair had nothing to try{why}.'
+    return f' {tried} other realisation{"s" * (tried > 1)} did not hold either{why}.'
+
+
 def _lost(report: RunReport) -> str:
     lost = [c for c in report.clauses if c.status.is_open]
     if not lost:
         return 'the prompt was not divided into clauses'
     return '; '.join(f'“{c.text}”' + (f' ({c.note})' if c.note else '') for c in lost)
+
+
+def _unread(report: RunReport) -> str:
+    """Return what no run of this request could have shown, so that no headline hides it."""
+    lost = any(c.status.is_open for c in report.clauses)
+    return f' Not read or not judged: {_lost(report)}.' if lost else ''
 
 
 def _violated(rows: tuple[ConditionReport, ...]) -> str:
@@ -69,7 +103,7 @@ def margin_text(row: ConditionReport) -> str:
 def margin_value(margin: float | None, unit: str, reason: Reason | None) -> str:
     """Return a margin with sign and unit, or why there is none."""
     if margin is None:
-        return reason.value.replace('_', ' ') if reason is not None else 'no margin'
+        return _WHY_NONE[reason] if reason is not None else 'no margin'
     return f'{margin:+.4g}' + ('' if unit in ('', '1') else f' {unit}')
 
 

@@ -13,12 +13,15 @@ from rich.table import Table
 
 from aurora_core.errors import AuroraError
 from aurora_core.report.check_report import CheckReport, CheckResult
+from aurora_core.report.clauses import status_word
 from aurora_core.report.run_report import (
     ClauseReport,
     ConditionReport,
     RealisedReport,
+    RepairReport,
     RunReport,
 )
+from aurora_core.report.said_back import ElementReport
 from aurora_core.report.status import Status
 from aurora_core.report.summary import margin_value
 from aurora_core.report.verify_report import VerifyOutcome, VerifyReport
@@ -54,6 +57,11 @@ _VERIFY_COLOURS = {
     VerifyOutcome.VIOLATED_AS_RECORDED: 'red',
 }
 
+# As in docs/glossary.md.
+_WORDS = {
+    'capture': 'the first moment at which a UAV has reached its altitude and its point or target',
+}
+
 Row = tuple[str, ...]
 
 
@@ -68,11 +76,14 @@ def print_report(report: RunReport, console: Console, folder: Path | None = None
     headline(console, report.status.value, _COLOURS[report.status], report.summary)
     _question_and_error(report, console)
     print_clauses(report.clauses, console)
+    print_elements(report.elements, console)
     asked = [row for row in report.conditions if row.source]
     always = [row for row in report.conditions if not row.source]
     print_conditions('Conditions of the prompt', asked, console)
     print_conditions('Conditions of every run', always, console)
     print_realised(report.requested_and_realised, console)
+    print_words((row.sentence for row in report.conditions), console)
+    print_repairs(report.repairs, console)
     for fault in report.faults:
         line(console, f'injected fault: {fault.kind} on {fault.subject} from {fault.at_s:g} s')
     if report.trace is not None:
@@ -86,11 +97,35 @@ def print_report(report: RunReport, console: Console, folder: Path | None = None
         line(console, f'folder   {folder}')
 
 
+def print_repairs(repairs: Sequence[RepairReport], console: Console) -> None:
+    """Print every attempt of repair: what was tried, why, and what came of it."""
+    print_table(
+        'Repair',
+        ('run', 'step', 'came of it', 'realised otherwise', 'why'),
+        [
+            (
+                repair.bag or '-',
+                repair.kind.replace('_', ' ') or '-',
+                repair.outcome.replace('_', ' '),
+                '; '.join(f'{e.path} {_told(e.old)} to {_told(e.new)}' for e in repair.edits),
+                repair.reason,
+            )
+            for repair in repairs
+        ],
+        console,
+    )
+
+
+def _told(value: float | str | None) -> str:
+    return f'{value:g}' if isinstance(value, float) else str(value)
+
+
 def print_check(report: CheckReport, console: Console) -> None:
     """Print the outcome of a check."""
     headline(console, report.result.value, _CHECK_COLOURS[report.result], report.summary)
     _question_and_error(report, console)
     print_clauses(report.clauses, console)
+    print_elements(report.elements, console)
     print_table(
         'A run would be judged by',
         ('condition', 'formula'),
@@ -98,6 +133,7 @@ def print_check(report: CheckReport, console: Console) -> None:
         console,
     )
     print_realised(report.requested_and_realised, console)
+    print_words((c.sentence for c in report.conditions), console)
     print_table(
         'When it can be',
         ('what', 'earliest', 'latest'),
@@ -161,7 +197,7 @@ def print_clauses(clauses: Sequence[ClauseReport], console: Console) -> None:
         ('', 'clause', 'became'),
         [
             (
-                clause.status.value.replace('_', ' '),
+                status_word(clause, clauses),
                 clause.text,
                 ', '.join(clause.ids) + (f' ({clause.note})' if clause.note else ''),
             )
@@ -170,6 +206,27 @@ def print_clauses(clauses: Sequence[ClauseReport], console: Console) -> None:
         console,
         bad=[k for k, c in enumerate(clauses) if c.status.is_open],
     )
+
+
+def print_elements(elements: Sequence[ElementReport], console: Console) -> None:
+    """Print the request said back."""
+    print_table(
+        'Understood as',
+        ('', 'what', 'assumed'),
+        [
+            (one.id, one.text, f'assumed: {one.assumed}' if one.assumed else '')
+            for one in elements
+        ],
+        console,
+    )
+
+
+def print_words(sentences: Iterable[str], console: Console) -> None:
+    """Explain the words of conditions that only AURORA uses, where they were printed."""
+    text = ' '.join(sentences)
+    for word, meaning in _WORDS.items():
+        if word in text:
+            line(console, f'{word:8} {meaning}')
 
 
 def print_realised(values: Iterable[RealisedReport], console: Console) -> None:

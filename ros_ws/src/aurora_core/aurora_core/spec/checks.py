@@ -4,7 +4,9 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
+from functools import cache
 from typing import TYPE_CHECKING
 
 from pydantic import BaseModel
@@ -14,7 +16,7 @@ from aurora_core.spec.parameter import Span
 from aurora_core.spec.prohibitions import ForbiddenBehavior, ForbiddenMission, ForbiddenPlacement
 from aurora_core.spec.reference import ENVIRONMENT_ID, is_place
 from aurora_core.spec.requirements import Order, StatedCondition
-from aurora_core.spec.scene import UavMission
+from aurora_core.spec.scene import GroundAgent, UavMission
 from aurora_core.spec.vocabulary import Role
 
 if TYPE_CHECKING:
@@ -32,8 +34,9 @@ def check(spec: ScenarioSpec) -> None:
             outside of the prompt.
     """
     _check_ids(spec)
+    bodies = _bodies(spec)
     for owner, element in _elements(spec):
-        _check_bodies(spec, owner, element)
+        _check_bodies(bodies, owner, element)
     _check_flyers(spec)
     _check_events(spec)
     for requirement in (*spec.conditions, *spec.orders, *spec.prohibitions):
@@ -41,12 +44,24 @@ def check(spec: ScenarioSpec) -> None:
             _check_condition(spec, requirement)
         if isinstance(requirement, Order):
             _check_order(spec, requirement)
-    _check_spans(spec, spec.prompt)
+    _check_spans(spec, len(spec.prompt))
+
+
+def check_agent(spec: ScenarioSpec, agent: GroundAgent) -> None:
+    """Check what an agent of a specification names.
+
+    Raises:
+        ValueError: A reference leads nowhere, or a span lies outside of the prompt.
+    """
+    bodies = _bodies(spec)
+    for part in (*agent.placements, *agent.behaviors):
+        _check_bodies(bodies, agent.id, part)
+    _check_spans(agent, len(spec.prompt))
 
 
 def _check_ids(spec: ScenarioSpec) -> None:
     ids = _ids(spec)
-    repeated = sorted({i for i in ids if ids.count(i) > 1})
+    repeated = sorted(i for i, count in Counter(ids).items() if count > 1)
     if repeated:
         raise ValueError(f'ids must be unique, repeated: {", ".join(repeated)}')
     if ENVIRONMENT_ID in ids:
@@ -92,15 +107,21 @@ def _events(spec: ScenarioSpec) -> Iterator[Event]:
     yield from (p for p in spec.prohibitions if isinstance(p, Event))
 
 
-def _check_bodies(spec: ScenarioSpec, owner: str, element: BaseModel) -> None:
-    bodies = _bodies(spec)
-    for name in _BODIES:
-        reference = getattr(element, name, None)
+def _check_bodies(bodies: set[str | None], owner: str, element: BaseModel) -> None:
+    names = _naming_fields(type(element))
+    for name in names:
+        reference = getattr(element, name)
         if reference is not None and reference not in bodies and not is_place(reference):
             raise ValueError(f'{owner} refers to {reference!r}, which is not in the scene')
-    sender, receiver = getattr(element, 'sender', None), getattr(element, 'receiver', None)
-    if sender is not None and sender == receiver:
-        raise ValueError(f'{owner}: {sender} cannot send to itself')
+    sides = [getattr(element, name) for name in ('sender', 'receiver') if name in names]
+    if len(sides) > 1 and sides[0] is not None and sides[0] == sides[1]:
+        raise ValueError(f'{owner}: {sides[0]} cannot send to itself')
+
+
+@cache
+def _naming_fields(kind: type[BaseModel]) -> tuple[str, ...]:
+    """Return the fields of a kind of element that name a body."""
+    return tuple(name for name in _BODIES if name in kind.model_fields)
 
 
 def _check_flyers(spec: ScenarioSpec) -> None:
@@ -158,16 +179,15 @@ def _check_order(spec: ScenarioSpec, order: Order) -> None:
             raise ValueError(f'order {order.id} refers to {reference!r}, no event or mission')
 
 
-def _check_spans(value: object, prompt: str) -> None:
+def _check_spans(value: BaseModel | tuple[object, ...], length: int) -> None:
+    """Check the spans in a value against the length of the prompt."""
     if isinstance(value, Span):
-        if value.end > len(prompt):
+        if value.end > length:
             raise ValueError(f'span [{value.start}, {value.end}) lies outside of the prompt')
-    elif isinstance(value, BaseModel):
-        for name in type(value).model_fields:
-            _check_spans(getattr(value, name), prompt)
-    elif isinstance(value, tuple):
-        for item in value:
-            _check_spans(item, prompt)
+        return
+    for part in value if isinstance(value, tuple) else vars(value).values():
+        if isinstance(part, BaseModel | tuple):
+            _check_spans(part, length)
 
 
 def _bodies(spec: ScenarioSpec) -> set[str | None]:

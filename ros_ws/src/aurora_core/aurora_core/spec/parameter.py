@@ -115,8 +115,10 @@ class Element(Document):
         for name in type(self).model_fields:
             value = getattr(self, name)
             for parameter in value if isinstance(value, tuple) else (value,):
+                if not isinstance(parameter, Parameter):
+                    continue
                 wanted = self._unit_of(name)
-                if isinstance(parameter, Parameter) and parameter.unit is not wanted:
+                if parameter.unit is not wanted:
                     raise ValueError(f'{name} is in {wanted}, found {parameter.unit}')
         return self
 

@@ -13,7 +13,7 @@ from typing import Literal, Self
 from pydantic import model_validator
 
 from aurora_core.document import Document, omitted
-from aurora_core.spec.checks import check
+from aurora_core.spec.checks import check, check_agent
 from aurora_core.spec.events import (
     AgentAction,
     AltitudeTrigger,
@@ -118,3 +118,23 @@ class ScenarioSpec(Document):
     def _parts_fit(self) -> Self:
         check(self)
         return self
+
+    def with_agent(self, agent: GroundAgent) -> ScenarioSpec:
+        """Return the specification with another agent in the place of the one of its id.
+
+        Only what names something is checked again, and that of this agent alone: nobody else's
+        parts depend on what an agent does or where it is placed.
+
+        Args:
+            agent: Has id, role and group of the one that it replaces.
+
+        Raises:
+            ValueError: There is no such agent, or a reference of it leads nowhere.
+        """
+        agents = {known.id: known for known in self.agents}
+        known = agents.get(agent.id)
+        if known is None or (known.role, known.group) != (agent.role, agent.group):
+            raise ValueError(f'{agent.id} replaces no agent of its role and group')
+        agents[agent.id] = agent
+        check_agent(self, agent)
+        return self.model_copy(update={'agents': tuple(agents.values())})

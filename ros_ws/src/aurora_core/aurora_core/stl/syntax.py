@@ -20,7 +20,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import singledispatch
+from functools import lru_cache, singledispatch
 from typing import NoReturn
 
 from aurora_core.errors import VerificationError
@@ -59,6 +59,8 @@ _PREFIX: dict[str, Callable[..., Formula]] = {
     'historically': Historically,
     'once': Once,
 }
+# Texts whose formulas are kept: agents of a crowd differ in nothing but their names.
+_FORMULAS = 2048
 _WORDS = frozenset({'not', 'and', 'or', 'until', 'since', *_PREFIX})
 
 
@@ -68,6 +70,7 @@ def format_number(value: float) -> str:
     return text[:-2] if text.endswith('.0') else text
 
 
+@lru_cache(maxsize=_FORMULAS)
 def parse_formula(text: str) -> Formula:
     """Read a formula.
 

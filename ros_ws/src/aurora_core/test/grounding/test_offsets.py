@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from itertools import combinations
+from itertools import combinations, pairwise
 from math import hypot
 from typing import Any
 
@@ -58,7 +58,7 @@ def _spec(count: int, apart_m: float | None, *, altitude: str = 'default') -> Sc
 def test_who_keeps_a_distance_is_stacked_by_more_than_it() -> None:
     done = complete(_spec(3, 20.0), LIMITS)
     heights = sorted(m.altitude_m.value for m in done.missions)
-    assert all(b - a > 20.0 for a, b in zip(heights, heights[1:], strict=False))
+    assert all(b - a > 20.0 for a, b in pairwise(heights))
     usual = sorted(m.altitude_m.value for m in complete(_spec(3, None), LIMITS).missions)
     assert usual == [40.0, 50.0, 60.0]
     # Over each other their starts may lie as usual.

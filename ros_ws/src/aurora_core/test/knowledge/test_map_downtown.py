@@ -100,7 +100,7 @@ def test_parkway_is_straight_fast_and_long_without_signals(downtown: MapModel) -
         route = tuple(f'meridian_parkway_{i}_{direction}' for i in order)
         path = network.route_path(route, 'passenger')
         assert not path.has_lane_change
-        stops = [0.0, *(arc_m for arc_m, _, _ in path.signals()), path.length_m]
+        stops = [0.0, *(arc_m for arc_m, _, _ in path.signals), path.length_m]
         assert max(b - a for a, b in pairwise(stops)) >= 900.0
 
 

@@ -50,7 +50,7 @@ def test_path_runs_from_end_to_end_without_gaps(junction: MapModel) -> None:
 
 def test_signals_passed_are_at_the_stop_line(junction: MapModel) -> None:
     path = _straight(junction)
-    ((arc_m, signal_id, index),) = path.signals()
+    ((arc_m, signal_id, index),) = path.signals
     assert signal_id == 'centre'
     assert index >= 0
     x, y, _, _ = path.position_at(arc_m)
@@ -73,7 +73,7 @@ def test_forced_start_lane_gives_a_lane_change(junction: MapModel) -> None:
         start_lane_id='long_street_1_eb_1',
         start_pos_m=50.0,
     )
-    (change,) = path.lane_changes()
+    (change,) = path.lane_changes
     assert (change.from_lane_id, change.lane_id) == ('long_street_1_eb_1', 'long_street_1_eb_2')
     assert change.start_m == pytest.approx(50.0)
     assert change.lane_end_pos_m == pytest.approx(80.0)

@@ -17,6 +17,7 @@ from aurora_core.outcomes.verdict import Finding, Reason, VerdictStatus
 from aurora_core.report.build import build_report
 from aurora_core.report.run_report import RunReport
 from aurora_core.report.status import Status
+from aurora_core.report.summary import margin_value
 from aurora_core.spec.parameter import Span
 from aurora_core.trace.trace import Integrity
 
@@ -53,7 +54,7 @@ def test_a_null_margin_that_shows_a_failure_is_violated(
     report = build_report(make.facts(verdict=verdict))
     assert report.status is Status.VIOLATED
     assert report.conditions[0].margin is None
-    assert reason.value.replace('_', ' ') in report.summary
+    assert margin_value(None, '', reason) in report.summary
 
 
 @pytest.mark.parametrize('reason', [Reason.SAMPLES_MISSING, Reason.TRACE_SHORT])

@@ -87,7 +87,7 @@ def test_each_kind_of_end_is_told(make: SimpleNamespace) -> None:
 
 def test_a_condition_without_a_margin_says_why(make: SimpleNamespace) -> None:
     facts = make.facts(verdict=make.verdict(make.result(margin=None)))
-    assert 'empty phase' in report_html(build_report(facts))
+    assert 'that phase never began' in report_html(build_report(facts))
 
 
 @pytest.mark.parametrize(

@@ -18,7 +18,7 @@ from aurora_core.report.summary import margin_value
         (0.0, 's', None, '+0 s'),
         (-0.0717, '1', None, '-0.0717'),
         (1452.25, 'm', None, '+1452 m'),
-        (None, 'm', Reason.TRACE_SHORT, 'trace short'),
+        (None, 'm', Reason.TRACE_SHORT, 'the record ends before'),
         (None, 'm', None, 'no margin'),
     ],
 )

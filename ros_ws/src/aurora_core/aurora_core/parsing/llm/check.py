@@ -12,6 +12,7 @@ from pydantic import ValidationError
 from aurora_core.outcomes.parse import ParseOutcome, Refusal, RefusalKind
 from aurora_core.parsing.assemble import build
 from aurora_core.parsing.atoms import Atom, NounKind
+from aurora_core.parsing.doubts import doubtful
 from aurora_core.parsing.llm.actors import Anchors, check_missing
 from aurora_core.parsing.llm.clauses import (
     check_clauses,
@@ -30,7 +31,6 @@ from aurora_core.parsing.llm.wording import Wording
 from aurora_core.parsing.parser import parse_offline
 from aurora_core.parsing.rules import settle
 from aurora_core.parsing.scene import ClauseDraft, Scene
-from aurora_core.parsing.telling_words import untold
 from aurora_core.spec.parameter import Span
 from aurora_core.spec.vocabulary import AgentType, ClauseStatus
 
@@ -95,7 +95,7 @@ def _outcome(reading: Reading, facts: PromptFacts, complaints: list[str]) -> Par
         complaints += [
             f'{spec.prompt[span.start : span.end]!r} asks for something and nothing in the answer '
             'carries it: make these words a clause that is not_encoded'
-            for span in untold(spec)
+            for span in doubtful(spec, facts.atoms)
         ]
     except ValidationError as err:
         complaints += _schema_complaints(err)

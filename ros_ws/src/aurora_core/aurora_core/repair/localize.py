@@ -1,0 +1,155 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Fault localization: from violated conditions to what of the realisation can be at fault.
+
+From each violated condition the typed edges of the graph lead back to the parameters that can
+affect it (`agsg.influence`); the quantity says how each kind of value works on it
+(`repair.helps`), and the margin how bad it is. What follows from something that never happened
+counts less than the reason why it did not.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from aurora_core.agsg.influence import Influence, parameters_affecting
+from aurora_core.outcomes.agsg import Agsg, AgsgParameter
+from aurora_core.outcomes.condition import Condition
+from aurora_core.outcomes.repair import Implicated
+from aurora_core.outcomes.verdict import ConditionResult, Reason, Verdict
+from aurora_core.repair.helps import ANCHOR, APART, HELPS, TOGETHER, Help
+from aurora_core.repair.lock import is_movable
+from aurora_core.spec.quantity import QuantityName
+
+# How bad it is that a margin is missing (normalised), and what a mere consequence counts.
+_NO_MARGIN = 1.0
+_CONSEQUENCE = 0.5
+_WORST = 3.0
+_DISTANCES = (QuantityName.DISTANCE, QuantityName.HORIZONTAL_DISTANCE)
+# The anchor is one step away from everybody, as the environment is.
+_ANCHOR_STEPS = 1
+
+
+@dataclass(slots=True)
+class _Case:
+    """What speaks for one field and direction."""
+
+    score: float = 0.0
+    conditions: list[str] = field(default_factory=list)
+    reason: str = ''
+    best: float = 0.0
+
+    def add(self, score: float, condition: str, reason: str) -> None:
+        self.score += score
+        if condition not in self.conditions:
+            self.conditions.append(condition)
+        if score > self.best:
+            self.best, self.reason = score, reason
+
+
+def violated(verdict: Verdict) -> tuple[ConditionResult, ...]:
+    """Return the results that do not hold, or were not exercised, in their order."""
+    return tuple(row for row in verdict.results if not (row.satisfied and row.exercised))
+
+
+def localize(agsg: Agsg, verdict: Verdict) -> tuple[Implicated, ...]:
+    """Return what can be at fault, what most speaks for first; equal ones by name.
+
+    Only what repair may move is in it: the admissible neighbourhood N(S_k).
+
+    Args:
+        agsg: Grounded, as it was executed.
+        verdict: Of its trace.
+    """
+    rows = violated(verdict)
+    conditions = {condition.id: condition for condition in agsg.conditions}
+    movable = {row.path: row for row in agsg.parameters if is_movable(row)}
+    cases: dict[tuple[str, int], _Case] = {}
+    roots = _roots(rows)
+    for row in rows:
+        condition = conditions.get(row.id)
+        if condition is None:
+            continue
+        share = 1.0 if row.id in roots else _CONSEQUENCE
+        influences = parameters_affecting(agsg, row.id)
+        for name, direction, score, reason in _speaking(condition, row, influences, movable):
+            case = cases.setdefault((name, direction), _Case())
+            case.add(share * score, row.id, reason)
+    found = [
+        Implicated(
+            field=name,
+            score=case.score,
+            direction=direction,
+            conditions=tuple(case.conditions),
+            reason=case.reason,
+        )
+        for (name, direction), case in cases.items()
+    ]
+    return tuple(sorted(found, key=lambda i: (-i.score, i.field, -i.direction)))
+
+
+def ranked_fields(implicated: Sequence[Implicated]) -> tuple[str, ...]:
+    """Return the fields in their order, each once."""
+    return tuple(dict.fromkeys(item.field for item in implicated))
+
+
+def _roots(rows: Sequence[ConditionResult]) -> frozenset[str]:
+    """Return the conditions that are no mere consequence of another one.
+
+    What has no margin because its premise never came follows from why that did not: as long as
+    something else has a margin that is negative, that is nearer to the cause.
+    """
+    measured = frozenset(row.id for row in rows if row.margin is not None)
+    return measured or frozenset(row.id for row in rows)
+
+
+def _speaking(
+    condition: Condition,
+    row: ConditionResult,
+    influences: Sequence[Influence],
+    movable: Mapping[str, AgsgParameter],
+) -> Iterator[tuple[str, int, float, str]]:
+    """Yield field, direction, score and reason of all that can be at fault for one condition."""
+    severity = _severity(row)
+    told = _told(row)
+    for help_ in _helps(condition):
+        if help_.name == ANCHOR:
+            score = severity * help_.weight / (1.0 + _ANCHOR_STEPS)
+            yield ANCHOR, 0, score, f'{told}: {help_.because}'
+            continue
+        for influence in influences:
+            parameter = movable.get(influence.parameter)
+            if parameter is None or influence.parameter.rpartition('/')[2] != help_.name:
+                continue
+            if not _has_room(parameter, help_.direction):
+                continue
+            score = severity * help_.weight / (1.0 + influence.distance)
+            yield influence.parameter, help_.direction, score, f'{told}: {help_.because}'
+
+
+def _helps(condition: Condition) -> Sequence[Help]:
+    if condition.quantity in _DISTANCES:
+        return TOGETHER if condition.op in ('<', '<=') else APART
+    return HELPS.get(condition.quantity, ())
+
+
+def _severity(row: ConditionResult) -> float:
+    if row.normalised is None:
+        return _NO_MARGIN
+    return min(_WORST, 0.5 + math.log1p(abs(row.normalised)))
+
+
+def _told(row: ConditionResult) -> str:
+    if row.margin is None:
+        why = (row.reason or Reason.PREMISE_NEVER).value.replace('_', ' ')
+        return f'{row.id} has no margin ({why})'
+    when = '' if row.worst_time_s is None else f' at {row.worst_time_s:.1f} s'
+    unit = '' if row.unit in ('', '1') else f' {row.unit}'
+    return f'{row.id} misses by {abs(row.margin):.3g}{unit}{when}'
+
+
+def _has_room(parameter: AgsgParameter, direction: int) -> bool:
+    here = parameter.requested if parameter.realised is None else parameter.realised
+    return here < parameter.high if direction > 0 else here > parameter.low

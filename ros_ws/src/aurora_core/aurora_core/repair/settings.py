@@ -1,0 +1,64 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""`config/repair.yaml`."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import yaml
+from pydantic import Field, NonNegativeFloat, NonNegativeInt, PositiveFloat, PositiveInt
+
+from aurora_core.document import Document
+from aurora_core.errors import ConfigError
+from aurora_core.files import CONFIG_BYTES, read_text
+from aurora_core.knowledge.config_files import config_path
+from aurora_core.spec.parameter import Provenance
+
+# The paper bounds a numerical repair so.
+_MOST_PARAMETERS = 5
+
+
+Share = Annotated[float, Field(gt=0.0, le=1.0)]
+
+
+class ProvenanceWeights(Document):
+    """w(c) of equation 5."""
+
+    explicit: PositiveFloat
+    inferred: PositiveFloat
+    default: PositiveFloat
+
+    def of(self, provenance: Provenance) -> float:
+        """Return the weight of a class."""
+        return float(getattr(self, provenance.value))
+
+
+class RepairSettings(Document):
+    """See `config/repair.yaml`."""
+
+    budget: NonNegativeInt
+    groundings: PositiveInt
+    most_parameters: PositiveInt = Field(le=_MOST_PARAMETERS)
+    singles: PositiveInt
+    steps: Annotated[tuple[Share, ...], Field(min_length=1)]
+    epsilon: PositiveFloat
+    lambda_sem: NonNegativeFloat
+    weights: ProvenanceWeights
+
+
+def load_repair_settings() -> RepairSettings:
+    """Read `repair.yaml` of the configuration.
+
+    Raises:
+        ConfigError: The file is missing or out of its schema.
+    """
+    path = config_path('repair.yaml')
+    try:
+        return RepairSettings.model_validate(yaml.safe_load(read_text(path, CONFIG_BYTES)))
+    except OSError as err:
+        raise ConfigError(f'{path} cannot be read: {err}', hint='run make setup') from err
+    except (ValueError, yaml.YAMLError) as err:
+        raise ConfigError(
+            f'{path} is not valid: {err}', hint='compare with the shipped file'
+        ) from err

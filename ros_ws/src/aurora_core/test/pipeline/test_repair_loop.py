@@ -1,0 +1,234 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The loop back after a violation: parsing and grounding are real, flights and verdicts not."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from aurora_core.errors import SpecError
+from aurora_core.outcomes.agsg import Agsg, Stage
+from aurora_core.outcomes.feasibility import FeasibilityVerdict
+from aurora_core.outcomes.grounding import GroundingFailure, GroundingOutcome
+from aurora_core.outcomes.parse import ParseOutcome
+from aurora_core.outcomes.repair import (
+    Attempt,
+    Proposal,
+    ProposalOutcome,
+    RepairPlan,
+    Step,
+    ValueEdit,
+)
+from aurora_core.outcomes.verdict import ConditionResult, Verdict, VerdictStatus
+from aurora_core.pipeline import functions
+from aurora_core.pipeline.knowledge import installed_knowledge
+from aurora_core.pipeline.run import run
+from aurora_core.pipeline.stages import ExecutionResult, RunControl, RunRequest
+from aurora_core.report.outputs import write_report
+from aurora_core.report.run_folder import RunFolder
+from aurora_core.report.run_report import RunReport
+from aurora_core.report.status import Status
+from aurora_core.spec.parameter import Provenance
+from aurora_core.trace.trace import Integrity
+
+_KNOWN = installed_knowledge()
+PROMPT = 'A drone hovers at 20 meters over the ego car for 5 seconds.'
+RUN_ID = '20260131T120000Z-0a1b2c'
+HELD = 1.0
+
+
+class FakeStages:
+    """Flies nothing; execution k has the margin `margins[k]` on its first condition."""
+
+    def __init__(self, *margins: float, cancel_at: int | None = None) -> None:
+        self.margins = margins
+        self.cancel_at = cancel_at
+        self.plans: list[RepairPlan | None] = []
+        self.no_place = 0
+        self.proposal: Proposal | None = None
+
+    def parse(self, request: RunRequest) -> ParseOutcome:
+        return functions.parse_stage(_KNOWN, request.prompt, request.map_name, request.seed)
+
+    def check(self, agsg: Agsg, request: RunRequest) -> FeasibilityVerdict:
+        return functions.check_stage(_KNOWN, agsg)
+
+    def ground(
+        self, agsg: Agsg, request: RunRequest, plan: RepairPlan | None = None
+    ) -> GroundingOutcome:
+        self.plans.append(plan)
+        if plan is not None and self.no_place:
+            self.no_place -= 1
+            failure = GroundingFailure(reason='road', tried=1, rejected_by={'road': 1})
+            return GroundingOutcome(failure=failure)
+        return functions.ground_stage(_KNOWN, agsg, request.seed, plan)
+
+    def execute(
+        self, agsg: Agsg, bag_directory: Path, request: RunRequest, control: RunControl
+    ) -> ExecutionResult:
+        bag_directory.mkdir()
+        cancelled = agsg.iteration == self.cancel_at
+        return ExecutionResult(
+            bag=bag_directory,
+            ticks=3,
+            trace_sha256=f'{agsg.iteration}',
+            motion_sha256='',
+            outcome='cancelled' if cancelled else 'finished',
+        )
+
+    def verify(self, agsg: Agsg, bag: Path) -> Verdict:
+        margins = [HELD] * len(agsg.conditions)
+        # The second one: it always hangs on the place.
+        margins[1] = self.margins[agsg.iteration]
+        rows = tuple(
+            ConditionResult(
+                id=condition.id,
+                sentence=condition.sentence,
+                explanation='',
+                formula=condition.formula,
+                spec_ids=condition.spec_ids,
+                op=condition.op,
+                threshold=condition.threshold,
+                margin=margin,
+                unit=condition.unit,
+                normalised=margin,
+                satisfied=margin >= 0.0,
+                exercised=True,
+                provenance=condition.provenance,
+            )
+            for condition, margin in zip(agsg.conditions, margins, strict=True)
+        )
+        status = VerdictStatus.VERIFIED if min(margins) >= 0.0 else VerdictStatus.VIOLATED
+        return Verdict(status=status, results=rows, integrity=Integrity.INTACT)
+
+    def propose(
+        self, agsg: Agsg, verdict: Verdict, bag: Path, past: tuple[Attempt, ...]
+    ) -> Proposal:
+        return self.proposal or functions.repair_stage(_KNOWN, agsg, verdict, past)
+
+
+class Clock:
+    def seconds(self) -> float:
+        return 0.0
+
+
+def ran(stages: FakeStages, root: Path, repair: int | None = None) -> RunReport:
+    return run(
+        RunRequest(prompt=PROMPT, repair=repair),
+        stages,
+        _KNOWN,
+        RunFolder(root, RUN_ID),
+        RunControl(),
+        Clock(),
+        outputs=write_report,
+    )
+
+
+def names(root: Path) -> set[str]:
+    return {path.name for path in (root / RUN_ID).iterdir()}
+
+
+def test_a_run_that_holds_is_never_repaired(tmp_path: Path) -> None:
+    stages = FakeStages(HELD)
+    report = ran(stages, tmp_path)
+    assert (report.status, report.repairs, stages.plans) == (Status.VERIFIED, (), [None])
+    assert 'edits.1.json' not in names(tmp_path)
+
+
+def test_a_violated_run_is_realised_elsewhere_until_it_holds(tmp_path: Path) -> None:
+    stages = FakeStages(-0.5, -0.4, HELD)
+    report = ran(stages, tmp_path)
+    assert report.status is Status.VERIFIED
+    assert report.trace is not None
+    assert (report.trace.bag, report.trace.sha256) == ('bag.2', '2')
+    assert [repair.outcome for repair in report.repairs] == ['violated', 'verified']
+    assert report.metrics.iterations == 3
+    kinds = ('spec', 'agsg', 'grounding', 'schedule', 'feasibility', 'verdict', 'edits')
+    assert names(tmp_path) >= {f'{kind}.{k}.json' for kind in kinds for k in (1, 2)}
+    folder = tmp_path / RUN_ID
+    specs = {(folder / f'spec.{k}.json').read_text() for k in (0, 1, 2)}
+    assert len(specs) == 1
+    lanes = [json.loads((folder / f'grounding.{k}.json').read_text()) for k in (0, 1, 2)]
+    assert len({row['anchor_lane'] for row in lanes}) == 3
+    assert lanes[2]['repair']['avoided'][0]['lane'] == lanes[0]['anchor_lane']
+    edits = json.loads((folder / 'edits.2.json').read_text())
+    assert edits['edits'][0]['path'] == 'grounding/anchor'
+    assert json.loads((folder / 'agsg.2.json').read_text())['stage'] == Stage.REPAIRED
+
+
+def test_a_spent_budget_ends_violated_with_the_best_realisation(tmp_path: Path) -> None:
+    report = ran(FakeStages(-0.5, -0.2, -0.9), tmp_path, repair=2)
+    assert report.status is Status.VIOLATED
+    assert report.trace is not None
+    assert report.trace.bag == 'bag.1'
+    assert report.metrics.worst_normalised == -0.2
+    assert [b.bag for b in report.bags or ()] == ['bag.0', 'bag.1', 'bag.2']
+    assert 'bag.3' not in names(tmp_path)
+
+
+def test_no_better_realisation_leaves_the_first_one(tmp_path: Path) -> None:
+    report = ran(FakeStages(-0.5, -0.5, -0.7), tmp_path, repair=2)
+    assert report.trace is not None
+    assert report.trace.bag == 'bag.0'
+
+
+def test_without_repair_the_first_verdict_stands(tmp_path: Path) -> None:
+    stages = FakeStages(-0.5)
+    report = ran(stages, tmp_path, repair=0)
+    assert (report.status, report.repairs, len(stages.plans)) == (Status.VIOLATED, (), 1)
+
+
+def test_a_place_that_is_not_found_costs_no_simulation(tmp_path: Path) -> None:
+    stages = FakeStages(-0.5, HELD)
+    stages.no_place = 1
+    report = ran(stages, tmp_path, repair=1)
+    assert report.status is Status.VERIFIED
+    assert [repair.outcome for repair in report.repairs] == ['no_place', 'verified']
+    assert report.repairs[0].bag is None
+
+
+def test_a_cancel_in_the_middle_leaves_the_best_run_and_nothing_of_the_other(
+    tmp_path: Path,
+) -> None:
+    report = ran(FakeStages(-0.5, -0.2, HELD, cancel_at=2), tmp_path)
+    assert report.status is Status.CANCELLED
+    assert report.trace is not None
+    assert report.trace.bag == 'bag.1'
+    assert [b.bag for b in report.bags or ()] == ['bag.0', 'bag.1']
+    assert {'bag.0', 'bag.1', 'verdict.1.json'} <= names(tmp_path)
+    assert not {name for name in names(tmp_path) if '.2' in name}
+
+
+def test_a_proposal_beyond_the_lock_is_an_error_and_no_run(tmp_path: Path) -> None:
+    stages = FakeStages(-0.5)
+    edit = ValueEdit(
+        path='missions/m1/altitude_m',
+        requested=20.0,
+        realised=10.0,
+        provenance=Provenance.EXPLICIT,
+    )
+    stages.proposal = Proposal(
+        outcome=ProposalOutcome.EDITED,
+        step=Step.ONE,
+        plan=RepairPlan(values=(edit,)),
+        reason='planted',
+    )
+    report = ran(stages, tmp_path)
+    assert report.status is Status.ERROR
+    assert report.error is not None
+    assert 'missions/m1/altitude_m is locked' in report.error.message
+    assert [b.bag for b in report.bags or ()] == ['bag.0']
+
+
+def test_grounding_refuses_what_is_locked() -> None:
+    graph = functions.parse_stage(_KNOWN, PROMPT, 'downtown', 1).agsg
+    assert graph is not None
+    row = next(p for p in graph.parameters if p.path == 'missions/m1/duration_s')
+    edit = ValueEdit(
+        path=row.path, requested=row.requested, realised=1.0, provenance=row.provenance
+    )
+    with pytest.raises(SpecError, match='duration_s is locked'):
+        functions.ground_stage(_KNOWN, graph, 1, RepairPlan(values=(edit,)))
