@@ -256,15 +256,18 @@ def _phases(inputs: Inputs, stated: StatedCondition) -> Iterator[Condition]:
             'mission': when.mission,
             'missions': when.missions,
         }
+        arguments: OfMission | OfSight
+        if kind is VisibleTime:
+            # With a stretch it is the longest one without a gap that counts.
+            arguments = VisibleTime(**about, unbroken=stated.hold_s is not None)
+        else:
+            arguments = kind.model_validate(about)
         yield condition(
             id=name,
             sentence=sentence_of(stated),
             of=of,
             target=_stretched(target_of(inputs.tolerances, stated), stated),
-            # With a stretch it is the longest one without a gap that counts.
-            arguments=VisibleTime(**about, unbroken=stated.hold_s is not None)
-            if kind is VisibleTime
-            else kind(**about),
+            arguments=arguments,
             source=source_of(stated),
             every_sample=kind is HoverDrift,
         )

@@ -213,10 +213,7 @@ def print_elements(elements: Sequence[ElementReport], console: Console) -> None:
     print_table(
         'Understood as',
         ('', 'what', 'assumed'),
-        [
-            (one.id, one.text, f'assumed: {one.assumed}' if one.assumed else '')
-            for one in elements
-        ],
+        [(one.id, one.text, f'assumed: {one.assumed}' if one.assumed else '') for one in elements],
         console,
     )
 
