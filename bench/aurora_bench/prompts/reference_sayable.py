@@ -24,7 +24,6 @@ from aurora_core.spec.requirements import STATED_QUANTITIES
 from aurora_core.spec.vocabulary import Pattern
 
 _OF_A_FLIGHT = ('start', 'end', 'avoid', 'avoid_m')
-_ACTIONS = frozenset({'hand_over'})
 
 
 def check_sayable(r: Requirement) -> None:
@@ -48,8 +47,6 @@ def _unsayable(r: Requirement) -> Iterator[str]:
     elif isinstance(r, EventRequirement):
         if r.once is False:
             yield 'event once'
-        if r.action is not None and r.action.do in _ACTIONS:
-            yield f'action {r.action.do}'
         if r.action is not None:
             yield from (f'action {what}' for what in _of_flight(r.action))
 

@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import pairwise
 from math import cos, pi, sin
 
 import numpy as np
@@ -15,6 +14,7 @@ from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.grounding.apart import sharing
 from aurora_core.grounding.beside import side_first, turned_along, with_turns
+from aurora_core.grounding.crossings import crossed
 from aurora_core.grounding.ends import first_point, last_point
 from aurora_core.grounding.laps import Laps
 from aurora_core.grounding.offsets import Spread, from_afar, is_lost, loses_sight, offsets
@@ -206,7 +206,15 @@ class FlightPlanner:
         lands: bool = True,
     ) -> UavPlan | Rejected:
         """Choose the start of a UAV whose missions are planned; it could land there again."""
-        if not self._ways_between_are_free(flights, site):
+        ways = crossed(
+            flights,
+            site,
+            self._air,
+            clearance_m=self._settings.clearance_m,
+            top_m=self._limits.uav_altitude_max_m,
+            speed_mps=self._settings.target_speed_mps,
+        )
+        if ways is None:
             return Rejected(reason='way_between_missions')
         first = first_point(flights[0].plan, site)
         home = None
@@ -236,7 +244,7 @@ class FlightPlanner:
             home_x_m=home[0],
             home_y_m=home[1],
             landing_spots=(home,),
-            missions=tuple(f.plan for f in flights),
+            missions=tuple(f.plan for f in ways),
             safe_altitude_m=min(self._limits.uav_altitude_max_m, max(highest, over_all)),
             lands=lands,
         )
@@ -250,22 +258,6 @@ class FlightPlanner:
             apart_m=self._apart_m,
             clearance_m=self._settings.clearance_m,
         )
-
-    def _ways_between_are_free(self, flights: list[PlannedFlight], site: Site) -> bool:
-        """Check the straight ways between missions, at both altitudes.
-
-        Where a track mission ends is not known before; its ways are not checked.
-        """
-        for before, after in pairwise(f.plan for f in flights):
-            if before.mode is MissionMode.TRACK:
-                continue
-            x, y, z = last_point(before)
-            to_x, to_y, to_z = first_point(after, site)
-            for height in {z, to_z}:
-                way = ((x, y, height), (to_x, to_y, height))
-                if self._air.way_clearance_m(way) < self._settings.clearance_m:
-                    return False
-        return True
 
     def with_landing_spots(self, plan: UavPlan, site: Site) -> UavPlan:
         """Add the free spots along everything that the UAV flies over."""
