@@ -204,8 +204,19 @@ class FlightPlanner:
         taken: list[tuple[float, float]],
         *,
         lands: bool = True,
+        lead_m: float = 0.0,
     ) -> UavPlan | Rejected:
-        """Choose the start of a UAV whose missions are planned; it could land there again."""
+        """Choose the start of a UAV whose missions are planned; it could land there again.
+
+        Args:
+            uav_id: Which.
+            system_id: Its number.
+            flights: Its missions as planned, in their order.
+            site: Where.
+            taken: Starts of others (x, y in m).
+            lands: After its missions.
+            lead_m: So far its first target has gone when it takes off.
+        """
         ways = crossed(
             flights,
             site,
@@ -216,7 +227,7 @@ class FlightPlanner:
         )
         if ways is None:
             return Rejected(reason='way_between_missions')
-        first = first_point(flights[0].plan, site)
+        first = first_point(flights[0].plan, site, lead_m)
         home = None
         spots = self._spots.near(
             first[0], first[1], (6 + 20 * len(taken)) * (4 if self._wide_m else 1)

@@ -46,7 +46,9 @@ from aurora_core.outcomes.grounded import AnchorScore, GroundedScenario
 from aurora_core.outcomes.grounding import GroundingFailure
 from aurora_core.outcomes.repair import RepairPlan
 from aurora_core.ports.random_streams import stream
+from aurora_core.spec.flight_order import begun_by
 from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.spec.vocabulary import MissionMode
 
 # Clearance that earns the full air score (m above the planned clearance).
 _GOOD_CLEARANCE_M = 15.0
@@ -285,7 +287,13 @@ class Grounder:
             taken = [(u.home_x_m, u.home_y_m) for u in uavs]
             last = next(m for m in reversed(spec.missions) if m.uav == uav.id)
             plan = planner.plan_uav(
-                uav.id, number + 1, own, site, taken, lands=not last.ends_in_flight
+                uav.id,
+                number + 1,
+                own,
+                site,
+                taken,
+                lands=not last.ends_in_flight,
+                lead_m=self._lead_m(spec, uav.id),
             )
             if isinstance(plan, Rejected):
                 return plan
@@ -297,6 +305,19 @@ class Grounder:
             uavs=planner.uncrossed(uavs, site),
             score=self._score(road, flights, spec),
         )
+
+    def _lead_m(self, spec: ScenarioSpec, uav: str) -> float:
+        """Return how far the target of a UAV has gone that others have tracked before it."""
+        first = next(m for m in spec.missions if m.uav == uav)
+        if first.mode is not MissionMode.TRACK or begun_by(spec, first) is None:
+            return 0.0
+        before = [
+            m.duration_s.value
+            for m in spec.missions
+            if m.target == first.target and m.uav != uav and m.duration_s is not None
+        ]
+        speed = watched_speed_mps(spec, first, self._limits, self._settings.grounding)
+        return speed * sum(before)
 
     def _score(self, road: float, flights: list[PlannedFlight], spec: ScenarioSpec) -> AnchorScore:
         planned = self._settings.grounding.clearance_m

@@ -199,6 +199,11 @@ def bodies_of(event: Event) -> frozenset[str]:
     return frozenset(n for n in found if n is not None and not is_place(n))
 
 
+def bodies_of_cause(event: Event) -> frozenset[str]:
+    """Return every agent and UAV that an event's trigger refers to by id."""
+    return bodies_of(event.model_copy(update={'action': None}))
+
+
 def actor_of(event: Event) -> str | None:
     """Return the body whose behaviour triggers an event, None when there is no such body.
 

@@ -12,7 +12,9 @@ import numpy as np
 import pytest
 
 from aurora_core.grounding.apart import homes_m, layer_m, ring_m, spacing_m
+from aurora_core.grounding.convoy import split_scene
 from aurora_core.grounding.offsets import Spread, from_afar, is_lost, loses_sight, offsets
+from aurora_core.grounding.releases import convoy_release
 from aurora_core.knowledge.config_files import config_path
 from aurora_core.knowledge.limits import load_limits
 from aurora_core.planning.complete import complete
@@ -104,3 +106,35 @@ def test_only_who_waits_for_it_is_to_lose_sight() -> None:
 )
 def test_lost_is_who_was_seen_before_for_more_than_a_sample(seen: str, lost: bool) -> None:
     assert is_lost(np.array([c == '1' for c in seen])) is lost
+
+
+def _takes_over(*, watched: bool, cause: dict[str, Any]) -> ScenarioSpec:
+    """Return a scene in which u2 takes off for the bus when an event says so."""
+    spec = _spec(2, None)
+    document = spec.model_dump(mode='json')
+    first, second = document['missions']
+    if not watched:
+        first |= {'mode': 'hover', 'target': None, 'standoff_m': None}
+    begins = {'do': 'change_mission', 'uav': 'u2', 'mission': second['id']}
+    document['events'] = [{'id': 'e1', 'trigger': cause, 'action': begins}]
+    return ScenarioSpec.model_validate(document)
+
+
+ONE_IS_DONE = {'on': 'mission_done', 'uav': 'u1'}
+
+
+@pytest.mark.parametrize(
+    ('watched', 'cause', 'by'),
+    [
+        (False, ONE_IS_DONE, 'm2'),
+        # Who is watched before goes with the first one that is ready.
+        (True, ONE_IS_DONE, 'm1'),
+        # What it does itself, it has to be free to do.
+        (False, {'on': 'speed_above', 'who': 'bus1', 'value_mps': _number(5.0, 'm/s')}, ''),
+    ],
+)
+def test_a_target_waits_for_who_takes_off_for_it(
+    watched: bool, cause: dict[str, Any], by: str
+) -> None:
+    spec = _takes_over(watched=watched, cause=cause)
+    assert convoy_release(spec, split_scene(spec)).mission == by
