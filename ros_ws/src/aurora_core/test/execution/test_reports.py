@@ -33,7 +33,12 @@ def _sent(sender: str, rate_hz: float | None, ticks: int = 200) -> list[tuple[in
     )  # fmt: skip
     found: list[tuple[int, str]] = []
     link = MessageLink(settings, DT_S, stream(1, 'link:l1'))
-    link.send = lambda tick, _number, event: found.append((tick, event))  # type: ignore[method-assign]
+
+    def send(tick: int, number: int, event: str) -> None:
+        assert number == len(found) + 1
+        found.append((tick, event))
+
+    link.send = send  # type: ignore[method-assign]
     numbers = count(1)
     reports = Reports((link,), DT_S, lambda: next(numbers))
     machine = _Machine(plan=SimpleNamespace(id='uav1'))

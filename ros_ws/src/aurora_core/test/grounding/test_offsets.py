@@ -18,6 +18,7 @@ from aurora_core.grounding.releases import convoy_release
 from aurora_core.knowledge.config_files import config_path
 from aurora_core.knowledge.limits import load_limits
 from aurora_core.planning.complete import complete
+from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.scenario import ScenarioSpec
 
 LIMITS = load_limits(config_path('limits.json'))
@@ -91,7 +92,7 @@ def test_a_standoff_that_nobody_states_is_tried_from_afar() -> None:
     assert tried == sorted(tried)
     assert tried[-1] <= 60.0
     stated = _number(10.0, provenance='explicit')
-    said = mission.model_copy(update={'standoff_m': mission.standoff_m.model_validate(stated)})
+    said = mission.model_copy(update={'standoff_m': Parameter.model_validate(stated)})
     assert list(from_afar(said, 60.0)) == [said]
 
 
