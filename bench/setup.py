@@ -10,6 +10,7 @@ setup(
     packages=find_packages(exclude=['test', 'test.*']),
     package_data={
         '': ['*.typed'],
+        'aurora_bench.feasibility': ['*.yaml'],
         'aurora_bench.prompts': ['data/*/*.jsonl'],
         'aurora_bench.retrieval': ['*.yaml'],
     },

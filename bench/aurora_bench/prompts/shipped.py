@@ -28,3 +28,9 @@ def prompt_file(split: Split, part: str) -> Path:
 def first_files(split: Split) -> tuple[Path, ...]:
     """Return the files of the first 200 prompts to tune on, or of the 100 only to measure."""
     return tuple(prompt_file(split, part) for part in FIRST)
+
+
+def tune_files() -> tuple[Path, ...]:
+    """Return all files to tune on, by name."""
+    folder = Path(str(files('aurora_bench.prompts').joinpath('data', 'tune')))
+    return tuple(sorted(folder.glob('*.jsonl')))

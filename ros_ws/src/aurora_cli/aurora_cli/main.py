@@ -342,6 +342,10 @@ def _measurement(package: str) -> Callable[[typer.Context], None]:
 
 for _package, _help in (
     ('fidelity', 'How much of what prompts ask for their specifications hold.'),
+    (
+        'feasibility',
+        'Check requests on both sides of every limit; count what is refused, and why.',
+    ),
     ('realise', 'Run what annotations say; count what is realised and what is contradicted.'),
     ('outcome', 'Run prompts to their verdicts; count the right ones and the silent failures.'),
     ('record', 'Record the replies of language models, to repeat a campaign without them.'),

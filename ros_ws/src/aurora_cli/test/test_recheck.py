@@ -51,6 +51,7 @@ def test_a_true_proof_holds_with_and_without_the_specification() -> None:
     'changes',
     [
         {'limit': 100.0},
+        {'nearest': 125.0},
         {'requested': 119.0},
         {'requested': 120.0},
         {'limit_name': 'invented'},
@@ -99,12 +100,14 @@ def test_the_recheck_knows_nothing_of_the_checker_but_its_document() -> None:
 
 
 def test_certain_loss_is_a_proof() -> None:
-    proof = _too_high(limit_name='link_loss', requested=1.0, limit=1.0, unit='1')
+    proof = _too_high(limit_name='link_loss', requested=1.0, limit=1.0, nearest=None, unit='1')
     assert recheck(proof, None).valid
 
 
 def test_counts_are_counted() -> None:
-    proof = _too_high(path='uavs', limit_name='uavs_max', requested=11.0, limit=10.0, span=None)
+    proof = _too_high(
+        path='uavs', limit_name='uavs_max', requested=11.0, limit=10.0, nearest=10.0, span=None
+    )
     assert recheck(proof, {'prompt': '', 'uavs': [{}] * 11}).valid
     assert not recheck(proof, {'prompt': '', 'uavs': [{}] * 9}).valid
 

@@ -48,6 +48,28 @@ RULES = (
     (Rule.HORIZON, 'A scenario of 20 seconds. The bus brakes at 30 s.'),
     (Rule.PLACEMENT, 'The van is 30 m ahead of the ego and 30 m behind the ego.'),
     (Rule.ZONE, 'A drone hovers over Signal Tower at 50 m.'),
+    (Rule.ROOF, f'{HALL} at 15 m.'),
+    (
+        Rule.BOUNDS,
+        'A drone tracks a bus. The altitude of the drone always stays above 50 m. The altitude '
+        'of the drone always stays below 30 m.',
+    ),
+    (Rule.STILL, f'{HALL} at 50 m. It never flies slower than 10 m/s.'),
+    (
+        Rule.WATCH,
+        'The scenario lasts 60 seconds. A drone tracks a bus at 40 m. The bus has to be visible '
+        'to the drone for at least 70 seconds.',
+    ),
+    (
+        Rule.LATENCY,
+        f'{HALL} at 40 m. At 30 s the drone sends a message to a bus over a link with a latency '
+        'of 3 s, and the message must be delivered within 1 s.',
+    ),
+    (
+        Rule.SCENE,
+        'There are exactly 2 vehicles in the whole scene. A bus drives, a van drives, a truck '
+        'drives, and a drone tracks the bus at 40 m.',
+    ),
 )
 PROMPTS = dict(RULES)
 MORE = (

@@ -4,42 +4,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping
 
+from aurora_core.feasibility.bounds import check_bounds
+from aurora_core.feasibility.doubts import doubts
 from aurora_core.feasibility.geometry import check_geometry
+from aurora_core.feasibility.limits import check_limits
+from aurora_core.feasibility.operands import operands_fit
 from aurora_core.feasibility.places import check_placements
+from aurora_core.feasibility.pursuit import check_pursuit
+from aurora_core.feasibility.roofs import check_roofs
+from aurora_core.feasibility.scene import check_scene
 from aurora_core.feasibility.signs import check_signs
 from aurora_core.feasibility.times import check_times
 from aurora_core.feasibility.zones import check_zones
-from aurora_core.knowledge.agent_types import AgentTypeRecord, top_speed_mps
+from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.outcomes.feasibility import Certificate, Feasibility, FeasibilityVerdict, Rule
-from aurora_core.spec.parameter import Bound, Parameter, Provenance, Unit
-from aurora_core.spec.scenario import (
-    AgentAction,
-    AltitudeTrigger,
-    ScenarioSpec,
-    UavAction,
-)
-from aurora_core.spec.vocabulary import AgentType, ClauseStatus
+from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.spec.vocabulary import ClauseStatus
 
 # Statements that clash with each other: a word that was not read may keep them apart.
-_BETWEEN_STATEMENTS = (Rule.PLACEMENT, Rule.ORDER, Rule.DEADLINE, Rule.HORIZON)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Rule:
-    """A stated number and the limit it has to keep (low or high)."""
-
-    path: str
-    parameter: Parameter
-    reason: str
-    limit_name: str
-    low: float | None = None
-    high: float | None = None
-    high_is_excluded: bool = False
+_BETWEEN_STATEMENTS = (
+    Rule.PLACEMENT,
+    Rule.ORDER,
+    Rule.DEADLINE,
+    Rule.HORIZON,
+    Rule.BOUNDS,
+    Rule.SCENE,
+    Rule.STILL,
+)
 
 
 def check_request(
@@ -58,22 +53,40 @@ def check_request(
         tolerances: How far stated numbers may be missed: what they allow is not refused.
         types: What the agent types can reach.
     """
+    # A condition of what has no such quantity is a fault of the reader, and proves nothing.
+    sound = tuple(c for c in spec.conditions if operands_fit(spec, c))
+    if len(sound) < len(spec.conditions):
+        spec = spec.model_copy(update={'conditions': sound})
     beyond_limits = check_limits(spec, limits, types).certificates
     named = {c.span for c in beyond_limits}
+    marks = map_model.landmarks
+    fenced = list(
+        check_zones(spec, map_model.zones, marks, limits, tolerances, map_model.buildings)
+    )
+    roofs = check_roofs(spec, map_model.buildings, marks, limits, tolerances)
     found = (
         *beyond_limits,
         *(c for c in check_signs(spec) if c.span not in named),
-        *check_geometry(spec, limits, tolerances),
-        *check_times(spec, limits, tolerances),
+        *check_geometry(spec, map_model, limits, tolerances),
+        *check_pursuit(spec, limits, tolerances),
+        *check_bounds(spec, limits, tolerances),
+        *check_scene(spec),
+        *check_times(spec, limits, tolerances, map_model),
         *check_placements(spec, tolerances),
-        *check_zones(spec, map_model.zones, map_model.landmarks, limits, tolerances),
+        *fenced,
+        # A tower in a no-fly zone is told of once.
+        *(c for c in roofs if c.path.rpartition('/')[0] not in {z.path for z in fenced}),
     )
     doubtful = [c for c in found if c.rule in _BETWEEN_STATEMENTS and _half_read(spec, c)]
     certificates = tuple(c for c in found if c not in doubtful)
     if certificates:
         return FeasibilityVerdict(result=Feasibility.INFEASIBLE, certificates=certificates)
-    notes = tuple(f'{c.sentence} But part of that clause was not read.' for c in doubtful)
-    result = Feasibility.UNKNOWN if doubtful else Feasibility.FEASIBLE
+    notes = (
+        *(f'{c.sentence} But part of that clause was not read.' for c in doubtful),
+        *doubts(spec, map_model, limits, tolerances),
+    )
+    notes = tuple(dict.fromkeys(notes))
+    result = Feasibility.UNKNOWN if notes else Feasibility.FEASIBLE
     return FeasibilityVerdict(result=result, notes=notes)
 
 
@@ -89,210 +102,3 @@ def _half_read(spec: ScenarioSpec, certificate: Certificate) -> bool:
     clauses = [c.span for c in spec.clauses if c.status is ClauseStatus.ENCODED]
     around = [c for c in clauses if c.start <= at.start and at.end <= c.end]
     return any(c.start <= u.start and u.end <= c.end for c in around for u in unread)
-
-
-def check_limits(
-    spec: ScenarioSpec,
-    limits: Limits,
-    types: Mapping[str, AgentTypeRecord] | None = None,
-) -> FeasibilityVerdict:
-    """Check every stated number and count against the limits.
-
-    Args:
-        spec: The request.
-        limits: Limits in force; a value equal to a limit is inside it.
-        types: What the agent types can reach; without them only the limits count.
-
-    Returns:
-        `infeasible` with one certificate per broken limit, else `feasible`.
-    """
-    certificates = [c for rule in _rules(spec, limits, types or {}) for c in _broken(rule)]
-    certificates += _counts(spec, limits)
-    if certificates:
-        return FeasibilityVerdict(result=Feasibility.INFEASIBLE, certificates=tuple(certificates))
-    return FeasibilityVerdict(result=Feasibility.FEASIBLE)
-
-
-def _rules(
-    spec: ScenarioSpec, limits: Limits, types: Mapping[str, AgentTypeRecord]
-) -> Iterator[_Rule]:
-    for mission in spec.missions:
-        base = f'missions/{mission.id}'
-        yield _Rule(
-            path=f'{base}/altitude_m',
-            parameter=mission.altitude_m,
-            reason='altitude_limit',
-            limit_name='uav_altitude_m',
-            low=limits.uav_altitude_min_m,
-            high=limits.uav_altitude_max_m,
-        )
-        if mission.standoff_m is not None:
-            yield _Rule(
-                path=f'{base}/standoff_m',
-                parameter=mission.standoff_m,
-                reason='standoff',
-                limit_name='uav_standoff_max_m',
-                low=0.0,
-                high=limits.uav_standoff_max_m,
-            )
-        if mission.speed_mps is not None:
-            yield _Rule(
-                path=f'{base}/speed_mps',
-                parameter=mission.speed_mps,
-                reason='speed_limit',
-                limit_name='uav_speed_max_mps',
-                low=0.0,
-                high=limits.uav_speed_max_mps,
-            )
-        if mission.duration_s is not None:
-            yield _Rule(
-                path=f'{base}/duration_s',
-                parameter=mission.duration_s,
-                reason='endurance',
-                limit_name='uav_endurance_s',
-                low=0.0,
-                high=limits.uav_endurance_s,
-            )
-    speeds = {a.id: _top_speed(a.type, limits, types) for a in spec.agents}
-    for agent in spec.agents:
-        name, top = speeds[agent.id]
-        for k, behavior in enumerate(agent.behaviors):
-            if behavior.speed_mps is not None:
-                yield _Rule(
-                    path=f'agents/{agent.id}/behaviors/{k}/speed_mps',
-                    parameter=behavior.speed_mps,
-                    reason='speed_limit',
-                    limit_name=name,
-                    low=0.0,
-                    high=top,
-                )
-    for event in spec.events:
-        trigger, action = event.trigger, event.action
-        if isinstance(trigger, AltitudeTrigger):
-            yield _Rule(
-                path=f'events/{event.id}/trigger/value_m',
-                parameter=trigger.value_m,
-                reason='altitude_limit',
-                limit_name='uav_altitude_m',
-                high=limits.uav_altitude_max_m,
-            )
-        if isinstance(action, UavAction) and action.altitude_m is not None:
-            yield _Rule(
-                path=f'events/{event.id}/action/altitude_m',
-                parameter=action.altitude_m,
-                reason='altitude_limit',
-                limit_name='uav_altitude_m',
-                low=limits.uav_altitude_min_m,
-                high=limits.uav_altitude_max_m,
-            )
-        if isinstance(action, AgentAction) and action.value_mps is not None:
-            name, top = speeds[action.agent]
-            yield _Rule(
-                path=f'events/{event.id}/action/value_mps',
-                parameter=action.value_mps,
-                reason='speed_limit',
-                limit_name=name,
-                low=0.0,
-                high=top,
-            )
-    for link in spec.links:
-        yield _Rule(
-            path=f'links/{link.id}/loss',
-            parameter=link.loss,
-            reason='comm_range',
-            limit_name='link_loss',
-            low=0.0,
-            high=1.0,
-            high_is_excluded=True,
-        )
-    if spec.world.wind_mps is not None:
-        yield _Rule(
-            path='world/wind_mps',
-            parameter=spec.world.wind_mps,
-            reason='speed_limit',
-            limit_name='wind_max_mps',
-            low=0.0,
-            high=limits.wind_max_mps,
-        )
-    if spec.world.duration_s is not None:
-        yield _Rule(
-            path='world/duration_s',
-            parameter=spec.world.duration_s,
-            reason='duration',
-            limit_name='duration_s',
-            low=limits.duration_min_s,
-            high=limits.duration_max_s,
-        )
-
-
-def _top_speed(
-    kind: AgentType, limits: Limits, types: Mapping[str, AgentTypeRecord]
-) -> tuple[str, float]:
-    """Return the limit on an agent's speed: the general one, or what its type can reach."""
-    walks = kind is AgentType.PEDESTRIAN
-    name = 'pedestrian_speed_max_mps' if walks else 'vehicle_speed_max_mps'
-    top = limits.pedestrian_speed_max_mps if walks else limits.vehicle_speed_max_mps
-    record = types.get(kind.value)
-    if record is not None and top_speed_mps(record, limits) < top:
-        return f'agent_types/{kind.value}/max_speed_mps', top_speed_mps(record, limits)
-    return name, top
-
-
-def _broken(rule: _Rule) -> Iterator[Certificate]:
-    parameter = rule.parameter
-    if parameter.provenance is not Provenance.EXPLICIT:
-        return
-    value, limit = parameter.value, None
-    over = rule.high is not None and (
-        value > rule.high or (rule.high_is_excluded and value >= rule.high)
-    )
-    # "at most 150 m" can be met below the limit, "at least 1 m" above it.
-    if over and parameter.bound is not Bound.AT_MOST:
-        limit = rule.high
-    if rule.low is not None and value < rule.low and parameter.bound is not Bound.AT_LEAST:
-        limit = rule.low
-    if limit is None:
-        return
-    excluded = rule.high_is_excluded and limit == rule.high
-    word = 'below' if excluded else ('at most' if limit == rule.high else 'at least')
-    unit = '' if parameter.unit is Unit.ONE else f' {parameter.unit.value}'
-    yield Certificate(
-        kind='limit_exceeded',
-        reason=rule.reason,
-        path=rule.path,
-        requested=value,
-        unit=parameter.unit.value,
-        limit_name=rule.limit_name,
-        limit=limit,
-        nearest=None if excluded else limit,
-        span=parameter.span,
-        rule=Rule.LIMIT,
-        sentence=(
-            f'{rule.path} asks for {value:g}{unit}; '
-            f'it has to be {word} {limit:g}{unit} ({rule.limit_name}).'
-        ),
-    )
-
-
-def _counts(spec: ScenarioSpec, limits: Limits) -> list[Certificate]:
-    found = []
-    for path, count, top in (
-        ('uavs', len(spec.uavs), limits.uavs_max),
-        ('agents', len(spec.agents), limits.agents_max),
-    ):
-        if count > top:
-            found.append(
-                Certificate(
-                    kind='limit_exceeded',
-                    reason='count',
-                    path=path,
-                    requested=float(count),
-                    unit='1',
-                    limit_name=f'{path}_max',
-                    limit=float(top),
-                    nearest=float(top),
-                    rule=Rule.COUNT,
-                    sentence=f'{count} {path} are asked for; at most {top} are possible.',
-                )
-            )
-    return found

@@ -52,5 +52,7 @@ def map_fact(path: str, value: float | str) -> Fact:
 
 def _entry(table: Limits | Tolerances, path: str) -> float:
     name, _, key = path.partition('/')
-    value = table.model_dump()[name]
-    return float(value[key] if key else value)
+    value = getattr(table, name)
+    if not key:
+        return float(value)
+    return float(value[key] if isinstance(value, dict) else getattr(value, key))

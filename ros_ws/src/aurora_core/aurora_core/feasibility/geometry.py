@@ -12,25 +12,20 @@ from collections.abc import Iterator
 
 from aurora_core.feasibility.certificates import beyond, contradiction
 from aurora_core.feasibility.facts import limit_facts, says, tolerance_facts
+from aurora_core.feasibility.operands import AT_LEAST, upward, whole
+from aurora_core.feasibility.zones import is_half_read, is_over, place_distances, roof_reach_m
 from aurora_core.knowledge.limits import Limits, Tolerances
+from aurora_core.knowledge.map_model import MapModel
 from aurora_core.outcomes.feasibility import Certificate, Fact, Rule
 from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.quantity import QuantityName
-from aurora_core.spec.scenario import (
-    AgentAction,
-    Link,
-    ScenarioSpec,
-    SendMessage,
-    StatedCondition,
-    UavMission,
-)
+from aurora_core.spec.reference import LANDMARK
+from aurora_core.spec.scenario import Link, ScenarioSpec, SendMessage, StatedCondition, UavMission
 from aurora_core.spec.stated import is_stated, least, most
 from aurora_core.spec.vocabulary import MissionMode
 
 # Quantities that say how far two stay from each other.
 _BETWEEN = (QuantityName.DISTANCE, QuantityName.HORIZONTAL_DISTANCE, QuantityName.SEPARATION)
-# What takes a vehicle's stated speed from it.
-_SLOWING = frozenset({'brake', 'stop', 'slow', 'yield'})
 # No point of a target that is looked at stands higher: half the height of the tallest vehicle.
 _TARGET_HEIGHT_M = 2.0
 
@@ -72,6 +67,14 @@ class Geometry:
             return near, math.hypot(self._limits.uav_altitude_max_m, far)
         return math.hypot(max(0.0, low - _TARGET_HEIGHT_M), near), math.hypot(high, far)
 
+    def while_sending(self, mission: UavMission) -> float:
+        """Return how near a UAV that sends to its target is at least, in metres."""
+        if mission.mode is MissionMode.TRACK:
+            return self.slant(mission)[0]
+        if mission.target in self._flying:
+            return 0.0
+        return max(0.0, self.altitude(mission)[0] - _TARGET_HEIGHT_M)
+
     def facts(self, mission: UavMission) -> tuple[Fact, ...]:
         """Return what these distances follow from."""
         base = f'missions/{mission.id}'
@@ -85,16 +88,16 @@ class Geometry:
 
 
 def check_geometry(
-    spec: ScenarioSpec, limits: Limits, tolerances: Tolerances
+    spec: ScenarioSpec, map_model: MapModel, limits: Limits, tolerances: Tolerances
 ) -> Iterator[Certificate]:
     """Return what sight, radio, separation and stated distances rule out."""
     geometry = Geometry(spec, limits, tolerances)
     yield from _sight(spec, limits, geometry)
-    yield from _radio(spec, geometry)
+    yield from _sight_of_places(spec, map_model, limits, tolerances)
+    yield from _radio(spec, limits, geometry)
     yield from _separation(spec, limits)
-    yield from _stated_distances(spec, geometry)
+    yield from _stated_distances(spec, limits, geometry)
     yield from _tracked_from_afar(spec, limits)
-    yield from _pursuit(spec, limits, tolerances)
 
 
 def _sight(spec: ScenarioSpec, limits: Limits, geometry: Geometry) -> Iterator[Certificate]:
@@ -122,6 +125,52 @@ def _sight(spec: ScenarioSpec, limits: Limits, geometry: Geometry) -> Iterator[C
             )
 
 
+def _sight_of_places(
+    spec: ScenarioSpec, map_model: MapModel, limits: Limits, tolerances: Tolerances
+) -> Iterator[Certificate]:
+    """A landmark that is to be seen from hovers that are all too far away from it."""
+    weather, hour = spec.world.weather.value, spec.world.time_of_day.value
+    reach = limits.sensing_range(weather, hour)
+    marks = {f'{LANDMARK}{m.name}': m for m in map_model.landmarks}
+    for condition in spec.conditions:
+        seen = condition.quantity in (QuantityName.VISIBLE_TIME, QuantityName.VISIBLE_FRACTION)
+        target = marks.get(condition.of[-1])
+        positive = upward(condition) and condition.value.value > 0.0
+        if not (seen and positive) or target is None:
+            continue
+        flown = [m for m in spec.missions if m.uav == condition.of[0]]
+        away = []
+        for mission in flown:
+            mark = marks.get(mission.target or '')
+            if mark is None or mission.mode is not MissionMode.HOVER:
+                away.append(0.0)
+                continue
+            _, far = place_distances(mission, limits, tolerances)
+            if is_over(mission):
+                far = max(far, roof_reach_m(mark, map_model.buildings))
+            away.append(math.hypot(mark.x_m - target.x_m, mark.y_m - target.y_m) - far)
+        if not flown or min(away) <= reach or any(is_half_read(spec, m) for m in flown):
+            continue
+        yield beyond(
+            Rule.SENSING,
+            'sensing_range',
+            condition.value,
+            f'conditions/{condition.id}',
+            ('sensing_range_m', reach),
+            f'{condition.of[0]} hovers at least {min(away):.0f} m from {target.name}; its camera '
+            f'reaches {reach:g} m ({weather}, {hour}).',
+            (
+                *says(f'conditions/{condition.id}/value', condition.value),
+                *(f for m in flown for f in says(f'missions/{m.id}/target', m.target)),
+                *(f for m in flown for f in says(f'missions/{m.id}/standoff_m', m.standoff_m)),
+                *says('world/weather', weather),
+                *says('world/time_of_day', hour),
+                *limit_facts(limits, f'sensing_range_m/{weather}', f'sensing_factor/{hour}'),
+                *tolerance_facts(tolerances, 'pattern_centre_m', 'hover_drift_wind_m'),
+            ),
+        )
+
+
 def _leading(mission: UavMission) -> Parameter:
     """Return the stated number that puts the UAV far from its target."""
     standoff = mission.standoff_m
@@ -130,8 +179,12 @@ def _leading(mission: UavMission) -> Parameter:
     return mission.altitude_m
 
 
-def _radio(spec: ScenarioSpec, geometry: Geometry) -> Iterator[Certificate]:
-    """A UAV sends only after its ascent: then it is at its place in one of its phases."""
+def _radio(spec: ScenarioSpec, limits: Limits, geometry: Geometry) -> Iterator[Certificate]:
+    """A UAV sends only after its ascent: then it is as high as one of its phases at least.
+
+    Who tracks sends when it is at its place; on the way to a hover it may pass nearer. What a UAV
+    receives may come while it stands on the ground.
+    """
     sent = {
         (e.action.sender, e.action.receiver)
         for e in spec.events
@@ -139,13 +192,15 @@ def _radio(spec: ScenarioSpec, geometry: Geometry) -> Iterator[Certificate]:
     }
     for link in spec.links:
         pair = (link.sender, link.receiver)
-        if link.range_m is None or not is_stated(link.range_m) or pair not in sent:
+        if pair not in sent:
             continue
-        yield from _kept_out_of_range(spec, link, link.range_m)
-        flown = [m for m in spec.missions if m.uav in pair]
-        if not flown or any(m.target not in pair for m in flown):
+        yield from _kept_out_of_range(spec, link, limits)
+        if link.range_m is None or not is_stated(link.range_m):
             continue
-        near = min(geometry.slant(m)[0] for m in flown)
+        flown = [m for m in spec.missions if m.uav == link.sender]
+        if not flown or any(m.target != link.receiver for m in flown):
+            continue
+        near = min(geometry.while_sending(m) for m in flown)
         if near > link.range_m.value and link.range_m.bound is not Bound.AT_LEAST:
             yield beyond(
                 Rule.RADIO,
@@ -162,34 +217,34 @@ def _radio(spec: ScenarioSpec, geometry: Geometry) -> Iterator[Certificate]:
             )
 
 
-def _kept_out_of_range(spec: ScenarioSpec, link: Link, reach: Parameter) -> Iterator[Certificate]:
+def _kept_out_of_range(spec: ScenarioSpec, link: Link, limits: Limits) -> Iterator[Certificate]:
     """`the two never come nearer than 300 m`, and their link reaches 120 m."""
+    reach = link.range_m
+    stated = reach is not None and is_stated(reach)
+    if reach is not None and (not stated or reach.bound is Bound.AT_LEAST):
+        return
+    reach_m = limits.link_range_sight_m if reach is None else reach.value
     for condition in spec.conditions:
-        apart = condition.quantity in _BETWEEN and condition.op in ('>', '>=')
-        if not (apart and _holds_throughout(condition)) or set(condition.of) != {
-            link.sender,
-            link.receiver,
-        }:
+        apart = condition.quantity in _BETWEEN and condition.op in AT_LEAST
+        both = set(condition.of) == {link.sender, link.receiver}
+        if not (apart and both and whole(condition) and is_stated(condition.value)):
             continue
-        if condition.value.value > reach.value and reach.bound is not Bound.AT_LEAST:
+        if condition.value.value > reach_m:
+            at_limit = () if stated else limit_facts(limits, 'link_range_sight_m')
             yield beyond(
                 Rule.RADIO,
                 'comm_range',
-                reach,
+                reach if reach is not None else condition.value,
                 f'links/{link.id}/range_m',
-                ('range_m', reach.value),
+                ('range_m' if stated else 'link_range_sight_m', reach_m),
                 f'{link.sender} and {link.receiver} are to stay {condition.value.value:g} m '
-                f'apart; the link reaches {reach.value:g} m.',
+                f'apart; the link reaches {reach_m:g} m.',
                 (
                     *says(f'links/{link.id}/range_m', reach),
                     *says(f'conditions/{condition.id}/value', condition.value),
+                    *at_limit,
                 ),
             )
-
-
-def _holds_throughout(condition: StatedCondition) -> bool:
-    """Return whether a condition is asked of all the time, not of a share, stretch or moment."""
-    return condition.fraction is None and condition.hold_s is None and condition.by_s is None
 
 
 def _separation(spec: ScenarioSpec, limits: Limits) -> Iterator[Certificate]:
@@ -261,32 +316,45 @@ def _widest_m(one: Parameter, other: Parameter) -> float:
     )
 
 
-def _stated_distances(spec: ScenarioSpec, geometry: Geometry) -> Iterator[Certificate]:
-    """A stated condition that the stated flight cannot meet."""
+def _stated_distances(
+    spec: ScenarioSpec, limits: Limits, geometry: Geometry
+) -> Iterator[Certificate]:
+    """A stated condition that no phase of the stated flight can meet.
+
+    Of several phases one may be meant.
+    """
     for condition in spec.conditions:
-        for mission in spec.missions:
-            band = _band(condition, mission, geometry)
-            if band is None or not _holds_throughout(condition):
-                continue
-            low, high = band
-            value = condition.value.value
-            too_far = condition.op in ('<', '<=') and low > value
-            too_near = condition.op in ('>', '>=') and high < value
-            if too_far or too_near:
-                yield contradiction(
-                    Rule.FLIGHT_BAND,
-                    'spatial_contradiction',
-                    f'conditions/{condition.id}',
-                    f'{condition.quantity} of {", ".join(condition.of)} has to be '
-                    f'{condition.op} {value:g} m; the flight of {mission.uav} as it is stated '
-                    f'gives {"at least" if too_far else "at most"} '
-                    f'{low if too_far else high:.1f} m.',
-                    condition.span,
-                    (
-                        *says(f'conditions/{condition.id}/value', condition.value),
-                        *geometry.facts(mission),
-                    ),
-                )
+        if not (whole(condition) and is_stated(condition.value)):
+            continue
+        value = condition.value.value
+        in_air = limits.uav_altitude_min_m <= value <= limits.uav_altitude_max_m
+        if condition.quantity == QuantityName.ALTITUDE and not in_air:
+            continue  # told of as a number beyond a limit
+        bands = [(m, _band(condition, m, geometry)) for m in spec.missions]
+        flown = [(m, band) for m, band in bands if band is not None]
+        outside = [
+            (condition.op in ('<', '<=') and low > value)
+            or (condition.op in AT_LEAST and high < value)
+            for _, (low, high) in flown
+        ]
+        if not flown or not all(outside):
+            continue
+        too_far = condition.op in ('<', '<=')
+        mission, (low, high) = flown[0]
+        yield contradiction(
+            Rule.FLIGHT_BAND,
+            'spatial_contradiction',
+            f'conditions/{condition.id}',
+            f'{condition.quantity} of {", ".join(condition.of)} has to be '
+            f'{condition.op} {value:g} m; the flight of {mission.uav} as it is stated '
+            f'gives {"at least" if too_far else "at most"} '
+            f'{low if too_far else high:.1f} m.',
+            condition.span,
+            (
+                *says(f'conditions/{condition.id}/value', condition.value),
+                *(fact for m, _ in flown for fact in geometry.facts(m)),
+            ),
+        )
 
 
 def _band(
@@ -313,8 +381,7 @@ def _tracked_from_afar(spec: ScenarioSpec, limits: Limits) -> Iterator[Certifica
         mission = tracked.get(condition.of) if len(condition.of) == 2 else None
         apart = condition.quantity == QuantityName.HORIZONTAL_DISTANCE
         apart = apart and condition.op in ('>', '>=', '==')
-        whole = _holds_throughout(condition)
-        if mission is None or not (apart and whole) or is_stated(mission.standoff_m):
+        if mission is None or not (apart and whole(condition)) or is_stated(mission.standoff_m):
             continue
         if condition.value.value > reach:
             yield beyond(
@@ -330,34 +397,3 @@ def _tracked_from_afar(spec: ScenarioSpec, limits: Limits) -> Iterator[Certifica
                     *limit_facts(limits, 'uav_standoff_max_m', 'tracking_horizontal_m'),
                 ),
             )
-
-
-def _pursuit(spec: ScenarioSpec, limits: Limits, tolerances: Tolerances) -> Iterator[Certificate]:
-    """A target that is asked to drive faster than UAVs fly cannot be tracked."""
-    top = limits.uav_speed_max_mps
-    tracked = {m.target: m for m in spec.missions if m.mode is MissionMode.TRACK}
-    # What an event makes slower has its stated speed for a part of the time only.
-    acted = [e.action for e in spec.events if isinstance(e.action, AgentAction)]
-    changed = {action.agent for action in acted if action.do in _SLOWING}
-    for agent in spec.agents:
-        mission = tracked.get(agent.id) if agent.id not in changed else None
-        for k, behavior in enumerate(agent.behaviors):
-            speed = behavior.speed_mps
-            if speed is None:
-                continue
-            slack = tolerances.route_speed_mps.of(speed.value, approximate=speed.approximate)
-            if mission is not None and least(speed, slack, 0.0) > top:
-                yield beyond(
-                    Rule.PURSUIT,
-                    'speed_limit',
-                    speed,
-                    f'missions/{mission.id}/target',
-                    ('uav_speed_max_mps', top),
-                    f'{agent.id} drives at {speed.value:g} m/s; {mission.uav} flies at most '
-                    f'{top:g} m/s and cannot track it.',
-                    (
-                        *says(f'agents/{agent.id}/behaviors/{k}/speed_mps', speed),
-                        *limit_facts(limits, 'uav_speed_max_mps'),
-                        *tolerance_facts(tolerances, 'route_speed_mps'),
-                    ),
-                )

@@ -8,12 +8,15 @@ from collections.abc import Iterator
 
 from aurora_core.feasibility.certificates import beyond, contradiction
 from aurora_core.feasibility.facts import limit_facts, says, tolerance_facts
+from aurora_core.feasibility.zones import roof_reach_m
 from aurora_core.knowledge.limits import Limits, Tolerances
+from aurora_core.knowledge.map_model import MapModel
 from aurora_core.outcomes.feasibility import BoundKind, Certificate, Fact, Rule, TimeBound
 from aurora_core.spec.parameter import Span
+from aurora_core.spec.reference import LANDMARK
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.spec.stated import is_stated, least
-from aurora_core.temporal.links import Basis, Link
+from aurora_core.temporal.links import Basis, Link, Spot
 from aurora_core.temporal.network import Cycle, contradictions
 from aurora_core.temporal.words import told
 
@@ -29,15 +32,38 @@ _RULES = (
 
 
 def check_times(
-    spec: ScenarioSpec, limits: Limits, tolerances: Tolerances
+    spec: ScenarioSpec,
+    limits: Limits,
+    tolerances: Tolerances,
+    map_model: MapModel | None = None,
 ) -> Iterator[Certificate]:
-    """Return what the battery, deadlines, the horizon and stated orders rule out."""
+    """Return what the battery, deadlines, the horizon and stated orders rule out.
+
+    Args:
+        spec: The request.
+        limits: Limits in force.
+        tolerances: How far stated numbers may be missed.
+        map_model: Its map: a UAV that hovers at one landmark and then at another flies the way.
+    """
     yield from _battery(spec, limits)
-    basis = Basis(spec=spec, limits=limits, tolerances=tolerances)
+    marks = {} if map_model is None else _spots(spec, map_model)
+    basis = Basis(spec=spec, limits=limits, tolerances=tolerances, landmarks=marks)
     for cycle in contradictions(basis):
         found = _certificate(basis, cycle)
         if found is not None and not (found.rule is Rule.BATTERY and _is_named(basis, found.path)):
             yield found
+
+
+def _spots(spec: ScenarioSpec, map_model: MapModel) -> dict[str, Spot]:
+    """Return where the landmarks are that several missions may be at, by their references."""
+    targets = {m.target for m in spec.missions} if len(spec.missions) > 1 else set()
+    return {
+        f'{LANDMARK}{mark.name}': Spot(
+            x_m=mark.x_m, y_m=mark.y_m, roof_m=roof_reach_m(mark, map_model.buildings)
+        )
+        for mark in map_model.landmarks
+        if f'{LANDMARK}{mark.name}' in targets
+    }
 
 
 def _battery(spec: ScenarioSpec, limits: Limits) -> Iterator[Certificate]:

@@ -17,16 +17,18 @@ import shapely
 from aurora_core.feasibility.facts import limit_facts, map_fact, says, tolerance_facts
 from aurora_core.geometry.frames import offset_at_bearing
 from aurora_core.knowledge.limits import Limits, Tolerances
-from aurora_core.knowledge.map_types import Landmark, NoFlyZone
+from aurora_core.knowledge.map_types import Building, Landmark, NoFlyZone
 from aurora_core.outcomes.feasibility import Certificate, Fact, Rule
+from aurora_core.spec.reference import LANDMARK
 from aurora_core.spec.scenario import ScenarioSpec, UavMission
 from aurora_core.spec.stated import is_stated, least, most
 from aurora_core.spec.vocabulary import ClauseStatus, MissionMode, Pattern
 
-_LANDMARK = 'landmark:'
 # Corners of the polygons that stand for circles.
 _STEP_DEG = 1.0
 _ROUNDING_M = 1e-6
+# A landmark so near to a building stands in it.
+_BESIDE_M = 1.0
 
 
 def check_zones(
@@ -35,12 +37,22 @@ def check_zones(
     landmarks: Sequence[Landmark],
     limits: Limits,
     tolerances: Tolerances,
+    buildings: Sequence[Building] = (),
 ) -> Iterator[Certificate]:
-    """Return flights at a landmark that enter a no-fly zone wherever their place may be."""
-    known = {f'{_LANDMARK}{mark.name}': mark for mark in landmarks}
+    """Return flights at a landmark that enter a no-fly zone wherever their place may be.
+
+    Args:
+        spec: The request.
+        zones: No-fly zones of its map.
+        landmarks: Its landmarks.
+        limits: Limits in force.
+        tolerances: How far stated numbers may be missed.
+        buildings: Of the map: over the roof of a landmark is over it.
+    """
+    known = {f'{LANDMARK}{mark.name}': mark for mark in landmarks}
     for mission in spec.missions:
         mark = known.get(mission.target or '')
-        if mark is None or _is_half_read(spec, mission):
+        if mark is None or is_half_read(spec, mission):
             continue
         stated = mission.altitude_m
         slack = tolerances.altitude_m.of(stated.value, approximate=stated.approximate)
@@ -48,7 +60,8 @@ def check_zones(
         high = most(stated, slack, limits.uav_altitude_max_m)
         for zone in zones:
             is_level = zone.floor_m <= low and high <= zone.ceiling_m
-            if is_level and _enters(mission, mark, zone, limits, tolerances):
+            roof = roof_of(mark, buildings)
+            if is_level and _enters(mission, mark, zone, limits, tolerances, roof):
                 yield Certificate(
                     kind='geometric_contradiction',
                     reason='geofence',
@@ -82,7 +95,59 @@ def _facts(
     )
 
 
-def _is_half_read(spec: ScenarioSpec, mission: UavMission) -> bool:
+def hover_area(
+    mission: UavMission,
+    centre: tuple[float, float],
+    limits: Limits,
+    tolerances: Tolerances,
+    roof: shapely.Geometry | None,
+) -> shapely.Geometry:
+    """Return what holds every place where a hover at a landmark may be.
+
+    Args:
+        mission: The hover.
+        centre: The landmark, metres.
+        limits: Limits in force.
+        tolerances: How far stated numbers may be missed.
+        roof: Outline of its building: who is over the roof is over it.
+    """
+    near, far = place_distances(mission, limits, tolerances)
+    area = _sector(centre, near, far, *_bearings(mission, tolerances))
+    return area if roof is None or not is_over(mission) else shapely.union(area, roof)
+
+
+def is_over(mission: UavMission) -> bool:
+    """Tell whether a hover is over its landmark, not at a distance from it."""
+    return mission.standoff_m is None and mission.bearing_deg is None
+
+
+def roof_of(mark: Landmark, buildings: Sequence[Building]) -> shapely.Geometry | None:
+    """Return the outline of the buildings that a landmark stands in, None in the open."""
+    point = shapely.Point(mark.x_m, mark.y_m)
+    found = [
+        outline
+        for outline in (shapely.Polygon(b.ring) for b in buildings if _may_hold(b, mark))
+        if outline.distance(point) <= _BESIDE_M
+    ]
+    return shapely.union_all(found) if found else None
+
+
+def _may_hold(building: Building, mark: Landmark) -> bool:
+    """Tell whether the box around a building holds a landmark: most need no closer look."""
+    east, north = [p[0] for p in building.ring], [p[1] for p in building.ring]
+    beside = min(east) - _BESIDE_M <= mark.x_m <= max(east) + _BESIDE_M
+    return beside and min(north) - _BESIDE_M <= mark.y_m <= max(north) + _BESIDE_M
+
+
+def roof_reach_m(mark: Landmark, buildings: Sequence[Building]) -> float:
+    """Return how far from a landmark the roof of its building reaches, metres."""
+    roof = roof_of(mark, buildings)
+    if roof is None:
+        return 0.0
+    return float(shapely.hausdorff_distance(shapely.Point(mark.x_m, mark.y_m), roof))
+
+
+def is_half_read(spec: ScenarioSpec, mission: UavMission) -> bool:
     """Return whether words that may say where a flight is were not read."""
     return any(
         clause.status is ClauseStatus.NOT_ENCODED
@@ -95,13 +160,17 @@ def _is_half_read(spec: ScenarioSpec, mission: UavMission) -> bool:
 
 
 def _enters(
-    mission: UavMission, mark: Landmark, zone: NoFlyZone, limits: Limits, tolerances: Tolerances
+    mission: UavMission,
+    mark: Landmark,
+    zone: NoFlyZone,
+    limits: Limits,
+    tolerances: Tolerances,
+    roof: shapely.Geometry | None,
 ) -> bool:
     area = shapely.Polygon(zone.ring)
     centre = (mark.x_m, mark.y_m)
     if mission.mode is MissionMode.HOVER:
-        near, far = _distances(mission, limits, tolerances)
-        return bool(area.covers(_sector(centre, near, far, *_bearings(mission, tolerances))))
+        return bool(area.covers(hover_area(mission, centre, limits, tolerances, roof)))
     radius = mission.radius_m
     if mission.pattern is not Pattern.ORBIT or radius is None or not is_stated(radius):
         return False
@@ -121,13 +190,15 @@ def _enters(
     )
 
 
-def _distances(mission: UavMission, limits: Limits, tolerances: Tolerances) -> tuple[float, float]:
+def place_distances(
+    mission: UavMission, limits: Limits, tolerances: Tolerances
+) -> tuple[float, float]:
     """Return the least and greatest horizontal distance from the landmark that is asked for."""
     standoff, far = mission.standoff_m, limits.uav_standoff_max_m
     if standoff is not None and is_stated(standoff):
         slack = tolerances.standoff_m.of(standoff.value, approximate=standoff.approximate)
         return least(standoff, slack, 0.0), most(standoff, slack, max(far, standoff.value))
-    if standoff is None and mission.bearing_deg is None:  # over it
+    if is_over(mission):
         return 0.0, tolerances.pattern_centre_m + tolerances.hover_drift_wind_m
     return 0.0, far
 

@@ -40,6 +40,12 @@ class Rule(StrEnum):
     ORDER = 'order'  # a circle of orders, or an order against stated times
     PLACEMENT = 'placement'  # one pair on two sides or at two distances
     ZONE = 'zone'  # a flight at a landmark inside a no-fly zone
+    ROOF = 'roof'  # a hover at a landmark inside a building, or too near it
+    BOUNDS = 'bounds'  # conditions on one quantity without a common value
+    STILL = 'still'  # a hover that is asked to be fast
+    WATCH = 'watch'  # longer in sight, or without a break, than phases or scenario last
+    LATENCY = 'latency'  # a message that is due before the latency of its link has passed
+    SCENE = 'scene'  # a count of the whole scene that leaves out what is named
 
 
 class FactSource(StrEnum):

@@ -38,7 +38,7 @@ from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
 from aurora_core.parsing.attempt import attempt
 from aurora_core.parsing.closing import close_scene
 from aurora_core.parsing.coverage import in_no_clause, unaccounted
-from aurora_core.parsing.doubts import doubtful
+from aurora_core.parsing.doubts.table import doubtful
 from aurora_core.parsing.landmarks import landmark_phrases
 from aurora_core.parsing.scene import ClauseDraft, Scene
 from aurora_core.parsing.second_look import second_look

@@ -14,10 +14,11 @@ from types import MappingProxyType
 from typing import Any
 
 from aurora_core.outcomes.feasibility import Certificate, Rule
-from aurora_core.recheck import flights, places, schedule, zones
+from aurora_core.recheck import bounds, flights, places, pursuit, scene, schedule, zones
 from aurora_core.recheck.finding import Finding, Outcome, Step, finding
 from aurora_core.recheck.limits import by_limit, by_sign
 from aurora_core.recheck.listings import by_listing
+from aurora_core.recheck.operands import kinds_fit
 from aurora_core.recheck.request import Request, fact_holds, quoted
 
 __all__ = ['Finding', 'Outcome', 'recheck']
@@ -31,7 +32,7 @@ _DERIVATIONS: Mapping[Rule, _Derivation] = MappingProxyType(
         Rule.CLOSENESS: flights.closeness,
         Rule.STACKING: flights.stacking,
         Rule.FLIGHT_BAND: flights.flight_band,
-        Rule.PURSUIT: flights.pursuit,
+        Rule.PURSUIT: pursuit.pursuit,
         Rule.AFAR: flights.afar,
         Rule.BATTERY: schedule.battery,
         Rule.DEADLINE: schedule.times,
@@ -39,6 +40,12 @@ _DERIVATIONS: Mapping[Rule, _Derivation] = MappingProxyType(
         Rule.ORDER: schedule.times,
         Rule.PLACEMENT: places.placement,
         Rule.ZONE: zones.zone,
+        Rule.ROOF: zones.roof,
+        Rule.BOUNDS: bounds.bounds,
+        Rule.STILL: bounds.still,
+        Rule.WATCH: bounds.watch,
+        Rule.LATENCY: bounds.latency,
+        Rule.SCENE: scene.scene,
     }
 )
 
@@ -70,4 +77,5 @@ def _steps(proof: Certificate, spec: dict[str, Any] | None) -> list[Step]:
         return [(None, 'it rests on the specification, which is not at hand')]
     request = Request(spec)
     facts: list[Step] = [fact_holds(request, fact) for fact in proof.facts]
-    return [*facts, *derivation(proof, request), *quoted(proof, spec)]
+    derived = derivation(proof, request)
+    return [*facts, *kinds_fit(proof, request), *derived, *quoted(proof, spec)]

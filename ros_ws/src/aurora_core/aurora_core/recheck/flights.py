@@ -9,7 +9,8 @@ from typing import Any
 
 from aurora_core.outcomes.feasibility import Certificate
 from aurora_core.recheck.finding import Step
-from aurora_core.recheck.request import Request, left_open, stated
+from aurora_core.recheck.request import Request, left_open, names_of, stated
+from aurora_core.recheck.zones import farthest, read_whole
 
 # What is looked at stands at most this high above the ground.
 _TOP_OF_TARGET_M = 2.0
@@ -29,15 +30,11 @@ def _aside(request: Request, mission: dict[str, Any]) -> tuple[float, float]:
 def _straight(request: Request, mission: dict[str, Any]) -> tuple[float, float]:
     low, high = _heights(request, mission)
     near, far = _aside(request, mission)
-    if mission.get('target') in _uavs(request):
+    if mission.get('target') in names_of(request, 'uavs'):
         # It flies as well, and may be level with the other one or far above it.
         return near, math.sqrt(request.limit('uav_altitude_max_m') ** 2 + far**2)
     drop = max(0.0, low - _TOP_OF_TARGET_M)
     return math.sqrt(drop**2 + near**2), math.sqrt(high**2 + far**2)
-
-
-def _uavs(request: Request) -> set[str]:
-    return {u[key] for u in request.all('uavs') for key in ('id', 'group') if u.get(key)}
 
 
 def _is_partial(condition: dict[str, Any]) -> bool:
@@ -58,12 +55,14 @@ def _asked(proof: Certificate, *numbers: Any) -> Step:
 
 def sensing(proof: Certificate, request: Request) -> list[Step]:
     """The camera does not reach the target from any place that the flight allows."""
-    mission = request.one(proof.path)
-    if mission is None or mission.get('target') is None or mission['mode'] == 'navigate':
-        return [(False, f'{proof.path} looks at a target')]
     world = request.spec['world']
     reach = float(request.limits['sensing_range_m'][world['weather']])
     reach *= float(request.limits['sensing_factor'][world['time_of_day']])
+    if proof.path.startswith('conditions/'):
+        return [_same(proof, reach), *_place_in_sight(proof, request, reach)]
+    mission = request.one(proof.path)
+    if mission is None or mission.get('target') is None or mission['mode'] == 'navigate':
+        return [(False, f'{proof.path} looks at a target')]
     near, _ = _straight(request, mission)
     return [
         _same(proof, reach),
@@ -72,12 +71,44 @@ def sensing(proof: Certificate, request: Request) -> list[Step]:
     ]
 
 
+def _place_in_sight(proof: Certificate, request: Request, reach: float) -> list[Step]:
+    """A landmark is to be seen from hovers at landmarks that are all too far away."""
+    condition = request.one(proof.path)
+    if condition is None or not str(condition.get('quantity')).startswith('visible_'):
+        return [(False, f'{proof.path} is about what is seen')]
+    observer, target = condition['of']
+    marks = request.landmarks()
+    flown = [m for m in request.all('missions') if m['uav'] == observer]
+    away = [0.0]
+    if flown and target in marks:
+        away = [_from_landmark(request, m, marks, marks[target]) for m in flown]
+    seen = condition['op'] in ('>', '>=', '==') and float(condition['value']['value']) > 0.0
+    return [
+        _asked(proof, condition['value']),
+        (seen and stated(condition['value']), f'{target} is to be seen'),
+        *(read_whole(request, m) for m in flown),
+        (min(away) > reach, f'{observer} is {min(away):.1f} m from {target} at least'),
+    ]
+
+
+def _from_landmark(
+    request: Request,
+    mission: dict[str, Any],
+    marks: dict[str, tuple[float, float]],
+    seen: tuple[float, float],
+) -> float:
+    centre = marks.get(mission.get('target') or '')
+    if centre is None or mission['mode'] != 'hover':
+        return 0.0
+    return math.dist(centre, seen) - farthest(request, mission)
+
+
 def radio(proof: Certificate, request: Request) -> list[Step]:
-    """The two ends of a link stay out of its stated range in every phase."""
+    """The two ends of a link stay out of its range, or the sender is too far while it sends."""
     parts = proof.path.split('/')
     link = request.one('/'.join(parts[:2])) if parts[-1] == 'range_m' else None
-    if link is None or not stated(link.get('range_m')):
-        return [(False, f'{proof.path} is a stated range')]
+    if link is None:
+        return [(False, f'{proof.path} is a range')]
     ends = {link['sender'], link['receiver']}
     sends = any(
         (e.get('action') or {}).get('do') == 'send_message'
@@ -85,55 +116,68 @@ def radio(proof: Certificate, request: Request) -> list[Step]:
         and e['action']['receiver'] == link['receiver']
         for e in request.all('events')
     )
-    reach = float(link['range_m']['value'])
+    number = link.get('range_m')
+    reach = request.limit('link_range_sight_m') if number is None else float(number['value'])
+    kept, numbers = 0.0, [number]
+    for condition in _keeping_apart(request, ends):
+        kept = max(kept, float(condition['value']['value']))
+        numbers += [condition['value']] if number is None else []
     common: list[Step] = [
         _same(proof, reach),
-        _asked(proof, link['range_m']),
+        _asked(proof, *numbers),
         (sends, 'a message is to be sent over the link'),
-        (link['range_m'].get('bound') != 'at_least', 'the range is not "at least"'),
+        (number is None or stated(number), 'the range is stated, or that of the limits'),
+        ((number or {}).get('bound') != 'at_least', 'the range is not "at least"'),
     ]
-    kept = _kept_apart(request, ends)
     if kept > reach:
         return [*common, (True, f'they are to stay {kept:g} m apart, it reaches {reach:g} m')]
-    flown = [m for m in request.all('missions') if m['uav'] in ends]
-    bound = bool(flown) and all(m.get('target') in ends for m in flown)
-    near = min((_straight(request, m)[0] for m in flown), default=0.0)
+    flown = [m for m in request.all('missions') if m['uav'] == link['sender']]
+    bound = bool(flown) and all(m.get('target') == link['receiver'] for m in flown)
+    near = min((_while_sending(request, m) for m in flown), default=0.0)
     return [
         *common,
-        (bound, 'in every phase one end flies at the other'),
+        (bound, 'the sender flies at the receiver in every phase'),
         (near > reach, f'they are {near:.1f} m apart at least, the link reaches {reach:g} m'),
     ]
 
 
-def _kept_apart(request: Request, ends: set[str]) -> float:
-    """Return the greatest distance that a condition keeps between two, all the time."""
-    return max(
-        (
-            float(c['value']['value'])
-            for c in request.all('conditions')
-            if c['quantity'] in ('distance', 'horizontal_distance', 'separation')
-            and c['op'] in ('>', '>=')
-            and set(c['of']) == ends
-            and not _is_partial(c)
-        ),
-        default=0.0,
-    )
+def _while_sending(request: Request, mission: dict[str, Any]) -> float:
+    """Return how near a UAV is that sends: above the ground, and at its place once it tracks."""
+    if mission['mode'] == 'track':
+        return _straight(request, mission)[0]
+    if mission.get('target') in names_of(request, 'uavs'):
+        return 0.0
+    return max(0.0, _heights(request, mission)[0] - _TOP_OF_TARGET_M)
+
+
+def _keeping_apart(request: Request, ends: set[str]) -> list[dict[str, Any]]:
+    """Return the conditions that keep two away from each other, all the time."""
+    return [
+        c
+        for c in request.all('conditions')
+        if c['quantity'] in ('distance', 'horizontal_distance', 'separation')
+        and c['op'] in ('>', '>=')
+        and set(c['of']) == ends
+        and not _is_partial(c)
+        and stated(c['value'])
+    ]
 
 
 def closeness(proof: Certificate, request: Request) -> list[Step]:
     """A condition asks for two UAVs closer than they may come."""
     parts = proof.path.split('/')
     condition = request.one('/'.join(parts[:2])) if parts[0] == 'conditions' else None
-    if condition is None or condition['quantity'] != 'separation':
+    if condition is None or condition['quantity'] not in ('separation', 'distance'):
         return [(False, f'{proof.path} is about the separation')]
     least = request.limit('separation_min_m')
     value = float(condition['value']['value'])
     exact = condition['value'].get('bound', 'exactly') == 'exactly'
-    upward = condition['op'] == '>=' and exact  # `2 m apart` asks for 2 m and no more
+    # `2 m apart` asks for 2 m and no more.
+    upward = condition['quantity'] == 'separation' and condition['op'] == '>=' and exact
     return [
         _same(proof, least),
         _asked(proof, condition['value']),
-        (set(condition['of']) <= _uavs(request), 'it is about UAVs'),
+        (set(condition['of']) <= names_of(request, 'uavs'), 'it is about UAVs'),
         (
             (condition['op'] in ('<', '<=', '==') or upward) and value < least,
             f'it asks for {condition["op"]} {value:g} m, at least {least:g} m are kept',
@@ -181,8 +225,11 @@ def flight_band(proof: Certificate, request: Request) -> list[Step]:
         for low, high in _bands(condition, request)
     ]
     return [
-        (not free, 'the condition is for the whole flight'),
-        (any(excluded), f'{condition["quantity"]} {op} {value:g} m is out of reach of a flight'),
+        (not free and stated(condition['value']), 'the condition is for the whole flight'),
+        (
+            bool(excluded) and all(excluded),
+            f'{condition["quantity"]} {op} {value:g} m is out of reach of every phase',
+        ),
     ]
 
 
@@ -197,34 +244,6 @@ def _bands(condition: dict[str, Any], request: Request) -> list[tuple[float, flo
         measured(request, m)
         for m in request.all('missions')
         if m['mode'] != 'navigate' and {m['uav'], m.get('target')} == bodies
-    ]
-
-
-def pursuit(proof: Certificate, request: Request) -> list[Step]:
-    """What is tracked is asked to be faster than UAVs fly."""
-    parts = proof.path.split('/')
-    mission = request.one('/'.join(parts[:2])) if parts[-1] == 'target' else None
-    if mission is None or mission.get('mode') != 'track':
-        return [(False, f'{proof.path} is the target of a pursuit')]
-    top = request.limit('uav_speed_max_mps')
-    agent = request.one(f'agents/{mission["target"]}') or {}
-    speeds = [b['speed_mps'] for b in agent.get('behaviors', ()) if b.get('speed_mps')]
-    slowest = [left_open(s, request.slack('route_speed_mps', s))[0] for s in speeds]
-    slowing = [
-        e
-        for e in request.all('events')
-        if (e.get('action') or {}).get('agent') == mission['target']
-        and e['action']['do'] in ('brake', 'slow', 'stop', 'yield')
-    ]
-    return [
-        (not slowing, 'no event makes it slower'),
-        _same(proof, top),
-        _asked(proof, *speeds),
-        (
-            any(low > top for low in slowest),
-            f'{mission["target"]} drives at {max(slowest, default=0.0):g} m/s at least, '
-            f'UAVs fly at most {top:g} m/s',
-        ),
     ]
 
 

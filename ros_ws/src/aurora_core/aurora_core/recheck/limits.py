@@ -8,6 +8,7 @@ from typing import Any
 
 from aurora_core.outcomes.feasibility import Certificate
 from aurora_core.recheck.finding import Step
+from aurora_core.recheck.owners import limits_on
 from aurora_core.recheck.request import node_at, quoted, read_config
 
 # Limit name of a certificate -> (key in limits.json of its lower end, of its upper end).
@@ -30,7 +31,7 @@ _SIGNED = {'m', 's', 'm/s', '1'}
 
 def by_limit(proof: Certificate, spec: dict[str, Any] | None) -> list[Step]:
     """A stated number, or a count, lies beyond a limit."""
-    return [*_limit(proof), *_stated(proof, spec)]
+    return [*_limit(proof), *_nearest(proof), *_stated(proof, spec)]
 
 
 def by_sign(proof: Certificate, spec: dict[str, Any]) -> list[Step]:
@@ -125,7 +126,10 @@ def _stated(proof: Certificate, spec: dict[str, Any] | None) -> list[Step]:
     if parameter is None:
         return [(False, f'the specification has no parameter {proof.path}')]
     value = parameter.get('value')
+    above = (proof.requested or 0.0) > (proof.limit or 0.0) or proof.limit_name == _LOSS
+    names = limits_on(spec, proof.path, above=above)
     checks = [
+        (proof.limit_name in names, f'{proof.path} is bound by {", ".join(names) or "nothing"}'),
         (value == proof.requested, f'the specification has {proof.path} = {value}'),
         (
             parameter.get('provenance') == 'explicit',
@@ -134,10 +138,16 @@ def _stated(proof: Certificate, spec: dict[str, Any] | None) -> list[Step]:
     ]
     bound = parameter.get('bound', 'exactly')
     if proof.requested is not None and proof.limit is not None:
-        above = proof.requested > proof.limit or proof.limit_name == _LOSS
         escape = 'at_most' if above else 'at_least'
         checks.append((bound != escape, f'the number binds {bound}, so it cannot be moved inside'))
     return [*checks, *quoted(proof, spec)]
+
+
+def _nearest(proof: Certificate) -> list[Step]:
+    """What is said to be the nearest value that can be is the end of the range."""
+    if proof.nearest is None:
+        return []
+    return [(proof.nearest == proof.limit, f'{proof.nearest:g} is the nearest that can be')]
 
 
 def _at(spec: dict[str, Any], path: str) -> dict[str, Any] | None:

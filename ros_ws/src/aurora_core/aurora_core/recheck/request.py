@@ -7,6 +7,9 @@ from __future__ import annotations
 import math
 from typing import Any, TypeGuard
 
+from shapely.geometry import Point, Polygon, shape
+from shapely.ops import unary_union
+
 from aurora_core.files import MAP_BYTES, read_json
 from aurora_core.knowledge.config_files import config_path
 from aurora_core.knowledge.map_folders import map_folder
@@ -15,6 +18,8 @@ from aurora_core.recheck.finding import Step
 
 # "about" widens a relative tolerance to a tenth.
 _ABOUT = 0.10
+# A landmark so near to a building stands in it.
+_BESIDE_M = 1.0
 
 
 def read_config(*parts: str) -> Any:
@@ -77,6 +82,30 @@ class Request:
         name = str((self.spec.get('world') or {}).get('map_name', ''))
         return list(read_map_file(name, file)['features'])
 
+    def landmarks(self) -> dict[str, tuple[float, float]]:
+        """Return where the landmarks of the map are, by their references."""
+        return {
+            f'landmark:{f["properties"]["name"]}': (
+                float(f['geometry']['coordinates'][0]),
+                float(f['geometry']['coordinates'][1]),
+            )
+            for f in self.features('landmarks.geojson')
+        }
+
+    def roof(self, target: str | None) -> Any:
+        """Return the outline of the buildings that a landmark stands in, None in the open."""
+        centre = self.landmarks().get(target or '')
+        if centre is None:
+            return None
+        shapes = [shape(f['geometry']) for f in self.features('buildings.geojson')]
+        near = [s for s in shapes if Polygon(s.exterior).distance(Point(centre)) <= _BESIDE_M]
+        return unary_union([Polygon(s.exterior) for s in near]) if near else None
+
+
+def names_of(request: Request, kind: str) -> set[str]:
+    """Return the ids and group names of `uavs` or `agents`."""
+    return {b[key] for b in request.all(kind) for key in ('id', 'group') if b.get(key)}
+
 
 def stated(number: Any) -> TypeGuard[dict[str, Any]]:
     """Return whether the prompt itself gives this number."""
@@ -108,7 +137,8 @@ def fact_holds(request: Request, fact: Fact) -> Step:
     elif fact.source is FactSource.TOLERANCES:
         found = node_at(request.tolerances, fact.path)
     else:
-        properties = [f['properties'] for f in request.features('zones.geojson')]
+        files = ('zones.geojson', 'buildings.geojson')
+        properties = [f['properties'] for file in files for f in request.features(file)]
         found = node_at(properties, fact.path)
     return found == fact.value, f'{fact.source} has {fact.path} = {found}'
 

@@ -12,6 +12,8 @@ from aurora_core.recheck.finding import Step
 from aurora_core.recheck.request import Request, stated
 from aurora_core.recheck.times import Derived, derived
 
+_Key = tuple[BoundKind, str, str, str]
+
 # What a proof by a rule has to be about.
 _ABOUT: Mapping[Rule, frozenset[BoundKind]] = MappingProxyType(
     {
@@ -51,7 +53,10 @@ def times(proof: Certificate, request: Request) -> list[Step]:
         return [(None, 'it names no bounds: an older version proved otherwise')]
     about = _ABOUT.get(proof.rule) if proof.rule is not None else None
     named = any(b.of == proof.path and b.kind in (about or ()) for b in proof.chain)
-    known = list(derived(request))
+    known: dict[_Key, list[Derived]] = {}
+    for bound in derived(request):
+        key = bound.kind, bound.of, bound.earlier, bound.later
+        known.setdefault(key, []).append(bound)
     return [
         (named, f'the bounds are about {proof.path}'),
         *(_follows(bound, known) for bound in proof.chain),
@@ -59,14 +64,10 @@ def times(proof: Certificate, request: Request) -> list[Step]:
     ]
 
 
-def _follows(bound: TimeBound, known: Sequence[Derived]) -> Step:
+def _follows(bound: TimeBound, known: Mapping[_Key, Sequence[Derived]]) -> Step:
     """One bound follows from the specification, and is not tighter than it may be."""
     least, most = bound.least_s, bound.most_s
-    mine = [
-        k
-        for k in known
-        if (k.kind, k.of, k.earlier, k.later) == (bound.kind, bound.of, bound.earlier, bound.later)
-    ]
+    mine = known.get((bound.kind, bound.of, bound.earlier, bound.later), ())
     holds = any(
         (least is None or least <= k.least_s + _EXACT_S)
         and (most is None or most >= k.most_s - _EXACT_S)

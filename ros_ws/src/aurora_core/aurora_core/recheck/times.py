@@ -14,6 +14,7 @@ from typing import Any
 
 from aurora_core.outcomes.feasibility import BoundKind as Kind
 from aurora_core.recheck.request import Request, left_open, stated
+from aurora_core.recheck.zones import farthest
 
 _UP = ('>', '>=', '==')
 _DOWN = ('<', '<=', '==')
@@ -131,8 +132,11 @@ def _flight(request: Request, uav: str, missions: list[dict[str, Any]]) -> Itera
     up_s = up_m / request.limit('uav_climb_max_mps')
     down_s = down_m / request.limit('uav_descent_max_mps')
     yield Derived(Kind.CLIMB, of, f'{of}/takeoff', before, up_s)
-    for mission in missions:
+    for k, mission in enumerate(missions):
         name = f'missions/{mission["id"]}'
+        if k > 0 and not free:
+            way_s = _between(request, missions[k - 1], mission)
+            yield Derived(Kind.WAY, name, before, f'{name}/captured', way_s)
         begin, end = f'{name}/captured', f'{name}/over'
         yield Derived(Kind.SEQUENCE, name, before, begin, 0.0)
         for event in _beginners(request, mission):
@@ -142,7 +146,7 @@ def _flight(request: Request, uav: str, missions: list[dict[str, Any]]) -> Itera
             shortest, longest = 0.0, math.inf
         if mission['mode'] == 'navigate':
             longest = math.inf
-            way_s = 0.0 if free else _way_m(request, mission) / request.limit('uav_speed_max_mps')
+            way_s = 0.0 if free else _way_s(request, mission)
             yield Derived(Kind.ROUTE, name, begin, end, way_s)
         yield Derived(Kind.PHASE, name, begin, end, shortest, longest)
         before = end
@@ -172,15 +176,51 @@ def _beginners(request: Request, mission: dict[str, Any]) -> list[str]:
     ][:1]
 
 
-def _way_m(request: Request, mission: dict[str, Any]) -> float:
-    """Return the way along a pattern whose size is stated, its corners cut."""
+def _way_s(request: Request, mission: dict[str, Any]) -> float:
+    """Return the least time along a pattern whose size is stated, its corners cut."""
+    cut = 2.0 * float(request.tolerances['waypoint_horizontal_m'])
+    ways = [max(0.0, leg - cut) for leg in _legs(request, mission)]
+    top, speed = request.limit('uav_speed_max_mps'), mission.get('speed_mps')
+    if not stated(speed) or mission.get('pattern') == 'orbit':
+        return sum(ways) / top
+    if speed.get('bound') == 'at_least' or not 0.0 < float(speed['value']) < top:
+        return sum(ways) / top
+    # A share of what is flown away from the ends of a leg has the stated speed, the rest any.
+    fast = min(top, float(speed['value']) + request.slack('route_speed_mps', speed))
+    share = float(request.tolerances['route_speed_share'])
+    mean = share * fast + (1.0 - share) * top
+    ends = float(speed['value']) ** 2 / float(request.tolerances['route_acceleration_mps2'])
+    return sum(min(way, ends) / top + max(0.0, way - ends) / mean for way in ways)
+
+
+def _legs(request: Request, mission: dict[str, Any]) -> tuple[float, ...]:
+    if mission.get('pattern') == 'orbit':
+        radius, turns = mission.get('radius_m'), mission.get('turns')
+        if not (stated(radius) and stated(turns)):
+            return ()
+        around = 360.0 * left_open(turns, 0.0)[0] - float(request.tolerances['orbit_deg'])
+        near = left_open(radius, request.slack('standoff_m', radius))[0]
+        return (max(0.0, math.radians(around)) * near,)
     size = mission.get('size_m')
     if not size or not all(stated(side) for side in size):
-        return 0.0
+        return ()
     length, width = (left_open(side, 0.0)[0] for side in size)
-    legs = {'rectangle': (length, width, length, width), 'line': (length,)}
-    cut = 2.0 * float(request.tolerances['waypoint_horizontal_m'])
-    return sum(max(0.0, leg - cut) for leg in legs.get(mission.get('pattern') or '', ()))
+    legs = {
+        'rectangle': (length, width, length, width),
+        'line': (length,),
+        'lawnmower': (max(length, width),),
+    }
+    return legs.get(mission.get('pattern') or '', ())
+
+
+def _between(request: Request, before: dict[str, Any], mission: dict[str, Any]) -> float:
+    """Return the least time from a hover at one landmark to the next one at another."""
+    marks = request.landmarks()
+    here, there = (marks.get(m.get('target') or '') for m in (before, mission))
+    if here is None or there is None or {before['mode'], mission['mode']} != {'hover'}:
+        return 0.0
+    aside = farthest(request, before) + farthest(request, mission)
+    return max(0.0, math.dist(here, there) - aside) / request.limit('uav_speed_max_mps')
 
 
 def _order(request: Request, order: dict[str, Any]) -> Iterator[Derived]:

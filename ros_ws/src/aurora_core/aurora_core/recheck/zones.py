@@ -28,16 +28,12 @@ Place = tuple[float, float]
 def zone(proof: Certificate, request: Request) -> list[Step]:
     """Wherever the tolerances let the flight be, it is inside the zone."""
     mission = request.one(proof.path)
-    marks = {
-        f'landmark:{f["properties"]["name"]}': tuple(f['geometry']['coordinates'])
-        for f in request.features('landmarks.geojson')
-    }
     zones = [
         f
         for f in request.features('zones.geojson')
         if f['properties'].get('kind') == 'no_fly' and f['properties']['name'] == proof.word
     ]
-    centre = marks.get((mission or {}).get('target') or '')
+    centre = request.landmarks().get((mission or {}).get('target') or '')
     if mission is None or centre is None or len(zones) != 1:
         return [(False, f'{proof.path} is at a landmark, and {proof.word!r} is a no-fly zone')]
     properties, area = zones[0]['properties'], shape(zones[0]['geometry'])
@@ -50,16 +46,44 @@ def zone(proof: Certificate, request: Request) -> list[Step]:
     )
     floor, ceiling = float(properties['floor_m']), float(properties['ceiling_m'])
     return [
-        _read_whole(request, mission),
+        read_whole(request, mission),
         (
             floor <= low and high <= ceiling,
             f'{low:g} m to {high:g} m lie between {floor:g} m and {ceiling:g} m',
         ),
-        _inside(request, mission, (float(centre[0]), float(centre[1])), area),
+        _inside(request, mission, centre, area),
     ]
 
 
-def _read_whole(request: Request, mission: dict[str, Any]) -> Step:
+def roof(proof: Certificate, request: Request) -> list[Step]:
+    """Wherever the tolerances let the hover be, it is inside a building or too near its wall."""
+    parts = proof.path.split('/')
+    mission = request.one('/'.join(parts[:2])) if parts[-1] == 'altitude_m' else None
+    centre = request.landmarks().get((mission or {}).get('target') or '')
+    found = [
+        f for f in request.features('buildings.geojson') if f['properties']['id'] == proof.word
+    ]
+    if mission is None or centre is None or mission['mode'] != 'hover' or len(found) != 1:
+        return [(False, f'{proof.path} is of a hover at a landmark, {proof.word!r} a building')]
+    altitude, gap = mission['altitude_m'], request.limit('clearance_min_m')
+    high = left_open(altitude, request.slack('altitude_m', altitude))[1]
+    top = float(found[0]['properties']['height_m'])
+    area = shape(found[0]['geometry'])
+    if high <= top:
+        area = area.buffer(gap)
+    return [
+        read_whole(request, mission),
+        (proof.limit == gap, f'{proof.limit_name} is {gap:g}'),
+        (
+            stated(altitude) and proof.requested == altitude['value'],
+            f'{proof.requested} m is the stated altitude',
+        ),
+        (high < top + gap, f'it flies at {high:g} m at most, the building has {top:g} m'),
+        _inside(request, mission, centre, area),
+    ]
+
+
+def read_whole(request: Request, mission: dict[str, Any]) -> Step:
     span = mission.get('span') or {'start': 0, 'end': math.inf}
     lost = [
         c['text']
@@ -72,7 +96,7 @@ def _read_whole(request: Request, mission: dict[str, Any]) -> Step:
 
 def _inside(request: Request, mission: dict[str, Any], centre: Place, area: Any) -> Step:
     if mission['mode'] == 'hover':
-        near, far = _distances(request, mission)
+        near, far = how_far(request, mission)
         bearing, either = mission.get('bearing_deg'), 180.0
         if stated(bearing):
             either = float(request.tolerances['bearing_deg'])
@@ -83,7 +107,10 @@ def _inside(request: Request, mission: dict[str, Any], centre: Place, area: Any)
             for lowest, highest, angle, width in _edge(area, centre)
         )
         middle = _towards(centre, (near + far) / 2.0, towards)
-        return (not crossed and bool(area.contains(Point(middle)))), f'{text} are in the zone'
+        roof = request.roof(mission['target']) if _is_over(mission) else None
+        covered = roof is None or bool(area.covers(roof))
+        inside = not crossed and bool(area.contains(Point(middle)))
+        return inside and covered, f'{text}, and over the roof, are in the zone'
     radius = mission.get('radius_m')
     if mission.get('pattern') != 'orbit' or not stated(radius):
         return False, 'the flight hovers or flies around the place at a stated radius'
@@ -94,13 +121,29 @@ def _inside(request: Request, mission: dict[str, Any], centre: Place, area: Any)
     return any(_is_barred(centre, near, far, 360.0 * k / _RAYS, area) for k in range(_RAYS)), text
 
 
-def _distances(request: Request, mission: dict[str, Any]) -> tuple[float, float]:
+def _is_over(mission: dict[str, Any]) -> bool:
+    return mission.get('standoff_m') is None and mission.get('bearing_deg') is None
+
+
+def farthest(request: Request, mission: dict[str, Any]) -> float:
+    """Return how far from its landmark a hover may be: over a roof it may be at its far end."""
+    far = how_far(request, mission)[1]
+    roof = request.roof(mission['target']) if _is_over(mission) else None
+    if roof is None:
+        return far
+    centre = Point(request.landmarks()[mission['target']])
+    parts = getattr(roof, 'geoms', [roof])
+    corners = [c for p in parts for c in p.exterior.coords]
+    return max(far, *(float(centre.distance(Point(c))) for c in corners))
+
+
+def how_far(request: Request, mission: dict[str, Any]) -> tuple[float, float]:
     """Return how near and far from the landmark a hover may be."""
     standoff, most = mission.get('standoff_m'), request.limit('uav_standoff_max_m')
     if stated(standoff):
         ceiling = max(most, float(standoff['value']))
         return left_open(standoff, request.slack('standoff_m', standoff), 0.0, ceiling)
-    if standoff is None and mission.get('bearing_deg') is None:
+    if _is_over(mission):
         allowed = ('pattern_centre_m', 'hover_drift_wind_m')
         return 0.0, sum(float(request.tolerances[name]) for name in allowed)
     return 0.0, most
@@ -108,8 +151,9 @@ def _distances(request: Request, mission: dict[str, Any]) -> tuple[float, float]
 
 def _edge(area: Any, centre: Place) -> Iterator[tuple[float, float, float, float]]:
     """Yield of every piece least and greatest distance, bearing, half width in bearing."""
-    corners = list(area.exterior.coords)
-    for (ax, ay), (bx, by) in pairwise(corners):
+    rings = [area.exterior, *area.interiors]
+    sides = [side for ring in rings for side in pairwise(ring.coords)]
+    for (ax, ay), (bx, by) in sides:
         length = math.hypot(bx - ax, by - ay)
         count = max(1, math.ceil(length / _PIECE_M))
         for k in range(count):

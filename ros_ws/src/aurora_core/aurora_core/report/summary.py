@@ -35,7 +35,7 @@ def summary_of(report: RunReport, grounding: GroundingOutcome | None) -> str:
         return f'What was encoded holds ({held}), but not all was encoded: {_lost(report)}.'
     if report.status is Status.VIOLATED:
         why = f'Violated: {_violated(report.conditions)}.{_not_repaired(report)}'
-        return f'{held}. {why}{_unread(report)}'
+        return f'{held}. {why}{_unread(report)}{_doubted(report)}'
     if report.status is Status.INCONCLUSIVE:
         return _inconclusive(report, grounding) + _unread(report)
     if report.status is Status.INFEASIBLE:
@@ -48,6 +48,14 @@ def summary_of(report: RunReport, grounding: GroundingOutcome | None) -> str:
     if report.status is Status.ERROR and report.error is not None:
         return f'{report.error.component} failed: {report.error.message}'
     return 'Cancelled by the user; nothing is claimed about the prompt.'
+
+
+def _doubted(report: RunReport) -> str:
+    """Return that a request was run although it may be impossible: that was not proven."""
+    notes = report.feasibility.notes if report.feasibility is not None else ()
+    if not notes:
+        return ''
+    return f' That it cannot be was suspected beforehand, and not proven: {notes[0]}'
 
 
 def _repaired(report: RunReport) -> str:

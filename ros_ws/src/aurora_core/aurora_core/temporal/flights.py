@@ -13,10 +13,11 @@ from aurora_core.geometry.kernel import norm2
 from aurora_core.outcomes.feasibility import BoundKind
 from aurora_core.outcomes.schedule import MissionFacts
 from aurora_core.spec.flight_order import begun_by
+from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.scenario import UavMission
-from aurora_core.spec.stated import is_stated, least
+from aurora_core.spec.stated import is_stated, least, most
 from aurora_core.spec.vocabulary import MissionMode, Pattern
-from aurora_core.temporal.links import START, Basis, Link
+from aurora_core.temporal.links import START, Basis, Link, Spot
 
 
 def captured(mission: str) -> str:
@@ -100,6 +101,8 @@ def _flight(basis: Basis, uav: str, flown: list[UavMission]) -> Iterator[Link]:
         yield from _phase(basis, mission, whole=whole)
         before = over(mission.id)
     yield from _ways(basis, flown)
+    if whole:
+        yield from _between_landmarks(basis, flown)
     yield _sink(basis, flown[-1], whole=whole)
 
 
@@ -162,35 +165,78 @@ def _phase(basis: Basis, mission: UavMission, *, whole: bool) -> Iterator[Link]:
 
 
 def _route(basis: Basis, mission: UavMission) -> Link:
-    """Return the time along a pattern as fast as UAVs fly, its corners cut."""
+    """Return the time along a pattern as fast as it may be flown, its corners cut."""
     of = f'missions/{mission.id}'
     facts = basis.plan.get(mission.id)
-    legs = _legs_m(mission) if facts is None else _legs_of(facts)
+    legs = _legs_m(basis, mission) if facts is None else _legs_of(facts)
     # A waypoint is visited from as far away on both sides.
     cut_m = 2.0 * basis.tolerances.waypoint_horizontal_m
-    way_m = sum(max(0.0, leg - cut_m) for leg in legs)
+    ways_m = [max(0.0, leg - cut_m) for leg in legs]
     rate_mps = basis.limits.uav_speed_max_mps
-    sides = enumerate(mission.size_m or ())
+    speed = mission.speed_mps if mission.pattern is not Pattern.ORBIT else None
+    if facts is not None or speed is None or not _holds_back(speed, rate_mps):
+        speed = None
+    seconds = sum(way / rate_mps for way in ways_m)
+    if speed is not None:
+        seconds = sum(_leg_s(basis, way, speed) for way in ways_m)
+    sides = [(f'{of}/size_m/{k}', side) for k, side in enumerate(mission.size_m or ())]
+    pace = f'{speed.value:g} m/s' if speed is not None else f'{rate_mps:g} m/s at most'
+    slack = ('route_speed_mps', 'route_speed_share', 'route_acceleration_mps2')
     return Link(
         earlier=captured(mission.id),
         later=over(mission.id),
-        least_s=way_m / rate_mps,
+        least_s=seconds,
         kind=BoundKind.ROUTE,
         of=of,
-        words=f'{mission.uav} flies {way_m:g} m of {mission.id} at {rate_mps:g} m/s at most',
-        stated=tuple((f'{of}/size_m/{k}', side) for k, side in sides),
+        words=f'{mission.uav} flies {sum(ways_m):g} m of {mission.id} at {pace}',
+        stated=(
+            *sides,
+            (f'{of}/radius_m', mission.radius_m),
+            (f'{of}/turns', mission.turns),
+            (f'{of}/speed_mps', speed),
+        ),
         limits=('uav_speed_max_mps',),
-        tolerances=('waypoint_horizontal_m',),
+        tolerances=('waypoint_horizontal_m', *(slack if speed is not None else ())),
     )
 
 
-def _legs_m(mission: UavMission) -> tuple[float, ...]:
+def _holds_back(speed: Parameter, rate_mps: float) -> bool:
+    """Tell whether a stated speed keeps a UAV from flying as fast as it can."""
+    return is_stated(speed) and speed.bound is not Bound.AT_LEAST and 0.0 < speed.value < rate_mps
+
+
+def _leg_s(basis: Basis, way_m: float, speed: Parameter) -> float:
+    """Return the least time along a leg with a stated speed.
+
+    It is kept for a share of the samples away from the ends of the leg; elsewhere nothing but the
+    limit counts.
+    """
+    tolerances, rate_mps = basis.tolerances, basis.limits.uav_speed_max_mps
+    slack = tolerances.route_speed_mps.of(speed.value, approximate=speed.approximate)
+    share = tolerances.route_speed_share
+    kept_mps = min(rate_mps, speed.value + slack)
+    settle_m = speed.value * speed.value / tolerances.route_acceleration_mps2
+    cruise_m = max(0.0, way_m - settle_m)
+    return (way_m - cruise_m) / rate_mps + cruise_m / (share * kept_mps + (1.0 - share) * rate_mps)
+
+
+def _legs_m(basis: Basis, mission: UavMission) -> tuple[float, ...]:
     """Return the legs of a stated pattern at least; patterns that can be laid freely have none."""
-    if mission.size_m is None or not all(is_stated(side) for side in mission.size_m):
+    radius, turns, size = mission.radius_m, mission.turns, mission.size_m
+    if mission.pattern is Pattern.ORBIT:
+        if radius is None or turns is None or not (is_stated(radius) and is_stated(turns)):
+            return ()
+        slack = basis.tolerances.standoff_m.of(radius.value, approximate=radius.approximate)
+        swept_deg = max(0.0, 360.0 * least(turns, 0.0, 0.0) - basis.tolerances.orbit_deg)
+        return (math.radians(swept_deg) * least(radius, slack, 0.0),)
+    if size is None or not all(is_stated(side) for side in size):
         return ()
-    length, width = (least(side, 0.0, 0.0) for side in mission.size_m)
+    length, width = (least(side, 0.0, 0.0) for side in size)
     if mission.pattern is Pattern.RECTANGLE:
         return length, width, length, width
+    if mission.pattern is Pattern.LAWNMOWER:
+        # However its rows lie, it gets from one side of the area to the other.
+        return (max(length, width),)
     return (length,) if mission.pattern is Pattern.LINE else ()
 
 
@@ -224,3 +270,46 @@ def _ways(basis: Basis, flown: list[UavMission]) -> Iterator[Link]:
         if mission.mode is MissionMode.TRACK:
             return  # where the next way begins is not known
         before = over(mission.id)
+
+
+def _between_landmarks(basis: Basis, flown: list[UavMission]) -> Iterator[Link]:
+    """Yield the time from a hover at a landmark to the next one at another, before grounding."""
+    rate_mps = basis.limits.uav_speed_max_mps
+    for before, mission in pairwise(flown):
+        here, there = (basis.landmarks.get(m.target or '') for m in (before, mission))
+        hover = before.mode is mission.mode is MissionMode.HOVER
+        if here is None or there is None or not hover:
+            continue
+        apart_m = norm2(there.x_m - here.x_m, there.y_m - here.y_m)
+        aside_m = _aside_m(basis, before, here) + _aside_m(basis, mission, there)
+        way_m = max(0.0, apart_m - aside_m)
+        yield Link(
+            earlier=over(before.id),
+            later=captured(mission.id),
+            least_s=way_m / rate_mps,
+            kind=BoundKind.WAY,
+            of=f'missions/{mission.id}',
+            words=f'{mission.uav} flies {way_m:.0f} m to {mission.id} at {rate_mps:g} m/s at most',
+            stated=tuple(
+                pair
+                for m in (before, mission)
+                for pair in (
+                    (f'missions/{m.id}/target', m.target),
+                    (f'missions/{m.id}/standoff_m', m.standoff_m),
+                )
+            ),
+            limits=('uav_speed_max_mps', 'uav_standoff_max_m'),
+            tolerances=('pattern_centre_m', 'hover_drift_wind_m', 'standoff_m'),
+        )
+
+
+def _aside_m(basis: Basis, mission: UavMission, spot: Spot) -> float:
+    """Return how far from its landmark a hover may be."""
+    standoff, far_m = mission.standoff_m, basis.limits.uav_standoff_max_m
+    if standoff is not None and is_stated(standoff):
+        slack = basis.tolerances.standoff_m.of(standoff.value, approximate=standoff.approximate)
+        return most(standoff, slack, max(far_m, standoff.value))
+    if standoff is None and mission.bearing_deg is None:
+        over_m = basis.tolerances.pattern_centre_m + basis.tolerances.hover_drift_wind_m
+        return max(over_m, spot.roof_m)
+    return far_m

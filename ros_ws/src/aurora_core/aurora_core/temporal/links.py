@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.outcomes.feasibility import BoundKind
@@ -20,7 +21,7 @@ START = 'start'
 END = 'end'
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True)
 class Link:
     """A bound between two time points; least or most is given, never both.
 
@@ -48,12 +49,22 @@ class Link:
     limits: tuple[str, ...] = ()
     tolerances: tuple[str, ...] = ()
 
+    @cached_property
     def edge(self) -> Edge[Link]:
-        """Return it as an edge of the network, rounded to its looser side."""
+        """It as an edge of the network, rounded to its looser side."""
         if self.most_s is not None:
             return Edge(self.earlier, self.later, microseconds(self.most_s), self)
         assert self.least_s is not None  # one of the two is given
         return Edge(self.later, self.earlier, microseconds(-self.least_s), self)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Spot:
+    """A landmark on the map, and how far from it the roof of its building reaches, metres."""
+
+    x_m: float
+    y_m: float
+    roof_m: float
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -66,12 +77,14 @@ class Basis:
         tolerances: How far stated numbers may be missed.
         plan: What grounding made of the missions, by id; empty before it. A number of the plan
             stands in the place of one that nobody states.
+        landmarks: Where the landmarks of the map are, by their references; only before grounding.
     """
 
     spec: ScenarioSpec
     limits: Limits
     tolerances: Tolerances
     plan: Mapping[str, MissionFacts] = field(default_factory=dict)
+    landmarks: Mapping[str, Spot] = field(default_factory=dict)
 
     @property
     def redirected(self) -> frozenset[str]:

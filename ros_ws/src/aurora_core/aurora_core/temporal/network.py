@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from itertools import chain
+from itertools import chain, islice
 
 from aurora_core.outcomes.feasibility import BoundKind
 from aurora_core.spec.stated import is_stated, most
@@ -32,6 +32,9 @@ _ON = BEFORE | {
     BoundKind.ROUTE,
 }
 
+# More contradictions of one request say nothing more; one is enough.
+MOST_TOLD = 12
+
 Cycle = tuple[Link, ...]
 _Find = Callable[[Sequence[Link]], Cycle]
 
@@ -51,9 +54,8 @@ def contradictions(basis: Basis) -> Iterator[Cycle]:
     only together. Of demands that clash with each other each is told of once.
     """
     search = _Search(core_links(basis), demands(basis))
-    yield from search.together(_waiting)
-    yield from search.alone(_negative)
-    yield from search.together(_negative)
+    found = chain(search.together(_waiting), search.alone(_negative), search.together(_negative))
+    yield from islice(found, MOST_TOLD)
 
 
 def first_conflict(links: Sequence[Link]) -> Cycle:
@@ -95,7 +97,7 @@ class _Search:
 
 
 def _negative(links: Sequence[Link]) -> Cycle:
-    return _forward(Stn([link.edge() for link in links]).negative_cycle())
+    return _forward(Stn([link.edge for link in links]).negative_cycle())
 
 
 def _waiting(links: Sequence[Link]) -> Cycle:

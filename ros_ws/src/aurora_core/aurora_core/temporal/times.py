@@ -33,7 +33,7 @@ def planned_times(basis: Basis, horizon_s: float) -> tuple[tuple[PlannedTime, ..
     conflict = first_conflict(links)
     if conflict:
         return (), told(conflict)
-    minimal = Stn([link.edge() for link in links]).minimal()
+    minimal = Stn([link.edge for link in links]).minimal()
     assert minimal is not None  # there is no conflict
     found = []
     for point in (p for p in minimal.points if _is_shown(p)):

@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from aurora_core.feasibility.check import check_limits
+from aurora_core.feasibility.limits import check_limits
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Limits
 from aurora_core.outcomes.feasibility import Certificate, Feasibility

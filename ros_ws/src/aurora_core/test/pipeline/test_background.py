@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from aurora_core.conditions.derive import derive_conditions
-from aurora_core.feasibility.check import check_limits
+from aurora_core.feasibility.limits import check_limits
 from aurora_core.knowledge.config_files import ENVIRONMENT_VARIABLE, config_root
 from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.outcomes.parse import ParseContext

@@ -45,7 +45,7 @@ OPEN = (
     f'{ORBIT} at least 0 m at 40 m.',
     'A drone patrols a rectangle at at least 0 m/s at 40 m.',
     'A drone visits 1000000 waypoints at 40 m.',
-    'A drone surveys an area of 100 m by 10000000 m in a lawnmower pattern at 40 m.',
+    'A drone surveys an area of 100 m by 20000 m in a lawnmower pattern at 40 m.',
 )
 
 

@@ -12,7 +12,7 @@ from pydantic import ValidationError
 from aurora_core.outcomes.parse import ParseOutcome, Refusal, RefusalKind
 from aurora_core.parsing.assemble import build
 from aurora_core.parsing.atoms import Atom, NounKind
-from aurora_core.parsing.doubts import doubtful
+from aurora_core.parsing.doubts.table import doubtful
 from aurora_core.parsing.llm.actors import Anchors, check_missing
 from aurora_core.parsing.llm.clauses import (
     check_clauses,

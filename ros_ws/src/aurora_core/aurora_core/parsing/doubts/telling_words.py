@@ -11,10 +11,11 @@ and admitted as not encoded. It looks at the specification alone, whoever wrote 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from functools import lru_cache
 from itertools import pairwise
 
+from aurora_core.parsing.atoms import Atom
 from aurora_core.parsing.coverage import parameters
 from aurora_core.parsing.data_files import read_data
 from aurora_core.spec.parameter import Parameter, Provenance, Span, Unit
@@ -30,14 +31,14 @@ from aurora_core.spec.scenario import (
     UavMission,
     VisibilityTrigger,
 )
-from aurora_core.spec.vocabulary import BehaviorKind, ClauseStatus, MissionMode
+from aurora_core.spec.vocabulary import BehaviorKind, ClauseStatus, MissionMode, Pattern
 
 _PAUSES = ' \t\n,;.:-('
 # Rows about whole clauses, by their first words.
 _OPENINGS = ('as_long_as', 'because', 'cause', 'later', 'meanwhile')
 
 
-def untold(spec: ScenarioSpec) -> list[Span]:
+def untold(spec: ScenarioSpec, atoms: Sequence[Atom]) -> list[Span]:
     """Return the telling words of encoded clauses that nothing in the specification carries."""
     text = spec.prompt.lower()
     found = []
@@ -295,6 +296,22 @@ _ONCE = frozenset(
 # Actions of agents that are never to come before their triggers (semantics: "not before").
 _NOT_BEFORE = frozenset({'start', 'cross', 'change_lane'})
 
+
+def _sided(spec: ScenarioSpec, clause: Clause) -> bool:
+    """A side or bearing of a flight, or a place of somebody on the ground."""
+    flown = [m for m in spec.missions if m.id in clause.ids]
+    away = [m.standoff_m for m in flown if m.standoff_m is not None]
+    flies = any(m.side is not None or m.bearing_deg is not None for m in flown)
+    flies = flies or any(s.provenance is Provenance.EXPLICIT for s in away)
+    meets = [p for a in spec.agents for p in a.placements if p.span is not None]
+    return flies or not flown or any(_meet(p.span, clause.span) for p in meets if p.span)
+
+
+def _lanes(spec: ScenarioSpec, clause: Clause) -> bool:
+    """A pattern that goes to and fro."""
+    return any(m.pattern is Pattern.LAWNMOWER for m in spec.missions if m.id in clause.ids)
+
+
 _CARRIERS: dict[str, Callable[[ScenarioSpec, Clause], bool]] = {
     'linked': _linked,
     'caused': _caused,
@@ -324,6 +341,8 @@ _CARRIERS: dict[str, Callable[[ScenarioSpec, Clause], bool]] = {
     'sequence': _sequence,
     'alone': _alone,
     'earlier': _earlier,
+    'sided': _sided,
+    'lanes': _lanes,
 }
 
 

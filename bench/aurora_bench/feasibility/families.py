@@ -1,0 +1,107 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The hand-made families of requests, filled with their values."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from importlib.resources import files
+from typing import Any
+
+import yaml
+
+from aurora_bench.prompts.format import AnnotatedPrompt
+from aurora_bench.prompts.reference_spec import reference_spec
+from aurora_core.spec.scenario import ScenarioSpec
+
+_FILE = 'families.yaml'
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Case:
+    """One request and what has to become of it.
+
+    Attributes:
+        id: Family or push, with its number.
+        source: `prompt` is read by the offline parser; `annotation` and `push` are specifications.
+        because: Fair reasons to refuse it; empty for what must not be refused.
+        spec: None for a prompt.
+        document: The annotation that the specification was built from.
+    """
+
+    id: str
+    source: str
+    prompt: str
+    because: tuple[str, ...]
+    spec: ScenarioSpec | None = None
+    document: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def must_be_refused(self) -> bool:
+        """Whether it cannot be."""
+        return bool(self.because)
+
+
+def family_cases() -> Iterator[Case]:
+    """Yield every request of the families, as a prompt and, where it is annotated, as a request.
+
+    Raises:
+        ValueError: A family is not well-formed.
+    """
+    for family in yaml.safe_load(files(__package__).joinpath(_FILE).read_text('utf-8')):
+        because = tuple(family['because'])
+        for side, reasons in (('refused', because), ('kept', ())):
+            for k, value in enumerate(family[side], start=1):
+                gaps = value if isinstance(value, dict) else {'v': value}
+                ident = f'{family["id"]}-{side}-{k}'
+                text = family['prompt'].format(**gaps)
+                yield Case(id=ident, source='prompt', prompt=text, because=reasons)
+                if 'requirements' in family:
+                    document = _annotated(ident, text, family['requirements'], gaps)
+                    prompt = AnnotatedPrompt.model_validate(document)
+                    yield Case(
+                        id=ident,
+                        source='annotation',
+                        prompt=text,
+                        because=reasons,
+                        spec=reference_spec(prompt, judged=True),
+                        document=document,
+                    )
+
+
+def _annotated(
+    ident: str, text: str, requirements: list[dict[str, Any]], gaps: Mapping[str, Any]
+) -> dict[str, Any]:
+    asked = [_filled(r, gaps) for r in requirements]
+    return {
+        'id': ident,
+        'category': 'boundary',
+        'prompt': text,
+        'feasibility': 'boundary',
+        'paraphrase_group': None,
+        'end_to_end': False,
+        'requirements': [
+            {'id': f'r{k}', **r}
+            for k, r in enumerate(asked, start=1)
+            if r.get('value') != ''  # an empty gap asks for nothing
+        ],
+    }
+
+
+def _filled(value: Any, gaps: Mapping[str, Any]) -> Any:
+    """Return a part of a requirement with its gaps filled; what is a number then becomes one."""
+    if isinstance(value, dict):
+        return {name: _filled(inner, gaps) for name, inner in value.items()}
+    if isinstance(value, list):
+        return [_filled(inner, gaps) for inner in value]
+    if not isinstance(value, str) or '{' not in value:
+        return value
+    text = value.format(**gaps)
+    first, _, factor = text.partition(' * ')
+    first, _, divisor = first.partition(' / ')
+    try:
+        number = float(first) * float(factor or 1.0) / float(divisor or 1.0)
+    except ValueError:
+        return text
+    return int(number) if number.is_integer() else number

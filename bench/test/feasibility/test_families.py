@@ -1,0 +1,55 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Both sides of every limit: refused with a proof that holds, or not refused."""
+
+from __future__ import annotations
+
+import random
+
+import pytest
+
+from aurora_bench.feasibility.attack import varied
+from aurora_bench.feasibility.corrupt import corrupted
+from aurora_bench.feasibility.families import Case, family_cases
+from aurora_bench.feasibility.judge import judged
+from aurora_bench.feasibility.pushes import PUSHES, push_cases
+from aurora_cli.installed import installed
+
+# Many bodies make a long test of the same thing.
+_MOST_AGENTS = 60
+CASES = tuple(
+    c for c in family_cases() if c.spec is not None and len(c.spec.agents) <= _MOST_AGENTS
+)
+
+
+@pytest.mark.parametrize('case', CASES, ids=lambda case: case.id)
+def test_what_cannot_be_is_refused_and_its_neighbour_is_not(case: Case) -> None:
+    result = judged(installed(), 'downtown', case)
+    assert result.refused is case.must_be_refused
+    assert not result.refused or result.right_reason
+    assert all(result.valid)
+
+
+def test_corrupted_certificates_are_rejected() -> None:
+    results = [judged(installed(), 'downtown', case) for case in CASES[::3]]
+    broken = corrupted(results, 300, 1)
+    assert len(broken) > 100
+    assert [b for b in broken if b.accepted] == []
+
+
+def test_every_push_goes_over_a_limit_of_a_request_that_fits_it() -> None:
+    bases = tuple((c.id, c.spec) for c in CASES if c.spec is not None and not c.must_be_refused)
+    cases = list(push_cases(bases, 2))
+    pushed = {c.id.partition('-over:')[0] for c in cases if c.must_be_refused}
+    assert len(pushed & {p.id for p in PUSHES}) >= 10
+    for case in cases:
+        assert judged(installed(), 'downtown', case).refused is case.must_be_refused, case.id
+
+
+def test_only_what_nobody_states_is_drawn_anew() -> None:
+    spec = next(c.spec for c in CASES if c.id == 'sensing-night-refused-1')
+    assert spec is not None
+    other = varied(spec, random.Random(3))
+    assert other != spec
+    assert other.missions[0].standoff_m == spec.missions[0].standoff_m
+    assert other.world == spec.world

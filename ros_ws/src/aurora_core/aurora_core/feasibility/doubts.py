@@ -1,0 +1,77 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""What may well be impossible, and is not proven to be: it is run, and flagged."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from aurora_core.feasibility.bounds import exclusive
+from aurora_core.feasibility.geometry import check_geometry
+from aurora_core.feasibility.times import check_times
+from aurora_core.knowledge.limits import EXACT, Limits, Tolerances
+from aurora_core.knowledge.map_model import MapModel
+from aurora_core.spec.parameter import Bound
+from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.spec.stated import is_stated, most
+from aurora_core.spec.vocabulary import MissionMode, Pattern
+
+
+def doubts(
+    spec: ScenarioSpec, map_model: MapModel, limits: Limits, tolerances: Tolerances
+) -> Iterator[str]:
+    """Yield, in sentences, why a request may be impossible that nothing proves to be so.
+
+    Args:
+        spec: The request, of which nothing is proven.
+        map_model: Its map.
+        limits: Limits in force.
+        tolerances: How far stated numbers may be missed.
+    """
+    exact = tolerances.model_copy(
+        update={'altitude_m': EXACT, 'standoff_m': EXACT, 'duration_s': EXACT}
+    )
+    told = {c.sentence for c in exclusive(spec, split=True)}
+    yield from (f'{s} They may be meant for different parts of the run.' for s in sorted(told))
+    nominal = (
+        *check_geometry(spec, map_model, limits, exact),
+        *check_times(spec, limits, exact, map_model),
+    )
+    yield from (f'{c.sentence} Only inside the tolerances it can be.' for c in nominal)
+    yield from _fast_targets(spec, limits)
+    yield from _short_legs(spec, tolerances)
+
+
+def _fast_targets(spec: ScenarioSpec, limits: Limits) -> Iterator[str]:
+    top = limits.uav_speed_max_mps
+    for mission in (m for m in spec.missions if m.mode is MissionMode.TRACK):
+        agent = next((a for a in spec.agents if a.id == mission.target), None)
+        for behavior in agent.behaviors if agent is not None else ():
+            speed = behavior.speed_mps
+            fast = speed is not None and is_stated(speed) and speed.bound is not Bound.AT_MOST
+            if speed is not None and fast and speed.value > top:
+                yield (
+                    f'{mission.target} drives at {speed.value:g} m/s, {mission.uav} flies at most '
+                    f'{top:g} m/s: it may lose it.'
+                )
+
+
+def _short_legs(spec: ScenarioSpec, tolerances: Tolerances) -> Iterator[str]:
+    """A stated speed for which the legs are too short at the acceleration of most flights."""
+    for mission in spec.missions:
+        speed, size = mission.speed_mps, mission.size_m
+        if mission.pattern not in (Pattern.RECTANGLE, Pattern.LINE) or size is None:
+            continue
+        if speed is None or not is_stated(speed) or speed.bound is Bound.AT_MOST:
+            continue
+        sides = size if mission.pattern is Pattern.RECTANGLE else size[:1]
+        if not all(is_stated(side) for side in sides):
+            continue
+        needed_m = speed.value * speed.value / tolerances.route_acceleration_mps2
+        longest_m = max(most(side, 0.0, 1e9) for side in sides)
+        if longest_m < needed_m:
+            yield (
+                f'{mission.uav} needs {needed_m:.0f} m to get to {speed.value:g} m/s and to brake '
+                f'at {tolerances.route_acceleration_mps2:g} m/s^2; no leg of {mission.id} is '
+                f'longer than {longest_m:g} m.'
+            )

@@ -1,0 +1,90 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Refuse hovers at a landmark that are inside a building, or too near it, wherever they may be."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import shapely
+
+from aurora_core.feasibility.certificates import beyond
+from aurora_core.feasibility.facts import limit_facts, map_fact, says, tolerance_facts
+from aurora_core.feasibility.zones import hover_area, is_half_read, roof_of
+from aurora_core.knowledge.limits import Limits, Tolerances
+from aurora_core.knowledge.map_types import Building, Landmark
+from aurora_core.outcomes.feasibility import Certificate, Rule
+from aurora_core.spec.parameter import Bound
+from aurora_core.spec.reference import LANDMARK
+from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.spec.stated import is_stated, most
+from aurora_core.spec.vocabulary import MissionMode
+
+# A hover at a landmark is asked for no farther away than this, whatever its bearing.
+_FARTHEST_M = 200.0
+
+
+def check_roofs(
+    spec: ScenarioSpec,
+    buildings: Sequence[Building],
+    landmarks: Sequence[Landmark],
+    limits: Limits,
+    tolerances: Tolerances,
+) -> Iterator[Certificate]:
+    """Return hovers that are lower than the roof that they are over, wherever they may be."""
+    known = {f'{LANDMARK}{mark.name}': mark for mark in landmarks}
+    gap = limits.clearance_min_m
+    for mission in spec.missions:
+        mark, altitude = known.get(mission.target or ''), mission.altitude_m
+        if mark is None or mission.mode is not MissionMode.HOVER or is_half_read(spec, mission):
+            continue
+        if not is_stated(altitude) or altitude.bound is Bound.AT_LEAST:
+            continue
+        slack = tolerances.altitude_m.of(altitude.value, approximate=altitude.approximate)
+        high = most(altitude, slack, limits.uav_altitude_max_m)
+        roof = roof_of(mark, buildings)
+        area = hover_area(mission, (mark.x_m, mark.y_m), limits, tolerances, roof)
+        for building in (b for b in buildings if high < b.height_m + gap):
+            if not _is_around(building, mark):
+                continue
+            outline = shapely.Polygon(building.ring, building.holes)
+            # Beside a wall the gap is to the side; above the edge of a roof it need not be.
+            beside = high <= building.height_m
+            if not (outline.buffer(gap) if beside else outline).covers(area):
+                continue
+            base, name = f'missions/{mission.id}', building.name or building.id
+            yield beyond(
+                Rule.ROOF,
+                'clearance',
+                altitude,
+                f'{base}/altitude_m',
+                ('clearance_min_m', gap),
+                f'{mission.uav} would fly at {high:g} m at most at {mark.name}, where {name} is '
+                f'{building.height_m:g} m high; {gap:g} m are kept from it. At '
+                f'{building.height_m + gap:g} m or more it could be.',
+                (
+                    *says(f'{base}/target', mission.target),
+                    *says(f'{base}/altitude_m', altitude),
+                    *says(f'{base}/standoff_m', mission.standoff_m),
+                    *says(f'{base}/bearing_deg', mission.bearing_deg),
+                    map_fact(f'{building.id}/height_m', building.height_m),
+                    *limit_facts(limits, 'clearance_min_m', 'uav_standoff_max_m'),
+                    *tolerance_facts(
+                        tolerances,
+                        'altitude_m',
+                        'standoff_m',
+                        'pattern_centre_m',
+                        'hover_drift_wind_m',
+                        'bearing_deg',
+                    ),
+                ),
+            ).model_copy(update={'word': building.id})
+            break
+
+
+def _is_around(building: Building, mark: Landmark) -> bool:
+    """Tell whether the box around a building is that of a place at a landmark."""
+    east, north = [p[0] for p in building.ring], [p[1] for p in building.ring]
+    far = _FARTHEST_M
+    beside = min(east) - far <= mark.x_m <= max(east) + far
+    return beside and min(north) - far <= mark.y_m <= max(north) + far

@@ -1,0 +1,79 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Flights: what is watched from a hover, heights that come later, flights told without a verb."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from aurora_core.parsing.atoms import Atom, AtomKind
+from aurora_core.parsing.doubts.clauses import clause_of, events_in, sentences, within
+from aurora_core.spec.parameter import Span
+from aurora_core.spec.scenario import Clause, ScenarioSpec
+from aurora_core.spec.vocabulary import ClauseStatus, MissionMode
+
+# What tells of a flight: verbs, `an orbit`, `a patrol`, `back again`.
+_FLOWN = frozenset(
+    {AtomKind.VERB, AtomKind.PATTERN, AtomKind.THEN, AtomKind.HAPPENING, AtomKind.ROUTE}
+)
+_CLIMBS = frozenset({'ascend', 'descend'})
+
+
+def watched_while_hovering(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`hovers over the market and monitors a bus` that became a flight behind the bus."""
+    missions = {m.id: m for m in spec.missions}
+    for sentence in sentences(atoms):
+        hovers: Clause | None = None
+        for atom in sentence:
+            if atom.kind in (AtomKind.THEN, AtomKind.SUBORDINATOR, AtomKind.CONTEXT):
+                hovers = None
+            if atom.kind is not AtomKind.VERB:
+                continue
+            clause = clause_of(spec, atom)
+            if atom.key != 'observe' or hovers is None or clause is None:
+                hovers = clause if atom.key == 'hover' else None
+                continue
+            before = {missions[i].uav for i in hovers.ids if i in missions}
+            now = [missions[i] for i in clause.ids if i in missions]
+            if any(m.mode is MissionMode.TRACK and m.uav in before for m in now):
+                yield clause.span
+
+
+def flights_without_verb(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`two drones hover at 40 m and 60 m, the first one at 60 m`: no flight after the first."""
+    told: set[str] = set()
+    bare: dict[str, Span] = {}
+    for clause in spec.clauses:
+        if any(a.kind in _FLOWN for a in within(atoms, clause.span)):
+            told |= set(clause.ids)
+        elif clause.status is ClauseStatus.ENCODED:
+            bare |= dict.fromkeys(clause.ids, clause.span)
+    for mission in spec.missions:
+        others = [m for m in spec.missions if m.uav == mission.uav and m is not mission]
+        if mission.id in bare and mission.id not in told and others:
+            yield bare[mission.id]
+
+
+def folded_climbs(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`tracks the car at 30 m and then climbs to 60 m` that became one flight at 60 m."""
+    missions = {m.id for m in spec.missions}
+    for sentence in sentences(atoms):
+        begun: set[str] = set()
+        for k, atom in enumerate(sentence):
+            clause = clause_of(spec, atom) if atom.kind is AtomKind.VERB else None
+            if clause is None or (k and sentence[k - 1].key == 'after'):
+                continue  # `tracks it after climbing to 40 m`
+            told = missions & set(clause.ids)
+            if atom.key in _CLIMBS and _flown(spec, sentence[k + 1 :]) - begun:
+                continue  # `climbs to 45 m and hovers there`: the height of what comes next
+            if atom.key in _CLIMBS and begun and not told - begun and not events_in(spec, clause):
+                yield clause.span
+            if atom.key not in _CLIMBS:
+                begun |= told
+
+
+def _flown(spec: ScenarioSpec, atoms: Sequence[Atom]) -> set[str]:
+    """Return the missions of the clauses of some verbs."""
+    clauses = [clause_of(spec, a) for a in atoms if a.kind is AtomKind.VERB]
+    told = {name for c in clauses if c is not None for name in c.ids}
+    return told & {m.id for m in spec.missions}

@@ -1,0 +1,84 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The table of doubts.
+
+Each check compares the words of encoded clauses with what they became and returns the characters
+that the specification does not carry. Those are admitted as not encoded, so that a run of the rest
+is never called verified. A check reads tagged atoms and the specification, not how it came about.
+
+To add one, write a function `(ScenarioSpec, atoms) -> spans` beside those of its subject and list
+it in `_CHECKS`. It is worth its place when it is right about most of the prompts that it demotes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+
+from aurora_core.parsing.atoms import Atom
+from aurora_core.parsing.doubts.bodies import (
+    gapped,
+    idle,
+    listed,
+    places_without_part,
+    strangers,
+    twins,
+    without_part,
+)
+from aurora_core.parsing.doubts.flights import (
+    flights_without_verb,
+    folded_climbs,
+    watched_while_hovering,
+)
+from aurora_core.parsing.doubts.messages import (
+    contents,
+    open_moments,
+    other_receivers,
+    places_of_deeds,
+)
+from aurora_core.parsing.doubts.telling_words import untold
+from aurora_core.parsing.doubts.times import (
+    bare_sequels,
+    distances_of_moments,
+    landings,
+    let_pass,
+    started_again,
+    untied_effects,
+)
+from aurora_core.spec.parameter import Span
+from aurora_core.spec.scenario import ScenarioSpec
+
+_Check = Callable[[ScenarioSpec, Sequence[Atom]], Iterable[Span]]
+_CHECKS: tuple[_Check, ...] = (
+    untold,
+    without_part,
+    strangers,
+    idle,
+    listed,
+    places_without_part,
+    twins,
+    gapped,
+    watched_while_hovering,
+    flights_without_verb,
+    folded_climbs,
+    other_receivers,
+    open_moments,
+    places_of_deeds,
+    contents,
+    untied_effects,
+    let_pass,
+    landings,
+    bare_sequels,
+    started_again,
+    distances_of_moments,
+)
+
+
+def doubtful(spec: ScenarioSpec, atoms: Sequence[Atom]) -> list[Span]:
+    """Return the characters of encoded clauses that the specification does not carry.
+
+    Args:
+        spec: The specification as it stands.
+        atoms: All atoms of the prompt as tagged, where they stand in it.
+    """
+    found = {span.start: span for check in _CHECKS for span in check(spec, atoms)}
+    return [found[start] for start in sorted(found)]

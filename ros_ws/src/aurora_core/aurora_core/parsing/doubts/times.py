@@ -1,0 +1,154 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""What words tie together in time: effects, landings, waiting, the second of two."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
+
+from aurora_core.parsing.atoms import Atom, AtomKind
+from aurora_core.parsing.doubts.clauses import (
+    MOMENTS,
+    clause_of,
+    events_in,
+    over,
+    sentences,
+    stretch,
+    within,
+)
+from aurora_core.spec.parameter import Provenance, Span
+from aurora_core.spec.scenario import (
+    AgentAction,
+    Clause,
+    MissionDoneTrigger,
+    ScenarioSpec,
+    TimeTrigger,
+    UavAction,
+)
+from aurora_core.spec.vocabulary import BehaviorKind, ClauseStatus
+
+# Whose distance is that of t = 0: where one starts, how far ahead a van is that cuts in.
+_FROM_HERE = frozenset({'change_lane', 'start'})
+_ENDED = frozenset({'complete', 'done', 'end', 'finish'})
+_INTRANSITIVE = frozenset(
+    {'brake', 'cross', 'land', 'start', 'stop', 'turn', 'turn_left', 'turn_right'}
+)
+_LETS = frozenset({'lets', 'letting'})
+_LETS_PASS = frozenset({'cross', 'go', 'overtake', 'pass'})
+# What stands for an act of its own behind `then`.
+_ACTS = frozenset({AtomKind.VERB, AtomKind.PATTERN, AtomKind.ROUTE, AtomKind.HAPPENING})
+
+
+def untied_effects(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`alerts the ego when a van comes near and climbs to 60 m`: it climbs then, not before."""
+    for sentence in sentences(atoms):
+        acts = causes = False
+        for k, atom in enumerate(sentence):
+            if atom.kind is AtomKind.SUBORDINATOR:
+                causes = acts and atom.key == 'when'
+            if atom.kind is not AtomKind.VERB:
+                continue
+            acts = True
+            joined = k and sentence[k - 1].kind is AtomKind.CONJUNCTION
+            clause = clause_of(spec, atom) if causes and joined else None
+            if clause is None or events_in(spec, clause) or _in_orders(spec, clause):
+                continue
+            if set(clause.ids) <= {m.id for m in spec.missions} | {u.id for u in spec.uavs}:
+                yield clause.span
+
+
+def _in_orders(spec: ScenarioSpec, clause: Clause) -> bool:
+    return any({o.first, o.then} & set(clause.ids) for o in spec.orders)
+
+
+def let_pass(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`stops and lets a pedestrian cross`: who lets somebody pass waits for that."""
+    yields = any(b.kind is BehaviorKind.YIELD for a in spec.agents for b in a.behaviors) or any(
+        isinstance(e.action, AgentAction)
+        and (e.action.do == 'yield' or (e.trigger and not isinstance(e.trigger, TimeTrigger)))
+        for e in spec.events
+    )
+    for k, atom in enumerate(atoms):
+        if atom.kind is not AtomKind.CAUSATIVE or atom.words not in _LETS or yields:
+            continue
+        rest = list(atoms[k + 1 : k + 3])
+        passes = len(rest) == 2 and rest[0].is_actor and rest[1].key in _LETS_PASS
+        clause = clause_of(spec, rest[1]) if passes else None
+        if clause is not None:
+            yield clause.span
+
+
+def landings(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`when the drone has landed` that became the end of its missions, many seconds before."""
+    waiting = {
+        e.id
+        for e in spec.events
+        if isinstance(e.trigger, MissionDoneTrigger)
+        and not (isinstance(e.action, UavAction) and e.action.lands)
+    }
+    for sentence in sentences(atoms):
+        words = [a for a in sentence if a.kind in (AtomKind.VERB, AtomKind.HAPPENING)]
+        clauses = [clause_of(spec, a) for a in words]
+        ended = any(a.key in _ENDED for a in sentence)
+        if ended or not any(waiting & set(c.ids) for c in clauses if c is not None):
+            continue
+        then = {b.start for a, b in pairwise(sentence) if a.kind is AtomKind.THEN}
+        for atom, clause in zip(words, clauses, strict=True):
+            if atom.key == 'land' and clause is not None and atom.start not in then:
+                yield clause.span
+
+
+def started_again(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`stops and starts again after 10 s`: after the stop, not 10 s into the run."""
+    for clause in spec.clauses:
+        words = within(atoms, clause.span)
+        again = any(a.words == 'again' or a.key == 'again' for a in words)
+        events = events_in(spec, clause) if clause.status is ClauseStatus.ENCODED else []
+        if again and any(isinstance(e.trigger, TimeTrigger) for e in events):
+            yield clause.span
+
+
+def bare_sequels(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`warns the ego, then the truck`, `first at 30 m and then at 60 m`: the verb is not told."""
+    for sentence in sentences(atoms):
+        for k, atom in enumerate(sentence):
+            if atom.kind is not AtomKind.THEN:
+                continue
+            told = stretch(sentence, k + 1)
+            verb = next((a for a in reversed(sentence[:k]) if a.kind is AtomKind.VERB), None)
+            if verb is not None and (verb is sentence[k - 1] or _alone(verb, told)):
+                continue
+            behind = sentence[k + 1 + len(told) :]
+            if behind and behind[0].kind is AtomKind.RELATIVE:
+                continue  # `then a drone that tracks the van warns the ego`
+            happens = any(a.kind in _ACTS for a in sentence[:k])
+            if told and happens and not any(a.kind in _ACTS for a in told):
+                clause = clause_of(spec, told[0])
+                if clause is not None:
+                    yield over(atom, told[-1])
+
+
+def _alone(verb: Atom, told: Sequence[Atom]) -> bool:
+    """`the truck stops, then the bus`: whoever is named can only do the same."""
+    return verb.key in _INTRANSITIVE and any(a.is_actor for a in told)
+
+
+def distances_of_moments(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`stops 10 m behind the truck` that became 10 m at the start."""
+    for clause in spec.clauses:
+        words = within(atoms, clause.span)
+        acts = [a for a in words if a.kind is AtomKind.VERB]
+        moment = acts and acts[-1].key in MOMENTS - _FROM_HERE
+        if not moment or clause_of(spec, acts[-1]) is None:
+            continue
+        told = [
+            p.distance_m.span
+            for a in spec.agents
+            if a.id in clause.ids
+            for p in a.placements
+            if p.distance_m is not None and p.distance_m.provenance is Provenance.EXPLICIT
+        ]
+        for span in told:
+            if span is not None and acts[-1].end <= span.start and span.end <= clause.span.end:
+                yield span
