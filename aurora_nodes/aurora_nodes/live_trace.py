@@ -23,6 +23,7 @@ from aurora_core.trace.definitions import MessageDefinitions
 from aurora_core.trace.layout import GROUND_WIDTH, UAV_COMMAND_WIDTH, UAV_WIDTH
 from aurora_core.trace.messages_world import read_world
 from aurora_core.trace.roster import Roster
+from aurora_core.trace.tick_encoding import TickDecoder
 from aurora_core.trace.trace import FloatArray, Trace
 from aurora_nodes.live_run import LiveRun
 from aurora_ros import cdr as wire
@@ -52,7 +53,7 @@ class LiveTrace:
 
     def __init__(self, run: LiveRun, definitions: MessageDefinitions) -> None:
         self._run = run
-        self._definitions = definitions
+        self._decoder = TickDecoder(definitions)
         self._looked_at: dict[str, int] = {}
         self._at: dict[str, dict[int, Any]] = {topic: {} for topic in (*_STATES, *_COMMANDS)}
         self._records: dict[str, list[Any]] = {topic: [] for topic in _RECORDS}
@@ -73,7 +74,7 @@ class LiveTrace:
             own = [c for c in self._run.since(topic, 0) if wire.run_id(c) == run_id]
             if not own:
                 return None
-            found[topic] = self._definitions.decode(messages.TOPICS[topic], own[-1])
+            found[topic] = self._decoder.decode(messages.TOPICS[topic], own[-1])
         world = read_world(found[messages.WORLD])
         graph = read_agsg(found[messages.AGSG])
         return LiveScene(
@@ -131,7 +132,7 @@ class LiveTrace:
         for cdr in new:
             if wire.run_and_tick(cdr)[0] != self._run.run_number:
                 continue
-            message: Any = self._definitions.decode(messages.TOPICS[topic], cdr)
+            message: Any = self._decoder.decode(messages.TOPICS[topic], cdr)
             if topic in self._at:
                 self._at[topic].setdefault(int(message.tick), message)
             else:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from aurora_cli.collector import no_collection
 from aurora_core.execution.plan import Execution
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.feasibility import FeasibilityVerdict
@@ -83,9 +84,10 @@ class LocalStages:
 
     def verify(self, agsg: Agsg, bag: Path) -> Verdict:
         """Recompute every margin from the bag."""
-        self.verified, recorded = load_bag(bag)
-        self.verified_bag = bag
-        return verify_content(self.known, self.verified, recorded)
+        with no_collection():
+            self.verified, recorded = load_bag(bag)
+            self.verified_bag = bag
+            return verify_content(self.known, self.verified, recorded)
 
     def propose(
         self, agsg: Agsg, verdict: Verdict, bag: Path, past: tuple[Attempt, ...]

@@ -45,6 +45,10 @@ Prompt = Annotated[
 PromptFile = Annotated[
     Path | None, typer.Option('--prompt-file', metavar='FILE', help='Read the prompt from a file.')
 ]
+CheckPicture = Annotated[
+    Path | None,
+    typer.Option('--picture', metavar='FILE', help='Draw where it would happen (.png or .svg).'),
+]
 Model = Annotated[
     str,
     typer.Option(
@@ -156,6 +160,7 @@ def check_prompt(
     transcripts: Transcripts = None,
     seed: Seed = 1,
     map_name: Map = 'downtown',
+    picture: CheckPicture = None,
     as_json: Json = False,
 ) -> None:
     """Parse, ground and judge feasibility; nothing is simulated."""
@@ -167,7 +172,7 @@ def check_prompt(
         options = RunOptions(
             model=model, history=history, transcripts=transcripts, seed=seed, map_name=map_name
         )
-        return check_command(prompt, prompt_file, options, as_json=as_json)
+        return check_command(prompt, prompt_file, options, picture, as_json=as_json)
 
     finish(command, as_json=as_json)
 
@@ -348,6 +353,7 @@ for _package, _help in (
     ),
     ('realise', 'Run what annotations say; count what is realised and what is contradicted.'),
     ('outcome', 'Run prompts to their verdicts; count the right ones and the silent failures.'),
+    ('repair', 'Plant faults with known causes; count those that repair finds and mends.'),
     ('record', 'Record the replies of language models, to repeat a campaign without them.'),
 ):
     bench.command(_package, help=_help, context_settings=Anything, add_help_option=False)(

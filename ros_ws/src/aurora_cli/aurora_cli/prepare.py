@@ -3,7 +3,8 @@
 """`python -m aurora_cli.prepare`: do once, at set-up, what every command would do anew.
 
 Writes the byte code of our packages and of the libraries that a run imports, and what is compiled
-of the words of the parser and of the maps. Everything works without it, more slowly.
+of the words of the parser, of messages, maps and the page of reports. Everything works without it,
+more slowly.
 """
 
 from __future__ import annotations
@@ -21,6 +22,8 @@ from aurora_core.knowledge.map_folders import bundled_maps
 from aurora_core.knowledge.map_model import load_map
 from aurora_core.parsing.data_files import NAMES, compiled_data
 from aurora_core.parsing.lexicon import compiled_table
+from aurora_core.report.html import compiled_page
+from aurora_core.trace.definitions import compiled_definitions, definitions_folder
 
 # The nodes are imported in processes of their own: only their byte code is needed.
 PACKAGES = (
@@ -56,7 +59,9 @@ IMPORTED = (
 def compiled_values() -> tuple[Compiled, ...]:
     """Return everything that set-up makes from files, beside byte code."""
     areas = [compiled_area(load_map(name)) for name in bundled_maps()]
-    return (*(compiled_data(name) for name in NAMES), compiled_table(), *areas)
+    words = (*(compiled_data(name) for name in NAMES), compiled_table())
+    messages = compiled_definitions(definitions_folder())
+    return (*words, messages, compiled_page(), *areas)
 
 
 def package_folders(names: Iterable[str]) -> list[Path]:

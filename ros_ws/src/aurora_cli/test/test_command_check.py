@@ -89,3 +89,24 @@ def test_a_seed_that_no_run_can_have_is_a_usage_error(
 def test_the_greatest_seed_is_one(empty: Path, capsys: pytest.CaptureFixture[str]) -> None:
     prompt = 'A drone hovers at 30 meters over the ego car.'
     assert run_command_line(['check', prompt, '--seed', '2147483647']) == 0
+
+
+def test_a_picture_shows_where_it_would_happen(
+    empty: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    prompt = (
+        'A van tailgates the ego car closely, closing from 45 meters; a tracking drone alerts the '
+        'ego when the van comes within 20 meters.'
+    )
+    assert run_command_line(['check', prompt, '--picture', 'where.svg']) == ExitCode.OK
+    drawn = (empty / 'where.svg').read_text('utf-8')
+    assert drawn.startswith('<?xml')
+    assert 'wrote where.svg' in capsys.readouterr().err
+    assert run_command_line(['check', prompt, '--picture', 'where.gif']) == ExitCode.USAGE
+
+
+def test_what_is_refused_has_no_picture(empty: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    high = 'A drone hovers at 500 m.'
+    assert run_command_line(['check', high, '--picture', 'where.png']) == ExitCode.INFEASIBLE
+    assert 'no place to draw' in capsys.readouterr().err
+    assert list(empty.iterdir()) == []

@@ -31,7 +31,7 @@ class Compiled:
         name: Of its file, which lies where Python keeps the byte code of the first source.
         sources: Everything that decides the value: data files, and modules that make it.
         key: What else decides it, such as the digest of a map that was read.
-        make: Makes it; nothing but None, numbers, text, bytes, tuples, lists, dicts and sets.
+        make: Makes it; nothing but None, numbers, text, bytes, code, tuples, lists, dicts, sets.
     """
 
     name: str

@@ -6,23 +6,42 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from matplotlib.figure import Figure
+
 from aurora_cli.answers import check_facts
-from aurora_cli.output import answer_console, print_json, quiet_stdout
+from aurora_cli.files import write_file
+from aurora_cli.installed import installed
+from aurora_cli.output import UsageProblem, answer_console, print_json, quiet_stdout, say
 from aurora_cli.prompt_input import prompt_bytes
 from aurora_cli.requests import RunOptions, checked, unreadable, with_prompt
 from aurora_core.errors import PromptError
+from aurora_core.grounding.sites import TriedSite
+from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.report.check_report import build_check, check_exit_code
+from aurora_core.report.picture.check_picture import draw_check
+from aurora_core.report.picture.draw import png_bytes, svg_bytes
 from aurora_core.report.terminal import print_check
+from aurora_core.spec.scenario import ScenarioSpec
+
+_WRITERS = {'.png': png_bytes, '.svg': svg_bytes}
 
 
 def check_command(
-    argument: str | None, prompt_file: Path | None, options: RunOptions, *, as_json: bool
+    argument: str | None,
+    prompt_file: Path | None,
+    options: RunOptions,
+    picture: Path | None,
+    *,
+    as_json: bool,
 ) -> int:
-    """Check a prompt and return the exit code.
+    """Check a prompt, draw where it would happen, and return the exit code.
 
     Raises:
-        UsageProblem: Options or prompt source are wrong.
+        UsageProblem: Options or prompt source are wrong, or the picture's name ends neither way.
     """
+    writer = None if picture is None else _WRITERS.get(picture.suffix.lower())
+    if picture is not None and writer is None:
+        raise UsageProblem(f'--picture takes a name that ends with .png or .svg, found {picture}')
     request = checked(options)
     raw = prompt_bytes(argument, prompt_file)
     ready = with_prompt(request, raw)
@@ -32,8 +51,25 @@ def check_command(
         else:
             facts = check_facts(ready)
         report = build_check(facts)
+        graph = facts.graph
+        grounded = graph.grounding if graph is not None else None
+        if picture is not None and writer is not None and graph is not None and grounded:
+            figure = _drawn(graph.spec, grounded, report.result.value)
+            write_file(picture, writer(figure))
+    if picture is not None and grounded is None:
+        say('aurora: there is no place to draw')
+    elif picture is not None:
+        say(f'aurora: wrote {picture}')
     if as_json:
         print_json(report)
     else:
         print_check(report, answer_console())
     return int(check_exit_code(report.result))
+
+
+def _drawn(spec: ScenarioSpec, grounded: GroundedScenario, result: str) -> Figure:
+    """Ground a request once more, for the sites that were looked at, and draw it."""
+    tried: list[TriedSite] = []
+    installed().grounder(grounded.map_name).ground(spec, grounded.seed, tried=tried)
+    model = installed().map(grounded.map_name)
+    return draw_check(spec, grounded, model, tried, result)

@@ -102,7 +102,7 @@ def _bodies(inputs: Inputs, stated: StatedCondition, count: int) -> tuple[str, .
     of = stated.of
     apart = stated.quantity == 'separation'
     if apart and len(of) == 1:
-        of = tuple(agent.id for agent in inputs.spec.agents if agent.group == of[0])
+        of = _members(inputs, of)
     # All pairs of a group can be so near, or so far, but hardly have one distance.
     group = apart and len(of) > count and stated.op != '=='
     if len(set(of)) != len(of) or (len(of) != count and not group):

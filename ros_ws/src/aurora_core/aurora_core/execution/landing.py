@@ -78,10 +78,9 @@ def landing_spot(
         end = (spot[0], spot[1], z)
         ways = ((end, (x, y, z), beyond, end), _turning(machine, uav[index], spot, z))
         if all(airspace.way_clearance_m(way) >= clearance_m for way in ways):
+            if not _crowded(index, spot, machines, uav):
+                return spot, z
             free.append(spot)
-    for spot in free:
-        if not _crowded(index, spot, machines, uav):
-            return spot, z
     if patient and free:
         return None
     return (free[0], z) if free else (spots[0], max(z, plan.safe_altitude_m))

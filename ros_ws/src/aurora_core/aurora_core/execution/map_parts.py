@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 
 import numpy as np
@@ -39,10 +40,11 @@ class MapParts:
     landmarks: dict[str, tuple[float, float]]
 
 
-def map_parts(map_model: MapModel) -> MapParts:
-    """Return the parts of a map."""
+def map_parts(map_model: MapModel, airspace: Airspace | None = None) -> MapParts:
+    """Return the parts of a map, with its airspace when that exists already."""
     network = map_model.network
-    airspace = Airspace(map_model.buildings, map_model.zones)
+    if airspace is None:
+        airspace = Airspace(map_model.buildings, map_model.zones)
     crossings = (
         Surface(surface_id=c.id, kind=SurfaceKind.CROSSING, ring=np.array(c.polygon))
         for c in network.crossings
@@ -76,12 +78,12 @@ def map_parts(map_model: MapModel) -> MapParts:
 
 
 def _areas(name: str, kind: SurfaceKind, area: shapely.MultiPolygon) -> tuple[Surface, ...]:
+    if area.is_empty:
+        return ()
+    _, points, (ends, rings, _) = shapely.to_ragged_array([area])
+    # Without the last point of each ring, which is its first one.
+    lines = [points[a : b - 1].copy() for a, b in itertools.pairwise(ends.tolist())]
     return tuple(
-        Surface(
-            surface_id=f'{name}_{k}',
-            kind=kind,
-            ring=np.array(polygon.exterior.coords)[:-1],
-            holes=tuple(np.array(hole.coords)[:-1] for hole in polygon.interiors),
-        )
-        for k, polygon in enumerate(area.geoms)
+        Surface(surface_id=f'{name}_{k}', kind=kind, ring=lines[a], holes=tuple(lines[a + 1 : b]))
+        for k, (a, b) in enumerate(itertools.pairwise(rings.tolist()))
     )

@@ -16,12 +16,19 @@ from aurora_core.feasibility.pursuit import check_pursuit
 from aurora_core.feasibility.roofs import check_roofs
 from aurora_core.feasibility.scene import check_scene
 from aurora_core.feasibility.signs import check_signs
+from aurora_core.feasibility.static import check_static
 from aurora_core.feasibility.times import check_times
 from aurora_core.feasibility.zones import check_zones
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_model import MapModel
-from aurora_core.outcomes.feasibility import Certificate, Feasibility, FeasibilityVerdict, Rule
+from aurora_core.outcomes.feasibility import (
+    Certificate,
+    CheckStage,
+    Feasibility,
+    FeasibilityVerdict,
+    Rule,
+)
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.spec.vocabulary import ClauseStatus
 
@@ -43,6 +50,7 @@ def check_request(
     limits: Limits,
     tolerances: Tolerances,
     types: Mapping[str, AgentTypeRecord],
+    without: frozenset[CheckStage] = frozenset(),
 ) -> FeasibilityVerdict:
     """Check limits, and what several stated things together or the map rule out.
 
@@ -52,7 +60,31 @@ def check_request(
         limits: Limits in force.
         tolerances: How far stated numbers may be missed: what they allow is not refused.
         types: What the agent types can reach.
+        without: Stages that are left out.
+
+    Returns:
+        `infeasible` with its proofs; `unknown` with what is in doubt; else `feasible`.
     """
+    findings = () if CheckStage.STATIC in without else tuple(check_static(spec))
+    verdict = FeasibilityVerdict(result=Feasibility.FEASIBLE)
+    if CheckStage.PROOFS not in without:
+        verdict = _proven(spec, map_model, limits, tolerances, types)
+    if not findings:
+        return verdict
+    result = verdict.result
+    notes = (*verdict.notes, *(f'{f.field}: {f.relation}.' for f in findings))
+    if result is Feasibility.FEASIBLE:
+        result = Feasibility.UNKNOWN
+    return verdict.model_copy(update={'result': result, 'notes': notes, 'findings': findings})
+
+
+def _proven(
+    spec: ScenarioSpec,
+    map_model: MapModel,
+    limits: Limits,
+    tolerances: Tolerances,
+    types: Mapping[str, AgentTypeRecord],
+) -> FeasibilityVerdict:
     # A condition of what has no such quantity is a fault of the reader, and proves nothing.
     sound = tuple(c for c in spec.conditions if operands_fit(spec, c))
     if len(sound) < len(spec.conditions):

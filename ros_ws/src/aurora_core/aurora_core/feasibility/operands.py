@@ -34,9 +34,26 @@ _SENT = (
 )
 
 
-def operands_fit(spec: ScenarioSpec, condition: StatedCondition) -> bool:
-    """Tell whether a condition is about things that have its quantity."""
+def members_fit(spec: ScenarioSpec, condition: StatedCondition) -> bool:
+    """Tell whether a condition is about things that have its quantity, one by one or several.
+
+    "None of the trucks", "each of the cars": it is asked of all of them.
+    """
     of, quantity = condition.of, condition.quantity
+    if quantity in _SENT:
+        rest = tuple(name for name in of[1:] if name != of[0])
+        return bool(rest) and all(_fits(spec, quantity, (of[0], name)) for name in rest)
+    if quantity in (*_OF_UAV, QuantityName.SPEED):
+        return all(_fits(spec, quantity, (name,)) for name in of)
+    return operands_fit(spec, condition)
+
+
+def operands_fit(spec: ScenarioSpec, condition: StatedCondition) -> bool:
+    """Tell whether a condition is about one thing, or one pair, that has its quantity."""
+    return _fits(spec, condition.quantity, condition.of)
+
+
+def _fits(spec: ScenarioSpec, quantity: str, of: tuple[str, ...]) -> bool:
     flying = {name for uav in spec.uavs for name in (uav.id, uav.group) if name is not None}
     bodies = flying | {n for a in spec.agents for n in (a.id, a.group) if n is not None}
     if quantity in _OF_UAV:

@@ -9,8 +9,7 @@ from dataclasses import replace
 from itertools import pairwise
 
 from aurora_core.grounding.airspace import Airspace
-from aurora_core.grounding.ends import first_point, last_point
-from aurora_core.grounding.planned_flight import PlannedFlight
+from aurora_core.grounding.planned_flight import PlannedFlight, first_point, last_point
 from aurora_core.grounding.sites import Site, samples_along
 from aurora_core.mission.plan import MissionPlan
 from aurora_core.spec.vocabulary import MissionMode

@@ -15,7 +15,6 @@ from aurora_core.grounding.airspace import Airspace
 from aurora_core.grounding.apart import sharing
 from aurora_core.grounding.beside import side_first, turned_along, with_turns
 from aurora_core.grounding.crossings import crossed
-from aurora_core.grounding.ends import first_point, last_point
 from aurora_core.grounding.laps import Laps
 from aurora_core.grounding.offsets import Spread, from_afar, is_lost, loses_sight, offsets
 from aurora_core.grounding.pace import moves
@@ -33,6 +32,8 @@ from aurora_core.grounding.planned_flight import (
     Rejected,
     altitude_slack_m,
     ascent_tolerance_m,
+    first_point,
+    last_point,
     planned_height_m,
 )
 from aurora_core.grounding.routes_flown import RoutePlanner
@@ -451,7 +452,7 @@ class FlightPlanner:
         assert mission.duration_s is not None
         way_m = speed_mps * mission.duration_s.value if moves(spec, seat.agent) else 0.0
         samples = samples_along(seat.path, seat.arc_m, way_m, self._settings.sample_spacing_m)
-        return np.column_stack((samples[:, :2], np.full(len(samples), height_m)))
+        return _at_height(samples[:, :2], height_m)
 
     def _centre(self, mission: UavMission, site: Site) -> tuple[float, float, float, float] | None:
         target = mission.target

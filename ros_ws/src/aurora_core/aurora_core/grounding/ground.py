@@ -30,7 +30,7 @@ from aurora_core.grounding.persons import PersonPlacer
 from aurora_core.grounding.places import MapPlaces
 from aurora_core.grounding.planned_flight import PlannedFlight, Rejected, planned_height_m
 from aurora_core.grounding.realised import realised_values
-from aurora_core.grounding.sites import Site, sites, tied_way_m
+from aurora_core.grounding.sites import Site, TriedSite, sites, tied_way_m
 from aurora_core.grounding.spots import SpotFinder
 from aurora_core.grounding.time_need import horizon_s
 from aurora_core.grounding.traffic import TrafficPlacer
@@ -82,6 +82,7 @@ class Grounder:
         basis: What the grounding says it was made with.
         executor_version: Version of the executor that will run it, written there too.
         spawns: Where vehicle types were measured to stand; None where the map was not measured.
+        airspace: Of the map, when it exists already.
     """
 
     def __init__(
@@ -94,6 +95,7 @@ class Grounder:
         basis: Basis | None = None,
         executor_version: int = 0,
         spawns: SpawnTable | None = None,
+        airspace: Airspace | None = None,
     ) -> None:
         self._map = map_model
         self._basis = basis
@@ -103,12 +105,18 @@ class Grounder:
         self._limits = limits
         self._tolerances = tolerances
         self._settings = settings
-        self._air = Airspace(map_model.buildings, map_model.zones)
+        if airspace is None:
+            airspace = Airspace(map_model.buildings, map_model.zones)
+        self._air = airspace
         self._spots = SpotFinder(map_model, settings.grounding)
         self._goals = GoalFinder(map_model, types, tolerances)
 
     def ground(
-        self, spec: ScenarioSpec, seed: int, plan: RepairPlan | None = None
+        self,
+        spec: ScenarioSpec,
+        seed: int,
+        plan: RepairPlan | None = None,
+        tried: list[TriedSite] | None = None,
     ) -> GroundedScenario | GroundingFailure:
         """Return the best grounding, or what every site lacked.
 
@@ -116,12 +124,14 @@ class Grounder:
             spec: What to ground.
             seed: Seed of the run (background traffic).
             plan: Where the scene may not be, or has to stay; its values are in `spec` already.
+            tried: Takes every site that was looked at, in order; for pictures.
         """
+        tried = [] if tried is None else tried
         tolerance = self._tolerances.placement_vehicle_m
-        found = self._ground(spec, split_scene(spec, tolerance), seed, plan)
+        found = self._ground(spec, split_scene(spec, tolerance), seed, plan, tried)
         if isinstance(found, GroundingFailure):
             apart = split_scene(spec, tolerance, apart=True)
-            again = self._ground(spec, apart, seed, plan) if apart.groups else found
+            again = self._ground(spec, apart, seed, plan, tried) if apart.groups else found
             found = found if isinstance(again, GroundingFailure) else again
         return found
 
@@ -131,6 +141,7 @@ class Grounder:
         split: SceneSplit,
         seed: int,
         plan: RepairPlan | None,
+        tried: list[TriedSite],
     ) -> GroundedScenario | GroundingFailure:
         keep_out = kept_out(spec, MapPlaces(self._map))
         planner = FlightPlanner(
@@ -179,26 +190,32 @@ class Grounder:
             met = oncoming.seated(split.oncoming, site, run_m)
             if isinstance(met, str):
                 rejected[met] += 1
+                tried.append(TriedSite.of(site, why=met))
                 continue
             met = groups.seated(met)
             if isinstance(met, str):
                 rejected[met] += 1
+                tried.append(TriedSite.of(site, why=met))
                 continue
             peopled = persons.seated(spec, split.persons, met, run_s)
             if isinstance(peopled, str):
                 rejected[peopled] += 1
+                tried.append(TriedSite.of(site, why=peopled))
                 continue
             scored += 1
             option = self._option(spec, peopled, road, planner)
             if isinstance(option, Rejected):
                 rejected[option.reason] += 1
-            elif best is None or option.score.joint > best.score.joint:
+                tried.append(TriedSite.of(site, why=option.reason))
+                continue
+            tried.append(TriedSite.of(site, joint=option.score.joint))
+            if best is None or option.score.joint > best.score.joint:
                 best = option
         if best is None:
             reasons = dict(sorted(rejected.items()))
             most = max(reasons, key=lambda r: (reasons[r], r)) if reasons else 'road'
-            tried = sum(reasons.values())
-            return GroundingFailure(reason=most, tried=tried, rejected_by=reasons)
+            count = sum(reasons.values())
+            return GroundingFailure(reason=most, tried=count, rejected_by=reasons)
         made = self._scenario(spec, split, best, scored, run_m, seed, planner, persons)
         return made.model_copy(update={'keep_out': keep_out}) if keep_out else made
 

@@ -6,10 +6,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from aurora_core.grounding.sites import Site
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.mission.plan import MissionPlan
 from aurora_core.spec.parameter import Bound
 from aurora_core.spec.scenario import UavMission
+from aurora_core.spec.vocabulary import MissionMode
+
+Point3 = tuple[float, float, float]
 
 # So near to its altitude a UAV gets at the lowest one that is allowed (m).
 _ABOVE_LOWEST_M = 0.25
@@ -51,3 +55,29 @@ def ascent_tolerance_m(mission: UavMission, limits: Limits, tolerances: Toleranc
     """Return how far below its altitude a UAV may begin: not where nobody may be commanded to."""
     above_m = planned_height_m(mission, limits, tolerances) - limits.uav_altitude_min_m
     return min(altitude_slack_m(mission, tolerances), max(above_m, _ABOVE_LOWEST_M))
+
+
+def last_point(plan: MissionPlan) -> Point3:
+    """Return where a hover or a route ends (x, y, z in m)."""
+    last = plan.waypoints[-1] if plan.waypoints else plan.hover_point
+    assert last is not None
+    return last
+
+
+def first_point(plan: MissionPlan, site: Site, lead_m: float = 0.0) -> Point3:
+    """Return where a mission begins at a site, ENU metres: of a track where its target stands.
+
+    Args:
+        plan: The mission.
+        site: Where.
+        lead_m: So far the target has gone by then.
+    """
+    if plan.mode is MissionMode.TRACK:
+        seat = site.seat(plan.target or '')
+        assert seat is not None
+        x, y, hx, hy = seat.path.position_at(min(seat.arc_m + lead_m, seat.path.length_m))
+        to_x, to_y = plan.offset_from((hx, hy))
+        return x + to_x, y + to_y, plan.altitude_m
+    if plan.hover_point is not None:
+        return plan.hover_point
+    return plan.waypoints[0]

@@ -9,6 +9,7 @@ import itertools
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 import numpy.typing as npt
@@ -70,6 +71,29 @@ class SeatedPerson:
     agent: GroundAgent
     path: WalkPath
     arc_m: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TriedSite:
+    """A place that was looked at.
+
+    Attributes:
+        x_m: Of its origin, east.
+        y_m: North.
+        joint: Its score, in [0, 1]; None where it is not fit.
+        why: What it lacks then.
+    """
+
+    x_m: float
+    y_m: float
+    joint: float | None = None
+    why: str = ''
+
+    @classmethod
+    def of(cls, site: Site, joint: float | None = None, why: str = '') -> Self:
+        """Return what became of a site."""
+        x_m, y_m, *_ = site.origin_path.position_at(site.origin_arc_m)
+        return cls(x_m=x_m, y_m=y_m, joint=joint, why=why)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -222,6 +222,30 @@ def condition(
     )
 
 
+def share_condition(
+    *,
+    id: str,
+    sentence: str,
+    of: tuple[str, ...],
+    share: float,
+    arguments: Quantity,
+    source: Source,
+    signal: str | None = None,
+) -> Condition:
+    """Return that something holds in at least a share of the samples; see `condition`."""
+    return condition(
+        id=id,
+        sentence=sentence,
+        of=of,
+        target=Target(op='>=', threshold=share, unit='1'),
+        arguments=arguments,
+        source=source,
+        signal=signal,
+        every_sample=False,
+        fraction=share,
+    )
+
+
 def number(value: float) -> str:
     """Return a number as people write it: at most three decimals."""
     return format_number(round(value, 3))

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import pairwise
 from operator import attrgetter
+from typing import NamedTuple
 
 from aurora_core.errors import MapError
 from aurora_core.geometry.arrays import FloatArray
@@ -22,8 +23,7 @@ LANE_CHANGE_LENGTH_M = 30.0
 _JOIN_M = 0.01
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class RouteSegment:
+class RouteSegment(NamedTuple):
     """A stretch of the path on one lane.
 
     Args:
@@ -182,19 +182,16 @@ class _PathBuilder:
         """The stretches in order."""
         return tuple(
             RouteSegment(
-                lane_id=lane.id,
-                edge_id=lane.edge_id,
-                is_internal=lane.is_internal,
-                is_lane_change=slides_from is not None,
-                from_lane_id=lane.id if slides_from is None else slides_from,
-                start_m=start_m,
-                end_m=end_m,
-                lane_start_pos_m=low_m,
-                lane_end_pos_m=high_m,
-                signal_id=signal[0],
-                signal_index=signal[1],
+                lane.id,
+                lane.edge_id,
+                lane.is_internal,
+                slides_from is not None,
+                lane.id if slides_from is None else slides_from,
+                *arcs_m,
+                *positions_m,
+                *signal,
             )
-            for lane, slides_from, (start_m, end_m), (low_m, high_m), signal in self._stretches
+            for lane, slides_from, arcs_m, positions_m, signal in self._stretches
         )
 
     def add(

@@ -222,11 +222,20 @@ def _members(ours: tuple[object, ...], theirs: tuple[object, ...]) -> str:
     return f'{name} is recorded otherwise than map and grounding give it'
 
 
+def _is_plain(value: object) -> bool:
+    """Tell whether a tuple holds numbers or texts alone, as points do: they are of one kind."""
+    while isinstance(value, tuple) and value:
+        value = value[0]
+    return isinstance(value, float | int | str)
+
+
 def _same(a: object, b: object) -> bool:
     """Compare values of a world: numbers by their bits, arrays and tuples by their members."""
     if isinstance(a, np.ndarray) or isinstance(b, np.ndarray):
         return np.array_equal(np.asarray(a, dtype=np.float64), np.asarray(b, dtype=np.float64))
     if isinstance(a, tuple) and isinstance(b, tuple):
+        if _is_plain(a) and _is_plain(b):
+            return a == b
         return len(a) == len(b) and all(_same(x, y) for x, y in zip(a, b, strict=True))
     kind = type(a)
     if kind is type(b) and hasattr(kind, '__dataclass_fields__'):

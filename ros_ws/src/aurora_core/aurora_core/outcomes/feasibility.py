@@ -162,9 +162,38 @@ class Certificate(Document):
     chain: tuple[TimeBound, ...] = omitted(())
 
 
+class CheckStage(StrEnum):
+    """A level of verification before anything runs; a benchmark can leave one out."""
+
+    STATIC = 'static'  # parts of the specification that do not fit together
+    PROOFS = 'proofs'  # what limits, map and the request itself rule out
+
+
+class StaticFinding(Document):
+    """Parts of a specification that do not fit together: a fault of whoever wrote it.
+
+    Attributes:
+        field: Path of the part that is wrong: `conditions/c1/of`.
+        relation: What should hold between it and what.
+        mend: What would make it fit.
+        span: Where the prompt speaks of it.
+    """
+
+    field: str
+    relation: str
+    mend: str
+    span: Span | None = None
+
+
 class FeasibilityVerdict(Document):
-    """Outcome of the check."""
+    """Outcome of the check.
+
+    Attributes:
+        notes: Why it is `unknown`.
+        findings: Of the static verification.
+    """
 
     result: Feasibility
     certificates: tuple[Certificate, ...] = ()
     notes: tuple[str, ...] = ()
+    findings: tuple[StaticFinding, ...] = omitted(())

@@ -80,6 +80,7 @@ class Implicated(Document):
         field: Path of a parameter, or a field of the grounding (`grounding/anchor`).
         score: How much speaks for it; compares within one localization.
         direction: Whether more (1) or less (-1) of it should help; 0: not known, or no number.
+        aim: A value with which it can come true, where the evidence gives one.
         conditions: Violated conditions that it can affect.
         reason: In English.
     """
@@ -87,6 +88,7 @@ class Implicated(Document):
     field: str
     score: FiniteFloat
     direction: int = 0
+    aim: FiniteFloat | None = None
     conditions: tuple[str, ...]
     reason: str
 

@@ -10,7 +10,7 @@ from aurora_core.execution.faults import Fault
 from aurora_core.execution.plan import Execution, build_execution
 from aurora_core.feasibility.check import check_request
 from aurora_core.outcomes.agsg import Agsg, Stage
-from aurora_core.outcomes.feasibility import FeasibilityVerdict
+from aurora_core.outcomes.feasibility import CheckStage, FeasibilityVerdict
 from aurora_core.outcomes.grounding import GroundingFailure, GroundingOutcome
 from aurora_core.outcomes.parse import ParseContext, ParseOutcome
 from aurora_core.outcomes.repair import Attempt, Proposal, RepairPlan, with_values
@@ -57,12 +57,19 @@ def understood(known: Knowledge, outcome: ParseOutcome, *, reader: str = '') -> 
     return ParseOutcome(**{**fields, 'agsg': graph})
 
 
-def check_stage(known: Knowledge, agsg: Agsg) -> FeasibilityVerdict:
-    """Judge feasibility of a request against limits, tolerances and its map."""
+def check_stage(
+    known: Knowledge, agsg: Agsg, without: frozenset[CheckStage] = frozenset()
+) -> FeasibilityVerdict:
+    """Judge feasibility of a request against limits, tolerances and its map.
+
+    Args:
+        known: What is installed here.
+        agsg: The request.
+        without: Stages that are left out, for a benchmark that asks what they are worth.
+    """
     spec = agsg.spec
-    return check_request(
-        spec, known.map(spec.world.map_name), known.limits, known.tolerances, known.types
-    )
+    map_model = known.map(spec.world.map_name)
+    return check_request(spec, map_model, known.limits, known.tolerances, known.types, without)
 
 
 def ground_stage(

@@ -5,10 +5,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import cached_property
 
 from aurora_core.errors import AuroraError
 from aurora_core.execution.map_parts import MapParts, map_parts
 from aurora_core.execution.plan import EXECUTOR_VERSION
+from aurora_core.grounding.airspace import Airspace
 from aurora_core.grounding.ground import Grounder
 from aurora_core.knowledge.agent_types import AgentTypeRecord, load_agent_types
 from aurora_core.knowledge.basis import Basis, Tables
@@ -35,7 +37,6 @@ class Knowledge:
         settings: Settings of grounding and execution.
         types: Ground agents by type, as measured.
         uav: The multirotor as measured; it is never planned to do more.
-        repair: How repair searches; it decides nothing about a verdict.
     """
 
     def __init__(
@@ -46,7 +47,6 @@ class Knowledge:
         settings: Settings,
         types: Mapping[str, AgentTypeRecord],
         uav: UavRecord,
-        repair: RepairSettings,
     ) -> None:
         self.limits = limits
         self.tolerances = tolerances
@@ -55,13 +55,18 @@ class Knowledge:
         )
         self.types = types
         self.uav = uav
-        self.repair = repair
         tables = Tables(limits=self.limits, tolerances=self.tolerances, settings=self.settings)
         self.basis = Basis.of(AURORA_VERSION, tables)
         self._maps: dict[str, MapModel] = {}
         self._measured: dict[str, MeasuredMap | None] = {}
+        self._airspaces: dict[str, Airspace] = {}
         self._grounders: dict[str, Grounder] = {}
         self._parts: dict[str, MapParts] = {}
+
+    @cached_property
+    def repair(self) -> RepairSettings:
+        """How repair searches; read when it is first needed, it decides nothing else."""
+        return load_repair_settings()
 
     def map(self, name: str) -> MapModel:
         """Return a map by name (verified against its digest when first loaded)."""
@@ -84,7 +89,7 @@ class Knowledge:
     def parts(self, name: str) -> MapParts:
         """Return what the runs on a map share."""
         if name not in self._parts:
-            self._parts[name] = map_parts(self.map(name))
+            self._parts[name] = map_parts(self.map(name), self._airspace(name))
         return self._parts[name]
 
     def grounder(self, name: str) -> Grounder:
@@ -100,8 +105,15 @@ class Knowledge:
                 self.basis,
                 EXECUTOR_VERSION,
                 None if measured is None else measured.spawns,
+                self._airspace(name),
             )
         return self._grounders[name]
+
+    def _airspace(self, name: str) -> Airspace:
+        if name not in self._airspaces:
+            known = self.map(name)
+            self._airspaces[name] = Airspace(known.buildings, known.zones)
+        return self._airspaces[name]
 
     def parts_of(self, world: WorldModel) -> MapParts | None:
         """Return the parts of the installed map whose solids a recorded world has, else None."""
@@ -125,5 +137,4 @@ def installed_knowledge() -> Knowledge:
         settings=load_settings(),
         types=load_agent_types(),
         uav=load_uav_record(),
-        repair=load_repair_settings(),
     )

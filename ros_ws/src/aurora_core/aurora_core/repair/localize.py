@@ -21,6 +21,7 @@ from aurora_core.outcomes.repair import Implicated
 from aurora_core.outcomes.verdict import ConditionResult, Reason, Verdict
 from aurora_core.repair.helps import ANCHOR, APART, HELPS, TOGETHER, Help
 from aurora_core.repair.lock import is_movable
+from aurora_core.repair.reach import out_of_reach
 from aurora_core.spec.quantity import QuantityName
 
 # How bad it is that a margin is missing (normalised), and what a mere consequence counts.
@@ -28,6 +29,10 @@ _NO_MARGIN = 1.0
 _CONSEQUENCE = 0.5
 _WORST = 3.0
 _DISTANCES = (QuantityName.DISTANCE, QuantityName.HORIZONTAL_DISTANCE)
+# What geometry proves speaks louder than what often helps.
+_EVIDENCE = 6.0
+# A value far on the wrong side of its domain is more likely at fault than one that is not.
+_LEAST_ROOM, _ROOM = 0.5, 2.0
 # The anchor is one step away from everybody, as the environment is.
 _ANCHOR_STEPS = 1
 
@@ -39,10 +44,12 @@ class _Case:
     score: float = 0.0
     conditions: list[str] = field(default_factory=list)
     reason: str = ''
+    aim: float | None = None
     best: float = 0.0
 
-    def add(self, score: float, condition: str, reason: str) -> None:
+    def add(self, score: float, condition: str, reason: str, aim: float | None) -> None:
         self.score += score
+        self.aim = self.aim if aim is None else aim
         if condition not in self.conditions:
             self.conditions.append(condition)
         if score > self.best:
@@ -76,12 +83,18 @@ def localize(agsg: Agsg, verdict: Verdict) -> tuple[Implicated, ...]:
         influences = parameters_affecting(agsg, row.id)
         for name, direction, score, reason in _speaking(condition, row, influences, movable):
             case = cases.setdefault((name, direction), _Case())
-            case.add(share * score, row.id, reason)
+            case.add(share * score, row.id, reason, None)
+        for name, evidence in out_of_reach(agsg, condition).items():
+            if name in movable:
+                case = cases.setdefault((name, -1), _Case())
+                score = share * _severity(row) * _EVIDENCE
+                case.add(score, row.id, f'{_told(row)}: {evidence.because}', evidence.aim)
     found = [
         Implicated(
             field=name,
             score=case.score,
             direction=direction,
+            aim=case.aim,
             conditions=tuple(case.conditions),
             reason=case.reason,
         )
@@ -123,9 +136,11 @@ def _speaking(
             parameter = movable.get(influence.parameter)
             if parameter is None or influence.parameter.rpartition('/')[2] != help_.name:
                 continue
-            if not _has_room(parameter, help_.direction):
+            room = _room(parameter, help_.direction)
+            if room <= 0.0:
                 continue
-            score = severity * help_.weight / (1.0 + influence.distance)
+            share = _LEAST_ROOM + _ROOM * room
+            score = severity * share * help_.weight / (1.0 + influence.distance)
             yield influence.parameter, help_.direction, score, f'{told}: {help_.because}'
 
 
@@ -150,6 +165,8 @@ def _told(row: ConditionResult) -> str:
     return f'{row.id} misses by {abs(row.margin):.3g}{unit}{when}'
 
 
-def _has_room(parameter: AgsgParameter, direction: int) -> bool:
+def _room(parameter: AgsgParameter, direction: int) -> float:
+    """Return how much of its domain a value can still move in a direction, in [0, 1]."""
     here = parameter.requested if parameter.realised is None else parameter.realised
-    return here < parameter.high if direction > 0 else here > parameter.low
+    left = parameter.high - here if direction > 0 else here - parameter.low
+    return left / (parameter.high - parameter.low)

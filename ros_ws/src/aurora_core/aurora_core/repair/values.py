@@ -130,6 +130,8 @@ def _tries(
     known = _points(row, agsg, past, item.conditions)
     tried = {value for value, _ in known}
     wanted = [_secant(row, known, settings.epsilon)] if len(known) > 1 else []
+    if item.aim is not None:
+        wanted.insert(0, _rounded(row, item.aim))
     wanted += [_moved(row, here, item.direction * share) for share in settings.steps]
     least = _LEAST_SHARE * (row.high - row.low)
     for value in wanted:

@@ -97,8 +97,11 @@ def _in_run(path: Path, iteration: int | None) -> FoundBag:
 def _judged(path: Path, numbers: Sequence[int]) -> int:
     """Return the iteration that the report of a run is about, the last one when it tells none."""
     report = read_document(path / REPORT, RunReport)
-    if not isinstance(report, RunReport) or report.trace is None:
+    if not isinstance(report, RunReport) or report.trace is None or report.bags is None:
         return numbers[-1]
-    match = _BAG.fullmatch(report.trace.bag)
-    told = int(match[1]) if match is not None else numbers[-1]
+    listed = {entry.bag: entry.iteration for entry in report.bags}
+    # A bag that the report does not list is not passed over: it is held against the run.
+    if {f'bag.{number}' for number in numbers} - listed.keys():
+        return numbers[-1]
+    told = listed.get(report.trace.bag, numbers[-1])
     return told if told in numbers else numbers[-1]

@@ -5,18 +5,21 @@
 from __future__ import annotations
 
 import base64
+from functools import lru_cache
+from importlib.metadata import version
 from pathlib import Path
 
-from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from jinja2 import Environment, StrictUndefined, Template
 from markupsafe import Markup
 
+from aurora_core.compiled import Compiled
 from aurora_core.report.clauses import status_word
 from aurora_core.report.run_report import RunReport
 from aurora_core.report.status import Status
 from aurora_core.report.summary import margin_value
 from aurora_core.report.visible import visible
 
-_TEMPLATE = 'report.html.jinja'
+_TEMPLATE = Path(__file__).with_name('report.html.jinja')
 
 # The kind of each status, which decides colour and symbol of the page.
 _KINDS = {
@@ -39,8 +42,38 @@ def report_html(report: RunReport, picture_png: bytes | None = None) -> str:
         report: What to show; every text in it is escaped, and what no reader would see is named.
         picture_png: Picture of the run, None when there is none.
     """
+    picture = base64.b64encode(picture_png).decode('ascii') if picture_png is not None else ''
+    return _template().render(
+        report=report,
+        status=report.status.value.replace('_', ' '),
+        kind=_KINDS[report.status],
+        stated=[row for row in report.conditions if row.source],
+        safety=[row for row in report.conditions if not row.source],
+        picture=picture,
+    )
+
+
+def compiled_page() -> Compiled:
+    """Return the code of the page, as set-up compiles it."""
+    return Compiled(
+        name=_TEMPLATE.name,
+        sources=(Path(__file__), _TEMPLATE),
+        key=version('jinja2'),
+        make=lambda: _environment().compile(
+            _TEMPLATE.read_text(encoding='utf-8'), _TEMPLATE.name, str(_TEMPLATE)
+        ),
+    )
+
+
+@lru_cache(maxsize=1)
+def _template() -> Template:
+    environment = _environment()
+    code = compiled_page().value()
+    return Template.from_code(environment, code, environment.make_globals(None))
+
+
+def _environment() -> Environment:
     environment = Environment(
-        loader=FileSystemLoader(Path(__file__).parent),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,
@@ -51,15 +84,7 @@ def report_html(report: RunReport, picture_png: bytes | None = None) -> str:
     environment.filters['number'] = number
     environment.filters['margin_value'] = margin_value
     environment.filters['status_word'] = status_word
-    picture = base64.b64encode(picture_png).decode('ascii') if picture_png is not None else ''
-    return environment.get_template(_TEMPLATE).render(
-        report=report,
-        status=report.status.value.replace('_', ' '),
-        kind=_KINDS[report.status],
-        stated=[row for row in report.conditions if row.source],
-        safety=[row for row in report.conditions if not row.source],
-        picture=picture,
-    )
+    return environment
 
 
 def _legible(value: object) -> object:

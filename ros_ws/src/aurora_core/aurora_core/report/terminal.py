@@ -305,6 +305,8 @@ def _question_and_error(report: RunReport | CheckReport, console: Console) -> No
                 line(console, f'nearest feasible value: {_with_unit(proof.nearest, proof.unit)}')
         for note in report.feasibility.notes:
             line(console, f'note: {note}')
+        for finding in report.feasibility.findings:
+            line(console, f'to mend {finding.field}: {finding.mend}')
 
 
 def print_unjudged(bag: Path, err: AuroraError, console: Console) -> None:

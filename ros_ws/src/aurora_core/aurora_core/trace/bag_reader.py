@@ -29,6 +29,7 @@ from aurora_core.trace.checkpoints import CHECKPOINT, RECOVERY, ContentDigest, r
 from aurora_core.trace.definitions import MessageDefinitions
 from aurora_core.trace.mcap_scan import Defect, scan
 from aurora_core.trace.schema_check import check_schema
+from aurora_core.trace.tick_encoding import TickDecoder
 from aurora_core.trace.trace import Integrity
 
 __all__ = [
@@ -137,11 +138,14 @@ class FileReading:
     def __init__(self, file: Path, definitions: MessageDefinitions) -> None:
         self._file = file
         self._definitions = definitions
+        self._decoder = TickDecoder(definitions)
         self._schemas: dict[int, Schema] = {}
         # Type of the messages of a channel, '' for one that is left alone, and its topic.
         self._channels: dict[int, tuple[str, str, bytes]] = {}
         self._counts: dict[str, int] = {}
         self._content = ContentDigest()
+        # Not in that digest yet: many are taken in at once sooner than one by one.
+        self._fresh: list[tuple[bytes, int, bytes | memoryview]] = []
         self._checked_ns = 0
         # Not matched by the messages before it; explained by a later one that is.
         self._checkpoints_fail: list[str] = []
@@ -213,13 +217,13 @@ class FileReading:
             self._nameless += 1
             return None
         type_name, topic, name = channel
-        self._content.add([(name, record.log_time, record.data)])
+        self._fresh.append((name, record.log_time, record.data))
         number = self._counts.get(topic, 0)
         self._counts[topic] = number + 1
         if not type_name:
             return None
         try:
-            value = self._definitions.decode(type_name, record.data)
+            value = self._decoder.decode(type_name, record.data)
         except (SerdeError, MemoryError, OverflowError) as err:
             self._undecoded.append(
                 f'{topic}: message {number} at {record.log_time / 1e9:.2f} s cannot be decoded '
@@ -240,6 +244,7 @@ class FileReading:
             )
         elif record.name == CHECKPOINT:
             self._checkpoint_seen = True
+            self._take_in()
             try:
                 checkpoint = read_checkpoint(record.metadata)
             except ValueError:
@@ -261,8 +266,13 @@ class FileReading:
                     f'{checkpoint.time_ns / 1e9:.2f} s are not those that were recorded'
                 )
 
+    def _take_in(self) -> None:
+        self._content.add(self._fresh)
+        self._fresh.clear()
+
     def _judge(self) -> None:
         """Say what the state of the file is, from everything that was seen."""
+        self._take_in()
         cut = any(defect.cut for defect in self.defects)
         damage: Damage = [*self._recovery, *self._foreign[:_NOTES]]
         self.metadata = self._metadata(damage)

@@ -7,6 +7,9 @@ from __future__ import annotations
 import pytest
 
 from aurora_core.agsg.build import build_agsg
+from aurora_core.agsg.judged import unjudged
+from aurora_core.conditions.derive import derive_conditions
+from aurora_core.outcomes.condition import Condition
 from aurora_core.outcomes.grounding import Unjudged
 from aurora_core.pipeline.functions import ground_stage, parse_stage
 from aurora_core.pipeline.knowledge import installed_knowledge
@@ -51,3 +54,26 @@ def test_traffic_beside_a_counted_scene_is_found() -> None:
 def test_a_place_where_something_is_to_be_done_is_judged() -> None:
     paths = _unjudged(_parsed('A drone tracks a bus that stops at the intersection.'))
     assert [path for path in paths if path.endswith('/target')] == []
+
+
+def test_own_conditions_of_an_agent_find_nothing_that_all_conditions_do_not() -> None:
+    spec = _parsed(
+        'A drone tracks a bus at 30 m. A red car parks 20 m ahead of the bus, two vans follow it, '
+        'and a truck drives at 8 m/s while 4 background cars circulate.'
+    )
+    outcome = ground_stage(_KNOWN, build_agsg(spec), 1)
+    assert outcome.agsg is not None
+    grounded, schedule = outcome.agsg.grounding, outcome.agsg.schedule
+    assert grounded is not None
+    assert schedule is not None
+    tables = (schedule.facts, _KNOWN.limits, _KNOWN.tolerances)
+
+    def derive(asked: ScenarioSpec, agent: str | None = None) -> tuple[Condition, ...]:
+        made = derive_conditions(asked, *tables, agent).conditions
+        # Without those of one agent: nothing depends on what that one is to do.
+        return tuple(c for c in made if not c.id.startswith('truck1.'))
+
+    slow = unjudged(spec, derive(spec), derive)
+    fast = unjudged(spec, derive(spec), derive, derive)
+    assert {one.element for one in slow} >= {'truck1'}
+    assert fast == slow

@@ -37,7 +37,8 @@ def config(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     copy = tmp_path / 'config'
     for folder in ('knowledge', 'maps'):
         shutil.copytree(config_root() / folder, copy / folder, ignore_dangling_symlinks=True)
-    for file in ('limits.json', 'tolerances.json', 'settings.json', 'multirotor.json'):
+    files = ('limits.json', 'tolerances.json', 'settings.json', 'multirotor.json', 'repair.yaml')
+    for file in files:
         shutil.copy(config_root() / file, copy)
     monkeypatch.setenv(ENVIRONMENT_VARIABLE, str(copy))
     return copy

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from rosbags.serde import SerdeError
 
 from aurora_core.errors import BagError
 from aurora_core.trace import messages
@@ -15,7 +16,7 @@ from aurora_core.trace.commands import GroundCommand
 from aurora_core.trace.definitions import MessageDefinitions, message_definitions
 from aurora_core.trace.layout import GroundCommandKind
 from aurora_core.trace.messages import TOPICS, MessageBuilder
-from aurora_core.trace.tick_encoding import TickEncoder
+from aurora_core.trace.tick_encoding import TickDecoder, TickEncoder
 
 DT_S = 0.05
 
@@ -36,6 +37,31 @@ def test_rows(topic: str, tick: int, shape: tuple[int, int]) -> None:
     assert TickEncoder(definitions, 9, DT_S).rows(topic, tick, turned) == expected
 
 
+@pytest.mark.parametrize('shape', [(0, 7), (1, 7), (3, 16)])
+@pytest.mark.parametrize(
+    'topic', [messages.GROUND_STATE, messages.UAV_STATE, messages.UAV_COMMAND]
+)
+def test_rows_are_read_as_field_by_field(topic: str, shape: tuple[int, int]) -> None:
+    definitions = message_definitions()
+    rows = np.random.default_rng(3).normal(size=shape)
+    cdr = TickEncoder(definitions, 9, DT_S).rows(topic, 19, rows)
+    cut, longer = cdr[:-8], cdr + bytes(8)
+    other_frame = cdr.replace(b'map\0', b'odo\0')
+    for data in (cdr, other_frame, cut, longer):
+        found = _decoded(TickDecoder(definitions), TOPICS[topic], data)
+        assert found == _decoded(definitions, TOPICS[topic], data)
+
+
+def _decoded(
+    decoder: TickDecoder | MessageDefinitions, name: str, cdr: bytes
+) -> tuple[Any, ...] | str:
+    try:
+        value = decoder.decode(name, cdr)
+    except SerdeError as err:
+        return str(err)
+    return value.header, value.run_number, value.tick, value.data.tolist(), value.data.dtype
+
+
 @pytest.mark.parametrize(
     'commands',
     [
@@ -51,6 +77,8 @@ def test_ground_commands(commands: tuple[GroundCommand, ...]) -> None:
     message = MessageBuilder(definitions, 9, DT_S).ground_commands(41, commands)
     expected = definitions.encode(TOPICS[messages.GROUND_COMMAND], message)
     assert TickEncoder(definitions, 9, DT_S).ground_commands(41, commands) == expected
+    name = TOPICS[messages.GROUND_COMMAND]
+    assert str(TickDecoder(definitions).decode(name, expected)) == str(message)
 
 
 def test_a_changed_msg_file_is_noticed_before_anything_is_written() -> None:

@@ -9,10 +9,9 @@ from typing import Literal
 from aurora_core.judging.build import (
     Inputs,
     Source,
-    Target,
     bound_words,
-    condition,
     number,
+    share_condition,
     stated_by,
 )
 from aurora_core.judging.evaluation import Context, Evaluation, Missing
@@ -52,20 +51,18 @@ def implied(
     """Return that a UAV keeps the altitude that the prompt says."""
     share = inputs.tolerances.altitude_share
     slack = inputs.tolerances.altitude_m.of(altitude.value, approximate=altitude.approximate)
-    return condition(
+    return share_condition(
         id=f'{mission.mission}.altitude',
         sentence=(
             f'{mission.uav} keeps {bound_words(altitude)} {number(altitude.value)} m altitude '
             f'for {number(100 * share)} % of {mission.mission}'
         ),
         of=(mission.uav,),
-        target=Target(op='>=', threshold=share, unit='1'),
-        fraction=share,
+        share=share,
         arguments=AltitudeFraction(
             **inputs.common,
             mission=mission,
             altitude=PerSample.of(altitude, slack),
         ),
         source=stated_by(source, altitude),
-        every_sample=False,
     )

@@ -8,7 +8,7 @@ from typing import Literal
 
 import numpy as np
 
-from aurora_core.judging.build import Inputs, Source, Target, condition, number
+from aurora_core.judging.build import Inputs, Source, number, share_condition
 from aurora_core.judging.evaluation import Context, Evaluation, Missing
 from aurora_core.judging.quantity import OfMission
 from aurora_core.judging.route import flown_legs, route_topics
@@ -51,16 +51,14 @@ class OverCarriageway(OfMission):
 def implied(inputs: Inputs, mission: MissionArguments, source: Source) -> Condition:
     """Return that one leg of a route follows a street."""
     share = inputs.tolerances.over_carriageway_share
-    return condition(
+    return share_condition(
         id=f'{mission.mission}.over_streets',
         sentence=(
             f'{mission.uav} flies at least one leg over a carriageway '
             f'({number(100 * share)} % of the leg)'
         ),
         of=(mission.uav,),
-        target=Target(op='>=', threshold=share, unit='1'),
-        fraction=share,
+        share=share,
         arguments=OverCarriageway(**inputs.common, mission=mission),
         source=source,
-        every_sample=False,
     )

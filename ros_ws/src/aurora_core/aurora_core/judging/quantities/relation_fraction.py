@@ -12,10 +12,9 @@ from pydantic import FiniteFloat
 from aurora_core.judging.build import (
     Inputs,
     Source,
-    Target,
     bound_words,
-    condition,
     number,
+    share_condition,
     stated_by,
 )
 from aurora_core.judging.evaluation import (
@@ -141,7 +140,7 @@ def kept(
 ) -> Condition:
     """Return that a relation is kept in motion."""
     relation, share = placement.relation, _least_share(inputs, placement)
-    return condition(
+    return share_condition(
         id=f'{name}.kept',
         sentence=(
             f'{agent.id} stays {RELATION_WORDS[relation]} {of} for {number(100 * share)} % of the '
@@ -149,8 +148,7 @@ def kept(
         ),
         signal=f'{relation.value}_fraction({agent.id},{of})',
         of=(agent.id, of),
-        target=Target(op='>=', threshold=share, unit='1'),
-        fraction=share,
+        share=share,
         arguments=RelationFraction(
             **inputs.common,
             relation=relation,
@@ -158,7 +156,6 @@ def kept(
             near_m=near_m(inputs, relation, of),
         ),
         source=source,
-        every_sample=False,
     )
 
 
@@ -173,7 +170,7 @@ def distance_kept(
     low_m, high_m = _ends_m(distance, inputs.placement_tolerance(agent.id))
     words = RELATION_WORDS[placement.relation]
     binds = '' if distance.bound is Bound.EXACTLY else f'{bound_words(distance)} '
-    return condition(
+    return share_condition(
         id=f'{name}.distance_kept',
         sentence=(
             f'{agent.id} stays {binds}{number(distance.value)} m {words} {of} for '
@@ -181,13 +178,11 @@ def distance_kept(
         ),
         signal=f'distance_{placement.relation.value}_fraction({agent.id},{of})',
         of=(agent.id, of),
-        target=Target(op='>=', threshold=share, unit='1'),
-        fraction=share,
+        share=share,
         arguments=DistanceFraction(
             **inputs.common, relation=placement.relation, low_m=low_m, high_m=high_m
         ),
         source=Source(ids=(agent.id,), spans=(distance.span,), provenance=distance.provenance),
-        every_sample=False,
     )
 
 
@@ -211,7 +206,7 @@ def bearing_kept(
 ) -> Condition:
     """Return that a UAV stays at the stated bearing from its target."""
     share = inputs.tolerances.relation_fraction
-    return condition(
+    return share_condition(
         id=f'{mission.mission}.bearing',
         sentence=(
             f'{mission.uav} stays at bearing {number(bearing.value)} deg from {target} for '
@@ -219,8 +214,7 @@ def bearing_kept(
         ),
         signal=f'bearing_fraction({mission.uav},{target})',
         of=(mission.uav, target),
-        target=Target(op='>=', threshold=share, unit='1'),
-        fraction=share,
+        share=share,
         arguments=BearingFraction(
             **inputs.common,
             mission=mission,
@@ -228,5 +222,4 @@ def bearing_kept(
             tolerance_deg=inputs.tolerances.bearing_deg,
         ),
         source=stated_by(source, bearing),
-        every_sample=False,
     )

@@ -12,10 +12,9 @@ from pydantic import FiniteFloat
 from aurora_core.judging.build import (
     Inputs,
     Source,
-    Target,
     bound_words,
-    condition,
     number,
+    share_condition,
     stated_by,
 )
 from aurora_core.judging.evaluation import Context, Evaluation, Missing
@@ -70,15 +69,14 @@ def implied(
     """Return that a UAV flies as fast as the prompt says."""
     share = inputs.tolerances.route_speed_share
     slack = inputs.tolerances.route_speed_mps.of(speed.value, approximate=speed.approximate)
-    return condition(
+    return share_condition(
         id=f'{mission.mission}.speed',
         sentence=(
             f'{mission.uav} flies {bound_words(speed)} {number(speed.value)} m/s for '
             f'{number(100 * share)} % of the time on its legs'
         ),
         of=(mission.uav,),
-        target=Target(op='>=', threshold=share, unit='1'),
-        fraction=share,
+        share=share,
         arguments=RouteSpeed(
             **inputs.common,
             mission=mission,
@@ -88,5 +86,4 @@ def implied(
             ),
         ),
         source=stated_by(source, speed),
-        every_sample=False,
     )

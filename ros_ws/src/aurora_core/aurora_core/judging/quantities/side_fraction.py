@@ -8,7 +8,7 @@ from typing import Literal
 
 from pydantic import FiniteFloat
 
-from aurora_core.judging.build import Inputs, Source, Target, condition, number
+from aurora_core.judging.build import Inputs, Source, number, share_condition
 from aurora_core.judging.evaluation import Context, Evaluation, Missing
 from aurora_core.judging.quantity import OfMission
 from aurora_core.judging.shares import share_of
@@ -67,7 +67,7 @@ def implied(
 ) -> Condition:
     """Return that a UAV keeps to the side of its target that is asked for."""
     share, tolerance_deg = inputs.tolerances.relation_fraction, inputs.tolerances.side_deg
-    return condition(
+    return share_condition(
         id=f'{mission.mission}.side',
         sentence=(
             f'{mission.uav} is {_WORDS[side]} {target}, within {number(tolerance_deg)} deg, for '
@@ -75,11 +75,9 @@ def implied(
         ),
         signal=f'{side.value}_fraction({mission.uav},{target})',
         of=(mission.uav, target),
-        target=Target(op='>=', threshold=share, unit='1'),
-        fraction=share,
+        share=share,
         arguments=SideFraction(
             **inputs.common, mission=mission, side=side, tolerance_deg=tolerance_deg
         ),
         source=source,
-        every_sample=False,
     )

@@ -7,7 +7,7 @@ from __future__ import annotations
 from typing import Literal
 
 from aurora_core.errors import VerificationError
-from aurora_core.judging.build import Inputs, Source, Target, condition, number
+from aurora_core.judging.build import Inputs, Source, number, share_condition
 from aurora_core.judging.evaluation import Context, Evaluation, Missing
 from aurora_core.judging.quantity import OfMission
 from aurora_core.judging.shares import share_of
@@ -42,16 +42,14 @@ class TrackedFraction(OfMission):
 def implied(inputs: Inputs, mission: MissionArguments, target: str, source: Source) -> Condition:
     """Return that a UAV keeps its distance from its target."""
     share = inputs.tolerances.tracked_fraction
-    return condition(
+    return share_condition(
         id=f'{mission.mission}.tracked',
         sentence=(
             f'{mission.uav} tracks {target} from {number(mission.standoff_m)} m for '
             f'{number(100 * share)} % of the time after capture'
         ),
         of=(mission.uav, target),
-        target=Target(op='>=', threshold=share, unit='1'),
-        fraction=share,
+        share=share,
         arguments=TrackedFraction(**inputs.common, mission=mission),
         source=source,
-        every_sample=False,
     )

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from aurora_core.judging.build import Inputs, Source, Target, condition, number
+from aurora_core.judging.build import Inputs, Source, number, share_condition
 from aurora_core.judging.evaluation import Context, Evaluation, Missing
 from aurora_core.judging.quantity import OfSight
 from aurora_core.judging.shares import share_of
@@ -35,13 +35,11 @@ class VisibleFraction(OfSight):
 def implied(inputs: Inputs, mission: MissionArguments, target: str, source: Source) -> Condition:
     """Return that a UAV sees its target for most of its mission."""
     share = inputs.tolerances.visible_fraction
-    return condition(
+    return share_condition(
         id=f'{mission.mission}.visible',
         sentence=f'{mission.uav} sees {target} for {number(100 * share)} % of {mission.mission}',
         of=(mission.uav, target),
-        target=Target(op='>=', threshold=share, unit='1'),
-        fraction=share,
+        share=share,
         arguments=VisibleFraction(**inputs.common, mission=mission),
         source=Source(ids=source.ids, spans=source.spans),
-        every_sample=False,
     )

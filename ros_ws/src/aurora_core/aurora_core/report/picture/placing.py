@@ -7,6 +7,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
+import numpy as np
+import numpy.typing as npt
+
 # Directions to try, nearest readable ones first; units of the offset.
 _DIRECTIONS = (
     (1.0, 1.0),
@@ -32,11 +35,19 @@ class Rectangle:
 
     def overlap(self, other: Rectangle) -> float:
         """Return the common area."""
-        wide = min(self.left + self.width, other.left + other.width) - max(self.left, other.left)
-        high = min(self.bottom + self.height, other.bottom + other.height) - max(
-            self.bottom, other.bottom
-        )
+        wide = min(self.right, other.right) - max(self.left, other.left)
+        high = min(self.top, other.top) - max(self.bottom, other.bottom)
         return wide * high if wide > 0.0 and high > 0.0 else 0.0
+
+    @property
+    def right(self) -> float:
+        """Right edge."""
+        return self.left + self.width
+
+    @property
+    def top(self) -> float:
+        """Upper edge."""
+        return self.bottom + self.height
 
 
 @dataclass(slots=True, kw_only=True)
@@ -73,6 +84,8 @@ class Placer:
             gap: Distance between point and label in the first ring, points.
         """
         best, best_cost = (x, y), float('inf')
+        axes = np.array([[0.0, 0.0, self.width, self.height]])
+        taken = np.array([(r.left, r.bottom, r.right, r.top) for r in self.taken]).reshape(-1, 4)
         for ring in _RINGS:
             for right, up in _DIRECTIONS:
                 centre_x = x + right * (gap * ring + width / 2)
@@ -83,8 +96,8 @@ class Placer:
                     width=width,
                     height=height,
                 )
-                cost = sum(room.overlap(other) for other in self.taken)
-                cost += 3.0 * (width * height - room.overlap(self._axes()))
+                cost = _covered(room, taken)
+                cost += 3.0 * (width * height - _covered(room, axes))
                 cost += 0.02 * width * height * ring
                 if cost < best_cost - 1e-9:
                     best, best_cost = (centre_x, centre_y), cost
@@ -95,5 +108,9 @@ class Placer:
         )
         return best
 
-    def _axes(self) -> Rectangle:
-        return Rectangle(left=0.0, bottom=0.0, width=self.width, height=self.height)
+
+def _covered(room: Rectangle, others: npt.NDArray[np.float64]) -> float:
+    """Return the area of a rectangle that others (K, 4: left, bottom, right, top) have too."""
+    wide = np.minimum(room.right, others[:, 2]) - np.maximum(room.left, others[:, 0])
+    high = np.minimum(room.top, others[:, 3]) - np.maximum(room.bottom, others[:, 1])
+    return float((np.maximum(wide, 0.0) * np.maximum(high, 0.0)).sum())

@@ -1,0 +1,160 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Run a request with a fault, repair it, and see what was found, mended and kept."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+import time
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+
+from aurora_bench.repair.faults import Fault, with_fault
+from aurora_bench.rulers.watched import WatchedStages
+from aurora_cli.clock import MonotonicClock
+from aurora_cli.installed import installed
+from aurora_core.document import Document
+from aurora_core.outcomes.verdict import VerdictStatus
+from aurora_core.pipeline.run import run
+from aurora_core.pipeline.stages import RunControl, RunRequest
+from aurora_core.report.outputs import write_report
+from aurora_core.report.run_folder import RunFolder, StageFile, new_run_id
+from aurora_core.report.run_report import RunReport
+
+_FIRST = 3
+
+
+class Episode(Document):
+    """What came of a fault.
+
+    Attributes:
+        status: Of the run.
+        showed: The request holds with the good value, and is violated with the faulty one.
+        repaired: Another realisation holds.
+        simulations: Spent on repair.
+        localized: The cause is among the first three that the localization names.
+        preserved: Request and stated conditions are the same to the byte in every realisation.
+        steps: Of the escalation, as they were simulated.
+        seconds: Wall time of the repair, the first realisation not counted.
+        times: The same, in executions of the first realisation.
+    """
+
+    key: str
+    kind: str
+    status: str
+    showed: bool
+    repaired: bool = False
+    simulations: int = 0
+    localized: bool = False
+    preserved: bool = True
+    steps: tuple[str, ...] = ()
+    seconds: float = 0.0
+    times: float = 0.0
+
+
+@dataclass(kw_only=True)
+class RepairWork:
+    """Works off faults; sent to every worker.
+
+    Attributes:
+        map_name: Map of the runs.
+        budget: Co-simulations that repair may spend; None: as the command.
+    """
+
+    map_name: str = 'downtown'
+    budget: int | None = None
+
+    def prepare(self) -> None:
+        """Load what every run needs."""
+        import libsumo  # noqa: F401  (takes seconds; a run would wait for it)
+
+        installed().map(self.map_name)
+
+    def __call__(self, fault: Fault) -> Episode:
+        """Run one."""
+        known = installed()
+        if not self._holds(fault):
+            return Episode(key=fault.key, kind=fault.kind, status='no base', showed=False)
+        spec, cause = with_fault(known, fault, self.map_name)
+        request = RunRequest(
+            prompt=fault.prompt, map_name=self.map_name, seed=fault.seed, repair=self.budget
+        )
+        with tempfile.TemporaryDirectory(prefix='aurora_repair_') as name:
+            folder = RunFolder(Path(name), new_run_id(datetime.now(UTC), os.urandom(3)))
+            verdicts = _Verdicts()
+            report = run(
+                request,
+                WatchedStages(spec),
+                known,
+                folder,
+                RunControl(progress=verdicts.progress),
+                MonotonicClock(),
+                outputs=write_report,
+            )
+            return _episode(fault, cause, report, folder, verdicts)
+
+    def _holds(self, fault: Fault) -> bool:
+        """Tell whether the request holds with a good value: else the fault is not its cause."""
+        spec, _ = with_fault(installed(), fault, self.map_name, good=True)
+        request = RunRequest(
+            prompt=fault.prompt, map_name=self.map_name, seed=fault.seed, repair=0
+        )
+        with tempfile.TemporaryDirectory(prefix='aurora_repair_') as name:
+            report = run(
+                request,
+                WatchedStages(spec),
+                installed(),
+                RunFolder(Path(name), new_run_id(datetime.now(UTC), os.urandom(3))),
+                RunControl(),
+                MonotonicClock(),
+                outputs=write_report,
+            )
+        return report.trace is not None and report.trace.verdict is VerdictStatus.VERIFIED
+
+
+class _Verdicts:
+    """When the first realisation began and was judged, and when the run was reported."""
+
+    def __init__(self) -> None:
+        self.begin = time.perf_counter()
+        self.first = 0.0
+        self.end = 0.0
+
+    def progress(self, stage: str, _share: float, _sim_s: float) -> None:
+        """Take the time of a stage."""
+        now = time.perf_counter()
+        if stage == 'repair' and not self.first:
+            self.first = now
+        if stage == 'report':
+            self.end = now
+
+
+def _episode(
+    fault: Fault, cause: str, report: RunReport, folder: RunFolder, when: _Verdicts
+) -> Episode:
+    simulated = [repair for repair in report.repairs if repair.bag is not None]
+    named = report.repairs[0].implicated if report.repairs else ()
+    fields = tuple(dict.fromkeys(item.field for item in named))[:_FIRST]
+    holds = report.trace is not None and report.trace.verdict is VerdictStatus.VERIFIED
+    spent = max(0.0, when.end - when.first) if when.first else 0.0
+    return Episode(
+        key=fault.key,
+        kind=fault.kind,
+        status=report.status.value,
+        showed=bool(report.repairs),
+        repaired=bool(report.repairs) and holds,
+        simulations=len(simulated),
+        localized=cause in fields,
+        preserved=_preserved(folder, len(simulated) + 1),
+        steps=tuple(repair.kind for repair in simulated),
+        seconds=spent,
+        times=spent / (when.first - when.begin) if when.first else 0.0,
+    )
+
+
+def _preserved(folder: RunFolder, number: int) -> bool:
+    names = [StageFile.SPEC.name_at(k) for k in range(number)]
+    texts = {folder.file(name).read_bytes() for name in names if folder.file(name).exists()}
+    return len(texts) <= 1

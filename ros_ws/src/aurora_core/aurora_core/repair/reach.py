@@ -1,0 +1,89 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Evidence of geometry: values that keep a UAV out of the distance at which something happens.
+
+A distance counts the height. Who tracks a body is as far from it as altitude and standoff are
+together, whatever the road; so is who hovers over a place from what passes there.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import hypot, sqrt
+
+from aurora_core.outcomes.agsg import Agsg
+from aurora_core.outcomes.condition import Condition
+from aurora_core.spec.parameter import Parameter
+from aurora_core.spec.scenario import DistanceTrigger, Event, UavMission
+from aurora_core.spec.vocabulary import MissionMode
+
+# Passed, not touched: so much of the distance is aimed at.
+_INSIDE = 0.85
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Evidence:
+    """What geometry says of one parameter.
+
+    Attributes:
+        aim: A value with which it can come true, in the parameter's unit.
+        because: In English.
+    """
+
+    aim: float
+    because: str
+
+
+def out_of_reach(agsg: Agsg, condition: Condition) -> dict[str, Evidence]:
+    """Return what keeps a UAV too far away for the trigger that a condition is about, by path.
+
+    Args:
+        agsg: Grounded, as it was executed.
+        condition: Violated.
+    """
+    spec = agsg.realised_spec
+    event = next((e for e in spec.events if e.id == condition.arguments.event), None)
+    reach_m = None if event is None else _reach_m(event)
+    if event is None or reach_m is None:
+        return {}
+    trigger = event.trigger
+    assert isinstance(trigger, DistanceTrigger)  # it has a reach
+    found: dict[str, Evidence] = {}
+    for mission in spec.missions:
+        if mission.uav in (trigger.a, trigger.b):
+            found |= _of_mission(mission, reach_m)
+    return found
+
+
+def _reach_m(event: Event) -> float | None:
+    trigger = event.trigger
+    if not isinstance(trigger, DistanceTrigger) or trigger.on != 'distance_below':
+        return None
+    return trigger.value_m.value
+
+
+def _of_mission(mission: UavMission, reach_m: float) -> dict[str, Evidence]:
+    tracks = mission.mode is MissionMode.TRACK
+    height_m = mission.altitude_m.value
+    away_m = mission.standoff_m.value if tracks and mission.standoff_m is not None else 0.0
+    if hypot(height_m, away_m) <= reach_m:
+        return {}
+    inside_m = _INSIDE * reach_m
+    told = f'{hypot(height_m, away_m):.3g} m away it never comes within {reach_m:.3g} m'
+    path = f'missions/{mission.id}'
+    sides = [(f'{path}/altitude_m', mission.altitude_m, away_m)]
+    if tracks and mission.standoff_m is not None:
+        sides.append((f'{path}/standoff_m', mission.standoff_m, height_m))
+    return {
+        name: Evidence(aim=aim, because=told)
+        for name, parameter, other_m in sides
+        if (aim := _aim(parameter, other_m, inside_m)) is not None
+    }
+
+
+def _aim(parameter: Parameter, other_m: float, inside_m: float) -> float | None:
+    """Return the value that brings the distance inside, None when this one alone cannot."""
+    if other_m >= inside_m:
+        return None
+    aim = sqrt(inside_m * inside_m - other_m * other_m)
+    return aim if parameter.low <= aim < parameter.value else None

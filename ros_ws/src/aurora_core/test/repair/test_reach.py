@@ -1,0 +1,66 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from math import hypot
+
+import pytest
+
+from aurora_core.outcomes.agsg import Agsg
+from aurora_core.outcomes.parse import ParseOutcome
+from aurora_core.outcomes.repair import ValueEdit, with_values
+from aurora_core.pipeline.functions import ground_stage, parse_stage, understood
+from aurora_core.pipeline.knowledge import installed_knowledge
+from aurora_core.repair.reach import out_of_reach
+
+_KNOWN = installed_knowledge()
+PROMPT = (
+    'A drone tracks a van and alerts the ego car when the van comes within 40 meters of the drone.'
+)
+ALTITUDE, STANDOFF = 'missions/m1/altitude_m', 'missions/m1/standoff_m'
+
+
+def grounded(altitude_m: float, standoff_m: float) -> Agsg:
+    parsed = parse_stage(_KNOWN, PROMPT, 'downtown', 1)
+    assert parsed.spec is not None
+    assert parsed.agsg is not None
+    rows = {row.path: row for row in parsed.agsg.parameters}
+    wanted = {ALTITUDE: altitude_m, STANDOFF: standoff_m}
+    spec = with_values(
+        parsed.spec,
+        tuple(
+            ValueEdit(
+                path=path,
+                requested=rows[path].requested,
+                realised=value,
+                provenance=rows[path].provenance,
+            )
+            for path, value in wanted.items()
+        ),
+    )
+    graph = understood(_KNOWN, ParseOutcome(spec=spec)).agsg
+    assert graph is not None
+    found = ground_stage(_KNOWN, graph, 1).agsg
+    assert found is not None
+    return found
+
+
+def evidence(agsg: Agsg) -> dict[str, float]:
+    [within] = [c for c in agsg.conditions if c.id == 'e1.within']
+    return {path: found.aim for path, found in out_of_reach(agsg, within).items()}
+
+
+@pytest.mark.parametrize(
+    ('altitude_m', 'standoff_m', 'cause', 'other_m'),
+    [(80.0, 10.0, ALTITUDE, 10.0), (20.0, 70.0, STANDOFF, 20.0)],
+)
+def test_the_value_that_keeps_away_is_named_with_one_that_does_not(
+    altitude_m: float, standoff_m: float, cause: str, other_m: float
+) -> None:
+    found = evidence(grounded(altitude_m, standoff_m))
+    assert set(found) == {cause}
+    assert 30.0 < hypot(found[cause], other_m) < 40.0
+
+
+def test_nothing_is_named_where_it_is_near_enough() -> None:
+    assert evidence(grounded(20.0, 10.0)) == {}
