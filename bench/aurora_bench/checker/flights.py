@@ -104,6 +104,7 @@ def lawnmower(xy: FloatArray, size_m: Sequence[float]) -> tuple[Judged, FloatArr
     """Return whether an area of this size was flown over in parallel legs, and its centre."""
     long, short = max(size_m), min(size_m)
     best, centre, why = 0, None, 'no parallel legs'
+    nearest = np.inf
     for path in _parts(xy):
         found = _box(path)
         if found is None:
@@ -116,8 +117,9 @@ def lawnmower(xy: FloatArray, size_m: Sequence[float]) -> tuple[Judged, FloatArr
         sure = off <= 2.0 * limits.WAYPOINT_M
         maybe = a >= long - spacing - 6.0 and b >= short - spacing - 6.0 and off <= spacing + 6.0
         grade = 0 if legs < 3 else 2 if sure else 1 if maybe else 0
-        if grade > best or centre is None:
-            best, centre = grade, middle
+        # With a leg less and the way there the box may be as large, but lie elsewhere.
+        if grade > best or centre is None or (grade == best and off < nearest):
+            best, centre, nearest = grade, middle, off
             why = f'{legs} legs over {a:.1f} x {b:.1f} m (asked {long:g} x {short:g} m)'
     return graded(best == 2, best >= 1, why), centre
 

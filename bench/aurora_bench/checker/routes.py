@@ -12,6 +12,7 @@ import numpy as np
 from aurora_bench.checker import flights, limits
 from aurora_bench.checker.answers import (
     Judged,
+    Outcome,
     all_of,
     any_of,
     cannot_tell,
@@ -85,6 +86,8 @@ def _pattern(flight: Flight, requirement: Mapping[str, Any], xy: FloatArray) -> 
             parts.append(_over_body(flight, target, centre))
         elif places.is_region(target):
             parts.append(flights.over_road(xy, places))
+        elif centre is not None and judged.outcome is Outcome.CANNOT_TELL:
+            parts.append(cannot_tell('no clear pattern, so no clear centre'))
         elif centre is not None:
             parts.append(flights.centred(centre, places, target))
     return all_of(parts)

@@ -128,6 +128,11 @@ class Scene:
         rows = self.recording.uav[:, self.bodies[uav].row]
         return (rows[:, rec.UZ] > AIRBORNE_M) & (rows[:, rec.LANDED] < 0.5)
 
+    def powered(self, uav: str) -> BoolArray:
+        """Return (ticks,) whether a UAV is off the ground or reports that it is."""
+        rows = self.recording.uav[:, self.bodies[uav].row]
+        return np.asarray((rows[:, rec.UZ] > AIRBORNE_M) | (rows[:, rec.LANDED] < 0.5))
+
     def landed_s(self, uav: str) -> float | None:
         """Return when a UAV that has flown is on the ground for good; None when it is not."""
         airborne = np.flatnonzero(self.airborne(uav))

@@ -71,7 +71,8 @@ def _sees(
 ) -> BoolArray:
     free = np.linalg.norm(point - eye, axis=1) <= scene.sensing_range_m
     body = scene.bodies[observer]
-    if not body.is_uav and not body.is_person:
+    # A roadside unit has no driver who looks ahead.
+    if not body.is_uav and not body.is_person and body.type_name != 'rsu':
         forward = np.einsum('ij,ij->i', (point - eye)[:, :2], scene.heading(observer)[ticks])
         free &= forward >= 0.0
     rows = np.flatnonzero(free)

@@ -232,18 +232,26 @@ def _slows_from(case: Case, speed: FloatArray, end_s: float) -> float:
 def _battery(case: Case, trigger: Mapping[str, Any]) -> Fired:
     value = float(trigger.get('value', 0.0))
     level = value / 100.0 if value > 1.0 else value
-    found = [
-        instant
-        for uav in case.bodies(trigger.get('uav'))
-        for instant in edges(case, battery(case, uav) < level)
-    ]
+    found = []
+    for uav in case.bodies(trigger.get('uav')):
+        first = edges(case, battery(case, uav, from_power=True) < level)
+        # Take-off is where it is reported, or where the UAV has left the ground.
+        found += [
+            Instant(min(early.early_s, late.early_s), late.late_s)
+            for early, late in zip(first, edges(case, battery(case, uav) < level), strict=False)
+        ]
     return Fired(_sorted(found), why=f'battery below {level:.0%}')
 
 
-def battery(case: Case, uav: str) -> FloatArray:
-    """Return (ticks,) the share left: full at take-off, empty at the endurance."""
+def battery(case: Case, uav: str, *, from_power: bool = False) -> FloatArray:
+    """Return (ticks,) the share left: full at take-off, empty at the endurance.
+
+    Args:
+        from_power: Count from where a UAV reports that it has taken off, before it is up.
+    """
     scene = case.scene
-    flown = np.cumsum(scene.airborne(uav)) * scene.dt_s
+    flies = scene.powered(uav) if from_power else scene.airborne(uav)
+    flown = np.cumsum(flies) * scene.dt_s
     return np.asarray(1.0 - flown / scene.limit('uav_endurance_s'))
 
 

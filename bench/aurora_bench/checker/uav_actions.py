@@ -50,7 +50,9 @@ def send(case: Case, action: Mapping[str, Any], window: Window) -> Acted:
         parts.append(part.judged)
         starts += [part.start_s] if part.start_s is not None else []
         ends += [part.done_s] if part.done_s is not None else []
-    return Acted(all_of(parts), min(starts, default=None), max(ends, default=None))
+    # "After it has warned": once the message is out, or once it has arrived.
+    sent = max(starts, default=None)
+    return Acted(all_of(parts), min(starts, default=None), max(ends, default=None), sent)
 
 
 def _send_to(case: Case, senders: tuple[str, ...], receiver: str, window: Window) -> Acted:

@@ -27,7 +27,7 @@ from aurora_bench.prompts.format import (
     stated_fields,
 )
 from aurora_core.spec.parameter import Parameter
-from aurora_core.spec.scenario import ScenarioSpec, UavMission
+from aurora_core.spec.scenario import Link, ScenarioSpec, UavMission
 
 Fields = dict[str, bool]
 
@@ -206,17 +206,26 @@ def size_counts(
 
 def link_fields(r: LinkRequirement, subject: Subject, rule: NumberRule) -> Fields:
     """Compare a link with the links of the specification."""
-    numbers = _numbers(r, 'loss', 'latency_s', 'range_m', 'retransmissions')
+    numbers = _numbers(r, 'loss', 'latency_s', 'range_m', 'retransmissions', 'rate_hz')
+    outage = _numbers(r, 'outage_s')
+
+    def compare(link: Link) -> Fields:
+        fields = {
+            'sender': subject.binding.means(r.sender, link.sender),
+            'receiver': subject.binding.means(r.receiver, link.receiver),
+            **{n: rule.counts(n, getattr(r, n), getattr(link, n)) for n in numbers},
+        }
+        if r.outage_s is not None:
+            ends = link.outage_s or (None, None)
+            fields['outage_s'] = all(
+                rule.counts(f'outage_s.{k}', wanted, ends[k])
+                for k, wanted in enumerate(r.outage_s)
+            )
+        return fields
+
     return best(
-        (
-            {
-                'sender': subject.binding.means(r.sender, link.sender),
-                'receiver': subject.binding.means(r.receiver, link.receiver),
-                **{n: rule.counts(n, getattr(r, n), getattr(link, n)) for n in numbers},
-            }
-            for link in subject.spec.links
-        ),
-        ['sender', 'receiver', *numbers],
+        (compare(link) for link in subject.spec.links),
+        ['sender', 'receiver', *numbers, *outage],
     )
 
 
@@ -250,7 +259,10 @@ _READ: dict[str, frozenset[str]] = {
     'mission': frozenset(
         {'ref', 'uav', 'mode', 'target', 'pattern', 'side', 'size_m', *_MISSION_NUMBERS}
     ),
-    'link': frozenset({'sender', 'receiver', 'loss', 'latency_s', 'range_m', 'retransmissions'}),
+    'link': frozenset(
+        {'sender', 'receiver', 'loss', 'latency_s', 'range_m', 'retransmissions', 'rate_hz'}
+        | {'outage_s'}
+    ),
     'event': frozenset({'ref', 'trigger', 'action'}),
     'count': frozenset({'type', 'of', 'value', 'scope'}),
     'order': frozenset({'first', 'then', 'within_s'}),

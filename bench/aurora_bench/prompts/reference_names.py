@@ -22,7 +22,11 @@ class NotExpressibleError(ValueError):
 
 
 class Names:
-    """Which ids stand for a local name: one for a body, several for a group."""
+    """Which ids stand for a local name: one for a body, several for a group.
+
+    Attributes:
+        undeclared_rsu: Somebody sends to `rsu`, of which no requirement says that there is one.
+    """
 
     def __init__(self, requirements: Sequence[Requirement]) -> None:
         """Give ids to everything that the requirements declare.
@@ -41,6 +45,10 @@ class Names:
                 (self.agents if isinstance(r, AgentRequirement) else self.uavs).extend(ids)
                 if isinstance(r, AgentRequirement) and r.type is AgentType.RSU:
                     self._bodies.setdefault('rsu', ids)
+        self.undeclared_rsu = 'rsu' not in self._bodies and any(map(_names_rsu, requirements))
+        if self.undeclared_rsu:
+            self._bodies['rsu'] = ('rsu',)
+            self.agents.append('rsu')
         self.egos = [
             i
             for r in requirements
@@ -102,6 +110,15 @@ class Names:
         if ref not in self.moments:
             raise NotExpressibleError(f'{ref!r} is no event and no mission of this reading')
         return id_of(ref)
+
+
+def _names_rsu(r: Requirement) -> bool:
+    """Tell whether a requirement speaks of the roadside unit, which the format lets it name."""
+    parts = (r, getattr(r, 'trigger', None), getattr(r, 'action', None))
+    names = ('sender', 'receiver', 'a', 'b', 'observer', 'target', 'by', 'from_')
+    named = {getattr(part, name, None) for part in parts for name in names}
+    of = getattr(r, 'of', None)
+    return 'rsu' in named or (isinstance(of, tuple) and 'rsu' in of)
 
 
 def id_of(ref: str) -> str:

@@ -185,7 +185,11 @@ def mission(
 
 def link(r: LinkRequirement, ident: str, names: Names, numbers: Numbers) -> Doc:
     """Return a link."""
-    given = numbers.of(r, ('loss', 'latency_s', 'range_m', 'retransmissions'))
+    given = numbers.of(r, ('loss', 'latency_s', 'range_m', 'retransmissions', 'rate_hz'))
+    if r.outage_s is not None:
+        given['outage_s'] = [
+            numbers.stated(f'outage_s.{k}', v, 's') for k, v in enumerate(r.outage_s)
+        ]
     return default_link(ident, names.body(r.sender), names.body(r.receiver)) | given
 
 
@@ -213,7 +217,9 @@ def _trigger(t: Trigger, names: Names, numbers: Numbers) -> Doc:
         found |= {'a': names.body(t.a), 'b': names.one(t.b) or names.agent(None)}
         found['value_m'] = default('value_m')
     elif t.on in ('visible', 'occluded'):
-        found |= {'observer': names.uav(t.observer)}
+        # Nobody named: the UAV that looks down.
+        observer = names.uav(None) if t.observer is None else names.body(t.observer)
+        found |= {'observer': observer}
         found['target'] = names.one(t.target) or names.agent(None)
     elif t.on == 'altitude_reached':
         found |= {'uav': names.uav(t.uav), 'value_m': default('altitude_m')}
@@ -227,6 +233,9 @@ def _trigger(t: Trigger, names: Names, numbers: Numbers) -> Doc:
         found |= {'who': names.body(t.who), 'value_mps': default('value_mps')}
     elif t.on == 'event_done':
         found['event'] = names.moment(t.event or '')
+    elif t.on == 'battery_below':
+        found['uav'] = names.uav(t.uav)
+        found['value'] = numbers.stated('trigger.value', 0.5 if t.value is None else t.value, '1')
     elif t.on == 'mission_done':
         found['uav'] = names.uav(t.uav)
     elif t.on == 'time':

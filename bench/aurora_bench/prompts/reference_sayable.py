@@ -15,7 +15,6 @@ from aurora_bench.prompts.format import (
     ConditionRequirement,
     CountRequirement,
     EventRequirement,
-    LinkRequirement,
     MissionRequirement,
     Requirement,
     stated_fields,
@@ -25,9 +24,6 @@ from aurora_core.spec.requirements import STATED_QUANTITIES
 from aurora_core.spec.vocabulary import Pattern
 
 _OF_A_FLIGHT = ('start', 'end', 'avoid', 'avoid_m')
-_OF_A_LINK = ('outage_s', 'rate_hz')
-_TRIGGERS = frozenset({'battery_below'})
-_ACTIONS = frozenset({'hand_over'})
 
 
 def check_sayable(r: Requirement) -> None:
@@ -46,17 +42,11 @@ def _unsayable(r: Requirement) -> Iterator[str]:
         yield 'count of what has a name'
     elif isinstance(r, MissionRequirement):
         yield from (f'mission {what}' for what in _of_flight(r))
-    elif isinstance(r, LinkRequirement):
-        yield from (f'link {name}' for name in _OF_A_LINK if name in stated_fields(r))
     elif isinstance(r, ConditionRequirement) and r.quantity not in STATED_QUANTITIES:
         yield f'condition {r.quantity}'
     elif isinstance(r, EventRequirement):
         if r.once is False:
             yield 'event once'
-        if r.trigger is not None and r.trigger.on in _TRIGGERS:
-            yield f'trigger {r.trigger.on}'
-        if r.action is not None and r.action.do in _ACTIONS:
-            yield f'action {r.action.do}'
         if r.action is not None:
             yield from (f'action {what}' for what in _of_flight(r.action))
 

@@ -21,6 +21,7 @@ from pydantic import ValidationError
 
 from aurora_bench.prompts.documents import Doc, read_documents, write_documents
 from aurora_bench.prompts.format import (
+    Action,
     AgentRequirement,
     AnnotatedPrompt,
     EventRequirement,
@@ -44,6 +45,7 @@ from aurora_bench.prompts.reference_sayable import check_sayable
 from aurora_bench.prompts.reference_spans import StatedSpans
 from aurora_core.spec.parameter import unit_of
 from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.spec.vocabulary import AgentType
 
 _MOST_READINGS = 64
 # Fields of the world that are numbers.
@@ -89,6 +91,7 @@ class _Builder:
         self._requirements = requirements
         self._names = Names(requirements)
         self._agents: dict[str, Doc] = {}
+        self._taken_over: list[Doc] = []
         self._spec: Doc = {
             'prompt': prompt.prompt, 'world': {}, 'uavs': [], 'missions': [], 'links': [],
             'events': [], 'conditions': [], 'orders': [], 'counts': [], 'prohibitions': [],
@@ -100,11 +103,16 @@ class _Builder:
             check_sayable(r)
             if isinstance(r, AgentRequirement | UavRequirement):
                 self._body(r)
+        if self._names.undeclared_rsu:
+            lists: Doc = {'placements': [], 'behaviors': []}
+            self._agents['rsu'] = {'id': 'rsu', 'type': AgentType.RSU, **lists}
         for r in self._requirements:
             if r.negate:
                 self._prohibit(r)
             else:
                 self._add(r)
+        # What a UAV takes over comes after what it does until then.
+        self._spec['missions'] += self._taken_over
         self._link_messages()
         document = {**self._spec, 'agents': list(self._agents.values())}
         return document if self._spans is None else document | {'clauses': [self._clause()]}
@@ -167,6 +175,8 @@ class _Builder:
                 self._spec['missions'].append(mission(r, ident, uav, names, numbers))
         elif r.kind == 'link':
             self._spec['links'].append(link(r, self._new('link'), names, numbers))
+        elif r.kind == 'event' and r.action is not None and r.action.do == 'hand_over':
+            self._hand_over(r, r.action, numbers)
         elif r.kind == 'event':
             found = event(r, names, numbers)
             self._spec['events'] += [found, *self._for_the_others(r, found)]
@@ -186,6 +196,27 @@ class _Builder:
         elif r.kind == 'condition':
             found = condition(r, self._new('condition'), names, numbers)
             self._spec['conditions'].append(found)
+
+    def _hand_over(self, r: EventRequirement, action: Action, numbers: Numbers) -> None:
+        """Let the other UAV track what the first one tracks, which then lands."""
+        names = self._names
+        tracks = [
+            m
+            for m in self._requirements
+            if m.kind == 'mission' and m.mode == 'track' and m.uav == action.uav
+        ]
+        if not tracks or action.to is None:
+            raise NotExpressibleError('a hand-over of what nobody tracks')
+        ident = id_of(r.ref)
+        over = action.model_copy(
+            update={'do': 'change_mission', 'uav': action.to, 'target': tracks[-1].target}
+        )
+        leaves: Doc = {'do': 'land', 'uav': names.uav(action.uav)}
+        found = event(r.model_copy(update={'action': over}), names, numbers)
+        done = {'on': 'event_done', 'event': ident}
+        self._spec['events'] += [found, {'id': f'{ident}_left', 'trigger': done, 'action': leaves}]
+        uav = found['action']['uav']
+        self._taken_over.append(mission(over, found['action']['mission'], uav, names, numbers))
 
     def _for_the_others(self, r: EventRequirement, first: Doc) -> Iterator[Doc]:
         """Yield the event of each further member of a group that acts."""

@@ -140,7 +140,20 @@ def test_an_extension_is_valid_and_a_wrong_one_is_named(
 
 # What the specification has learnt to say since.
 SAYABLE = frozenset(
-    {'count-of-type', 'beyond', 'side', 'turns', 'wind', 'wind-from', 'wind-speed'}
+    {
+        'count-of-type',
+        'beyond',
+        'side',
+        'turns',
+        'wind',
+        'wind-from',
+        'wind-speed',
+        'outage',
+        'rate',
+        'battery-left',
+        'clearance',
+        'battery',
+    }
 )
 UNSAYABLE = [(name, good) for name, good, *_ in EXTENSIONS if name not in SAYABLE]
 

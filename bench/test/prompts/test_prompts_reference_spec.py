@@ -129,12 +129,12 @@ def test_the_first_reading_that_can_be_said_is_taken() -> None:
 
 
 def test_what_cannot_be_said_is_told() -> None:
-    sees = {
+    up = {
         'id': 'r7', 'kind': 'event', 'ref': 'e1',
-        'trigger': {'on': 'visible', 'observer': 'car1', 'target': 'uav1'},
+        'trigger': {'on': 'altitude_reached', 'uav': 'car1', 'value_m': 20},
     }  # fmt: skip
     with pytest.raises(NotExpressibleError, match="'car1' is no UAV"):
-        reference_spec(prompt(CAR, UAV, sees))
+        reference_spec(prompt(CAR, UAV, up))
     refusal = {'id': 'r1', 'kind': 'reject', 'because': 'count'}
     with pytest.raises(NotExpressibleError, match='refusal'):
         reference_spec(prompt(refusal, category='infeasible', feasibility='infeasible'))

@@ -3,7 +3,8 @@
 """The message link: each transmission may be lost; what passes arrives after the latency.
 
 A message is sent, and while it is lost it is sent again after the retransmission interval until
-no retransmission is left. Loss has two causes: the seeded draw, and distance beyond the range.
+no retransmission is left. Loss has two causes: the seeded draw, and distance beyond the range,
+which is none during an outage.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from math import ceil
 import numpy as np
 
 from aurora_core.ports.random_streams import stream
+from aurora_core.quantities.ledger import is_out
 from aurora_core.trace.records import LinkEventKind, LinkRecord, LossReason
 
 
@@ -29,6 +31,8 @@ class LinkSettings:
         interval_s: Between transmissions.
         range_sight_m: Range with line of sight (3-D).
         range_blocked_m: Range without.
+        outage_s: From when to when the link reaches nowhere; None: it always does.
+        rate_hz: Reports that the sender sends by itself, per second; None: none.
     """
 
     link_id: str
@@ -40,6 +44,8 @@ class LinkSettings:
     interval_s: float
     range_sight_m: float
     range_blocked_m: float
+    outage_s: tuple[float, float] | None = None
+    rate_hz: float | None = None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -132,7 +138,7 @@ class MessageLink:
         # stream aligned when a repair moves a body in or out of range.
         lost_by_chance = bool(self._generator.random() < self._loss_at(tick))
         reason = LossReason.NONE
-        if path.distance_m > reach:
+        if path.distance_m > reach or is_out(self.settings.outage_s, tick, self._dt):
             reason = LossReason.RANGE
         elif lost_by_chance:
             reason = LossReason.RANDOM

@@ -81,7 +81,11 @@ def event_conditions(inputs: Inputs) -> Iterator[Condition | Underivable]:
             yield from _alert(inputs, event, action, source)
             yield from _message(inputs, event, link)
     for link in inputs.spec.links:
-        if link.id not in used:
+        if link.id in used:
+            continue
+        if link.rate_hz is not None:
+            yield from link_conditions(inputs, link)
+        else:
             yield Underivable(element=link.id, what='a link without a message', span=link.span)
 
 

@@ -7,7 +7,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from aurora_core.judging.build import Inputs
-from aurora_core.judging.quantities import attempts, delivery_ratio, link_range
+from aurora_core.judging.quantities import (
+    attempts,
+    delivery_latency,
+    delivery_ratio,
+    link_range,
+    outage,
+    report_gap,
+)
 from aurora_core.outcomes.condition import Condition
 from aurora_core.spec.parameter import Provenance
 from aurora_core.spec.scenario import Link, MessageTrigger, ScenarioSpec
@@ -45,6 +52,12 @@ def link_conditions(inputs: Inputs, link: Link) -> Iterator[Condition]:
         yield delivery_ratio.of_messages(inputs, link)
     elif link.loss.provenance is Provenance.EXPLICIT:
         yield delivery_ratio.of_attempts(inputs, link)
+    if link.outage_s is not None:
+        yield outage.implied(inputs, link, link.outage_s)
+    if link.rate_hz is not None:
+        yield report_gap.implied(inputs, link, link.rate_hz)
+        if link.latency_s.provenance is Provenance.EXPLICIT:
+            yield delivery_latency.implied(inputs, None, link)
     if link.range_m is not None and link.range_m.provenance is Provenance.EXPLICIT:
         yield link_range.implied(inputs, link, link.range_m)
     if link.retransmissions.provenance is Provenance.EXPLICIT:

@@ -22,6 +22,8 @@ from aurora_core.conditions.stated_values import (
 from aurora_core.judging.build import Inputs, Target, Underivable, condition, number
 from aurora_core.judging.mission import mission_arguments
 from aurora_core.judging.quantities.altitude import Altitude
+from aurora_core.judging.quantities.battery import Battery
+from aurora_core.judging.quantities.clearance import Clearance
 from aurora_core.judging.quantities.distance import Distance
 from aurora_core.judging.quantities.event_time import EventTime
 from aurora_core.judging.quantities.horizontal_distance import HorizontalDistance
@@ -31,7 +33,7 @@ from aurora_core.judging.quantities.speed import Speed
 from aurora_core.judging.quantities.tracked_fraction import TrackedFraction
 from aurora_core.judging.quantities.visible_fraction import VisibleFraction
 from aurora_core.judging.quantities.visible_time import VisibleTime
-from aurora_core.judging.quantity import OfMission, PerSample
+from aurora_core.judging.quantity import OfMission, OfSight, PerSample
 from aurora_core.judging.series import StatedSeries
 from aurora_core.outcomes.condition import Condition, MissionArguments, Window
 from aurora_core.spec.parameter import Bound
@@ -45,9 +47,13 @@ _SERIES: dict[str, tuple[type[StatedSeries], int]] = {
     'separation': (Separation, 2),
     'altitude': (Altitude, 1),
     'speed': (Speed, 1),
+    'clearance': (Clearance, 2),
+    'battery': (Battery, 1),
 }
+# Of these what is asked holds from take-off to touchdown, not in the missions alone.
+_IN_THE_AIR = frozenset({'clearance', 'battery'})
 # Quantities that are about mission phases, of one mode only where the third entry says so.
-_PHASES: dict[str, tuple[type[OfMission], int, MissionMode | None]] = {
+_PHASES: dict[str, tuple[type[OfMission] | type[OfSight], int, MissionMode | None]] = {
     'tracked_fraction': (TrackedFraction, 2, MissionMode.TRACK),
     'visible_fraction': (VisibleFraction, 2, None),
     'visible_time': (VisibleTime, 2, None),
@@ -56,6 +62,7 @@ _PHASES: dict[str, tuple[type[OfMission], int, MissionMode | None]] = {
 # What a place has, too.
 _OF_PLACES = frozenset(
     {'distance', 'horizontal_distance', 'tracked_fraction', 'visible_fraction', 'visible_time'}
+    | {'clearance'}
 )
 _BOUNDS = {'>=': Bound.AT_LEAST, '>': Bound.AT_LEAST, '<=': Bound.AT_MOST, '<': Bound.AT_MOST}
 
@@ -101,6 +108,8 @@ def _bodies(inputs: Inputs, stated: StatedCondition, count: int) -> tuple[str, .
     if len(set(of)) != len(of) or (len(of) != count and not group):
         raise _unknown(stated)
     known = {a.id for a in inputs.spec.agents} | {u.id for u in inputs.spec.uavs}
+    if stated.quantity in _IN_THE_AIR and of[0] not in {u.id for u in inputs.spec.uavs}:
+        raise _unknown(stated)
     for name in of:
         if name not in known and not (is_place(name) and stated.quantity in _OF_PLACES):
             raise _unknown(stated)
@@ -117,6 +126,8 @@ class _When:
 
 
 def _when(inputs: Inputs, stated: StatedCondition, missions: tuple[UavMission, ...]) -> _When:
+    if stated.quantity in _IN_THE_AIR:
+        return _When(window=Window.AIRBORNE)
     flown = tuple(mission_arguments(inputs, mission) for mission in missions)
     if len(flown) == 1:
         return _When(window=Window.PHASE, mission=flown[0])
@@ -214,7 +225,7 @@ class _AboutMissions(TypedDict):
     horizon_s: float
     touchdown_m: float
     window: Window
-    mission: MissionArguments
+    mission: MissionArguments | None
     missions: tuple[MissionArguments, ...]
 
 
@@ -223,10 +234,14 @@ def _phases(inputs: Inputs, stated: StatedCondition) -> Iterator[Condition]:
     kind, count, mode = _PHASES[stated.quantity]
     of = _bodies(inputs, stated, count)
     missions = missions_of(inputs, stated, mode)
-    if not missions:
+    looks = issubclass(kind, OfSight) and of[0] in {agent.id for agent in inputs.spec.agents}
+    if not missions and not looks:
         raise CannotSayError(f'{stated.quantity} without a mission of {", ".join(stated.of)}')
     if kind is VisibleTime:
         only(stated, 'hold_s')
+        parts = [(f'{stated.id}.holds', missions)]
+    elif not missions:
+        only(stated)
         parts = [(f'{stated.id}.holds', missions)]
     else:
         only(stated)
@@ -235,22 +250,24 @@ def _phases(inputs: Inputs, stated: StatedCondition) -> Iterator[Condition]:
             parts = [(f'{stated.id}.holds', missions)]
     for name, group in parts:
         when = _when(inputs, stated, group)
-        assert when.mission is not None  # there is one
         about: _AboutMissions = {
             **inputs.common,
             'window': when.window,
             'mission': when.mission,
             'missions': when.missions,
         }
+        arguments: OfMission | OfSight
+        if kind is VisibleTime:
+            # With a stretch it is the longest one without a gap that counts.
+            arguments = VisibleTime(**about, unbroken=stated.hold_s is not None)
+        else:
+            arguments = kind.model_validate(about)
         yield condition(
             id=name,
             sentence=sentence_of(stated),
             of=of,
             target=_stretched(target_of(inputs.tolerances, stated), stated),
-            # With a stretch it is the longest one without a gap that counts.
-            arguments=VisibleTime(**about, unbroken=stated.hold_s is not None)
-            if kind is VisibleTime
-            else kind(**about),
+            arguments=arguments,
             source=source_of(stated),
             every_sample=kind is HoverDrift,
         )

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from aurora_core.comm.link import MessageLink, whole_ticks
 from aurora_core.execution.lane_changer import LaneChanger
 from aurora_core.execution.observe import Observation
-from aurora_core.execution.triggers import Progress, holds
+from aurora_core.execution.triggers import BatteryRule, Progress, holds
 from aurora_core.execution.yielding import Yielding
 from aurora_core.geometry.kernel import norm2
 from aurora_core.mission.machine import MissionMachine
@@ -99,6 +99,7 @@ class EventRunner:
         roster: Row order.
         links: Message links.
         arrival_m: An agent this close to a place is there.
+        battery: What its level is counted by.
         rules: When the actions of ground agents are complete.
         lanes: Orders changes of lane.
         set_off: Gives the commands that let the agent of a row drive.
@@ -112,6 +113,7 @@ class EventRunner:
         roster: Roster,
         links: Sequence[MessageLink],
         arrival_m: float,
+        battery: BatteryRule,
         rules: ActionRules,
         lanes: LaneChanger,
         set_off: Callable[[int], list[GroundCommand]],
@@ -138,13 +140,19 @@ class EventRunner:
             e.id: {o.first for o in spec.orders if o.then == e.id and o.first in ids}
             for e in events
         }
-        self._progress = Progress(arrival_m=arrival_m)
+        self._touchdown_m = battery.touchdown_m
+        self._progress = Progress(arrival_m=arrival_m, endurance_s=battery.endurance_s)
         self._messages = 0
 
     @property
     def done(self) -> bool:
         """Whether every event has happened."""
         return all(s.done for s in self._states)
+
+    def next_message(self) -> int:
+        """Return the number of the next message of the run."""
+        self._messages += 1
+        return self._messages
 
     def received(self, receiver: str, sender: str) -> None:
         """Note a delivered message."""
@@ -186,6 +194,9 @@ class EventRunner:
                 self._progress.looking.add(machine.plan.id)
             if machine.missions_done:
                 self._progress.missions_done.add(machine.plan.id)
+            if seen.airborne(machine.plan.id, self._touchdown_m):
+                flown = self._progress.airborne_ticks
+                flown[machine.plan.id] = flown.get(machine.plan.id, 0) + 1
         commands = [self._drive(row) for row in self._yielding.passed(seen)]
         for state in self._states:
             if state.done:
@@ -343,8 +354,7 @@ class EventRunner:
             for link in self._links:
                 pair = (link.settings.sender, link.settings.receiver)
                 if pair == (action.sender, action.receiver):
-                    self._messages += 1
-                    link.send(tick, self._messages, event.id)
+                    link.send(tick, self.next_message(), event.id)
                     break
             return []
         if isinstance(action, UavAction):

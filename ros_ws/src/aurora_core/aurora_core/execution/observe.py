@@ -12,7 +12,7 @@ from aurora_core.mission.machine import TargetMotion
 from aurora_core.quantities import instant
 from aurora_core.quantities.instant_sight import InstantSight
 from aurora_core.quantities.world_geometry import WorldGeometry
-from aurora_core.trace.layout import GroundColumn
+from aurora_core.trace.layout import GroundColumn, UavColumn
 from aurora_core.trace.roster import Roster
 
 FloatArray = npt.NDArray[np.float64]
@@ -104,11 +104,21 @@ class Observation:
         return instant.radio_sight(self._geometry, self._roster, self._ground, self._uav, a, b)
 
     def sight(self, observer: str, target: str) -> tuple[bool, float]:
-        """Return whether a UAV sees a target, and the slant range to its sight point in metres."""
-        index = self._roster.uav_index(observer)
-        assert index is not None
-        return self._sight.see(self._uav[index], target, self._ground)
+        """Return whether a body sees a target, and the slant range to that in metres."""
+        return self._sight.see(observer, target, self._ground, self._uav)
+
+    def airborne(self, uav: str, touchdown_m: float) -> bool:
+        """Tell whether a UAV is in the air, as `motion.airborne` does."""
+        index = self._roster.uav_index(uav)
+        if index is None:
+            return False
+        row = self._uav[index]
+        return bool(row[UavColumn.LANDED] < 0.5 or row[UavColumn.Z] > touchdown_m)
+
+    def flies(self, name: str) -> bool:
+        """Tell whether a body is a UAV."""
+        return self._roster.uav_index(name) is not None
 
     def visible(self, observer: str, target: str) -> bool:
-        """Whether a UAV sees a target: present, in range and in sight."""
+        """Whether a body sees a target: present, in range and in sight."""
         return self.sight(observer, target)[0]

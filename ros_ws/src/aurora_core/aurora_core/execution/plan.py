@@ -15,6 +15,7 @@ from aurora_core.execution.faults import Fault, in_order
 from aurora_core.execution.map_parts import MapParts, map_parts
 from aurora_core.execution.scenario_executor import ExecutionSetup, ScenarioExecutor
 from aurora_core.execution.step_output import Stepper
+from aurora_core.execution.triggers import BatteryRule
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.grounding.places import place_positions
 from aurora_core.knowledge.config_files import config_path
@@ -184,10 +185,13 @@ def build_stepper(
                 for plan in plans_with_events(spec, grounded.uavs, undone_events(spec, grounded))
             ),
             links=tuple(_link(link, limits, dt_s, seed, acting) for link in spec.links),
-            airspace=airspace,
+            airspace=airspace.keeping_out(grounded.keep_out),
             geometry=geometry,
             landing_clearance_m=limits.clearance_min_m + 1.0,
             arrival_m=tolerances.arrival_m,
+            battery=BatteryRule(
+                endurance_s=limits.uav_endurance_s, touchdown_m=tolerances.touchdown_height_m
+            ),
             action_rules=action_rules(tolerances),
             horizon_ticks=round(schedule.horizon_s / dt_s),
             stated_horizon=schedule.stated_horizon,
@@ -399,6 +403,8 @@ def _link(
             interval_s=link.retransmission_interval_s.value,
             range_sight_m=limits.link_range_sight_m if stated is None else stated,
             range_blocked_m=limits.link_range_blocked_m if stated is None else stated,
+            outage_s=link.outage,
+            rate_hz=None if link.rate_hz is None else link.rate_hz.value,
         ),
         dt_s,
         link_stream(seed, link.id),

@@ -23,7 +23,9 @@ from aurora_core.execution.lane_changer import LaneChanger
 from aurora_core.execution.observe import Observation
 from aurora_core.execution.overtaker import Overtaker
 from aurora_core.execution.premises import Premises
+from aurora_core.execution.reports import Reports
 from aurora_core.execution.step_output import StepOutput
+from aurora_core.execution.triggers import BatteryRule
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.mission.machine import MissionMachine
 from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
@@ -59,6 +61,7 @@ class ExecutionSetup:
     Attributes:
         geometry: Solids and places of the world, the same that the monitor judges with.
         arrival_m: An agent this close to a place is there.
+        battery: What the level of a UAV's battery is counted by.
         action_rules: When the actions of ground agents are complete.
         landing_clearance_m: The way to a landing spot keeps this clearance.
         earliest_end_ticks: Runs with an inferred horizon do not end before.
@@ -74,6 +77,7 @@ class ExecutionSetup:
     geometry: WorldGeometry
     landing_clearance_m: float
     arrival_m: float
+    battery: BatteryRule
     action_rules: ActionRules
     horizon_ticks: int
     stated_horizon: bool
@@ -98,6 +102,7 @@ class ScenarioExecutor:
         self._phases = [int(UavPhase.IDLE)] * len(setup.machines)
         self._seen: dict[tuple[str, str], bool] = {}
         self._runner = self._run_events(EventRunner)
+        self._reports = Reports(setup.links, setup.roster.dt_s, self._runner.next_message)
         self._premises = Premises(setup.spec, setup.roster)
         self._overtaker = Overtaker(setup.spec, setup.roster, self._lanes())
         self._follower = Follower(setup.spec, setup.roster, self._lanes(), self._drives)
@@ -123,6 +128,7 @@ class ScenarioExecutor:
         commands += self._overtaker.step(seen)
         commands += self._follower.step(tick, seen, self._held)
         commands += self._runner.step(tick, s.roster.dt_s, seen, s.machines, self.note)
+        self._reports.step(tick, s.machines)
         links = self._step_links(tick, seen)
         sights = self._sights(tick, seen)
         outcome = self._outcome(tick)
@@ -159,6 +165,7 @@ class ScenarioExecutor:
             s.roster,
             s.links,
             s.arrival_m,
+            s.battery,
             s.action_rules,
             self._lanes(),
             self._set_off,

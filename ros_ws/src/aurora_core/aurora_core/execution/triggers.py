@@ -5,13 +5,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from math import inf
 
 from aurora_core.execution.observe import Observation
 from aurora_core.quantities.actions import CLIMBED_M
+from aurora_core.quantities.motion import battery
 from aurora_core.quantities.triggers import NEEDS_CHANGE
 from aurora_core.spec.scenario import (
     AltitudeTrigger,
     ArrivalTrigger,
+    BatteryTrigger,
     DistanceTrigger,
     Event,
     EventDoneTrigger,
@@ -23,11 +26,26 @@ from aurora_core.spec.scenario import (
 )
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BatteryRule:
+    """What the level of a battery is counted by.
+
+    Attributes:
+        endurance_s: For how long a full one lasts in the air.
+        touchdown_m: Height below which a UAV that reports landed is down.
+    """
+
+    endurance_s: float
+    touchdown_m: float
+
+
 @dataclass(slots=True)
 class Progress:
     """What has happened so far, for triggers that follow other events."""
 
     arrival_m: float  # an agent this close to a place is there
+    endurance_s: float = inf  # of a full battery
+    airborne_ticks: dict[str, int] = field(default_factory=dict)  # by UAV id
     done_tick: dict[str, int] = field(default_factory=dict)
     received: set[tuple[str, str]] = field(default_factory=set)  # (receiver, sender)
     missions_done: set[str] = field(default_factory=set)  # UAV ids
@@ -55,9 +73,12 @@ def holds(
             receiver == trigger.by and trigger.sender in (None, sender)
             for receiver, sender in progress.received
         )
+    if isinstance(trigger, BatteryTrigger):
+        flown = float(progress.airborne_ticks.get(trigger.uav, 0))
+        return battery(flown, dt_s, progress.endurance_s) < trigger.value.value
     now = _state_holds(trigger, observation, progress)
-    # Only what was seen can be lost from sight.
-    looks = not isinstance(trigger, VisibilityTrigger) or trigger.observer in progress.looking
+    # Only who looks can lose sight.
+    looks = not isinstance(trigger, VisibilityTrigger) or _looks(trigger, observation, progress)
     if not now and looks:
         progress.was_false.add(event.id)
     # Getting far, getting slow and losing sight are changes: what held from the start is none.
@@ -89,7 +110,12 @@ def _state_holds(
     if isinstance(trigger, ArrivalTrigger):
         distance = observation.distance_m(trigger.who, trigger.place)
         return distance is not None and distance <= progress.arrival_m
-    if trigger.observer not in progress.looking:
+    if not _looks(trigger, observation, progress):
         return False
     seen = observation.visible(trigger.observer, trigger.target)
     return seen if trigger.on == 'visible' else not seen
+
+
+def _looks(trigger: VisibilityTrigger, observation: Observation, progress: Progress) -> bool:
+    """Tell whether an observer looks out: on the ground all along, a UAV once it is up."""
+    return trigger.observer in progress.looking or not observation.flies(trigger.observer)

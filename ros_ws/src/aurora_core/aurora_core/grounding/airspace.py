@@ -15,8 +15,12 @@ from aurora_core.geometry.obstacles import ObstacleField
 from aurora_core.geometry.prism import Prism
 from aurora_core.geometry.sight import SightModel
 from aurora_core.knowledge.map_types import Building, NoFlyZone
+from aurora_core.outcomes.grounded import Ring
 
 FloatArray = npt.NDArray[np.float64]
+
+# Nothing flies as high (m).
+_UNLIMITED_M = 1e4
 
 
 def building_prisms(buildings: Sequence[Building]) -> tuple[Prism, ...]:
@@ -56,11 +60,29 @@ class Airspace:
     """
 
     def __init__(self, buildings: Sequence[Building], zones: Sequence[NoFlyZone]) -> None:
+        self._solids = (tuple(buildings), tuple(zones))
         prisms = building_prisms(buildings)
         self.obstacles = ObstacleField((*prisms, *zone_prisms(zones)))
         self.sight = SightModel(prisms)
         self.highest_m = max((b.height_m for b in buildings), default=0.0)
         self._segment = lru_cache(maxsize=4096)(self._segment_clearance)
+
+    def keeping_out(self, rings: Sequence[Ring]) -> Airspace:
+        """Return the airspace without the air over outlines (x, y in m), from the ground up."""
+        if not rings:
+            return self
+        buildings, zones = self._solids
+        more = tuple(
+            NoFlyZone(
+                id=f'keep_out_{k}',
+                name='',
+                ring=ring,
+                floor_m=0.0,
+                ceiling_m=_UNLIMITED_M,
+            )
+            for k, ring in enumerate(rings)
+        )
+        return Airspace(buildings, (*zones, *more))
 
     def points_clearance_m(self, points: FloatArray) -> float:
         """Return the least clearance of points (T, 3), metres."""
@@ -79,7 +101,14 @@ class Airspace:
 
     def seen_share(self, observers: FloatArray, targets: FloatArray, range_m: float) -> float:
         """Return the share of samples (T, 3) at which a target is in range and in sight."""
+        return float(np.count_nonzero(self.seen(observers, targets, range_m))) / len(observers)
+
+    def seen(
+        self, observers: FloatArray, targets: FloatArray, range_m: float
+    ) -> npt.NDArray[np.bool_]:
+        """Return (T,) where a target is in range and in sight from observers (T, 3), metres."""
         d = targets - observers
         in_range = np.sqrt(d[:, 0] * d[:, 0] + d[:, 1] * d[:, 1] + d[:, 2] * d[:, 2]) <= range_m
         free = self.sight.clearance_series(observers, targets) > 0.0
-        return float(np.count_nonzero(in_range & free)) / len(observers)
+        both: npt.NDArray[np.bool_] = in_range & free
+        return both

@@ -5,17 +5,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import pairwise
 from math import cos, pi, sin
 
 import numpy as np
 import numpy.typing as npt
 
-from aurora_core.geometry.frames import offset_at_bearing
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.airspace import Airspace
-from aurora_core.grounding.beside import side_first, side_offsets, turned_along, with_turns
+from aurora_core.grounding.apart import sharing
+from aurora_core.grounding.beside import side_first, turned_along, with_turns
+from aurora_core.grounding.crossings import crossed
 from aurora_core.grounding.laps import Laps
+from aurora_core.grounding.offsets import Spread, from_afar, is_lost, loses_sight, offsets
 from aurora_core.grounding.pace import moves
 from aurora_core.grounding.places import (
     ROAD_STEP_M,
@@ -54,9 +55,8 @@ Point3 = tuple[float, float, float]
 
 _SIGHT_HEIGHT_PLACE_M = 1.0
 
-# Half the distance of neighbours above one target, as a share of that of hovering ones: well
-# inside the tracking tolerance.
-_SHARED = 0.45
+# Where sight is to be lost now and then, more of the phase than has to be is seen.
+_SPARE = 0.08
 
 # Neighbours on a ring are as far apart as they have to be, to rounding.
 _ROUNDING_M = 1e-6
@@ -78,6 +78,9 @@ class FlightPlanner:
         settings: Search settings.
         sensing_range_m: Of the weather and time of day.
         hover_capture_m: How near each UAV comes to its point before it hovers.
+        apart_m: Distance of UAVs at one height.
+        layer_m: Difference of heights at which they may be over each other.
+        homes_m: Least distance of their starts, where the usual one does not do.
         laps: Plans how often a route is flown.
     """
 
@@ -93,6 +96,9 @@ class FlightPlanner:
         settings: GroundingSettings,
         sensing_range_m: float,
         hover_capture_m: Mapping[str, float],
+        apart_m: float,
+        layer_m: float,
+        homes_m: float,
         laps: Laps,
     ) -> None:
         self._air = airspace
@@ -103,7 +109,8 @@ class FlightPlanner:
         self._settings = settings
         self._range = sensing_range_m
         self._hover_capture_m = hover_capture_m
-        self._apart_m = 2.0 * limits.separation_min_m
+        self._apart_m, self._layer_m, self._wide_m = apart_m, layer_m, homes_m
+        self._spread = Spread(apart_m=apart_m, strict=homes_m > 0.0, bearings=settings.bearings)
         self._routes = RoutePlanner(
             map_model=map_model,
             airspace=airspace,
@@ -198,20 +205,42 @@ class FlightPlanner:
         taken: list[tuple[float, float]],
         *,
         lands: bool = True,
+        lead_m: float = 0.0,
     ) -> UavPlan | Rejected:
-        """Choose the start of a UAV whose missions are planned; it could land there again."""
-        if not self._ways_between_are_free(flights, site):
+        """Choose the start of a UAV whose missions are planned; it could land there again.
+
+        Args:
+            uav_id: Which.
+            system_id: Its number.
+            flights: Its missions as planned, in their order.
+            site: Where.
+            taken: Starts of others (x, y in m).
+            lands: After its missions.
+            lead_m: So far its first target has gone when it takes off.
+        """
+        ways = crossed(
+            flights,
+            site,
+            self._air,
+            clearance_m=self._settings.clearance_m,
+            top_m=self._limits.uav_altitude_max_m,
+            speed_mps=self._settings.target_speed_mps,
+        )
+        if ways is None:
             return Rejected(reason='way_between_missions')
-        first = first_point(flights[0].plan, site)
+        first = first_point(flights[0].plan, site, lead_m)
         home = None
-        spots = self._spots.near(first[0], first[1], 6 + 20 * len(taken))
+        spots = self._spots.near(
+            first[0], first[1], (6 + 20 * len(taken)) * (4 if self._wide_m else 1)
+        )
         if flights[0].plan.offset_turns:
             target = site.seat(flights[0].plan.target or '')
             assert target is not None  # it was planned for its seat
             spots = side_first(spots, target.path.position_at(target.arc_m)[:2], first[:2])
         for spot in spots:
             far = all(
-                norm2(spot[0] - x, spot[1] - y) >= self._settings.home_spacing_m for x, y in taken
+                norm2(spot[0] - x, spot[1] - y) >= max(self._settings.home_spacing_m, self._wide_m)
+                for x, y in taken
             )
             top = (spot[0], spot[1], first[2])
             if far and self._air.way_clearance_m((top, first)) >= self._settings.clearance_m:
@@ -227,7 +256,7 @@ class FlightPlanner:
             home_x_m=home[0],
             home_y_m=home[1],
             landing_spots=(home,),
-            missions=tuple(f.plan for f in flights),
+            missions=tuple(f.plan for f in ways),
             safe_altitude_m=min(self._limits.uav_altitude_max_m, max(highest, over_all)),
             lands=lands,
         )
@@ -241,22 +270,6 @@ class FlightPlanner:
             apart_m=self._apart_m,
             clearance_m=self._settings.clearance_m,
         )
-
-    def _ways_between_are_free(self, flights: list[PlannedFlight], site: Site) -> bool:
-        """Check the straight ways between missions, at both altitudes.
-
-        Where a track mission ends is not known before; its ways are not checked.
-        """
-        for before, after in pairwise(f.plan for f in flights):
-            if before.mode is MissionMode.TRACK:
-                continue
-            x, y, z = last_point(before)
-            to_x, to_y, to_z = first_point(after, site)
-            for height in {z, to_z}:
-                way = ((x, y, height), (to_x, to_y, height))
-                if self._air.way_clearance_m(way) < self._settings.clearance_m:
-                    return False
-        return True
 
     def with_landing_spots(self, plan: UavPlan, site: Site) -> UavPlan:
         """Add the free spots along everything that the UAV flies over."""
@@ -279,8 +292,33 @@ class FlightPlanner:
         samples = samples_along(seat.path, seat.arc_m, way_m, self._settings.sample_spacing_m)
         samples = samples if mission.side is None else with_turns(samples)
         targets = _at_height(samples[:, :2], record.height_m / 2.0)
+        share = self._share(spec, mission)
+        if loses_sight(spec, mission):
+            farthest_m = self._limits.uav_standoff_max_m
+            for asked in from_afar(mission, farthest_m):
+                found = self._watching(asked, samples, targets, share, gets_lost=True)
+                if found is not None and found.seen >= self._tolerances.visible_fraction + _SPARE:
+                    return found
+            return Rejected(reason='sight')
+        best = self._watching(mission, samples, targets, share)
+        if best is None:
+            return Rejected(reason='clearance')
+        if best.seen < self._tolerances.visible_fraction:
+            return Rejected(reason='sight')
+        return best
+
+    def _watching(
+        self,
+        mission: UavMission,
+        samples: FloatArray,
+        targets: FloatArray,
+        share: tuple[int, int],
+        *,
+        gets_lost: bool = False,
+    ) -> PlannedFlight | None:
+        """Return the flight that sees most of its target: for `gets_lost` not all along."""
         best: PlannedFlight | None = None
-        for offset in self._offsets(mission, samples[0], self._share(spec, mission)):
+        for offset in offsets(mission, samples[0], self._spread, share):
             beside = samples[:, :2] + np.array(offset)
             if mission.side is not None:
                 beside = turned_along(offset, samples)
@@ -288,58 +326,23 @@ class FlightPlanner:
             clearance = self._air.points_clearance_m(points)
             if clearance < self._settings.clearance_m:
                 continue
-            seen = self._air.seen_share(points, targets, self._range)
+            mask = self._air.seen(points, targets, self._range)
+            if gets_lost and not is_lost(mask):
+                continue
+            seen = float(np.count_nonzero(mask)) / len(mask)
             if best is None or (round(seen, 3), clearance) > (
                 round(best.seen, 3),
                 best.clearance_m,
             ):
                 plan = self._hold_plan(mission, offset_m=offset)
                 best = PlannedFlight(plan=plan, clearance_m=clearance, seen=seen, over_street=0.0)
-        if best is None:
-            return Rejected(reason='clearance')
-        if best.seen < self._tolerances.visible_fraction:
-            return Rejected(reason='sight')
         return best
 
     def _share(self, spec: ScenarioSpec, mission: UavMission) -> tuple[int, int]:
         """Return which one of how many UAVs this is that track one target at one height."""
-        height_m = self._planned_height_m(mission)
-        sharing = [
-            m.uav
-            for m in spec.missions
-            if m.mode is MissionMode.TRACK
-            and (m.target, m.side) == (mission.target, mission.side)
-            and abs(self._planned_height_m(m) - height_m) < self._apart_m
-        ]
-        uavs = list(dict.fromkeys(sharing))
+        same = sharing(spec, mission, self._limits)
+        uavs = list(dict.fromkeys(m.uav for m in same))
         return uavs.index(mission.uav), len(uavs)
-
-    def _offsets(
-        self, mission: UavMission, start: FloatArray, share: tuple[int, int] = (0, 1)
-    ) -> Iterator[tuple[float, float]]:
-        own, count = share
-        standoff = 0.0 if mission.standoff_m is None else mission.standoff_m.value
-        if mission.side is not None:
-            yield from side_offsets(mission.side, standoff, share)
-            return
-        if standoff == 0.0:
-            # Above the target there is room for one; several stand round it.
-            angle = 2.0 * pi * own / count
-            radius_m = 0.0 if count == 1 else _SHARED * self._apart_m / sin(pi / count)
-            yield radius_m * cos(angle), radius_m * sin(angle)
-            return
-        if mission.bearing_deg is not None:
-            yield offset_at_bearing(standoff, mission.bearing_deg.value)
-            return
-        hx, hy = float(start[2]), float(start[3])
-        # Behind the target first, then round it; the first of equal ones is taken. Of several
-        # UAVs each has a sector, with a gap to the next one.
-        bearings = self._settings.bearings
-        first = own * bearings // count + (1 if count > 1 else 0)
-        for k in range(first, (own + 1) * bearings // count):
-            angle = 2.0 * pi * k / bearings
-            c, s = cos(angle), sin(angle)
-            yield (-standoff * (hx * c - hy * s), -standoff * (hx * s + hy * c))
 
     def _hover_places(
         self,
@@ -348,7 +351,7 @@ class FlightPlanner:
         others: Sequence[Point3],
     ) -> Iterator[tuple[float, float]]:
         """Yield the offsets of a hover point: beside the centre where somebody hovers over it."""
-        yield from self._offsets(mission, np.array(centre))
+        yield from offsets(mission, np.array(centre), self._spread)
         stands_off = mission.standoff_m is not None and mission.standoff_m.value > 0.0
         middle = (centre[0], centre[1], self._planned_height_m(mission))
         if stands_off or self._apart(middle, others):
@@ -360,7 +363,11 @@ class FlightPlanner:
                 yield radius_m * cos(angle), radius_m * sin(angle)
 
     def _apart(self, point: Point3, others: Sequence[Point3]) -> bool:
-        return all(_distance(point, other) >= self._apart_m - _ROUNDING_M for other in others)
+        return all(
+            _distance(point, other) >= self._apart_m - _ROUNDING_M
+            or abs(point[2] - other[2]) >= self._layer_m - _ROUNDING_M
+            for other in others
+        )
 
     def _planned_height_m(self, mission: UavMission) -> float:
         return planned_height_m(mission, self._limits, self._tolerances)

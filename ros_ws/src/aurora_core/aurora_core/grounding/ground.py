@@ -14,17 +14,20 @@ from dataclasses import dataclass
 from aurora_core.grounding.agents import AgentPlacer
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.grounding.allowed import allowed_sites
+from aurora_core.grounding.apart import homes_m, layer_m, spacing_m
 from aurora_core.grounding.bends import bends_between
 from aurora_core.grounding.columns import Column, climbs_to_m, columns, nearest_points
 from aurora_core.grounding.convoy import ConvoyMember, SceneSplit, split_scene
 from aurora_core.grounding.flights import FlightPlanner
 from aurora_core.grounding.goals import GoalFinder
 from aurora_core.grounding.groups import GroupPlacer
+from aurora_core.grounding.keep_out import kept_out
 from aurora_core.grounding.lane_changers import changes_lane, share_with_another_lane
 from aurora_core.grounding.laps import Laps
 from aurora_core.grounding.oncoming import OncomingPlacer
 from aurora_core.grounding.pace import fastest_stated_mps, watched_speed_mps
 from aurora_core.grounding.persons import PersonPlacer
+from aurora_core.grounding.places import MapPlaces
 from aurora_core.grounding.planned_flight import PlannedFlight, Rejected, planned_height_m
 from aurora_core.grounding.realised import realised_values
 from aurora_core.grounding.sites import Site, TriedSite, sites, tied_way_m
@@ -44,7 +47,9 @@ from aurora_core.outcomes.grounded import AnchorScore, GroundedScenario
 from aurora_core.outcomes.grounding import GroundingFailure
 from aurora_core.outcomes.repair import RepairPlan
 from aurora_core.ports.random_streams import stream
+from aurora_core.spec.flight_order import begun_by
 from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.spec.vocabulary import MissionMode
 
 # Clearance that earns the full air score (m above the planned clearance).
 _GOOD_CLEARANCE_M = 15.0
@@ -139,9 +144,10 @@ class Grounder:
         plan: RepairPlan | None,
         tried: list[TriedSite],
     ) -> GroundedScenario | GroundingFailure:
+        keep_out = kept_out(spec, MapPlaces(self._map))
         planner = FlightPlanner(
             map_model=self._map,
-            airspace=self._air,
+            airspace=self._air.keeping_out(keep_out),
             spots=self._spots,
             types=self._types,
             limits=self._limits,
@@ -154,6 +160,9 @@ class Grounder:
                 uav.id: hover_capture_m(spec, uav.id, self._limits, self._tolerances)
                 for uav in spec.uavs
             },
+            apart_m=spacing_m(spec, self._limits),
+            layer_m=layer_m(spec, self._limits),
+            homes_m=homes_m(spec, self._limits),
             laps=Laps(self._settings),
         )
         run_s = horizon_s(spec, self._limits, self._settings.flight)
@@ -209,7 +218,8 @@ class Grounder:
             count = sum(reasons.values())
             words = lacked(most, split) if ranked else self._no_street(spec, split, run_m)
             return GroundingFailure(reason=most, tried=count, rejected_by=reasons, words=words)
-        return self._scenario(spec, split, best, scored, run_m, seed, planner, persons)
+        made = self._scenario(spec, split, best, scored, run_m, seed, planner, persons)
+        return made.model_copy(update={'keep_out': keep_out}) if keep_out else made
 
     def _no_street(self, spec: ScenarioSpec, split: SceneSplit, run_m: float) -> str:
         """Return in words why no street has room for the convoy."""
@@ -305,7 +315,13 @@ class Grounder:
             taken = [(u.home_x_m, u.home_y_m) for u in uavs]
             last = next(m for m in reversed(spec.missions) if m.uav == uav.id)
             plan = planner.plan_uav(
-                uav.id, number + 1, own, site, taken, lands=not last.ends_in_flight
+                uav.id,
+                number + 1,
+                own,
+                site,
+                taken,
+                lands=not last.ends_in_flight,
+                lead_m=self._lead_m(spec, uav.id),
             )
             if isinstance(plan, Rejected):
                 return plan
@@ -317,6 +333,19 @@ class Grounder:
             uavs=planner.uncrossed(uavs, site),
             score=self._score(road, flights, spec),
         )
+
+    def _lead_m(self, spec: ScenarioSpec, uav: str) -> float:
+        """Return how far the target of a UAV has gone that others have tracked before it."""
+        first = next(m for m in spec.missions if m.uav == uav)
+        if first.mode is not MissionMode.TRACK or begun_by(spec, first) is None:
+            return 0.0
+        before = [
+            m.duration_s.value
+            for m in spec.missions
+            if m.target == first.target and m.uav != uav and m.duration_s is not None
+        ]
+        speed = watched_speed_mps(spec, first, self._limits, self._settings.grounding)
+        return speed * sum(before)
 
     def _score(self, road: float, flights: list[PlannedFlight], spec: ScenarioSpec) -> AnchorScore:
         planned = self._settings.grounding.clearance_m

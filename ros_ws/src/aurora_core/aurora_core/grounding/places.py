@@ -15,7 +15,7 @@ from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.map_types import Building
 from aurora_core.knowledge.net_types import Crossing
 from aurora_core.outcomes.grounded import GroundedScenario
-from aurora_core.spec.reference import LANDMARK, is_landmark
+from aurora_core.spec.reference import LANDMARK, is_landmark, is_place
 from aurora_core.spec.scenario import ArrivalTrigger, GroundAgent, ScenarioSpec
 from aurora_core.spec.vocabulary import Place
 
@@ -52,6 +52,7 @@ def place_positions(
     names = {p.of for a in spec.agents for p in a.placements}
     names |= {b.target for a in spec.agents for b in a.behaviors}
     names |= {m.target for m in spec.missions}
+    names |= {name for c in spec.conditions for name in c.of if is_place(name)}
     for event in spec.events:
         names |= {getattr(event.trigger, name, None) for name in ('b', 'place', 'target')}
     bodies = {a.id for a in spec.agents} | {u.id for u in spec.uavs}

@@ -64,12 +64,18 @@ def last_point(plan: MissionPlan) -> Point3:
     return last
 
 
-def first_point(plan: MissionPlan, site: Site) -> Point3:
-    """Return where a mission at a site begins (x, y, z in m)."""
+def first_point(plan: MissionPlan, site: Site, lead_m: float = 0.0) -> Point3:
+    """Return where a mission begins at a site, ENU metres: of a track where its target stands.
+
+    Args:
+        plan: The mission.
+        site: Where.
+        lead_m: So far the target has gone by then.
+    """
     if plan.mode is MissionMode.TRACK:
         seat = site.seat(plan.target or '')
         assert seat is not None
-        x, y, hx, hy = seat.path.position_at(seat.arc_m)
+        x, y, hx, hy = seat.path.position_at(min(seat.arc_m + lead_m, seat.path.length_m))
         to_x, to_y = plan.offset_from((hx, hy))
         return x + to_x, y + to_y, plan.altitude_m
     if plan.hover_point is not None:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from aurora_core.grounding.convoy import SceneSplit
 from aurora_core.grounding.pace import encounters, moves
 from aurora_core.outcomes.grounded import ReleaseOn
-from aurora_core.spec.events import actor_of, sets_off
+from aurora_core.spec.events import actor_of, bodies_of_cause, sets_off
 from aurora_core.spec.flight_order import begun_by, left_by
 from aurora_core.spec.own_events import YIELDS_WITHIN_M, let_cross
 from aurora_core.spec.scenario import (
@@ -17,6 +17,7 @@ from aurora_core.spec.scenario import (
     ArrivalTrigger,
     DistanceTrigger,
     GroundAgent,
+    Link,
     ScenarioSpec,
     SendMessage,
     TimeTrigger,
@@ -103,7 +104,8 @@ def _told_by(spec: ScenarioSpec, agent: GroundAgent) -> str | None:
     staying = {m.uav for m in spec.missions} - {
         m.uav for m in spec.missions if m.mode is not MissionMode.HOVER
     }
-    told = (e.action for e in spec.events if isinstance(e.action, SendMessage))
+    told: list[SendMessage | Link] = [link for link in spec.links if link.rate_hz is not None]
+    told += [e.action for e in spec.events if isinstance(e.action, SendMessage)]
     return next((a.sender for a in told if a.receiver == agent.id and a.sender in staying), None)
 
 
@@ -123,6 +125,8 @@ def convoy_release(spec: ScenarioSpec, split: SceneSplit) -> Release:
         if begun_by(spec, mission) is not None:
             before = _watched_from(spec, mission)
             if before is None:
+                if _waits_there(spec, mission):
+                    return Release(on=ReleaseOn.CAPTURED, uav=mission.uav, mission=mission.id)
                 continue
             # Whom a UAV has to come upon waits where it will be.
             watched = mission if _comes_upon(spec, mission) else before
@@ -162,6 +166,16 @@ def _comes_upon(spec: ScenarioSpec, mission: UavMission) -> bool:
         and before is not None
         and before.mode is MissionMode.NAVIGATE
     )
+
+
+def _waits_there(spec: ScenarioSpec, mission: UavMission) -> bool:
+    """Tell whether a target waits for a UAV that takes off for it later on.
+
+    Nobody else watches it, and it does nothing that the UAV waits for.
+    """
+    event = begun_by(spec, mission)
+    others = [m for m in spec.missions if m.target == mission.target and m.uav != mission.uav]
+    return event is not None and not others and mission.target not in bodies_of_cause(event)
 
 
 def _watched_from(spec: ScenarioSpec, mission: UavMission) -> UavMission | None:

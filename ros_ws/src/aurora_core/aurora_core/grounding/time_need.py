@@ -15,6 +15,7 @@ from aurora_core.knowledge.settings import FlightDefaults
 from aurora_core.spec.flight_order import begun_by
 from aurora_core.spec.own_events import own_events
 from aurora_core.spec.scenario import (
+    BatteryTrigger,
     Event,
     EventDoneTrigger,
     ScenarioSpec,
@@ -57,6 +58,14 @@ def horizon_s(spec: ScenarioSpec, limits: Limits, flight: FlightDefaults | None 
         by_uav[mission.uav] = need
     latest = max(
         (e.trigger.at_s.value for e in spec.events if isinstance(e.trigger, TimeTrigger)),
+        default=0.0,
+    )
+    latest += max(
+        (
+            (1.0 - e.trigger.value.value) * limits.uav_endurance_s
+            for e in spec.events
+            if isinstance(e.trigger, BatteryTrigger)
+        ),
         default=0.0,
     )
     # Who waits for an event may have to wait for all that the others do.

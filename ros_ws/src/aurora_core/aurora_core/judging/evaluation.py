@@ -271,6 +271,7 @@ class Context:
             flights=flights,
             captured=self._first_captured,
             links=self.links,
+            touchdown_m=touchdown_m,
         )
         return EventTimes(self.view, self.spec, rules)
 
@@ -445,6 +446,8 @@ def _model(link: Link, range_sight_m: float, range_blocked_m: float) -> LinkMode
         interval_s=link.retransmission_interval_s.value,
         range_sight_m=range_sight_m if stated is None else stated,
         range_blocked_m=range_blocked_m if stated is None else stated,
+        outage_s=link.outage,
+        reports=link.rate_hz is not None,
     )
 
 

@@ -56,6 +56,19 @@ class OfMission(Quantity):
         return (f'uav/state[{uav}]', f'uav/command[{uav}].phase')
 
 
+class OfSight(Quantity):
+    """A quantity of who sees whom: in the phases of a UAV, from the ground over the whole run."""
+
+    window: Window = Window.PHASE
+
+    def sight_topics(self, observer: str) -> tuple[str, ...]:
+        """Return the evidence of what an observer sees."""
+        if self.mission is None:
+            return (f'ground/state[{observer}]',)
+        uav = self.mission.uav
+        return (f'uav/state[{uav}]', f'uav/command[{uav}].phase')
+
+
 class OfMissions(Quantity):
     """A quantity of all missions of a UAV."""
 

@@ -118,6 +118,8 @@ class Tolerances(_Table):
     orbit_deg: NotNegative  # on the turns of an orbit
     side_deg: NotNegative = omitted(45.0)  # how far off its direction a side reaches
     return_m: NotNegative = omitted(3.0)  # how far from its start who returns may land
+    outage_s: NotNegative = omitted(0.5)  # on both ends of an outage
+    rate_share: Share = omitted(0.10)  # on the time between two reports
     capture_s: NotNegative
     tracked_fraction: Share
     visible_fraction: Share

@@ -16,6 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from aurora_core.geometry.kernel import norm2
+from aurora_core.mission.crossing import Crossing
 from aurora_core.mission.plan import MissionPlan, UavPlan
 from aurora_core.mission.setpoint import FlightSettings, PursuitReference, RouteReference
 from aurora_core.mission.turning_offset import TurningOffset
@@ -96,6 +97,7 @@ class MissionMachine:
         self._held_ticks = 0
         self.stays_up = False
         self.done = False
+        self._way_there = Crossing(None)
 
     @property
     def plan(self) -> UavPlan:
@@ -292,6 +294,7 @@ class MissionMachine:
             if self.phase != _ASCENT:  # a climb that is asked for during the ascent still counts
                 self._level_m = None
             self._index, self._laps = phase - _MISSION, 0
+            self._way_there = Crossing(self._plan.missions[self._index].over_m)
         self.phase = phase
         self._route = None
 
@@ -334,6 +337,10 @@ class MissionMachine:
             self._capture(mission, tick)
         if self._phase_over(mission, tick):
             return True
+        if self.capture_tick is None:
+            goal, velocity = self._way_there.goal(
+                self._pursuit, self._rest_point()[:2], (goal, velocity)
+            )
         self._pursuit.step(goal, velocity, self._settings, self._dt)
         return False
 
@@ -406,7 +413,9 @@ class MissionMachine:
                 self._way = mission.waypoints
                 self._route = RouteReference(self._way, mission.speed_mps)
             else:
-                self._pursuit.step(first, (0.0, 0.0), self._settings, self._dt)
+                rest, still = self._rest_point()[:2], (0.0, 0.0)
+                goal, velocity = self._way_there.goal(self._pursuit, rest, (first, still))
+                self._pursuit.step(goal, velocity, self._settings, self._dt)
                 return False
         self._route.step(self._settings, self._dt)
         self._pursuit.x, self._pursuit.y = self._route.x, self._route.y

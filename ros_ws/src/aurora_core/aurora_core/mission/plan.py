@@ -26,6 +26,8 @@ class MissionPlan(Document):
         hover_point: Hover: where to hold.
         duration_s: Length of the phase from capture on; a route without it ends at its last point.
         speed_mps: Navigate: speed on the legs.
+        over_m: So high it crosses to where it begins: up first, then across, then down. None:
+            straight.
         waits: An event lets it begin; until then the UAV stays where the one before has led it.
         until_event: Nothing but an event ends it: the next one begins, or the UAV lands.
     """
@@ -44,6 +46,7 @@ class MissionPlan(Document):
     hover_point: Point3 | None = None
     duration_s: FiniteFloat | None = None
     speed_mps: FiniteFloat = 8.0
+    over_m: FiniteFloat | None = omitted(None)
     waits: bool = omitted(False)
     until_event: bool = omitted(False)
 

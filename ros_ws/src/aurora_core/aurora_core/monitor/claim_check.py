@@ -142,8 +142,12 @@ def _releases(context: Context) -> Iterator[Finding]:
 
 
 def _senders(context: Context) -> Iterator[Finding]:
-    """A message belongs to an event, and goes over the link of that event's action."""
+    """A message belongs to an event, and goes over the link of that event's action.
+
+    What is reported by itself belongs to its link.
+    """
     pairs = {link.id: (link.sender, link.receiver) for link in context.spec.links}
+    reporting = {link.id for link in context.spec.links if link.rate_hz is not None}
     events = (*context.spec.events, *own_events(context.spec))
     actions = {event.id: event.action for event in events}
     told = set()
@@ -151,7 +155,8 @@ def _senders(context: Context) -> Iterator[Finding]:
         action = actions.get(record.event)
         wanted = (action.sender, action.receiver) if isinstance(action, SendMessage) else None
         key = (record.message, record.event, record.link)
-        if record.link not in pairs or wanted == pairs[record.link] or key in told:
+        reported = record.event == record.link and record.link in reporting
+        if record.link not in pairs or reported or wanted == pairs[record.link] or key in told:
             continue
         told.add(key)
         text = (

@@ -16,6 +16,8 @@ from aurora_core.spec.parameter import Provenance
 
 GROUNDING_VERSION = 1
 
+Ring = tuple[tuple[FiniteFloat, FiniteFloat], ...]
+
 
 class ReleaseOn(StrEnum):
     """What lets a held agent start to move."""
@@ -111,7 +113,11 @@ class RealisedValue(Document):
 
 
 class GroundedScenario(Document):
-    """The grounded scenario of one iteration."""
+    """The grounded scenario of one iteration.
+
+    Attributes:
+        keep_out: Outlines (x, y in m, ENU map frame) that UAVs stay out of at any height.
+    """
 
     schema_version: int = GROUNDING_VERSION
     map_name: str
@@ -122,6 +128,7 @@ class GroundedScenario(Document):
     candidates: int
     agents: tuple[GroundedAgent, ...]
     uavs: tuple[UavPlan, ...]
+    keep_out: tuple[Ring, ...] = omitted(())
     realised: tuple[RealisedValue, ...] = ()
     unsupported: tuple[str, ...] = ()
     weather: str

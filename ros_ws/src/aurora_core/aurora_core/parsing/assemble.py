@@ -170,5 +170,7 @@ def _link(draft: LinkDraft) -> Link:
         range_m=draft.range,
         retransmissions=draft.retransmissions or values.default('link_retransmissions'),
         retransmission_interval_s=values.default('link_retransmission_interval'),
+        outage_s=draft.outage,
+        rate_hz=draft.rate,
         span=draft.span,
     )

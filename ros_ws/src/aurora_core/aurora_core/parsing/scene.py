@@ -106,6 +106,8 @@ class LinkDraft:
     latency: Parameter | None = None
     range: Parameter | None = None
     retransmissions: Parameter | None = None
+    outage: tuple[Parameter, Parameter] | None = None
+    rate: Parameter | None = None
     span: Span
 
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from math import inf, sqrt
 
 from aurora_core.geometry.kernel import norm2
+from aurora_core.grounding.apart import ring_m
 from aurora_core.knowledge.limits import Limits
 from aurora_core.spec.parameter import Parameter, Provenance
 from aurora_core.spec.quantity import QuantityName
@@ -56,7 +57,8 @@ def bent(spec: ScenarioSpec, limits: Limits) -> ScenarioSpec:
         limits: Limits in force.
     """
     missions = tuple(
-        _at_speed(spec, _standing_off(spec, _at_altitude(spec, m, limits))) for m in spec.missions
+        _at_speed(spec, _standing_off(spec, _at_altitude(spec, m, limits), limits))
+        for m in spec.missions
     )
     if missions == spec.missions:
         return spec
@@ -94,7 +96,7 @@ def _passed_m(spec: ScenarioSpec, mission: UavMission) -> float:
     return max((z + _PAST_M for z in asked if z > max(reached, default=0.0)), default=-inf)
 
 
-def _standing_off(spec: ScenarioSpec, mission: UavMission) -> UavMission:
+def _standing_off(spec: ScenarioSpec, mission: UavMission, limits: Limits) -> UavMission:
     standoff = mission.standoff_m
     if (
         mission.mode is not MissionMode.TRACK
@@ -115,7 +117,7 @@ def _standing_off(spec: ScenarioSpec, mission: UavMission) -> UavMission:
     away_m = in_space.near(norm2(value, height_m), _STANDOFF_ROOM_M)
     if away_m > norm2(value, height_m):
         value = sqrt(away_m * away_m - height_m * height_m)
-    value = min(max(value, standoff.low), standoff.high)
+    value = min(max(value, ring_m(spec, mission, limits), standoff.low), standoff.high)
     return mission.model_copy(update={'standoff_m': _moved(standoff, value, bounds)})
 
 

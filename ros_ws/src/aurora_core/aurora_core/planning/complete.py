@@ -8,6 +8,7 @@ prompt states is never touched.
 
 from __future__ import annotations
 
+from aurora_core.grounding.apart import layer_m
 from aurora_core.knowledge.limits import Limits
 from aurora_core.parsing import values
 from aurora_core.planning.bounds import bent
@@ -17,7 +18,7 @@ from aurora_core.spec.events import actor_of
 from aurora_core.spec.parameter import Parameter, Provenance
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import ScenarioSpec, SendMessage, StatedCondition, Uav, UavMission
-from aurora_core.spec.scene import World
+from aurora_core.spec.scene import Link, World
 from aurora_core.spec.vocabulary import MissionMode
 
 # Sight is lost now and then: this much longer than the time of sight that is asked. A scenario of
@@ -32,7 +33,8 @@ def complete(spec: ScenarioSpec, limits: Limits) -> ScenarioSpec:
         spec: The request, whoever read it; it is not changed.
         limits: Limits in force.
     """
-    return layered(bent(lasting(waiting(hovering(blowing(spec, limits)))), limits), limits)
+    spec = waiting(hovering(reporting(blowing(spec, limits))))
+    return layered(bent(lasting(spec), limits), limits)
 
 
 def blowing(spec: ScenarioSpec, limits: Limits) -> ScenarioSpec:
@@ -51,6 +53,32 @@ def blowing(spec: ScenarioSpec, limits: Limits) -> ScenarioSpec:
         speed = speed.model_copy(update={'value': usual_mps})
     world = World.model_validate({**dict(world), 'wind_mps': speed})
     return ScenarioSpec.model_validate({**dict(spec), 'world': world})
+
+
+def reporting(spec: ScenarioSpec) -> ScenarioSpec:
+    """Return the specification with reports over the links that no event sends anything over.
+
+    A link is described for what goes over it.
+
+    Args:
+        spec: The request, whoever read it; it is not changed.
+    """
+    sent = {
+        (e.action.sender, e.action.receiver)
+        for e in spec.events
+        if isinstance(e.action, SendMessage)
+    }
+    links = tuple(
+        link
+        if link.rate_hz is not None or (link.sender, link.receiver) in sent
+        else Link.model_validate({**dict(link), 'rate_hz': values.default('link_rate')})
+        for link in spec.links
+    )
+    return (
+        spec
+        if links == spec.links
+        else ScenarioSpec.model_validate({**dict(spec), 'links': links})
+    )
 
 
 def hovering(spec: ScenarioSpec) -> ScenarioSpec:
@@ -107,6 +135,11 @@ def lasting(spec: ScenarioSpec) -> ScenarioSpec:
         asked_s = _asked_s(stated)
         for mission in _of(spec, stated) if asked_s > 0.0 else ():
             need[mission.id] = max(need.get(mission.id, 0.0), spare * asked_s)
+    for link in spec.links:
+        # Who flies for as long as an outage lasts from t = 0 shows its end, too.
+        for mission in (m for m in spec.missions if m.uav in (link.sender, link.receiver)):
+            if link.outage is not None:
+                need[mission.id] = max(need.get(mission.id, 0.0), spare * link.outage[1])
     if not need:
         return spec
     missions = tuple(_at_least(m, need.get(m.id, 0.0)) for m in spec.missions)
@@ -144,9 +177,9 @@ def layered(spec: ScenarioSpec, limits: Limits) -> ScenarioSpec:
 
     Args:
         spec: The request; it is not changed.
-        limits: Limits in force; layers are twice the separation apart.
+        limits: Limits in force; layers are twice the separation apart, or what is asked.
     """
-    step_m = 2.0 * limits.separation_min_m
+    step_m = layer_m(spec, limits)
     taken: dict[str, set[float]] = {}
     for mission in spec.missions:
         if mission.altitude_m.provenance is Provenance.EXPLICIT:

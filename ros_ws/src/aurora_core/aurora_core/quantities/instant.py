@@ -17,7 +17,7 @@ from aurora_core.quantities.kernels import (
     sight_height,
     track_errors,
 )
-from aurora_core.quantities.sight import SightSeries, radio_sight_of, sight_of
+from aurora_core.quantities.sight import radio_sight_of
 from aurora_core.quantities.world_geometry import WorldGeometry
 from aurora_core.trace.layout import GroundColumn, UavColumn
 from aurora_core.trace.roster import Roster
@@ -94,57 +94,6 @@ def tracked(rule: TrackRule, uav_row: FloatArray, target_row: FloatArray) -> boo
     horizontal, vertical = track_errors(rule, x - tx, y - ty, z)
     inside = horizontal <= rule.horizontal_m and vertical <= rule.vertical_m
     return inside and present(target_row)
-
-
-def sight(
-    geometry: WorldGeometry,
-    roster: Roster,
-    ground: FloatArray,
-    uav_row: FloatArray,
-    target: str,
-) -> SightSeries:
-    """Return the sight of a ground agent or a named place from a UAV, a series of one sample.
-
-    Args:
-        geometry: Solids of the world.
-        roster: Row order.
-        ground: (N, GROUND_WIDTH) states of the tick.
-        uav_row: (UAV_WIDTH,) state of the observer.
-        target: Agent id or `landmark:<name>`.
-    """
-    index = roster.agent_index(target)
-    here = True
-    if index is not None:
-        entry = roster.agents[index]
-        end = SightEnd.PERSON if entry.is_person else SightEnd.VEHICLE
-        x, y, _ = ground_point(ground[index])
-        z = sight_height(end, entry.height_m)
-        here = present(ground[index])
-    else:
-        place = geometry.place_point(target)
-        here = place is not None
-        x, y = place if place is not None else (0.0, 0.0)
-        z = sight_height(SightEnd.PLACE, 0.0)
-    return sight_of(
-        geometry,
-        np.array([uav_point(uav_row)]),
-        np.array([(x, y, z)]),
-        ground[None, :, :],
-        roster.agents,
-        frozenset() if index is None else frozenset((index,)),
-        np.array([here]),
-    )
-
-
-def visible(
-    geometry: WorldGeometry,
-    roster: Roster,
-    ground: FloatArray,
-    uav_row: FloatArray,
-    target: str,
-) -> bool:
-    """Tell whether a UAV sees a target at this tick; arguments as in `sight`."""
-    return bool(sight(geometry, roster, ground, uav_row, target).visible[0])
 
 
 def radio_sight(

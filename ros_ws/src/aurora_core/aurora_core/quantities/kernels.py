@@ -102,3 +102,18 @@ def sight_height(end: SightEnd, height_m: float) -> float:
     if end is SightEnd.PLACE:
         return PLACE_SIGHT_M
     return height_m / 2.0
+
+
+# Contract: drivers look out at this share of the height of their vehicle, persons at 1.6 m.
+DRIVER_EYE_SHARE = 0.8
+PERSON_EYE_M = 1.6
+
+
+def eye_height(end: SightEnd, height_m: float) -> float:
+    """Return the height above ground from which a body on the ground looks."""
+    return PERSON_EYE_M if end is SightEnd.PERSON else DRIVER_EYE_SHARE * height_m
+
+
+def ahead_m(dx: Number, dy: Number, heading_x: Number, heading_y: Number) -> Number:
+    """Return how far (dx, dy) leads along a heading (unit vector); a driver sees from 0 on."""
+    return dx * heading_x + dy * heading_y

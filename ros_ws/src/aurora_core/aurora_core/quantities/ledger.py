@@ -35,6 +35,8 @@ class LinkModel:
         interval_s: Between attempts.
         range_sight_m: Range with line of sight.
         range_blocked_m: Range without.
+        outage_s: From when to when the link reaches nowhere; None: it always does.
+        reports: The sender reports by itself, beside what events send.
     """
 
     link_id: str
@@ -46,6 +48,8 @@ class LinkModel:
     interval_s: float
     range_sight_m: float
     range_blocked_m: float
+    outage_s: tuple[float, float] | None = None
+    reports: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -88,6 +92,19 @@ class Disagreement:
     tick: int
     subject: str
     text: str
+
+
+def is_out(outage_s: tuple[float, float] | None, tick: int, dt_s: float) -> bool:
+    """Tell whether a link reaches nowhere at a tick: from the beginning of an outage to its end.
+
+    Args:
+        outage_s: In scenario time, None for no outage.
+        tick: The tick.
+        dt_s: Time step.
+    """
+    if outage_s is None:
+        return False
+    return whole_ticks(outage_s[0], dt_s) <= tick < whole_ticks(outage_s[1], dt_s)
 
 
 def messages(view: RunView, models: tuple[LinkModel, ...]) -> tuple[Message, ...]:
@@ -185,6 +202,7 @@ def _geometry(view: RunView, model: LinkModel, records: list[LinkRecord]) -> lis
         if record.line_of_sight is not free:
             found.append(_at(record, f'claims line of sight {record.line_of_sight}, it is {free}'))
         in_range = here <= (model.range_sight_m if free else model.range_blocked_m)
+        in_range &= not is_out(model.outage_s, record.tick, view.dt_s)
         if record.kind is LinkEventKind.ATTEMPT_PASSED and not in_range:
             found.append(_at(record, f'passed out of range, at {here} m'))
         if record.kind is LinkEventKind.ATTEMPT_LOST:

@@ -13,7 +13,7 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
-from aurora_core.quantities.kernels import distance_2d, distance_3d
+from aurora_core.quantities.kernels import Number, distance_2d, distance_3d
 from aurora_core.quantities.view import Body, RunView, Series
 from aurora_core.trace.layout import GroundColumn, UavColumn, UavCommandColumn, UavMode
 
@@ -85,6 +85,23 @@ def airborne(view: RunView, uav: Body, touchdown_m: float) -> BoolArray:
     rows = view.rows(uav)
     in_air: BoolArray = (rows[:, UavColumn.LANDED] < 0.5) | (rows[:, UavColumn.Z] > touchdown_m)
     return in_air
+
+
+def battery(airborne_ticks: Number, dt_s: float, endurance_s: float) -> Number:
+    """Return what is left of a charge: full at take-off, empty at the endurance, linear between.
+
+    Args:
+        airborne_ticks: So many ticks in the air.
+        dt_s: Time step.
+        endurance_s: For how long a full battery lasts.
+    """
+    return 1.0 - airborne_ticks * dt_s / endurance_s
+
+
+def battery_series(view: RunView, uav: Body, touchdown_m: float) -> FloatArray:
+    """Return the charge of a UAV at every tick, (T,) shares."""
+    flown = np.cumsum(airborne(view, uav, touchdown_m)).astype(np.float64)
+    return battery(flown, view.dt_s, view.world.limits.uav_endurance_s)
 
 
 def on_ground(view: RunView, uav: Body, touchdown_m: float) -> BoolArray:

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Visible: in range, and the straight line crosses no building and no other vehicle.
 
-The camera is gimballed; there is no field of view. One function serves a whole run and a single
+The camera of a UAV is gimballed; there is no field of view. Persons look all round, drivers ahead.
+One function serves a whole run and a single
 tick (a series of one), so both give the same bits.
 """
 
@@ -15,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from aurora_core.geometry.sight import SIGHT_CLEAR_M, box_sight_series
-from aurora_core.quantities.kernels import distance_3d
+from aurora_core.quantities.kernels import ahead_m, distance_3d
 from aurora_core.quantities.view import RunView, Series
 from aurora_core.quantities.world_geometry import WorldGeometry
 from aurora_core.trace.layout import GroundColumn
@@ -35,7 +36,8 @@ class SightSeries:
     Attributes:
         slant_range_m: (T,) from the observer to the sight point.
         clearance_m: (T,) height by which the line clears what is in its way, above 0 = free.
-        margin_m: (T,) the lesser of the clearance and what is left of the range.
+        margin_m: (T,) the least of the clearance, what is left of the range, and for a driver
+            how far ahead the target is.
         visible: (T,).
     """
 
@@ -108,17 +110,19 @@ def sight_of(
     entries: Sequence[RosterEntry],
     exclude: frozenset[int],
     present: BoolArray,
+    heading: FloatArray | None = None,
 ) -> SightSeries:
     """Return the sight of a target; arguments as in `vehicle_clearance`.
 
     Args:
         geometry: Solids and sensing range of the world.
-        observer: (T, 3) UAV centres.
+        observer: (T, 3) where it is looked from.
         target: (T, 3) sight points.
         ground: (T, N, GROUND_WIDTH) states.
         entries: N roster entries.
         exclude: Rows that do not occlude.
-        present: (T,) where the target exists; elsewhere it is not visible.
+        present: (T,) where both exist; elsewhere the target is not visible.
+        heading: (T, 2) of an observer that sees what is ahead of it alone.
     """
     delta = target - observer
     slant = distance_3d(delta[:, 0], delta[:, 1], delta[:, 2])
@@ -127,26 +131,30 @@ def sight_of(
         vehicle_clearance(observer, target, ground, entries, exclude),
     )
     left = geometry.world.sensing_range_m - slant
+    margin, visible = np.minimum(clearance, left), present & (left >= 0.0) & (clearance > 0.0)
+    if heading is not None:
+        ahead = ahead_m(delta[:, 0], delta[:, 1], heading[:, 0], heading[:, 1])
+        margin, visible = np.minimum(margin, ahead), visible & (ahead >= 0.0)
     return SightSeries(
-        slant_range_m=slant,
-        clearance_m=clearance,
-        margin_m=np.minimum(clearance, left),
-        visible=present & (left >= 0.0) & (clearance > 0.0),
+        slant_range_m=slant, clearance_m=clearance, margin_m=margin, visible=visible
     )
 
 
 def sight_series(view: RunView, observer: str, target: str) -> SightSeries:
-    """Return the sight of a body or place from a UAV over the whole run."""
+    """Return the sight of a body or place from any body over the whole run."""
 
     def compute(part: RunView) -> Series:
+        body = part.body(observer)
+        columns = slice(GroundColumn.HEADING_X, GroundColumn.HEADING_Y + 1)
         sight = sight_of(
             part.geometry,
-            part.sight_point(observer),
+            part.eye_point(observer),
             part.sight_point(target),
             part.trace.ground,
             part.trace.roster.agents,
             _rows_of(part, observer, target),
-            part.present(target),
+            part.present(observer) & part.present(target),
+            part.rows(body)[:, columns] if body.looks_ahead else None,
         )
         return sight.slant_range_m, sight.clearance_m, sight.margin_m, sight.visible
 

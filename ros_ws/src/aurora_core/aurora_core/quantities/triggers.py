@@ -4,7 +4,7 @@
 
 A trigger fires at the first tick at which its predicate holds. "Falls below", "loses sight" and
 "gets farther than" ask for a change: their predicate must have been false before. Sight triggers
-count from the end of the observer's ascent on.
+of UAVs count from the end of their ascent on.
 """
 
 from __future__ import annotations
@@ -42,6 +42,7 @@ from aurora_core.spec.scenario import (
     AgentAction,
     AltitudeTrigger,
     ArrivalTrigger,
+    BatteryTrigger,
     DistanceTrigger,
     Event,
     EventDoneTrigger,
@@ -63,6 +64,7 @@ StateTrigger = (
     | VisibilityTrigger
     | SpeedTrigger
     | ArrivalTrigger
+    | BatteryTrigger
 )
 
 BoolArray = npt.NDArray[np.bool_]
@@ -86,6 +88,7 @@ class EventRules:
         flights: Phases of each UAV's flight.
         captured: Gives the tick at which a UAV has captured its first mission, None if never.
         links: Links of the specification.
+        touchdown_m: Height below which a UAV that reports landed is down.
     """
 
     brake_mps2: float
@@ -95,6 +98,7 @@ class EventRules:
     flights: dict[str, FlightPhases]
     captured: Callable[[str], int | None]
     links: tuple[LinkModel, ...]
+    touchdown_m: float = 0.0
 
 
 @dataclass(slots=True)
@@ -394,6 +398,8 @@ def trigger_series(
         case VisibilityTrigger():
             sight = sight_series(view, trigger.observer, trigger.target).visible
             mask = sight if trigger.on == 'visible' else ~sight
+            if not view.body(trigger.observer).is_uav:
+                return mask
             flight = rules.flights.get(trigger.observer)
             ready = None if flight is None else flight.ascent_end_tick
             if ready is None:
@@ -412,6 +418,9 @@ def trigger_series(
                 values <= trigger.value_mps.value if below else values >= trigger.value_mps.value
             )
             return mask & view.present(trigger.who)
+        case BatteryTrigger():
+            left = motion.battery_series(view, view.body(trigger.uav), rules.touchdown_m)
+            return left < trigger.value.value
         case ArrivalTrigger():
             if view.geometry.place_point(trigger.place) is None:
                 return None

@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from aurora_core.errors import VerificationError
 from aurora_core.knowledge.world import WorldModel
-from aurora_core.quantities.kernels import SightEnd, sight_height
+from aurora_core.quantities.kernels import SightEnd, eye_height, sight_height
 from aurora_core.quantities.ticks import TICK_GUARD
 from aurora_core.quantities.world_geometry import WorldGeometry
 from aurora_core.trace.layout import GroundColumn, UavColumn
@@ -42,6 +42,11 @@ class Body:
         if self.is_uav:
             return SightEnd.UAV
         return SightEnd.PERSON if self.entry.is_person else SightEnd.VEHICLE
+
+    @property
+    def looks_ahead(self) -> bool:
+        """Whether it sees what is ahead of it alone, as a driver does."""
+        return not self.is_uav and self.entry.has_driver
 
 
 class RunView:
@@ -155,6 +160,13 @@ class RunView:
         body = self.body(name)
         if not body.is_uav:
             point[:, 2] = sight_height(body.sight_end, body.entry.height_m)
+        return point
+
+    def eye_point(self, name: str) -> FloatArray:
+        """Return where a body looks from, (T, 3) ENU metres."""
+        point, body = self.reference(name), self.body(name)
+        if not body.is_uav:
+            point[:, 2] = eye_height(body.sight_end, body.entry.height_m)
         return point
 
     def present(self, name: str) -> BoolArray:

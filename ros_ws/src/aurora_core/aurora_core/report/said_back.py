@@ -17,6 +17,7 @@ from aurora_core.spec.events import (
     AgentAction,
     AltitudeTrigger,
     ArrivalTrigger,
+    BatteryTrigger,
     DistanceTrigger,
     Event,
     EventAction,
@@ -290,6 +291,8 @@ def _trigger(trigger: Trigger) -> str:
             return f'the speed of {who} {over} {_number(value)}'
         case EventDoneTrigger(event=event, after_s=after):
             return f'{event} is done' + (f' and {_number(after)} have passed' if after else '')
+        case BatteryTrigger(uav=uav, value=value):
+            return f'the battery of {uav} falls below {_number(value)}'
         case MissionDoneTrigger(uav=uav):
             return f'{uav} has flown its missions'
 

@@ -148,10 +148,12 @@ def _check_events(spec: ScenarioSpec) -> None:
         if after is not None and (after not in events or after == event.id):
             raise ValueError(f'event {event.id} waits for unknown event {after!r}')
         for part in (event.trigger, event.action):
-            for name in ('uav', 'observer'):
-                flyer = getattr(part, name, None)
-                if flyer is not None and flyer not in uavs:
-                    raise ValueError(f'event {event.id} refers to unknown UAV {flyer!r}')
+            flyer = getattr(part, 'uav', None)
+            if flyer is not None and flyer not in uavs:
+                raise ValueError(f'event {event.id} refers to unknown UAV {flyer!r}')
+            observer = getattr(part, 'observer', None)
+            if observer is not None and is_place(observer):
+                raise ValueError(f'event {event.id}: {observer!r} is a place and sees nothing')
         mission = getattr(event.action, 'mission', None)
         if mission is not None and flown.get(mission) != getattr(event.action, 'uav', None):
             raise ValueError(f'event {event.id} changes to {mission!r}, no mission of its UAV')

@@ -37,7 +37,7 @@ class AltitudeTrigger(Element):
 
 
 class VisibilityTrigger(Element):
-    """A UAV sees (or loses sight of) a target."""
+    """A body sees (or loses sight of) a target."""
 
     on: Literal['visible', 'occluded']
     observer: Id
@@ -83,6 +83,14 @@ class MissionDoneTrigger(Element):
     uav: Id
 
 
+class BatteryTrigger(Element):
+    """The battery of a UAV falls below a share of its charge (0..1)."""
+
+    on: Literal['battery_below']
+    uav: Id
+    value: Parameter
+
+
 Trigger = Annotated[
     DistanceTrigger
     | TimeTrigger
@@ -92,7 +100,8 @@ Trigger = Annotated[
     | MessageTrigger
     | SpeedTrigger
     | EventDoneTrigger
-    | MissionDoneTrigger,
+    | MissionDoneTrigger
+    | BatteryTrigger,
     Field(discriminator='on'),
 ]
 
@@ -188,6 +197,11 @@ def bodies_of(event: Event) -> frozenset[str]:
     names = ('a', 'b', 'uav', 'observer', 'target', 'who', 'by', 'sender', 'receiver', 'agent')
     found = {getattr(part, name, None) for part in (event.trigger, event.action) for name in names}
     return frozenset(n for n in found if n is not None and not is_place(n))
+
+
+def bodies_of_cause(event: Event) -> frozenset[str]:
+    """Return every agent and UAV that an event's trigger refers to by id."""
+    return bodies_of(event.model_copy(update={'action': None}))
 
 
 def actor_of(event: Event) -> str | None:

@@ -65,3 +65,7 @@ class QuantityName(StrEnum):
     SIDE_FRACTION = 'side_fraction'
     WIND = 'wind'
     RETURN_DISTANCE = 'return_distance'
+    OUTAGE = 'outage'
+    BATTERY = 'battery'
+    CLEARANCE = 'clearance'
+    REPORT_GAP = 'report_gap'

@@ -35,6 +35,8 @@ STATED_QUANTITIES: Mapping[str, Unit] = MappingProxyType(
         QuantityName.WAYPOINTS_VISITED.value: Unit.ONE,
         QuantityName.MISSION_COMPLETED.value: Unit.ONE,
         QuantityName.LANDED.value: Unit.ONE,
+        QuantityName.CLEARANCE.value: Unit.METRE,
+        QuantityName.BATTERY.value: Unit.ONE,
     }
 )
 

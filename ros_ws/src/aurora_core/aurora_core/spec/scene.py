@@ -209,6 +209,8 @@ class Link(Element):
         range_m: The same with and without sight; None: the limits' ranges.
         retransmissions: Further transmissions of a message that was lost.
         occlusion: What a building or vehicle between the two does.
+        outage_s: From when to when nothing passes, in scenario time.
+        rate_hz: Reports per second that the sender sends by itself; None: what events send.
     """
 
     id: Id
@@ -220,4 +222,22 @@ class Link(Element):
     retransmissions: Parameter
     retransmission_interval_s: Parameter
     occlusion: LinkOcclusion = omitted(LinkOcclusion.SHORTENS)
+    outage_s: tuple[Parameter, Parameter] | None = omitted(None)
+    rate_hz: Parameter | None = omitted(None)
     span: Span | None = None
+
+    @property
+    def outage(self) -> tuple[float, float] | None:
+        """From when to when nothing passes (s, scenario time), None for no outage."""
+        return None if self.outage_s is None else (self.outage_s[0].value, self.outage_s[1].value)
+
+    @model_validator(mode='after')
+    def _outage_has_a_length(self) -> Self:
+        if (
+            self.outage_s is not None
+            and not 0.0 <= self.outage_s[0].value < self.outage_s[1].value
+        ):
+            raise ValueError(f'link {self.id}: an outage begins at 0 s or later and then ends')
+        if self.rate_hz is not None and self.rate_hz.value <= 0.0:
+            raise ValueError(f'link {self.id}: rate_hz is above 0')
+        return self

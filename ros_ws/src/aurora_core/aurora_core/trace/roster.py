@@ -6,6 +6,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
+from aurora_core.spec.vocabulary import AgentType
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class RosterEntry:
@@ -34,6 +36,11 @@ class RosterEntry:
     route_edges: tuple[str, ...] = ()
     route_xy_m: tuple[tuple[float, float], ...] = ()
     role: str = 'other'
+
+    @property
+    def has_driver(self) -> bool:
+        """Whether somebody drives it, who looks ahead: else it walks, flies or is fixed."""
+        return not self.is_person and self.system_id == 0 and self.type_name != AgentType.RSU
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -151,3 +151,16 @@ def test_out_of_range_uses_up_its_draw() -> None:
         return lost[1:]
 
     assert losses_after_first(9000.0) == losses_after_first(50.0)
+
+
+def test_in_an_outage_nothing_passes_and_the_draws_go_on() -> None:
+    ticks = {}
+    for outage_s in (None, (0.4, 0.8)):
+        settings = replace(_settings(loss=0.5), outage_s=outage_s)
+        link = MessageLink(settings, DT_S, stream(1, 'link:l1'))
+        records = [r for r in _run(link, NEAR) if r.kind is LinkEventKind.ATTEMPT_LOST]
+        ticks[outage_s] = {(r.tick, r.reason) for r in records}
+    # From 0.4 s on, and at 0.8 s no longer: attempts at 10 and 14, not the one at 18.
+    assert {(10, LossReason.RANGE), (14, LossReason.RANGE)} <= ticks[(0.4, 0.8)]
+    assert all(reason is not LossReason.RANGE for tick, reason in ticks[(0.4, 0.8)] if tick >= 16)
+    assert all(reason is LossReason.RANDOM for _, reason in ticks[None])

@@ -17,6 +17,7 @@ from aurora_core.execution.faults import Fault
 from aurora_core.execution.plan import plans_with_events
 from aurora_core.execution.scenario_executor import ExecutionSetup, ScenarioExecutor
 from aurora_core.execution.step_output import StepOutput
+from aurora_core.execution.triggers import BatteryRule
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.knowledge.config_files import config_path
 from aurora_core.knowledge.limits import load_limits, load_tolerances
@@ -328,6 +329,7 @@ class Stage:
             geometry=WorldGeometry(world),
             landing_clearance_m=4.0,
             arrival_m=15.0,
+            battery=BatteryRule(endurance_s=10.0, touchdown_m=0.3),
             action_rules=action_rules(load_tolerances(config_path('tolerances.json'))),
             horizon_ticks=self.horizon_ticks,
             stated_horizon=self.stated_horizon,

@@ -16,6 +16,7 @@ from aurora_core.spec.scenario import (
     AgentAction,
     AltitudeTrigger,
     ArrivalTrigger,
+    BatteryTrigger,
     DistanceTrigger,
     Event,
     EventDoneTrigger,
@@ -174,6 +175,15 @@ def test_speed_of_a_uav(stage: Build, parameter: Make) -> None:
     assert _triggered(scene) == [(1, 'e1')]
 
 
+def test_a_battery_is_counted_from_take_off(stage: Build, parameter: Make) -> None:
+    trigger = BatteryTrigger(on='battery_below', uav='uav1', value=parameter(0.9, '1'))
+    scene = stage(events=(_event(trigger),))
+    scene.step(30)  # on the ground it stays full
+    scene.fly('uav1', 0.0, 0.0, 5.0).step(40)
+    # A full one lasts 10 s here: after 20 ticks of 0.05 s in the air 0.9 is left, then less.
+    assert _triggered(scene) == [(50, 'e1')]
+
+
 def test_arrival(stage: Build) -> None:
     scene = stage(events=(_event(ArrivalTrigger(on='arrives', who='ego', place='intersection')),))
     for x in (280.0, 290.0):
@@ -207,6 +217,24 @@ def test_who_was_never_seen_is_not_lost_from_sight(stage: Build) -> None:
     scene.put('van1', 10.0).step()
     scene.put('van1', 100.0).step()
     assert _triggered(scene) == [(6, 'e1')]
+
+
+@pytest.mark.parametrize(('x', 'seen'), [(30.0, [(0, 'e1')]), (-30.0, []), (100.0, [])])
+def test_a_driver_sees_at_once_what_is_ahead_and_not_behind_a_wall(
+    stage: Build, x: float, seen: list[tuple[int, str]]
+) -> None:
+    trigger = VisibilityTrigger(on='visible', observer='ego', target='van1')
+    scene = stage(events=(_event(trigger),), buildings=(WALL,))
+    scene.put('ego', 0.0).put('van1', x).step(2)
+    assert _triggered(scene) == seen
+
+
+def test_a_driver_loses_sight_of_whom_it_has_passed(stage: Build) -> None:
+    trigger = VisibilityTrigger(on='occluded', observer='ego', target='van1')
+    scene = stage(events=(_event(trigger),))
+    for x in (-30.0, 30.0, 10.0, -10.0):  # behind it from the start on is no loss
+        scene.put('ego', 0.0).put('van1', x).step()
+    assert _triggered(scene) == [(3, 'e1')]
 
 
 def test_on_its_way_home_a_uav_loses_nobody_from_sight(stage: Build) -> None:

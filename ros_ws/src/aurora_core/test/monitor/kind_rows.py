@@ -181,7 +181,9 @@ def stated(
         'event_time': Unit.SECOND,
         'delivery_latency': Unit.SECOND,
     }
-    metres = ('distance', 'horizontal_distance', 'separation', 'altitude', 'hover_drift')
+    metres = (
+        'distance', 'horizontal_distance', 'separation', 'altitude', 'hover_drift', 'clearance',
+    )  # fmt: skip
     unit = Unit.METRE if quantity in metres else units.get(quantity, Unit.ONE)
     numbers = {
         name: number(x, Unit.ONE if name == 'fraction' else Unit.SECOND)

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from kind_rows import Row, cut
 from trace_builder import number, world
@@ -21,6 +22,7 @@ from aurora_core.outcomes.schedule import MissionFacts
 from aurora_core.outcomes.verdict import Reason
 from aurora_core.spec.parameter import Unit
 from aurora_core.spec.vocabulary import MissionMode
+from aurora_core.trace.layout import UavColumn
 
 TRIGGER_S = 32.25
 TRIGGER = 645
@@ -110,6 +112,13 @@ def _ordered(first: str, then: str, within_s: float | None = None, **alert: bool
     return case
 
 
+def _flown_for(seconds: float) -> float:
+    """Return when the UAV of `tailgate_case` has been in the air for more than so long (s)."""
+    rows = tailgate_case().run.trace().uav[:, 0]
+    flies = (rows[:, UavColumn.LANDED] < 0.5) | (rows[:, UavColumn.Z] > 0.3)
+    return float(np.flatnonzero(np.cumsum(flies) * 0.05 > seconds + 1e-9)[0]) * 0.05
+
+
 def _late_after(**trigger: object) -> Case:
     """The alert, at 32.25 s, comes long after this trigger."""
     case = _event(tailgate_case(), trigger=trigger)
@@ -156,6 +165,14 @@ ROWS = (
         margin=1.0 - 25.25,
         within=0.06,
         what='visible',
+    ),
+    # 15 s in the air of 1500 s.
+    Row(
+        id='e1.within',
+        make=lambda: _late_after(on='battery_below', uav='uav1', value=number(0.99, Unit.ONE)),
+        margin=1.0 - (32.25 - _flown_for(15.0)),
+        within=0.06,
+        what='battery',
     ),
     Row(
         id='e1.within',

@@ -12,7 +12,7 @@ from dataclasses import replace
 import pytest
 from kind_rows import Row, cut
 from trace_builder import number
-from trace_cases import Case, spec, tailgate_case
+from trace_cases import Case, message, spec, tailgate_case
 
 from aurora_core.outcomes.verdict import Reason
 from aurora_core.spec.parameter import Unit
@@ -21,7 +21,9 @@ from aurora_core.trace.records import LinkEventKind, LossReason
 
 def _link(case: Case, **stated: float) -> Case:
     """State parameters of the one link."""
-    units = {'range_m': Unit.METRE, 'retransmission_interval_s': Unit.SECOND}
+    units = {'range_m': Unit.METRE} | dict.fromkeys(
+        ('retransmission_interval_s', 'latency_s'), Unit.SECOND
+    )
     (link,) = case.spec.links
     numbers = {
         name: number(value, units.get(name, Unit.ONE), explicit=True)
@@ -63,6 +65,9 @@ def _lossy(lost: int) -> Case:
     return _link(tailgate_case(lost=lost), loss=0.001)
 
 
+# Its ascent ends at 7 s, its missions at 52.5 s.
+UP_TICK, HOME_TICK = 140, 1050
+
 NEVER, SHORT = Reason.PREMISE_NEVER, Reason.TRACE_SHORT
 
 
@@ -71,7 +76,53 @@ def _nothing_sent(case: Case) -> Case:
     return case
 
 
+def _reports(step: int, *, every_s: float = 1.0, skip: range = range(0), late: int = 2) -> Case:
+    """Reports from the ascent to the way home, each that many ticks after the one before."""
+    case = tailgate_case(alert=False)
+    for number_, tick in enumerate(range(UP_TICK, HOME_TICK, step), start=2):
+        if tick not in skip:
+            before = len(case.run.links)
+            message(case, tick, latency_ticks=late)
+            case.run.links[before:] = [
+                replace(r, message=number_, event='l1') for r in case.run.links[before:]
+            ]
+    return _link(case, rate_hz=1.0 / every_s, latency_s=0.1)
+
+
+def _out(from_s: float, to_s: float, skip: range = range(0)) -> Case:
+    """Reports all along but in some ticks, and an outage that the prompt states."""
+    case = _reports(20, skip=skip)
+    (link,) = case.spec.links
+    ends = tuple(number(s, Unit.SECOND, explicit=True) for s in (from_s, to_s))
+    case.spec = spec(**{**dict(case.spec), 'links': ({**dict(link), 'outage_s': ends},)})
+    return case
+
+
 ROWS = (
+    # A tenth of the time between two reports is allowed.
+    Row(id='l1.rate', make=lambda: _reports(20), margin=0.1),
+    Row(id='l1.rate', make=lambda: _reports(20, every_s=2.0), margin=0.2 - 0.95),
+    Row(
+        id='l1.rate',
+        make=lambda: _reports(20, skip=range(300, 340)),
+        margin=0.1 - 1.95,
+        what='two-left-out',
+    ),
+    Row(
+        id='l1.rate',
+        make=lambda: _reports(20, skip=range(900, 1050)),
+        margin=0.1 - 7.45,
+        what='ends-early',
+    ),
+    Row(id='l1.rate', make=lambda: _reports(20, skip=range(1050)), reason=NEVER),
+    # Two steps are allowed.
+    Row(id='l1.latency', make=lambda: _reports(20), margin=2.0),
+    Row(id='l1.latency', make=lambda: _reports(20, late=7), margin=2.0 - 5.0),
+    Row(id='l1.latency', make=lambda: _reports(20, skip=range(1050)), reason=NEVER),
+    # Reports pass every second: at 20.5 s nothing, from 20 to 30 s the middle one is 5 s deep.
+    Row(id='l1.outage', make=lambda: _out(19.9, 20.8), margin=0.5 - 0.1, within=1e-6),
+    Row(id='l1.outage', make=lambda: _out(20.0, 30.0), margin=0.5 - 5.0),
+    Row(id='l1.outage', make=lambda: _out(60.0, 70.0), reason=NEVER),
     Row(id='l1.range', make=lambda: _range(100.0), margin=100.0 - _apart()),
     Row(id='l1.range', make=lambda: _range(20.0), margin=20.0 - _apart()),
     Row(

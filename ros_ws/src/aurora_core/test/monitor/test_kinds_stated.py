@@ -9,15 +9,18 @@ UAV of `hover_case` is at 30 m from tick 150 on and hovers up to tick 900 (45 s)
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from kind_rows import Row, cut, done_at, gone, grounded, stated
 from trace_cases import Case, convoy_case, ground_case, hover_case, survey_case, tailgate_case
 
+from aurora_core.knowledge.world import NamedPlace
 from aurora_core.outcomes.verdict import Reason
 from aurora_core.spec.scenario import Behavior
 from aurora_core.spec.vocabulary import BehaviorKind
+from aurora_core.trace.layout import UavColumn
 
 T = 401  # 20 s
 CARS = ('car1', 'car2')
@@ -101,6 +104,31 @@ GROUND = (
         make=lambda: gone(_cars('speed', ('car1',), '<', 7.0), 0, 100),
         reason=GONE,
         what='speed',
+    ),
+    # The driver behind sees the one ahead all along (401 samples), who never sees it.
+    Row(
+        id='c1.holds',
+        make=lambda: _cars('visible_time', CARS[::-1], '>=', 15.0),
+        margin=T * 0.05 - 15.0,
+        what='driver',
+    ),
+    Row(
+        id='c1.holds',
+        make=lambda: _cars('visible_time', CARS, '>=', 1.0),
+        margin=0.0 - 1.0,
+        what='driver',
+    ),
+    Row(
+        id='c1.holds',
+        make=lambda: _cars('visible_fraction', CARS[::-1], '>=', 0.9),
+        margin=1.0 - 0.9,
+        what='driver',
+    ),
+    Row(
+        id='c1.holds',
+        make=lambda: _cars('visible_fraction', CARS, '>=', 0.5),
+        margin=0.0 - 0.5,
+        what='driver',
     ),
     # 25 m at 1 s; 30 m at 2 s.
     Row(
@@ -202,6 +230,105 @@ GROUND = (
         make=lambda: gone(_cars('speed', ('car1',), '>=', 6.0, fraction=0.9), 0, 9),
         reason=GONE,
         what='speed',
+    ),
+)
+CITY = ('uav1', 'landmark:City Hall')
+
+
+def _near_city_hall(quantity: str, op: str, value: float, **more: float) -> Case:
+    case = stated(hover_case(drift=1.75), quantity, CITY, op, value, **more)
+    place = NamedPlace(name=CITY[1], x_m=120.0, y_m=90.0)
+    case.world = replace(case.world, places=(place,))
+    return case
+
+
+def _away_m() -> float:
+    """Least distance of the flying UAV of `hover_case` from City Hall, which is a point there."""
+    x, y = 120.0, 90.0
+    uav = hover_case(drift=1.75).run.trace().uav[:, 0]
+    flies = (uav[:, UavColumn.LANDED] < 0.5) | (uav[:, UavColumn.Z] > 0.3)
+    return float(np.hypot(uav[flies, 0] - x, uav[flies, 1] - y).min())
+
+
+def _flown_s() -> float:
+    uav = hover_case(drift=1.75).run.trace().uav[:, 0]
+    flies = (uav[:, UavColumn.LANDED] < 0.5) | (uav[:, UavColumn.Z] > 0.3)
+    return float(flies.sum()) * 0.05
+
+
+IN_THE_AIR = (
+    Row(
+        id='c1.holds',
+        make=lambda: _near_city_hall('clearance', '>=', 1.0),
+        margin=_away_m() - 1.0,
+        within=1e-6,
+    ),
+    Row(
+        id='c1.holds',
+        make=lambda: _near_city_hall('clearance', '>=', 5000.0),
+        margin=_away_m() - 5000.0,
+        within=1e-6,
+    ),
+    Row(
+        id='c1.holds',
+        make=lambda: grounded(_near_city_hall('clearance', '>=', 1.0)),
+        reason=EMPTY,
+        what='clearance',
+    ),
+    Row(
+        id='c1.share',
+        make=lambda: _near_city_hall('clearance', '>=', 1.0, fraction=0.5),
+        margin=0.5,
+        what='clearance',
+    ),
+    Row(
+        id='c1.share',
+        make=lambda: _near_city_hall('clearance', '>=', 5000.0, fraction=0.5),
+        margin=-0.5,
+        what='clearance',
+    ),
+    Row(
+        id='c1.share',
+        make=lambda: grounded(_near_city_hall('clearance', '>=', 1.0, fraction=0.5)),
+        reason=EMPTY,
+        what='clearance',
+    ),
+    # An endurance of 1500 s.
+    Row(
+        id='c1.holds',
+        make=lambda: _hover('battery', UP, '>=', 0.8),
+        margin=1.0 - _flown_s() / 1500.0 - 0.8,
+        within=1e-6,
+    ),
+    Row(
+        id='c1.holds',
+        make=lambda: _hover('battery', UP, '>=', 0.999),
+        margin=1.0 - _flown_s() / 1500.0 - 0.999,
+        within=1e-6,
+    ),
+    Row(
+        id='c1.holds',
+        make=lambda: grounded(_hover('battery', UP, '>=', 0.8)),
+        reason=EMPTY,
+        what='battery',
+    ),
+    Row(
+        id='c1.share',
+        make=lambda: _hover('battery', UP, '>=', 0.8, fraction=0.5),
+        margin=0.5,
+        what='battery',
+    ),
+    Row(
+        id='c1.share',
+        make=lambda: _hover('battery', UP, '<=', 0.8, fraction=0.5),
+        margin=-0.5,
+        what='battery',
+    ),
+    Row(
+        id='c1.share',
+        make=lambda: grounded(_hover('battery', UP, '>=', 0.8, fraction=0.5)),
+        reason=EMPTY,
+        what='battery',
     ),
 )
 FLIGHT = (
@@ -319,7 +446,7 @@ FLIGHT = (
         what='route',
     ),
 )
-ROWS = GROUND + FLIGHT
+ROWS = GROUND + IN_THE_AIR + FLIGHT
 
 
 @pytest.mark.parametrize('row', ROWS, ids=lambda row: row.name)

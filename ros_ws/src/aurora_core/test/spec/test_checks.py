@@ -106,8 +106,8 @@ def test_the_scene_itself_is_valid() -> None:
         (_event(action={'do': 'land', 'uav': 'car1'}), 'unknown UAV'),
         (_event(trigger={'on': 'mission_done', 'uav': 'uav9'}), 'unknown UAV'),
         (
-            _event(trigger={'on': 'visible', 'observer': 'car1', 'target': 'uav1'}),
-            'unknown UAV',
+            _event(trigger={'on': 'visible', 'observer': 'crosswalk', 'target': 'uav1'}),
+            'is a place and sees nothing',
         ),
         (_event(trigger={'on': 'event_done', 'event': 'e9'}), 'unknown event'),
         (_event(trigger={'on': 'event_done', 'event': 'e1'}), 'unknown event'),

@@ -30,7 +30,7 @@ _WORDS = {
 _QUANTITIES = (
     'distance horizontal_distance separation altitude speed tracked_fraction visible_time '
     'visible_fraction delivery_latency delivered delivery_ratio event_time hover_drift '
-    'waypoints_visited mission_completed landed'
+    'waypoints_visited mission_completed landed clearance battery'
 )
 
 

@@ -51,43 +51,75 @@ class ExcessLatency(OfEvent):
 
     def measure(self, context: Context, condition: Condition) -> Evaluation:
         """Return the number of steps per receipt, counted from the attempt that passed."""
-        model = link_model(context, condition, self.link)
-        numbers = {m.number: m for m in context.messages if m.link_id == model.link_id}
-        ticks, values = [], []
-        for record in context.view.trace.links:
-            message = numbers.get(record.message)
-            if record.kind is not LinkEventKind.DELIVERED or message is None:
-                continue
-            passed = next((a.tick for a in message.attempts if a.passed), None)
-            if passed is not None:
-                ticks.append(record.tick)
-                took = float(record.tick - passed)
-                values.append(abs(took - self.latency_s / context.view.dt_s))
-        if not values:
-            return never_happened(context, condition, f'nothing passed {model.link_id}')
-        return Measured(
-            ticks=np.array(ticks, dtype=np.intp),
-            values=np.array(values),
-            evidence=('comm',),
-            provisional=True,
-        )
+        return _excess_steps(context, condition, self.link, self.latency_s)
 
 
-def implied(inputs: Inputs, event: Event, link: Link) -> Condition:
-    """Return that what passes a link takes as long as the prompt says."""
-    steps = inputs.tolerances.latency_steps
+class ReportLatency(OfLink):
+    """The same of a link that reports go over.
+
+    Attributes:
+        latency_s: Its latency.
+    """
+
+    name = QuantityName.DELIVERY_LATENCY
+    kind: Literal['report_latency'] = 'report_latency'
+    latency_s: FiniteFloat
+
+    def measure(self, context: Context, condition: Condition) -> Evaluation:
+        """Return the number of steps per receipt, counted from the attempt that passed."""
+        return _excess_steps(context, condition, self.link, self.latency_s)
+
+
+def _excess_steps(
+    context: Context, condition: Condition, link: str, latency_s: float
+) -> Evaluation:
+    model = link_model(context, condition, link)
+    numbers = {m.number: m for m in context.messages if m.link_id == model.link_id}
+    ticks, values = [], []
+    for record in context.view.trace.links:
+        message = numbers.get(record.message)
+        if record.kind is not LinkEventKind.DELIVERED or message is None:
+            continue
+        passed = next((a.tick for a in message.attempts if a.passed), None)
+        if passed is not None:
+            ticks.append(record.tick)
+            took = float(record.tick - passed)
+            values.append(abs(took - latency_s / context.view.dt_s))
+    if not values:
+        return never_happened(context, condition, f'nothing passed {model.link_id}')
+    return Measured(
+        ticks=np.array(ticks, dtype=np.intp),
+        values=np.array(values),
+        evidence=('comm',),
+        provisional=True,
+    )
+
+
+def implied(inputs: Inputs, event: Event | None, link: Link) -> Condition:
+    """Return that what passes a link takes as long as the prompt says.
+
+    Args:
+        inputs: The request.
+        event: What sends over it; None for reports.
+        link: The link.
+    """
+    steps, latency_s = inputs.tolerances.latency_steps, link.latency_s.value
+    arguments: ExcessLatency | ReportLatency
+    if event is None:
+        arguments = ReportLatency(**inputs.common, link=link.id, latency_s=latency_s)
+    else:
+        own = inputs.of_event(event.id)
+        arguments = ExcessLatency(**own, link=link.id, latency_s=latency_s)
     return condition(
-        id=f'{event.id}.latency',
+        id=f'{link.id if event is None else event.id}.latency',
         sentence=(
-            f'what passes the link to {link.receiver} takes {number(link.latency_s.value)} s '
+            f'what passes the link to {link.receiver} takes {number(latency_s)} s '
             f'(within {steps} steps)'
         ),
         signal=f'excess_latency({link.id})',
         of=(link.sender, link.receiver),
         target=Target(op='<=', threshold=float(steps), unit='1'),
-        arguments=ExcessLatency(
-            **inputs.of_event(event.id), link=link.id, latency_s=link.latency_s.value
-        ),
+        arguments=arguments,
         source=Source(
             ids=(link.id,), spans=(link.latency_s.span,), provenance=Provenance.EXPLICIT
         ),

@@ -11,10 +11,11 @@ from pydantic import FiniteFloat
 
 from aurora_core.judging.build import Inputs, Source, Target, condition, number
 from aurora_core.judging.evaluation import Context, Evaluation, Measured, Missing
-from aurora_core.judging.messages import attempts_on_link
+from aurora_core.judging.messages import attempts_on_link, link_model
 from aurora_core.judging.quantity import OfLink
 from aurora_core.outcomes.condition import Condition
 from aurora_core.quantities import motion
+from aurora_core.quantities.ledger import is_out
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import Link
@@ -40,11 +41,14 @@ class LinkRange(OfLink):
         if isinstance(sent, Missing):
             return sent
         apart = motion.distance(context.view, *condition.of)
+        outage_s = link_model(context, condition, self.link).outage_s
         ticks, slack = [], []
         for attempt in (a for message in sent for a in message.attempts):
             if attempt.tick < context.view.ticks:
                 inside_m = self.range_m - float(apart[attempt.tick])
                 out_of_range = not attempt.passed and attempt.reason is LossReason.RANGE
+                if out_of_range and is_out(outage_s, attempt.tick, context.view.dt_s):
+                    continue
                 ticks.append(attempt.tick)
                 slack.append(-inside_m if out_of_range else inside_m)
         return Measured(

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""How often a UAV sees its target."""
+"""How often a body sees its target."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from typing import Literal
 
 from aurora_core.judging.build import Inputs, Source, number, share_condition
 from aurora_core.judging.evaluation import Context, Evaluation, Missing
-from aurora_core.judging.quantity import OfMission
+from aurora_core.judging.quantity import OfSight
 from aurora_core.judging.shares import share_of
 from aurora_core.outcomes.condition import Condition, MissionArguments
 from aurora_core.spec.quantity import QuantityName
 
 
-class VisibleFraction(OfMission):
-    """Share of a mission in which the target is visible."""
+class VisibleFraction(OfSight):
+    """Share of a mission, from the ground of the whole run, in which the target is visible."""
 
     name = QuantityName.VISIBLE_FRACTION
     kind: Literal['visible_fraction'] = 'visible_fraction'
@@ -28,7 +28,8 @@ class VisibleFraction(OfMission):
         observer, target = condition.of
         sight = context.sight(observer, target)
         what = f'{observer} saw {target}'
-        return share_of(context, ticks, sight.visible, sight.margin_m, what, self.phase_topics)
+        topics = self.sight_topics(observer)
+        return share_of(context, ticks, sight.visible, sight.margin_m, what, topics)
 
 
 def implied(inputs: Inputs, mission: MissionArguments, target: str, source: Source) -> Condition:

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""For how long a UAV sees a target, in all or without a break."""
+"""For how long a body sees a target, in all or without a break."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from typing import Literal
 import numpy as np
 
 from aurora_core.judging.evaluation import Context, Evaluation, Later, Missing, at_tick
-from aurora_core.judging.quantity import OfMission
+from aurora_core.judging.quantity import OfSight
 from aurora_core.outcomes.condition import Condition
 from aurora_core.spec.quantity import QuantityName
 
 
-class VisibleTime(OfMission):
-    """Time of sight in the phases of a UAV, seconds.
+class VisibleTime(OfSight):
+    """Time of sight in the phases of a UAV, from the ground in the whole run, seconds.
 
     Attributes:
         unbroken: The longest stretch without a gap counts, not the sum.
@@ -39,4 +39,5 @@ class VisibleTime(OfMission):
             count = int((edges[1::2] - edges[0::2]).max(initial=0))
         seen_s = context.time_s(count)
         story = f'{observer} saw {target} for {seen_s:.2f} s'
-        return at_tick(int(ticks[-1]), seen_s, story, self.phase_topics, later=Later.RISES)
+        topics = self.sight_topics(observer)
+        return at_tick(int(ticks[-1]), seen_s, story, topics, later=Later.RISES)

@@ -29,6 +29,7 @@ _TRIGGERS: dict[str, tuple[str, str, str, str]] = {
     'speed_above': ('who', '', 'value_mps', 'trigger_speed'),
     'event_done': ('', 'event', 'after_s', 'trigger_time'),
     'mission_done': ('uav', '', '', 'delay'),
+    'battery_below': ('uav', '', 'value', 'condition_ratio'),
 }
 _UAV_ACTIONS = ('land', 'return_home', 'ascend', 'change_mission')
 _CONDITION_VALUES = {

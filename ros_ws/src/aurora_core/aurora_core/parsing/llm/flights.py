@@ -96,6 +96,19 @@ def add_link(said: LinkReading, parts: Parts) -> None:
             retransmissions=parts.number(
                 'link_retransmissions', said.retransmissions, f'{where}.retransmissions'
             ),
+            outage=_outage(said, parts),
+            rate=parts.number('link_rate', said.rate_hz, f'{where}.rate_hz'),
             span=parts.span(said.quote, where),
         )
     )
+
+
+def _outage(said: LinkReading, parts: Parts) -> tuple[Parameter, Parameter] | None:
+    begins = parts.number('link_outage', said.outage_from_s, f'{said.id}.outage_from_s')
+    ends = parts.number('link_outage', said.outage_to_s, f'{said.id}.outage_to_s')
+    if begins is None and ends is None:
+        return None
+    if begins is None or ends is None or not 0.0 <= begins.value < ends.value:
+        parts.complaints.append(f'{said.id}: an outage has a beginning and a later end')
+        return None
+    return begins, ends

@@ -121,6 +121,9 @@ class LinkReading(Document):
     latency_s: Number | None = None
     range_m: Number | None = None
     retransmissions: Number | None = None
+    outage_from_s: Number | None = None
+    outage_to_s: Number | None = None
+    rate_hz: Number | None = None
     quote: Quote
 
 
@@ -140,6 +143,7 @@ class TriggerReading(Document):
         'speed_above',
         'event_done',
         'mission_done',
+        'battery_below',
     ]
     subject: Name | None = None
     other: Reference | None = None
@@ -195,6 +199,8 @@ class ConditionReading(Document):
         'event_time',
         'delivery_latency',
         'delivery_ratio',
+        'clearance',
+        'battery',
     ]
     of: tuple[Reference, ...]
     op: Literal['<=', '<', '>=', '>', '==']

@@ -16,6 +16,7 @@ from aurora_core.spec.scenario import (
     AgentAction,
     AltitudeTrigger,
     ArrivalTrigger,
+    BatteryTrigger,
     DistanceTrigger,
     Event,
     MessageTrigger,
@@ -219,6 +220,8 @@ def _trigger_words(event: Event | None, record: EventRecord) -> tuple[str, str]:
         return f'{trigger.a} {way} {trigger.value_m.value:g} m of {_plain(trigger.b)}', trigger.a
     if isinstance(trigger, TimeTrigger):
         return f'{trigger.at_s.value:g} s reached ({record.subject})', ''
+    if isinstance(trigger, BatteryTrigger):
+        return f'{trigger.uav} has less than {100.0 * trigger.value.value:g} % left', trigger.uav
     if isinstance(trigger, AltitudeTrigger):
         return f'{trigger.uav} reaches {trigger.value_m.value:g} m', trigger.uav
     if isinstance(trigger, VisibilityTrigger):

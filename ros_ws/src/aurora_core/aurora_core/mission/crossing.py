@@ -1,0 +1,46 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The way to a mission over what stands in between: up, across, down."""
+
+from __future__ import annotations
+
+from aurora_core.geometry.kernel import norm2
+from aurora_core.mission.setpoint import PursuitReference
+
+Goal = tuple[tuple[float, float, float], tuple[float, float]]
+
+# So near to its height it turns to the way across, so near above its goal it goes down (m).
+_UP_M = 0.5
+_ABOVE_M = 2.0
+
+
+class Crossing:
+    """One crossing; over once it has been above its goal.
+
+    Args:
+        over_m: Height of the way across; None: straight.
+    """
+
+    def __init__(self, over_m: float | None) -> None:
+        self._over_m = over_m
+        self._from: tuple[float, float] | None = None
+
+    def goal(self, reference: PursuitReference, rest: tuple[float, float], goal: Goal) -> Goal:
+        """Return where to go next, a point and its velocity, on the way to a goal.
+
+        Args:
+            reference: Where the set-point is.
+            rest: Where it would come to rest (x, y in m).
+            goal: The point (x, y, z in m) to get to, and its velocity (m/s).
+        """
+        if self._over_m is None:
+            return goal
+        (x, y, _), velocity = goal
+        if norm2(x - reference.x, y - reference.y) <= _ABOVE_M:
+            self._over_m = None
+            return goal
+        if self._from is None:
+            self._from = rest
+        if reference.z < self._over_m - _UP_M:
+            return (*self._from, self._over_m), (0.0, 0.0)
+        return (x, y, self._over_m), velocity
