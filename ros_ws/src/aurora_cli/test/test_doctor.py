@@ -327,7 +327,7 @@ def test_dead_stopped_missing_and_hanging_nodes(planted: Planted) -> None:
     planted.node('sync', 101, started=5)
     dead, missing = graph.nodes(machine)
     assert dead.found == 'process 101 has ended'
-    assert missing.found == 'sync not running, 9 others are'
+    assert missing.found == 'sync not running, 10 others are'
 
 
 def test_what_dead_nodes_leave_is_removed(planted: Planted) -> None:
@@ -481,7 +481,7 @@ def test_the_command_ends_with_0_or_1(
     machine = planted.machine()
     assert doctor_command(machine, repair=False, json_wanted=False) == 0
     out = capsys.readouterr().out
-    assert 'ok        graph: 10 nodes run' in out
+    assert 'ok        graph: 11 nodes run' in out
     assert 'model: offline, which needs no key and no network' in out
     planted.node('sync', 4000, started=1)
     assert doctor_command(machine, repair=False, json_wanted=True) == 1

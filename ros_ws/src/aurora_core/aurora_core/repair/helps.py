@@ -186,6 +186,10 @@ HELPS: Mapping[str, tuple[Help, ...]] = MappingProxyType(
         ),
         Q.CLIMB_RATE: (_place(0.5, _WALLS),),
         Q.WIND: (_place(0.5, 'the wind there'),),
+        Q.CLEARANCE: (_place(1.5, _WALLS),),
+        Q.BATTERY: _FLOWN,
+        Q.OUTAGE: _RADIO,
+        Q.REPORT_GAP: _RADIO,
     }
 )
 

@@ -109,7 +109,7 @@ class PassedFirst(_Yielding):
     def of_person(self, context: Context, condition: Condition, end: int) -> Evaluation:
         """Return how far ahead the person was once it was over the way."""
         tick, value_m = _crossing(context, condition, end)
-        return at_tick(tick, value_m, evidence=ground_topics(condition), later=Later.RISES)
+        return at_tick(tick, value_m, evidence=ground_topics(condition), later=Later.ANY)
 
 
 class SlowerBeforePassed(_Yielding):
@@ -185,7 +185,7 @@ class PassedAfter(OfEvent):
         if context.view.body(b).entry.is_person:
             tick, value_m = _crossing(context, condition, end)
             story = f'{begin}; {b} was {value_m:.2f} m ahead of {a}, or short of its other side'
-            return at_tick(tick, value_m, story, topics, later=Later.RISES, provisional=True)
+            return at_tick(tick, value_m, story, topics, later=Later.ANY, provisional=True)
         ahead = lead_on_route(context, a, b, self.offset_m)[:end]
         farthest = due + int(np.argmax(ahead[due:]))
         most_m = float(ahead[farthest])
@@ -203,6 +203,7 @@ def _crossing(context: Context, condition: Condition, end: int) -> tuple[int, fl
     """Return when a person was over the way of a vehicle, and how far ahead of its front then.
 
     Of a person that never was, where it came nearest to that, and how far short of it (negative).
+    Until then anything may follow: who comes over behind the vehicle has not been let over.
     """
     a, b = (context.view.body(name) for name in condition.of)
     lead, beyond, crossed = crossing_series(context.view, a, b)

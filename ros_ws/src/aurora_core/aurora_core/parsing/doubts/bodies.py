@@ -27,6 +27,7 @@ from aurora_core.spec.scenario import AgentAction, Clause, ScenarioSpec
 from aurora_core.spec.vocabulary import AgentType, BehaviorKind, ClauseStatus, Role
 
 _ON_FOOT = frozenset({AgentType.PEDESTRIAN, AgentType.RSU})
+_FINITE = frozenset({AtomKind.VERB, AtomKind.AUXILIARY})
 # Verbs that only say that somebody is there.
 _PRESENTS = frozenset({'be', 'contain', 'have', 'include', 'place', 'put', 'see'})
 _TRANSITIVE = frozenset(
@@ -175,6 +176,8 @@ def twins(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
             noun = atom.noun
             if noun is None or noun.kind is not NounKind.UAV or clause_of(spec, atom) is None:
                 continue
+            if any(a.kind in _FINITE for a in stretch(told, k + 1)):
+                continue  # `after it has stopped | the drone warns the ego`
             done_to = (k > 0 and told[k - 1].kind is AtomKind.VERB) or _above(told[:k])
             if done_to and any(
                 b.noun is not None and b.noun.kind is NounKind.UAV for b in told[:k]
