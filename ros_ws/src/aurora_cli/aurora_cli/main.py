@@ -77,7 +77,7 @@ Map = Annotated[str, typer.Option('--map', help='Map, see: aurora map list.')]
 Repair = Annotated[
     int | None,
     typer.Option(
-        min=0, metavar='N', help='Runs that repair may spend (default: see config/repair.yaml).'
+        min=0, metavar='N', help='Runs that repair may spend (default: `unasked` in config/repair.yaml).'
     ),
 ]
 NoRepair = Annotated[bool, typer.Option('--no-repair', help='End with the first verdict.')]

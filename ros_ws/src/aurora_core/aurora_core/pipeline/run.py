@@ -245,7 +245,7 @@ class _Run:
         """
         if self.request.repair is not None:
             return self.request.repair
-        return 0 if self.request.faults else self.known.repair.budget
+        return 0 if self.request.faults else self.known.repair.unasked
 
     def attempt(self, graph: Agsg, made: list[Realisation], past: list[Attempt]) -> bool:
         """Try the next proposal; False when there is none."""

@@ -38,6 +38,7 @@ class RepairSettings(Document):
     """See `config/repair.yaml`."""
 
     budget: NonNegativeInt
+    unasked: NonNegativeInt
     groundings: PositiveInt
     most_parameters: PositiveInt = Field(le=_MOST_PARAMETERS)
     singles: PositiveInt

@@ -115,7 +115,7 @@ class Clock:
         return 0.0
 
 
-def ran(stages: FakeStages, root: Path, repair: int | None = None) -> RunReport:
+def ran(stages: FakeStages, root: Path, repair: int = 5) -> RunReport:
     return run(
         RunRequest(prompt=PROMPT, repair=repair),
         stages,
