@@ -76,9 +76,7 @@ Seed = Annotated[int, typer.Option(help='Seed of everything that is drawn.')]
 Map = Annotated[str, typer.Option('--map', help='Map, see: aurora map list.')]
 Repair = Annotated[
     int | None,
-    typer.Option(
-        min=0, metavar='N', help='Runs that repair may spend (default: `unasked` in config/repair.yaml).'
-    ),
+    typer.Option(min=0, metavar='N', help='Runs that repair may spend (see config/repair.yaml).'),
 ]
 NoRepair = Annotated[bool, typer.Option('--no-repair', help='End with the first verdict.')]
 RunOrBag = Annotated[str, typer.Argument(metavar='RUN_OR_BAG', help='Run folder, run id or bag.')]

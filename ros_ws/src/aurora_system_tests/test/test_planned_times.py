@@ -25,8 +25,8 @@ PROMPTS = {
         'by 60 m. It must be on the ground by 200 s.'
     ),
     'one after the other': (
-        'Drone A hovers at 30 m over City Hall for 20 s. After it has finished its mission drone B '
-        'hovers over Harbor Market at 40 m for 20 s.'
+        'Drone A hovers at 30 m over City Hall for 20 s. After it has finished its mission drone '
+        'B hovers over Harbor Market at 40 m for 20 s.'
     ),
     'an altitude that is waited for': (
         'The drone ascends to 40 m. When it reaches 40 m the ambulance starts. The drone tracks '
