@@ -265,12 +265,14 @@ class AgentPlacer:
     ) -> GroundedAgent:
         record = self._types[agent.type.value]
         lane_id, position_m = path.lane_position_at(arc_m)
-        first = self._map.network.lane(lane_id).edge_id
+        lane = self._map.network.lane(lane_id)
+        first = lane.edge_id
+        late = still or release.on is not ReleaseOn.START
+        factor = max(style.get('speed_factor', 1.0), _urged(record, speed_mps))
         edges = path.edge_ids[path.edge_ids.index(first) :]
         x, y, hx, hy = path.position_at(arc_m)
         if parked:  # right of its lane
-            width_m = self._map.network.lane(lane_id).width_m
-            aside_m = 0.5 * width_m + 0.5 * record.width_m + KERB_CLEARANCE_M
+            aside_m = 0.5 * lane.width_m + 0.5 * record.width_m + KERB_CLEARANCE_M
             x, y = x + aside_m * hy, y - aside_m * hx
         route_xy_m = ((x, y), *line_from(path, arc_m)[1:])
         stop_lane_id, stop_position_m = '', 0.0
@@ -292,8 +294,9 @@ class AgentPlacer:
             y_m=y,
             heading_x=hx,
             heading_y=hy,
-            speed_mps=0.0 if still or release.on is not ReleaseOn.START else entry_mps,
-            speed_factor=max(style.get('speed_factor', 1.0), _urged(record, speed_mps)),
+            # The simulator refuses who enters faster than its style of driving lets it be.
+            speed_mps=0.0 if late else min(entry_mps, factor * lane.speed_limit_mps),
+            speed_factor=factor,
             time_gap_s=style.get('time_gap_s'),
             min_gap_m=style.get('min_gap_m'),
             gentle_mps2=style.get('gentle_mps2'),

@@ -8,6 +8,7 @@ from collections.abc import Callable
 
 import pytest
 
+from aurora_core.knowledge.map_model import MapModel
 from aurora_core.outcomes.grounded import GroundedAgent, GroundedScenario, ReleaseOn
 from aurora_core.spec.own_events import YIELDS_WITHIN_M
 from aurora_core.spec.scenario import ScenarioSpec
@@ -46,6 +47,18 @@ def test_who_waits_for_a_drone_starts_from_rest(agents: Agents) -> None:
 def test_who_follows_comes_in_as_fast(agents: Agents) -> None:
     found = agents('My car drives at 10 m/s. A van follows my car. After 8 s my car stops.')
     assert found['van1'].speed_mps == found['ego'].speed_mps == 10.0
+
+
+def test_nobody_comes_in_faster_than_its_style_of_driving_allows(
+    agents: Agents, map_of: Callable[[str], MapModel]
+) -> None:
+    """Who leads others slows them down; the simulator refuses a greater speed at t = 0."""
+    turns = 'My car changes lane, slows down to 5 m/s and turns right at the intersection. '
+    found = agents(f'My car drives at 11 m/s. {turns}A motorcycle follows my car.')
+    assert found['ego'].speed_mps > 0.0
+    for agent in found.values():
+        limit_mps = map_of('downtown').network.lane(agent.lane_id).speed_limit_mps
+        assert agent.speed_mps <= agent.speed_factor * limit_mps
 
 
 def test_nobody_comes_in_too_fast_for_who_stands_ahead(agents: Agents) -> None:
