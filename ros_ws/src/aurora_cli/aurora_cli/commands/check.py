@@ -6,8 +6,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from matplotlib.figure import Figure
-
 from aurora_cli.answers import check_facts
 from aurora_cli.files import write_file
 from aurora_cli.installed import installed
@@ -18,12 +16,10 @@ from aurora_core.errors import PromptError
 from aurora_core.grounding.sites import TriedSite
 from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.report.check_report import build_check, check_exit_code
-from aurora_core.report.picture.check_picture import draw_check
-from aurora_core.report.picture.draw import png_bytes, svg_bytes
 from aurora_core.report.terminal import print_check
 from aurora_core.spec.scenario import ScenarioSpec
 
-_WRITERS = {'.png': png_bytes, '.svg': svg_bytes}
+_ENDINGS = ('.png', '.svg')
 
 
 def check_command(
@@ -39,8 +35,7 @@ def check_command(
     Raises:
         UsageProblem: Options or prompt source are wrong, or the picture's name ends neither way.
     """
-    writer = None if picture is None else _WRITERS.get(picture.suffix.lower())
-    if picture is not None and writer is None:
+    if picture is not None and picture.suffix.lower() not in _ENDINGS:
         raise UsageProblem(f'--picture takes a name that ends with .png or .svg, found {picture}')
     request = checked(options)
     raw = prompt_bytes(argument, prompt_file)
@@ -53,9 +48,8 @@ def check_command(
         report = build_check(facts)
         graph = facts.graph
         grounded = graph.grounding if graph is not None else None
-        if picture is not None and writer is not None and graph is not None and grounded:
-            figure = _drawn(graph.spec, grounded, report.result.value)
-            write_file(picture, writer(figure))
+        if picture is not None and graph is not None and grounded:
+            _draw(graph.spec, grounded, report.result.value, picture)
     if picture is not None and grounded is None:
         say('aurora: there is no place to draw')
     elif picture is not None:
@@ -67,9 +61,15 @@ def check_command(
     return int(check_exit_code(report.result))
 
 
-def _drawn(spec: ScenarioSpec, grounded: GroundedScenario, result: str) -> Figure:
+def _draw(spec: ScenarioSpec, grounded: GroundedScenario, result: str, picture: Path) -> None:
     """Ground a request once more, for the sites that were looked at, and draw it."""
+    # Drawing takes longer to load than a check without a picture takes.
+    from aurora_core.report.picture.check_picture import draw_check
+    from aurora_core.report.picture.draw import png_bytes, svg_bytes
+
     tried: list[TriedSite] = []
     installed().grounder(grounded.map_name).ground(spec, grounded.seed, tried=tried)
     model = installed().map(grounded.map_name)
-    return draw_check(spec, grounded, model, tried, result)
+    figure = draw_check(spec, grounded, model, tried, result)
+    writer = png_bytes if picture.suffix.lower() == '.png' else svg_bytes
+    write_file(picture, writer(figure))
