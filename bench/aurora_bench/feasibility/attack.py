@@ -13,13 +13,11 @@ A number beyond a limit is left out: the limit says so, not the world.
 from __future__ import annotations
 
 import argparse
-import os
 import random
 import sys
 import tempfile
 from collections import Counter
 from collections.abc import Sequence
-from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
@@ -28,16 +26,12 @@ from aurora_bench.feasibility.judge import judged
 from aurora_bench.progress import Progress
 from aurora_bench.results import Table, markdown_table, write_results
 from aurora_bench.rulers.checking import asked_of, independent_checker
-from aurora_bench.rulers.runs import on_map
+from aurora_bench.rulers.runs import on_map, run_into
 from aurora_bench.rulers.watched import WatchedStages
-from aurora_cli.clock import MonotonicClock
 from aurora_cli.installed import installed
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.feasibility import Feasibility, FeasibilityVerdict, Rule
-from aurora_core.pipeline.run import run
-from aurora_core.pipeline.stages import RunControl, RunRequest
-from aurora_core.report.outputs import write_report
-from aurora_core.report.run_folder import RunFolder, new_run_id
+from aurora_core.pipeline.stages import RunRequest
 from aurora_core.spec.scenario import ScenarioSpec
 
 # A number that nobody states is drawn anew this often; else it stays as it is.
@@ -122,16 +116,7 @@ def _attacked(
     spec = case.spec if index == 0 else varied(case.spec, draw)
     request = RunRequest(prompt=case.prompt, seed=index + 1, map_name=options.map)
     stages = _Unchecked(on_map(spec, options.map))
-    folder = RunFolder(place / f'{case.id}-{index}', new_run_id(datetime.now(UTC), os.urandom(3)))
-    report = run(
-        request,
-        stages,
-        stages.known,
-        folder,
-        RunControl(),
-        MonotonicClock(),
-        outputs=write_report,
-    )
+    report, folder = run_into(place / f'{case.id}-{index}', request, stages)
     if report.trace is None:
         failure = stages.grounding.failure if stages.grounding is not None else None
         why = f' ({failure.reason})' if failure is not None else ''

@@ -4,23 +4,19 @@
 
 from __future__ import annotations
 
-import os
 import tempfile
 import time
 from dataclasses import dataclass
-from datetime import UTC, datetime
 from pathlib import Path
 
 from aurora_bench.repair.faults import Fault, with_fault
+from aurora_bench.rulers.runs import run_into
 from aurora_bench.rulers.watched import WatchedStages
-from aurora_cli.clock import MonotonicClock
 from aurora_cli.installed import installed
 from aurora_core.document import Document
 from aurora_core.outcomes.verdict import VerdictStatus
-from aurora_core.pipeline.run import run
 from aurora_core.pipeline.stages import RunControl, RunRequest
-from aurora_core.report.outputs import write_report
-from aurora_core.report.run_folder import RunFolder, StageFile, new_run_id
+from aurora_core.report.run_folder import RunFolder, StageFile
 from aurora_core.report.run_report import RunReport
 
 _FIRST = 3
@@ -60,7 +56,7 @@ class RepairWork:
 
     Attributes:
         map_name: Map of the runs.
-        budget: Co-simulations that repair may spend; None: as the command.
+        budget: Co-simulations that repair may spend; None: as `aurora repair`.
     """
 
     map_name: str = 'downtown'
@@ -78,21 +74,14 @@ class RepairWork:
         if not self._holds(fault):
             return Episode(key=fault.key, kind=fault.kind, status='no base', showed=False)
         spec, cause = with_fault(known, fault, self.map_name)
+        budget = known.repair.budget if self.budget is None else self.budget
         request = RunRequest(
-            prompt=fault.prompt, map_name=self.map_name, seed=fault.seed, repair=self.budget
+            prompt=fault.prompt, map_name=self.map_name, seed=fault.seed, repair=budget
         )
         with tempfile.TemporaryDirectory(prefix='aurora_repair_') as name:
-            folder = RunFolder(Path(name), new_run_id(datetime.now(UTC), os.urandom(3)))
             verdicts = _Verdicts()
-            report = run(
-                request,
-                WatchedStages(spec),
-                known,
-                folder,
-                RunControl(progress=verdicts.progress),
-                MonotonicClock(),
-                outputs=write_report,
-            )
+            control = RunControl(progress=verdicts.progress)
+            report, folder = run_into(Path(name), request, WatchedStages(spec), control)
             return _episode(fault, cause, report, folder, verdicts)
 
     def _holds(self, fault: Fault) -> bool:
@@ -102,15 +91,7 @@ class RepairWork:
             prompt=fault.prompt, map_name=self.map_name, seed=fault.seed, repair=0
         )
         with tempfile.TemporaryDirectory(prefix='aurora_repair_') as name:
-            report = run(
-                request,
-                WatchedStages(spec),
-                installed(),
-                RunFolder(Path(name), new_run_id(datetime.now(UTC), os.urandom(3))),
-                RunControl(),
-                MonotonicClock(),
-                outputs=write_report,
-            )
+            report, _ = run_into(Path(name), request, WatchedStages(spec))
         return report.trace is not None and report.trace.verdict is VerdictStatus.VERIFIED
 
 

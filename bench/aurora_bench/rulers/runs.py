@@ -32,6 +32,23 @@ from aurora_core.report.status import Status
 from aurora_core.spec.scenario import ScenarioSpec
 
 
+def run_into(
+    place: Path, request: RunRequest, stages: WatchedStages, control: RunControl | None = None
+) -> tuple[RunReport, RunFolder]:
+    """Run a request in the local engine into a folder of its own below a place."""
+    folder = RunFolder(place, new_run_id(datetime.now(UTC), os.urandom(3)))
+    report = run(
+        request,
+        stages,
+        stages.known,
+        folder,
+        control or RunControl(),
+        MonotonicClock(),
+        outputs=write_report,
+    )
+    return report, folder
+
+
 @dataclass(kw_only=True)
 class RunWork(ABC):
     """How trials are run; sent to every worker.
@@ -82,16 +99,7 @@ class RunWork(ABC):
 
     def ran(self, request: RunRequest, place: Path, stages: WatchedStages) -> _Ran:
         """Run a request into a folder and remember how long its stages took."""
-        folder = RunFolder(place, new_run_id(datetime.now(UTC), os.urandom(3)))
-        report = run(
-            request,
-            stages,
-            stages.known,
-            folder,
-            RunControl(),
-            MonotonicClock(),
-            outputs=write_report,
-        )
+        report, folder = run_into(place, request, stages)
         self._seconds.update(report.timing)
         return _Ran(report, stages, folder.path)
 

@@ -111,7 +111,7 @@ def run_prompt(
     map_name: Map = 'downtown',
     out: Annotated[Path, typer.Option(help='Folder of the run folders.')] = Path('runs'),
     allow_relax: Annotated[
-        bool, typer.Option('--allow-relax', help='Repair may change the request itself.')
+        bool, typer.Option('--allow-relax', help='Recorded; repair changes no request yet.')
     ] = False,
     repair: Repair = None,
     no_repair: NoRepair = False,

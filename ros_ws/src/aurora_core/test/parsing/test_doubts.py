@@ -7,6 +7,8 @@ from __future__ import annotations
 import pytest
 
 from aurora_core.outcomes.parse import ParseContext
+from aurora_core.parsing.data_files import read_data
+from aurora_core.parsing.doubts import bodies, clauses, flights, messages, times
 from aurora_core.parsing.parser import parse_offline
 from aurora_core.spec.vocabulary import ClauseStatus
 
@@ -16,6 +18,26 @@ CONTEXT = ParseContext(landmark_names=('City Hall', 'Harbor Market'))
 def _unread(prompt: str) -> list[str]:
     outcome = parse_offline(prompt, CONTEXT)
     return [c.text for c in outcome.clauses if c.status is ClauseStatus.NOT_ENCODED]
+
+
+@pytest.mark.parametrize(
+    'keys',
+    [
+        clauses.TOLD,
+        clauses.MOMENTS,
+        messages._GOES_ON,
+        bodies._PRESENTS,
+        bodies._TRANSITIVE,
+        bodies._AWAITS,
+        flights._CLIMBS,
+        times._FROM_HERE,
+        times._INTRANSITIVE,
+        times._LETS_PASS,
+    ],
+    ids=sorted,
+)
+def test_the_verbs_that_checks_look_for_are_keys_of_the_lexicon(keys: frozenset[str]) -> None:
+    assert keys <= read_data('lexicon.yaml')['verbs'].keys()
 
 
 _TRACKS = 'A drone tracks a van at 40 m for 30 seconds'
@@ -78,6 +100,7 @@ def test_what_no_element_says_is_admitted(prompt: str, quoted: str) -> None:
         'The truck stops at 10 s, then the bus.',
         'A drone tracks a car. It stops at 9 s; 3 s after it has stopped the drone alerts it.',
         'A drone tracks a van after climbing to 40 m.',
+        'A drone patrols along the main road and warns the ego car.',
         'A drone hovers over City Hall at 15 m for 20 s, climbs to 45 m and hovers there.',
         'A drone tracks a van. The ego brakes because the drone has warned it.',
         'When the drone has finished its mission, a second drone lands.',

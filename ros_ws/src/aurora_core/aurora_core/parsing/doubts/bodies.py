@@ -18,6 +18,7 @@ from pydantic import BaseModel
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind, NounPhrase
 from aurora_core.parsing.doubts.clauses import (
     clause_of,
+    meet,
     sentences,
     stretch,
     within,
@@ -29,7 +30,7 @@ from aurora_core.spec.vocabulary import AgentType, BehaviorKind, ClauseStatus, R
 _ON_FOOT = frozenset({AgentType.PEDESTRIAN, AgentType.RSU})
 _FINITE = frozenset({AtomKind.VERB, AtomKind.AUXILIARY})
 # Verbs that only say that somebody is there.
-_PRESENTS = frozenset({'be', 'contain', 'have', 'include', 'place', 'put', 'see'})
+_PRESENTS = frozenset({'be', 'contain', 'put', 'see'})
 _TRANSITIVE = frozenset(
     {
         *('alert', 'approach', 'follow', 'observe', 'overtake', 'report', 'send', 'tailgate'),
@@ -216,7 +217,7 @@ def gapped(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
             placed_here = {
                 a.id
                 for a in spec.agents
-                if any(p.span is not None and _meet(p.span, where) for p in a.placements)
+                if any(p.span is not None and meet(p.span, where) for p in a.placements)
             }
             for name, _ in _named(told, spec.prompt, bodies):
                 meant = {who for who, names in bodies.items() if name in names}
@@ -319,14 +320,10 @@ def _told(spec: ScenarioSpec, clause: Clause) -> set[str]:
     for name, part in parts:
         by_id.setdefault(name, []).append(part)
     told = set(clause.ids)
-    told |= {name for name, part in parts if any(_meet(clause.span, s) for s in _spans(part))}
+    told |= {name for name, part in parts if any(meet(clause.span, s) for s in _spans(part))}
     for _ in range(2):
         told |= {word for name in told for part in by_id.get(name, ()) for word in _strings(part)}
     return told
-
-
-def _meet(one: Span, other: Span) -> bool:
-    return one.start < other.end and other.start < one.end
 
 
 def _spans(value: object) -> Iterator[Span]:

@@ -17,7 +17,7 @@ TOLD = frozenset({'alert', 'report', 'send'})
 MOMENTS = frozenset(
     {
         *('accelerate', 'brake', 'change_lane', 'cross', 'overtake', 'slow', 'start', 'stop'),
-        *('turn', 'turn_left', 'turn_right', 'yield'),
+        *('turn_left', 'turn_right', 'yield'),
     }
 )
 # What ends a stretch of words that one verb is for.
@@ -65,6 +65,11 @@ def clause_of(spec: ScenarioSpec, atom: Atom) -> Clause | None:
 def events_in(spec: ScenarioSpec, clause: Clause) -> list[Event]:
     """Return the events that a clause became."""
     return [e for e in spec.events if e.id in clause.ids]
+
+
+def meet(one: Span, other: Span) -> bool:
+    """Return whether two stretches share a character."""
+    return one.start < other.end and other.start < one.end
 
 
 def over(first: Atom, last: Atom) -> Span:

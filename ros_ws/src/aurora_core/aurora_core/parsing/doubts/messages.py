@@ -18,8 +18,8 @@ _ENDS = frozenset({AtomKind.VERB, AtomKind.SUBORDINATOR, AtomKind.STOP, AtomKind
 # What goes on beside a message whose moment stays open.
 _GOES_ON = frozenset(
     {
-        *('arrive', 'be', 'deliver', 'drive', 'fly', 'follow', 'go', 'hover', 'keep', 'observe'),
-        *('orbit', 'park', 'patrol', 'reach', 'receive', 'stand', 'track', 'wait', 'walk'),
+        *('be', 'circulate', 'drive', 'fly', 'follow', 'hover', 'keep', 'navigate', 'observe'),
+        *('orbit', 'park', 'reach', 'receive', 'track', 'wait', 'walk'),
     }
 )
 

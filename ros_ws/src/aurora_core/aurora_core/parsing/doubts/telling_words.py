@@ -18,6 +18,7 @@ from itertools import pairwise
 from aurora_core.parsing.atoms import Atom
 from aurora_core.parsing.coverage import parameters
 from aurora_core.parsing.data_files import read_data
+from aurora_core.parsing.doubts.clauses import meet
 from aurora_core.spec.parameter import Parameter, Provenance, Span, Unit
 from aurora_core.spec.scenario import (
     AgentAction,
@@ -72,16 +73,12 @@ def _encoded(spec: ScenarioSpec, span: Span) -> list[Clause]:
 
     Characters between two clauses belong to the one that they open.
     """
-    touched = [c for c in spec.clauses if _meet(c.span, span)]
+    touched = [c for c in spec.clauses if meet(c.span, span)]
     if not touched:
         behind = (c for c in spec.clauses if c.span.start >= span.end)
         touched = sorted(behind, key=lambda c: c.span.start)[:1]
     read = all(c.status is ClauseStatus.ENCODED for c in touched)
     return touched if read else []
-
-
-def _meet(one: Span, other: Span) -> bool:
-    return one.start < other.end and other.start < one.end
 
 
 # --- what carries a meaning ----------------------------------------------------------------------
@@ -96,7 +93,7 @@ def _timed(spec: ScenarioSpec, clause: Clause) -> bool:
 def _no_act(spec: ScenarioSpec, clause: Clause) -> bool:
     """A list of what is there, `and then there is a bus`: nobody does anything."""
     behaviors = [b for a in spec.agents if a.id in clause.ids for b in a.behaviors]
-    return not any(b.span is None or _meet(b.span, clause.span) for b in behaviors)
+    return not any(b.span is None or meet(b.span, clause.span) for b in behaviors)
 
 
 def _ground(spec: ScenarioSpec, clause: Clause) -> bool:
@@ -304,7 +301,7 @@ def _sided(spec: ScenarioSpec, clause: Clause) -> bool:
     flies = any(m.side is not None or m.bearing_deg is not None for m in flown)
     flies = flies or any(s.provenance is Provenance.EXPLICIT for s in away)
     meets = [p for a in spec.agents for p in a.placements if p.span is not None]
-    return flies or not flown or any(_meet(p.span, clause.span) for p in meets if p.span)
+    return flies or not flown or any(meet(p.span, clause.span) for p in meets if p.span)
 
 
 def _lanes(spec: ScenarioSpec, clause: Clause) -> bool:

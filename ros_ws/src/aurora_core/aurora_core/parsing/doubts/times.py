@@ -30,12 +30,9 @@ from aurora_core.spec.vocabulary import BehaviorKind, ClauseStatus
 
 # Whose distance is that of t = 0: where one starts, how far ahead a van is that cuts in.
 _FROM_HERE = frozenset({'change_lane', 'start'})
-_ENDED = frozenset({'complete', 'done', 'end', 'finish'})
-_INTRANSITIVE = frozenset(
-    {'brake', 'cross', 'land', 'start', 'stop', 'turn', 'turn_left', 'turn_right'}
-)
+_INTRANSITIVE = frozenset({'brake', 'cross', 'land', 'start', 'stop', 'turn_left', 'turn_right'})
 _LETS = frozenset({'lets', 'letting'})
-_LETS_PASS = frozenset({'cross', 'go', 'overtake', 'pass'})
+_LETS_PASS = frozenset({'cross', 'overtake'})
 # What stands for an act of its own behind `then`.
 _ACTS = frozenset({AtomKind.VERB, AtomKind.PATTERN, AtomKind.ROUTE, AtomKind.HAPPENING})
 
@@ -90,7 +87,7 @@ def landings(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
     for sentence in sentences(atoms):
         words = [a for a in sentence if a.kind in (AtomKind.VERB, AtomKind.HAPPENING)]
         clauses = [clause_of(spec, a) for a in words]
-        ended = any(a.key in _ENDED for a in sentence)
+        ended = any(a.key == 'finish' for a in sentence)
         if ended or not any(waiting & set(c.ids) for c in clauses if c is not None):
             continue
         then = {b.start for a, b in pairwise(sentence) if a.kind is AtomKind.THEN}
