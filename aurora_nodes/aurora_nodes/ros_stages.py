@@ -41,6 +41,8 @@ from aurora_ros.conversions.verdict import verdict_message
 from aurora_ros.interfaces import Call
 from aurora_ros.parameters import require_positive
 
+# How long the executor may take to end a run that was given up just before this one.
+_ENDING_S = 15.0
 CALLS = (on.PARSE, on.GROUND_SCENARIO, on.CHECK, on.EXECUTE, on.VERIFY, on.REPAIR)
 
 _Document = TypeVar('_Document', bound=Document)
@@ -169,6 +171,7 @@ class RosStages:
                 'execute', min(1.0, feedback.sim_time_s / horizon_s), feedback.sim_time_s
             ),
             cancelled=control.cancelled,
+            busy_s=_ENDING_S,
         )
         fields = {
             'bag': result.bag_uri,

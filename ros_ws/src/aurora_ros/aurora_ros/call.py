@@ -174,6 +174,7 @@ class Caller:
         cancelled: Callable[[], bool] = lambda: False,
         cancel_limit_s: float = 10.0,
         raise_errors: bool = True,
+        busy_s: float = 0.0,
     ) -> Any:
         """Send a goal to a prepared action, wait for its end and return the result.
 
@@ -186,34 +187,26 @@ class Caller:
             cancelled: Asked ten times a second; the goal is cancelled once it is true.
             cancel_limit_s: Wall-clock limit from then on.
             raise_errors: Raise the error that the result carries.
+            busy_s: Wall-clock seconds in which a refused goal is sent again: the server may still
+                be ending what was given up before.
 
         Raises:
             ExecutionError: No server or a second one, goal refused, no result within the limit,
                 server died.
             AuroraError: The result carries an error, or the guard raised.
         """
-        accept_s = min(limit_s, _ACCEPT_S)
-        deadline = time.monotonic() + accept_s
-        client = self._actions[call.name]
-        self._await_server(call, client.server_is_ready, deadline, accept_s)
-        sent = client.send_goal_async(
-            goal, feedback_callback=lambda message: on_feedback(message.feedback)
-        )
-        try:
-            self._await(sent, call, deadline, accept_s)
-            self.check_alone(call)
-        except AuroraError:
-            # The server may take it all the same, and would be busy when the next goal comes.
-            sent.add_done_callback(_give_up)
-            raise
-        deadline = time.monotonic() + limit_s
-        handle: ClientGoalHandle = sent.result()
+        busy_until = time.monotonic() + busy_s
+        handle = self._offer(call, goal, limit_s, on_feedback)
+        while not handle.accepted and time.monotonic() < busy_until and not cancelled():
+            time.sleep(_LOOK_S)
+            handle = self._offer(call, goal, limit_s, on_feedback)
         if not handle.accepted:
             raise ExecutionError(
                 f'{call.server} refused the goal of {call.name}',
                 component=call.server,
                 hint='it is busy with another run, or not active',
             )
+        deadline = time.monotonic() + limit_s
         result = handle.get_result_async()
         done = _event_of(result)
         cancelling = False
@@ -234,6 +227,27 @@ class Caller:
         if raise_errors:
             raise_error(response.result, call.server)
         return response.result
+
+    def _offer(
+        self, call: Call, goal: Any, limit_s: float, on_feedback: Callable[[Any], None]
+    ) -> ClientGoalHandle:
+        """Send a goal and return whether it was accepted, with its handle."""
+        accept_s = min(limit_s, _ACCEPT_S)
+        deadline = time.monotonic() + accept_s
+        client = self._actions[call.name]
+        self._await_server(call, client.server_is_ready, deadline, accept_s)
+        sent = client.send_goal_async(
+            goal, feedback_callback=lambda message: on_feedback(message.feedback)
+        )
+        try:
+            self._await(sent, call, deadline, accept_s)
+            self.check_alone(call)
+        except AuroraError:
+            # The server may take it all the same, and would be busy when the next goal comes.
+            sent.add_done_callback(_give_up)
+            raise
+        handle: ClientGoalHandle = sent.result()
+        return handle
 
     def _abandon(self, call: Call, handle: ClientGoalHandle, done: threading.Event) -> None:
         """Ask for the end of a goal that nobody waits for any more; wait for it a little."""

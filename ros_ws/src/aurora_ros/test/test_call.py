@@ -97,6 +97,31 @@ class SlowJudge:
         return response
 
 
+class BusyServer:
+    """Refuses the first goals, as one that still ends the run before; then does each at once."""
+
+    def __init__(self, node: Node) -> None:
+        self.refused = 0
+        self.server = ActionServer(
+            node,
+            ExecuteScenario,
+            on.EXECUTE.name,
+            self._work,
+            goal_callback=self._take,
+            callback_group=ReentrantCallbackGroup(),
+        )
+
+    def _take(self, _goal: Any) -> GoalResponse:
+        if self.refused == 3:
+            return GoalResponse.ACCEPT
+        self.refused += 1
+        return GoalResponse.REJECT
+
+    def _work(self, goal: Any) -> Any:
+        goal.succeed()
+        return ExecuteScenario.Result(ticks=7)
+
+
 @contextmanager
 def slow_server(
     domain: int, call: Call = on.EXECUTE, kind: Callable[[Node], Any] = SlowServer
@@ -132,6 +157,21 @@ def test_a_goal_given_up_before_it_is_taken_is_cancelled_then() -> None:
         with pytest.raises(ExecutionError, match='a partner died'):
             caller.action(on.EXECUTE, ExecuteScenario.Goal(), 20.0)
         assert server.cancelled.wait(10.0)
+
+
+def test_a_goal_is_offered_again_while_the_server_ends_another() -> None:
+    with (
+        own_domain() as domain,
+        slow_server(domain, kind=BusyServer) as server,
+        partner(domain) as play,
+    ):
+        caller = Caller(play.node)
+        caller.prepare(on.EXECUTE)
+        with pytest.raises(ExecutionError, match='refused the goal'):
+            caller.action(on.EXECUTE, ExecuteScenario.Goal(), 20.0)
+        assert server.refused == 1
+        result = caller.action(on.EXECUTE, ExecuteScenario.Goal(), 20.0, busy_s=15.0)
+    assert (result.ticks, server.refused) == (7, 3)
 
 
 @pytest.mark.parametrize(('working_s', 'is_answered'), [(30.0, True), (0.0, False)])
