@@ -121,12 +121,18 @@ def _patience() -> float:
 
 def _view(node: Node) -> tuple[int, ...]:
     """Return participants, nodes, topics and services, endpoints: as counts, which only grow."""
+    # Endpoints reach us in packets of their own: a topic that we publish too is known before them.
     writers = node.get_publishers_info_by_topic(_NODES_TOPIC, no_mangle=True)
     topics = node.get_topic_names_and_types(no_demangle=True)
     return (
         len({bytes(writer.endpoint_gid[:_GUID_PREFIX_BYTES]) for writer in writers}),
         len(node.get_node_names_and_namespaces()),
         len(topics),
+        sum(
+            len(node.get_publishers_info_by_topic(name, no_mangle=True))
+            + len(node.get_subscriptions_info_by_topic(name, no_mangle=True))
+            for name, _ in topics
+        ),
     )
 
 

@@ -30,7 +30,8 @@ NODE_NAME = 'rosbag2_player'
 CLOCK_TOPIC = '/clock'
 CLOCK_HZ = 40.0
 _NS = 1_000_000_000
-_LAST_ACKED_S = 1.0
+# Passes in full only where a subscriber has stopped listening.
+_LAST_ACKED_S = 10.0
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
