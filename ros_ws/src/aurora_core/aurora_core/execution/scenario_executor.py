@@ -23,10 +23,10 @@ from aurora_core.execution.lane_changer import LaneChanger
 from aurora_core.execution.observe import Observation
 from aurora_core.execution.overtaker import Overtaker
 from aurora_core.execution.premises import Premises
-from aurora_core.execution.ways import Ways
 from aurora_core.execution.reports import Reports
 from aurora_core.execution.step_output import StepOutput
 from aurora_core.execution.triggers import BatteryRule
+from aurora_core.execution.ways import Ways
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.mission.machine import MissionMachine
 from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
