@@ -58,12 +58,25 @@ def _named(spec: ScenarioSpec, count: SceneCount, *, own: bool) -> tuple[Fact, .
 
     "Exactly 3 vehicles": what these words themselves brought in may be what is named elsewhere.
     """
-    kinds, told = types_counted(count.kind), None if own else count.value.span
-    agents = (f for a in spec.agents if a.type.value in kinds and not _within(a.span, told)
+    kinds, told = types_counted(count.kind), count.value.span
+    taken_up = _taken_up(spec, told) if own else frozenset()
+    agents = (f for a in spec.agents if a.type.value in kinds
+              and (a.id in taken_up or not _within(a.span, told))
               for f in says(f'agents/{a.id}/type', a.type.value))  # fmt: skip
     uavs = (f for u in spec.uavs if UAV_TYPE in kinds and not _within(u.span, told)
             for f in says(f'uavs/{u.id}/id', u.id))  # fmt: skip
     return (*agents, *uavs)
+
+
+def _taken_up(spec: ScenarioSpec, told: Span | None) -> frozenset[str]:
+    """Return who does something, or is told of by others, in words outside of these."""
+    found = {m.target for m in spec.missions}
+    for agent in spec.agents:
+        for place in (p for p in agent.placements if not _within(p.span, told)):
+            found |= {agent.id, place.of}
+        for deed in (b for b in agent.behaviors if not _within(b.span, told)):
+            found |= {agent.id, deed.target}
+    return frozenset(name for name in found if name is not None)
 
 
 def _within(span: Span | None, other: Span | None) -> bool:

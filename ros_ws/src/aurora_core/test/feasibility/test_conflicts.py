@@ -166,6 +166,10 @@ def test_a_count_that_may_mean_others_is_doubted_and_not_refused() -> None:
     document['counts'] = [
         {'id': 'n1', 'kind': 'van', 'value': {**number(2.0, '1'), 'span': counted}}
     ]
+    assert judged(ScenarioSpec.model_validate(document)).result is Feasibility.FEASIBLE
+    document['agents'][0]['behaviors'] = [
+        {'kind': 'follow', 'target': 'van1', 'span': span('scenario')}
+    ]
     verdict = judged(ScenarioSpec.model_validate(document))
     assert verdict.result is Feasibility.UNKNOWN
     assert any('may be the same' in note for note in verdict.notes)
