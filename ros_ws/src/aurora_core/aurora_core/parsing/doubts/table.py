@@ -35,6 +35,7 @@ from aurora_core.parsing.doubts.messages import (
     other_receivers,
     places_of_deeds,
 )
+from aurora_core.parsing.doubts.roles import misanchored, misplaced
 from aurora_core.parsing.doubts.telling_words import untold
 from aurora_core.parsing.doubts.times import (
     bare_sequels,
@@ -70,6 +71,8 @@ _CHECKS: tuple[_Check, ...] = (
     bare_sequels,
     started_again,
     distances_of_moments,
+    misplaced,
+    misanchored,
 )
 
 
