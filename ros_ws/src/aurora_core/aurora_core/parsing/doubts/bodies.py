@@ -15,7 +15,7 @@ from itertools import pairwise
 
 from pydantic import BaseModel
 
-from aurora_core.parsing.atoms import Atom, AtomKind, NounKind, NounPhrase
+from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind, NounPhrase
 from aurora_core.parsing.doubts.clauses import (
     clause_of,
     meet,
@@ -231,6 +231,26 @@ def unnamed(spec: ScenarioSpec, words: Sequence[Atom], part: frozenset[str]) -> 
     bodies = bodies_called(spec)
     named = _named(words, spec.prompt, bodies)
     return [span for name, span in named if not any(name in bodies[who] for who in part)]
+
+
+def numbered(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`the second intersection`, `the other truck` where there is one: an ordinal for nobody."""
+    bodies = bodies_called(spec)
+    for atom in atoms:
+        noun = atom.noun
+        if noun is None or clause_of(spec, atom) is None:
+            continue
+        own = _OWN_NUMBER.search(f' {spec.prompt[noun.start : noun.end]}')
+        rank = 0 if own else noun.index
+        if noun.kind in (NounKind.PLACE, NounKind.LANDMARK):
+            lost = rank > 0
+        else:
+            one = noun.key if noun.kind is NounKind.AGENT else noun.kind.value
+            count = sum(one in names for names in bodies.values())
+            least = 2 if noun.determiner is Determiner.OTHER else rank
+            lost = 0 < count < least or (rank > 0 and noun.determiner is Determiner.ALL)
+        if lost:
+            yield Span(start=atom.start, end=atom.end)
 
 
 def _of_kinds(spec: ScenarioSpec, clause: Clause) -> bool:

@@ -19,6 +19,7 @@ from aurora_core.parsing.doubts.bodies import (
     gapped,
     idle,
     listed,
+    numbered,
     places_without_part,
     strangers,
     twins,
@@ -38,6 +39,7 @@ from aurora_core.parsing.doubts.messages import (
 from aurora_core.parsing.doubts.roles import misanchored, misplaced
 from aurora_core.parsing.doubts.telling_words import untold
 from aurora_core.parsing.doubts.times import (
+    at_one_moment,
     bare_sequels,
     distances_of_moments,
     landings,
@@ -73,6 +75,8 @@ _CHECKS: tuple[_Check, ...] = (
     distances_of_moments,
     misplaced,
     misanchored,
+    numbered,
+    at_one_moment,
 )
 
 
