@@ -137,7 +137,6 @@ def test_a_new_route_is_in_force_from_its_command_on(tb: ModuleType) -> None:
     run.ground_commands[2] = (
         GroundCommand(agent=0, kind=GroundCommandKind.SET_ROUTE, text='north unknown'),
     )
-    base = tb.world()
     lane = CentreLine(
         lane_id='north_0',
         street_name='North',
@@ -145,8 +144,7 @@ def test_a_new_route_is_in_force_from_its_command_on(tb: ModuleType) -> None:
         width_m=3.2,
         speed_limit_mps=13.9,
     )
-    world = type(base)(**{**{f: getattr(base, f) for f in base.__slots__}, 'lanes': (lane,)})
-    view = RunView(run.trace(), world)
+    view = RunView(run.trace(), tb.replace(tb.world(), lanes=(lane,)))
     along = along_route(view, view.body('ego'), view.body('bus1'))
     assert along.offset_m[0] == pytest.approx(25.0)
     assert along.lead_m[2:] == pytest.approx([25.0, 25.0])
