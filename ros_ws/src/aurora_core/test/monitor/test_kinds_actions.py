@@ -214,6 +214,10 @@ def _waits_5_s(do: str, tick: int, *, at_junction: bool = False) -> Case:
     return case
 
 
+def _waiting(do: str, tick: int) -> Callable[[], Case]:
+    return lambda: _waits_5_s(do, tick)
+
+
 def _sets_off(tick: int) -> Case:
     """It has to stand until 15 s."""
     return _gains('start')(tick, AT_S)
@@ -403,14 +407,14 @@ DELAYED = (
         what='delayed',
     ),
     *(
-        Row(id='e1.waits', make=lambda do=do: _waits_5_s(do, 400), margin=0.05, what=do)
+        Row(id='e1.waits', make=_waiting(do, 400), margin=0.05, what=do)
         for do in ('stop', 'slow', 'brake')
     ),
     # It stands after 2 s, drives half as fast after 0.8 s (less 1 m/s), brakes at once.
     *(
         Row(
             id='e1.waits',
-            make=lambda do=do: _waits_5_s(do, 310),
+            make=_waiting(do, 310),
             margin=0.5 + took_s - 4.5,
             within=0.06,
             what=f'{do}-at-once',
