@@ -27,6 +27,8 @@ LEAST_BRAKE_MPS2 = 1.5
 HARDER_MPS2 = 1.0
 # What time steps and the averaging of speeds may add to a time in which nothing changes.
 IDLE_DOUBT_S = 0.5
+# A body or junction so near may be why somebody slows down.
+CAUSE_M = 60.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,11 +50,13 @@ class Window:
 
     Attributes:
         free: No trigger is stated: it may set in at any time.
+        told_s: Where a wait is stated, when that began: the action is not to come in it.
     """
 
     early_s: float
     late_s: float
     free: bool = False
+    told_s: float | None = None
 
     @property
     def last_s(self) -> float:
@@ -134,6 +138,22 @@ def _idle_too_long(case: Case, slowing: BoolArray, onset: int, done: int) -> boo
     return idle_s > limits.ACTION_DONE_S + IDLE_DOUBT_S
 
 
+def _comes_early(case: Case, agent: str, window: Window, tick: int) -> bool:
+    """Return whether something begins in a stated wait, with nothing near to cause it."""
+    scene = case.scene
+    if window.told_s is None or not scene.tick(window.told_s) < tick < scene.tick(window.early_s):
+        return False
+    own = scene.xy(agent)[tick]
+    away = [
+        float(np.linalg.norm(scene.xy(b.body_id)[tick] - own))
+        for b in scene.bodies.values()
+        if b.body_id != agent and not b.is_uav and scene.present(b.body_id)[tick]
+    ]
+    spots = (*scene.places.spots('intersection'), *scene.places.spots('crosswalk'))
+    away += [float(np.linalg.norm(s.xy - own)) for s in spots]
+    return min(away, default=np.inf) > CAUSE_M
+
+
 def _stop(case: Case, agent: str, window: Window) -> Acted:
     scene = case.scene
     still = (scene.speed(agent) < limits.STOPPED_MPS) & scene.present(agent)
@@ -150,6 +170,8 @@ def _stop(case: Case, agent: str, window: Window) -> Acted:
     first, last = _ticks(case, window)
     for a, b in stops:
         if a <= last and b > first and a <= scene.tick(window.late_s):
+            if _comes_early(case, agent, window, a):
+                return Acted(does_not(f'{agent} stands from {scene.times[a]:.2f} s, too early'))
             done = max(float(scene.times[a]), window.late_s)
             return Acted(holds(f'{agent} stands at {done:.2f} s already'), done, done)
     onset = _onset(case, _slowing(case, agent), window)
@@ -213,6 +235,10 @@ def _slow(case: Case, agent: str, window: Window, value: float | None) -> Acted:
         slack = limits.tolerance(limits.SPEED, value)
         there = np.abs(speed - value) <= slack
         if not window.free and speed[at] <= value + slack:
+            since = np.flatnonzero(speed[: at + 1] > value + slack)
+            begun = int(since[-1]) + 1 if len(since) else 0
+            if _comes_early(case, agent, window, begun):
+                return Acted(does_not(f'{agent} is as slow from {scene.times[begun]:.2f} s'))
             time = window.late_s
             return Acted(holds(f'{agent} goes at {speed[at]:.2f} m/s already'), time, time)
         what = f'slow to {value:g} m/s'
@@ -268,6 +294,10 @@ def _braking_anew(case: Case, agent: str, window: Window) -> BoolArray:
 def _brake(case: Case, agent: str, window: Window, value: float | None) -> Acted:
     scene = case.scene
     slowing = _slowing(case, agent) if window.free else _braking_anew(case, agent, window)
+    least = limits.BRAKE_MPS2 * (1.0 - limits.REALISED_SHARE)
+    for a, b in runs_of(_slowing(case, agent)):
+        if _hardest(case, agent, a, b) >= least and _comes_early(case, agent, window, a):
+            return Acted(does_not(f'{agent} brakes at {scene.times[a]:.2f} s, too early'))
     onset = _onset(case, slowing, window)
     if onset is None:
         return _never(case, window, f'{agent} does not begin to brake')

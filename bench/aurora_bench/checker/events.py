@@ -97,8 +97,13 @@ def _delayed(
     slack = limits.tolerance(limits.DURATION, stated) if stated else 0.0
     # Being late is forgiven once: by the second of the onset, or by a greater tolerance.
     more = max(slack - limits.ONSET_S, 0.0)
+    after = float(trigger.get('after_s') or 0.0)
     return tuple(
-        Instant(max(i.early_s + delay - slack, 0.0), i.late_s + delay + more)
+        Instant(
+            max(i.early_s + delay - slack, 0.0),
+            i.late_s + delay + more,
+            i.early_s - after if delay or after else None,
+        )
         for i in instants[:MOST_INSTANTS]
     )
 
@@ -112,10 +117,15 @@ def _answered(
 ) -> Happened:
     ready, at_last = _ready_s(case, requirement, action)
     usable = tuple(
-        i if i.late_s >= at_last else Instant(max(i.early_s, ready), max(i.late_s, at_last))
+        i
+        if i.late_s >= at_last
+        else Instant(max(i.early_s, ready), max(i.late_s, at_last), i.told_s)
         for i in instants
     )
-    tried = [_act(case, requirement, action, Window(i.early_s, i.late_s)) for i in usable]
+    tried = [
+        _act(case, requirement, action, Window(i.early_s, i.late_s, told_s=i.told_s))
+        for i in usable
+    ]
     good = [k for k, a in enumerate(tried) if a.judged.outcome is Outcome.HOLDS]
     if requirement.get('once') is False:
         judged = all_of([a.judged for a in tried])

@@ -24,10 +24,15 @@ ARRIVED_AT_M = 5.0
 
 @dataclass(frozen=True, slots=True)
 class Instant:
-    """A time at which a trigger may be said to have become true: between two times."""
+    """A time at which a trigger may be said to have become true: between two times.
+
+    Attributes:
+        told_s: Where a wait is stated, when that began.
+    """
 
     early_s: float
     late_s: float
+    told_s: float | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -105,6 +105,30 @@ def test_brake_begins_when_it_is_due(stage: Any, profile: Any, outcome: str) -> 
     assert stage.says(_event(AT_20, _does('brake'))) == outcome
 
 
+@pytest.mark.parametrize('do', ['stop', 'brake', 'slow'])
+@pytest.mark.parametrize(
+    ('begins_s', 'x', 'outcome'),
+    [
+        (28.1, -400.0, 'holds'),
+        (21.0, -400.0, 'does_not'),
+        (21.0, -20.0, 'either'),  # before the junction
+    ],
+)
+def test_a_stated_wait_is_kept(
+    stage: Any, do: str, begins_s: float, x: float, outcome: str
+) -> None:
+    speed = _profile((0, 15), (begins_s, 15), (begins_s + 3, 0), (60, 0))
+    stage.drive('car1', 'car', speed, x=x)
+    asked = {
+        **_event(AT_20, _does(do, **({'value_mps': 5} if do == 'slow' else {}))),
+        'delay_s': 8,
+    }
+    if outcome == 'either':
+        assert stage.says(asked) == ('does_not' if do == 'brake' else 'holds')
+    else:
+        assert stage.says(asked) == outcome
+
+
 @pytest.mark.parametrize(
     ('start', 'value', 'end', 'outcome'),
     [

@@ -44,6 +44,9 @@ from aurora_core.spec.scenario import (
 
 # What an agent may not have done before it is asked to.
 _NOT_BEFORE = frozenset({'start', 'cross', 'change_lane'})
+
+# What a driver does for traffic as well: in a stated wait it counts on a free road alone.
+_TAKES_SPEED_OFF = frozenset({'brake', 'stop', 'slow'})
 # Actions that with a stated number end with a speed.
 _TO_A_SPEED = frozenset({'slow', 'accelerate', 'start', 'brake'})
 
@@ -111,6 +114,10 @@ def _moment(inputs: Inputs, event: Event, source: Source) -> Iterator[Condition]
         # Drivers slow down and speed up for many reasons, and a UAV has climbed at its take-off:
         # what was before says nothing. What they do before a stated delay is over neither.
         yield event_delay.not_before(inputs, event.id, first_s, source)
+    if isinstance(event.action, AgentAction) and event.action.do in _TAKES_SPEED_OFF:
+        waits = event_delay.driver_waits(inputs, event, source)
+        if waits is not None:
+            yield waits
     if isinstance(event.trigger, TimeTrigger):
         at = event.trigger.at_s
         if at.provenance is Provenance.EXPLICIT:

@@ -24,6 +24,7 @@ from aurora_core.quantities.actions import (
     ActionRules,
     completion_index,
     holds_already,
+    speed_goal,
     takes_time,
 )
 from aurora_core.quantities.lane_changes import (
@@ -310,6 +311,25 @@ class EventTimes:
         before = max(0, start - 1)
         stood = np.flatnonzero(speed[before:steps] < rules.stop_mps)
         return before + int(stood[-1]) + 1 if len(stood) else steps
+
+    def shows(self, action: AgentAction, begin: int) -> BoolArray:
+        """Return where an action that takes speed off is seen to be done, (T,).
+
+        Args:
+            action: Stop: it stands; slow: as slow as it is to be; brake: it brakes as hard.
+            begin: Tick from whose speed on it slows.
+        """
+        body, rules = self.view.body(action.agent), self.rules.actions
+        speed = motion.speed(self.view, body)
+        if rules is None or action.do not in ('brake', 'stop', 'slow'):
+            return np.zeros(self.view.ticks, dtype=np.bool_)
+        if action.do == 'brake':
+            return motion.deceleration(self.view, body) >= self.rules.brake_mps2
+        if action.do == 'stop':
+            return speed < rules.stop_mps
+        goal = speed_goal(action, float(speed[begin]), rules)
+        assert goal is not None  # who slows has one
+        return speed <= goal.value_mps + goal.tolerance_mps
 
     def _first(self, event: Event) -> int | None:
         trigger = event.trigger

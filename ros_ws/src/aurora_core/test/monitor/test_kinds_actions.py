@@ -198,6 +198,26 @@ def _after_2_s(case: Case) -> Case:
     return _later(case, delay_s=number(2.0, Unit.SECOND, explicit=True))
 
 
+def _waits_5_s(do: str, tick: int, *, at_junction: bool = False) -> Case:
+    """It is to wait 5 s, until 20 s, and slows down with 5 m/s^2 from the tick on."""
+    speed = np.maximum(10.0 - 0.25 * np.maximum(np.arange(500) - tick + 1, 0), 0.0)
+    case = _later(_car(do, speed, AT_S), delay_s=number(5.0, Unit.SECOND, explicit=True))
+    if at_junction:
+        lane = CentreLine(
+            lane_id='a_0',
+            street_name='',
+            points=np.array([(-100.0, 0.0), (180.0, 0.0)]),
+            width_m=3.3,
+            speed_limit_mps=10.0,
+        )
+        case.world = replace(case.world, lanes=(lane,))
+    return case
+
+
+def _waiting(do: str, tick: int) -> Callable[[], Case]:
+    return lambda: _waits_5_s(do, tick)
+
+
 def _sets_off(tick: int) -> Case:
     """It has to stand until 15 s."""
     return _gains('start')(tick, AT_S)
@@ -385,6 +405,36 @@ DELAYED = (
         margin=3.0 - 2.25,
         within=0.06,
         what='delayed',
+    ),
+    *(
+        Row(id='e1.waits', make=_waiting(do, 400), margin=0.05, what=do)
+        for do in ('stop', 'slow', 'brake')
+    ),
+    # It stands after 2 s, drives half as fast after 0.8 s (less 1 m/s), brakes at once.
+    *(
+        Row(
+            id='e1.waits',
+            make=_waiting(do, 310),
+            margin=0.5 + took_s - 4.5,
+            within=0.06,
+            what=f'{do}-at-once',
+        )
+        for do, took_s in (('stop', 2.0), ('slow', 0.8), ('brake', 0.0))
+    ),
+    # It slows down for the junction, and what it did before it was told is no action.
+    Row(
+        id='e1.waits',
+        make=lambda: _waits_5_s('stop', 310, at_junction=True),
+        margin=0.05,
+        what='junction',
+    ),
+    Row(id='e1.waits', make=lambda: _waits_5_s('stop', 100), margin=0.05, what='stood-before'),
+    Row(
+        id='e1.waits',
+        make=lambda: _later(
+            _waits_5_s('stop', 310), trigger={'on': 'time', 'at_s': number(99.0, Unit.SECOND)}
+        ),
+        reason=NEVER,
     ),
 )
 

@@ -6,16 +6,26 @@ from __future__ import annotations
 
 from typing import Literal
 
+import numpy as np
 from pydantic import FiniteFloat
 
 from aurora_core.judging.build import Inputs, Source, Target, condition, number
 from aurora_core.judging.evaluation import Context, Evaluation, Later, at_tick
-from aurora_core.judging.happening import EVENT_TOPICS, moment, never_happened, trigger_story
+from aurora_core.judging.happening import (
+    EVENT_TOPICS,
+    agent_action,
+    earliest_s,
+    moment,
+    never_happened,
+    trigger_story,
+)
 from aurora_core.judging.quantity import OfEvent
 from aurora_core.outcomes.condition import Condition
-from aurora_core.quantities.ticks import whole_ticks
+from aurora_core.quantities import free_road
+from aurora_core.quantities.ticks import first_tick, whole_ticks
 from aurora_core.spec.quantity import QuantityName
-from aurora_core.spec.scenario import AgentAction, Event, Order
+from aurora_core.spec.scenario import AgentAction, Event, EventDoneTrigger, Order
+from aurora_core.spec.stated import is_stated
 
 
 class EventDelay(OfEvent):
@@ -78,6 +88,54 @@ class DelayOfFirst(OfEvent):
         return _carried_out(context, self.event, begin, trigger, action)
 
 
+class DriverWaits(OfEvent):
+    """Time from the trigger of an event to the first thing that shows its action, seconds.
+
+    Braking for traffic or at a junction is no action: what shows with a leader or junction near,
+    and what holds when the wait begins, does not count.
+
+    Attributes:
+        since_s: When the wait begins, before the trigger.
+        until_s: When it is over, after the trigger; what shows later is in time.
+        free_m: A leader or junction so near may be the cause.
+        lane_offset_m: How far off its way a leader may be.
+    """
+
+    name = QuantityName.EVENT_DELAY
+    kind: Literal['driver_waits'] = 'driver_waits'
+    since_s: FiniteFloat
+    until_s: FiniteFloat
+    free_m: FiniteFloat
+    lane_offset_m: FiniteFloat
+
+    def measure(self, context: Context, condition: Condition) -> Evaluation:
+        """Return that time."""
+        trigger = context.events.trigger_tick(self.event)
+        if trigger is None:
+            story = f'the trigger of {self.event} never happened'
+            return never_happened(context, condition, story)
+        view, action = context.view, agent_action(context, condition, self.event)
+        begin = max(0, trigger - whole_ticks(self.since_s, view.dt_s))
+        end = trigger + whole_ticks(self.until_s, view.dt_s)
+        if end + 1 >= view.ticks:
+            return context.short(condition)
+        body = view.body(action.agent)
+        shows = context.events.shows(action, begin)
+        # Each stretch counts where it begins; what held at the beginning has not begun.
+        begins = shows & ~np.concatenate(([True], shows[:-1])) & view.present(action.agent)
+        begins[: begin + 1] = False
+        begins[end:] = False
+        begins &= free_road.free_of_junctions(view, body, self.free_m)
+        if begins.any():
+            begins &= free_road.free_of_leaders(view, body, self.free_m, self.lane_offset_m)
+        early = first_tick(begins)
+        tick = end + 1 if early is None else early
+        when = 'not' if early is None else f'already at {context.time_s(early):.2f} s,'
+        story = f'{trigger_story(context, self.event, trigger)}; {self.event} showed {when} before'
+        story += f' {context.time_s(end):.2f} s'
+        return at_tick(tick, context.time_s(tick - trigger), story, EVENT_TOPICS)
+
+
 class TimeBetween(OfEvent):
     """Time from the moment of the first event to that of the second one, seconds."""
 
@@ -131,6 +189,36 @@ def not_before(inputs: Inputs, event_id: str, first_s: float, source: Source) ->
         of=(event_id,),
         target=Target(op='>=', threshold=first_s, unit='s'),
         arguments=DelayOfFirst(**inputs.of_event(event_id)),
+        source=source,
+        every_sample=False,
+    )
+
+
+def driver_waits(inputs: Inputs, event: Event, source: Source) -> Condition | None:
+    """Return that a driver keeps a stated wait, None where none is stated."""
+    after = event.trigger.after_s if isinstance(event.trigger, EventDoneTrigger) else None
+    since_s = after.value if after is not None and is_stated(after) else 0.0
+    until_s = earliest_s(inputs, event)
+    if until_s <= 0.0 < since_s:
+        until_s = -inputs.tolerances.duration_s.of(since_s, approximate=False)
+    if since_s + until_s <= 0.0:
+        return None
+    t = inputs.tolerances
+    return condition(
+        id=f'{event.id}.waits',
+        sentence=(
+            f'{event.id} shows not before {number(since_s + until_s)} s of its wait are over, '
+            f'but where a leader or junction within {number(t.free_road_m)} m may be why'
+        ),
+        of=(event.id,),
+        target=Target(op='>=', threshold=until_s, unit='s'),
+        arguments=DriverWaits(
+            **inputs.of_event(event.id),
+            since_s=since_s,
+            until_s=until_s,
+            free_m=t.free_road_m,
+            lane_offset_m=t.lane_offset_m,
+        ),
         source=source,
         every_sample=False,
     )
