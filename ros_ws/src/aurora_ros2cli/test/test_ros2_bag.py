@@ -29,7 +29,7 @@ pytestmark = pytest.mark.ros
 FOREVER = {'sec': 9223372036, 'nsec': 854775807}
 STRING = b'\x00\x01\x00\x00\x03\x00\x00\x00hi\x00\x00'
 S = 1_000_000_000
-# What is volatile reaches those that are matched, and on a busy machine a player may be over first.
+# What is volatile reaches those that are matched; on a busy machine a player may be over first.
 _PLAYED_AT_MOST = 6
 _HEARD_WITHIN_S = 5.0
 

@@ -68,7 +68,7 @@ def compiled_page() -> Compiled:
 
 @lru_cache(maxsize=1)
 def _template() -> Template:
-    # Whoever runs or checks a prompt imports this file; the page comes after the verdict, if at all.
+    # Whoever checks a prompt imports this file; the page comes after the verdict, if at all.
     from jinja2 import Template
 
     environment = _environment()
