@@ -61,7 +61,7 @@ class Plan:
         """Return how many lines of progress there will be."""
         runs = sum(1 + len(self.engines) for _ in self.configurations)
         local = 1 if 'local' in self.engines else 0
-        ros = 2 + self.cold_starts + _BARRIER_REPETITIONS if 'ros' in self.engines else 0
+        ros = 2 + 2 * self.cold_starts + _BARRIER_REPETITIONS if 'ros' in self.engines else 0
         return runs + local + ros
 
 
@@ -82,6 +82,7 @@ class Campaign:
         self.recorder_pairs: dict[Engine, list[tuple[RunFigures, RunFigures]]] = {}
         self.barrier_us: list[float] = []
         self.cold_start_s: list[float] = []
+        self.bare_start_s: list[float] = []
         self.sumo_reload_s: list[float] = []
         self.load_services_s: list[Mapping[str, float]] = []
 
@@ -134,11 +135,15 @@ class Campaign:
         self.sumo_reload_s = local_runs.sumo_reload_s(base, _LOAD_REPETITIONS)
 
     def _ros(self, folder: Path) -> None:
-        from aurora_bench.lockstep.graph import running_graph
+        from aurora_bench.lockstep.bare_start import measure_bare_start
+        from aurora_bench.lockstep.graph import PROCESSES, running_graph
         from aurora_bench.lockstep.ros_runs import client_of
 
         self._barrier(_BARRIER_REPETITIONS - 1)
         for number in range(self._plan.cold_starts):
+            bare_s = measure_bare_start(len(PROCESSES), folder / f'bare{number}')
+            self.bare_start_s.append(bare_s)
+            self._progress.step(f'bare start of as many processes: {bare_s:.2f} s')
             with running_graph(folder / f'graph{number}') as graph:
                 self.cold_start_s.append(graph.cold_start_s)
                 self._progress.step(f'cold start of the graph: {graph.cold_start_s:.2f} s')

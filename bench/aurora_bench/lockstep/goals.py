@@ -20,6 +20,7 @@ SPEED_GOALS: tuple[tuple[Engine, int, float], ...] = (
 )
 RECORDER_GOAL = 0.10
 RESET_GOAL = 1.0 / 20.0
+START_GOAL = 2.0
 # What the loop costs over the least that it could cost here: accepted, and aimed at.
 BARRIER_GOAL, BARRIER_AIM = 5.0, 4.0
 SUMO_GOAL = 2.0
@@ -43,6 +44,13 @@ def graph_over_barrier(campaign: Campaign, plan: Plan) -> float | None:
     if base is None or not campaign.barrier_us:
         return None
     return base.us_per_tick.median / median(campaign.barrier_us)
+
+
+def start_over_bare(campaign: Campaign) -> float | None:
+    """Return the start of the graph as a multiple of the bare one, None when not measured."""
+    if not campaign.cold_start_s or not campaign.bare_start_s:
+        return None
+    return median(campaign.cold_start_s) / median(campaign.bare_start_s)
 
 
 def local_over_sumo(campaign: Campaign, plan: Plan) -> float | None:
@@ -91,8 +99,15 @@ def _graph_goals(campaign: Campaign, plan: Plan) -> tuple[Goal, ...]:
         reset = (f'{warm:.3f}', warm <= RESET_GOAL)
     quiet = campaign.is_quiet
     barrier, sumo = graph_over_barrier(campaign, plan), local_over_sumo(campaign, plan)
+    start = start_over_bare(campaign)
     return (
         _goal('ros: warm reset / cold start', f'at most {RESET_GOAL:.3f}', reset, quiet=quiet),
+        _goal(
+            'ros: cold start / bare start of as many processes',
+            f'at most {START_GOAL:g}',
+            _at_most(start, START_GOAL),
+            quiet=quiet,
+        ),
         _goal(
             'ros: tick / bare three-process barrier',
             f'at most {BARRIER_GOAL:g} (aim {BARRIER_AIM:g})',

@@ -27,7 +27,8 @@ TICK_PROCESSES = (
     'recorder',
     'monitor',
 )
-IDLE_PROCESSES = ('parser', 'grounding', 'orchestrator')  # during a run
+# These do nothing during a run.
+PROCESSES = (*TICK_PROCESSES, 'parser', 'grounding', 'repair', 'orchestrator')
 _UP_LIMIT_S = 120
 _UP_SLACK_S = 30.0
 _DOWN_LIMIT_S = 60.0
@@ -82,7 +83,7 @@ def running_graph(folder: Path) -> Iterator[Graph]:
         cold_start_s = time.perf_counter() - begin
         try:
             run_dir = folder / f'domain-{domain}'
-            pids = {name: _pid(run_dir, name) for name in (*TICK_PROCESSES, *IDLE_PROCESSES)}
+            pids = {name: _pid(run_dir, name) for name in PROCESSES}
             yield Graph(domain=domain, pids=pids, cold_start_s=cold_start_s)
         finally:
             _ros2_run(('down',), environment, folder)

@@ -23,6 +23,7 @@ from aurora_bench.lockstep.goals import (
     graph_over_barrier,
     local_over_sumo,
     recorder_share,
+    start_over_bare,
 )
 from aurora_bench.lockstep.scenarios import prompt
 from aurora_bench.results import Cell, Table
@@ -44,7 +45,8 @@ NOTES = (
     'CPU time of all, which a busy machine disturbs less.',
     'Warm reset: from sending the goal of /aurora/execute in a running graph to tick 0 (graph of '
     'the scenario read, simulators loaded, recorder opened). Cold start: `ros2 run '
-    'aurora_bringup up` until every node is ready.',
+    'aurora_bringup up` until every node is ready. Bare start: as many Python processes at once, '
+    'each with rclpy, one node and nothing else, until every node is there.',
     'Bare barrier: three rclpy processes, one tick out and two states of 11 doubles back, each '
     'process on its own wait set, reliable and keep all; measured before and after the graph.',
     "Ratios are of the smallest configuration. SUMO's step with its state read is what the local "
@@ -118,6 +120,7 @@ def document(campaign: Campaign, plan: Plan) -> dict[str, Any]:
         'ratios': {
             'graph_tick_over_bare_barrier': graph_over_barrier(campaign, plan),
             'local_tick_over_sumo_step': local_over_sumo(campaign, plan),
+            'cold_start_over_bare_start': start_over_bare(campaign),
         },
         'recorder_share': {
             engine: share and {'wall': share[0], 'cpu': share[1]}
@@ -186,6 +189,7 @@ def _beside(campaign: Campaign, plan: Plan) -> dict[str, Spread]:
     values: dict[str, list[float]] = {
         'bare barrier [us/tick]': campaign.barrier_us,
         'cold start of the graph [s]': campaign.cold_start_s,
+        'bare start of as many processes [s]': campaign.bare_start_s,
         "SUMO's reload alone [s]": campaign.sumo_reload_s,
     }
     base = find(campaign.measured, 'ros', plan.base.agents, plan.base.seconds)

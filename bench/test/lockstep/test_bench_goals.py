@@ -68,6 +68,7 @@ def campaign(plan: Plan) -> Campaign:
     }
     found.barrier_us = [400.0, 500.0, 450.0]
     found.cold_start_s = [2.0]
+    found.bare_start_s = [1.25, 1.0, 1.5]
     found.load_services_s = [{'sync': 0.001, 'ground': 0.02, 'uav': 0.002}]
     return found
 
@@ -81,6 +82,7 @@ def test_goals_are_met_or_not_with_the_figure(campaign: Campaign, plan: Plan) ->
         'ros: share of the recorder in a run': ('25.0% (CPU 10.0%)', False),
         'local: share of the recorder in a run': ('5.0% (CPU 9.1%)', True),
         'ros: warm reset / cold start': ('0.025', True),
+        'ros: cold start / bare start of as many processes': ('1.60', True),
         'ros: tick / bare three-process barrier': ('2.22', True),
         "local: tick / SUMO's step with its state read": ('2.50', False),
         'configurations with one trace hash over all runs of all engines': (
@@ -93,7 +95,7 @@ def test_goals_are_met_or_not_with_the_figure(campaign: Campaign, plan: Plan) ->
 def test_goals_of_time_are_not_judged_on_a_busy_machine(campaign: Campaign, plan: Plan) -> None:
     campaign.busy = [0.01, 0.6]
     *timed, determinism = goals(campaign, plan)
-    assert [goal.met for goal in timed] == [None] * 8
+    assert [goal.met for goal in timed] == [None] * 9
     assert timed[0].figure == '50.0, busy machine'
     assert determinism.met
     assert '60%' in notes(campaign)[0]
@@ -103,8 +105,11 @@ def test_goals_of_time_are_not_judged_on_a_busy_machine(campaign: Campaign, plan
 def test_what_was_not_measured_is_neither_met_nor_missed(campaign: Campaign, plan: Plan) -> None:
     campaign.measured = campaign.measured[:1]
     campaign.recorder_pairs = {}
+    campaign.bare_start_s = []
     found = goals(campaign, plan)
-    assert [goal.met for goal in found] == [None, None, False, None, None, None, None, False, True]
+    assert [goal.met for goal in found] == [
+        *(None, None, False, None, None, None, None, None, False, True)
+    ]
     assert found[0].figure == 'not measured'
 
 
@@ -136,6 +141,7 @@ def test_tables_and_document(campaign: Campaign, plan: Plan) -> None:
     assert written['ratios'] == {
         'graph_tick_over_bare_barrier': pytest.approx(1.2e6 / 1201 / 450.0),
         'local_tick_over_sumo_step': pytest.approx(2.5),
+        'cold_start_over_bare_start': pytest.approx(1.6),
     }
     assert json_text(written)
     assert written['configurations'][0]['real_time_factor']['median'] == pytest.approx(240.0)

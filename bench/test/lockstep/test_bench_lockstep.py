@@ -12,6 +12,7 @@ import pytest
 
 from aurora_bench.lockstep import campaign
 from aurora_bench.lockstep.__main__ import main
+from aurora_bench.lockstep.bare_start import measure_bare_start
 from aurora_bench.lockstep.barrier import measure_barrier
 from aurora_bench.lockstep.figures import RECORDER
 from aurora_bench.lockstep.graph import graph_without_recorder, running_graph
@@ -100,6 +101,14 @@ def test_a_graph_without_a_recorder_runs_to_the_end_twice(tmp_path: Path) -> Non
     assert [run.sha256 for run in runs] == ['', '']
     assert RECORDER in runs[0].parts_s
     assert not (tmp_path / 'a').exists()
+
+
+@pytest.mark.ros
+def test_bare_nodes_start_and_none_is_left(tmp_path: Path) -> None:
+    assert 0.01 < measure_bare_start(2, tmp_path) < 60.0
+    pids = [int(file.read_text()) for file in tmp_path.glob('*/*.ready')]
+    assert len(pids) == 2
+    assert [process_state(pid) for pid in pids] == [None, None]
 
 
 @pytest.mark.ros

@@ -6,9 +6,11 @@ from __future__ import annotations
 
 import re
 import signal
+import time
 from collections.abc import Callable
 from pathlib import Path
 from subprocess import CompletedProcess, Popen
+from threading import Thread
 
 import pytest
 
@@ -27,6 +29,9 @@ pytestmark = pytest.mark.ros
 FOREVER = {'sec': 9223372036, 'nsec': 854775807}
 STRING = b'\x00\x01\x00\x00\x03\x00\x00\x00hi\x00\x00'
 S = 1_000_000_000
+# What is volatile reaches those that are matched; on a busy machine a player may be over first.
+_PLAYED_AT_MOST = 6
+_HEARD_WITHIN_S = 5.0
 
 
 def profile(durability: str) -> dict[str, object]:
@@ -146,16 +151,31 @@ def test_play_publishes_the_bytes(ros2: Ros2, started: Started, bag: Path) -> No
             assert listener.poll() is None
             assert clock.poll() is None
 
-    # What is volatile reaches those that are matched: on a busy machine that takes a while.
-    done = ros2('bag', 'play', str(bag), '--rate', '4', '--clock', '10', '--delay', '2')
-
-    assert done.returncode == 0, done.stderr
-    assert '[rosbag2_player]: Set rate to 4' in done.stderr
     assert listener.stdout is not None
-    assert [listener.stdout.readline() for _ in range(3)] == ['hi\n'] * 3
+    lines = listener.stdout
+    heard: list[str] = []
+
+    def listen() -> None:
+        for line in lines:
+            heard.append(line)
+
+    reader = Thread(target=listen, daemon=True)
+    reader.start()
+    for _ in range(_PLAYED_AT_MOST):
+        before = len(heard)
+        done = ros2('bag', 'play', str(bag), '--rate', '4', '--clock', '10', '--delay', '2')
+        assert done.returncode == 0, done.stderr
+        assert '[rosbag2_player]: Set rate to 4' in done.stderr
+        deadline = time.monotonic() + _HEARD_WITHIN_S
+        while len(heard) < before + 3 and time.monotonic() < deadline:
+            time.sleep(0.02)
+        if len(heard) >= before + 3:
+            break
     listener.send_signal(signal.SIGINT)
-    assert listener.communicate(timeout=60)[0] == ''
-    assert clock.communicate(timeout=60)[0].startswith('5,')
+    listener.wait(timeout=60)
+    reader.join(timeout=60)
+    assert heard[before:] == ['hi\n'] * 3
+    assert clock.communicate(timeout=60)[0].partition(',')[0] in ('5', '6', '7')
 
 
 def test_play_in_a_loop_of_one_topic_until_ctrl_c(started: Started, bag: Path) -> None:

@@ -12,15 +12,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import partial
-from typing import Any
-
-import networkx as nx
+from typing import TYPE_CHECKING, Any
 
 from aurora_core.agsg.parameters import element_of
 from aurora_core.document import Document
 from aurora_core.errors import SpecError
 from aurora_core.outcomes.agsg import Agsg, EdgeType, NodeType
 from aurora_core.spec.parameter import Provenance
+
+if TYPE_CHECKING:
+    import networkx as nx
 
 _OWN_FAMILY, _OTHER_FAMILY = 1, 2
 # What repair may move comes first, what the prompt states last.
@@ -96,6 +97,9 @@ def conditions_affected(agsg: Agsg, parameter: str) -> tuple[Influence, ...]:
 
 def _upstream(agsg: Agsg) -> nx.MultiDiGraph:
     """Return the graph with its edges turned round: from effects to causes."""
+    # Whoever runs a prompt imports this file, and only who repairs or asks needs networkx.
+    import networkx as nx
+
     graph = nx.MultiDiGraph()
     graph.add_nodes_from(node.id for node in agsg.nodes)
     for edge in agsg.edges:
@@ -119,6 +123,8 @@ def _cost(family: EdgeType, _effect: str, _cause: str, edges: Mapping[Any, Any])
 def _influences(
     agsg: Agsg, upstream: nx.MultiDiGraph, own: Mapping[str, tuple[str, ...]], condition: str
 ) -> tuple[Influence, ...]:
+    import networkx as nx
+
     families = {edge['type'] for *_, edge in upstream.out_edges(condition, data=True)}
     if not families:
         return ()

@@ -8,9 +8,7 @@ import base64
 from functools import lru_cache
 from importlib.metadata import version
 from pathlib import Path
-
-from jinja2 import Environment, StrictUndefined, Template
-from markupsafe import Markup
+from typing import TYPE_CHECKING
 
 from aurora_core.compiled import Compiled
 from aurora_core.report.clauses import status_word
@@ -18,6 +16,9 @@ from aurora_core.report.run_report import RunReport
 from aurora_core.report.status import Status
 from aurora_core.report.summary import margin_value
 from aurora_core.report.visible import visible
+
+if TYPE_CHECKING:
+    from jinja2 import Environment, Template
 
 _TEMPLATE = Path(__file__).with_name('report.html.jinja')
 
@@ -67,12 +68,17 @@ def compiled_page() -> Compiled:
 
 @lru_cache(maxsize=1)
 def _template() -> Template:
+    # Whoever checks a prompt imports this file; the page comes after the verdict, if at all.
+    from jinja2 import Template
+
     environment = _environment()
     code = compiled_page().value()
     return Template.from_code(environment, code, environment.make_globals(None))
 
 
 def _environment() -> Environment:
+    from jinja2 import Environment, StrictUndefined
+
     environment = Environment(
         autoescape=True,
         undefined=StrictUndefined,
@@ -89,7 +95,8 @@ def _environment() -> Environment:
 
 def _legible(value: object) -> object:
     """Return a text without characters that are obeyed instead of shown; the rest as it is."""
-    return visible(value) if isinstance(value, str) and not isinstance(value, Markup) else value
+    is_markup = hasattr(value, '__html__')
+    return visible(value) if isinstance(value, str) and not is_markup else value
 
 
 def number(value: float | None, signed: bool = False) -> str:
