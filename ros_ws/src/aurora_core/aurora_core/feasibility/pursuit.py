@@ -122,4 +122,5 @@ def _ring_m(mission: UavMission, limits: Limits, tolerances: Tolerances) -> floa
         outer = most(standoff, slack, limits.uav_standoff_max_m + slack)
     elif standoff is not None:
         inner, outer = max(0.0, standoff.value - slack), standoff.value + slack
-    return 2.0 * math.sqrt(outer * outer - inner * inner)
+    # A standoff beyond the limit leaves no ring; the limit itself tells of that.
+    return 2.0 * math.sqrt(max(0.0, outer * outer - inner * inner))

@@ -83,4 +83,4 @@ def _way(request: Request, mission: dict[str, Any]) -> float:
         near, far = left_open(number, slack, 0.0, most)
     else:
         near, far = max(0.0, float(number['value']) - slack), float(number['value']) + slack
-    return 2.0 * math.sqrt(far**2 - near**2)
+    return 2.0 * math.sqrt(max(0.0, far**2 - near**2))

@@ -151,6 +151,15 @@ def test_an_event_that_begins_the_only_mission_splits_nothing() -> None:
     proof(fast_target(), Rule.PURSUIT)
 
 
+def test_a_standoff_beyond_the_limit_of_a_fast_target_is_told_of_as_such() -> None:
+    document = fast_target().model_dump(mode='json')
+    document['missions'][0]['standoff_m'] = number(300.0, 'm', bound='at_least')
+    verdict = judged(ScenarioSpec.model_validate(document))
+    assert 'standoff' in {c.reason for c in verdict.certificates}
+    for found in verdict.certificates:
+        assert recheck(found, document).valid
+
+
 def test_an_event_that_begins_one_of_two_missions_proves_nothing() -> None:
     first = hover(60.0).model_dump(mode='json')['missions'][0] | {'id': 'm0'}
     spec = fast_target(more=[first])
