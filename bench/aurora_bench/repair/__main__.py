@@ -161,7 +161,7 @@ def goals(episodes: Sequence[Episode]) -> tuple[Goal, ...]:
             'locked faults stay violated',
             'all',
             f'{refused} of {len(locked)}',
-            refused == len(locked),
+            bool(locked) and refused == len(locked),
         ),
         _goal('median episode in first realisations', '<= 3', f'{times:.2f}', times <= 3.0),
     )

@@ -146,7 +146,9 @@ def _tries(item: Implicated, past: Sequence[Attempt]) -> int:
     made = [attempt for attempt in past if attempt.simulated and attempt.step is not None]
     if item.field == ANCHOR:
         return sum(attempt.step is Step.GROUNDING for attempt in made)
-    return sum(item.field in {edit.path for edit in attempt.plan.values} for attempt in made)
+    # Who goes to another place keeps what was moved before: that is no try of it.
+    moved = [attempt.plan.values for attempt in made if attempt.step is not Step.GROUNDING]
+    return sum(item.field in {edit.path for edit in values} for values in moved)
 
 
 def _elsewhere(
