@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from pydantic import ValidationError
 
 from aurora_core.errors import SpecError
@@ -11,6 +13,9 @@ from aurora_core.outcomes.repair import ProposalOutcome, past_of
 from aurora_core.outcomes.verdict import Verdict
 from aurora_core.pipeline.functions import repair_stage
 from aurora_core.pipeline.knowledge import installed_knowledge
+from aurora_core.trace.bag_content import BagContent
+from aurora_core.trace.bag_reader import read_bag
+from aurora_core.trace.definitions import message_definitions
 from aurora_msgs.srv import ProposeRepair
 from aurora_ros import interfaces as on
 from aurora_ros.conversions.messages import agsg
@@ -24,6 +29,7 @@ class RepairNode(AuroraNode):
     def __init__(self) -> None:
         super().__init__('repair')
         self._known = installed_knowledge()
+        self._definitions = message_definitions()
         self.serve(on.REPAIR, self._propose)
 
     def _propose(
@@ -34,11 +40,16 @@ class RepairNode(AuroraNode):
         except ValidationError as err:
             raise SpecError(f'verdict_json is not valid: {err}') from err
         past = past_of(request.past_json or '[]')
-        proposal = repair_stage(self._known, agsg(request.agsg), verdict, past)
+        graph = agsg(request.agsg)
+        content = self._recording(Path(request.bag_uri)) if request.bag_uri else None
+        proposal = repair_stage(self._known, graph, verdict, past, content)
         response.proposed = proposal.outcome is ProposalOutcome.EDITED
         response.outcome = proposal.outcome.value
         response.proposal_json = proposal.model_dump_json()
         return response
+
+    def _recording(self, bag: Path) -> BagContent:
+        return read_bag(bag, self._definitions)
 
 
 def main() -> int:

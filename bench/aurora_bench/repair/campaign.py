@@ -14,10 +14,15 @@ from aurora_bench.rulers.runs import run_into
 from aurora_bench.rulers.watched import WatchedStages
 from aurora_cli.installed import installed
 from aurora_core.document import Document
+from aurora_core.outcomes.agsg import Agsg
+from aurora_core.outcomes.grounding import GroundingOutcome
+from aurora_core.outcomes.repair import Anchor, RepairPlan
 from aurora_core.outcomes.verdict import VerdictStatus
+from aurora_core.pipeline.repairing import anchor_of
 from aurora_core.pipeline.stages import RunControl, RunRequest
 from aurora_core.report.run_folder import RunFolder, StageFile
 from aurora_core.report.run_report import RunReport
+from aurora_core.spec.scenario import ScenarioSpec
 
 _FIRST = 3
 
@@ -26,6 +31,7 @@ class Episode(Document):
     """What came of a fault.
 
     Attributes:
+        mends: Repair may mend it; False: what is at fault is locked.
         status: Of the run.
         showed: The request holds with the good value, and is violated with the faulty one.
         repaired: Another realisation holds.
@@ -39,6 +45,7 @@ class Episode(Document):
 
     key: str
     kind: str
+    mends: bool = True
     status: str
     showed: bool
     repaired: bool = False
@@ -57,32 +64,44 @@ class RepairWork:
     Attributes:
         map_name: Map of the runs.
         budget: Co-simulations that repair may spend; None: as `aurora repair`.
+        replay: Repair asks the surrogate.
     """
 
     map_name: str = 'downtown'
     budget: int | None = None
+    replay: bool = True
 
     def prepare(self) -> None:
         """Load what every run needs."""
         import libsumo  # noqa: F401  (takes seconds; a run would wait for it)
 
-        installed().map(self.map_name)
+        known = installed()
+        known.map(self.map_name)
+        if not self.replay:
+            none = known.repair.surrogate.model_copy(update={'candidates': 0})
+            known.repair = known.repair.model_copy(update={'surrogate': none})
 
     def __call__(self, fault: Fault) -> Episode:
         """Run one."""
         known = installed()
         if not self._holds(fault):
-            return Episode(key=fault.key, kind=fault.kind, status='no base', showed=False)
+            return _unseen(fault, 'no base')
         spec, cause = with_fault(known, fault, self.map_name)
         budget = known.repair.budget if self.budget is None else self.budget
         request = RunRequest(
             prompt=fault.prompt, map_name=self.map_name, seed=fault.seed, repair=budget
         )
-        with tempfile.TemporaryDirectory(prefix='aurora_repair_') as name:
+        episode = _unseen(fault, 'no fault')
+        for place in fault.places or (None,):
             verdicts = _Verdicts()
             control = RunControl(progress=verdicts.progress)
-            report, folder = run_into(Path(name), request, WatchedStages(spec), control)
-            return _episode(fault, cause, report, folder, verdicts)
+            with tempfile.TemporaryDirectory(prefix='aurora_repair_') as name:
+                stages = _Pinned(spec, place)
+                report, folder = run_into(Path(name), request, stages, control)
+                episode = _episode(fault, cause, report, folder, verdicts)
+            if episode.showed:
+                break
+        return episode
 
     def _holds(self, fault: Fault) -> bool:
         """Tell whether the request holds with a good value: else the fault is not its cause."""
@@ -93,6 +112,45 @@ class RepairWork:
         with tempfile.TemporaryDirectory(prefix='aurora_repair_') as name:
             report, _ = run_into(Path(name), request, WatchedStages(spec))
         return report.trace is not None and report.trace.verdict is VerdictStatus.VERIFIED
+
+
+def _unseen(fault: Fault, status: str) -> Episode:
+    return Episode(key=fault.key, kind=fault.kind, mends=fault.mends, status=status, showed=False)
+
+
+class _Pinned(WatchedStages):
+    """Puts the first realisation on a street that was drawn.
+
+    Args:
+        spec: What is run.
+        place: Which one of all streets, in [0, 1); None: where grounding puts it.
+    """
+
+    def __init__(self, spec: ScenarioSpec, place: float | None) -> None:
+        super().__init__(spec)
+        self._place = place
+
+    def ground(
+        self, agsg: Agsg, request: RunRequest, plan: RepairPlan | None = None
+    ) -> GroundingOutcome:
+        """Ground it; the street as if it were the best one."""
+        if plan is not None or self._place is None:
+            return super().ground(agsg, request, plan)
+        lanes = self.known.map(request.map_name).network.lanes
+        streets = sorted({lane.edge_id for lane in lanes.values() if lane.id[0] != ':'})
+        here = streets[int(self._place * len(streets))]
+        away = tuple(
+            Anchor(lane=name, position_m=0.0)
+            for name, lane in sorted(lanes.items())
+            if lane.edge_id != here
+        )
+        outcome = super().ground(agsg, request, RepairPlan(avoided=away))
+        grounded = None if outcome.agsg is None else outcome.agsg.grounding
+        if grounded is None:
+            return outcome
+        kept = anchor_of(grounded)
+        self.grounding = super().ground(agsg, request, RepairPlan(kept=kept))
+        return self.grounding
 
 
 class _Verdicts:
@@ -123,6 +181,7 @@ def _episode(
     return Episode(
         key=fault.key,
         kind=fault.kind,
+        mends=fault.mends,
         status=report.status.value,
         showed=bool(report.repairs),
         repaired=bool(report.repairs) and holds,

@@ -8,7 +8,7 @@ import pytest
 
 from aurora_bench.repair.__main__ import goals, last_line
 from aurora_bench.repair.campaign import Episode
-from aurora_bench.repair.faults import KINDS, Fault, faults, with_fault
+from aurora_bench.repair.faults import KINDS, PLACE, Fault, faults, with_fault
 from aurora_core.agsg.parameters import parameters_of
 from aurora_core.pipeline.knowledge import installed_knowledge
 from aurora_core.spec.parameter import Provenance
@@ -19,7 +19,7 @@ def test_faults_are_drawn_of_all_kinds_and_alike_for_a_seed() -> None:
     assert first == faults(2 * len(KINDS), 1)
     assert first != faults(2 * len(KINDS), 2)
     assert {fault.kind for fault in first} == set(KINDS)
-    assert all(fault.cause in fault.values for fault in first)
+    assert all(fault.cause in (*fault.values, PLACE) for fault in first)
 
 
 @pytest.mark.parametrize('fault', faults(len(KINDS), 3), ids=lambda fault: fault.kind)
@@ -32,7 +32,7 @@ def test_a_fault_is_what_the_request_has_as_its_default(fault: Fault) -> None:
         [parameter] = [p for path, p in found.items() if path.endswith(end)]
         assert parameter.value == value
         assert parameter.provenance is Provenance.DEFAULT
-    assert cause in found
+    assert cause in (*found, PLACE)
 
 
 def test_only_faults_that_show_are_counted() -> None:

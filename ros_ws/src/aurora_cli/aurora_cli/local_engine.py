@@ -93,4 +93,5 @@ class LocalStages:
         self, agsg: Agsg, verdict: Verdict, bag: Path, past: tuple[Attempt, ...]
     ) -> Proposal:
         """Propose how to realise a violated request otherwise."""
-        return functions.repair_stage(self.known, agsg, verdict, past)
+        content = self.verified if self.verified_bag == bag else load_bag(bag)[0]
+        return functions.repair_stage(self.known, agsg, verdict, past, content)

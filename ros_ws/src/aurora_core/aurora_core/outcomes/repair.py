@@ -112,6 +112,7 @@ class Attempt(Document):
         anchor: Where the scene was put; None where there was no place.
         scene: Digest (hex) of the grounded scene; '' where there was no place.
         margins: Normalised margin of every condition; None without one.
+        predicted: Normalised margins that were expected of it; {} where nothing was.
         failed: Conditions that do not hold, or were not exercised.
     """
 
@@ -122,6 +123,7 @@ class Attempt(Document):
     anchor: Anchor | None = None
     scene: str = ''
     margins: Mapping[str, FiniteFloat | None] = {}
+    predicted: Mapping[str, FiniteFloat] = {}
     failed: tuple[str, ...] = ()
 
     @property

@@ -20,11 +20,13 @@ from aurora_core.pipeline.knowledge import Knowledge
 from aurora_core.pipeline.planned import plan_conditions
 from aurora_core.pipeline.reading import parser_digest
 from aurora_core.planning.complete import complete
+from aurora_core.quantities.view import RunView
 from aurora_core.repair.lock import locked_edits
 from aurora_core.repair.propose import propose
 from aurora_core.repair.realise import repaired
 from aurora_core.temporal.retarget import retargeted
 from aurora_core.temporal.schedule import plan_time
+from aurora_core.trace.bag_content import BagContent
 
 
 def parse_context(known: Knowledge, map_name: str, seed: int) -> ParseContext:
@@ -127,7 +129,22 @@ def execution_stage(
 
 
 def repair_stage(
-    known: Knowledge, agsg: Agsg, verdict: Verdict, past: tuple[Attempt, ...]
+    known: Knowledge,
+    agsg: Agsg,
+    verdict: Verdict,
+    past: tuple[Attempt, ...],
+    content: BagContent | None = None,
 ) -> Proposal:
-    """Propose what to try after a violated verdict; see `repair.propose`."""
-    return propose(agsg, verdict, past, known.repair)
+    """Propose what to try after a violated verdict; see `repair.propose`.
+
+    Args:
+        known: What is installed here.
+        agsg: The best realisation so far.
+        verdict: Of its trace.
+        past: Everything that was tried, in order.
+        content: Its recording; None: edits are proposed without a replay of it.
+    """
+    view = None if content is None else RunView(content.trace, content.world)
+    if view is not None and view.first_missing_tick is not None:
+        view = None
+    return propose(agsg, verdict, past, known.repair, view)

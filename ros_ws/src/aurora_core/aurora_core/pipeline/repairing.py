@@ -71,6 +71,7 @@ def realised(
         anchor=None if grounded is None else anchor_of(grounded),
         scene='' if grounded is None else scene_digest(grounded),
         margins={row.id: row.normalised for row in verdict.results},
+        predicted={} if proposal is None else proposal.predicted,
         failed=tuple(row.id for row in violated(verdict)),
     )
 

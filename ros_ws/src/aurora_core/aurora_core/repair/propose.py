@@ -21,25 +21,38 @@ from aurora_core.outcomes.repair import (
     Step,
 )
 from aurora_core.outcomes.verdict import Verdict
+from aurora_core.quantities.view import RunView
+from aurora_core.repair.foresee import Foresight
 from aurora_core.repair.helps import ANCHOR
 from aurora_core.repair.localize import localize
 from aurora_core.repair.settings import RepairSettings
-from aurora_core.repair.values import one_parameter, searched
+from aurora_core.repair.surrogate.replay import Replay
+from aurora_core.repair.values import moved_values, one_parameter, plan_with, searched
+
+# What was of no avail speaks for a field so much less.
+_LESS = 0.5
 
 
 def propose(
-    agsg: Agsg, verdict: Verdict, past: Sequence[Attempt], settings: RepairSettings
+    agsg: Agsg,
+    verdict: Verdict,
+    past: Sequence[Attempt],
+    settings: RepairSettings,
+    view: RunView | None = None,
 ) -> Proposal:
     """Return what to try next.
 
-    What most speaks for comes first: a place is changed by going back to grounding, a value by one
-    parameter and, when several single ones were of no avail, by several at once.
+    An edit after which everything is expected to hold comes first. Then what most speaks for: a
+    place is changed by going back to grounding, a value by one parameter and, when several single
+    ones were of no avail, by several at once. What was of no avail, or is expected to fail, speaks
+    less for its field.
 
     Args:
         agsg: The best realisation so far, grounded.
         verdict: Of its trace.
         past: Everything that was tried, the first realisation included, in order.
         settings: How it is searched.
+        view: What was recorded of that realisation; None: nothing is foreseen.
     """
     implicated = localize(agsg, verdict)
     if not implicated:
@@ -47,9 +60,18 @@ def propose(
             outcome=ProposalOutcome.OUT_OF_SCOPE,
             reason='nothing that the request leaves open affects what does not hold',
         )
-    for proposal in _candidates(agsg, implicated, past, settings):
-        if not any(_same(proposal.plan, attempt.plan) for attempt in past[1:]):
+    foresight = None
+    if view is not None and settings.surrogate.candidates:
+        replay = Replay(view, agsg, verdict, past, settings.surrogate)
+        foresight = Foresight(replay, agsg, implicated, verdict, settings)
+    tried = [attempt.plan for attempt in past[1:]]
+    for proposal in _ordered(agsg, implicated, past, settings, foresight):
+        if proposal.plan in tried:
+            continue
+        if foresight is None or proposal.step is Step.GROUNDING or proposal.predicted:
             return proposal
+        values = moved_values(agsg, proposal.plan)
+        return proposal.model_copy(update={'predicted': foresight.predicted(values)})
     return Proposal(
         outcome=ProposalOutcome.EXHAUSTED,
         implicated=implicated,
@@ -57,8 +79,34 @@ def propose(
     )
 
 
-def _same(plan: RepairPlan, other: RepairPlan) -> bool:
-    return plan == other
+def _ordered(
+    agsg: Agsg,
+    implicated: tuple[Implicated, ...],
+    past: Sequence[Attempt],
+    settings: RepairSettings,
+    foresight: Foresight | None,
+) -> Iterator[Proposal]:
+    """Yield what is foreseen to hold, then all else."""
+    if foresight is not None:
+        for choice in foresight.choices():
+            told = ', '.join(f'{path} to {value:.4g}' for path, value in choice.values.items())
+            reason = _reason(implicated, tuple(choice.values))
+            yield Proposal(
+                outcome=ProposalOutcome.EDITED,
+                step=Step.ONE if len(choice.values) == 1 else Step.SEARCH,
+                plan=plan_with(agsg, choice.values),
+                implicated=implicated,
+                predicted=choice.predicted,
+                reason=(
+                    f'{reason}; replayed with {told} everything that the replay has a model of '
+                    f'holds (equation 5: {choice.value:.3g})'
+                ),
+            )
+    yield from _candidates(agsg, implicated, past, settings, foresight)
+
+
+def _reason(implicated: Sequence[Implicated], fields: Sequence[str]) -> str:
+    return next((item.reason for item in implicated if item.field in fields), '')
 
 
 def _candidates(
@@ -66,16 +114,41 @@ def _candidates(
     implicated: tuple[Implicated, ...],
     past: Sequence[Attempt],
     settings: RepairSettings,
+    foresight: Foresight | None,
 ) -> Iterator[Proposal]:
     """Yield proposals, the best one first; those that were made already are among them."""
     singles = [a for a in past if a.step is Step.ONE and a.simulated]
     if len(singles) >= settings.singles:
         yield from searched(agsg, implicated, past, settings)
+    found: list[tuple[float, list[Proposal]]] = []
     for item in implicated:
+        score = item.score * _LESS ** _tries(item, past)
         if item.field == ANCHOR:
-            yield from _elsewhere(agsg, item, implicated, past)
-        else:
-            yield from one_parameter(agsg, item, implicated, past, settings)
+            found.append((score, list(_elsewhere(agsg, item, implicated, past))))
+            continue
+        own = list(one_parameter(agsg, item, implicated, past, settings))
+        failing = [p for p in own if _fails(agsg, p, foresight)]
+        if failing:
+            found.append((score * _LESS, failing))
+        found.append((score, [p for p in own if p not in failing]))
+    found.sort(key=lambda row: -row[0])
+    for _, proposals in found:
+        yield from proposals
+
+
+def _fails(agsg: Agsg, proposal: Proposal, foresight: Foresight | None) -> bool:
+    """Tell whether an edit is foreseen to fail beyond the error of the replay."""
+    return foresight is not None and foresight.fails(moved_values(agsg, proposal.plan))
+
+
+def _tries(item: Implicated, past: Sequence[Attempt]) -> int:
+    """Return how often a field was realised otherwise, of no avail."""
+    made = [attempt for attempt in past if attempt.simulated and attempt.step is not None]
+    if item.field == ANCHOR:
+        return sum(attempt.step is Step.GROUNDING for attempt in made)
+    # Who goes to another place keeps what was moved before: that is no try of it.
+    moved = [attempt.plan.values for attempt in made if attempt.step is not Step.GROUNDING]
+    return sum(item.field in {edit.path for edit in values} for values in moved)
 
 
 def _elsewhere(

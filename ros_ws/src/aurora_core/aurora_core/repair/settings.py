@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Annotated
 
 import yaml
@@ -34,6 +35,24 @@ class ProvenanceWeights(Document):
         return float(getattr(self, provenance.value))
 
 
+class SurrogateSettings(Document):
+    """The kinematic replay.
+
+    Attributes:
+        candidates: That are looked at before a co-simulation; 0: it is not asked.
+        step_s: Between two samples of the record.
+        apart: Share of a domain by which two edits differ at least.
+        unknown: Error (normalised) of estimates of a kind that was never measured.
+        errors: By quantity: how far such estimates have been too good (normalised).
+    """
+
+    candidates: NonNegativeInt
+    step_s: PositiveFloat
+    apart: Share
+    unknown: NonNegativeFloat
+    errors: Mapping[str, NonNegativeFloat] = {}
+
+
 class RepairSettings(Document):
     """See `config/repair.yaml`."""
 
@@ -46,6 +65,7 @@ class RepairSettings(Document):
     epsilon: PositiveFloat
     lambda_sem: NonNegativeFloat
     weights: ProvenanceWeights
+    surrogate: SurrogateSettings
 
 
 def load_repair_settings() -> RepairSettings:

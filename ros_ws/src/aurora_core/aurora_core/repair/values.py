@@ -27,6 +27,7 @@ from aurora_core.outcomes.repair import (
 )
 from aurora_core.repair.helps import ANCHOR
 from aurora_core.repair.objective import objective
+from aurora_core.repair.realised_values import here_of
 from aurora_core.repair.settings import RepairSettings
 
 FloatArray = npt.NDArray[np.float64]
@@ -52,9 +53,9 @@ def one_parameter(
         settings: How it is searched.
     """
     parameter = next(row for row in agsg.parameters if row.path == item.field)
-    here = _here(parameter, agsg)
+    here = here_of(parameter, agsg)
     for value in _tries(parameter, here, item, agsg, past, settings):
-        plan = _plan(agsg, {parameter.path: value})
+        plan = plan_with(agsg, {parameter.path: value})
         yield Proposal(
             outcome=ProposalOutcome.EDITED,
             step=Step.ONE,
@@ -86,7 +87,7 @@ def searched(
         if item.field not in moved and len(moved) == settings.most_parameters:
             continue
         row = rows[item.field]
-        here = _here(row, agsg)
+        here = here_of(row, agsg)
         steps = moved.setdefault(item.field, [here])
         steps += [_moved(row, here, item.direction * share) for share in settings.steps]
     if len(moved) < 2:
@@ -95,7 +96,7 @@ def searched(
     axes = [rows[path] for path in moved]
     slopes = _slopes(axes, agsg, past)
     width = np.array([row.high - row.low for row in axes])
-    at = np.array([_here(row, agsg) for row in axes])
+    at = np.array([here_of(row, agsg) for row in axes])
     found = []
     for values in product(*(dict.fromkeys(steps) for steps in moved.values())):
         shifts = np.array(values) - at
@@ -111,7 +112,7 @@ def searched(
         yield Proposal(
             outcome=ProposalOutcome.EDITED,
             step=Step.SEARCH,
-            plan=_plan(agsg, changed),
+            plan=plan_with(agsg, changed),
             implicated=implicated,
             predicted=predicted,
             reason=f'single edits were of no avail; {told} (equation 5: {value:.3g})',
@@ -193,7 +194,7 @@ def _slopes(
     if not others:
         return {}
     width = np.array([row.high - row.low for row in rows])
-    at = np.array([_here(row, agsg) for row in rows])
+    at = np.array([here_of(row, agsg) for row in rows])
     moved = np.array([[_value(row, a) for row in rows] for a in others])
     answer = np.linalg.pinv((moved - at) / width)
     found = {}
@@ -224,19 +225,23 @@ def _index_of_best(past: Sequence[Attempt]) -> int:
     return ranks.index(max(ranks))
 
 
-def _here(row: AgsgParameter, agsg: Agsg) -> float:
-    """Return the value that a realisation was grounded with."""
-    plan = None if agsg.grounding is None else agsg.grounding.repair
-    edits = () if plan is None else plan.values
-    return next((edit.realised for edit in edits if edit.path == row.path), row.requested)
-
-
 def _anchor(agsg: Agsg) -> Anchor:
     assert agsg.grounding is not None  # it was executed
     return Anchor(lane=agsg.grounding.anchor_lane, position_m=agsg.grounding.anchor_position_m)
 
 
-def _plan(agsg: Agsg, values: Mapping[str, float]) -> RepairPlan:
+def moved_values(agsg: Agsg, plan: RepairPlan) -> dict[str, float]:
+    """Return what a plan realises otherwise than a realisation, by path."""
+    rows = {row.path: row for row in agsg.parameters}
+    wanted = {edit.path: edit.realised for edit in plan.values}
+    assert agsg.grounding is not None  # it was executed
+    before = agsg.grounding.repair
+    paths = dict.fromkeys((*wanted, *(e.path for e in (before.values if before else ()))))
+    found = {path: wanted.get(path, rows[path].requested) for path in paths}
+    return {path: value for path, value in found.items() if value != here_of(rows[path], agsg)}
+
+
+def plan_with(agsg: Agsg, values: Mapping[str, float]) -> RepairPlan:
     """Return the plan of a realisation at its place with other values, earlier ones kept."""
     assert agsg.grounding is not None  # it was executed
     rows = {row.path: row for row in agsg.parameters}
