@@ -78,6 +78,8 @@ def _unread(prompt: str) -> list[str]:
         ('A van stops at the second intersection.', 'second intersection'),
         ('A drone tracks a van. The other van stops.', 'other van'),
         ('A van brakes as a pedestrian crosses.', 'as a pedestrian'),
+        ('A pedestrian crosses as the ego approaches.', 'as the ego'),
+        ('The ego never exceeds 30 km/h while the drone is within 50 m.', 'while the drone'),
     ],
 )
 def test_admitted(prompt: str, quoted: str) -> None:

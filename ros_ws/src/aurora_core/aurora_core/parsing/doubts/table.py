@@ -41,6 +41,7 @@ from aurora_core.parsing.doubts.telling_words import untold
 from aurora_core.parsing.doubts.times import (
     at_one_moment,
     bare_sequels,
+    bounds_meanwhile,
     distances_of_moments,
     landings,
     let_pass,
@@ -77,6 +78,7 @@ _CHECKS: tuple[_Check, ...] = (
     misanchored,
     numbered,
     at_one_moment,
+    bounds_meanwhile,
 )
 
 

@@ -12,6 +12,7 @@ from aurora_core.parsing.doubts.clauses import (
     MOMENTS,
     clause_of,
     events_in,
+    meet,
     over,
     sentences,
     stretch,
@@ -31,6 +32,7 @@ from aurora_core.spec.vocabulary import BehaviorKind, ClauseStatus
 # Whose distance is that of t = 0: where one starts, how far ahead a van is that cuts in.
 _FROM_HERE = frozenset({'change_lane', 'start'})
 _ONCE = MOMENTS | {'ascend', 'descend', 'land'}
+_NEARS = frozenset({'approach', 'reach'})
 _INTRANSITIVE = frozenset({'brake', 'cross', 'land', 'start', 'stop', 'turn_left', 'turn_right'})
 _LETS = frozenset({'lets', 'letting'})
 _LETS_PASS = frozenset({'cross', 'overtake'})
@@ -141,10 +143,26 @@ def at_one_moment(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
             before = [a for a in sentence[:k] if a.kind is AtomKind.VERB][-1:]
             behind = [a for a in stretch(sentence, k + 1) if a.kind is AtomKind.VERB][:1]
             first = any(a.key in _ONCE | {'wait'} for a in before)
-            once = first and any(a.key in _ONCE for a in behind)
+            once = first and any(
+                a.key in _ONCE or (a.key in _NEARS and atom.words == 'as') for a in behind
+            )
             told = [c for a in (*before, *behind) if (c := clause_of(spec, a)) is not None]
             if once and len(told) == 2 and not any(_tied(spec, c) for c in told):
                 yield over(atom, behind[0])
+
+
+def bounds_meanwhile(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`never exceeds 8 m/s while the drone is within 50 m`: a bound that holds then became two."""
+    bounds = [c.value.span for c in spec.conditions if c.value.span is not None]
+    for sentence in sentences(atoms):
+        for k, atom in enumerate(sentence):
+            told = stretch(sentence, k + 1)
+            meanwhile = atom.kind is AtomKind.SUBORDINATOR and atom.key == 'while'
+            if not meanwhile or not k or not told:
+                continue
+            sides = (over(sentence[0], sentence[k - 1]), over(told[0], told[-1]))
+            if all(any(meet(bound, side) for bound in bounds) for side in sides):
+                yield over(atom, told[-1])
 
 
 def _tied(spec: ScenarioSpec, clause: Clause) -> bool:
