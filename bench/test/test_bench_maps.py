@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""The campaign over maps: a file all the way by commands, and answers that are no clear refusal."""
+"""The campaign over maps: a file all the way by commands, and answers that refuse nothing."""
 
 from __future__ import annotations
 

@@ -75,11 +75,11 @@ def journey(file: Path, number: int, prompt: str, folder: Path) -> Journey:
 
     here = ('map', 'import', str(file.absolute()), '--name', name, '--no-measure', '--json')
     imported = step('import', *here)
-    if done.problem:
+    if imported.code != 0:
         return done
     done.facts = json.loads(imported.out)
     measured = step('measure', 'map', 'measure', name, '--json')
-    if done.problem:
+    if measured.code != 0:
         return done
     rows = json.loads(measured.out)['records']['spawns']
     done.stands = (sum(r['stands'] for r in rows), sum(r['tried'] for r in rows))

@@ -83,7 +83,7 @@ class Slabs:
 
 
 def _slab(y: FloatArray, south: FloatArray, height: FloatArray, number: IntArray) -> IntArray:
-    """Return the slab at a height; one expression for points and edges, so that it is monotonic."""
+    """Return the slab at a height; one expression for points and edges, so monotonic."""
     slab: IntArray = np.clip(np.floor((y - south) / height), 0, number - 1).astype(np.intp)
     return slab
 

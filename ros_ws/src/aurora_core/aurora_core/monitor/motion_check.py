@@ -89,7 +89,8 @@ class _Uneven:
         front[:, GroundColumn.X : GroundColumn.Y + 1] += length_m / 2.0 * heading
         lanes = lanes_of_rows(self.lanes, front)
         share = np.append(self.shares, 1.0)[lanes]  # NO_LANE is the last one
-        return (share[1:] + share[:-1]) / 2.0
+        middle: FloatArray = (share[1:] + share[:-1]) / 2.0
+        return middle
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -73,7 +73,8 @@ def length_shares(lanes: Sequence[CentreLine]) -> FloatArray:
     for lane, length_m in zip(lanes, lengths, strict=True):
         of_edge.setdefault(edge_of(lane), []).append(length_m)
     mean_m = [sum(row) / len(row) for row in (of_edge[edge_of(lane)] for lane in lanes)]
-    return np.array(lengths) / np.array(mean_m)
+    shares: FloatArray = np.array(lengths) / np.array(mean_m)
+    return shares
 
 
 def off_lane_m(lane: CentreLine, rows: FloatArray) -> FloatArray:

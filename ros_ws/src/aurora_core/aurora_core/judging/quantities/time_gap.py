@@ -15,7 +15,8 @@ from aurora_core.outcomes.condition import Condition, Window
 from aurora_core.quantities import motion
 from aurora_core.spec.quantity import QuantityName
 
-# A follower that is not behind its leader, is beside it, or stands, has no time gap: this stands for it.
+# A follower that is not behind its leader (beside it is not behind), or stands, has no time gap:
+# this stands for it.
 NO_TIME_GAP_S = 100.0
 
 
