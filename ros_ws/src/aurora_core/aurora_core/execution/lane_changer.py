@@ -52,7 +52,7 @@ class LaneChanger:
 
     def lane(self, row: int, seen: Observation) -> int:
         """Return the lane that an agent is on, as an index in the world's lanes."""
-        return int(lanes_of_rows(self._world.lanes, seen.ground(row)[None, :])[0])
+        return int(lanes_of_rows(self._world, seen.ground(row)[None, :])[0])
 
     def goal(self, row: int, seen: Observation, *, back: bool = False) -> int | None:
         """Return the lane that an agent can change to now, None when there is none.

@@ -297,7 +297,8 @@ def wind_of(grounded: GroundedScenario) -> Wind:
 def _named_places(
     parts: MapParts, resolved: Mapping[str, tuple[float, float]]
 ) -> tuple[NamedPlace, ...]:
-    points = parts.landmarks | dict(resolved)
+    # A landmark is where the map has it, whatever else is resolved.
+    points = dict(resolved) | parts.landmarks
     return tuple(NamedPlace(name=n, x_m=x, y_m=y) for n, (x, y) in sorted(points.items()))
 
 

@@ -11,7 +11,6 @@ import numpy as np
 import numpy.typing as npt
 
 from aurora_core.judging.evaluation import Context
-from aurora_core.knowledge.world import CentreLine
 from aurora_core.outcomes.verdict import Finding
 from aurora_core.quantities.lanes import NO_LANE, lane_of, lanes_of_rows, length_shares
 from aurora_core.quantities.motion import jump_speeds
@@ -32,8 +31,6 @@ _OF_WAY = 0.15
 # Inside a junction the lanes of a turn count the same length: who drives outside of their middle
 # goes by so much (m) more per radian. Elsewhere the lanes are known.
 _ASIDE_M = 3.2
-# Lanes that are counted as long as they are, but for this share, need no correction.
-_SAME_LENGTH = 0.01
 # A UAV reports both of one point (m).
 _UAV_M = 0.5
 
@@ -47,9 +44,7 @@ def motion_findings(context: Context) -> Iterator[Finding]:
     window = whole_ticks(_WINDOW_S, view.dt_s)
     if view.ticks <= window:
         return
-    shares = length_shares(view.world.lanes) if view.world.lanes else np.zeros(0)
-    odd = np.flatnonzero(np.abs(shares - 1.0) > _SAME_LENGTH)
-    uneven = _Uneven(tuple(view.world.lanes[k] for k in odd), shares[odd])
+    shares = np.append(length_shares(view.world.lanes), 1.0)  # NO_LANE is the last one
     jump_mps = max(
         (c.threshold for c in context.conditions if c.quantity is QuantityName.JUMP),
         default=np.inf,
@@ -57,7 +52,7 @@ def motion_findings(context: Context) -> Iterator[Finding]:
     for body in (*view.agents, *view.uavs):
         if body.entry.is_person:
             continue  # the simulator moves walkers aside without telling it as a speed
-        pace = _uav(context, body) if body.is_uav else _vehicle(context, body, uneven)
+        pace = _uav(context, body) if body.is_uav else _vehicle(context, body, shares)
         counted = view.present(body.body_id)[1:] & view.present(body.body_id)[:-1]
         counted &= jump_speeds(view, [body])[1:, 0] <= jump_mps
         off = np.where(counted[:, None], pace.off_m, 0.0)
@@ -73,24 +68,6 @@ def motion_findings(context: Context) -> Iterator[Finding]:
                 time_s=context.time_s(first + window),
                 text=f'moved {way:.2f} m in {_WINDOW_S:g} s, its speed says {told:.2f} m',
             )
-
-
-@dataclass(frozen=True, slots=True)
-class _Uneven:
-    """Lanes that are longer or shorter than the simulator counts them, and by which share."""
-
-    lanes: tuple[CentreLine, ...]
-    shares: FloatArray
-
-    def of_steps(self, rows: FloatArray, length_m: float) -> FloatArray:
-        """Return the share of the lane under the front of a vehicle, step by step, (T - 1,)."""
-        front = rows.copy()
-        heading = rows[:, GroundColumn.HEADING_X : GroundColumn.HEADING_Y + 1]
-        front[:, GroundColumn.X : GroundColumn.Y + 1] += length_m / 2.0 * heading
-        lanes = lanes_of_rows(self.lanes, front)
-        share = np.append(self.shares, 1.0)[lanes]  # NO_LANE is the last one
-        middle: FloatArray = (share[1:] + share[:-1]) / 2.0
-        return middle
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -119,13 +96,13 @@ def _sums(values: FloatArray, window: int) -> FloatArray:
     return sums
 
 
-def _vehicle(context: Context, body: Body, uneven: _Uneven) -> _Pace:
+def _vehicle(context: Context, body: Body, shares: FloatArray) -> _Pace:
     rows = context.view.rows(body)
     step = np.diff(rows[:, GroundColumn.X : GroundColumn.Y + 1], axis=0)
     heading = rows[:, GroundColumn.HEADING_X : GroundColumn.HEADING_Y + 1]
     way = (step * heading[:-1]).sum(axis=1)
     told = rows[1:, GroundColumn.SPEED] * context.view.dt_s
-    told = told * uneven.of_steps(rows, body.entry.length_m)
+    told = told * _shares_under(context, rows, body.entry.length_m, shares)
     turned = np.linalg.norm(np.diff(heading, axis=0), axis=1)
     in_junction = lane_of(context.view, body)[:-1] == NO_LANE
     aside_m = np.where(in_junction, _ASIDE_M, 0.0)
@@ -136,6 +113,18 @@ def _vehicle(context: Context, body: Body, uneven: _Uneven) -> _Pace:
         slack_m=_VEHICLE_M,
         slack_each_m=_OF_WAY * np.abs(told) + (body.entry.length_m / 2.0 + aside_m) * turned,
     )
+
+
+def _shares_under(
+    context: Context, rows: FloatArray, length_m: float, shares: FloatArray
+) -> FloatArray:
+    """Return how long the lane under the front of a vehicle is beside its edge, (T - 1,)."""
+    front = rows.copy()
+    heading = rows[:, GroundColumn.HEADING_X : GroundColumn.HEADING_Y + 1]
+    front[:, GroundColumn.X : GroundColumn.Y + 1] += length_m / 2.0 * heading
+    share = shares[lanes_of_rows(context.view.world, front)]
+    middle: FloatArray = (share[1:] + share[:-1]) / 2.0
+    return middle
 
 
 def _uav(context: Context, body: Body) -> _Pace:

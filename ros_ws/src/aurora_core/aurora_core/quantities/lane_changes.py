@@ -59,7 +59,7 @@ def can_change(world: WorldModel, rows: FloatArray, least_mps: float) -> BoolArr
         rows: (n, GROUND_WIDTH) states of the vehicle.
         least_mps: Speed that counts as driving.
     """
-    lanes = lanes_of_rows(world.lanes, rows)
+    lanes = lanes_of_rows(world, rows)
     can = np.zeros(len(rows), dtype=np.bool_)
     for lane in np.unique(lanes[lanes != NO_LANE]).tolist():
         if not lanes_beside(world, lane):
