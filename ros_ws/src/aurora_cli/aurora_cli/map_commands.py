@@ -52,14 +52,17 @@ def import_map(
     name: Annotated[
         str | None, typer.Option(help='Name of the map; default: made of the name of the file.')
     ] = None,
+    measured: Annotated[
+        bool, typer.Option('--measure/--no-measure', help='Try the map out in the simulators.')
+    ] = True,
     as_json: Json = False,
 ) -> None:
-    """Make a map of a file, for --map; it goes into your own folder of maps."""
+    """Make a map of a file, for --map, and measure it; it goes into your own folder of maps."""
 
     def command() -> int:
         from aurora_cli.commands.map_import import import_command
 
-        return import_command(file, name, as_json=as_json)
+        return import_command(file, name, measured=measured, as_json=as_json)
 
     finish(command, as_json=as_json)
 

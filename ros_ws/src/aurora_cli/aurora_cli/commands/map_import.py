@@ -4,23 +4,30 @@
 
 from __future__ import annotations
 
+import time
 from pathlib import Path
 from typing import Any
 
 from aurora_cli.commands.maps import summary
 from aurora_cli.map_import.importer import Imported, import_map, name_of
-from aurora_cli.output import UsageProblem, answer_console, print_json, say
+from aurora_cli.map_measure.measure import measure
+from aurora_cli.output import UsageProblem, answer_console, print_json, quiet_stdout, say
 from aurora_core.knowledge.map_folders import is_map_name
 from aurora_core.report.map_gaps import map_gaps
 from aurora_core.report.terminal import line
 
 
-def import_command(file: Path, name: str | None, *, as_json: bool) -> int:
-    """Import a file and say what came of it.
+def import_command(
+    file: Path, name: str | None, *, measured: bool = True, as_json: bool = False
+) -> int:
+    """Import a file, measure the map, and say what came of it.
+
+    A map that cannot be measured stays, and can be used and measured later.
 
     Args:
         file: OSM extract, SUMO network or OpenDRIVE file.
         name: Of the map; None makes one of the file's.
+        measured: Measure it, too.
         as_json: Print one JSON document.
 
     Raises:
@@ -35,7 +42,14 @@ def import_command(file: Path, name: str | None, *, as_json: bool) -> int:
             f'a map cannot be named {wanted!r}: give a --name of small letters, digits, _ and -'
         )
     done = import_map(file, wanted, lambda step: say(f'aurora: {step}'))
-    facts = _facts(done)
+    seconds = dict(done.seconds)
+    records = None
+    if measured:
+        begin_s = time.monotonic()
+        with quiet_stdout():
+            records = measure(done.model, lambda step: say(f'aurora: measure: {step}')).records
+        seconds['measure'] = round(time.monotonic() - begin_s, 3)
+    facts = {**_facts(done), 'seconds': seconds, 'measured': 'no' if records is None else 'yes'}
     if as_json:
         print_json(facts)
         return 0
@@ -47,12 +61,9 @@ def import_command(file: Path, name: str | None, *, as_json: bool) -> int:
     line(console, f'in {model.folder}')
     for gap in facts['gaps']:
         line(console, f'  {gap}')
-    line(console, 'seconds: ' + ', '.join(f'{k} {v:.1f}' for k, v in done.seconds.items()))
-    line(
-        console,
-        f'Measure it: aurora map measure {model.name}; use it with --map {model.name}; more: '
-        f'aurora map show {model.name}',
-    )
+    line(console, 'seconds: ' + ', '.join(f'{k} {v:.1f}' for k, v in seconds.items()))
+    first = '' if records is not None else f'Measure it: aurora map measure {model.name}; '
+    line(console, f'{first}Use it: --map {model.name}; more: aurora map show {model.name}')
     return 0
 
 
@@ -75,5 +86,4 @@ def _facts(done: Imported) -> dict[str, Any]:
         'buildings': len(done.model.buildings),
         'landmarks': len(done.model.landmarks),
         'gaps': gaps,
-        'seconds': done.seconds,
     }

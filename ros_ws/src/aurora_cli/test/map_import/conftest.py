@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import gzip
+from collections.abc import Callable
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -34,3 +35,14 @@ def files(tmp_path: Path) -> SimpleNamespace:
     road = folder / 'road.xodr'
     road.write_text(xodr(walkways=True))
     return SimpleNamespace(osm=osm, net=net, xodr=road, folder=folder)
+
+
+@pytest.fixture
+def call(call: Callable[..., SimpleNamespace]) -> Callable[..., SimpleNamespace]:
+    """`aurora` as it is, but for imports: they leave out the measuring unless it is named."""
+
+    def without_measuring(*arguments: str) -> SimpleNamespace:
+        named = '--measure' in arguments or arguments[:2] != ('map', 'import')
+        return call(*arguments, *(() if named else ('--no-measure',)))
+
+    return without_measuring

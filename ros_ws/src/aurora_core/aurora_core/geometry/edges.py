@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -42,6 +43,49 @@ class EdgeRows:
     bx: FloatArray
     by: FloatArray
     pair: IntArray
+
+
+# So many edges of a polygon are for one of its slabs, about.
+_EDGES_A_SLAB = 8
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Slabs:
+    """Each polygon cut into slabs from south to north, with the edges that reach into each.
+
+    Whether a point is inside hangs on the edges at its height alone. A carriageway has thousands.
+
+    Attributes:
+        base: (N,) first slab of each polygon, in `first` and `count`.
+        number: (N,) slabs of each polygon.
+        south: (N,) where they begin, metres; `height` of one of them.
+        edges: Edges of all slabs, one slab after the other.
+        first: (S,) where the edges of each slab begin in that list; `count` of them.
+    """
+
+    base: IntArray
+    number: IntArray
+    south: FloatArray
+    height: FloatArray
+    edges: IntArray
+    first: IntArray
+    count: IntArray
+
+    def of_points(self, y: FloatArray, item: IntArray) -> PairEdges:
+        """Return the edges at the height of P points, of one polygon each."""
+        slab = _slab(y, self.south[item], self.height[item], self.number[item])
+        slab += self.base[item]
+        counts = self.count[slab]
+        first = np.cumsum(counts) - counts
+        pair = np.repeat(np.arange(len(item), dtype=np.intp), counts)
+        at = np.arange(len(pair), dtype=np.intp) + (self.first[slab] - first)[pair]
+        return PairEdges(edge=self.edges[at], pair=pair, first=first)
+
+
+def _slab(y: FloatArray, south: FloatArray, height: FloatArray, number: IntArray) -> IntArray:
+    """Return the slab at a height; one expression for points and edges, so monotonic."""
+    slab: IntArray = np.clip(np.floor((y - south) / height), 0, number - 1).astype(np.intp)
+    return slab
 
 
 class EdgeTable:
@@ -86,6 +130,31 @@ class EdgeTable:
     def __len__(self) -> int:
         """Return the number of polygons."""
         return len(self._counts)
+
+    @cached_property
+    def _slabs(self) -> Slabs:
+        number = np.maximum(1, self._counts // _EDGES_A_SLAB)
+        south = self.bounds[:, 1]
+        height = kernel.nonzero((self.bounds[:, 3] - south) / number)
+        owner = np.repeat(np.arange(len(self), dtype=np.intp), self._counts)
+        cut = south[owner], height[owner], number[owner]
+        low = _slab(np.minimum(self.ay, self.by), *cut)
+        reach = _slab(np.maximum(self.ay, self.by), *cut) - low + 1
+        base = np.cumsum(number) - number
+        edge = np.repeat(np.arange(len(owner), dtype=np.intp), reach)
+        up = np.arange(len(edge), dtype=np.intp) - np.repeat(np.cumsum(reach) - reach, reach)
+        slab = (base[owner] + low)[edge] + up
+        order = np.argsort(slab, kind='stable')
+        count = np.bincount(slab, minlength=int(number.sum()))
+        return Slabs(
+            base=base,
+            number=number,
+            south=south,
+            height=height,
+            edges=edge[order],
+            first=np.cumsum(count) - count,
+            count=count,
+        )
 
     def of_pairs(self, item: IntArray) -> PairEdges:
         """Return the edges of one polygon per pair.
@@ -145,7 +214,7 @@ class EdgeTable:
 
     def contains(self, x: FloatArray, y: FloatArray, item: IntArray) -> BoolArray:
         """Tell which of P points lie in their polygon (half-open on the boundary)."""
-        pairs = self.of_pairs(item)
+        pairs = self._slabs.of_points(y, item)
         edge, pair = pairs.edge, pairs.pair
         point_y = y[pair]
         start_y = self.ay[edge]

@@ -9,6 +9,7 @@ from typing import Protocol
 import numpy as np
 
 from aurora_core.errors import VerificationError
+from aurora_core.geometry.polyline import Polyline
 from aurora_core.judging.evaluation import Context, FloatArray
 from aurora_core.knowledge.world import SurfaceKind
 from aurora_core.outcomes.condition import Condition
@@ -38,6 +39,9 @@ RELATION_WORDS = {
 
 # Farther than this from what is meant, the distance is not told apart (m).
 _CUTOFF_M = 200.0
+# A route passes a place where it comes nearly as near as it ever does (m); looked for in pieces.
+_PASS_M = 10.0
+_PASS_WINDOW_M = 50.0
 
 # Kinds of ground, which have no point: at them is on them.
 _GROUNDS = (Place.SIDEWALK, Place.ROADSIDE)
@@ -136,7 +140,10 @@ def _place_slack(context: Context, condition: Condition, asked: Related) -> Floa
 
 
 def before_place(context: Context, condition: Condition) -> tuple[float, float]:
-    """Return how far a place is ahead on the route of an agent at t = 0, and how far off it, m."""
+    """Return how far a place is ahead on the route of an agent at t = 0, and how far off it, m.
+
+    A route that goes round comes by several times, and the first time counts.
+    """
     view = context.view
     name, place = condition.of
     route = planned_route(view, view.body(name))
@@ -144,7 +151,22 @@ def before_place(context: Context, condition: Condition) -> tuple[float, float]:
     other = (view.reference(name) - view.between(name, place))[0].tolist()
     own_s, _ = route.project(own[0], own[1], 0.0, _CUTOFF_M, extend=True)
     place_s, offset_m = route.project(other[0], other[1], extend=True)
+    low = own_s
+    while low + _PASS_WINDOW_M < place_s:
+        found_s, off_m = _nearest_between(route, other, low, low + _PASS_WINDOW_M)
+        if abs(off_m) <= abs(offset_m) + _PASS_M:
+            found_s, off_m = _nearest_between(route, other, found_s, found_s + _PASS_WINDOW_M)
+            return found_s - own_s, abs(off_m)
+        low += _PASS_WINDOW_M
     return place_s - own_s, abs(offset_m)
+
+
+def _nearest_between(
+    route: Polyline, point: list[float], low_s: float, high_s: float
+) -> tuple[float, float]:
+    """Return the place of a route between two arc lengths that is nearest to a point."""
+    middle_s, reach_m = (low_s + high_s) / 2.0, (high_s - low_s) / 2.0
+    return route.project(point[0], point[1], middle_s, reach_m)
 
 
 def _main_road(context: Context, point: FloatArray) -> FloatArray:

@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from aurora_core.judging.evaluation import Context
 from aurora_core.outcomes.verdict import Finding
+from aurora_core.quantities.lanes import NO_LANE, lane_of, lanes_of_rows, length_shares
 from aurora_core.quantities.motion import jump_speeds
 from aurora_core.quantities.ticks import whole_ticks
 from aurora_core.quantities.view import Body
@@ -27,6 +28,9 @@ _WINDOW_S = 1.0
 # its length per radian.
 _VEHICLE_M = 1.0
 _OF_WAY = 0.15
+# Inside a junction the lanes of a turn count the same length: who drives outside of their middle
+# goes by so much (m) more per radian. Elsewhere the lanes are known.
+_ASIDE_M = 3.2
 # A UAV reports both of one point (m).
 _UAV_M = 0.5
 
@@ -40,6 +44,7 @@ def motion_findings(context: Context) -> Iterator[Finding]:
     window = whole_ticks(_WINDOW_S, view.dt_s)
     if view.ticks <= window:
         return
+    shares = np.append(length_shares(view.world.lanes), 1.0)  # NO_LANE is the last one
     jump_mps = max(
         (c.threshold for c in context.conditions if c.quantity is QuantityName.JUMP),
         default=np.inf,
@@ -47,7 +52,7 @@ def motion_findings(context: Context) -> Iterator[Finding]:
     for body in (*view.agents, *view.uavs):
         if body.entry.is_person:
             continue  # the simulator moves walkers aside without telling it as a speed
-        pace = _uav(context, body) if body.is_uav else _vehicle(context, body)
+        pace = _uav(context, body) if body.is_uav else _vehicle(context, body, shares)
         counted = view.present(body.body_id)[1:] & view.present(body.body_id)[:-1]
         counted &= jump_speeds(view, [body])[1:, 0] <= jump_mps
         off = np.where(counted[:, None], pace.off_m, 0.0)
@@ -91,20 +96,35 @@ def _sums(values: FloatArray, window: int) -> FloatArray:
     return sums
 
 
-def _vehicle(context: Context, body: Body) -> _Pace:
+def _vehicle(context: Context, body: Body, shares: FloatArray) -> _Pace:
     rows = context.view.rows(body)
     step = np.diff(rows[:, GroundColumn.X : GroundColumn.Y + 1], axis=0)
     heading = rows[:, GroundColumn.HEADING_X : GroundColumn.HEADING_Y + 1]
     way = (step * heading[:-1]).sum(axis=1)
     told = rows[1:, GroundColumn.SPEED] * context.view.dt_s
+    told = told * _shares_under(context, rows, body.entry.length_m, shares)
     turned = np.linalg.norm(np.diff(heading, axis=0), axis=1)
+    in_junction = lane_of(context.view, body)[:-1] == NO_LANE
+    aside_m = np.where(in_junction, _ASIDE_M, 0.0)
     return _Pace(
         way_m=way,
         told_m=told,
         off_m=(way - told)[:, None],
         slack_m=_VEHICLE_M,
-        slack_each_m=_OF_WAY * np.abs(told) + body.entry.length_m / 2.0 * turned,
+        slack_each_m=_OF_WAY * np.abs(told) + (body.entry.length_m / 2.0 + aside_m) * turned,
     )
+
+
+def _shares_under(
+    context: Context, rows: FloatArray, length_m: float, shares: FloatArray
+) -> FloatArray:
+    """Return how long the lane under the front of a vehicle is beside its edge, (T - 1,)."""
+    front = rows.copy()
+    heading = rows[:, GroundColumn.HEADING_X : GroundColumn.HEADING_Y + 1]
+    front[:, GroundColumn.X : GroundColumn.Y + 1] += length_m / 2.0 * heading
+    share = shares[lanes_of_rows(context.view.world, front)]
+    middle: FloatArray = (share[1:] + share[:-1]) / 2.0
+    return middle
 
 
 def _uav(context: Context, body: Body) -> _Pace:

@@ -8,7 +8,7 @@ Lanes are those of the measured world. Inside a junction, and off the carriagewa
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -58,6 +58,22 @@ def lanes_of_rows(world: WorldModel, rows: FloatArray) -> LaneArray:
         found[near[better]] = index
         nearest[near[better]] = square[better]
     return found
+
+
+def length_shares(lanes: Sequence[CentreLine]) -> FloatArray:
+    """Return how long each lane is beside the mean of its edge, (N,).
+
+    The simulator counts all lanes of an edge alike, as long as they are in the middle: on one that
+    is 1.1 times as long a vehicle gets on 1.1 times as fast as its speed says. So they differ in
+    bends, and where they end one before the other.
+    """
+    lengths = [sum(norm2(*(b - a)) for a, b in pairwise(lane.points)) for lane in lanes]
+    of_edge: dict[str, list[float]] = {}
+    for lane, length_m in zip(lanes, lengths, strict=True):
+        of_edge.setdefault(edge_of(lane), []).append(length_m)
+    mean_m = [sum(row) / len(row) for row in (of_edge[edge_of(lane)] for lane in lanes)]
+    shares: FloatArray = np.array(lengths) / np.array(mean_m)
+    return shares
 
 
 def off_lane_m(lane: CentreLine, rows: FloatArray) -> FloatArray:

@@ -54,7 +54,7 @@ def contradictions(basis: Basis) -> Iterator[Cycle]:
     only together. Of demands that clash with each other each is told of once.
     """
     search = _Search(core_links(basis), demands(basis))
-    found = chain(search.together(_waiting), search.alone(_negative), search.together(_negative))
+    found = chain(search.together(_waiting), search.alone(), search.together(_negative))
     yield from islice(found, MOST_TOLD)
 
 
@@ -79,16 +79,17 @@ class _Search:
                 self._core = [link for link in self._core if link not in found]
             self._asked = kept
 
-    def alone(self, find: _Find) -> Iterator[Cycle]:
+    def alone(self) -> Iterator[Cycle]:
         """Yield the circles without any demand, and then one for each demand that has one."""
-        if not find([*self._core, *chain.from_iterable(self._asked)]):
+        if not _negative([*self._core, *chain.from_iterable(self._asked)]):
             return  # as nearly always
-        while found := find(self._core):
+        while found := _negative(self._core):
             yield found
             self._core = [link for link in self._core if link not in found]
         kept: list[Demand] = []
+        network = Stn([link.edge for link in self._core])
         for demand in self._asked:
-            found = find([*self._core, *demand])
+            found = _forward(network.closed_by([link.edge for link in demand]))
             if found:
                 yield found
             else:

@@ -14,6 +14,9 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
+from heapq import heappop, heappush
+from itertools import chain
 from typing import Generic, TypeVar
 
 import numpy as np
@@ -108,9 +111,12 @@ class Stn(Generic[Reason]):
         Each begins where the one before ends. Without any one of them the others can be met: the
         circle passes no point twice.
         """
+        return self._solved[1]
+
+    @cached_property
+    def _solved(self) -> tuple[IntArray, tuple[Edge[Reason], ...]]:
+        """Times that meet every bound, or a negative circle, by Bellman and Ford."""
         count = len(self.points)
-        if not self.edges:
-            return ()
         times = np.zeros(count, dtype=np.int64)
         through = np.full(count, -1, dtype=np.intp)
         rounds = 0
@@ -120,7 +126,7 @@ class Stn(Generic[Reason]):
             np.minimum.at(better, self._to, reached)
             used = np.flatnonzero((reached == better[self._to]) & (reached < times[self._to]))
             if not len(used):
-                return ()
+                return times, ()
             through[self._to[used]] = used
             times = better
             rounds += 1
@@ -129,7 +135,73 @@ class Stn(Generic[Reason]):
             if rounds & (rounds - 1) == 0:
                 point = self._on_circle(through)
                 if point is not None:
-                    return self._circle(through, point)
+                    return times, self._circle(through, point)
+
+    def closed_by(self, more: Sequence[Edge[Reason]]) -> tuple[Edge[Reason], ...]:
+        """Return a negative circle that further bounds close, none when they can be met as well.
+
+        Costs only what they move, where a network anew would cost the whole. The network stays
+        as it is. Source: Cotton, Maler, Fast and flexible difference constraint propagation for
+        DPLL(T), SAT 2006.
+
+        Args:
+            more: Bounds, between points of this network or new ones.
+
+        Raises:
+            ValueError: The network is inconsistent without them.
+        """
+        if self.negative_cycle():
+            raise ValueError('bounds are added to a consistent network only')
+        moved: dict[str, int] = {}
+        added: dict[str, list[Edge[Reason]]] = {}
+        for edge in more:
+            circle = self._added(edge, moved, added)
+            if circle:
+                return circle
+            added.setdefault(edge.earlier, []).append(edge)
+        return ()
+
+    def _added(
+        self, edge: Edge[Reason], moved: dict[str, int], added: dict[str, list[Edge[Reason]]]
+    ) -> tuple[Edge[Reason], ...]:
+        """Move points, nearest first, until a bound is met; the circle if none can meet it."""
+        times, leaving = self._times, self._leaving
+
+        def time(point: str) -> int:
+            return moved[point] if point in moved else times.get(point, 0)
+
+        sooner = {edge.later: time(edge.earlier) + edge.bound_us - time(edge.later)}
+        through = {edge.later: edge}
+        waiting = [(sooner[edge.later], edge.later)] if sooner[edge.later] < 0 else []
+        settled: dict[str, int] = {}
+        while waiting:
+            by, point = heappop(waiting)
+            if point in settled:
+                continue
+            if point == edge.earlier:
+                circle = [through[point]]
+                while circle[-1] is not edge:
+                    circle.append(through[circle[-1].earlier])
+                return tuple(reversed(circle))
+            settled[point] = time(point) + by
+            for onward in chain(leaving.get(point, ()), added.get(point, ())):
+                gain = settled[point] + onward.bound_us - time(onward.later)
+                if onward.later not in settled and gain < sooner.get(onward.later, 0):
+                    sooner[onward.later], through[onward.later] = gain, onward
+                    heappush(waiting, (gain, onward.later))
+        moved.update(settled)
+        return ()
+
+    @cached_property
+    def _times(self) -> dict[str, int]:
+        return dict(zip(self.points, self._solved[0].tolist(), strict=True))
+
+    @cached_property
+    def _leaving(self) -> dict[str, list[Edge[Reason]]]:
+        leaving: dict[str, list[Edge[Reason]]] = {}
+        for edge in self.edges:
+            leaving.setdefault(edge.earlier, []).append(edge)
+        return leaving
 
     def _on_circle(self, through: npt.NDArray[np.intp]) -> int | None:
         """Return a point to which one comes again by the edges that moved points last."""
@@ -148,6 +220,38 @@ class Stn(Generic[Reason]):
             found.append(self.edges[edge])
             at = int(self._from[edge])
         return tuple(reversed(found))
+
+    def spans_us(self, origin: str) -> dict[str, tuple[int | None, int | None]] | None:
+        """Return by how much each point comes after one of them at least and at most.
+
+        The rows of that point in `minimal`, without the others. None for a side without a bound;
+        None at all when some bounds exclude each other.
+        """
+        if self.negative_cycle():
+            return None
+        start = self.points.index(origin)
+        most = self._spread(start, self._from, self._to)
+        least = self._spread(start, self._to, self._from)
+        return {
+            point: (-before if before < UNBOUNDED else None, after if after < UNBOUNDED else None)
+            for point, before, after in zip(
+                self.points, least.tolist(), most.tolist(), strict=True
+            )
+        }
+
+    def _spread(
+        self, start: int, tails: npt.NDArray[np.intp], heads: npt.NDArray[np.intp]
+    ) -> IntArray:
+        """Return the least sums of bounds from a point, along edges from tails to heads."""
+        sums = np.full(len(self.points), UNBOUNDED, dtype=np.int64)
+        sums[start] = 0
+        while True:
+            better = sums.copy()
+            known = sums[tails] < UNBOUNDED
+            np.minimum.at(better, heads[known], sums[tails[known]] + self._bounds[known])
+            if (better == sums).all():
+                return sums
+            sums = better
 
     def minimal(self) -> Minimal | None:
         """Return the minimal network, None when there is none: some bounds exclude each other."""

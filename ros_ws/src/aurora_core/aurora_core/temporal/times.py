@@ -33,15 +33,13 @@ def planned_times(basis: Basis, horizon_s: float) -> tuple[tuple[PlannedTime, ..
     conflict = first_conflict(links)
     if conflict:
         return (), told(conflict)
-    minimal = Stn([link.edge for link in links]).minimal()
-    assert minimal is not None  # there is no conflict
-    found = []
-    for point in (p for p in minimal.points if _is_shown(p)):
-        earliest, latest = minimal.least_us(START, point), minimal.most_us(START, point)
-        if earliest is not None and latest is not None:
-            found.append(
-                PlannedTime(point=point, earliest_s=earliest / SECOND, latest_s=latest / SECOND)
-            )
+    spans = Stn([link.edge for link in links]).spans_us(START)
+    assert spans is not None  # there is no conflict
+    found = [
+        PlannedTime(point=point, earliest_s=earliest / SECOND, latest_s=latest / SECOND)
+        for point, (earliest, latest) in spans.items()
+        if _is_shown(point) and earliest is not None and latest is not None
+    ]
     return tuple(found), ''
 
 

@@ -147,3 +147,20 @@ def test_many_rows_equal_single_rows_to_the_bit(star_footprints: Footprints) -> 
 def test_crossed_rings_are_refused() -> None:
     with pytest.raises(MapError, match='simple polygon'):
         Polygon(SQUARE[[0, 2, 1, 3]])
+
+
+def test_a_polygon_of_many_edges_contains_what_all_its_edges_say() -> None:
+    chance = np.random.default_rng(5)
+    turn = np.sort(chance.uniform(0.0, 2.0 * np.pi, 3000))
+    reach = chance.uniform(20.0, 100.0, (3000, 1))
+    ring = reach * np.column_stack((np.cos(turn), np.sin(turn)))
+    hole = ring[::7] * 0.1
+    whole = shapely.Polygon(ring, [hole])
+    area = PolygonSet([Polygon(ring, (hole,)), Polygon(np.array([[0, 0], [9, 0], [0, 9.0]]))])
+    # Corners' heights too: there an edge begins and another one ends.
+    points = np.column_stack((chance.uniform(-120, 120, 4000), chance.uniform(-120, 120, 4000)))
+    points[::2, 1] = chance.choice(ring[:, 1], 2000)
+    triangle = shapely.Polygon([[0, 0], [9, 0], [0, 9.0]])
+    expected = shapely.contains_xy(whole, points) | shapely.contains_xy(triangle, points)
+    assert (area.contains(points) == expected).all()
+    assert 500 < np.count_nonzero(expected) < 3500

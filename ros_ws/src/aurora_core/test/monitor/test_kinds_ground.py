@@ -233,6 +233,13 @@ BEHAVIOURS = (
     # 9.5 m between centres are 5 m between bumpers: 0.5 s at 10 m/s; 44.5 m are 4 s.
     Row(id='car1.tailgate', make=lambda: _pair(B.TAILGATE, 10.0, 9.5, 10.0), margin=1.0 - 0.5),
     Row(id='car1.tailgate', make=lambda: _pair(B.TAILGATE, 10.0, 44.5, 10.0), margin=1.0 - 4.0),
+    # Side by side, 4 m between centres, one overtakes, and is behind nobody.
+    Row(
+        id='car1.tailgate',
+        make=lambda: _pair(B.TAILGATE, 10.0, 4.0, 10.0),
+        margin=1.0 - 100.0,
+        what='beside',
+    ),
     # Exactly one second is not less than one second.
     Row(
         id='car1.tailgate',

@@ -63,6 +63,12 @@ def _heading(case: Case, x: float, y: float) -> Case:
     return case
 
 
+def _comes_by_again(case: Case) -> Case:
+    """Let the route turn round and come by the tower again, nearer than the first time."""
+    case.run.agents[0].route = ((40.0, 0.0), (300.0, 0.0), (300.0, 2.5), (-900.0, 2.5))
+    return case
+
+
 def _rows(
     relation: Relation, of: str, good: tuple[float, ...], bad: tuple[float, ...], what: str = ''
 ) -> tuple[Row, ...]:
@@ -89,6 +95,12 @@ ROWS = (
     *_rows(R.BEFORE, 'car2', (-20.0, 0.0, 20.0), (-20.0, 14.0, 10.0 - 14.0)),
     *_rows(R.BEFORE, TOWER, (40.0, 0.0, 60.0), (130.0, 0.0, -30.0)),
     *_rows(R.BEFORE, TOWER, (40.0, 2.0, 60.0), (40.0, -14.0, 10.0 - 16.0), 'beside'),
+    Row(
+        id='car1.placed',
+        make=lambda: _comes_by_again(_placed(R.BEFORE, TOWER, 40.0, 0.0)),
+        margin=60.0,
+        what='before-a-place-that-the-route-passes-twice',
+    ),
     # 1.75 m to each side of the middle of a lane; the next lane begins there.
     *_rows(R.SAME_LANE, 'car2', (30.0, 1.0, 0.75), (30.0, 3.3, 1.75 - 3.3)),
     *_rows(R.ADJACENT_LANE, 'car2', (30.0, 3.3, 1.75 - 0.2), (30.0, 0.0, 1.75 - 3.5)),

@@ -4,11 +4,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import ModuleType
 
 import numpy as np
 import pytest
 
+from aurora_core.knowledge.world import CentreLine
 from aurora_core.outcomes.verdict import VerdictStatus
 from aurora_core.trace.layout import UavColumn
 
@@ -52,3 +54,32 @@ def test_an_agent_that_is_gone_does_not_move(tb: ModuleType) -> None:
     van.present = np.where(np.arange(case.run.ticks) < 1100, 1.0, 0.0)
     van.x[1100:] = van.x[1100]
     assert not [f for f in tb.judge(case).cross_check if f.kind == 'motion']
+
+
+def _lane(lane_id: str, west_m: float, east_m: float, y_m: float) -> CentreLine:
+    points = np.array([(west_m, y_m), (east_m, y_m)])
+    return CentreLine(
+        lane_id=lane_id, street_name='', points=points, width_m=3.2, speed_limit_mps=14.0
+    )
+
+
+@pytest.mark.parametrize(
+    ('share', 'found'), [(1.0, ['ego', 'van1']), (1.5, []), (0.8, ['ego', 'van1'])]
+)
+def test_on_a_lane_longer_than_it_is_counted_a_vehicle_gets_on_faster(
+    tb: ModuleType, share: float, found: list[str]
+) -> None:
+    case = tb.tailgate_case()
+    for agent in case.run.agents:
+        agent.speed /= 1.5
+    # Two lanes of an edge, counted as long as their mean.
+    long_m = 20_000.0
+    short_m = long_m * (2.0 / share - 1.0)
+    y_m = float(case.run.agents[1].y[0])
+    lanes = (
+        _lane('e_0', -long_m / 2.0, long_m / 2.0, y_m),
+        _lane('e_1', 0.0, max(short_m, 1.0), y_m + 50.0),
+    )
+    case.world = replace(case.world, lanes=lanes)
+    told = [f.subject for f in tb.judge(case).cross_check if f.kind == 'motion']
+    assert told == found

@@ -93,6 +93,7 @@ def test_random_networks_are_those_of_networkx(seed: int) -> None:
     assert bool(circle) is networkx.negative_edge_cycle(graph)
     assert (minimal is None) is bool(circle)
     if minimal is None:
+        assert found.spans_us(found.points[0]) is None
         assert sum(edge.bound_us for edge in circle) < 0
         assert all(a.later == b.earlier for a, b in pairwise((*circle, circle[0])))
         assert len({edge.earlier for edge in circle}) == len(circle)
@@ -105,3 +106,35 @@ def test_random_networks_are_those_of_networkx(seed: int) -> None:
         assert {p: minimal.most_us(one, p) for p in found.points} == {
             p: lengths.get(p) for p in found.points
         }
+        assert found.spans_us(one) == {
+            p: (minimal.least_us(one, p), minimal.most_us(one, p)) for p in found.points
+        }
+
+
+@pytest.mark.parametrize('seed', range(400))
+def test_bounds_that_are_added_close_a_circle_exactly_where_the_whole_network_has_one(
+    seed: int,
+) -> None:
+    whole = _random(seed)
+    cut = np.random.default_rng(seed).integers(0, len(whole.edges) + 1)
+    base, more = Stn(whole.edges[:cut], whole.points), whole.edges[cut:]
+    if base.negative_cycle():
+        with pytest.raises(ValueError, match='consistent'):
+            base.closed_by(more)
+        return
+    circle = base.closed_by(more)
+    assert bool(circle) is bool(whole.negative_cycle())
+    assert base.negative_cycle() == ()
+    if circle:
+        assert sum(edge.bound_us for edge in circle) < 0
+        assert all(a.later == b.earlier for a, b in pairwise((*circle, circle[0])))
+        assert len({edge.earlier for edge in circle}) == len(circle)
+        assert set(circle) & set(more)
+
+
+def test_bounds_are_added_to_points_that_the_network_lacks() -> None:
+    base = stn(('a', 'b', 20))
+    within, before = Edge('b', 'c', -30, 7), Edge('c', 'a', 9, 8)
+    assert set(base.closed_by([within, before])) == {base.edges[0], within, before}
+    assert base.closed_by([within, Edge('c', 'a', 10, 8)]) == ()
+    assert base.closed_by([]) == ()

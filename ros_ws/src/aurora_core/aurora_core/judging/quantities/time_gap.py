@@ -15,7 +15,8 @@ from aurora_core.outcomes.condition import Condition, Window
 from aurora_core.quantities import motion
 from aurora_core.spec.quantity import QuantityName
 
-# A follower that is not behind its leader, or stands, has no time gap: this stands for it.
+# A follower that is not behind its leader (beside it is not behind), or stands, has no time gap:
+# this stands for it.
 NO_TIME_GAP_S = 100.0
 
 
@@ -42,7 +43,7 @@ class TimeGap(Quantity):
         a, b = condition.of
         along = context.along(a, b)
         speed = motion.speed(view, view.body(a))
-        valid = (speed > self.moving_mps) & (along.lead_m > 0.0)
+        valid = (speed > self.moving_mps) & (along.gap_m > 0.0)
         valid &= (along.offset_m <= self.offset_m) & view.present(a) & view.present(b)
         gap = np.maximum(along.gap_m, 0.0) / np.where(valid, speed, 1.0)
         values = np.where(valid, np.minimum(gap, NO_TIME_GAP_S), NO_TIME_GAP_S)

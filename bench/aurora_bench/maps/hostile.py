@@ -1,0 +1,146 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Files that are no map: empty, broken, of another kind, or made to do harm. One of each class."""
+
+from __future__ import annotations
+
+import gzip
+import os
+import struct
+import zlib
+from collections.abc import Callable
+from pathlib import Path
+
+Make = Callable[[Path], None]
+
+_HEAD = '<?xml version="1.0"?>'
+_ROAD = (
+    '<way id="9"><nd ref="1"/><nd ref="2"/><tag k="highway" v="primary"/>'
+    '<tag k="name" v="{}"/></way>'
+)
+_NODES = '<node id="1" lat="60" lon="24"/><node id="2" lat="{}" lon="24"/>'
+_LAUGHS = ''.join(f'<!ENTITY e{k} "{f"&e{k - 1};" * 10}">' for k in range(1, 10))
+_MILLION = 1_000_000
+
+
+def osm(*parts: str) -> bytes:
+    """Return an OpenStreetMap document of parts."""
+    return f'{_HEAD}<osm version="0.6">{"".join(parts)}</osm>'.encode()
+
+
+def _bytes(data: bytes) -> Make:
+    def write(path: Path) -> None:
+        path.write_bytes(data)
+
+    return write
+
+
+def _unpacks_without_end(path: Path) -> None:
+    """Two million times the zeros of a page, packed twice as a part of a document."""
+    with gzip.open(path, 'wb', compresslevel=9) as out:
+        out.write(b'<osm version="0.6">')
+        for _ in range(1024):
+            out.write(b' ' * (1 << 20))
+
+
+def _a_million_nodes(path: Path) -> None:
+    with gzip.open(path, 'wt', compresslevel=1, encoding='ascii') as out:
+        out.write('<osm version="0.6">')
+        for k in range(1, _MILLION + 1):
+            out.write(f'<node id="{k}" lat="60.{k % 9999:04d}" lon="24"/>')
+        out.write('</osm>')
+
+
+def pbf_blob(kind: bytes, body: bytes, raw_size: int) -> bytes:
+    """Return a block of a PBF file whose packed body claims a size."""
+
+    def field(number: int, data: bytes) -> bytes:
+        return _varint(number << 3 | 2) + _varint(len(data)) + data
+
+    blob = _varint(2 << 3) + _varint(raw_size) + field(3, zlib.compress(body, 9))
+    header = field(1, kind) + _varint(3 << 3) + _varint(len(blob))
+    return struct.pack('>I', len(header)) + header + blob
+
+
+def _varint(value: int) -> bytes:
+    out = bytearray()
+    while value > 127:
+        out.append(value & 127 | 128)
+        value >>= 7
+    return bytes([*out, value])
+
+
+def _pbf_bomb(path: Path) -> None:
+    """A header, then a block that unpacks to a gibibyte and says so."""
+    head = pbf_blob(b'OSMHeader', b'"\x0eOsmSchema-V0.6', 16)
+    path.write_bytes(head + pbf_blob(b'OSMData', bytes(1 << 28), 1 << 30))
+
+
+def _pipe(path: Path) -> None:
+    os.mkfifo(path)
+
+
+def _link_to_device(path: Path) -> None:
+    path.symlink_to('/dev/zero')
+
+
+def _link_to_nowhere(path: Path) -> None:
+    path.symlink_to('nowhere.osm')
+
+
+def _folder(path: Path) -> None:
+    path.mkdir()
+
+
+CLASSES: dict[str, tuple[str, Make]] = {
+    'empty': ('empty.osm', _bytes(b'')),
+    'broken off': ('short.osm', _bytes(osm(_NODES.format(60.001), _ROAD.format('A'))[:-20])),
+    'gzip that breaks off': (
+        'short.osm.gz', _bytes(gzip.compress(osm(_NODES.format(60.001)) * 50)[:60])
+    ),
+    'damaged gzip': ('damaged.osm.gz', _bytes(b'\x1f\x8b\x08' + bytes(range(200)))),
+    'another kind of XML': ('page.osm', _bytes(b'<html><body>no map</body></html>')),
+    'no XML at all': ('text.xodr', _bytes(b'not a map at all')),
+    'archive of another kind': ('packed.osm', _bytes(b'PK\x03\x04' + bytes(64))),
+    'entity bomb': (
+        'laughs.osm',
+        _bytes(f'{_HEAD}<!DOCTYPE osm [<!ENTITY e0 "ha">{_LAUGHS}]>'
+               '<osm version="0.6"><node id="1" lat="&e9;" lon="1"/></osm>'.encode()),
+    ),
+    'external entity': (
+        'external.osm',
+        _bytes(f'{_HEAD}<!DOCTYPE osm [<!ENTITY x SYSTEM "file:///etc/passwd">]>'
+               '<osm version="0.6"><node id="1" lat="1" lon="&x;"/></osm>'.encode()),
+    ),
+    'included file': ('include.net.xml', _bytes(b'<net><include href="/etc/passwd"/></net>')),
+    'nested without end': ('deep.osm', _bytes(b'<osm>' + b'<a>' * 1_000_000)),
+    'unpacks without end': ('bomb.osm.gz', _unpacks_without_end),
+    'PBF block that unpacks without end': ('bomb.osm.pbf', _pbf_bomb),
+    'PBF that breaks off': (
+        'cut.osm.pbf', _bytes(b'\0\0\0\x0d\x0a\x09OSMHeader\x18\x7f' + b'x' * 20)
+    ),
+    'a million nodes': ('region.osm.gz', _a_million_nodes),
+    'coordinate that is no number': (
+        'nan.osm', _bytes(osm(_NODES.format('nan'), _ROAD.format('A')))
+    ),
+    'coordinate beyond the Earth': (
+        'far.osm', _bytes(osm(_NODES.format('1e9'), _ROAD.format('A')))
+    ),
+    'network with points that are no numbers': (
+        'nan.net.xml',
+        _bytes(b'<net version="1.20"><location netOffset="0,0" convBoundary="0,0,9,9" '
+               b'origBoundary="0,0,9,9" projParameter="!"/><edge id="a" from="p" to="q" '
+               b'priority="1"><lane id="a_0" index="0" speed="9" length="nan" '
+               b'shape="nan,0 inf,9"/></edge></net>'),
+    ),
+    'no road': ('points.osm', _bytes(osm(_NODES.format(60.001)))),
+    'half the world': ('world.osm', _bytes(osm(_NODES.format(1), _ROAD.format('A')))),
+    'driving on the left': ('left.net.xml', _bytes(b'<net version="1.20" lefthand="true"></net>')),
+    'pipe': ('pipe.osm', _pipe),
+    'link to a device': ('device.osm', _link_to_device),
+    'link to nowhere': ('nowhere2.osm', _link_to_nowhere),
+    'folder': ('folder.osm', _folder),
+}  # fmt: skip
+
+# Names of maps that would leave the folder of maps, or hide in it.
+NAMES = ('../x', 'a/b', '/tmp/x', '.x', '..', 'x\ny', 'X' * 3, 'x' * 65)
