@@ -470,7 +470,8 @@ class FlightPlanner:
             samples = samples_along(
                 site.origin_path, site.origin_arc_m, ROAD_WAY_M, ROAD_STEP_M
             ).tolist()
-            seats = [s.path.position_at(s.arc_m)[:2] for s in site.seated]
+            everybody = (*site.seated, *site.others, *site.walkers)
+            seats = [s.path.position_at(s.arc_m)[:2] for s in everybody]
             road_x, road_y = road_point([(p[0], p[1]) for p in samples], seats)
             return road_x, road_y, hx, hy
         return None

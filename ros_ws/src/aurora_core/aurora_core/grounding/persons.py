@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
+from aurora_core.grounding.awaited import awaited_at
 from aurora_core.grounding.convoy import DEFAULT_GAP_M, stands
 from aurora_core.grounding.pace import (
     WALKING_MPS,
@@ -220,7 +221,7 @@ class PersonPlacer:
         if isinstance(placed, str):
             return placed
         if placed is None:
-            placed = self._at_place(agent, site, number)
+            placed = self._at_place(spec, agent, site, number)
         if placed is None:
             return 'sidewalk'
         if not _goes(spec, agent):
@@ -314,10 +315,13 @@ class PersonPlacer:
         inside = _KERB_M <= arc_m <= lane.arc_length_m - _KERB_M
         return arc_m if inside and abs(aside_m) <= 2.0 * _ON_WAY_M else None
 
-    def _at_place(self, agent: GroundAgent, site: Site, number: int) -> _Spot | None:
+    def _at_place(
+        self, spec: ScenarioSpec, agent: GroundAgent, site: Site, number: int
+    ) -> _Spot | None:
         """Return the spot at the place that the request names, else beside the anchor."""
         x, y, _, _ = site.origin()
         names = [p.of for p in agent.placements] + [b.target for b in agent.behaviors]
+        names += [awaited.place for awaited in awaited_at(spec) if awaited.agent == agent.id]
         for name in names:
             if name == Place.CROSSWALK:
                 crossing = self._places.crossing_near((x, y))
