@@ -58,6 +58,9 @@ _STOP_AFTER_M = 15.0
 # Vehicles have at least this way to a crosswalk that a person uses, and at most that (m).
 _CROSSWALK_AHEAD_M = (20.0, 120.0)
 
+# In front of the bumper of a vehicle that waits there is so much room to the middle of one (m).
+_IN_FRONT_M = 3.5
+
 # The crosswalk lies on the way of the vehicles when it is no farther off it (m).
 _ON_WAY_M = 10.0
 
@@ -257,9 +260,12 @@ class PersonPlacer:
     def _ahead(self, site: Site, point: tuple[float, float]) -> bool:
         """Tell whether a point lies on the way of the vehicles, ahead of all of them."""
         along_m, aside_m = site.origin_path.line.project(*point)
-        front_m = max(s.arc_m for s in site.seated)
+        front = max(site.seated, key=lambda s: s.arc_m)
         low, high = _CROSSWALK_AHEAD_M
-        return abs(aside_m) <= _ON_WAY_M and low <= along_m - front_m <= high
+        if all(stands(seat.agent) for seat in site.seated):
+            # Who waits lets the person cross right in front.
+            low = self._types[front.agent.type.value].length_m / 2.0 + _IN_FRONT_M
+        return abs(aside_m) <= _ON_WAY_M and low <= along_m - front.arc_m <= high
 
     def _beside_vehicle(
         self, spec: ScenarioSpec, agent: GroundAgent, site: Site, number: int

@@ -116,7 +116,7 @@ def group_releases(spec: ScenarioSpec, split: SceneSplit) -> Mapping[str, Releas
 
     Everybody else starts with the convoy.
     """
-    releases = {}
+    releases: dict[str, Release] = {}
     for group in split.groups:
         own = convoy_release(spec, replace(split, convoy=group))
         if own != Release():
@@ -158,15 +158,15 @@ def convoy_release(spec: ScenarioSpec, split: SceneSplit) -> Release:
         if flies and isinstance(awaited, ArrivalTrigger) and awaited.who in members:
             # Broken off before its first lap is over, a route would not show.
             return Release(on=ReleaseOn.LAPPED, uav=mission.uav, mission=mission.id)
-    for awaited in awaited_at(spec):
+    for premise in awaited_at(spec):
         # A UAV that stays at a place awaits whom it is to see there, or to come near it.
-        mission = awaited.mission
-        if awaited.agent in members and mission is not None:
-            if mission.mode is MissionMode.HOVER:
-                return Release(on=ReleaseOn.CAPTURED, uav=mission.uav, mission=mission.id)
-            if left_by(spec, mission) == awaited.event:
-                return Release(on=ReleaseOn.LAPPED, uav=mission.uav, mission=mission.id)
-        arriving.add(awaited.agent)
+        there = premise.mission
+        if premise.agent in members and there is not None:
+            if there.mode is MissionMode.HOVER:
+                return Release(on=ReleaseOn.CAPTURED, uav=there.uav, mission=there.id)
+            if left_by(spec, there) == premise.event:
+                return Release(on=ReleaseOn.LAPPED, uav=there.uav, mission=there.id)
+        arriving.add(premise.agent)
     met = {name for m in encounters(spec) for name in (m.actor, m.other)} | arriving
     # Who is reported by a UAV waits until that is up and can see it.
     flying = {uav.id for uav in spec.uavs}

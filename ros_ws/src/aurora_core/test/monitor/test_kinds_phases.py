@@ -68,7 +68,7 @@ def two_missions(second_altitude: float = 30.0, *, begins: int = 600) -> Case:
 
 
 def _ordered(first: str, then: str, *, at_s: float = 10.0, goal_m: float = 40.0) -> Case:
-    """The car is told to stand at a time; after its missions the UAV climbs; an order is stated."""
+    """The car is told to stand at a time; after its missions the UAV climbs; in an order."""
     case = two_missions(40.0)
     stands = {
         'id': 'e1',
