@@ -76,9 +76,7 @@ def _mixed(inputs: Inputs, order: Order, source: Source) -> Condition | None:
         return None
     event, later = events.get(order.first), missions.get(order.then)
     if event is not None and later is not None and _acts_at_a_moment(event):
-        return event_and_phase.event_first(
-            inputs, order, mission_arguments(inputs, later), source
-        )
+        return event_and_phase.event_first(inputs, order, mission_arguments(inputs, later), source)
     mission, climb = missions.get(order.first), events.get(order.then)
     action = None if climb is None else climb.action
     if mission is None or not isinstance(action, UavAction) or action.altitude_m is None:
