@@ -130,9 +130,8 @@ class GoalFinder:
             point = self._places.point(awaited.place, at)
             within_m = self._tolerances.arrival_m - _INSIDE_M
             if awaited.within_m is not None:
-                building = self._places.building(awaited.place)
-                if building is not None and awaited.mission is not None:
-                    point = building.centre  # the UAV is over it
+                if awaited.mission is not None:
+                    point = self._places.itself(awaited.place, at)  # the UAV is over it
                 here = seat.path.position_at(seat.arc_m)
                 if norm2(here[0] - point[0], here[1] - point[1]) <= awaited.within_m:
                     return False  # it would hold from the start on
