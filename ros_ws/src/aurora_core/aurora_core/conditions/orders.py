@@ -8,8 +8,9 @@ from collections.abc import Iterator
 
 from aurora_core.judging.build import Inputs, Source, Target, Underivable, number
 from aurora_core.judging.mission import mission_arguments
-from aurora_core.judging.quantities import event_delay, mission_completed
+from aurora_core.judging.quantities import event_and_phase, event_delay, mission_completed
 from aurora_core.outcomes.condition import Condition
+from aurora_core.quantities.actions import CLIMBED_M
 from aurora_core.spec.flight_order import begun_by, end_of
 from aurora_core.spec.parameter import Provenance
 from aurora_core.spec.scenario import (
@@ -35,6 +36,8 @@ def order_conditions(inputs: Inputs) -> Iterator[Condition | Underivable]:
             yield from (_phase(inputs, order, mission, source) for mission in phases)
         elif (event := _awaiting(inputs, order)) is not None or _of_events(inputs, order):
             yield from _events(inputs, order, source, event)
+        elif (found := _mixed(inputs, order, source)) is not None:
+            yield found
         else:
             what = f'that {order.first} comes before {order.then}'
             yield Underivable(element=order.id, what=what, span=order.span)
@@ -63,6 +66,35 @@ def _phase(inputs: Inputs, order: Order, mission: UavMission, source: Source) ->
         id=f'{order.id}.holds' + ('' if mission.id == order.then else f'.{mission.id}'),
         sentence=f'{mission.uav} flies {mission.id} after the phase before it',
     )
+
+
+def _mixed(inputs: Inputs, order: Order, source: Source) -> Condition | None:
+    """Return that a mission begins after an event, or that a UAV climbs after a mission."""
+    events = {event.id: event for event in inputs.spec.events}
+    missions = {mission.id: mission for mission in inputs.spec.missions}
+    if order.within_s is not None:
+        return None
+    event, later = events.get(order.first), missions.get(order.then)
+    if event is not None and later is not None and _acts_at_a_moment(event):
+        return event_and_phase.event_first(inputs, order, mission_arguments(inputs, later), source)
+    mission, climb = missions.get(order.first), events.get(order.then)
+    action = None if climb is None else climb.action
+    if mission is None or not isinstance(action, UavAction) or action.altitude_m is None:
+        return None
+    measured = mission_arguments(inputs, mission)
+    goal_m = action.altitude_m.value
+    # On its way up a UAV passes what is lower than that: nothing tells the two apart.
+    lowest_m = measured.altitude_m + measured.altitude_tolerance_m + CLIMBED_M
+    first_m = measured.first_altitude_m + measured.first_altitude_tolerance_m + CLIMBED_M
+    if action.do != 'ascend' or action.uav != mission.uav or goal_m <= max(lowest_m, first_m):
+        return None
+    return event_and_phase.mission_first(inputs, order, measured, goal_m, source)
+
+
+def _acts_at_a_moment(event: Event) -> bool:
+    """Tell whether the record shows when a driver, a person or a message did what is told."""
+    acts = isinstance(event.action, AgentAction | SendMessage)
+    return acts and event.trigger is not None
 
 
 def _of_events(inputs: Inputs, order: Order) -> bool:

@@ -31,7 +31,7 @@ from aurora_core.grounding.pace import (
     partings,
     stated_speed_mps,
 )
-from aurora_core.grounding.releases import Release, convoy_release, own_release
+from aurora_core.grounding.releases import Release, convoy_release, group_releases, own_release
 from aurora_core.grounding.routes import route_finder
 from aurora_core.grounding.sites import (
     SeatedAgent,
@@ -105,6 +105,7 @@ class AgentPlacer:
         factor = self._convoy_factor(spec, site)
         meetings = encounters(spec)
         release = convoy_release(spec, split)
+        apart = group_releases(spec, split)
         seats = {s.agent.id: s for s in (*site.seated, *site.others)}
         front_m = max((s.arc_m for s in site.seated), default=0.0)
         gaps = kept_gaps(spec, seats, self._types)
@@ -127,7 +128,7 @@ class AgentPlacer:
                     agent,
                     seat.path,
                     seat.arc_m,
-                    release=own_release(spec, agent, release),
+                    release=own_release(spec, agent, apart.get(agent.id, release)),
                     still=still,
                     speed_mps=stated_speed_mps(spec, agent),
                     entry_mps=entries.get(agent.id, 0.0),

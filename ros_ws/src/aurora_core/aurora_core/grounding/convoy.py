@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+from aurora_core.grounding.awaited import bound_to_places
 from aurora_core.grounding.pace import (
     Encounter,
     encounter_room_m,
@@ -18,7 +19,7 @@ from aurora_core.grounding.pace import (
     met_persons,
     own_speed_mps,
 )
-from aurora_core.grounding.places import POINTS, bound_to_places, has_point
+from aurora_core.grounding.places import POINTS, has_point
 from aurora_core.grounding.ties import (
     IN_LINE_M,
     Tie,

@@ -36,7 +36,7 @@ from aurora_core.grounding.planned_flight import (
     planned_height_m,
 )
 from aurora_core.grounding.routes_flown import RoutePlanner
-from aurora_core.grounding.sites import Site, samples_along
+from aurora_core.grounding.sites import SeatedAgent, SeatedPerson, Site, samples_along
 from aurora_core.grounding.spots import SpotFinder
 from aurora_core.grounding.starts import uncrossed
 from aurora_core.knowledge.agent_types import AgentTypeRecord
@@ -471,7 +471,9 @@ class FlightPlanner:
             samples = samples_along(
                 site.origin_path, site.origin_arc_m, ROAD_WAY_M, ROAD_STEP_M
             ).tolist()
-            seats = [s.path.position_at(s.arc_m)[:2] for s in site.seated]
+            everybody: tuple[SeatedAgent | SeatedPerson, ...]
+            everybody = (*site.seated, *site.others, *site.walkers)
+            seats = [s.path.position_at(s.arc_m)[:2] for s in everybody]
             road_x, road_y = road_point([(p[0], p[1]) for p in samples], seats)
             return road_x, road_y, hx, hy
         return None

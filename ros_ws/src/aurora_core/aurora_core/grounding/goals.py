@@ -12,6 +12,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from aurora_core.geometry.kernel import norm2
+from aurora_core.grounding.awaited import awaited_at
 from aurora_core.grounding.places import MapPlaces, arrivals, has_point
 from aurora_core.grounding.sites import SeatedAgent, Site
 from aurora_core.knowledge.agent_types import AgentTypeRecord
@@ -109,6 +110,35 @@ class GoalFinder:
                         return False
                 elif self._arc_near(seat, point, bound) is None:
                     return False
+        return True
+
+    def leads(
+        self, spec: ScenarioSpec, site: Site, anchor: tuple[float, float] | None = None
+    ) -> bool:
+        """Tell whether everybody on a site comes to where an event waits for it.
+
+        Args:
+            spec: The request.
+            site: Where the vehicles stand.
+            anchor: Of the scene, x and y in m; the origin of the site when not given.
+        """
+        at = site.origin()[:2] if anchor is None else anchor
+        for awaited in awaited_at(spec):
+            seat = next((s for s in site.seated if s.agent.id == awaited.agent), None)
+            if seat is None:
+                continue
+            point = self._places.point(awaited.place, at)
+            within_m = self._tolerances.arrival_m - _INSIDE_M
+            if awaited.within_m is not None:
+                if awaited.mission is not None:
+                    point = self._places.itself(awaited.place, at)  # the UAV is over it
+                here = seat.path.position_at(seat.arc_m)
+                if norm2(here[0] - point[0], here[1] - point[1]) <= awaited.within_m:
+                    return False  # it would hold from the start on
+                within_m = awaited.within_m - _INSIDE_M
+            bound = _Bound(place=awaited.place, within_m=within_m, at_start=False)
+            if self._arc_near(seat, point, bound) is None:
+                return False
         return True
 
     def spacing_m(self, spec: ScenarioSpec, default_m: float) -> float:

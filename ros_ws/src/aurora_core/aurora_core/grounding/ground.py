@@ -25,7 +25,7 @@ from aurora_core.grounding.keep_out import kept_out
 from aurora_core.grounding.lane_changers import changes_lane, share_with_another_lane
 from aurora_core.grounding.laps import Laps
 from aurora_core.grounding.oncoming import OncomingPlacer
-from aurora_core.grounding.pace import fastest_stated_mps, watched_speed_mps
+from aurora_core.grounding.pace import fastest_stated_mps, timed_way_m, watched_speed_mps
 from aurora_core.grounding.persons import PersonPlacer
 from aurora_core.grounding.places import MapPlaces
 from aurora_core.grounding.planned_flight import PlannedFlight, Rejected, planned_height_m
@@ -62,6 +62,8 @@ _LOOKED_S = 40.0
 _PERFECT = 1.0 - 1e-9
 # What is left of a road's score where a bend spoils a stated distance.
 _BENT = 0.1
+# And where it does not lead to where an event waits for somebody.
+_ASTRAY = 0.1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -245,6 +247,8 @@ class Grounder:
         stated = fastest_stated_mps(spec, (m.agent for m in split.convoy))
         changing = {m.agent.id for m in split.convoy if changes_lane(spec, m.agent)}
         need_m = way_m if len(split.convoy) > 1 else _LOOKED_S / 2.0 * stated
+        members = [m.agent for m in split.convoy]
+        need_m = max(need_m, timed_way_m(spec, members, grounding.target_speed_mps))
         wanted = grounding.target_speed_mps
         ranked: list[tuple[float, Site]] = []
         found = sites(
@@ -267,6 +271,8 @@ class Grounder:
             road = 0.4 * free + 0.2 * float(site.steady) + 0.2 * brisk + 0.2 * straight
             if bends_between(spec, site, self._tolerances.placement_vehicle_m):
                 road *= _BENT
+            if not self._goals.leads(spec, site):
+                road *= _ASTRAY
             if stated > 0.0:
                 road *= 0.5 + 0.5 * self._room_for(stated, site)
             for seat in site.seated:

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 
 from aurora_core.geometry.kernel import norm2
@@ -72,22 +72,27 @@ class GroupPlacer:
         Args:
             site: Where the convoy stands.
         """
-        anchor = site.origin()[:2]
         for candidates in self._candidates:
-            found = next(
-                (
-                    one.seated
-                    for one in _nearest_first(candidates, site)
-                    if self._goals.fits(self._spec, one, anchor)
-                    and _apart(one.seated, site)
-                    and all(_on_its_side(seat, site) for seat in one.seated)
-                ),
-                None,
-            )
+            found = next(self._fit(candidates, site, leading=True), None)
+            found = found or next(self._fit(candidates, site), None)
             if found is None:
                 return 'road'
             site = replace(site, others=(*site.others, *found))
         return site
+
+    def _fit(
+        self, candidates: list[Site], site: Site, *, leading: bool = False
+    ) -> Iterator[tuple[SeatedAgent, ...]]:
+        """Yield the places of a group beside a site: `leading` to where an event waits for it."""
+        anchor = site.origin()[:2]
+        for one in _nearest_first(candidates, site):
+            if (
+                self._goals.fits(self._spec, one, anchor)
+                and _apart(one.seated, site)
+                and all(_on_its_side(seat, site) for seat in one.seated)
+                and (not leading or self._goals.leads(self._spec, one, anchor))
+            ):
+                yield one.seated
 
 
 def _best_first(found: Iterable[Site]) -> list[Site]:

@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 from aurora_core.knowledge.limits import Limits
 from aurora_core.knowledge.settings import GroundingSettings
+from aurora_core.quantities.actions import FROM_MOTION
 from aurora_core.spec.own_events import own_events
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import (
@@ -21,6 +22,7 @@ from aurora_core.spec.scenario import (
     GroundAgent,
     ScenarioSpec,
     SpeedTrigger,
+    TimeTrigger,
     UavMission,
 )
 from aurora_core.spec.vocabulary import AgentType, BehaviorKind, MissionMode
@@ -233,6 +235,30 @@ def fastest_stated_mps(spec: ScenarioSpec, agents: Iterable[GroundAgent]) -> flo
         (
             max([stated_speed_mps(spec, a) or 0.0, slows_from_mps(a), *_gains_to_mps(spec, a)])
             for a in bound
+        ),
+        default=0.0,
+    )
+
+
+def timed_way_m(spec: ScenarioSpec, agents: Iterable[GroundAgent], pace_mps: float) -> float:
+    """Return how far agents get until the last of what they do on the move at a stated time.
+
+    "At 45 s it stops": before a red light it would have stood by then, and nothing would change.
+
+    Args:
+        spec: The request.
+        agents: Who.
+        pace_mps: Speed of whom no speed is stated, m/s.
+    """
+    speeds = {a.id: stated_speed_mps(spec, a) or pace_mps for a in agents}
+    return max(
+        (
+            event.trigger.at_s.value * speeds[event.action.agent]
+            for event in spec.events
+            if isinstance(event.trigger, TimeTrigger)
+            and isinstance(event.action, AgentAction)
+            and event.action.do in FROM_MOTION
+            and event.action.agent in speeds
         ),
         default=0.0,
     )

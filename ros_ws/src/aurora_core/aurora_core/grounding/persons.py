@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
+from aurora_core.grounding.awaited import awaited_at
 from aurora_core.grounding.convoy import DEFAULT_GAP_M, stands
 from aurora_core.grounding.pace import (
     WALKING_MPS,
@@ -56,6 +57,9 @@ _STOP_AFTER_M = 15.0
 
 # Vehicles have at least this way to a crosswalk that a person uses, and at most that (m).
 _CROSSWALK_AHEAD_M = (20.0, 120.0)
+
+# In front of the bumper of a vehicle that waits there is so much room to the middle of one (m).
+_IN_FRONT_M = 3.5
 
 # The crosswalk lies on the way of the vehicles when it is no farther off it (m).
 _ON_WAY_M = 10.0
@@ -220,7 +224,7 @@ class PersonPlacer:
         if isinstance(placed, str):
             return placed
         if placed is None:
-            placed = self._at_place(agent, site, number)
+            placed = self._at_place(spec, agent, site, number)
         if placed is None:
             return 'sidewalk'
         if not _goes(spec, agent):
@@ -256,9 +260,12 @@ class PersonPlacer:
     def _ahead(self, site: Site, point: tuple[float, float]) -> bool:
         """Tell whether a point lies on the way of the vehicles, ahead of all of them."""
         along_m, aside_m = site.origin_path.line.project(*point)
-        front_m = max(s.arc_m for s in site.seated)
+        front = max(site.seated, key=lambda s: s.arc_m)
         low, high = _CROSSWALK_AHEAD_M
-        return abs(aside_m) <= _ON_WAY_M and low <= along_m - front_m <= high
+        if all(stands(seat.agent) for seat in site.seated):
+            # Who waits lets the person cross right in front.
+            low = self._types[front.agent.type.value].length_m / 2.0 + _IN_FRONT_M
+        return abs(aside_m) <= _ON_WAY_M and low <= along_m - front.arc_m <= high
 
     def _beside_vehicle(
         self, spec: ScenarioSpec, agent: GroundAgent, site: Site, number: int
@@ -314,10 +321,13 @@ class PersonPlacer:
         inside = _KERB_M <= arc_m <= lane.arc_length_m - _KERB_M
         return arc_m if inside and abs(aside_m) <= 2.0 * _ON_WAY_M else None
 
-    def _at_place(self, agent: GroundAgent, site: Site, number: int) -> _Spot | None:
+    def _at_place(
+        self, spec: ScenarioSpec, agent: GroundAgent, site: Site, number: int
+    ) -> _Spot | None:
         """Return the spot at the place that the request names, else beside the anchor."""
         x, y, _, _ = site.origin()
         names = [p.of for p in agent.placements] + [b.target for b in agent.behaviors]
+        names += [awaited.place for awaited in awaited_at(spec) if awaited.agent == agent.id]
         for name in names:
             if name == Place.CROSSWALK:
                 crossing = self._places.crossing_near((x, y))

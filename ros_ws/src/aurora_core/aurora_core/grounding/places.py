@@ -68,13 +68,6 @@ def has_point(place: str | None) -> bool:
     return place in POINTS or is_landmark(place)
 
 
-def bound_to_places(spec: ScenarioSpec, agent: GroundAgent) -> bool:
-    """Tell whether a place decides where a vehicle stands or goes."""
-    names = [p.of for p in agent.placements] + [b.target for b in agent.behaviors]
-    names += [t.place for t in arrivals(spec, agent)]
-    return any(has_point(name) for name in names)
-
-
 def arrivals(spec: ScenarioSpec, agent: GroundAgent) -> Iterator[ArrivalTrigger]:
     """Yield the triggers that wait for an agent to arrive somewhere."""
     for event in spec.events:

@@ -4,8 +4,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 
+from aurora_core.grounding.awaited import awaited_at
 from aurora_core.grounding.convoy import SceneSplit
 from aurora_core.grounding.pace import encounters, moves
 from aurora_core.outcomes.grounded import ReleaseOn
@@ -109,6 +111,19 @@ def _told_by(spec: ScenarioSpec, agent: GroundAgent) -> str | None:
     return next((a.sender for a in told if a.receiver == agent.id and a.sender in staying), None)
 
 
+def group_releases(spec: ScenarioSpec, split: SceneSplit) -> Mapping[str, Release]:
+    """Return when the vehicles with roads of their own may start, where they are held themselves.
+
+    Everybody else starts with the convoy.
+    """
+    releases: dict[str, Release] = {}
+    for group in split.groups:
+        own = convoy_release(spec, replace(split, convoy=group))
+        if own != Release():
+            releases |= {member.agent.id: own for member in group}
+    return releases
+
+
 def convoy_release(spec: ScenarioSpec, split: SceneSplit) -> Release:
     """Hold the convoy until the UAV that watches it is ready, or has finished with it."""
     members = {m.agent.id: m.agent for m in split.convoy}
@@ -143,6 +158,15 @@ def convoy_release(spec: ScenarioSpec, split: SceneSplit) -> Release:
         if flies and isinstance(awaited, ArrivalTrigger) and awaited.who in members:
             # Broken off before its first lap is over, a route would not show.
             return Release(on=ReleaseOn.LAPPED, uav=mission.uav, mission=mission.id)
+    for premise in awaited_at(spec):
+        # A UAV that stays at a place awaits whom it is to see there, or to come near it.
+        there = premise.mission
+        if premise.agent in members and there is not None:
+            if there.mode is MissionMode.HOVER:
+                return Release(on=ReleaseOn.CAPTURED, uav=there.uav, mission=there.id)
+            if left_by(spec, there) == premise.event:
+                return Release(on=ReleaseOn.LAPPED, uav=there.uav, mission=there.id)
+        arriving.add(premise.agent)
     met = {name for m in encounters(spec) for name in (m.actor, m.other)} | arriving
     # Who is reported by a UAV waits until that is up and can see it.
     flying = {uav.id for uav in spec.uavs}

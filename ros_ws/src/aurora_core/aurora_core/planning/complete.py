@@ -14,7 +14,7 @@ from aurora_core.parsing import values
 from aurora_core.planning.bounds import bent
 from aurora_core.planning.ids import free_ids
 from aurora_core.planning.orders import waiting
-from aurora_core.spec.events import actor_of
+from aurora_core.spec.events import Event, MessageTrigger, actor_of
 from aurora_core.spec.parameter import Parameter, Provenance
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import ScenarioSpec, SendMessage, StatedCondition, Uav, UavMission
@@ -33,7 +33,7 @@ def complete(spec: ScenarioSpec, limits: Limits) -> ScenarioSpec:
         spec: The request, whoever read it; it is not changed.
         limits: Limits in force.
     """
-    spec = waiting(hovering(reporting(blowing(spec, limits))))
+    spec = waiting(hovering(reporting(telling(blowing(spec, limits)))))
     return layered(bent(lasting(spec), limits), limits)
 
 
@@ -79,6 +79,52 @@ def reporting(spec: ScenarioSpec) -> ScenarioSpec:
         if links == spec.links
         else ScenarioSpec.model_validate({**dict(spec), 'links': links})
     )
+
+
+def telling(spec: ScenarioSpec) -> ScenarioSpec:
+    """Return the specification with the messages that something waits for and nobody sends.
+
+    "Only once it has the message of the roadside unit the van may start": that one is sent.
+
+    Args:
+        spec: The request, whoever read it; returned as it is when all is sent.
+    """
+    bodies = {agent.id for agent in spec.agents} | {uav.id for uav in spec.uavs}
+    sent = {
+        (e.action.sender, e.action.receiver)
+        for e in spec.events
+        if isinstance(e.action, SendMessage)
+    }
+    linked = {(link.sender, link.receiver) for link in spec.links}
+    events, links = free_ids(spec, 'e'), free_ids(spec, 'link')
+    added: list[Event] = []
+    over: list[Link] = []
+    for event in spec.events:
+        trigger = event.trigger
+        if not isinstance(trigger, MessageTrigger) or trigger.sender not in bodies:
+            continue
+        pair = (trigger.sender, trigger.by)
+        if pair in sent | linked:  # what is described as a link carries reports
+            continue
+        sent.add(pair)
+        message = SendMessage(do='send_message', sender=trigger.sender, receiver=trigger.by)
+        added.append(Event(id=next(events), action=message, span=event.span))
+        over.append(
+            Link(
+                id=next(links),
+                sender=trigger.sender,
+                receiver=trigger.by,
+                loss=values.default('link_loss'),
+                latency_s=values.default('link_latency'),
+                retransmissions=values.default('link_retransmissions'),
+                retransmission_interval_s=values.default('link_retransmission_interval'),
+                span=event.span,
+            )
+        )
+    if not added:
+        return spec
+    update = {'events': (*spec.events, *added), 'links': (*spec.links, *over)}
+    return ScenarioSpec.model_validate({**dict(spec), **update})
 
 
 def hovering(spec: ScenarioSpec) -> ScenarioSpec:

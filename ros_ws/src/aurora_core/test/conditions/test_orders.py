@@ -110,13 +110,33 @@ def test_what_waits_for_somebody_tells_which_time_is_meant(tb: ModuleType) -> No
     assert only.formula == 'time_between(e3,e5) >= 0 s'
 
 
+def test_a_flight_after_what_somebody_does_has_its_place(tb: ModuleType) -> None:
+    (only,) = _ordered(tb, first='e1', then='m2')
+    assert only.formula == 'time_between(e1,m2) >= 0 s'
+    assert (only.arguments.event, only.arguments.mission.mission) == ('e1', 'm2')
+
+
+@pytest.mark.parametrize(('goal_m', 'is_judged'), [(50.0, True), (32.0, False)])
+def test_a_climb_after_a_flight_is_told_by_a_height_of_its_own(
+    goal_m: float, is_judged: bool, tb: ModuleType
+) -> None:
+    climbs = {
+        'id': 'e5',
+        'trigger': {'on': 'mission_done', 'uav': 'uav1'},
+        'action': {'do': 'ascend', 'uav': 'uav1', 'altitude_m': tb.number(goal_m)},
+    }
+    (only,) = _ordered(tb, first='m3', then='e5', more=(climbs,))
+    # What is as high as the flight itself tells nothing.
+    assert isinstance(only, Condition) is is_judged
+
+
 @pytest.mark.parametrize(
     'order',
     [
         {'first': 'm2', 'then': 'm1'},  # a UAV flies its missions as listed
         {'first': 'm1', 'then': 'm3', 'uav_of_last': 'uav2'},
         {'first': 'm1', 'then': 'e1'},
-        {'first': 'e1', 'then': 'm1'},
+        {'first': 'e3', 'then': 'm2'},
         {'first': 'e3', 'then': 'e1'},  # which braking is meant, nothing says
     ],
 )

@@ -38,7 +38,8 @@ def _recorded(quantity: str, aspect: str) -> dict[str, Any]:
 # Kinds that there were not when the conditions were recorded.
 SINCE = {
     'angle_swept', 'climb_delay', 'at_place', 'distance_fraction', 'lane_kept_after',
-    'battery', 'clearance', 'outage', 'report_gap', 'report_latency',
+    'battery', 'clearance', 'climb_after_phase', 'outage', 'phase_after_event', 'report_gap',
+    'report_latency',
     'return_distance', 'side_fraction', 'traffic', 'wind_course', 'wind_from', 'wind_speed',
 }  # fmt: skip
 

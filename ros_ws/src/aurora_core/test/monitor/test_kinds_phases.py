@@ -16,7 +16,7 @@ from trace_cases import Case, agent, facts_of, hover_case, mission, spec
 from aurora_core.knowledge.world import NamedPlace
 from aurora_core.outcomes.schedule import MissionFacts
 from aurora_core.outcomes.verdict import Reason
-from aurora_core.spec.parameter import Span
+from aurora_core.spec.parameter import Span, Unit
 from aurora_core.spec.scenario import Uav, UavMission
 from aurora_core.spec.vocabulary import MissionMode
 
@@ -65,6 +65,31 @@ def two_missions(second_altitude: float = 30.0, *, begins: int = 600) -> Case:
         world=world(),
         run=Run(ticks=T, agents=[car], flights=[one]),
     )
+
+
+def _ordered(first: str, then: str, *, at_s: float = 10.0, goal_m: float = 40.0) -> Case:
+    """The car is told to stand at a time; after its missions the UAV climbs; in an order."""
+    case = two_missions(40.0)
+    stands = {
+        'id': 'e1',
+        'trigger': {'on': 'time', 'at_s': number(at_s, Unit.SECOND)},
+        'action': {'do': 'stop', 'agent': 'car1'},
+    }
+    climbs = {
+        'id': 'e2',
+        'trigger': {'on': 'mission_done', 'uav': 'uav1'},
+        'action': {'do': 'ascend', 'uav': 'uav1', 'altitude_m': number(goal_m)},
+    }
+    order = {'id': 'o1', 'first': first, 'then': then}
+    case.spec = spec(**{**dict(case.spec), 'events': (stands, climbs), 'orders': (order,)})
+    return case
+
+
+def _climbs_first() -> Case:
+    """The UAV is 40 m high at tick 500 already, 100 ticks before its first mission ends."""
+    case = _ordered('m1', 'e2')
+    case.run.flights[0].states[500, 2] = 40.0
+    return case
 
 
 def _said(case: Case, span: Span) -> Case:
@@ -212,11 +237,28 @@ MISSIONS = (
     ),
     # The second mission is commanded when the first one ends, and captured 39 ticks later.
     Row(id='m2.order', make=two_missions, margin=0.0),
-    Row(id='m2.capture', make=two_missions, margin=30.0 - 39 * 0.05, within=0.06),
+    # Its way, 39.25 m after the first step, takes so long at 8 m/s, which does not count.
+    Row(id='m2.capture', make=two_missions, margin=30.0 - (39 * 0.05 - 39.25 / 8.0), within=0.06),
     Row(id='m1.completed', make=two_missions, margin=FIRST_TICKS * 0.05 - 19.5, within=0.06),
     Row(id='m2.completed', make=two_missions, margin=SECOND_TICKS * 0.05 - 19.5, within=0.06),
     Row(id='m2.order', make=lambda: two_missions(begins=1000), reason=EMPTY),
     Row(id='m2.tracked', make=lambda: two_missions(begins=1000), reason=EMPTY),
+)
+NEVER = Reason.PREMISE_NEVER
+ORDERS = (
+    # The second mission is commanded at 30 s.
+    Row(id='o1.holds', make=lambda: _ordered('e1', 'm2'), margin=30.0 - 10.0, within=0.06),
+    Row(
+        id='o1.holds',
+        make=lambda: _ordered('e1', 'm2', at_s=45.0),
+        margin=30.0 - 45.0,
+        within=0.06,
+    ),
+    Row(id='o1.holds', make=lambda: _ordered('e1', 'm2', at_s=500.0), reason=NEVER),
+    # 39 m high 45 steps of 0.2 m after the first mission ends.
+    Row(id='o1.holds', make=lambda: _ordered('m1', 'e2'), margin=45 * 0.05, within=0.06),
+    Row(id='o1.holds', make=_climbs_first, margin=-100 * 0.05, within=0.06, what='climb'),
+    Row(id='o1.holds', make=lambda: _ordered('m1', 'e2', goal_m=60.0), reason=NEVER, what='climb'),
 )
 UAVS = (
     Row(id='c1.holds', make=lambda: _closes_in(None), margin=30.0 - 10.0, what='apart'),
@@ -257,7 +299,7 @@ PLACES = (
     ),
     Row(id='m1.tracked', make=lambda: _tracks_city_hall(-12.0), reason=EMPTY),
 )
-ROWS = MISSIONS + UAVS + PLACES
+ROWS = MISSIONS + ORDERS + UAVS + PLACES
 
 
 @pytest.mark.parametrize('row', ROWS, ids=lambda row: row.name)

@@ -6,7 +6,11 @@ from __future__ import annotations
 
 from typing import Literal
 
+from pydantic import FiniteFloat
+
+from aurora_core.document import omitted
 from aurora_core.errors import VerificationError
+from aurora_core.geometry.kernel import norm2
 from aurora_core.judging.build import Inputs, Source, Target, condition, number
 from aurora_core.judging.evaluation import Context, Evaluation, at_tick
 from aurora_core.judging.quantity import OfMission
@@ -18,11 +22,17 @@ from aurora_core.spec.quantity import QuantityName
 
 
 class CaptureTime(OfMission):
-    """Time from the end of the ascent (a later mission: its first command) to capture, s."""
+    """Time from the end of the ascent (a later mission: its first command) to capture, s.
+
+    Attributes:
+        way_mps: The time that the way to the first point takes at this speed does not count. None:
+            the threshold has it, as for a first mission, whose way is planned.
+    """
 
     name = QuantityName.CAPTURE_TIME
     kind: Literal['capture_time'] = 'capture_time'
     window: Window = Window.MOMENT
+    way_mps: FiniteFloat | None = omitted(None)
 
     def measure(self, context: Context, condition: Condition) -> Evaluation:
         """Return that time; a target that is gone before excuses, the end of the run does not."""
@@ -34,6 +44,10 @@ class CaptureTime(OfMission):
                 f'{mission.uav} captured at {context.time_s(phase.capture_tick):.2f} s, '
                 f'{value:.2f} s after {context.time_s(phase.ready_tick):.2f} s'
             )
+            way_s = self._way_s(context, phase.ready_tick)
+            if way_s > 0.0:
+                value -= way_s
+                story += f', {way_s:.2f} s of them for its way'
             return at_tick(phase.capture_tick, value, story, self.phase_topics)
         missing = context.phase_missing(condition, mission)
         if missing is None:
@@ -41,7 +55,8 @@ class CaptureTime(OfMission):
         lasted = phase.end_tick is None and phase.ready_tick is not None
         if lasted and missing.reason is not Reason.TARGET_GONE:
             # Not by the end of the record: at the earliest with the next tick.
-            waited_s = context.time_s(context.view.ticks - (phase.ready_tick or 0))
+            ready = phase.ready_tick or 0
+            waited_s = context.time_s(context.view.ticks - ready) - self._way_s(context, ready)
             if waited_s > condition.threshold or context.complete(condition):
                 story = f'{mission.uav} had not captured after {waited_s:.2f} s'
                 tick, topics = context.view.ticks - 1, self.phase_topics
@@ -49,21 +64,41 @@ class CaptureTime(OfMission):
             return context.short(condition)
         return missing
 
+    def _way_s(self, context: Context, tick: int) -> float:
+        """Return how long the way from where a UAV is at a tick to its first point takes."""
+        mission, speed = self.mission, self.way_mps
+        if speed is None:
+            return 0.0
+        x, y = context.view.reference(mission.uav)[tick, :2].tolist()
+        goal = mission.point_m
+        if goal is None:
+            if mission.target is None or not context.view.has(mission.target):
+                return 0.0
+            there = context.view.reference(mission.target)[tick, :2].tolist()
+            goal = (there[0], there[1])
+        way_m = norm2(goal[0] - x, goal[1] - y) - mission.standoff_m
+        return max(0.0, way_m) / speed
+
 
 def implied(
     inputs: Inputs, mission: MissionArguments, facts: MissionFacts, source: Source
 ) -> Condition:
     """Return that a UAV captures in the time that the way takes."""
-    allowed_s = inputs.tolerances.capture_s + facts.transit_m / facts.transit_speed_mps
+    allowed_s, way_mps = inputs.tolerances.capture_s, facts.transit_speed_mps
+    after = f'and its way at {number(way_mps)} m/s after the phase before it'
+    planned = mission.index == 0
+    if planned:
+        # A later mission begins wherever the one before it ended: that target has moved since.
+        allowed_s += facts.transit_m / way_mps
+        after = 'after its ascent'
     return condition(
         id=f'{mission.mission}.capture',
-        sentence=(
-            f'{mission.uav} captures {mission.mission} within {number(allowed_s)} s after its '
-            'ascent'
-        ),
+        sentence=f'{mission.uav} captures {mission.mission} within {number(allowed_s)} s {after}',
         of=(mission.uav,),
         target=Target(op='<=', threshold=allowed_s, unit='s'),
-        arguments=CaptureTime(**inputs.common, mission=mission),
+        arguments=CaptureTime(
+            **inputs.common, mission=mission, way_mps=None if planned else way_mps
+        ),
         source=source,
         every_sample=False,
     )

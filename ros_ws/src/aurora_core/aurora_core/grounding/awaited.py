@@ -1,0 +1,109 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Whom an event waits for at a place: a request whose premise never comes true is not realised.
+
+"Upon seeing a police car the drone over the school …", "when the bus is within 80 m of the station
+…": nobody says where they start, so they start where their way leads there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import sqrt
+
+from aurora_core.grounding.places import arrivals, has_point
+from aurora_core.spec.events import DistanceTrigger, Event, UavAction, VisibilityTrigger
+from aurora_core.spec.scenario import GroundAgent, ScenarioSpec, UavMission
+from aurora_core.spec.vocabulary import AgentType, MissionMode
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Awaited:
+    """Somebody who has to come near a place for an event to happen.
+
+    Attributes:
+        agent: Who.
+        place: Where, a place with a point.
+        event: What waits for it.
+        within_m: Horizontal distance that is near enough; None: it has to come into view.
+        mission: Of the UAV that waits there, None where none does.
+    """
+
+    agent: str
+    place: str
+    event: Event
+    within_m: float | None
+    mission: UavMission | None = None
+
+
+def awaited_at(spec: ScenarioSpec) -> tuple[Awaited, ...]:
+    """Return whom events wait for at places, of those to whom nothing else gives a place."""
+    free = {
+        agent.id
+        for agent in spec.agents
+        if agent.type is not AgentType.RSU and not _has_place(spec, agent)
+    }
+    return tuple(found for found in _awaited(spec) if found.agent in free)
+
+
+def bound_to_places(spec: ScenarioSpec, agent: GroundAgent) -> bool:
+    """Tell whether a place decides where a vehicle stands or goes."""
+    return _has_place(spec, agent) or any(a.agent == agent.id for a in awaited_at(spec))
+
+
+def _has_place(spec: ScenarioSpec, agent: GroundAgent) -> bool:
+    names = [p.of for p in agent.placements] + [b.target for b in agent.behaviors]
+    names += [t.place for t in arrivals(spec, agent)]
+    return any(has_point(name) for name in names)
+
+
+def _awaited(spec: ScenarioSpec) -> Iterator[Awaited]:
+    agents = {agent.id for agent in spec.agents}
+    for event in spec.events:
+        trigger = event.trigger
+        if isinstance(trigger, VisibilityTrigger) and trigger.on == 'visible':
+            mission = _waiting_there(spec, event, trigger.observer)
+            if mission is not None and mission.target is not None and trigger.target in agents:
+                yield Awaited(
+                    agent=trigger.target,
+                    place=mission.target,
+                    event=event,
+                    within_m=None,
+                    mission=mission,
+                )
+        elif isinstance(trigger, DistanceTrigger) and trigger.on == 'distance_below':
+            for agent, other in ((trigger.a, trigger.b), (trigger.b, trigger.a)):
+                if agent in agents:
+                    yield from _near(spec, event, agent, other, trigger.value_m.value)
+
+
+def _near(
+    spec: ScenarioSpec, event: Event, agent: str, other: str, value_m: float
+) -> Iterator[Awaited]:
+    """Yield who is to come near a place, or a UAV that stays at one."""
+    if has_point(other):
+        yield Awaited(agent=agent, place=other, event=event, within_m=value_m)
+        return
+    mission = _waiting_there(spec, event, other)
+    if mission is None or mission.target is None or value_m <= mission.altitude_m.value:
+        return
+    aside_m = sqrt(value_m * value_m - mission.altitude_m.value**2)
+    yield Awaited(
+        agent=agent, place=mission.target, event=event, within_m=aside_m, mission=mission
+    )
+
+
+def _waiting_there(spec: ScenarioSpec, event: Event, uav: str) -> UavMission | None:
+    """Return the mission at a place in which a UAV awaits an event, None where there is none."""
+    own = [m for m in spec.missions if m.uav == uav]
+    ids = [m.id for m in own]
+    action = event.action
+    if isinstance(action, UavAction) and action.mission in ids[1:]:
+        waiting = own[ids.index(action.mission) - 1]
+    elif own:
+        waiting = own[0]
+    else:
+        return None
+    at_place = waiting.mode is not MissionMode.TRACK and has_point(waiting.target)
+    return waiting if at_place else None
