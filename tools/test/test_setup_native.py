@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""The physics step is compiled when its files change, and a failure leaves plain Python."""
+"""What each tick does is compiled when its files change; a failure leaves plain Python."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from layout import Layout
-from native import MODULE, ensure_native
+from native import MODULES, ensure_native
 
 PACKAGE = Path(__file__).resolve().parents[2] / 'bridges' / 'aurora_uav_sim'
 
@@ -27,13 +27,16 @@ def layout(tmp_path: Path) -> Layout:
     return Layout(root=tmp_path, ros='wheels', python_tag=tag)
 
 
-def modules(layout: Layout) -> list[Path]:
-    return sorted(layout.install.rglob(f'{MODULE}*'))
+MODULE = 'aurora_uav_flight'
+
+
+def modules(layout: Layout, name: str = '') -> list[Path]:
+    return sorted(layout.install.rglob(f'aurora_uav_{name}*'))
 
 
 def test_it_is_compiled_once_and_again_after_a_change(layout: Layout) -> None:
     ensure_native(layout)
-    (made,) = modules(layout)
+    (made,) = modules(layout, 'flight')
     before = made.stat().st_mtime_ns
     code = f'import {MODULE}; print({MODULE}.SOURCES)'
     command = [sys.executable, '-S', '-c', code]
@@ -58,4 +61,4 @@ def test_a_compiler_that_cannot_leaves_nothing_old(
     assert 'plain Python' in capsys.readouterr().out
     monkeypatch.delenv('CC')
     ensure_native(layout)
-    assert len(modules(layout)) == 1
+    assert len(modules(layout)) == len(MODULES)

@@ -10,12 +10,12 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from aurora_bench.fidelity.wilson import Share
 from aurora_bench.prompts.documents import read_documents
 from aurora_bench.prompts.format import AnnotatedPrompt, beyond
 from aurora_bench.prompts.reading import read_prompts
 from aurora_bench.results import ResultsError
 from aurora_core.document import Document
+from aurora_core.report.share import Share
 
 
 class PromptFile(Document):

@@ -127,7 +127,7 @@ def _near(case: Case, body: str, targets: list[str], most: float) -> BoolArray:
         if scene.is_body(target):
             away = scene.distance(body, target, horizontal=True)
         else:
-            away = scene.places.outline_distance(target, scene.xy(body))
+            away = scene.places.outline_distance(target, scene.xy(body), on_road=True)
         with np.errstate(invalid='ignore'):
             near |= away <= most
     return near
@@ -166,7 +166,7 @@ def _crosses(case: Case, body: str, targets: list[str]) -> Judged:
     places = [t for t in targets if not scene.is_body(t)]
     if places:
         away = min(
-            float(scene.places.outline_distance(p, scene.xy(body)[x:y]).min())
+            float(scene.places.outline_distance(p, scene.xy(body)[x:y], on_road=True).min())
             for p in places
             for x, y, _ in whole or found
         )

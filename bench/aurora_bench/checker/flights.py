@@ -140,16 +140,24 @@ def _legs(path: FloatArray, axis: FloatArray) -> int:
 def line(xy: FloatArray, length_m: float) -> tuple[Judged, FloatArray | None]:
     """Return whether a straight line of this length was flown, and its centre."""
     turns = corners(xy)
-    least, centre = np.inf, None
+    least, centre, led_in = np.inf, None, None
     for i, j in itertools.combinations(turns, 2):
         chord = xy[j] - xy[i]
-        miss = abs(float(np.linalg.norm(chord)) - length_m) / 2.0
-        normal = np.array([-chord[1], chord[0]]) / max(float(np.linalg.norm(chord)), 1e-9)
-        miss = max(miss, float(np.abs((xy[i : j + 1] - xy[i]) @ normal).max()) - 1.0)
+        flown = float(np.linalg.norm(chord))
+        normal = np.array([-chord[1], chord[0]]) / max(flown, 1e-9)
+        bent = float(np.abs((xy[i : j + 1] - xy[i]) @ normal).max()) - 1.0
+        miss = max(abs(flown - length_m) / 2.0, bent)
         if miss < least:
             least, centre = miss, (xy[i] + xy[j]) / 2.0
+        if i == turns[0] and flown > length_m and bent <= limits.WAYPOINT_M:
+            led_in = xy[j] - chord / flown * length_m / 2.0
     why = f'best straight leg misses the ends of {length_m:g} m by {least:.1f} m'
-    return graded(least <= limits.WAYPOINT_M, least <= limits.WAYPOINT_M + DOUBT_M, why), centre
+    doubt = least <= limits.WAYPOINT_M + DOUBT_M
+    if not doubt and led_in is not None:
+        # The way to the first point may lie in line with it: where one ends does not show.
+        doubt, centre = True, led_in
+        why += ', the way there may be part of it'
+    return graded(least <= limits.WAYPOINT_M, doubt, why), centre
 
 
 def _swept(angle: FloatArray) -> float:

@@ -154,7 +154,11 @@ def _hover(flight: Flight, requirement: Mapping[str, Any]) -> Judged:
         _duration(flight, requirement, early, late),
     ]
     if flight.targets:
-        parts += [_over(flight, requirement, point, late), _seen(flight, late)]
+        parts += [
+            _over(flight, requirement, point, late),
+            _at_bearing(flight, requirement, point),
+            _seen(flight, late),
+        ]
     return all_of([*parts, *avoided(flight, requirement)])
 
 
@@ -187,6 +191,22 @@ def _over(flight: Flight, requirement: Mapping[str, Any], point: FloatArray, tic
         roof = inside and target.casefold() not in GENERAL
         readings.append(graded(near or roof, inside, f'{min(gaps):.1f} m from {target}'))
     return any_of(readings)
+
+
+def _at_bearing(flight: Flight, requirement: Mapping[str, Any], point: FloatArray) -> Judged:
+    """Return whether the hover point is at the stated bearing from the place that it is at."""
+    asked, places = requirement.get('bearing_deg'), flight.scene.places
+    if asked is None or any(flight.scene.is_body(t) for t in flight.targets):
+        return holds('')
+    readings = []
+    for spot in (s for t in flight.targets for s in places.spots(t)):
+        bearing = np.degrees(np.arctan2(*(point - spot.xy)))
+        off = abs((bearing - float(asked) + 180.0) % 360.0 - 180.0)
+        # From the place or to it: the format leaves that open.
+        doubt = off >= 180.0 - limits.BEARING_DEG
+        why = f'at bearing {bearing % 360.0:.0f}, asked {asked:g}'
+        readings.append(graded(off <= limits.BEARING_DEG, doubt, why))
+    return any_of(readings) if readings else cannot_tell('the place is not known')
 
 
 # ---- track

@@ -101,7 +101,7 @@ def approach(scene: Scene, body: str, target: str) -> Judged:
     if scene.is_body(target):
         away = scene.distance(body, target, horizontal=True)
     else:
-        away = scene.places.outline_distance(target, scene.xy(body))
+        away = scene.places.outline_distance(target, scene.xy(body), on_road=True)
         away = np.where(scene.present(body), away, np.nan)
     if not np.isfinite(away).any():
         return does_not(f'{body} and {target} are never there together')

@@ -236,10 +236,11 @@ def _to_place(case: Case, requirement: Requirement, body: str, place: str) -> Ju
     point = scene.xy(body)[:1]
     if relation == 'before':
         return _upstream(case, requirement, body, place)
-    outline = float(scene.places.outline_distance(place, point)[0])
+    outline = float(scene.places.outline_distance(place, point, on_road=True)[0])
     asked = _distance(case, requirement, body)
     if asked is not None:
-        spots = [float(np.linalg.norm(s.xy - point[0])) for s in scene.places.spots(place)]
+        known = (*scene.places.spots(place), *scene.places.approaches(place))
+        spots = [float(np.linalg.norm(s.xy - point[0])) for s in known]
         best = min([outline, *spots], key=asked.off)
         why = f'{body} {best:.2f} m from {place}, asked {asked.text()} m'
         return decide(asked.counts(best), why)
@@ -290,7 +291,7 @@ def _upstream(case: Case, requirement: Requirement, body: str, place: str) -> Ju
         # Who never moves and has no plan: its lane, straight on.
         end = own.xy_m[-1] + scene.heading(body)[0] * 300.0
         line = shapely.LineString([*own.xy_m, end])
-    for spot in scene.places.spots(place):
+    for spot in (*scene.places.spots(place), *scene.places.approaches(place)):
         gaps += _to_spot(line, start, spot)
     ahead = sorted(g for g in gaps if g >= -1.0)
     shown = [round(g, 1) for g in ahead[:4]]

@@ -15,6 +15,10 @@ from aurora_bench.checker.recording import FloatArray, Lane, World
 
 GENERAL = ('intersection', 'crosswalk', 'sidewalk', 'roadside', 'main_road')
 LANDMARK = 'landmark:'
+# Where one comes to a landmark on the road.
+APPROACH = 'approach:'
+# A landmark so near to its building is at it.
+BESIDE_M = 1.0
 # Ends of lanes that are so near belong to one junction.
 JUNCTION_LINK_M = 23.0
 
@@ -71,7 +75,7 @@ class Places:
                 )
         outlines = [b.polygon for b in self.world.buildings if b.name.casefold() == folded]
         if chosen:
-            return tuple(Spot(s.x_m, s.y_m, _nearest_outline(s, outlines)) for s in chosen)
+            return tuple(_landmark(s, outlines) for s in chosen)
         if outlines:
             return tuple(_spot(p) for p in outlines)
         street = [lane for lane in self.world.lanes if lane.street.casefold() == folded]
@@ -103,21 +107,33 @@ class Places:
         """Return the union of the outlines of a name (empty when it has none)."""
         return shapely.union_all([s.outline for s in self.spots(name) if s.outline is not None])
 
-    def distance(self, name: str, xy: FloatArray) -> FloatArray:
-        """Return (n,) metres from points to the nearest position (of an area: to the area)."""
+    def approaches(self, name: str) -> tuple[Spot, ...]:
+        """Return where one comes to a landmark on the road."""
+        folded = f'{APPROACH}{name.casefold().strip().removeprefix(LANDMARK)}'
+        return tuple(Spot(x, y) for n, x, y in self.world.places if n.casefold() == folded)
+
+    def distance(self, name: str, xy: FloatArray, *, on_road: bool = False) -> FloatArray:
+        """Return (n,) metres from points to the nearest position (of an area: to the area).
+
+        Args:
+            name: The place.
+            xy: (n, 2) the points.
+            on_road: They are of a body on the ground: it may be where the road comes to the place.
+        """
         if not self.known(name):
             return np.full(len(xy), np.nan)
         if self.is_region(name):
             return self.outline_distance(name, xy)
-        spots = np.array([s.xy for s in self.chosen(name)])
+        near = self.approaches(name) if on_road else ()
+        spots = np.array([s.xy for s in (*self.chosen(name), *near)])
         return np.asarray(np.linalg.norm(xy[:, None] - spots[None], axis=2).min(axis=1))
 
-    def outline_distance(self, name: str, xy: FloatArray) -> FloatArray:
+    def outline_distance(self, name: str, xy: FloatArray, *, on_road: bool = False) -> FloatArray:
         """Return (n,) metres from points to the nearest outline; 0 inside, to a bare position."""
         best = np.full(len(xy), np.inf)
         if not self.area(name).is_empty:
             best = np.asarray(shapely.distance(self.area(name), shapely.points(xy)))
-        for spot in self.spots(name):
+        for spot in (*self.spots(name), *(self.approaches(name) if on_road else ())):
             if spot.outline is None or not self.is_region(name):
                 best = np.minimum(best, np.linalg.norm(xy - spot.xy, axis=1))
         return best
@@ -184,9 +200,13 @@ def _off(spot: Spot, other: Spot) -> float:
     return float(shapely.distance(shapely.Point(spot.x_m, spot.y_m), other.outline))
 
 
-def _nearest_outline(spot: Spot, outlines: list[Any]) -> Any | None:
+def _landmark(spot: Spot, outlines: list[Any]) -> Spot:
+    """Return a landmark with its outline: a point beside its building is none that it is at."""
     point = shapely.Point(spot.x_m, spot.y_m)
-    return min(outlines, key=lambda o: o.distance(point), default=None)
+    outline = min(outlines, key=lambda o: o.distance(point), default=None)
+    if outline is not None and outline.distance(point) > BESIDE_M:
+        return _spot(outline)
+    return Spot(spot.x_m, spot.y_m, outline)
 
 
 def _line_distance(lane: Lane, x: float, y: float) -> float:

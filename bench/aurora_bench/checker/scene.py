@@ -160,7 +160,9 @@ class Scene:
             flat, height = np.hypot(delta[:, 0], delta[:, 1]), delta[:, 2]
             present = self.present(a) & self.present(b)
         else:
-            flat, height = self.places.distance(b, start[:, :2]), start[:, 2]
+            on_road = not self.bodies[a].is_uav
+            flat = self.places.distance(b, start[:, :2], on_road=on_road)
+            height = start[:, 2]
             present = self.present(a)
         whole = flat if horizontal else np.hypot(flat, height)
         return np.where(present, whole, np.nan)

@@ -10,6 +10,7 @@ import numpy as np
 import shapely
 
 from aurora_bench.checker import limits
+from aurora_bench.checker.places import GENERAL
 from aurora_bench.checker.recording import Body, BoolArray, FloatArray
 from aurora_bench.checker.scene import Scene
 
@@ -43,7 +44,10 @@ def _visible(scene: Scene, observer: str, target: str) -> BoolArray:
         spots = tuple(sorted(spots, key=lambda s: float(np.hypot(*(s.xy - eye[-1, :2])))))[:4]
         for spot in spots:
             point = np.array([spot.x_m, spot.y_m, limits.PLACE_SIGHT_M])
-            seen |= _sees(scene, observer, '', ticks, eye, np.tile(point, (len(ticks), 1)))
+            points = np.tile(point, (len(ticks), 1))
+            # A building that is the place does not hide itself.
+            itself = target.casefold() not in GENERAL and not scene.places.is_region(target)
+            seen |= _sees(scene, observer, '', ticks, eye, points, itself=itself)
     seen &= scene.present(observer)[ticks]
     return np.repeat(seen, step)[: scene.recording.ticks]
 
@@ -67,7 +71,14 @@ def _sight_point(scene: Scene, target: str) -> FloatArray:
 
 
 def _sees(
-    scene: Scene, observer: str, target: str, ticks: Any, eye: FloatArray, point: FloatArray
+    scene: Scene,
+    observer: str,
+    target: str,
+    ticks: Any,
+    eye: FloatArray,
+    point: FloatArray,
+    *,
+    itself: bool = False,
 ) -> BoolArray:
     free = np.linalg.norm(point - eye, axis=1) <= scene.sensing_range_m
     body = scene.bodies[observer]
@@ -76,7 +87,7 @@ def _sees(
         forward = np.einsum('ij,ij->i', (point - eye)[:, :2], scene.heading(observer)[ticks])
         free &= forward >= 0.0
     rows = np.flatnonzero(free)
-    free[rows] &= ~_behind_building(scene, eye[rows], point[rows])
+    free[rows] &= ~_behind_building(scene, eye[rows], point[rows], itself=itself)
     for other in scene.bodies.values():
         if other.body_id in (observer, target) or other.is_uav or other.is_person:
             continue
@@ -88,7 +99,9 @@ def _sees(
     return np.asarray(free)
 
 
-def _behind_building(scene: Scene, eye: FloatArray, point: FloatArray) -> BoolArray:
+def _behind_building(
+    scene: Scene, eye: FloatArray, point: FloatArray, *, itself: bool
+) -> BoolArray:
     blocked = np.zeros(len(eye), dtype=bool)
     prisms = scene.world.buildings
     if not len(eye) or not prisms:
@@ -100,6 +113,10 @@ def _behind_building(scene: Scene, eye: FloatArray, point: FloatArray) -> BoolAr
     flat = np.stack([eye[:, :2], point[:, :2] + 1e-6], axis=1)
     lines = shapely.linestrings(flat)
     line_of, prism_of = tree.query(lines, predicate='intersects')
+    if itself and len(line_of):
+        around = tree.query(shapely.Point(point[0, :2]), predicate='intersects')
+        other = ~np.isin(prism_of, around)
+        line_of, prism_of = line_of[other], prism_of[other]
     if not len(line_of):
         return blocked
     cuts = shapely.intersection(lines[line_of], np.array([p.polygon for p in prisms])[prism_of])

@@ -174,7 +174,8 @@ def _arrives(case: Case, trigger: Mapping[str, Any]) -> Fired:
             if scene.is_body(goal):
                 away = scene.distance(who, goal, horizontal=True)
             else:
-                away = scene.places.outline_distance(goal, scene.xy(who))
+                on_road = not scene.bodies[who].is_uav
+                away = scene.places.outline_distance(goal, scene.xy(who), on_road=on_road)
             least = float(np.fmin(least, np.fmin.reduce(away)))
             with np.errstate(invalid='ignore'):
                 near = away <= ARRIVED_FROM_M

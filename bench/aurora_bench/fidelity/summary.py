@@ -13,11 +13,11 @@ from aurora_bench.fidelity.consistency import Group, groups
 from aurora_bench.fidelity.equivalences import EQUIVALENCES
 from aurora_bench.fidelity.misses import Miss, Told, misses
 from aurora_bench.fidelity.score import PromptScore, RequirementScore, score
-from aurora_bench.fidelity.wilson import Share
 from aurora_bench.prompts.format import AnnotatedPrompt
 from aurora_bench.prompts.statistics import style
 from aurora_bench.results import Cell, Table
 from aurora_core.document import Document
+from aurora_core.report.share import Share
 from aurora_core.spec.vocabulary import ClauseStatus
 
 

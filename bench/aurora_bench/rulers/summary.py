@@ -10,9 +10,9 @@ from statistics import median
 from typing import Any
 
 from aurora_bench.fidelity.summary import share_json
-from aurora_bench.fidelity.wilson import Share
 from aurora_bench.results import Cell, Table
 from aurora_bench.rulers.trial import Cause, JudgedTrial
+from aurora_core.report.share import Share
 
 _MOST_WORDS = 25
 VERIFIED = 'verified'

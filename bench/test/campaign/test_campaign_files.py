@@ -13,8 +13,8 @@ import pytest
 
 from aurora_bench.campaign.code import code_digest, files_digest
 from aurora_bench.campaign.files import file_line, read_files, verdict_line
-from aurora_bench.fidelity.wilson import Share
 from aurora_bench.results import ResultsError
+from aurora_core.report.share import Share
 
 
 def line(**changes: Any) -> str:

@@ -54,7 +54,7 @@ def a_world(**changes: Any) -> World:
             _lane('side2_n_0', 'Side Street', (301.65, -200), (301.65, -18)),
             _lane('side2_s_0', 'Side Street', (298.35, -18), (298.35, -200)),
         ),
-        'places': (('landmark:City Hall', 210.0, 15.0),),
+        'places': (('approach:City Hall', 210.0, 15.0), ('landmark:City Hall', 210.0, 30.0)),
     }
     return World(**{**values, **changes})
 

@@ -53,7 +53,7 @@ def test_a_deadline_a_stretch_and_a_share(stage: Any) -> None:
 
 
 def test_a_condition_on_a_uav_counts_in_its_mission(stage: Any) -> None:
-    stage.uav('drone', lambda t: (210, 15, 50))
+    stage.uav('drone', lambda t: (210, 30, 50))
     assert stage.says(_of('altitude', 'drone', op='>=', value=45)) == 'holds'
     assert stage.says(_of('altitude', 'drone', op='>=', value=51)) == 'does_not'
     assert stage.says(_of('altitude', 'drone', op='>', value=45, by_s=20)) == 'holds'
@@ -170,7 +170,7 @@ def test_latency_is_the_worst_message(stage: Any) -> None:
 
 def test_landing_completion_and_drift(make_stage: Any) -> None:
     stage = make_stage(80.0)
-    stage.uav('drone', lambda t: (210 + 0.8 * np.sin(t), 15, 50))
+    stage.uav('drone', lambda t: (210 + 0.8 * np.sin(t), 30, 50))
     landed = _of('landed', 'drone', op='==', value=True)
     assert stage.says(landed) == 'holds'
     assert stage.says({**landed, 'by_s': 62}) == 'holds'
@@ -185,12 +185,12 @@ def test_landing_completion_and_drift(make_stage: Any) -> None:
     assert stage.says({**drift, 'value': 0.4}, hover) == 'does_not'
     assert stage.says({**drift, 'value': 0.9}, hover) == 'cannot_tell'
     aloft = make_stage()
-    aloft.uav('drone', lambda t: (210, 15, 50), lands=False)
+    aloft.uav('drone', lambda t: (210, 30, 50), lands=False)
     assert aloft.says(landed) == 'does_not'
 
 
 def test_battery_clearance_and_wind(stage: Any) -> None:
-    stage.uav('drone', lambda t: (210, 15, 50))
+    stage.uav('drone', lambda t: (210, 30, 50))
     battery = _of('battery', 'drone', op='>=')
     assert stage.says({**battery, 'value': 0.96}) == 'holds'
     assert stage.says({**battery, 'value': 0.98}) == 'does_not'

@@ -16,9 +16,9 @@ from aurora_bench.fidelity.__main__ import main
 from aurora_bench.fidelity.answer import Answer, offline_answer
 from aurora_bench.fidelity.misses import Told
 from aurora_bench.fidelity.summary import Judged, as_json, counts, judge, last_line, tables
-from aurora_bench.fidelity.wilson import Share
 from aurora_bench.prompts.format import AnnotatedPrompt
 from aurora_core.report.run_folder import json_text
+from aurora_core.report.share import Share
 from aurora_core.spec.scenario import Clause, ScenarioSpec
 
 TEXT = 'In the rain a drone hovers at 50 m; nobody else is about.'

@@ -3,43 +3,20 @@
 """The physics step compiled, where `make setup` could, and in plain Python everywhere else.
 
 `native/flight.c` does what `multirotor.py` and `control.py` do, bit for bit and twenty times as
-fast. It is used only when it was compiled beside these very files: whoever changes a formula flies
-with the changed one at once. `AURORA_PLAIN_FLIGHT=1` leaves it out.
+fast.
 """
 
 from __future__ import annotations
 
 import dataclasses
-import hashlib
-import os
 from collections.abc import Callable
-from importlib import import_module
-from pathlib import Path
 from typing import Any, TypeVar, cast
 
 from aurora_uav_sim import control, multirotor
+from aurora_uav_sim.native_code import twin
 from aurora_uav_sim.parameters import ControlParameters
 
-PLAIN_VARIABLE = 'AURORA_PLAIN_FLIGHT'
-_FILES = ('control.py', 'multirotor.py', 'parameters.py')  # as in tools/aurora_setup
 _Class = TypeVar('_Class')
-
-
-def _sources() -> str:
-    """Return the digest of the Python files that the compiled step is to be equal to."""
-    folder = Path(__file__).parent
-    return hashlib.sha256(b''.join((folder / name).read_bytes() for name in _FILES)).hexdigest()
-
-
-def _native() -> Any | None:
-    """Return the compiled module, None where there is none for these files."""
-    if os.environ.get(PLAIN_VARIABLE):
-        return None
-    try:
-        found = import_module('aurora_uav_flight')
-    except ImportError:
-        return None
-    return found if _sources() == found.SOURCES else None
 
 
 def _on(base: Any, plain: type[_Class], attributes: str, set_up: Callable[..., None]) -> Any:
@@ -65,7 +42,7 @@ def _set_up_controller(
 def _classes() -> tuple[
     type[multirotor.Multirotor], type[control.Controller], type[control.SetPoint]
 ]:
-    native = _native()
+    native = twin('aurora_uav_flight')
     if native is None:
         return multirotor.Multirotor, control.Controller, control.SetPoint
     return (

@@ -3,9 +3,9 @@
 //
 // One physics step of multirotor.py and control.py, compiled. The Python files are the truth: what
 // is computed here has the same operations in the same order, so that every bit is the same (to be
-// compiled without contraction of a * b + c). tools/aurora_setup compiles it and passes the digest
-// of the Python files as SOURCES; compiled.py uses it only beside those very files. Attributes have
-// the names that they have in Python, which creates and resets the objects.
+// compiled without contraction of a * b + c). tools/aurora_setup compiles it and passes the names of
+// the Python files as EQUAL_TO and their digest as SOURCES; native_code.py takes it only beside
+// those very files. Attributes have the names that they have in Python, which creates and resets the objects.
 
 #define PY_SSIZE_T_CLEAN
 #include <Python.h>
@@ -434,7 +434,8 @@ PyMODINIT_FUNC PyInit_aurora_uav_flight(void)
         PyType_Ready(&CascadeType) < 0)
         return NULL;
     PyObject *made = PyModule_Create(&module);
-    if (made == NULL || PyModule_AddStringConstant(made, "SOURCES", SOURCES) < 0 ||
+    if (made == NULL || PyModule_AddStringConstant(made, "EQUAL_TO", EQUAL_TO) < 0 ||
+        PyModule_AddStringConstant(made, "SOURCES", SOURCES) < 0 ||
         PyModule_AddObjectRef(made, "Body", (PyObject *)&BodyType) < 0 ||
         PyModule_AddObjectRef(made, "Point", (PyObject *)&PointType) < 0 ||
         PyModule_AddObjectRef(made, "Cascade", (PyObject *)&CascadeType) < 0) {

@@ -12,7 +12,8 @@ from typing import Any
 
 import pytest
 
-from aurora_uav_sim import compiled, control, multirotor
+from aurora_uav_sim import compiled, control, multirotor, wire
+from aurora_uav_sim.native_code import PLAIN_VARIABLE, twin
 from aurora_uav_sim.parameters import (
     ControlParameters,
     MultirotorParameters,
@@ -130,17 +131,25 @@ def test_what_is_not_its_own_is_refused() -> None:
         body.step(0.01, short, 0.0, 0.0, 0.0)
 
 
-def test_the_plain_step_is_used_when_asked_for_and_beside_other_sources(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    monkeypatch.setattr(compiled, '_sources', lambda: 'changed')
+def test_the_plain_step_is_used_when_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(PLAIN_VARIABLE, '1')
     assert compiled._classes() == (multirotor.Multirotor, control.Controller, control.SetPoint)
-    monkeypatch.undo()
-    monkeypatch.setenv(compiled.PLAIN_VARIABLE, '1')
-    assert compiled._classes() == (multirotor.Multirotor, control.Controller, control.SetPoint)
+
+
+@pytest.mark.parametrize('name', ['aurora_uav_flight', 'aurora_uav_wire'])
+def test_a_twin_of_other_sources_is_not_used(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    made = pytest.importorskip(name)
+    monkeypatch.delenv(PLAIN_VARIABLE, raising=False)
+    assert twin(name) is made
+    monkeypatch.setattr(made, 'SOURCES', 'of others')
+    assert twin(name) is None
 
 
 def test_what_set_up_compiled_is_used() -> None:
     """Otherwise the tests above are left out and everybody flies in plain Python, unnoticed."""
-    made = importlib.util.find_spec('aurora_uav_flight') is not None
-    assert (made and not os.environ.get(compiled.PLAIN_VARIABLE)) == compiled.IS_COMPILED
+    wanted = not os.environ.get(PLAIN_VARIABLE)
+    for name, used in (
+        ('aurora_uav_flight', compiled.IS_COMPILED),
+        ('aurora_uav_wire', wire.IS_COMPILED),
+    ):
+        assert (importlib.util.find_spec(name) is not None and wanted) == used

@@ -5,8 +5,10 @@
 from __future__ import annotations
 
 import random
+import struct
 from typing import Any
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from pymavlink.dialects.v20 import common as mavlink
@@ -165,3 +167,33 @@ def test_newer_wraps_and_keeps_senders_apart() -> None:
     assert newer.accept(numbered(3))
     assert not newer.accept(numbered(251))
     assert newer.accept(numbered(251, system=2))
+
+
+@pytest.mark.skipif(not wire.IS_COMPILED, reason='frames are not compiled here')
+def test_compiled_frames_are_the_plain_ones() -> None:
+    """Whole, changed, cut, signed, old, unknown and too long ones, with rubbish between."""
+    rng = random.Random(7)
+    found = 0
+    for _ in range(3000):
+        parts = []
+        for _ in range(rng.randrange(5)):
+            kind = rng.choice(list(mavlink.mavlink_map))
+            payload = rng.randbytes(rng.randrange(40)) + bytes(rng.randrange(5))
+            numbers = rng.randrange(256), rng.randrange(256), rng.randrange(256)
+            frame = wire.plain_pack(*numbers, kind, payload)
+            assert wire.pack(*numbers, kind, payload) == frame
+            changed = bytearray(frame)
+            if rng.random() < 0.4:
+                changed[rng.randrange(len(frame))] = rng.choice((0, 1, 0xFD, 0xFE, 255))
+            parts += [bytes(changed), rng.choice((b'', b'\xfe\x00', b'\xfd', rng.randbytes(9)))]
+        datagram = b''.join(parts)[: rng.choice((None, -1, 30))]
+        frames = list(wire.plain_split(datagram))
+        assert list(split(datagram)) == frames
+        assert all(type(frame) is Frame for frame in split(datagram))
+        found += len(frames)
+    assert found > 1000
+    for wrong in ((256, 1, 1, 0, b''), (0, 1, 1, 0xFFFFFF, b''), (0, 1, 1, 0, b'x' * 256)):
+        with pytest.raises((struct.error, ValueError, KeyError)):
+            wire.plain_pack(*wrong)
+        with pytest.raises((ValueError, KeyError)):
+            wire.pack(*wrong)

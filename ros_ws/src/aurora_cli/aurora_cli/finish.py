@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""What every command shares: the option for JSON, and how it ends."""
+"""What every command shares: options of the answer, and how it ends."""
 
 from __future__ import annotations
 
@@ -13,6 +13,9 @@ from aurora_cli.output import BROKEN, print_error
 from aurora_core.errors import AuroraError
 
 Json = Annotated[bool, typer.Option('--json', help='One JSON document on standard output.')]
+Quiet = Annotated[
+    bool, typer.Option('-q', '--quiet', help='The verdict and what to do alone; no progress.')
+]
 
 
 def finish(command: Callable[[], int], *, as_json: bool) -> NoReturn:

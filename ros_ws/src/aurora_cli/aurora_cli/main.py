@@ -15,7 +15,8 @@ from typing import Annotated, NoReturn, cast
 import typer
 
 from aurora_cli.collector import relax_collector
-from aurora_cli.finish import Json, finish
+from aurora_cli.finish import Json, Quiet, finish
+from aurora_cli.help_commands import add_help_commands
 from aurora_cli.map_commands import maps
 from aurora_cli.output import BROKEN, INTERRUPTED, USAGE, UsageProblem, say
 
@@ -25,7 +26,6 @@ _USAGE_ERROR = cast(type[Exception], typer.BadParameter.__mro__[1])
 app = typer.Typer(
     name='aurora',
     help='Compile a prompt into a scenario, check it, run it, verify it.',
-    add_completion=False,
     no_args_is_help=False,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
@@ -33,6 +33,7 @@ app = typer.Typer(
 )
 certificate = typer.Typer(help='Certificates of infeasibility.', rich_markup_mode=None)
 bag = typer.Typer(help='Recordings.', rich_markup_mode=None)
+add_help_commands(app)
 app.add_typer(maps, name='map')
 app.add_typer(certificate, name='certificate')
 app.add_typer(bag, name='bag')
@@ -120,8 +121,12 @@ def run_prompt(
         typer.Option(metavar='JSON', help='Inject a run-time fault (for tests; repeatable).'),
     ] = None,
     seeds: Annotated[
-        int | None, typer.Option(help='Not available in this version.', hidden=True)
+        int | None,
+        typer.Option(
+            metavar='N', help='Run N seeds from --seed on: how often is it verified, by how much?'
+        ),
     ] = None,
+    quiet: Quiet = False,
     as_json: Json = False,
 ) -> None:
     """Run a prompt through the whole chain and say what came of it."""
@@ -141,10 +146,13 @@ def run_prompt(
             out=out,
             allow_relax=allow_relax,
             repair=0 if no_repair else repair,
-            seeds=seeds,
             faults=tuple(fault or ()),
         )
-        return run_command(prompt, prompt_file, options, as_json=as_json)
+        if seeds is not None:
+            from aurora_cli.commands.seeds import seeds_command
+
+            return seeds_command(prompt, prompt_file, options, seeds, as_json=as_json)
+        return run_command(prompt, prompt_file, options, quiet=quiet, as_json=as_json)
 
     finish(command, as_json=as_json)
 
@@ -159,6 +167,7 @@ def check_prompt(
     seed: Seed = 1,
     map_name: Map = 'downtown',
     picture: CheckPicture = None,
+    quiet: Quiet = False,
     as_json: Json = False,
 ) -> None:
     """Parse, ground and judge feasibility; nothing is simulated."""
@@ -170,7 +179,7 @@ def check_prompt(
         options = RunOptions(
             model=model, history=history, transcripts=transcripts, seed=seed, map_name=map_name
         )
-        return check_command(prompt, prompt_file, options, picture, as_json=as_json)
+        return check_command(prompt, prompt_file, options, picture, quiet=quiet, as_json=as_json)
 
     finish(command, as_json=as_json)
 

@@ -17,12 +17,18 @@ _REFRESH_S = 0.1
 
 
 class RunProgress:
-    """Shows stage, share of the run and simulated time."""
+    """Shows stage, share of the run and simulated time.
 
-    def __init__(self) -> None:
+    Args:
+        stages: Say each stage where there is no terminal to draw a bar in.
+        quiet: Show nothing at all.
+    """
+
+    def __init__(self, *, stages: bool = True, quiet: bool = False) -> None:
+        self._stages = stages and not quiet
         console = Console(file=sys.stderr)
         self._bar: Progress | None = None
-        if console.is_terminal:
+        if console.is_terminal and not quiet:
             self._bar = Progress(
                 TextColumn('{task.description:<8}'),
                 BarColumn(bar_width=36),
@@ -56,5 +62,5 @@ class RunProgress:
         if self._bar is not None and self._task is not None:
             shown = f'{simulated_s:.0f} s simulated' if simulated_s > 0.0 else ''
             self._bar.update(self._task, description=stage, completed=fraction, simulated=shown)
-        elif changed and stage != 'done':
+        elif changed and self._stages and stage != 'done':
             say(f'aurora: {stage}')

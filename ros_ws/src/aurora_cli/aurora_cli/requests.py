@@ -38,7 +38,6 @@ class RunOptions:
     out: Path = Path('runs')
     allow_relax: bool = False
     repair: int | None = None
-    seeds: int | None = None
     faults: tuple[str, ...] = ()
 
 
@@ -48,8 +47,6 @@ def checked(options: RunOptions) -> RunRequest:
     Raises:
         UsageProblem: An option names something that is not there.
     """
-    if options.seeds is not None:
-        raise UsageProblem('--seeds is not available in this version: run each seed by itself')
     try:
         check_model_name(options.model)
     except ConfigError as err:

@@ -28,6 +28,7 @@ def check_command(
     options: RunOptions,
     picture: Path | None,
     *,
+    quiet: bool,
     as_json: bool,
 ) -> int:
     """Check a prompt, draw where it would happen, and return the exit code.
@@ -57,7 +58,7 @@ def check_command(
     if as_json:
         print_json(report)
     else:
-        print_check(report, answer_console())
+        print_check(report, answer_console(), brief=quiet)
     return int(check_exit_code(report.result))
 
 

@@ -30,7 +30,12 @@ from aurora_core.report.unfinished import close_unfinished
 
 
 def run_command(
-    argument: str | None, prompt_file: Path | None, options: RunOptions, *, as_json: bool
+    argument: str | None,
+    prompt_file: Path | None,
+    options: RunOptions,
+    *,
+    quiet: bool,
+    as_json: bool,
 ) -> int:
     """Run a prompt and return the exit code.
 
@@ -48,14 +53,14 @@ def run_command(
         if isinstance(ready, PromptError):
             done = _unreadable(request, raw, ready, root)
         else:
-            with Interrupts() as interrupts, RunProgress() as progress:
+            with Interrupts() as interrupts, RunProgress(quiet=quiet) as progress:
                 control = RunControl(progress=progress.update, cancelled=interrupts.cancelled)
                 done = run_request(ready, root, control, lambda text: say(f'aurora: {text}'))
     if as_json:
         print_json(done.report)
         say(f'aurora: run folder {done.folder}')
     else:
-        print_report(done.report, answer_console(), done.folder)
+        print_report(done.report, answer_console(), done.folder, brief=quiet)
     # The verdict first: drawing the picture takes as long as the flight.
     if not done.has_page and not _page_written(done):
         return BROKEN

@@ -11,6 +11,7 @@ from aurora_core.comm.link import MessageLink, whole_ticks
 from aurora_core.execution.lane_changer import LaneChanger
 from aurora_core.execution.observe import Observation
 from aurora_core.execution.triggers import BatteryRule, Progress, holds
+from aurora_core.execution.ways import Ways
 from aurora_core.execution.yielding import Yielding
 from aurora_core.geometry.kernel import norm2
 from aurora_core.mission.machine import MissionMachine
@@ -105,6 +106,7 @@ class EventRunner:
         set_off: Gives the commands that let the agent of a row drive.
         drive: Gives the command that lets the agent of a row drive on.
         stopping: Rows of the agents that stop by themselves, at their place.
+        ways: Who has to drive before anybody stops.
     """
 
     def __init__(
@@ -119,12 +121,14 @@ class EventRunner:
         set_off: Callable[[int], list[GroundCommand]],
         drive: Callable[[int], GroundCommand],
         stopping: frozenset[int],
+        ways: Ways,
     ) -> None:
         self._roster = roster
         self._rules = rules
         self._lanes = lanes
         self._set_off = set_off
         self._stopping = stopping
+        self._ways = ways
         self._drive = drive
         self._spec = spec
         self._moved: set[int] = set()
@@ -306,7 +310,7 @@ class EventRunner:
             # Nobody says when: a UAV lands after its missions.
             return event.action.uav in self._progress.missions_done
         # Nobody says when: once the UAVs watch, have flown the route that this may end, and once
-        # who is to brake or stop is on the move.
+        # who is to brake or stop is on the move and has driven.
         flying = [m for m in machines if not m.waits_on_ground]
         if any(m.first_capture_tick is None or m.is_on_first_lap for m in flying):
             return False
@@ -320,7 +324,7 @@ class EventRunner:
             # It stops at its place by itself; that it stands there is the event.
             self._moved |= {row} if speed_mps >= ON_THE_MOVE_MPS else set()
             return row in self._moved and speed_mps < self._rules.stop_mps
-        return speed_mps >= _least_mps(event.action)
+        return speed_mps >= _least_mps(event.action) and self._ways.all_driven()
 
     def _allowed(
         self, event: Event, seen: Observation, machines: Sequence[MissionMachine]

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,9 +13,10 @@ import shapely
 
 from aurora_core.geometry.sight_line import SightLine
 from aurora_core.grounding.airspace import Airspace
-from aurora_core.grounding.places import landmark_point
+from aurora_core.grounding.places import approach_point
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.world import CentreLine, SignalPost, Surface, SurfaceKind
+from aurora_core.spec.reference import APPROACH, LANDMARK
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -28,7 +30,8 @@ class MapParts:
         sidewalks: Recorded where a request speaks of them.
         lanes: Centre lines for cars.
         signals: Junctions with signals.
-        landmarks: x, y in m by `landmark:<name>`.
+        landmarks: x, y in m by `landmark:<name>`, and by `approach:<name>` where one that is in
+            a building is reached on the road.
     """
 
     airspace: Airspace
@@ -70,11 +73,16 @@ def map_parts(map_model: MapModel, airspace: Airspace | None = None) -> MapParts
             for j in sorted(network.junctions.values(), key=lambda j: j.id)
             if j.has_signal
         ),
-        landmarks={
-            f'landmark:{mark.name}': landmark_point(map_model, mark.name)
-            for mark in map_model.landmarks
-        },
+        landmarks=dict(_landmarks(map_model)),
     )
+
+
+def _landmarks(map_model: MapModel) -> Iterator[tuple[str, tuple[float, float]]]:
+    for mark in map_model.landmarks:
+        here, before = (mark.x_m, mark.y_m), approach_point(map_model, mark.name)
+        yield f'{LANDMARK}{mark.name}', here
+        if before != here:
+            yield f'{APPROACH}{mark.name}', before
 
 
 def _areas(name: str, kind: SurfaceKind, area: shapely.MultiPolygon) -> tuple[Surface, ...]:

@@ -59,11 +59,17 @@ class Observation:
         half_m = (self._roster.agents[row].length_m + self._roster.agents[index].length_m) / 2.0
         return float((to_x - x) * hx + (to_y - y) * hy - half_m)
 
-    def position(self, name: str) -> Point3 | None:
-        """Return the reference point (x, y, z in m, ENU), None when the body is gone."""
+    def position(self, name: str, *, on_road: bool = False) -> Point3 | None:
+        """Return the reference point (x, y, z in m, ENU), None when the body is gone.
+
+        Args:
+            name: Body or place.
+            on_road: Of a landmark, where one comes to it on the ground.
+        """
         point = instant.body_point(self._roster, self._ground, self._uav, name)
         if point is None and self._roster.agent_index(name) is None:
-            place = self._geometry.place_point(name)
+            found = self._geometry.approach_point if on_road else self._geometry.place_point
+            place = found(name)
             return None if place is None else (place[0], place[1], 0.0)
         return point
 
@@ -78,7 +84,8 @@ class Observation:
 
     def distance_m(self, a: str, b: str) -> float | None:
         """Return the 3-D distance of two reference points, None when one of them is gone."""
-        p, q = self.position(a), self.position(b)
+        on_road = any(self._roster.agent_index(name) is not None for name in (a, b))
+        p, q = self.position(a, on_road=on_road), self.position(b, on_road=on_road)
         return None if p is None or q is None else instant.distance_m(p, q)
 
     def on_carriageway(self, agent_id: str) -> bool:

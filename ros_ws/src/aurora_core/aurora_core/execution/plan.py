@@ -47,7 +47,7 @@ from aurora_core.trace.roster import Roster, RosterEntry
 
 # Raised whenever the same states give other commands or records than before: what was recorded
 # with another version cannot be recomputed here.
-EXECUTOR_VERSION = 5
+EXECUTOR_VERSION = 6
 
 # Box of the multirotor in the roster (m): motor to motor with propellers, and its height.
 UAV_SIZE_M = (0.7, 0.7, 0.3)
@@ -189,6 +189,7 @@ def build_stepper(
             geometry=geometry,
             landing_clearance_m=limits.clearance_min_m + 1.0,
             arrival_m=tolerances.arrival_m,
+            drive_m=tolerances.drive_distance_m,
             battery=BatteryRule(
                 endurance_s=limits.uav_endurance_s, touchdown_m=tolerances.touchdown_height_m
             ),
@@ -296,7 +297,8 @@ def wind_of(grounded: GroundedScenario) -> Wind:
 def _named_places(
     parts: MapParts, resolved: Mapping[str, tuple[float, float]]
 ) -> tuple[NamedPlace, ...]:
-    points = parts.landmarks | dict(resolved)
+    # A landmark is where the map has it, whatever else is resolved.
+    points = dict(resolved) | parts.landmarks
     return tuple(NamedPlace(name=n, x_m=x, y_m=y) for n, (x, y) in sorted(points.items()))
 
 

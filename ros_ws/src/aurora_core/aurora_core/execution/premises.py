@@ -13,6 +13,7 @@ from collections.abc import Sequence
 
 from aurora_core.execution.events import ON_THE_MOVE_MPS
 from aurora_core.execution.observe import Observation
+from aurora_core.execution.ways import Ways
 from aurora_core.mission.machine import MissionMachine
 from aurora_core.spec.scenario import AgentAction, Event, ScenarioSpec, SpeedTrigger
 from aurora_core.spec.vocabulary import BehaviorKind
@@ -42,10 +43,12 @@ class Premises:
     Args:
         spec: The request.
         roster: Row order.
+        ways: Who has to drive before anybody stops.
     """
 
-    def __init__(self, spec: ScenarioSpec, roster: Roster) -> None:
+    def __init__(self, spec: ScenarioSpec, roster: Roster, ways: Ways) -> None:
         self._roster = roster
+        self._ways = ways
         self._events = [e for e in spec.events if _is_left_to_chance(spec, e)]
         self._driven: dict[str, int] = {}
 
@@ -64,7 +67,8 @@ class Premises:
             if row is None or not watched or not self._drive(event, trigger, seen):
                 self._driven.pop(event.id, None)
                 continue
-            if (tick - self._driven.setdefault(event.id, tick)) * dt_s < _DRIVEN_S:
+            since = self._driven.setdefault(event.id, tick)
+            if (tick - since) * dt_s < _DRIVEN_S or not self._ways.all_driven():
                 continue
             value = max(0.0, trigger.value_mps.value - _BELOW_MPS)
             kind = GroundCommandKind.SET_SPEED

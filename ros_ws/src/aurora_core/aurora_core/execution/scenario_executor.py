@@ -26,6 +26,7 @@ from aurora_core.execution.premises import Premises
 from aurora_core.execution.reports import Reports
 from aurora_core.execution.step_output import StepOutput
 from aurora_core.execution.triggers import BatteryRule
+from aurora_core.execution.ways import Ways
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.mission.machine import MissionMachine
 from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
@@ -61,6 +62,7 @@ class ExecutionSetup:
     Attributes:
         geometry: Solids and places of the world, the same that the monitor judges with.
         arrival_m: An agent this close to a place is there.
+        drive_m: Way after which an agent counts as having driven.
         battery: What the level of a UAV's battery is counted by.
         action_rules: When the actions of ground agents are complete.
         landing_clearance_m: The way to a landing spot keeps this clearance.
@@ -77,6 +79,7 @@ class ExecutionSetup:
     geometry: WorldGeometry
     landing_clearance_m: float
     arrival_m: float
+    drive_m: float
     battery: BatteryRule
     action_rules: ActionRules
     horizon_ticks: int
@@ -101,9 +104,10 @@ class ScenarioExecutor:
         self._held = {i for i, a in enumerate(setup.agents) if a.release is not ReleaseOn.START}
         self._phases = [int(UavPhase.IDLE)] * len(setup.machines)
         self._seen: dict[tuple[str, str], bool] = {}
+        self._ways = Ways(setup.spec, setup.drive_m)
         self._runner = self._run_events(EventRunner)
         self._reports = Reports(setup.links, setup.roster.dt_s, self._runner.next_message)
-        self._premises = Premises(setup.spec, setup.roster)
+        self._premises = Premises(setup.spec, setup.roster, self._ways)
         self._overtaker = Overtaker(setup.spec, setup.roster, self._lanes())
         self._follower = Follower(setup.spec, setup.roster, self._lanes(), self._drives)
         self._done_tick: int | None = None
@@ -124,6 +128,7 @@ class ScenarioExecutor:
         commands = self._initial_commands() if tick == 0 else []
         rows = self._fly(tick, uav, seen)
         commands += self._release(tick, seen)
+        self._ways.step(s.roster.dt_s, seen)
         commands += self._premises.step(tick, s.roster.dt_s, seen, s.machines)
         commands += self._overtaker.step(seen)
         commands += self._follower.step(tick, seen, self._held)
@@ -171,6 +176,7 @@ class ScenarioExecutor:
             self._set_off,
             self._drives,
             stopping,
+            self._ways,
         )
 
     def _lanes(self) -> LaneChanger:

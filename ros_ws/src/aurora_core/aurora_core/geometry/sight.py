@@ -28,6 +28,7 @@ from aurora_core.geometry.arrays import (
 )
 from aurora_core.geometry.contacts import find_contacts, least_height
 from aurora_core.geometry.edges import EdgeRows
+from aurora_core.geometry.polygon import Polygon, PolygonSet
 from aurora_core.geometry.prism import Prism
 from aurora_core.geometry.prisms import NO_UNDERSIDE_M, PrismTable
 
@@ -51,6 +52,19 @@ class SightModel:
         self._centre_y: FloatArray = (bounds[:, 1] + bounds[:, 3]) / 2.0
         self._half_x: FloatArray = (bounds[:, 2] - bounds[:, 0]) / 2.0 + _SLACK_M
         self._half_y: FloatArray = (bounds[:, 3] - bounds[:, 1]) / 2.0 + _SLACK_M
+        self._at: dict[tuple[float, float], SightModel] = {}
+
+    def around(self, x_m: float, y_m: float) -> SightModel:
+        """Return the same without the prisms that hold a point, for whoever looks at them.
+
+        Who looks at a place in a building looks at the building, which does not hide itself.
+        """
+        if (x_m, y_m) not in self._at:
+            here = np.array([[x_m, y_m]])
+            left = [p for p in self.prisms if not _holds(p, here)]
+            same = len(left) == len(self.prisms)
+            self._at[x_m, y_m] = self if same else SightModel(left)
+        return self._at[x_m, y_m]
 
     @property
     def prisms(self) -> tuple[Prism, ...]:
@@ -113,6 +127,14 @@ class SightModel:
     def _margins(self, p: FloatArray, q: FloatArray, item: IntArray) -> FloatArray:
         rows = self._table.footprints.edges.rows_of_pairs(item)
         return _margins(p, q, rows, self._table.base[item], self._table.top[item])
+
+
+def _holds(prism: Prism, xy: FloatArray) -> bool:
+    """Tell whether a point (1, 2) is inside the outer ring of a prism."""
+    low, high = prism.ring_xy.min(axis=0), prism.ring_xy.max(axis=0)
+    if (xy < low).any() or (xy > high).any():
+        return False
+    return bool(PolygonSet((Polygon(prism.ring_xy),)).contains(xy)[0])
 
 
 def box_sight_series(

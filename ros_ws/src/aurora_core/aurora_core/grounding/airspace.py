@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
+from copy import copy
 from functools import lru_cache
 
 import numpy as np
@@ -98,6 +99,16 @@ class Airspace:
         self, a: tuple[float, float, float], b: tuple[float, float, float]
     ) -> float:
         return float(self.obstacles.segment_clearance(np.array(a), np.array(b)))
+
+    def is_inside(self, x_m: float, y_m: float) -> bool:
+        """Tell whether a point is in a building, whatever its height."""
+        return self.sight.around(x_m, y_m) is not self.sight
+
+    def looking_at(self, x_m: float, y_m: float) -> Airspace:
+        """Return the airspace for who looks at a place: its own building does not hide it."""
+        found = copy(self)
+        found.sight = self.sight.around(x_m, y_m)
+        return found
 
     def seen_share(self, observers: FloatArray, targets: FloatArray, range_m: float) -> float:
         """Return the share of samples (T, 3) at which a target is in range and in sight."""

@@ -26,6 +26,7 @@ from aurora_core.grounding.ties import (
     in_passing_lane,
     passing_pairs,
     queued,
+    without_implied,
 )
 from aurora_core.knowledge.limits import EXACT, Tolerance
 from aurora_core.spec.own_events import let_cross
@@ -222,7 +223,7 @@ def split_scene(
         # "From the left" to a place is another street, not the lane beside.
         ties = [t for t in ties if not _comes_from_a_side(spec, by_id[t.agent], t)]
     ties = agreed(ties + _past_persons(spec, by_id, ties, speeds))
-    ties = queued(ties, {a.id: {b.kind for b in a.behaviors} for a in vehicles})
+    ties = queued(without_implied(ties), {a.id: {b.kind for b in a.behaviors} for a in vehicles})
     origin = _origin(spec, vehicles, ties)
     if origin is None:
         _, others = _before_place(vehicles, {}, distances)
@@ -431,8 +432,11 @@ def _placed(
 
 def _kept(tie: Tie, offsets: dict[str, tuple[float, int]]) -> bool:
     own, other = offsets[tie.agent], offsets[tie.other]
-    along = own[0] - other[0] - tie.offset_m
-    return abs(along) < _SAME_PLACE_M and own[1] - other[1] == tie.lane_shift
+    along_m = own[0] - other[0]
+    exact = abs(along_m - tie.offset_m) < _SAME_PLACE_M
+    # Nobody says how far: it is enough that there is room on the right side.
+    roomy = tie.free and along_m * tie.offset_m > 0.0 and abs(along_m) >= IN_LINE_M
+    return (exact or roomy) and own[1] - other[1] == tie.lane_shift
 
 
 def _origin(spec: ScenarioSpec, vehicles: list[GroundAgent], ties: list[Tie]) -> str | None:
@@ -451,18 +455,26 @@ def _origin(spec: ScenarioSpec, vehicles: list[GroundAgent], ties: list[Tie]) ->
 
 
 def _solve(origin: str, ties: list[Tie]) -> dict[str, tuple[float, int]]:
-    """Propagate offsets from the origin along the ties, in both directions."""
+    """Propagate offsets from the origin along the ties, in both directions.
+
+    What is said of a distance goes first: those that are free bend.
+    """
     offsets: dict[str, tuple[float, int]] = {origin: (0.0, 0)}
-    changed = True
-    while changed:
-        changed = False
-        for tie in sorted(ties, key=lambda t: t.agent):
-            if tie.other in offsets and tie.agent not in offsets:
-                base = offsets[tie.other]
-                offsets[tie.agent] = (base[0] + tie.offset_m, base[1] + tie.lane_shift)
-                changed = True
-            elif tie.agent in offsets and tie.other not in offsets:
-                base = offsets[tie.agent]
-                offsets[tie.other] = (base[0] - tie.offset_m, base[1] - tie.lane_shift)
-                changed = True
+    said = sorted((t for t in ties if not t.free), key=lambda t: t.agent)
+    free = sorted((t for t in ties if t.free), key=lambda t: t.agent)
+    while any(_carry(tie, offsets) for tie in said) or any(_carry(tie, offsets) for tie in free):
+        pass
     return offsets
+
+
+def _carry(tie: Tie, offsets: dict[str, tuple[float, int]]) -> bool:
+    """Place one of the two of a tie by the other; tell whether that was new."""
+    if tie.other in offsets and tie.agent not in offsets:
+        base = offsets[tie.other]
+        offsets[tie.agent] = (base[0] + tie.offset_m, base[1] + tie.lane_shift)
+        return True
+    if tie.agent in offsets and tie.other not in offsets:
+        base = offsets[tie.agent]
+        offsets[tie.other] = (base[0] - tie.offset_m, base[1] - tie.lane_shift)
+        return True
+    return False

@@ -24,7 +24,6 @@ from aurora_core.grounding.places import (
     ROADS,
     MapPlaces,
     has_point,
-    over_edge,
     road_point,
 )
 from aurora_core.grounding.planned_flight import (
@@ -60,6 +59,9 @@ _SPARE = 0.08
 
 # Neighbours on a ring are as far apart as they have to be, to rounding.
 _ROUNDING_M = 1e-6
+
+# So many ways to free spots are tried from the middle of a building.
+_WAYS_OUT = 6
 
 # Steps in which a flight at a landmark looks for free air above (m).
 _HIGHER_M = 10.0
@@ -170,21 +172,10 @@ class FlightPlanner:
         centre = self._centre(mission, site)
         if centre is None:
             return Rejected(reason='target_place')
-        building = self._places.building(mission.target or '')
-        middle = centre if building is None else (*building.centre, *centre[2:])
         if mission.mode is MissionMode.NAVIGATE:
-            return self._routes.plan(mission, middle, beside=building is not None)
+            return self._routes.plan(mission, centre, beside=self._air.is_inside(*centre[:2]))
         targets = self._watched(spec, mission, site, centre, speed_mps)
-        above = self._hover(mission, middle, targets, others)
-        if building is not None and isinstance(above, Rejected):
-            # What stands for a building is the street before it: over a wide roof it is seen from
-            # the near edge, and where that is too high, from over the street.
-            edge = over_edge(building, centre)
-            over = self._hover(mission, (*edge, *centre[2:]), targets, others)
-            if isinstance(over, Rejected):
-                return self._hover(mission, centre, targets, others)
-            return over
-        return above
+        return self._hover(mission, centre, targets, others)
 
     def _inside(self, mission: UavMission) -> UavMission:
         """Return a mission whose standoff to plan with is inside the bound that is stated."""
@@ -369,6 +360,14 @@ class FlightPlanner:
             for other in others
         )
 
+    def _is_shut_in(self, point: Point3) -> bool:
+        """Tell whether the air over a courtyard is left by no level way, as in a stadium."""
+        x, y, z = point
+        return self._air.is_inside(x, y) and all(
+            self._air.way_clearance_m(((*spot, z), point)) < self._settings.clearance_m
+            for spot in self._spots.near(x, y, _WAYS_OUT)
+        )
+
     def _planned_height_m(self, mission: UavMission) -> float:
         return planned_height_m(mission, self._limits, self._tolerances)
 
@@ -414,17 +413,19 @@ class FlightPlanner:
         targets: FloatArray,
         others: Sequence[Point3],
     ) -> PlannedFlight | Rejected:
-        reason = 'clearance'
+        reason, air = 'clearance', self._air
+        if is_landmark(mission.target):
+            air = air.looking_at(*centre[:2])
         for offset in self._hover_places(mission, centre, others):
             point = (centre[0] + offset[0], centre[1] + offset[1], self._planned_height_m(mission))
             if not self._apart(point, others):
                 reason = 'separation'
                 continue
             clearance = self._air.points_clearance_m(np.array([point]))
-            if clearance < self._settings.clearance_m:
+            if clearance < self._settings.clearance_m or self._is_shut_in(point):
                 continue
             observers = np.repeat(np.array([point]), len(targets), axis=0)
-            seen = self._air.seen_share(observers, targets, self._range)
+            seen = air.seen_share(observers, targets, self._range)
             if mission.target is not None and seen < self._tolerances.visible_fraction:
                 reason = 'sight'
                 continue
@@ -463,7 +464,7 @@ class FlightPlanner:
         if seat is not None:
             return seat.path.position_at(seat.arc_m)
         if has_point(target):
-            point = self._places.point(target, (x, y))
+            point = self._places.itself(target, (x, y))
             heading = (1.0, 0.0) if is_landmark(target) else (hx, hy)
             return (*point, *heading)
         if target in ROADS:

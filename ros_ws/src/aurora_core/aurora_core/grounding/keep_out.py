@@ -30,7 +30,7 @@ def kept_out(spec: ScenarioSpec, places: MapPlaces) -> tuple[Ring, ...]:
         for place in (name for name in stated.of if is_landmark(name)):
             building = places.building(place)
             shape = (
-                shapely.Point(places.point(place, (0.0, 0.0)))
+                shapely.Point(places.itself(place, (0.0, 0.0)))
                 if building is None
                 else shapely.Polygon(building.ring)
             )

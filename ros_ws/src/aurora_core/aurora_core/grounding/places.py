@@ -38,9 +38,6 @@ POINTS = (Place.INTERSECTION, Place.CROSSWALK)
 # Streets cross where at least this many ways lead on; the end of a street is no intersection.
 _CROSSING_WAYS = 3
 
-# A hover over the edge of a roof is so far inside it (m).
-_ROOF_M = 4.0
-
 
 def place_positions(
     spec: ScenarioSpec, map_model: MapModel, grounded: GroundedScenario
@@ -122,10 +119,23 @@ class MapPlaces:
 
     def __init__(self, map_model: MapModel) -> None:
         self._map = map_model
-        self._landmarks: dict[str, Point2] = {}
+        self._approaches: dict[str, Point2] = {}
+
+    def itself(self, name: str, anchor: Point2) -> Point2:
+        """Return where a place is (x, y in m, ENU), a landmark inside of its building, too.
+
+        Whatever flies is at this point; arguments and errors as those of `point`.
+        """
+        if is_landmark(name):
+            mark = self._map.landmark(name.removeprefix(LANDMARK))
+            return mark.x_m, mark.y_m
+        return self.point(name, anchor)
 
     def point(self, name: str, anchor: Point2) -> Point2:
-        """Return where a place is (x, y in m, ENU); one without a point is where the anchor is.
+        """Return where one is at a place on the ground (x, y in m, ENU).
+
+        A place without a point is where the anchor is. To a landmark in a building one comes on
+        the street before it.
 
         Args:
             name: Reference of the place.
@@ -135,7 +145,7 @@ class MapPlaces:
             MapError: The map has no such landmark.
         """
         if is_landmark(name):
-            return self._landmark(name.removeprefix(LANDMARK))
+            return self._approach(name.removeprefix(LANDMARK))
         centres = {Place.INTERSECTION: self.intersections, Place.CROSSWALK: self.crosswalks}
         known = centres[Place(name)] if name in POINTS else ()
         return nearest_to(anchor, known) if known else anchor
@@ -173,17 +183,14 @@ class MapPlaces:
         ends = [(line[0], line[-1]) for line in lines]
         return tuple(((a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0) for a, b in ends)
 
-    def _landmark(self, name: str) -> Point2:
-        if name not in self._landmarks:
-            self._landmarks[name] = landmark_point(self._map, name)
-        return self._landmarks[name]
+    def _approach(self, name: str) -> Point2:
+        if name not in self._approaches:
+            self._approaches[name] = approach_point(self._map, name)
+        return self._approaches[name]
 
 
-def landmark_point(map_model: MapModel, name: str) -> Point2:
-    """Return where a landmark is on the ground: itself, or the street before its building.
-
-    Nobody can look at a point inside a building, so a landmark that is one stands for the place in
-    front of it.
+def approach_point(map_model: MapModel, name: str) -> Point2:
+    """Return where one is at a landmark on the ground: itself, or the street before its building.
 
     Raises:
         MapError: The map has no such landmark.
@@ -206,15 +213,3 @@ def _reaches(ring: Sequence[Point2], x: float, y: float) -> bool:
 def nearest_to(anchor: Point2, centres: Sequence[Point2]) -> Point2:
     """Return the centre nearest to a point; of equally near ones the first."""
     return min(centres, key=lambda c: norm2(c[0] - anchor[0], c[1] - anchor[1]))
-
-
-def over_edge(building: Building, street: Sequence[float]) -> tuple[float, float]:
-    """Return the point over a building's roof, a little inside it, nearest to a street (x, y)."""
-    (x, y), (to_x, to_y) = building.centre, street[:2]
-    away_m = norm2(to_x - x, to_y - y)
-    for k in range(int(away_m), 0, -1):
-        here = (x + (to_x - x) * k / away_m, y + (to_y - y) * k / away_m)
-        if building.is_below(*here):
-            back = max(0.0, k - _ROOF_M) / away_m
-            return x + (to_x - x) * back, y + (to_y - y) * back
-    return x, y

@@ -46,6 +46,34 @@ def agreed(ties: list[Tie]) -> list[Tie]:
     return found
 
 
+def without_implied(ties: list[Tie]) -> list[Tie]:
+    """Return ties without those of free distance that others imply.
+
+    "Three cars in a row behind the ego": who is behind the second car is behind the ego.
+    """
+    found = list(ties)
+    for tie in ties:
+        if tie.free and tie.offset_m != 0.0:
+            rest = [t for t in found if t is not tie]
+            if _leads(tie.agent, tie, rest):
+                found = rest
+    return found
+
+
+def _leads(agent: str, tie: Tie, ties: list[Tie]) -> bool:
+    """Tell whether ties in the direction and lane of `tie` lead from an agent to its other."""
+    reached, left = set[str](), [agent]
+    while left:
+        here = left.pop()
+        for step in ties:
+            along = step.lane_shift == tie.lane_shift == 0
+            along = along and step.offset_m * tie.offset_m > 0.0 and step.agent == here
+            if along and step.other not in reached:
+                reached.add(step.other)
+                left.append(step.other)
+    return tie.other in reached
+
+
 def passing_pairs(spec: ScenarioSpec) -> frozenset[tuple[str, str]]:
     """Return who is to pass whom; not where somebody says that they share a lane."""
     sharing = {

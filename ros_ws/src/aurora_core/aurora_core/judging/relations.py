@@ -140,7 +140,8 @@ def before_place(context: Context, condition: Condition) -> tuple[float, float]:
     view = context.view
     name, place = condition.of
     route = planned_route(view, view.body(name))
-    own, other = view.reference(name)[0].tolist(), view.reference(place)[0].tolist()
+    own = view.reference(name)[0].tolist()
+    other = (view.reference(name) - view.between(name, place))[0].tolist()
     own_s, _ = route.project(own[0], own[1], 0.0, _CUTOFF_M, extend=True)
     place_s, offset_m = route.project(other[0], other[1], extend=True)
     return place_s - own_s, abs(offset_m)
@@ -159,7 +160,7 @@ def _main_road(context: Context, point: FloatArray) -> FloatArray:
 def bearing_error(context: Context, condition: Condition, bearing_deg: float) -> FloatArray:
     """Return how far the bearing of the first body from the second one is off, (T,) degrees."""
     a, b = condition.of
-    delta = context.view.reference(a) - context.view.reference(b)
+    delta = context.view.between(a, b)
     bearing = compass_bearing_deg(delta[:, 0], delta[:, 1])
     return bearing_error_deg(bearing, bearing_deg)
 

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import IntEnum
 
 import numpy as np
@@ -80,6 +80,7 @@ class WorldModel:
         map_digest: sha256 (hex) of the map's files.
         conditions_json: The success conditions of the run, canonical JSON.
         limits: The limits in force.
+        lane_boxes: Least x and y, then greatest x and y of the carriageway of each lane, (L, 4).
     """
 
     map_name: str
@@ -97,8 +98,24 @@ class WorldModel:
     limits: Limits
     places: tuple[NamedPlace, ...] = ()
     conditions_json: str = '[]'
+    lane_boxes: FloatArray = field(init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, 'lane_boxes', _lane_boxes(self.lanes))
 
     @property
     def sensing_range_m(self) -> float:
         """Sensing range of a UAV camera in this weather at this time of day."""
         return self.limits.sensing_range(self.weather, self.time_of_day)
+
+
+def _lane_boxes(lanes: tuple[CentreLine, ...]) -> FloatArray:
+    if not lanes:
+        return np.zeros((0, 4))
+    points = np.concatenate([lane.points for lane in lanes])
+    ends = np.cumsum([len(lane.points) for lane in lanes])
+    begins = np.concatenate([[0], ends[:-1]])
+    reach = np.array([lane.width_m / 2.0 for lane in lanes])[:, None]
+    low = np.minimum.reduceat(points, begins, axis=0) - reach
+    high = np.maximum.reduceat(points, begins, axis=0) + reach
+    return np.hstack([low, high])

@@ -87,7 +87,9 @@ class InstantSight:
         if own is not None and not self._looks_there(own, ground[own], x - eye[0], y - eye[1]):
             return False, slant_m
         free = self._vehicles_leave_free(eye, end, ground, (own, row))
-        return free and self._geometry.sight_line.free(eye, end), slant_m
+        if not free:
+            return False, slant_m
+        return self._geometry.sight_to(target).free(eye, end), slant_m
 
     def _eye(self, observer: str, ground: FloatArray, uav: FloatArray) -> Point3:
         row = self._rows.get(observer)

@@ -50,11 +50,10 @@ def lanes_of_rows(world: WorldModel, rows: FloatArray) -> LaneArray:
     """Return the same of states (n, GROUND_WIDTH) of a body, (n,)."""
     found = np.full(len(rows), NO_LANE, dtype=np.intp)
     nearest = np.full(len(rows), np.inf)
-    for index, lane in enumerate(world.lanes):
-        near = np.flatnonzero(_around(lane, rows))
-        if len(near) == 0:
-            continue
-        square = _square_distance(lane, rows[near])
+    around = _around(world, rows)
+    for index in np.flatnonzero(around.any(axis=1)).tolist():
+        near = np.flatnonzero(around[index])
+        square = _square_distance(world.lanes[index], rows[near])
         better = square < nearest[near]
         found[near[better]] = index
         nearest[near[better]] = square[better]
@@ -83,13 +82,11 @@ def left_of_lane_m(lane: CentreLine, rows: FloatArray) -> FloatArray:
     return left_m
 
 
-def _around(lane: CentreLine, rows: FloatArray) -> npt.NDArray[np.bool_]:
-    reach = lane.width_m / 2.0
+def _around(world: WorldModel, rows: FloatArray) -> npt.NDArray[np.bool_]:
+    """Tell of each lane which states are inside the box around it, (L, n)."""
     x, y = rows[:, GroundColumn.X], rows[:, GroundColumn.Y]
-    (west, south), (east, north) = lane.points.min(axis=0), lane.points.max(axis=0)
-    inside: npt.NDArray[np.bool_] = (
-        (x >= west - reach) & (x <= east + reach) & (y >= south - reach) & (y <= north + reach)
-    )
+    west, south, east, north = world.lane_boxes.T[:, :, None]
+    inside: npt.NDArray[np.bool_] = (x >= west) & (x <= east) & (y >= south) & (y <= north)
     return inside
 
 

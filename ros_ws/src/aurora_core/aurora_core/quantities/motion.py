@@ -26,13 +26,13 @@ COURSE_MPS = 0.5
 
 def distance(view: RunView, a: str, b: str) -> FloatArray:
     """Return the 3-D distance of two reference points in metres."""
-    delta = view.reference(a) - view.reference(b)
+    delta = view.between(a, b)
     return distance_3d(delta[:, 0], delta[:, 1], delta[:, 2])
 
 
 def horizontal_distance(view: RunView, a: str, b: str) -> FloatArray:
     """Return the distance of two reference points in the plane, metres."""
-    delta = view.reference(a) - view.reference(b)
+    delta = view.between(a, b)
     return distance_2d(delta[:, 0], delta[:, 1])
 
 

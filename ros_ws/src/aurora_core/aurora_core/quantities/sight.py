@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from aurora_core.geometry.sight import SIGHT_CLEAR_M, box_sight_series
+from aurora_core.geometry.sight import SIGHT_CLEAR_M, SightModel, box_sight_series
 from aurora_core.quantities.kernels import ahead_m, distance_3d
 from aurora_core.quantities.view import RunView, Series
 from aurora_core.quantities.world_geometry import WorldGeometry
@@ -111,6 +111,7 @@ def sight_of(
     exclude: frozenset[int],
     present: BoolArray,
     heading: FloatArray | None = None,
+    hiding: SightModel | None = None,
 ) -> SightSeries:
     """Return the sight of a target; arguments as in `vehicle_clearance`.
 
@@ -123,11 +124,13 @@ def sight_of(
         exclude: Rows that do not occlude.
         present: (T,) where both exist; elsewhere the target is not visible.
         heading: (T, 2) of an observer that sees what is ahead of it alone.
+        hiding: Buildings that can hide the target; default: all.
     """
     delta = target - observer
     slant = distance_3d(delta[:, 0], delta[:, 1], delta[:, 2])
+    hiding = geometry.sight if hiding is None else hiding
     clearance = np.minimum(
-        geometry.sight.clearance_series(observer, target),
+        hiding.clearance_series(observer, target),
         vehicle_clearance(observer, target, ground, entries, exclude),
     )
     left = geometry.world.sensing_range_m - slant
@@ -155,6 +158,7 @@ def sight_series(view: RunView, observer: str, target: str) -> SightSeries:
             _rows_of(part, observer, target),
             part.present(observer) & part.present(target),
             part.rows(body)[:, columns] if body.looks_ahead else None,
+            None if part.has(target) else part.geometry.sight_to(target).model,
         )
         return sight.slant_range_m, sight.clearance_m, sight.margin_m, sight.visible
 

@@ -134,6 +134,20 @@ class RunView:
         rows: FloatArray = self.trace.uav_commands[:, body.row, :]
         return rows
 
+    def between(self, a: str, b: str) -> FloatArray:
+        """Return the vectors from b to a, bodies or places, (T, 3) ENU metres.
+
+        A body on the ground comes to a landmark where the road leads to it: there it is measured
+        from; whatever flies, from the landmark itself.
+        """
+        ends = {name: self.reference(name) for name in (a, b)}
+        for place, body in ((a, b), (b, a)):
+            if self.has(body) and not self.has(place) and not self.body(body).is_uav:
+                point = self.geometry.approach_point(place)
+                assert point is not None  # it has a reference point
+                ends[place][:, :2] = point
+        return ends[a] - ends[b]
+
     def reference(self, name: str) -> FloatArray:
         """Return the reference point of a body or a place, (T, 3) ENU metres.
 

@@ -16,7 +16,7 @@ from aurora_core.geometry.sight import SightModel
 from aurora_core.geometry.sight_line import SightLine
 from aurora_core.knowledge.map_types import Building
 from aurora_core.knowledge.world import SurfaceKind, WorldModel
-from aurora_core.spec.reference import LANDMARK, is_landmark
+from aurora_core.spec.reference import APPROACH, LANDMARK, is_landmark
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -31,6 +31,7 @@ class WorldGeometry:
 
     def __init__(self, world: WorldModel, sight_line: SightLine | None = None) -> None:
         self.world = world
+        self._lines: dict[str, SightLine] = {}
         if sight_line is not None:
             self.sight_line = sight_line
             self.sight = sight_line.model
@@ -101,10 +102,30 @@ class WorldGeometry:
         Args:
             place: `landmark:<name>`, or a kind of place as the scenario was grounded.
         """
-        for known in self.world.places:
-            if known.name == place:
-                return known.x_m, known.y_m
-        return None
+        return self._points.get(place)
+
+    def approach_point(self, place: str) -> tuple[float, float] | None:
+        """Return where a body on the ground is at a place: before the building that it is."""
+        near = self._points.get(f'{APPROACH}{place.removeprefix(LANDMARK)}')
+        return near if near is not None and is_landmark(place) else self.place_point(place)
+
+    def is_itself(self, place: str) -> bool:
+        """Tell whether a landmark is in its building; older worlds have the road before it."""
+        return f'{APPROACH}{place.removeprefix(LANDMARK)}' in self._points
+
+    def sight_to(self, place: str) -> SightLine:
+        """Return what hides a body or place: all buildings but the one that a landmark is."""
+        point = self.place_point(place) if is_landmark(place) else None
+        model = self.sight if point is None else self.sight.around(*point)
+        if model is self.sight:
+            return self.sight_line
+        if place not in self._lines:
+            self._lines[place] = SightLine(model)
+        return self._lines[place]
+
+    @cached_property
+    def _points(self) -> dict[str, tuple[float, float]]:
+        return {place.name: (place.x_m, place.y_m) for place in reversed(self.world.places)}
 
     def building_of(self, place: str) -> Building | None:
         """Return the building that a landmark is, None for all other places."""

@@ -57,6 +57,17 @@ _VERIFY_COLOURS = {
     VerifyOutcome.VIOLATED_AS_RECORDED: 'red',
 }
 
+# What to do after a run that ended so.
+_NEXT = {
+    Status.VERIFIED: 'aurora open {run}',
+    Status.VERIFIED_AS_EDITED: 'aurora open {run}',
+    Status.VIOLATED: 'aurora open {run} shows when and where, aurora repair {run} tries otherwise',
+    Status.INCOMPLETE: 'say the quoted words otherwise; aurora examples shows what is understood',
+    Status.INCONCLUSIVE: 'aurora doctor, and aurora verify {run} once more',
+    Status.INFEASIBLE: 'ask for what is feasible; the proof: aurora certificate check runs/{run}',
+    Status.NOT_UNDERSTOOD: 'aurora examples shows what can be said, aurora new asks for pieces',
+    Status.ERROR: 'aurora doctor',
+}
 # As in docs/glossary.md.
 _WORDS = {
     'capture': 'the first moment at which a UAV has reached its altitude and its point or target',
@@ -65,16 +76,31 @@ _WORDS = {
 Row = tuple[str, ...]
 
 
-def print_report(report: RunReport, console: Console, folder: Path | None = None) -> None:
-    """Print a run's report.
+def print_report(
+    report: RunReport, console: Console, folder: Path | None = None, *, brief: bool = False
+) -> None:
+    """Print a run's report: the verdict first, and last again where it has scrolled away.
 
     Args:
         report: What to print.
         console: Where; colours and boxes only when it is a terminal.
         folder: Run folder, when there is one.
+        brief: The verdict, what to do and the folder alone.
     """
     headline(console, report.status.value, _COLOURS[report.status], report.summary)
     _question_and_error(report, console)
+    if not brief:
+        _print_all(report, console)
+    if folder is not None:
+        line(console, f'folder   {folder}')
+    if report.conditions and not brief:
+        headline(console, report.status.value, _COLOURS[report.status], report.summary)
+    step = _NEXT.get(report.status)
+    if step and folder is not None:
+        line(console, f'next     {step.format(run=folder.name)}')
+
+
+def _print_all(report: RunReport, console: Console) -> None:
     print_clauses(report.clauses, console)
     print_elements(report.elements, console)
     asked = [row for row in report.conditions if row.source]
@@ -93,8 +119,6 @@ def print_report(report: RunReport, console: Console, folder: Path | None = None
             line(console, f'motion   {trace.motion_sha256}')
         for finding in trace.cross_check:
             line(console, f'disagreement at {finding.time_s:.2f} s: {finding.text}')
-    if folder is not None:
-        line(console, f'folder   {folder}')
 
 
 def print_repairs(repairs: Sequence[RepairReport], console: Console) -> None:
@@ -120,10 +144,12 @@ def _told(value: float | str | None) -> str:
     return f'{value:g}' if isinstance(value, float) else str(value)
 
 
-def print_check(report: CheckReport, console: Console) -> None:
-    """Print the outcome of a check."""
+def print_check(report: CheckReport, console: Console, *, brief: bool = False) -> None:
+    """Print the outcome of a check; `brief`: the outcome and what to do alone."""
     headline(console, report.result.value, _CHECK_COLOURS[report.result], report.summary)
     _question_and_error(report, console)
+    if brief:
+        return
     print_clauses(report.clauses, console)
     print_elements(report.elements, console)
     print_table(

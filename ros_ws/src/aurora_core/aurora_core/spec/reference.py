@@ -26,6 +26,8 @@ ENVIRONMENT_ID = 'world'
 
 # What the reference of a landmark begins with; its name on the map follows.
 LANDMARK = 'landmark:'
+# And where a recorded world says how one gets to it on the road.
+APPROACH = 'approach:'
 
 _PLACES = frozenset(place.value for place in Place)
 

@@ -98,6 +98,7 @@ class Stage:
     hold_s: float = 600.0
     hold_said: bool = True
     horizon_ticks: int = 4000
+    drive_m: float = 20.0
     stated_horizon: bool = False
     earliest_end_ticks: int = 0
     settle_ticks: int = 10
@@ -329,6 +330,7 @@ class Stage:
             geometry=WorldGeometry(world),
             landing_clearance_m=4.0,
             arrival_m=15.0,
+            drive_m=self.drive_m,
             battery=BatteryRule(endurance_s=10.0, touchdown_m=0.3),
             action_rules=action_rules(load_tolerances(config_path('tolerances.json'))),
             horizon_ticks=self.horizon_ticks,

@@ -10,7 +10,8 @@ from typing import Any
 import pytest
 
 from aurora_core.spec.parameter import Parameter
-from aurora_core.spec.scenario import AgentAction, Event, SpeedTrigger
+from aurora_core.spec.scenario import AgentAction, Behavior, Event, SpeedTrigger
+from aurora_core.spec.vocabulary import BehaviorKind
 from aurora_core.trace.layout import GroundCommandKind
 
 Make = Callable[..., Parameter]
@@ -40,6 +41,22 @@ def test_it_slows_down_once_it_was_driven_for_a_while(stage: Build, parameter: M
     captured = scene.machines[0].capture_tick
     assert captured is not None
     assert tick >= captured + 80
+
+
+@pytest.mark.parametrize('waits', [True, False])
+def test_nobody_stops_before_those_who_are_to_drive_have_driven(
+    stage: Build, parameter: Make, waits: bool
+) -> None:
+    drives = (Behavior(kind=BehaviorKind.DRIVE),)
+    stops = Event(id='e1', action=AgentAction(do='stop', agent='van1'))
+    scene = stage(
+        events=(_waits(parameter) if waits else stops,),
+        behaviors={'van1': drives, 'ego': drives},
+        drive_m=90.0,
+    )
+    _drive(scene, 6.0, 8.0, 400)
+    ((tick, *_),) = _slowed(scene)
+    assert tick * 0.05 * 6.0 == pytest.approx(90.0, abs=1.0)
 
 
 @pytest.mark.parametrize(('van_mps', 'ego_mps'), [(2.0, 10.0), (10.0, 1.0)])

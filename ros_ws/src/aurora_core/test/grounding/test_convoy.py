@@ -152,6 +152,38 @@ def test_two_placements_that_agree(parameter: Make) -> None:
     assert split.unsupported == ()
 
 
+def test_who_is_behind_one_in_a_row_is_behind_those_ahead_of_it() -> None:
+    split = split_scene(
+        _spec(
+            _agent('c1', (Relation.BEHIND, 'ego', None)),
+            _agent('c2', (Relation.BEHIND, 'c1', None), (Relation.BEHIND, 'ego', None)),
+            _agent('c3', (Relation.BEHIND, 'c2', None), (Relation.BEHIND, 'ego', None)),
+            EGO,
+        )
+    )
+    assert _places(split) == {
+        'ego': (0.0, 0),
+        'c1': (-20.0, 0),
+        'c2': (-40.0, 0),
+        'c3': (-60.0, 0),
+    }
+    assert split.unsupported == ()
+
+
+def test_free_distances_of_a_row_bend_to_a_stated_one(parameter: Make) -> None:
+    split = split_scene(
+        _spec(
+            _agent('c1', (Relation.BEHIND, 'ego', None)),
+            _agent(
+                'c2', (Relation.BEHIND, 'c1', None), (Relation.BEHIND, 'ego', 70.0), make=parameter
+            ),
+            EGO,
+        )
+    )
+    assert _places(split) == {'ego': (0.0, 0), 'c2': (-70.0, 0), 'c1': (-20.0, 0)}
+    assert split.unsupported == ()
+
+
 def test_placements_that_contradict_each_other_are_named(parameter: Make) -> None:
     split = split_scene(
         _spec(

@@ -13,7 +13,7 @@ import shapely
 from aurora_core.errors import MapError
 from aurora_core.grounding.places import (
     MapPlaces,
-    landmark_point,
+    approach_point,
     place_positions,
     road_point,
 )
@@ -38,18 +38,18 @@ def test_the_nearest_intersection_is_taken(map_of: Maps) -> None:
         assert MapPlaces(the_map).point('intersection', here) == (junction.x_m, junction.y_m)
 
 
-def test_a_landmark_is_never_inside_a_building(map_of: Maps) -> None:
+def test_one_comes_to_a_landmark_outside_of_every_building(map_of: Maps) -> None:
     the_map = map_of('downtown')
     moved = 0
     for mark in the_map.landmarks:
-        x, y = landmark_point(the_map, mark.name)
+        x, y = approach_point(the_map, mark.name)
         point = shapely.Point(x, y)
         assert not any(shapely.Polygon(b.ring).contains(point) for b in the_map.buildings)
         moved += (x, y) != (mark.x_m, mark.y_m)
         assert sqrt((x - mark.x_m) ** 2 + (y - mark.y_m) ** 2) < 150.0
     assert moved > 0
     with pytest.raises(MapError, match='Nowhere'):
-        landmark_point(the_map, 'Nowhere')
+        approach_point(the_map, 'Nowhere')
 
 
 @pytest.mark.parametrize(
@@ -88,6 +88,29 @@ def test_a_flight_is_over_the_building_that_a_landmark_is(
         assert sqrt((x - hall.x_m) ** 2 + (y - hall.y_m) ** 2) == pytest.approx(30.0, abs=0.1)
     # Towers of 71 m stand round it: an altitude that nobody states is where the air is free.
     assert plan.altitude_m > 30.0 or plan.hover_point is not None
+
+
+@pytest.mark.parametrize(
+    ('place', 'prompt', 'east_m', 'north_m'),
+    [
+        ('City Hall', 'A drone hovers 40 m east of City Hall at 40 m.', 40.0, 0.0),
+        ('Mercy Hospital', 'A drone hovers 50 m north of Mercy Hospital at 45 m.', 0.0, 50.0),
+        ('Eastgate Stadium', 'A drone hovers over Eastgate Stadium.', 0.0, 0.0),
+    ],
+)
+def test_an_offset_is_from_the_landmark_not_from_the_street_before_it(
+    place: str,
+    prompt: str,
+    east_m: float,
+    north_m: float,
+    read_prompt: Callable[..., ScenarioSpec],
+    ground: Callable[..., GroundedScenario],
+    map_of: Maps,
+) -> None:
+    point = ground(read_prompt(prompt)).uavs[0].missions[0].hover_point
+    mark = map_of('downtown').landmark(place)
+    assert point is not None
+    assert point[:2] == pytest.approx((mark.x_m + east_m, mark.y_m + north_m), abs=0.1)
 
 
 def test_the_road_is_looked_at_where_no_vehicle_stands(

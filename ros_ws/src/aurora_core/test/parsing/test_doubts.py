@@ -31,6 +31,7 @@ def _unread(prompt: str) -> list[str]:
         bodies._AWAITS,
         flights._CLIMBS,
         times._FROM_HERE,
+        times._ONCE,
         times._INTRANSITIVE,
         times._LETS_PASS,
     ],

@@ -69,6 +69,15 @@ def _unread(prompt: str) -> list[str]:
         ('A pedestrian sprints across the street.', 'sprints across'),
         ('The ego brakes only when a van comes within 20 m of it.', 'only when'),
         ('A drone is the only vehicle in the air and hovers over City Hall.', 'only vehicle'),
+        ('When the ego stops, the drone keeps hovering over City Hall.', 'keeps hovering'),
+        ('A drone must see the van all the time.', 'all the time'),
+        ('Two drones hover over City Hall, at least 15 m above each other.', 'each other'),
+        ('A drone hovers over City Hall; a van stops there after 20 s.', 'stops there'),
+        ('A van drives until it is told to stop.', 'until it is told to'),
+        ('A pedestrian might cross.', 'might'),
+        ('A van stops at the second intersection.', 'second intersection'),
+        ('A drone tracks a van. The other van stops.', 'other van'),
+        ('A van brakes as a pedestrian crosses.', 'as a pedestrian'),
     ],
 )
 def test_admitted(prompt: str, quoted: str) -> None:
@@ -94,6 +103,9 @@ def test_admitted(prompt: str, quoted: str) -> None:
         'A car always stays 20 m behind a bus.',
         'A car follows a bus at a constant distance of 20 m.',
         'A drone tracks a bus at 40 m the whole time.',
+        'A van and a bus wait next to each other.',
+        'Two vans circulate. The second van stops after 20 s.',
+        'A van drives along as a drone tracks it.',
         'The bus brakes after 20 s; afterwards the drone lands. The drone hovers over City Hall.',
     ],
 )

@@ -4,15 +4,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import ModuleType
 
 import numpy as np
 import pytest
 
 from aurora_core.errors import VerificationError
-from aurora_core.knowledge.world import CentreLine
+from aurora_core.knowledge.world import CentreLine, NamedPlace
 from aurora_core.quantities import contact, motion
+from aurora_core.quantities.instant_sight import InstantSight
 from aurora_core.quantities.routes import along_route
+from aurora_core.quantities.sight import sight_series
 from aurora_core.quantities.view import RunView
 from aurora_core.trace.commands import GroundCommand
 from aurora_core.trace.layout import GroundCommandKind
@@ -134,7 +137,6 @@ def test_a_new_route_is_in_force_from_its_command_on(tb: ModuleType) -> None:
     run.ground_commands[2] = (
         GroundCommand(agent=0, kind=GroundCommandKind.SET_ROUTE, text='north unknown'),
     )
-    base = tb.world()
     lane = CentreLine(
         lane_id='north_0',
         street_name='North',
@@ -142,8 +144,7 @@ def test_a_new_route_is_in_force_from_its_command_on(tb: ModuleType) -> None:
         width_m=3.2,
         speed_limit_mps=13.9,
     )
-    world = type(base)(**{**{f: getattr(base, f) for f in base.__slots__}, 'lanes': (lane,)})
-    view = RunView(run.trace(), world)
+    view = RunView(run.trace(), tb.replace(tb.world(), lanes=(lane,)))
     along = along_route(view, view.body('ego'), view.body('bus1'))
     assert along.offset_m[0] == pytest.approx(25.0)
     assert along.lead_m[2:] == pytest.approx([25.0, 25.0])
@@ -204,3 +205,31 @@ def test_who_is_not_there_is_named(tb: ModuleType) -> None:
         view.body('van1')
     with pytest.raises(VerificationError, match='landmark:Nowhere'):
         view.reference('landmark:Nowhere')
+
+
+@pytest.mark.parametrize(('behind', 'seen'), [(False, True), (True, False)])
+def test_a_landmark_is_itself_for_who_flies_and_its_approach_for_who_drives(
+    tb: ModuleType, behind: bool, seen: bool
+) -> None:
+    hall = tb.building(90.0, 40.0, 110.0, 60.0, 25.0, 'Hall')
+    other = tb.building(95.0, 70.0, 105.0, 72.0, 60.0)  # between the UAV and the hall, or not
+    spots = {'approach:Hall': (100.0, 0.0), 'landmark:Hall': (100.0, 50.0)}
+    world = replace(
+        tb.world(buildings=(hall, other) if behind else (hall,)),
+        places=tuple(NamedPlace(name=n, x_m=x, y_m=y) for n, (x, y) in spots.items()),
+    )
+    run = tb.Run(
+        ticks=400,
+        agents=[tb.driver('car1', 'car', 80.0, np.zeros(400))],
+        flights=[tb.flight(400, (100.0, 80.0), 30.0)],
+    )
+    view, place = RunView(run.trace(), world), 'landmark:Hall'
+    assert motion.horizontal_distance(view, 'uav1', place)[200] == pytest.approx(30.0)
+    assert motion.horizontal_distance(view, place, 'uav1')[200] == pytest.approx(30.0)
+    assert motion.horizontal_distance(view, 'car1', place)[200] == pytest.approx(20.0)
+    # The building that is looked at does not hide itself; another one does.
+    series = sight_series(view, 'uav1', place)
+    assert bool(series.visible[200]) is seen
+    trace = view.trace
+    instant = InstantSight(view.geometry, trace.roster)
+    assert instant.see('uav1', place, trace.ground[200], trace.uav[200])[0] is seen

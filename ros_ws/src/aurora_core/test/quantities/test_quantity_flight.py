@@ -164,9 +164,7 @@ def _times(tb: ModuleType, *events: Event, place: bool = False) -> EventTimes:
         from aurora_core.knowledge.world import NamedPlace
 
         spot = NamedPlace(name='intersection', x_m=0.0, y_m=0.0)
-        world = type(world)(
-            **{**{f: getattr(world, f) for f in world.__slots__}, 'places': (spot,)}
-        )
+        world = tb.replace(world, places=(spot,))
     run = tb.Run(ticks=ticks, agents=[ego, van], flights=[one])
     view = RunView(run.trace(), world)
     request = tb.spec(

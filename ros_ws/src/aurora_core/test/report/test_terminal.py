@@ -49,6 +49,24 @@ def test_plain_text_has_one_row_per_line_without_boxes(make: SimpleNamespace) ->
     assert 'injected fault: link_loss' in text
 
 
+def test_the_verdict_stands_first_and_last_and_alone_when_asked(make: SimpleNamespace) -> None:
+    report = build_report(make.facts(verdict=make.verdict(make.result(margin=-1.0))))
+    console = _plain()
+    print_report(report, console, Path('/runs/x'))
+    first, *_, again, step = _text(console).splitlines()
+    assert first == again
+    assert first.startswith('VIOLATED  ')
+    assert step.split()[:4] == ['next', 'aurora', 'open', 'x']
+
+    console = _plain()
+    print_report(report, console, Path('/runs/x'), brief=True)
+    assert [row.split()[0] for row in _text(console).splitlines()] == [
+        'VIOLATED',
+        'folder',
+        'next',
+    ]
+
+
 def test_a_terminal_gets_a_table_and_no_color_is_heeded(
     make: SimpleNamespace, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -19,7 +19,7 @@ from aurora_core.spec.quantity import QuantityName
 class PatternCentre(OfMission):
     """Distance from the centre of the pattern, or the hover point, to the target at t = 0, metres.
 
-    A landmark that is a building is where its middle is; a hover over its roof is over it. The
+    A landmark is where the map has it; a hover over the roof of its building is over it. The
     street before it is another place.
     """
 
@@ -52,11 +52,10 @@ class PatternCentre(OfMission):
         building = context.view.geometry.building_of(target)
         if building is None:
             return before_m
-        middle = building.centre
-        away_m = float(distance_2d(middle[0] - x, middle[1] - y))
-        if not hovers:
-            return away_m
-        return 0.0 if building.is_below(x, y) else away_m
+        if not context.view.geometry.is_itself(target):
+            middle = building.centre
+            before_m = float(distance_2d(middle[0] - x, middle[1] - y))
+        return 0.0 if hovers and building.is_below(x, y) else before_m
 
 
 def implied(inputs: Inputs, mission: MissionArguments, target: str, source: Source) -> Condition:

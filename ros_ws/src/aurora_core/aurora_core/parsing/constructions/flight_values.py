@@ -70,7 +70,7 @@ def _altitude(frame: Frame, found: FlightValues, mode: MissionMode | None) -> No
 def _standoff(
     frame: Frame, found: FlightValues, mode: MissionMode | None, pattern: Pattern | None
 ) -> None:
-    adjunct = frame.attribute('standoff', 'gap', 'away')
+    adjunct = frame.attribute('standoff', 'gap', 'away') or _round_it(frame)
     if adjunct is not None and adjunct.measure is not None:
         if adjunct.prep == 'within' or keeps_off(frame, adjunct):
             return  # `within 20 m of it` is a condition
@@ -108,6 +108,14 @@ def _standoff(
                 f'a UAV has a standoff in metres and a compass bearing, not {place.key!r}'
             )
         return
+
+
+def _round_it(frame: Frame) -> Adjunct | None:
+    """Return the length of `circles 40 m around it`: how far away, no height."""
+    round_it = (a for a in frame.adjuncts if a.kind is AdjunctKind.PHRASE and a.key == 'around')
+    starts = {a.start for a in round_it}
+    lengths = (a for a in frame.free(AdjunctKind.MEASURE, LENGTH) if a.prep == '')
+    return next((a for a in lengths if {a.end, a.end + 1} & starts), None)
 
 
 def _bearing(frame: Frame, found: FlightValues) -> None:

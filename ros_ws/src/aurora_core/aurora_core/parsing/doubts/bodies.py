@@ -15,7 +15,7 @@ from itertools import pairwise
 
 from pydantic import BaseModel
 
-from aurora_core.parsing.atoms import Atom, AtomKind, NounKind, NounPhrase
+from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind, NounPhrase
 from aurora_core.parsing.doubts.clauses import (
     clause_of,
     meet,
@@ -74,7 +74,7 @@ def without_part(spec: ScenarioSpec, atoms: Sequence[Atom]) -> list[Span]:
 
 def idle(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
     """`overtakes the bus and the car`: whom a verb is about, and nothing of the scene is."""
-    bodies = _bodies(spec)
+    bodies = bodies_called(spec)
     about: set[str] = set()
     for agent in spec.agents:
         parts = (*agent.placements, *agent.behaviors)
@@ -99,7 +99,7 @@ def idle(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
 
 def listed(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
     """`overtakes the bus, the car and the van`: of a list of objects each one has to be meant."""
-    bodies = _bodies(spec)
+    bodies = bodies_called(spec)
     objects = _objects(spec)
     for sentence in sentences(atoms):
         for k, verb in enumerate(sentence):
@@ -194,7 +194,7 @@ def _above(before: Sequence[Atom]) -> bool:
 
 def gapped(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
     """`a truck is parked on the right and a van on the left`: the van is parked, too."""
-    bodies = _bodies(spec)
+    bodies = bodies_called(spec)
     does = {a.id for a in spec.agents if a.behaviors}
     does |= {word for e in (*spec.events, *spec.missions) for word in _strings(e)}
     for sentence in sentences(atoms):
@@ -228,9 +228,29 @@ def gapped(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
 
 def unnamed(spec: ScenarioSpec, words: Sequence[Atom], part: frozenset[str]) -> list[Span]:
     """Return the words that name somebody of the scene who is none of these bodies."""
-    bodies = _bodies(spec)
+    bodies = bodies_called(spec)
     named = _named(words, spec.prompt, bodies)
     return [span for name, span in named if not any(name in bodies[who] for who in part)]
+
+
+def numbered(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`the second intersection`, `the other truck` where there is one: an ordinal for nobody."""
+    bodies = bodies_called(spec)
+    for atom in atoms:
+        noun = atom.noun
+        if noun is None or clause_of(spec, atom) is None:
+            continue
+        own = _OWN_NUMBER.search(f' {spec.prompt[noun.start : noun.end]}')
+        rank = 0 if own else noun.index
+        if noun.kind in (NounKind.PLACE, NounKind.LANDMARK):
+            lost = rank > 0
+        else:
+            one = noun.key if noun.kind is NounKind.AGENT else noun.kind.value
+            count = sum(one in names for names in bodies.values())
+            least = 2 if noun.determiner is Determiner.OTHER else rank
+            lost = 0 < count < least or (rank > 0 and noun.determiner is Determiner.ALL)
+        if lost:
+            yield Span(start=atom.start, end=atom.end)
 
 
 def _of_kinds(spec: ScenarioSpec, clause: Clause) -> bool:
@@ -257,7 +277,7 @@ def strangers(spec: ScenarioSpec, atoms: Sequence[Atom]) -> list[Span]:
     return found
 
 
-def _bodies(spec: ScenarioSpec) -> dict[str, frozenset[str]]:
+def bodies_called(spec: ScenarioSpec) -> dict[str, frozenset[str]]:
     """Return what each body can be called: its type, the wider words for it, `the second van`."""
     called = {}
     types = [a.type for a in spec.agents]
@@ -283,6 +303,11 @@ def _named(
             name = _name(atom.noun, prompt)
             if any(name in names for names in bodies.values()):
                 yield name, Span(start=atom.start, end=atom.end)
+
+
+def called(atom: Atom | None, prompt: str) -> str:
+    """Return what a word calls somebody by name, empty when it names nobody."""
+    return _name(atom.noun, prompt) if atom is not None and atom.noun is not None else ''
 
 
 def _name(noun: NounPhrase, prompt: str) -> str:

@@ -19,6 +19,7 @@ from aurora_core.parsing.doubts.bodies import (
     gapped,
     idle,
     listed,
+    numbered,
     places_without_part,
     strangers,
     twins,
@@ -35,8 +36,10 @@ from aurora_core.parsing.doubts.messages import (
     other_receivers,
     places_of_deeds,
 )
+from aurora_core.parsing.doubts.roles import misanchored, misplaced
 from aurora_core.parsing.doubts.telling_words import untold
 from aurora_core.parsing.doubts.times import (
+    at_one_moment,
     bare_sequels,
     distances_of_moments,
     landings,
@@ -70,6 +73,10 @@ _CHECKS: tuple[_Check, ...] = (
     bare_sequels,
     started_again,
     distances_of_moments,
+    misplaced,
+    misanchored,
+    numbered,
+    at_one_moment,
 )
 
 

@@ -23,7 +23,9 @@ from aurora_core.spec.parameter import Parameter, Provenance, Span, Unit
 from aurora_core.spec.scenario import (
     AgentAction,
     Clause,
+    DistanceTrigger,
     EventDoneTrigger,
+    MessageTrigger,
     MissionDoneTrigger,
     ScenarioSpec,
     SendMessage,
@@ -304,6 +306,24 @@ def _sided(spec: ScenarioSpec, clause: Clause) -> bool:
     return flies or not flown or any(meet(p.span, clause.span) for p in meets if p.span)
 
 
+def _no_event(spec: ScenarioSpec, clause: Clause) -> bool:
+    """What goes on, and is no effect of something."""
+    return not any(e.action is not None for e in spec.events if e.id in clause.ids)
+
+
+def _mutual(spec: ScenarioSpec, clause: Clause) -> bool:
+    """A distance between two, or places of bodies that are told from each other."""
+    between = any(len(c.of) > 1 for c in spec.conditions if c.id in clause.ids)
+    near = any(isinstance(e.trigger, DistanceTrigger) for e in spec.events)
+    ids = {agent.id for agent in spec.agents}
+    placed = any(p.of in ids for a in spec.agents if a.id in clause.ids for p in a.placements)
+    return between or near or placed
+
+
+def _messaged(spec: ScenarioSpec, clause: Clause) -> bool:
+    return any(isinstance(e.trigger, MessageTrigger) for e in spec.events)
+
+
 def _lanes(spec: ScenarioSpec, clause: Clause) -> bool:
     """A pattern that goes to and fro."""
     return any(m.pattern is Pattern.LAWNMOWER for m in spec.missions if m.id in clause.ids)
@@ -340,6 +360,9 @@ _CARRIERS: dict[str, Callable[[ScenarioSpec, Clause], bool]] = {
     'earlier': _earlier,
     'sided': _sided,
     'lanes': _lanes,
+    'no_event': _no_event,
+    'mutual': _mutual,
+    'messaged': _messaged,
 }
 
 

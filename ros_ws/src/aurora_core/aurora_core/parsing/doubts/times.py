@@ -30,6 +30,7 @@ from aurora_core.spec.vocabulary import BehaviorKind, ClauseStatus
 
 # Whose distance is that of t = 0: where one starts, how far ahead a van is that cuts in.
 _FROM_HERE = frozenset({'change_lane', 'start'})
+_ONCE = MOMENTS | {'ascend', 'descend', 'land'}
 _INTRANSITIVE = frozenset({'brake', 'cross', 'land', 'start', 'stop', 'turn_left', 'turn_right'})
 _LETS = frozenset({'lets', 'letting'})
 _LETS_PASS = frozenset({'cross', 'overtake'})
@@ -129,6 +130,31 @@ def bare_sequels(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
 def _alone(verb: Atom, told: Sequence[Atom]) -> bool:
     """`the truck stops, then the bus`: whoever is named can only do the same."""
     return verb.key in _INTRANSITIVE and any(a.is_actor for a in told)
+
+
+def at_one_moment(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`brakes as a pedestrian crosses`: two that happen once, and nothing that ties them."""
+    for sentence in sentences(atoms):
+        for k, atom in enumerate(sentence):
+            if atom.kind is not AtomKind.SUBORDINATOR or atom.key != 'while':
+                continue
+            before = [a for a in sentence[:k] if a.kind is AtomKind.VERB][-1:]
+            behind = [a for a in stretch(sentence, k + 1) if a.kind is AtomKind.VERB][:1]
+            first = any(a.key in _ONCE | {'wait'} for a in before)
+            once = first and any(a.key in _ONCE for a in behind)
+            told = [c for a in (*before, *behind) if (c := clause_of(spec, a)) is not None]
+            if once and len(told) == 2 and not any(_tied(spec, c) for c in told):
+                yield over(atom, behind[0])
+
+
+def _tied(spec: ScenarioSpec, clause: Clause) -> bool:
+    """Whether what a clause became has a cause, an order or a bound."""
+    caused = any(
+        e.trigger is not None and not isinstance(e.trigger, TimeTrigger)
+        for e in events_in(spec, clause)
+    )
+    bound = any(c.id in clause.ids for c in spec.conditions)
+    return caused or bound or _in_orders(spec, clause)
 
 
 def distances_of_moments(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:

@@ -1,0 +1,67 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""`aurora open`: the report of a run in a browser."""
+
+from __future__ import annotations
+
+import os
+import webbrowser
+from pathlib import Path
+
+from aurora_cli.output import UsageProblem, answer_console, print_json, quiet_stdout, say
+from aurora_core.errors import ReportError
+from aurora_core.report.outputs import write_page
+from aurora_core.report.run_documents import Unreadable, read_document
+from aurora_core.report.run_folder import REPORT, REPORT_HTML, RunFolder, is_run_id
+from aurora_core.report.run_report import RunReport
+from aurora_core.report.terminal import line
+
+
+def open_command(run: str | None, root: Path, *, as_json: bool) -> int:
+    """Show `report.html` of a run, made first where it is not there; return the exit code.
+
+    Without a screen its address is printed alone.
+
+    Raises:
+        UsageProblem: There is no such run.
+        AuroraError: The run has no report, or its page cannot be written.
+    """
+    folder = _folder(run, root)
+    page = folder / REPORT_HTML
+    if not page.exists():
+        report = read_document(folder / REPORT, RunReport)
+        if isinstance(report, Unreadable):
+            raise ReportError(
+                f'{folder.name} has no report: {report.why}',
+                hint='aurora doctor --fix closes a run that was cut short',
+            )
+        with quiet_stdout():
+            write_page(report, RunFolder(folder.parent, folder.name))
+    address = page.absolute().as_uri()
+    if as_json:
+        print_json({'run': folder.name, 'page': str(page), 'url': address})
+        return 0
+    line(answer_console(), address)
+    if _has_screen():
+        with quiet_stdout():
+            opened = webbrowser.open(address)
+        if not opened:
+            say('aurora: no browser was found; open the address above in one')
+    return 0
+
+
+def _has_screen() -> bool:
+    return any(os.environ.get(name) for name in ('DISPLAY', 'WAYLAND_DISPLAY', 'BROWSER'))
+
+
+def _folder(run: str | None, root: Path) -> Path:
+    """Return the folder of a run, the last one when none is named."""
+    if run is not None:
+        for folder in (Path(run), root / run):
+            if folder.is_dir():
+                return folder.resolve()
+        raise UsageProblem(f'{run} is neither a run folder nor a run in {root}')
+    found = sorted(p for p in root.glob('*') if is_run_id(p.name) and p.is_dir())
+    if not found:
+        raise UsageProblem(f'there is no run in {root} yet: aurora run "..." makes one')
+    return found[-1].resolve()
