@@ -55,7 +55,7 @@ def bodies_of(
     for row, track in enumerate(tracks):
         entry = track.entry
         position = track.position_m[ticks]
-        there: npt.NDArray[np.bool_] = np.isfinite(position[:, :2]).all(axis=1)
+        there = np.asarray(np.isfinite(position[:, :2]).all(axis=1), dtype=np.bool_)
         if not there.any():
             continue
         kind = 'uav' if track.is_uav else 'person' if entry.is_person else 'vehicle'

@@ -89,8 +89,9 @@ def test_a_thinned_course_keeps_its_extremes(
     values = np.sin(np.arange(5000) / 40.0)
     values[3333] = -7.0
     signal = signals.PlotSignal(
-        condition_id='m1.visible', signal_name='s', times_s=np.linspace(0.0, 249.95, 5000), values=values,
-        held=None, unit='m', threshold=0.0, tolerance=0.0, robustness=values, margin=-7.0,
+        condition_id='m1.visible', signal_name='s',
+        times_s=np.linspace(0.0, 249.95, 5000), values=values, held=None, unit='m',
+        threshold=0.0, tolerance=0.0, robustness=values, margin=-7.0,
     )  # fmt: skip
     monkeypatch.setattr(courses, 'signals_for_plot', lambda context: (signal,))
     context = SimpleNamespace(conditions=(make.condition(),))
