@@ -176,6 +176,13 @@ def _nearest(proof: Doc, draw: random.Random) -> str | None:
     return f'nearest {proof["nearest"]:g}'
 
 
+def _clause(proof: Doc, _draw: random.Random) -> str | None:
+    if not proof.get('clauses'):
+        return None
+    proof['clauses'][0] = 'what nobody has said'
+    return 'a clause that nobody said'
+
+
 _CHANGES: tuple[tuple[str, _Change], ...] = (
     ('requested', _requested),
     ('limit', _limit),
@@ -188,5 +195,6 @@ _CHANGES: tuple[tuple[str, _Change], ...] = (
     ('list', _listing),
     ('word', _word),
     ('span', _span),
+    ('clause', _clause),
     ('nearest', _nearest),
 )

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from importlib.resources import files
 from typing import Any
 
@@ -27,7 +27,8 @@ class Case:
         source: `prompt` is read by the offline parser; `annotation` and `push` are specifications.
         because: Fair reasons to refuse it; empty for what must not be refused.
         spec: None for a prompt.
-        document: The annotation that the specification was built from.
+        document: The annotation: of a specification, that it was built from; of a prompt, what it
+            says; empty where there is none.
     """
 
     id: str
@@ -56,18 +57,16 @@ def family_cases() -> Iterator[Case]:
                 gaps = value if isinstance(value, dict) else {'v': value}
                 ident = f'{family["id"]}-{side}-{k}'
                 text = family['prompt'].format(**gaps)
-                yield Case(id=ident, source='prompt', prompt=text, because=reasons)
-                if 'requirements' in family:
-                    document = _annotated(ident, text, family['requirements'], gaps)
-                    prompt = AnnotatedPrompt.model_validate(document)
-                    yield Case(
-                        id=ident,
-                        source='annotation',
-                        prompt=text,
-                        because=reasons,
-                        spec=reference_spec(prompt, judged=True),
-                        document=document,
-                    )
+                if 'requirements' not in family:
+                    yield Case(id=ident, source='prompt', prompt=text, because=reasons)
+                    continue
+                document = _annotated(ident, text, family['requirements'], gaps)
+                read = Case(
+                    id=ident, source='prompt', prompt=text, because=reasons, document=document
+                )
+                spec = reference_spec(AnnotatedPrompt.model_validate(document), judged=True)
+                yield read
+                yield replace(read, source='annotation', spec=spec)
 
 
 def _annotated(

@@ -13,7 +13,8 @@ from aurora_core.feasibility.limits import check_limits
 from aurora_core.feasibility.operands import operands_fit
 from aurora_core.feasibility.places import check_placements
 from aurora_core.feasibility.pursuit import check_pursuit
-from aurora_core.feasibility.roofs import check_roofs
+from aurora_core.feasibility.quotes import with_clauses
+from aurora_core.feasibility.roofs import check_roofs, check_walls
 from aurora_core.feasibility.scene import check_scene
 from aurora_core.feasibility.signs import check_signs
 from aurora_core.feasibility.static import check_static
@@ -106,13 +107,15 @@ def _proven(
         *check_times(spec, limits, tolerances, map_model),
         *check_placements(spec, tolerances),
         *fenced,
+        *check_walls(spec, map_model.buildings, limits, tolerances),
         # A tower in a no-fly zone is told of once.
         *(c for c in roofs if c.path.rpartition('/')[0] not in {z.path for z in fenced}),
     )
     doubtful = [c for c in found if c.rule in _BETWEEN_STATEMENTS and _half_read(spec, c)]
     certificates = tuple(c for c in found if c not in doubtful)
     if certificates:
-        return FeasibilityVerdict(result=Feasibility.INFEASIBLE, certificates=certificates)
+        told = tuple(with_clauses(spec, c) for c in certificates)
+        return FeasibilityVerdict(result=Feasibility.INFEASIBLE, certificates=told)
     notes = (
         *(f'{c.sentence} But part of that clause was not read.' for c in doubtful),
         *doubts(spec, map_model, limits, tolerances),

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 
 from aurora_core.feasibility.bounds import exclusive
 from aurora_core.feasibility.geometry import check_geometry
+from aurora_core.feasibility.scene import check_scene
 from aurora_core.feasibility.times import check_times
 from aurora_core.knowledge.limits import EXACT, Limits, Tolerances
 from aurora_core.knowledge.map_model import MapModel
@@ -33,11 +34,14 @@ def doubts(
     )
     told = {c.sentence for c in exclusive(spec, split=True)}
     yield from (f'{s} They may be meant for different parts of the run.' for s in sorted(told))
+    close = limits.model_copy(update={'tracking_horizontal_m': 0.0})
     nominal = (
-        *check_geometry(spec, map_model, limits, exact),
+        *check_geometry(spec, map_model, close, exact),
         *check_times(spec, limits, exact, map_model),
     )
     yield from (f'{c.sentence} Only inside the tolerances it can be.' for c in nominal)
+    for closed in check_scene(spec, own=True):
+        yield f'{closed.sentence} Some of them may be the same.'
     yield from _fast_targets(spec, limits)
     yield from _short_legs(spec, tolerances)
 

@@ -383,7 +383,8 @@ def _tracked_from_afar(spec: ScenarioSpec, limits: Limits) -> Iterator[Certifica
         apart = apart and condition.op in ('>', '>=', '==')
         if mission is None or not (apart and whole(condition)) or is_stated(mission.standoff_m):
             continue
-        if condition.value.value > reach:
+        asked = condition.value.value
+        if asked > reach or (asked == reach and condition.op == '>'):
             yield beyond(
                 Rule.AFAR,
                 'standoff',

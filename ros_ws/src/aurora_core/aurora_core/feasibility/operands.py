@@ -7,7 +7,7 @@ The altitude of a car is a fault of the reader. Nothing is proven from it.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.quantity import QuantityName
@@ -75,7 +75,7 @@ def _fits(spec: ScenarioSpec, quantity: str, of: tuple[str, ...]) -> bool:
         return first_fits and second_fits and not (is_place(first) and is_place(second))
     if quantity in _SEEN:
         return first in bodies and second_fits
-    if quantity == QuantityName.TRACKED_FRACTION:
+    if quantity in (QuantityName.TRACKED_FRACTION, QuantityName.CLEARANCE):
         return first in flying and second_fits
     if quantity in _SENT:
         return first in bodies and second in bodies
@@ -99,16 +99,23 @@ def in_parts(spec: ScenarioSpec, names: Iterable[str]) -> bool:
     Whoever flies several missions, or does something else when an event happens, may be asked one
     thing before and another one after that; a condition does not say when.
     """
+    flown = [m.uav for m in spec.missions]
     acting = {
         e.action.uav if isinstance(e.action, UavAction) else e.action.agent
         for e in spec.events
-        if isinstance(e.action, UavAction | AgentAction)
+        if isinstance(e.action, UavAction | AgentAction) and not _begins_all(e.action, flown)
     }
-    flown = [m.uav for m in spec.missions]
     several = {uav for uav in flown if flown.count(uav) > 1}
     parts = acting | several
     grouped = {name for body, name in _grouped(spec) if body in parts}
     return not (parts | grouped).isdisjoint(names)
+
+
+def _begins_all(action: UavAction | AgentAction, flown: Sequence[str]) -> bool:
+    """Tell whether an action begins the one mission that its UAV flies: nothing was before."""
+    if not isinstance(action, UavAction) or action.mission is None:
+        return False
+    return flown.count(action.uav) == 1
 
 
 def upward(condition: StatedCondition) -> bool:

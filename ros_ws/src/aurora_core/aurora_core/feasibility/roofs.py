@@ -10,11 +10,13 @@ import shapely
 
 from aurora_core.feasibility.certificates import beyond
 from aurora_core.feasibility.facts import limit_facts, map_fact, says, tolerance_facts
+from aurora_core.feasibility.operands import AT_MOST, whole
 from aurora_core.feasibility.zones import hover_area, is_half_read, roof_of
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_types import Building, Landmark
 from aurora_core.outcomes.feasibility import Certificate, Rule
 from aurora_core.spec.parameter import Bound
+from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.reference import LANDMARK
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.spec.stated import is_stated, most
@@ -79,6 +81,57 @@ def check_roofs(
                     ),
                 ),
             ).model_copy(update={'word': building.id})
+            break
+
+
+def check_walls(
+    spec: ScenarioSpec, buildings: Sequence[Building], limits: Limits, tolerances: Tolerances
+) -> Iterator[Certificate]:
+    """Return conditions that keep a UAV nearer to a wall than it may be.
+
+    Clearance is horizontal: over the roof there is none, and more than enough room. So it is
+    refused only of a UAV that has to fly below the roof.
+
+    Args:
+        spec: The request.
+        buildings: Of its map.
+        limits: Limits in force.
+        tolerances: How far stated altitudes may be missed.
+    """
+    gap = limits.clearance_min_m
+    tall = {f'{LANDMARK}{b.name}': b for b in buildings if b.name}
+    for condition in spec.conditions:
+        asked, near = condition.value, condition.op in AT_MOST and whole(condition)
+        if condition.quantity != QuantityName.CLEARANCE or not (near and is_stated(asked)):
+            continue
+        building = tall.get(condition.of[1])
+        if building is None or asked.value >= gap * (1.0 - tolerances.limit_margin):
+            continue
+        for mission in (m for m in spec.missions if m.uav == condition.of[0]):
+            altitude = mission.altitude_m
+            if not is_stated(altitude) or is_half_read(spec, mission):
+                continue
+            slack = tolerances.altitude_m.of(altitude.value, approximate=altitude.approximate)
+            high = most(altitude, slack, limits.uav_altitude_max_m)
+            if high > building.height_m:
+                continue
+            yield beyond(
+                Rule.WALL,
+                'clearance',
+                asked,
+                f'conditions/{condition.id}/value',
+                ('clearance_min_m', gap),
+                f'{mission.uav} flies at {high:g} m at most, below the roof of {building.name} '
+                f'({building.height_m:g} m), and is to be {asked.value:g} m from it at most; '
+                f'{gap:g} m are kept from it.',
+                (
+                    *says(f'conditions/{condition.id}/value', asked),
+                    *says(f'missions/{mission.id}/altitude_m', altitude),
+                    map_fact(f'{building.id}/height_m', building.height_m),
+                    *limit_facts(limits, 'clearance_min_m', 'uav_altitude_max_m'),
+                    *tolerance_facts(tolerances, 'altitude_m', 'limit_margin'),
+                ),
+            ).model_copy(update={'word': building.id, 'nearest': gap})
             break
 
 

@@ -18,13 +18,19 @@ from aurora_core.spec.stated import is_stated
 _TRAFFIC = frozenset({'vehicle', 'body'})
 
 
-def check_scene(spec: ScenarioSpec) -> Iterator[Certificate]:
-    """Return counts that leave out what the prompt names, or the traffic that it asks for."""
+def check_scene(spec: ScenarioSpec, *, own: bool = False) -> Iterator[Certificate]:
+    """Return counts that leave out what the prompt names, or the traffic that it asks for.
+
+    Args:
+        spec: The request.
+        own: What the words of the count brought in are bodies beside those named elsewhere. That
+            may well be, and proves nothing.
+    """
     for count in spec.counts:
         number = count.value
         if not is_stated(number) or number.bound is Bound.AT_LEAST:
             continue
-        named = _named(spec, count)
+        named = _named(spec, count, own=own)
         density = spec.world.traffic_density
         # However thin, a traffic has a vehicle.
         more = density is not None and count.kind in _TRAFFIC
@@ -47,17 +53,30 @@ def check_scene(spec: ScenarioSpec) -> Iterator[Certificate]:
         )
 
 
-def _named(spec: ScenarioSpec, count: SceneCount) -> tuple[Fact, ...]:
+def _named(spec: ScenarioSpec, count: SceneCount, *, own: bool) -> tuple[Fact, ...]:
     """Return the bodies of the scene that a count is about.
 
     "Exactly 3 vehicles": what these words themselves brought in may be what is named elsewhere.
     """
-    kinds, own = types_counted(count.kind), count.value.span
-    agents = (f for a in spec.agents if a.type.value in kinds and not _within(a.span, own)
+    kinds, told = types_counted(count.kind), count.value.span
+    taken_up = _taken_up(spec, told) if own else frozenset()
+    agents = (f for a in spec.agents if a.type.value in kinds
+              and (a.id in taken_up or not _within(a.span, told))
               for f in says(f'agents/{a.id}/type', a.type.value))  # fmt: skip
-    uavs = (f for u in spec.uavs if UAV_TYPE in kinds and not _within(u.span, own)
+    uavs = (f for u in spec.uavs if UAV_TYPE in kinds and not _within(u.span, told)
             for f in says(f'uavs/{u.id}/id', u.id))  # fmt: skip
     return (*agents, *uavs)
+
+
+def _taken_up(spec: ScenarioSpec, told: Span | None) -> frozenset[str]:
+    """Return who does something, or is told of by others, in words outside of these."""
+    found = {m.target for m in spec.missions}
+    for agent in spec.agents:
+        for place in (p for p in agent.placements if not _within(p.span, told)):
+            found |= {agent.id, place.of}
+        for deed in (b for b in agent.behaviors if not _within(b.span, told)):
+            found |= {agent.id, deed.target}
+    return frozenset(name for name in found if name is not None)
 
 
 def _within(span: Span | None, other: Span | None) -> bool:

@@ -33,6 +33,7 @@ _NEEDS = {
     QuantityName.VISIBLE_TIME.value: 'a body and what it sees',
     QuantityName.VISIBLE_FRACTION.value: 'a body and what it sees',
     QuantityName.TRACKED_FRACTION.value: 'a UAV and its target',
+    QuantityName.CLEARANCE.value: 'a UAV and what it keeps away from',
 }
 _SHARES = (
     QuantityName.TRACKED_FRACTION,

@@ -41,6 +41,7 @@ class Rule(StrEnum):
     PLACEMENT = 'placement'  # one pair on two sides or at two distances
     ZONE = 'zone'  # a flight at a landmark inside a no-fly zone
     ROOF = 'roof'  # a hover at a landmark inside a building, or too near it
+    WALL = 'wall'  # a clearance from a building under the limit, asked below its roof
     BOUNDS = 'bounds'  # conditions on one quantity without a common value
     STILL = 'still'  # a hover that is asked to be fast
     WATCH = 'watch'  # longer in sight, or without a break, than phases or scenario last
@@ -143,6 +144,7 @@ class Certificate(Document):
         facts: What it rests on beside `requested`, `limit` and `listing`.
         chain: Bounds on times in a circle, each beginning where the one before ends: together
             they ask a point to come before itself.
+        clauses: What the prompt says of the elements that it rests on, in its own words.
     """
 
     kind: str
@@ -160,6 +162,7 @@ class Certificate(Document):
     rule: Rule | None = omitted(None)
     facts: tuple[Fact, ...] = omitted(())
     chain: tuple[TimeBound, ...] = omitted(())
+    clauses: tuple[str, ...] = omitted(())
 
 
 class CheckStage(StrEnum):

@@ -19,7 +19,7 @@ from aurora_core.recheck.finding import Finding, Outcome, Step, finding
 from aurora_core.recheck.limits import by_limit, by_sign
 from aurora_core.recheck.listings import by_listing
 from aurora_core.recheck.operands import kinds_fit
-from aurora_core.recheck.request import Request, fact_holds, quoted
+from aurora_core.recheck.request import Request, clauses_quoted, fact_holds, quoted
 
 __all__ = ['Finding', 'Outcome', 'recheck']
 
@@ -41,6 +41,7 @@ _DERIVATIONS: Mapping[Rule, _Derivation] = MappingProxyType(
         Rule.PLACEMENT: places.placement,
         Rule.ZONE: zones.zone,
         Rule.ROOF: zones.roof,
+        Rule.WALL: zones.wall,
         Rule.BOUNDS: bounds.bounds,
         Rule.STILL: bounds.still,
         Rule.WATCH: bounds.watch,
@@ -60,7 +61,7 @@ def recheck(proof: Certificate, spec: dict[str, Any] | None) -> Finding:
     Raises:
         ConfigError: The configuration lacks limits or maps.
     """
-    return finding(_steps(proof, spec))
+    return finding([*_steps(proof, spec), *clauses_quoted(proof, spec)])
 
 
 def _steps(proof: Certificate, spec: dict[str, Any] | None) -> list[Step]:

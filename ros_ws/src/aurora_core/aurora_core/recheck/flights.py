@@ -269,7 +269,8 @@ def afar(proof: Certificate, request: Request) -> list[Step]:
         (unset, 'one of them tracks the other, from no stated standoff'),
         (always, 'it is asked of the whole time'),
         (
-            condition['op'] in ('>', '>=', '==') and value > farthest,
+            condition['op'] in ('>', '>=', '==')
+            and (value > farthest or (value == farthest and condition['op'] == '>')),
             f'it asks for {condition["op"]} {value:g} m, tracking reaches {farthest:g} m',
         ),
     ]

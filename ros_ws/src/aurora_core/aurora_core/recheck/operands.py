@@ -46,7 +46,7 @@ def _fits(condition: dict[str, Any], request: Request) -> bool:
         return any(body) and all(b or p for b, p in zip(body, place, strict=True))
     if quantity in ('visible_time', 'visible_fraction'):
         return body[0] and (body[1] or place[1])
-    if quantity == 'tracked_fraction':
+    if quantity in ('tracked_fraction', 'clearance'):
         return of[0] in uavs and (body[1] or place[1])
     return all(body)
 
@@ -54,10 +54,12 @@ def _fits(condition: dict[str, Any], request: Request) -> bool:
 def is_split(request: Request, names: set[str]) -> bool:
     """Whether one of these does several things after each other: a condition may mean one."""
     busy = []
+    flown = [m['uav'] for m in request.all('missions')]
     for event in request.all('events'):
         action = event.get('action') or {}
-        busy += [action.get('uav'), action.get('agent')]
-    flown = [m['uav'] for m in request.all('missions')]
+        # An event that begins the one mission of a UAV splits nothing.
+        if not (action.get('mission') and flown.count(action.get('uav')) == 1):
+            busy += [action.get('uav'), action.get('agent')]
     busy += [uav for uav in flown if flown.count(uav) > 1]
     for kind in ('uavs', 'agents'):
         busy += [b['group'] for b in request.all(kind) if b.get('group') and b['id'] in busy]

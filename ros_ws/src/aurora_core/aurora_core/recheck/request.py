@@ -143,6 +143,14 @@ def fact_holds(request: Request, fact: Fact) -> Step:
     return found == fact.value, f'{fact.source} has {fact.path} = {found}'
 
 
+def clauses_quoted(proof: Certificate, spec: dict[str, Any] | None) -> list[Step]:
+    """The prompt has the clauses that the proof names."""
+    if spec is None:
+        return []
+    prompt = str(spec.get('prompt', ''))
+    return [(c in prompt, f'the prompt says {c!r}') for c in proof.clauses]
+
+
 def quoted(proof: Certificate, spec: dict[str, Any] | None, word: str = '') -> list[Step]:
     """The prompt has words, or this word, where the proof points."""
     if spec is None or proof.span is None:

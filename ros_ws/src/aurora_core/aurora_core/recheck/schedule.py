@@ -7,7 +7,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 
-from aurora_core.outcomes.feasibility import BoundKind, Certificate, Rule, TimeBound
+from aurora_core.outcomes.feasibility import (
+    BoundKind,
+    Certificate,
+    FactSource,
+    Rule,
+    TimeBound,
+)
 from aurora_core.recheck.finding import Step
 from aurora_core.recheck.request import Request, stated
 from aurora_core.recheck.times import Derived, derived
@@ -27,6 +33,10 @@ _ABOUT: Mapping[Rule, frozenset[BoundKind]] = MappingProxyType(
 _STRICT = frozenset({BoundKind.ORDER, BoundKind.CAUSE, BoundKind.MESSAGE})
 # Rounding of sums of floating point numbers (s).
 _EXACT_S = 1e-9
+# The greatest share of a stated time by which it may be missed.
+_MISSED = 0.10
+# What can be is told to so much.
+_TOLD_S = 0.1 + 1e-6
 
 
 def battery(proof: Certificate, request: Request) -> list[Step]:
@@ -61,7 +71,27 @@ def times(proof: Certificate, request: Request) -> list[Step]:
         (named, f'the bounds are about {proof.path}'),
         *(_follows(bound, known) for bound in proof.chain),
         *_circle(proof.chain),
+        *_mended(proof),
     ]
+
+
+def _mended(proof: Certificate) -> list[Step]:
+    """A stated time is named with the nearest one that the bounds leave room for."""
+    if proof.requested is None and proof.nearest is None:
+        return []
+    needed = sum(b.least_s for b in proof.chain if b.least_s is not None)
+    missing = needed - sum(b.most_s for b in proof.chain if b.most_s is not None)
+    asked, nearest = proof.requested, proof.nearest
+    times = [f.value for f in proof.facts if f.source is FactSource.REQUEST]
+    if asked is None or nearest is None or asked not in times:
+        return [(False, f'{asked} is a stated time, {nearest} the nearest that can be')]
+    # A phase has to be shorter, a deadline or a duration longer; told in tenths of a second.
+    shorter = proof.rule is Rule.BATTERY
+    more = asked - nearest if shorter else nearest - asked
+    # What a phase may be missed by shrinks with it.
+    most = missing / (1.0 - _MISSED) if shorter else missing
+    close = missing - _EXACT_S * len(proof.chain) <= more <= most + _TOLD_S
+    return [(close, f'{nearest:g} s instead of {asked:g} s make up for {missing:.3f} s')]
 
 
 def _follows(bound: TimeBound, known: Mapping[_Key, Sequence[Derived]]) -> Step:

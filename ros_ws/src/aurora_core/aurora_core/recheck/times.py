@@ -202,7 +202,8 @@ def _legs(request: Request, mission: dict[str, Any]) -> tuple[float, ...]:
         near = left_open(radius, request.slack('standoff_m', radius))[0]
         return (max(0.0, math.radians(around)) * near,)
     size = mission.get('size_m')
-    if not size or not all(stated(side) for side in size):
+    counted = 1 if mission.get('pattern') == 'line' else 2
+    if not size or not all(stated(side) for side in size[:counted]):
         return ()
     length, width = (left_open(side, 0.0)[0] for side in size)
     legs = {

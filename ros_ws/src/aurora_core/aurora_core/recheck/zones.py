@@ -83,6 +83,45 @@ def roof(proof: Certificate, request: Request) -> list[Step]:
     ]
 
 
+def wall(proof: Certificate, request: Request) -> list[Step]:
+    """A UAV that flies below a roof is to be nearer to the wall than the limit, all the time."""
+    condition = request.one(proof.path.rpartition('/')[0])
+    found = [
+        f for f in request.features('buildings.geojson') if f['properties']['id'] == proof.word
+    ]
+    if condition is None or condition.get('quantity') != 'clearance' or len(found) != 1:
+        return [(False, f'{proof.path} asks for a clearance, {proof.word!r} is a building')]
+    uav, place = condition['of']
+    properties, value = found[0]['properties'], condition['value']
+    top, gap = float(properties['height_m']), request.limit('clearance_min_m')
+    allowed = gap * (1.0 - float(request.tolerances['limit_margin']))
+    partly = any(condition.get(name) is not None for name in ('fraction', 'hold_s', 'by_s'))
+    ceiling = request.limit('uav_altitude_max_m')
+    named = [
+        m
+        for m in request.all('missions')
+        if m['uav'] == uav and any(f.path == f'missions/{m["id"]}/altitude_m' for f in proof.facts)
+    ]
+    highest = [
+        left_open(m['altitude_m'], request.slack('altitude_m', m['altitude_m']), 0.0, ceiling)[1]
+        for m in named
+    ]
+    return [
+        *(read_whole(request, m) for m in named),
+        (place == f'landmark:{properties.get("name")}', f'{place} is this building'),
+        (proof.limit == gap == proof.nearest, f'{proof.limit_name} and nearest are {gap:g}'),
+        (stated(value) and proof.requested == value['value'], f'{proof.requested} m is stated'),
+        (
+            condition['op'] in ('<', '<=') and float(value['value']) < allowed and not partly,
+            f'{condition["op"]} {value["value"]:g} m is always under {allowed:g} m',
+        ),
+        (
+            bool(highest) and all(h <= top for h in highest),
+            f'it stays below {max(highest, default=math.inf):g} m, the roof is at {top:g} m',
+        ),
+    ]
+
+
 def read_whole(request: Request, mission: dict[str, Any]) -> Step:
     span = mission.get('span') or {'start': 0, 'end': math.inf}
     lost = [
@@ -157,11 +196,24 @@ def _edge(area: Any, centre: Place) -> Iterator[tuple[float, float, float, float
         length = math.hypot(bx - ax, by - ay)
         count = max(1, math.ceil(length / _PIECE_M))
         for k in range(count):
-            share = (k + 0.5) / count
-            east, north = ax + share * (bx - ax) - centre[0], ay + share * (by - ay) - centre[1]
+            ends = [
+                (ax + s * (bx - ax) - centre[0], ay + s * (by - ay) - centre[1])
+                for s in (k / count, (k + 1) / count)
+            ]
+            east, north = (sum(part) / 2.0 for part in zip(*ends, strict=True))
             away, half = math.hypot(east, north), length / count / 2.0
             width = math.degrees(math.asin(half / away)) if away > half else 180.0
-            yield away - half, away + half, math.degrees(math.atan2(east, north)), width
+            far = max(math.hypot(*end) for end in ends)
+            yield _nearest(*ends), far, math.degrees(math.atan2(east, north)), width
+
+
+def _nearest(a: Place, b: Place) -> float:
+    """Return how near a straight piece comes to the origin."""
+    east, north = b[0] - a[0], b[1] - a[1]
+    square = east * east + north * north
+    along = -(a[0] * east + a[1] * north) / square if square > 0.0 else 0.0
+    along = min(1.0, max(0.0, along))
+    return math.hypot(a[0] + along * east, a[1] + along * north)
 
 
 def _is_barred(centre: Place, near: float, far: float, bearing: float, area: Any) -> bool:

@@ -325,7 +325,11 @@ def _question_and_error(report: RunReport | CheckReport, console: Console) -> No
     if report.feasibility is not None:
         for proof in report.feasibility.certificates:
             said = proof.span
-            if said is not None:
+            if len(proof.clauses) > 1:
+                line(console, 'these clauses exclude each other:')
+                for clause in proof.clauses:
+                    line(console, f'  "{clause}"')
+            elif said is not None:
                 line(console, f'the prompt says: "{report.prompt[said.start : said.end]}"')
             if proof.nearest is not None:
                 line(console, f'nearest feasible value: {_with_unit(proof.nearest, proof.unit)}')

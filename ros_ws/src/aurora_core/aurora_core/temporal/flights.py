@@ -229,7 +229,9 @@ def _legs_m(basis: Basis, mission: UavMission) -> tuple[float, ...]:
         slack = basis.tolerances.standoff_m.of(radius.value, approximate=radius.approximate)
         swept_deg = max(0.0, 360.0 * least(turns, 0.0, 0.0) - basis.tolerances.orbit_deg)
         return (math.radians(swept_deg) * least(radius, slack, 0.0),)
-    if size is None or not all(is_stated(side) for side in size):
+    # A line has no width that anybody would state.
+    needed = size[:1] if size is not None and mission.pattern is Pattern.LINE else size
+    if size is None or not needed or not all(is_stated(side) for side in needed):
         return ()
     length, width = (least(side, 0.0, 0.0) for side in size)
     if mission.pattern is Pattern.RECTANGLE:

@@ -1,0 +1,61 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Which clauses of the prompt exclude each other: a proof in the user's own words."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from aurora_core.document import Document
+from aurora_core.outcomes.feasibility import Certificate, FactSource
+from aurora_core.spec.parameter import Span
+from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.spec.vocabulary import ClauseStatus
+
+
+def with_clauses(spec: ScenarioSpec, certificate: Certificate) -> Certificate:
+    """Return a certificate with the clauses that it rests on, in the order of the prompt.
+
+    Args:
+        spec: The request that is refused.
+        certificate: Why; its facts and bounds say what it needs, and nothing that it does not.
+    """
+    paths = [certificate.path, *(bound.of for bound in certificate.chain)]
+    paths += [f.path for f in certificate.facts if f.source is FactSource.REQUEST]
+    spans = {_clause(spec, span) for path in paths for span in _spans(spec, path.split('/'))}
+    ordered = sorted(spans, key=lambda s: (s.start, s.end))
+    told = tuple(spec.prompt[s.start : s.end] for s in ordered)
+    return certificate.model_copy(update={'clauses': tuple(t for t in told if t.strip())})
+
+
+def _spans(spec: ScenarioSpec, path: Sequence[str]) -> Iterator[Span]:
+    """Yield where the prompt says what stands at a path, or else what that is part of."""
+    node: object = spec
+    found: Span | None = None
+    for part in path:
+        node = _inside(node, part)
+        span = getattr(node, 'span', None)
+        found = span if isinstance(span, Span) else found
+    if found is not None:
+        yield found
+
+
+def _inside(node: object, part: str) -> object:
+    if isinstance(node, tuple):
+        named = next((e for e in node if getattr(e, 'id', None) == part), None)
+        if named is None and part.isdigit() and int(part) < len(node):
+            return node[int(part)]
+        return named
+    return getattr(node, part, None) if isinstance(node, Document) else None
+
+
+def _clause(spec: ScenarioSpec, span: Span) -> Span:
+    """Return the smallest clause that holds words; those of two clauses stand for themselves."""
+    around = [
+        c.span
+        for c in spec.clauses
+        if c.status is not ClauseStatus.NOT_ENCODED
+        and c.span.start <= span.start
+        and span.end <= c.span.end
+    ]
+    return min(around, key=lambda s: s.end - s.start, default=span)
