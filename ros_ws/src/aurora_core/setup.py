@@ -8,7 +8,7 @@ setup(
     name='aurora_core',
     version='0.2.0',
     packages=find_packages(exclude=['test', 'test.*']),
-    package_data={'': ['*.typed', '*.json', '*.lark', '*.yaml', '*.jinja']},
+    package_data={'': ['*.typed', '*.json', '*.lark', '*.yaml', '*.jinja', '*.css', '*.js']},
     data_files=[
         ('share/ament_index/resource_index/packages', ['resource/aurora_core']),
         ('share/aurora_core', ['package.xml']),

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -15,6 +15,7 @@ from aurora_cli.clock import MonotonicClock
 from aurora_cli.installed import installed
 from aurora_cli.local_engine import LocalStages
 from aurora_core.errors import AuroraError
+from aurora_core.judging.evaluation import Context
 from aurora_core.outcomes.feasibility import Feasibility
 from aurora_core.pipeline import functions
 from aurora_core.pipeline.run import run
@@ -40,11 +41,13 @@ class Run:
         folder: Its run folder.
         content: Its bag as it was read back for the verdict: trace (metres, seconds, ENU), world.
             None where nothing was judged in this process.
+        context: What was measured of it for the verdict; None where `content` is None.
     """
 
     report: RunReport
     folder: Path
     content: BagContent | None = None
+    context: Context | None = None
 
     def __repr__(self) -> str:
         return f'<Run {self.status.value}: {self.folder}>'
@@ -81,7 +84,8 @@ class Run:
             ReportError: The folder cannot be written.
             KeyboardInterrupt: The page was written without a picture.
         """
-        write_page(self.report, RunFolder(self.folder.parent, self.folder.name), self.content)
+        folder = RunFolder(self.folder.parent, self.folder.name)
+        write_page(self.report, folder, self.content, self.context)
 
 
 def check_facts(request: RunRequest) -> RunFacts:
@@ -155,14 +159,13 @@ def run_stages(request: RunRequest, stages: LocalStages, root: Path, control: Ru
         manifest=manifest,
         outputs=write_report,
     )
-    return Run(report=report, folder=folder.path, content=_judged(report, folder, stages))
-
-
-def _judged(report: RunReport, folder: RunFolder, stages: LocalStages) -> BagContent | None:
-    """Return the bag that the report is about, when it was the last one to be read."""
+    done = Run(report=report, folder=folder.path)
+    # The bag that the report is about, when it was the last one to be read.
     if report.trace is None or folder.path / report.trace.bag != stages.verified_bag:
-        return None
-    return stages.verified
+        return done
+    judged = stages.judged
+    context = judged.context if judged is not None else None
+    return replace(done, content=stages.verified, context=context)
 
 
 def new_folder(root: Path) -> tuple[RunFolder, dict[str, Any]]:

@@ -17,7 +17,7 @@ from aurora_core.outcomes.verdict import Verdict
 from aurora_core.pipeline import functions
 from aurora_core.pipeline.knowledge import Knowledge
 from aurora_core.pipeline.stages import ExecutionResult, RunControl, RunRequest
-from aurora_core.pipeline.verification import load_bag, verify_content
+from aurora_core.pipeline.verification import Judged, judge_content, load_bag
 from aurora_core.trace.bag_reader import BagContent
 from aurora_core.trace.definitions import message_definitions
 from aurora_llm.parse import read_prompt
@@ -31,6 +31,7 @@ class LocalStages:
 
     Attributes:
         verified: The bag that the last verdict is about, as it was read back; None before.
+        judged: That verdict with what was measured for it.
         verified_bag: Where that bag lies.
     """
 
@@ -38,6 +39,7 @@ class LocalStages:
         self.known = known
         self.verified: BagContent | None = None
         self.verified_bag: Path | None = None
+        self.judged: Judged | None = None
 
     def parse(self, request: RunRequest) -> ParseOutcome:
         """Read the prompt."""
@@ -87,7 +89,8 @@ class LocalStages:
         with no_collection():
             self.verified, recorded = load_bag(bag)
             self.verified_bag = bag
-            return verify_content(self.known, self.verified, recorded)
+            self.judged = judge_content(self.known, self.verified, recorded)
+            return self.judged.verdict
 
     def propose(
         self, agsg: Agsg, verdict: Verdict, bag: Path, past: tuple[Attempt, ...]

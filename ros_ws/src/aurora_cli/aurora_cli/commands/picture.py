@@ -14,11 +14,11 @@ from aurora_cli.output import UsageProblem, print_json, quiet_stdout, say
 from aurora_core.pipeline.verification import load_bag
 from aurora_core.pipeline.verify_run import verify_found
 from aurora_core.report.find_bag import FoundBag
-from aurora_core.report.picture.caption import Caption
 from aurora_core.report.picture.draw import draw_picture, png_bytes, svg_bytes
 from aurora_core.report.run_documents import read_document
 from aurora_core.report.run_folder import REPORT
 from aurora_core.report.run_report import RunReport
+from aurora_core.report.scene.caption import Caption
 from aurora_core.report.status import Status
 from aurora_core.report.verify_report import VerifyOutcome, VerifyReport
 

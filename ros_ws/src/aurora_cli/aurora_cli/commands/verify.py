@@ -13,6 +13,7 @@ from aurora_cli.installed import installed
 from aurora_cli.output import answer_console, print_json, quiet_stdout, say
 from aurora_core.errors import AuroraError, ReportError
 from aurora_core.monitor.signals_for_plot import signals_for_plot
+from aurora_core.monitor.verify import context_of
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.verdict import Verdict
 from aurora_core.pipeline.verification import load_bag
@@ -78,8 +79,8 @@ def _write_plots(content: BagContent, agsg: Agsg, verdict: Verdict, folder: Path
         raise ReportError(
             f'{folder} cannot be created: {err.strerror or err}', hint='name another folder'
         ) from err
-    conditions = agsg.conditions
-    signals = signals_for_plot(content.trace, content.world, conditions, agsg.realised_spec)
+    spec = agsg.realised_spec
+    signals = signals_for_plot(context_of(content.trace, content.world, agsg.conditions, spec))
     results = {result.id: result for result in verdict.results}
     for number, signal in enumerate(signals, start=1):
         say(f'aurora: plot {number} of {len(signals)}: {signal.condition_id}')

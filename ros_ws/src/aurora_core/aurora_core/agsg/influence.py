@@ -69,6 +69,16 @@ def parameters_affecting(agsg: Agsg, condition: str) -> tuple[Influence, ...]:
     return _influences(agsg, _upstream(agsg), _own_elements(agsg), condition)
 
 
+def parameters_by_condition(agsg: Agsg) -> dict[str, tuple[Influence, ...]]:
+    """Return for every condition what `parameters_affecting` does."""
+    upstream, own = _upstream(agsg), _own_elements(agsg)
+    return {
+        node.id: _influences(agsg, upstream, own, node.id)
+        for node in agsg.nodes
+        if node.type is NodeType.CONDITION
+    }
+
+
 def conditions_affected(agsg: Agsg, parameter: str) -> tuple[Influence, ...]:
     """Return the conditions that a parameter can affect, the nearest first, then by id.
 
@@ -84,12 +94,10 @@ def conditions_affected(agsg: Agsg, parameter: str) -> tuple[Influence, ...]:
             f'the graph has no parameter {parameter!r}',
             hint='name it by its path, such as missions/m1/altitude_m',
         )
-    upstream, own = _upstream(agsg), _own_elements(agsg)
     found = [
         influence
-        for node in agsg.nodes
-        if node.type is NodeType.CONDITION
-        for influence in _influences(agsg, upstream, own, node.id)
+        for influences in parameters_by_condition(agsg).values()
+        for influence in influences
         if influence.parameter == parameter
     ]
     return tuple(sorted(found, key=lambda i: (i.distance, i.condition)))

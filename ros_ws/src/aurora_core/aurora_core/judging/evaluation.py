@@ -118,6 +118,9 @@ class Context:
         spec: Its specification.
         conditions: All conditions of the run.
         ended: Judge the run as if it had been finished with its last tick.
+
+    Attributes:
+        kept: What was measured last for each condition that was judged, by its id.
     """
 
     def __init__(
@@ -129,6 +132,7 @@ class Context:
         ended: bool = False,
     ) -> None:
         self._ended = ended
+        self.kept: dict[str, Evaluation] = {}
         self.view = view
         self.spec = spec
         self.conditions = conditions

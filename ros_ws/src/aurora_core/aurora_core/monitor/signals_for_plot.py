@@ -4,21 +4,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from aurora_core.judging.evaluation import BoolArray, Context, FloatArray, Measured
 from aurora_core.judging.quantity import measure
-from aurora_core.knowledge.world import WorldModel
 from aurora_core.monitor.verify import judged_formula, sampled
 from aurora_core.outcomes.condition import Condition
-from aurora_core.quantities.view import RunView
-from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.stl.formula import predicates
 from aurora_core.stl.robustness import predicate_robustness, robustness
-from aurora_core.trace.trace import Trace
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -51,20 +46,19 @@ class PlotSignal:
     margin: float | None
 
 
-def signals_for_plot(
-    trace: Trace, world: WorldModel, conditions: Sequence[Condition], spec: ScenarioSpec
-) -> tuple[PlotSignal, ...]:
-    """Return what there is to draw, one per condition that has samples."""
-    view = RunView(trace, world)
-    if view.first_missing_tick is not None:
-        view = view.up_to(view.first_missing_tick)
-    if view.ticks == 0:
+def signals_for_plot(context: Context) -> tuple[PlotSignal, ...]:
+    """Return what there is to draw, one per condition that has samples.
+
+    Args:
+        context: See `monitor.verify.context_of`; what a verdict measured in it is not measured
+            again.
+    """
+    if context.view.ticks == 0:
         return ()
-    context = Context(view, spec, tuple(conditions))
     found = (
         _plot(context, condition, measured)
-        for condition in conditions
-        for measured in (measure(context, condition),)
+        for condition in context.conditions
+        for measured in (context.kept.get(condition.id) or measure(context, condition),)
         if isinstance(measured, Measured)
     )
     return tuple(found)

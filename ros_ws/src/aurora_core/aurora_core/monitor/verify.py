@@ -30,6 +30,22 @@ from aurora_core.trace.trace import Integrity, Trace
 _FAULTS_TOLD = 5
 
 
+def context_of(
+    trace: Trace, world: WorldModel, conditions: Sequence[Condition], spec: ScenarioSpec
+) -> Context:
+    """Return what the conditions of a run are judged in: its ticks before the first missing one.
+
+    Raises:
+        VerificationError: The trace has no tick.
+    """
+    if trace.ticks == 0:
+        raise VerificationError('the trace has no tick', hint='the run ended before t = 0')
+    view = RunView(trace, world)
+    if view.first_missing_tick is not None:
+        view = view.up_to(view.first_missing_tick)
+    return Context(view, spec, tuple(conditions))
+
+
 def verify(
     trace: Trace,
     world: WorldModel,
@@ -40,6 +56,7 @@ def verify(
     *,
     as_recorded: bool = False,
     progress: Progress = quietly,
+    context: Context | None = None,
 ) -> Verdict:
     """Recompute every margin.
 
@@ -55,24 +72,22 @@ def verify(
         recomputed: Where the record is not what the executor gives from its states.
         as_recorded: See `held_against`.
         progress: Called after each condition.
+        context: Of this run (`context_of`), where more than the verdict is wanted of it.
 
     Raises:
         VerificationError: The conditions do not fit the trace: a body or an event is missing in
             the roster or the specification, or the trace has no tick.
     """
-    if trace.ticks == 0:
-        raise VerificationError('the trace has no tick', hint='the run ended before t = 0')
-    view = RunView(trace, world)
-    missing = view.first_missing_tick
+    context = context or context_of(trace, world, conditions, spec)
+    judged = context.view.ticks
+    missing = judged if judged < trace.ticks else None
     notes: list[str] = []
     if missing is not None:
         notes.append(f'states or commands are missing from tick {missing} on')
-        view = view.up_to(missing)
     if trace.integrity is not Integrity.INTACT:
         notes.append(
             f'the recording is {trace.integrity.value}: {trace.integrity_note}'.rstrip(': ')
         )
-    context = Context(view, spec, tuple(conditions))
     held = Held()
     notes += _told_faults(trace)
     if plan is not None:
@@ -112,7 +127,7 @@ def judge(context: Context, condition: Condition, *, cut: int | None = None) -> 
         condition: What has to hold.
         cut: First missing tick, where the run was cut because of it.
     """
-    measured = measure(context, condition)
+    measured = context.kept[condition.id] = measure(context, condition)
     if isinstance(measured, Measured):
         formula = judged_formula(context, condition, measured)
         signals = sampled(context, condition, measured)

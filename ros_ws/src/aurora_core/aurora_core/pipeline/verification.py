@@ -13,11 +13,12 @@ from aurora_core.errors import AuroraError, SpecError, VerificationError
 from aurora_core.execution.plan import build_roster, build_world, wind_of
 from aurora_core.grounding.places import place_positions
 from aurora_core.judging.codec import conditions_from_json
+from aurora_core.judging.evaluation import Context
 from aurora_core.knowledge.basis import Basis, Tables
 from aurora_core.knowledge.limits import Limits
 from aurora_core.knowledge.world import WorldModel
 from aurora_core.monitor.plan_check import NotComparable, Plan, finding
-from aurora_core.monitor.verify import verify
+from aurora_core.monitor.verify import context_of, verify
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.condition import Condition
 from aurora_core.outcomes.grounded import GroundedScenario
@@ -92,11 +93,16 @@ def verify_content(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Judged:
-    """A verdict, and what the recording was held against."""
+    """A verdict, and what the recording was held against.
+
+    Attributes:
+        context: Holds what was measured for each condition.
+    """
 
     verdict: Verdict
     plan: Plan | NotComparable
     conditions: tuple[Condition, ...]
+    context: Context
 
 
 def judge_content(
@@ -130,6 +136,7 @@ def judge_content(
     # What another version of the executor commands is not known here.
     if recompute and isinstance(plan, Plan) and not plan.other_version:
         found = recomputed_content(known, content, agsg, progress)
+    context = context_of(content.trace, content.world, conditions, agsg.realised_spec)
     verdict = verify(
         content.trace,
         content.world,
@@ -139,8 +146,9 @@ def judge_content(
         found,
         as_recorded=as_recorded,
         progress=progress,
+        context=context,
     )
-    return Judged(verdict=verdict, plan=plan, conditions=conditions)
+    return Judged(verdict=verdict, plan=plan, conditions=conditions, context=context)
 
 
 def recomputed_content(

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from aurora_core.judging.codec import conditions_from_json
+from aurora_core.judging.evaluation import Context
 from aurora_core.monitor.plan_check import NotComparable, Plan, plan_findings
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.grounding import GroundingOutcome
@@ -44,7 +45,7 @@ def verify_found(
     """
     judged = judge_content(known, content, agsg, as_recorded=as_recorded)
     foreign = _foreign_to(judged, content) if as_recorded else None
-    bag = _judged_bag(content, agsg, judged.verdict, judged.plan)
+    bag = _judged_bag(content, agsg, judged.verdict, judged.plan, judged.context)
     if found.run is None:
         return verify_report(str(found.bag), bag, as_recorded=foreign)
     run, recorded = check_run(found.run, found.iteration, bag)
@@ -80,7 +81,11 @@ def report_beside(
 
 
 def _judged_bag(
-    content: BagContent, agsg: Agsg, verdict: Verdict, plan: Plan | NotComparable
+    content: BagContent,
+    agsg: Agsg,
+    verdict: Verdict,
+    plan: Plan | NotComparable,
+    context: Context | None = None,
 ) -> JudgedBag:
     hashes = trace_hashes(content.trace, content.world)
     left_out = GroundingOutcome(agsg=agsg)
@@ -108,6 +113,7 @@ def _judged_bag(
         verdict=verdict,
         clauses=clause_reports(facts),
         facts=facts,
+        context=context,
     )
 
 

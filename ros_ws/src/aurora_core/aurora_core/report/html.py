@@ -5,6 +5,9 @@
 from __future__ import annotations
 
 import base64
+import hashlib
+from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import lru_cache
 from importlib.metadata import version
 from pathlib import Path
@@ -12,7 +15,7 @@ from typing import TYPE_CHECKING
 
 from aurora_core.compiled import Compiled
 from aurora_core.report.clauses import status_word
-from aurora_core.report.run_report import RunReport
+from aurora_core.report.run_report import ClauseReport, RunReport
 from aurora_core.report.status import Status
 from aurora_core.report.summary import margin_value
 from aurora_core.report.visible import visible
@@ -20,7 +23,12 @@ from aurora_core.report.visible import visible
 if TYPE_CHECKING:
     from jinja2 import Environment, Template
 
+    from aurora_core.report.page.recorded import Recorded
+
 _TEMPLATE = Path(__file__).with_name('report.html.jinja')
+_PAGE = Path(__file__).with_name('page')
+# In the order in which they use each other.
+_SCRIPTS = ('data', 'clock', 'map', 'scene', 'margins', 'graph', 'page')
 
 # The kind of each status, which decides colour and symbol of the page.
 _KINDS = {
@@ -36,22 +44,97 @@ _KINDS = {
 }
 
 
-def report_html(report: RunReport, picture_png: bytes | None = None) -> str:
+def report_html(
+    report: RunReport, picture_png: bytes | None = None, recorded: Recorded | None = None
+) -> str:
     """Return the page.
 
     Args:
         report: What to show; every text in it is escaped, and what no reader would see is named.
         picture_png: Picture of the run, None when there is none.
+        recorded: What there is to see of its bag, None when there is none.
     """
+    # A check that draws no page does not wait for these.
+    from markupsafe import Markup
+
     picture = base64.b64encode(picture_png).decode('ascii') if picture_png is not None else ''
+    parts = _parts()
     return _template().render(
         report=report,
         status=report.status.value.replace('_', ' '),
         kind=_KINDS[report.status],
+        pieces=prompt_pieces(report.prompt, report.clauses),
+        lost=[clause for clause in report.clauses if clause.status.is_open],
         stated=[row for row in report.conditions if row.source],
         safety=[row for row in report.conditions if not row.source],
         picture=picture,
+        recorded=recorded,
+        data=Markup(recorded.data) if recorded is not None else '',
+        style=Markup(parts.style),
+        script=Markup(parts.script),
+        policy=parts.policy,
     )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Piece:
+    """A piece of the prompt; `status` is '' where no clause is."""
+
+    text: str
+    status: str = ''
+    title: str = ''
+
+
+def prompt_pieces(prompt: str, clauses: Sequence[ClauseReport]) -> tuple[Piece, ...]:
+    """Return the prompt in pieces; of clauses that overlap, an open one comes first."""
+    owner: list[ClauseReport | None] = [None] * len(prompt)
+    # A clause about the whole prompt stands for none of its words.
+    for clause in sorted(clauses, key=lambda c: c.status.is_open):
+        if clause.span.end - clause.span.start < len(prompt) or len(clauses) == 1:
+            for k in range(clause.span.start, min(clause.span.end, len(prompt))):
+                owner[k] = clause
+    pieces: list[Piece] = []
+    start = 0
+    for k in range(1, len(prompt) + 1):
+        if k == len(prompt) or owner[k] is not owner[start]:
+            pieces.append(_piece(prompt[start:k], owner[start], clauses))
+            start = k
+    return tuple(pieces)
+
+
+def _piece(text: str, clause: ClauseReport | None, clauses: Sequence[ClauseReport]) -> Piece:
+    if clause is None:
+        return Piece(text=text)
+    note = f': {clause.note}' if clause.note else ''
+    return Piece(
+        text=text, status=clause.status.value, title=f'{status_word(clause, clauses)}{note}'
+    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Parts:
+    """What every page holds; the policy lets a browser use nothing but these, and no network."""
+
+    style: str
+    script: str
+    policy: str
+
+
+@lru_cache(maxsize=1)
+def _parts() -> _Parts:
+    style = (_PAGE / 'page.css').read_text(encoding='utf-8')
+    scripts = [(_PAGE / f'{name}.js').read_text(encoding='utf-8') for name in _SCRIPTS]
+    script = '\n'.join(['(() => {', "'use strict';", *scripts, '})();'])
+    policy = (
+        f"default-src 'none'; img-src data:; style-src '{_hash(style)}'; "
+        f"script-src '{_hash(script)}'; base-uri 'none'; form-action 'none'"
+    )
+    return _Parts(style=style, script=script, policy=policy)
+
+
+def _hash(text: str) -> str:
+    digest = hashlib.sha256(text.encode('utf-8')).digest()
+    return f'sha256-{base64.b64encode(digest).decode("ascii")}'
 
 
 def compiled_page() -> Compiled:

@@ -6,9 +6,12 @@ from __future__ import annotations
 
 from aurora_core.agsg.message import read_agsg
 from aurora_core.errors import AuroraError
+from aurora_core.judging.evaluation import Context
+from aurora_core.outcomes.agsg import Agsg
 from aurora_core.report.html import report_html
 from aurora_core.report.run_folder import PICTURE, REPORT, REPORT_HTML, RunFolder
 from aurora_core.report.run_report import RunReport
+from aurora_core.report.scene.caption import Caption
 from aurora_core.trace.bag_reader import BagContent, read_bag
 from aurora_core.trace.definitions import message_definitions
 
@@ -33,41 +36,58 @@ def write_report(report: RunReport, folder: RunFolder) -> None:
     folder.write_json(REPORT, report)
 
 
-def write_page(report: RunReport, folder: RunFolder, content: BagContent | None = None) -> None:
+def write_page(
+    report: RunReport,
+    folder: RunFolder,
+    content: BagContent | None = None,
+    context: Context | None = None,
+) -> None:
     """Write the picture of the run (when there is a bag) and `report.html`.
 
     Args:
         report: Of the run.
         folder: Of the run.
         content: Its bag, when somebody has read it already.
+        context: In which that bag was judged, when somebody has.
 
     Raises:
         ReportError: The folder cannot be written.
         KeyboardInterrupt: The page was written without a picture, as it takes the most time.
     """
-    picture = None
+    picture, shown = None, None
     try:
-        picture = _picture(report, folder, content)
-        if picture is not None:
+        content, agsg = _recorded(report, folder, content)
+        if content is not None:
+            # Imported here: a run that is refused has nothing to see.
+            from aurora_core.report.page.recorded import recorded
+
+            shown = recorded(report, content, agsg, context)
+            picture = _picture(report, content, agsg)
             folder.write_bytes(PICTURE, picture)
     finally:
-        folder.write_text(REPORT_HTML, report_html(report, picture))
+        folder.write_text(REPORT_HTML, report_html(report, picture, shown))
 
 
-def _picture(report: RunReport, folder: RunFolder, content: BagContent | None) -> bytes | None:
-    """Return the picture as PNG, None when there is no bag that could be drawn."""
+def _recorded(
+    report: RunReport, folder: RunFolder, content: BagContent | None
+) -> tuple[BagContent | None, Agsg | None]:
+    """Return the bag and the graph in it, None for what is not there or cannot be read."""
     if report.trace is None:
-        return None
-    # Imported here: a run that is refused needs no drawing library.
-    from aurora_core.report.picture.caption import Caption
-    from aurora_core.report.picture.draw import draw_picture, png_bytes
-
+        return None, None
     try:
         if content is None:
             content = read_bag(folder.path / report.trace.bag, message_definitions())
-        spec = read_agsg(content.agsg_message).spec if content.agsg_message is not None else None
+        return content, None if content.agsg_message is None else read_agsg(content.agsg_message)
     except AuroraError:
-        # A bag too damaged to read is told in the report; there is just no picture of it.
-        return None
+        # A bag too damaged to read is told in the report; there is just nothing of it to see.
+        return None, None
+
+
+def _picture(report: RunReport, content: BagContent, agsg: Agsg | None) -> bytes:
+    """Return the picture as PNG."""
+    # Imported here: a run that is refused needs no drawing library.
+    from aurora_core.report.picture.draw import draw_picture, png_bytes
+
+    spec = agsg.spec if agsg is not None else None
     figure = draw_picture(content.trace, content.world, Caption.of_report(report), spec=spec)
     return png_bytes(figure)

@@ -16,6 +16,7 @@ from pathlib import Path
 
 from aurora_core.agsg.document import agsg_from_json
 from aurora_core.document import Document, first_difference
+from aurora_core.judging.evaluation import Context
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.feasibility import FeasibilityVerdict
 from aurora_core.outcomes.grounded import GroundedScenario
@@ -74,6 +75,7 @@ class JudgedBag:
         verdict: Of the bag.
         clauses: Of the prompt in it, with what became of each.
         facts: What a report tells of a run, as far as the bag gives it.
+        context: In which it was judged, None measures anew what the page shows.
     """
 
     content: BagContent
@@ -82,6 +84,7 @@ class JudgedBag:
     verdict: Verdict
     clauses: tuple[ClauseReport, ...]
     facts: RunFacts
+    context: Context | None = None
 
 
 def unread(clauses: Sequence[ClauseReport]) -> tuple[ClauseReport, ...]:
@@ -122,7 +125,7 @@ def check_run(
         doubts += found
         if own is not None:
             doubts += _report(run, own, iteration, bag)
-            doubts += _beside(run, own, iteration)
+            doubts += _beside(run, own, iteration, bag)
     check = RunCheck(
         run_id=run_id, status=None if own is None else own.status, doubts=tuple(doubts)
     )
@@ -278,7 +281,7 @@ def _judged(report: RunReport, listed: Sequence[BagReport]) -> BagReport | None:
     return own[0] if own else (listed[-1] if listed else None)
 
 
-def _beside(run: Path, report: RunReport, iteration: int) -> Iterator[Doubt]:
+def _beside(run: Path, report: RunReport, iteration: int, bag: JudgedBag) -> Iterator[Doubt]:
     """Compare what is in the folder beside a report with the report.
 
     A report that tells of no bag was written later, for a run that had not been finished.
@@ -292,14 +295,20 @@ def _beside(run: Path, report: RunReport, iteration: int) -> Iterator[Doubt]:
     elif feasibility != report.feasibility:
         yield altered(f'{name} is not the feasibility of {REPORT}')
     page = read_stored(run / REPORT_HTML)
-    # Another version lays a page out otherwise.
-    if not isinstance(page, Unreadable) and report.versions.get('aurora') == AURORA_VERSION:
+    # A page shows the bag that the run was judged by; another version lays it out otherwise.
+    of_bag = report.trace is None or report.trace.bag == f'bag.{iteration}'
+    same = of_bag and report.versions.get('aurora') == AURORA_VERSION
+    if same and not isinstance(page, Unreadable):
         from aurora_core.report.html import report_html
+        from aurora_core.report.page.recorded import recorded
 
+        seen = None
+        if report.trace is not None:
+            seen = recorded(report, bag.content, bag.agsg, bag.context)
         picture = read_stored(run / PICTURE)
         shown = None if isinstance(picture, Unreadable) else picture
-        if page != report_html(report, shown).encode('utf-8'):
-            yield altered(f'{REPORT_HTML} is not the page of {REPORT} and {PICTURE}')
+        if page != report_html(report, shown, seen).encode('utf-8'):
+            yield altered(f'{REPORT_HTML} is not the page of {REPORT}, {PICTURE} and the bag')
 
 
 def _of_trace(trace: TraceReport, graph_sha256: str, iteration: int) -> BagReport:

@@ -17,7 +17,7 @@ from aurora_core.conditions.derive import derive_conditions
 from aurora_core.errors import VerificationError
 from aurora_core.judging.codec import conditions_from_json
 from aurora_core.monitor.signals_for_plot import signals_for_plot
-from aurora_core.monitor.verify import verify
+from aurora_core.monitor.verify import context_of, verify
 from aurora_core.outcomes.condition import conditions_to_json
 from aurora_core.outcomes.verdict import ConditionResult, Reason, Verdict, VerdictStatus
 from aurora_core.trace.layout import UavColumn, UavCommandColumn, UavMode, UavPhase
@@ -215,7 +215,7 @@ def test_signals_for_pictures(tb: ModuleType) -> None:
     verdict = verify(case.run.trace(), case.world, conditions, case.spec)
     drawn = {
         p.condition_id: p
-        for p in signals_for_plot(case.run.trace(), case.world, conditions, case.spec)
+        for p in signals_for_plot(context_of(case.run.trace(), case.world, conditions, case.spec))
     }
     margins = {r.id: r.margin for r in verdict.results}
     assert {name: p.margin for name, p in drawn.items()} == margins
@@ -229,4 +229,5 @@ def test_signals_for_pictures(tb: ModuleType) -> None:
     assert len(share.times_s) == len(share.held) == len(share.robustness) > 500
     assert share.robustness[-1] == share.margin
     case.run.missing = (0,)
-    assert signals_for_plot(case.run.trace(), case.world, conditions, case.spec) == ()
+    gone = context_of(case.run.trace(), case.world, conditions, case.spec)
+    assert signals_for_plot(gone) == ()

@@ -30,7 +30,9 @@ class _Balance(HTMLParser):
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
         if tag not in self.void:
             self.open.append(tag)
-        self.sources += [value or '' for name, value in attrs if name in ('src', 'href')]
+        found = [value or '' for name, value in attrs if name in ('src', 'href')]
+        # Within the page one may go wherever one likes.
+        self.sources += [value for value in found if not value.startswith('#')]
 
     def handle_endtag(self, tag: str) -> None:
         assert self.open.pop() == tag

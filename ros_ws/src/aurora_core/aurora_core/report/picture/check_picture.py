@@ -24,11 +24,11 @@ from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.world import SurfaceKind
 from aurora_core.mission.plan import MissionPlan, UavPlan
 from aurora_core.outcomes.grounded import GroundedAgent, GroundedScenario
-from aurora_core.report.picture import style
 from aurora_core.report.picture.furniture import draw_scale
 from aurora_core.report.picture.ground import draw_ground, outline
 from aurora_core.report.picture.map_picture import ground_of_map
-from aurora_core.report.picture.tracks import Box
+from aurora_core.report.scene import style
+from aurora_core.report.scene.tracks import Box
 from aurora_core.spec.reference import LANDMARK
 from aurora_core.spec.scenario import ScenarioSpec
 

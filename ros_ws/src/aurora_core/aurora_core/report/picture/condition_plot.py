@@ -16,7 +16,7 @@ from aurora_core.judging.evaluation import FloatArray
 from aurora_core.monitor.sentences import quantity_text
 from aurora_core.monitor.signals_for_plot import PlotSignal
 from aurora_core.outcomes.verdict import ConditionResult
-from aurora_core.report.picture import style
+from aurora_core.report.scene import style
 from aurora_core.report.status import Status
 
 _SIZE_IN = (9.0, 4.8)

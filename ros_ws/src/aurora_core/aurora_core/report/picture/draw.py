@@ -19,15 +19,12 @@ from matplotlib.patches import Rectangle
 from aurora_core.judging.codec import conditions_from_json
 from aurora_core.knowledge.world import WorldModel
 from aurora_core.outcomes.condition import Condition
-from aurora_core.report.picture import style
-from aurora_core.report.picture.caption import Caption
 from aurora_core.report.picture.furniture import draw_scale
 from aurora_core.report.picture.ground import draw_ground
 from aurora_core.report.picture.panel import draw_panel, draw_tightest
-from aurora_core.report.picture.paths import PathLayer, colours_of
+from aurora_core.report.picture.paths import PathLayer
 from aurora_core.report.picture.placing import Placer
 from aurora_core.report.picture.placing import Rectangle as PlateRoom
-from aurora_core.report.picture.story import Moment, Tone, moments_of
 from aurora_core.report.picture.strip import (
     draw_altitude,
     draw_moment_lines,
@@ -35,7 +32,10 @@ from aurora_core.report.picture.strip import (
     series_of,
     speeds_of,
 )
-from aurora_core.report.picture.tracks import (
+from aurora_core.report.scene import style
+from aurora_core.report.scene.caption import Caption
+from aurora_core.report.scene.story import Moment, Tone, moments_of, realised_altitudes
+from aurora_core.report.scene.tracks import (
     Box,
     Track,
     mission_end_tick,
@@ -75,8 +75,8 @@ def draw_picture(
         FigureCanvasAgg(figure)
         tracks = tracks_of(trace)
         conditions = conditions_from_json(world.conditions_json)
-        colours = colours_of(tracks)
-        moments = moments_of(trace, tracks, spec, caption.failures, _altitudes(conditions))
+        colours = style.colours_of(tracks)
+        moments = moments_of(trace, tracks, spec, caption.failures, realised_altitudes(conditions))
         _header(figure, caption)
         _map(figure, trace, world, tracks, conditions, colours, moments, spec)
         draw_panel(figure.add_axes(_PANEL), tracks, colours, moments, trace)
@@ -84,12 +84,6 @@ def draw_picture(
         if caption.tightest:
             draw_tightest(figure.add_axes(_TIGHT), caption)
         return figure
-
-
-def _altitudes(conditions: tuple[Condition, ...]) -> dict[str, float]:
-    """Return the altitude that each mission was grounded to."""
-    missions = (condition.arguments.mission for condition in conditions)
-    return {mission.mission: mission.altitude_m for mission in missions if mission is not None}
 
 
 def png_bytes(figure: Figure, dpi: int = 120) -> bytes:

@@ -8,8 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.patches import FancyArrowPatch
 from matplotlib.patheffects import withStroke
 
-from aurora_core.report.picture import style
-from aurora_core.report.picture.tracks import Box
+from aurora_core.report.scene import style
+from aurora_core.report.scene.tracks import Box
 
 
 def number_badge(ax: Axes, x: float, y: float, number: int, colour: str, *, zorder: float) -> None:

@@ -16,10 +16,10 @@ from matplotlib.patches import FancyBboxPatch
 
 from aurora_core.agsg.export import EDGE_COLOURS, NODE_COLOURS
 from aurora_core.outcomes.agsg import Agsg, AgsgNode, EdgeType, NodeType
-from aurora_core.report.picture import style
 from aurora_core.report.picture.graph_edges import DASHES
 from aurora_core.report.picture.graph_nodes import outline, parameter_row
 from aurora_core.report.picture.graph_text import text_width, wrapped
+from aurora_core.report.scene import style
 
 COLUMNS = 2
 _ID_PT, _TEXT_PT, _CHIP_PT = 7.2, 6.9, 6.6

@@ -14,10 +14,10 @@ from matplotlib.path import Path
 
 from aurora_core.agsg.export import EDGE_COLOURS
 from aurora_core.outcomes.agsg import EdgeType
-from aurora_core.report.picture import style
-from aurora_core.report.picture.graph_layout import Point
 from aurora_core.report.picture.graph_text import text_width
 from aurora_core.report.picture.placing import Rectangle
+from aurora_core.report.scene import style
+from aurora_core.report.scene.graph_layout import Point
 
 DASHES: dict[EdgeType, Any] = {
     EdgeType.SPATIAL: 'solid',

@@ -13,8 +13,8 @@ from matplotlib.patches import FancyBboxPatch, Patch, Polygon
 
 from aurora_core.agsg.export import NODE_COLOURS, parameter_name, value_text
 from aurora_core.outcomes.agsg import AgsgNode, AgsgParameter, NodeType
-from aurora_core.report.picture import style
 from aurora_core.report.picture.graph_text import text_width, wrapped
+from aurora_core.report.scene import style
 from aurora_core.spec.parameter import Provenance
 
 MARKS = {Provenance.EXPLICIT: '●', Provenance.INFERRED: '◐', Provenance.DEFAULT: '○'}

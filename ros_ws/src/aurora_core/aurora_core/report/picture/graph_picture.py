@@ -13,7 +13,6 @@ from matplotlib.figure import Figure
 
 from aurora_core.agsg.export import EDGE_COLOURS
 from aurora_core.outcomes.agsg import Agsg, AgsgEdge, EdgeType, NodeType
-from aurora_core.report.picture import style
 from aurora_core.report.picture.graph_conditions import (
     Entry,
     conditions_height,
@@ -21,10 +20,11 @@ from aurora_core.report.picture.graph_conditions import (
     entries_of,
 )
 from aurora_core.report.picture.graph_edges import DASHES, Labels, draw_edges
-from aurora_core.report.picture.graph_layout import Layout, layered
 from aurora_core.report.picture.graph_nodes import MARKS, Card, card_of, draw_card, outline
 from aurora_core.report.picture.graph_text import text_width, wrapped
 from aurora_core.report.picture.placing import Rectangle
+from aurora_core.report.scene import style
+from aurora_core.report.scene.graph_layout import Layout, layered
 
 # Text of 7 points on this width is read without effort when the page is as wide.
 _PAPER = 590.0

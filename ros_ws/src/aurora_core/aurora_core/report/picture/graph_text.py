@@ -9,7 +9,7 @@ from functools import lru_cache
 from matplotlib.font_manager import FontProperties
 from matplotlib.textpath import TextPath
 
-from aurora_core.report.picture import style
+from aurora_core.report.scene import style
 
 _FAMILY = style.RC['font.family']
 # Glyphs fitted to the pixels of a PNG are a little wider than their outlines.

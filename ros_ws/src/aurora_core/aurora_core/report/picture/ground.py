@@ -20,8 +20,8 @@ from shapely import Polygon
 
 from aurora_core.knowledge.map_types import Building, NoFlyZone
 from aurora_core.knowledge.world import CentreLine, SignalPost, Surface, SurfaceKind
-from aurora_core.report.picture import style
-from aurora_core.report.picture.tracks import Box
+from aurora_core.report.scene import style
+from aurora_core.report.scene.tracks import Box
 
 FloatArray = npt.NDArray[np.float64]
 

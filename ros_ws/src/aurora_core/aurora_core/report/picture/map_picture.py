@@ -17,10 +17,10 @@ from matplotlib.patheffects import withStroke
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.map_types import Building, NoFlyZone
 from aurora_core.knowledge.world import CentreLine, SignalPost, Surface, SurfaceKind
-from aurora_core.report.picture import style
 from aurora_core.report.picture.furniture import draw_scale
 from aurora_core.report.picture.ground import draw_ground
-from aurora_core.report.picture.tracks import Box
+from aurora_core.report.scene import style
+from aurora_core.report.scene.tracks import Box
 
 _WIDTH_IN = 14.0
 _TITLE_IN = 0.7

@@ -10,13 +10,13 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
-from aurora_core.report.picture import style
-from aurora_core.report.picture.caption import Caption
 from aurora_core.report.picture.furniture import number_badge
 from aurora_core.report.picture.ground import HEIGHTS, TALL_M
 from aurora_core.report.picture.paths import ALTITUDES, ARROW_EVERY_S
-from aurora_core.report.picture.story import Moment, Tone
-from aurora_core.report.picture.tracks import Track
+from aurora_core.report.scene import style
+from aurora_core.report.scene.caption import Caption
+from aurora_core.report.scene.story import Moment, Tone
+from aurora_core.report.scene.tracks import Track
 from aurora_core.report.status import Status
 from aurora_core.trace.trace import Trace
 

@@ -13,11 +13,11 @@ from matplotlib.patches import FancyArrowPatch
 from matplotlib.patheffects import withStroke
 
 from aurora_core.outcomes.condition import Condition
-from aurora_core.report.picture import style
 from aurora_core.report.picture.furniture import number_badge
 from aurora_core.report.picture.placing import Placer
-from aurora_core.report.picture.story import Moment
-from aurora_core.report.picture.tracks import Box, Track, beside
+from aurora_core.report.scene import style
+from aurora_core.report.scene.story import Moment
+from aurora_core.report.scene.tracks import Box, Track, beside
 
 FloatArray = npt.NDArray[np.float64]
 
@@ -26,24 +26,6 @@ ARROW_EVERY_S = 10.0
 _ARROW_LEAST_M = 4.0
 _STILL_M = 1.0
 _RIBBON_WIDTH = 9.5
-
-
-def colours_of(tracks: tuple[Track, ...]) -> dict[str, str]:
-    """Return a colour per body: the ego's is fixed, background traffic is grey."""
-    colours: dict[str, str] = {}
-    flown = {track.name for track in tracks if track.is_uav}
-    free = [colour for colour in style.AGENT_COLOURS if colour != style.EGO_COLOUR]
-    for track in tracks:
-        if track.is_uav:
-            index = sum(name in flown for name in colours)
-            colours[track.name] = style.UAV_COLOURS[index % len(style.UAV_COLOURS)]
-        elif track.is_background:
-            colours[track.name] = style.BACKGROUND_AGENT
-        elif track.entry.role == 'ego':
-            colours[track.name] = style.EGO_COLOUR
-        else:
-            colours[track.name] = free[len(colours) % len(free)]
-    return colours
 
 
 class PathLayer:

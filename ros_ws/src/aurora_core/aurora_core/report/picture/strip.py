@@ -12,10 +12,10 @@ import numpy.typing as npt
 from matplotlib.axes import Axes
 
 from aurora_core.outcomes.condition import Condition
-from aurora_core.report.picture import style
 from aurora_core.report.picture.furniture import number_badge
-from aurora_core.report.picture.story import Moment
-from aurora_core.report.picture.tracks import Track
+from aurora_core.report.scene import style
+from aurora_core.report.scene.story import Moment
+from aurora_core.report.scene.tracks import Track
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import DistanceTrigger, ScenarioSpec
 from aurora_core.spec.vocabulary import MissionMode

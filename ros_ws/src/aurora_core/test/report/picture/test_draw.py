@@ -14,9 +14,9 @@ from matplotlib.text import Text
 
 from aurora_core.knowledge.map_model import load_map
 from aurora_core.report.build import build_report
-from aurora_core.report.picture.caption import Caption
 from aurora_core.report.picture.draw import draw_picture, png_bytes, svg_bytes
 from aurora_core.report.picture.map_picture import draw_map, ground_of_map
+from aurora_core.report.scene.caption import Caption
 from aurora_core.trace.layout import GroundColumn
 
 

@@ -10,8 +10,9 @@ from enum import StrEnum
 
 import numpy as np
 
-from aurora_core.report.picture.caption import Failure
-from aurora_core.report.picture.tracks import Track
+from aurora_core.outcomes.condition import Condition
+from aurora_core.report.scene.caption import Failure
+from aurora_core.report.scene.tracks import Track
 from aurora_core.spec.scenario import (
     AgentAction,
     AltitudeTrigger,
@@ -96,6 +97,12 @@ def moments_of(
             found.remove(next(m for m in reversed(found) if m.tone is tone))
     # A failure without a time comes last.
     return tuple(sorted(found, key=lambda m: (m.tick < 0, m.tick, _RANK.index(m.tone))))
+
+
+def realised_altitudes(conditions: tuple[Condition, ...]) -> dict[str, float]:
+    """Return the altitude that each mission was grounded to."""
+    missions = (condition.arguments.mission for condition in conditions)
+    return {mission.mission: mission.altitude_m for mission in missions if mission is not None}
 
 
 def _flights(

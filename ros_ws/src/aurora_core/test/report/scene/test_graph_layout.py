@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from aurora_core.report.picture.graph_layout import Layout, layered
+from aurora_core.report.scene.graph_layout import Layout, layered
 
 WIDTH = 500.0
 _NAMES = [f'n{k}' for k in range(9)]

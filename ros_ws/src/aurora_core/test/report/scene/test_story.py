@@ -7,9 +7,9 @@ from types import SimpleNamespace
 
 import pytest
 
-from aurora_core.report.picture.caption import Failure
-from aurora_core.report.picture.story import Moment, Tone, moments_of
-from aurora_core.report.picture.tracks import tracks_of
+from aurora_core.report.scene.caption import Failure
+from aurora_core.report.scene.story import Moment, Tone, moments_of
+from aurora_core.report.scene.tracks import tracks_of
 from aurora_core.spec.parameter import Parameter, Provenance, Span, Unit
 from aurora_core.spec.scenario import DistanceTrigger, Event, ScenarioSpec, SendMessage
 from aurora_core.trace.records import (

@@ -8,9 +8,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from aurora_core.report.picture.paths import colours_of
-from aurora_core.report.picture.style import BACKGROUND_AGENT, EGO_COLOUR
-from aurora_core.report.picture.tracks import (
+from aurora_core.report.scene.style import BACKGROUND_AGENT, EGO_COLOUR, colours_of
+from aurora_core.report.scene.tracks import (
     Box,
     beside,
     mission_end_tick,

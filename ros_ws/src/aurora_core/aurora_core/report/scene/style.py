@@ -6,7 +6,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from aurora_core.report.picture.story import Tone
+from aurora_core.report.scene.story import Tone
+from aurora_core.report.scene.tracks import Track
 from aurora_core.report.status import Status
 
 PAPER = '#ffffff'
@@ -66,3 +67,21 @@ RC: dict[Any, Any] = {
     'path.simplify': True,
     'text.parse_math': False,
 }
+
+
+def colours_of(tracks: tuple[Track, ...]) -> dict[str, str]:
+    """Return a colour per body: the ego's is fixed, background traffic is grey."""
+    colours: dict[str, str] = {}
+    flown = {track.name for track in tracks if track.is_uav}
+    free = [colour for colour in AGENT_COLOURS if colour != EGO_COLOUR]
+    for track in tracks:
+        if track.is_uav:
+            index = sum(name in flown for name in colours)
+            colours[track.name] = UAV_COLOURS[index % len(UAV_COLOURS)]
+        elif track.is_background:
+            colours[track.name] = BACKGROUND_AGENT
+        elif track.entry.role == 'ego':
+            colours[track.name] = EGO_COLOUR
+        else:
+            colours[track.name] = free[len(colours) % len(free)]
+    return colours
