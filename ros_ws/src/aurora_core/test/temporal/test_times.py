@@ -69,11 +69,11 @@ def test_times_follow_from_flight_events_and_deadlines(planned: Plan) -> None:
 
 
 def test_a_stated_duration_bounds_what_nobody_dates(planned: Plan) -> None:
-    prompt = 'The scenario lasts 60 s. A drone hovers for 40 s at 20 m over City Hall.'
+    prompt = 'The scenario lasts 60 s. A drone hovers for 20 s at 40 m over City Hall.'
     found = times(planned(prompt))
-    # 17.7 m down, 39.2 s before that.
-    assert found['missions/m1/over'][1] == pytest.approx(60.0 - 17.7 / 3.0)
-    assert found['missions/m1/captured'][1] == pytest.approx(60.0 - 17.7 / 3.0 - 39.2)
+    # 37.7 m down, 19.5 s before that.
+    assert found['missions/m1/over'][1] == pytest.approx(60.0 - 37.7 / 3.0)
+    assert found['missions/m1/captured'][1] == pytest.approx(60.0 - 37.7 / 3.0 - 19.5)
 
 
 def test_what_excludes_itself_where_it_was_placed_is_told(planned: Plan) -> None:
