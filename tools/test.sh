@@ -3,9 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 #
 # Runs every test inside the environment: those that start no ROS nodes side by side, one worker per
-# core, then the others, file by file in two workers: a graph works on about one core and waits
-# often, and each is in a ROS domain of its own. Options for both: as arguments or in
-# PYTEST_ADDOPTS.
+# core, then the others one by one. Options for both: as arguments or in PYTEST_ADDOPTS.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 source ros_ws/setup.bash
@@ -14,8 +12,7 @@ unset PYTHONDONTWRITEBYTECODE
 mapfile -t packages < <(tools/packages.sh)
 together=0 alone=0
 python -m pytest -n logical --dist worksteal -m 'not ros' "${packages[@]}" "$@" || together=$?
-python -m pytest -n 2 --dist loadfile --no-loadscope-reorder -m ros "${packages[@]}" "$@" ||
-  alone=$?
+python -m pytest -m ros "${packages[@]}" "$@" || alone=$?
 # 5: the options select none of these, which is a failure only when they select none at all.
 [ "$together" != 5 ] || together=$alone
 [ "$alone" != 5 ] || alone=$together
