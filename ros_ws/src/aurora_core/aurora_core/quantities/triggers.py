@@ -56,6 +56,7 @@ from aurora_core.spec.scenario import (
     UavAction,
     VisibilityTrigger,
 )
+from aurora_core.spec.vocabulary import MissionMode
 from aurora_core.trace.layout import UavCommandColumn, UavPhase
 
 StateTrigger = (
@@ -75,6 +76,14 @@ CLIMBS_MPS = 0.5
 
 # Triggers that ask for a change: the predicate must have been false at an earlier tick.
 NEEDS_CHANGE = frozenset({'distance_above', 'speed_below', 'occluded'})
+
+
+def _is_near_the_sender(event: Event) -> bool:
+    """Tell whether a message says that somebody has come near its sender."""
+    action, trigger = event.action, event.trigger
+    if not isinstance(trigger, DistanceTrigger) or not isinstance(action, SendMessage):
+        return False
+    return trigger.on == 'distance_below' and action.sender in (trigger.a, trigger.b)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -142,16 +151,30 @@ class EventTimes:
     def possible_tick(self, event_id: str, start: int) -> int | None:
         """Return the first tick from `start` on at which an action is possible.
 
-        Who changes lane has to be on a street with another lane; all else is possible anywhere.
-        None where it never is.
+        Who changes lane has to be on a street with another lane. What comes near itself a UAV
+        reports once it is up, or has captured what it tracks: it may be near before. All else is
+        possible anywhere. None where it never is.
         """
         event, rules = self.event(event_id), self.rules.actions
+        if event is not None and _is_near_the_sender(event):
+            return self._reports_from(event, start)
         if event is None or rules is None or not isinstance(event.action, AgentAction):
             return start
         if event.action.do != 'change_lane':
             return start
         rows = self.view.rows(self.view.body(event.action.agent))
         return first_tick(can_change(self.view.world, rows, rules.start_mps), start)
+
+    def _reports_from(self, event: Event, start: int) -> int | None:
+        assert isinstance(event.action, SendMessage)
+        sender = event.action.sender
+        first = next((m for m in self.spec.missions if m.uav == sender), None)
+        flight = self.rules.flights.get(sender)
+        if first is None or flight is None:
+            return start
+        tracks = first.mode is MissionMode.TRACK
+        ready = self.rules.captured(sender) if tracks else flight.ascent_end_tick
+        return None if ready is None else max(start, ready)
 
     def hidden_s(self, event_id: str) -> float:
         """Return for how long an action may be under way before that is known, in seconds.

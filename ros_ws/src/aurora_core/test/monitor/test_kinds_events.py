@@ -166,6 +166,16 @@ ROWS = (
         within=0.06,
         what='visible',
     ),
+    # It is as near when the drone takes off: the time counts from the capture on.
+    Row(
+        id='e1.within',
+        make=lambda: _late_after(
+            on='distance_below', a='van1', b='uav1', value_m=number(900.0, explicit=True)
+        ),
+        margin=1.0 - (TRIGGER_S - CAPTURED_S),
+        within=0.06,
+        what='near the sender',
+    ),
     # 15 s in the air of 1500 s.
     Row(
         id='e1.within',
