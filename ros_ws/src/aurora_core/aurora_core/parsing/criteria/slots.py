@@ -33,7 +33,7 @@ _TOPICS_OF = {
     'L': frozenset({'drift', 'horizontal', 'altitude', 'distance', 'pairs'}),
     'V': frozenset({'speed', 'altitude'}),
     'T': frozenset({'seen', 'delivered', 'latency'}),
-    'P': frozenset({'seen', 'tracked', 'delivered'}),
+    'P': frozenset({'battery', 'seen', 'tracked', 'delivered'}),
     'C': frozenset({'waypoints', 'seen', 'tracked', 'delivered'}),
     '': frozenset({'landed', 'completed', 'delivered'}),
 }
