@@ -96,6 +96,9 @@ def _criterion(atoms: tuple[Atom, ...], asked: bool) -> Criterion | None:
         kind = found.limits[0].dimension if found is not None and found.limits else ''
         if found is not None and (kind == 'V' or (kind == 'L' and len(found.nouns) > 1)):
             return replace(found, placed=placed)
+    sided = any(a.kind is AtomKind.RELATION and a.key in ('left', 'right') for a in rest)
+    if sided:  # `always staying on its left, 25 m away`: a flight
+        return None
     found = _Reading(told(atoms), criteria_words()).run(asked=asked)
     if found is not None or not placed:
         return found
