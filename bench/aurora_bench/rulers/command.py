@@ -23,6 +23,7 @@ from aurora_bench.progress import Progress
 from aurora_bench.prompts.format import AnnotatedPrompt, beyond
 from aurora_bench.prompts.shipped import first_files
 from aurora_bench.results import ResultsError, markdown_table, write_results
+from aurora_bench.rulers.readback import read_back_line
 from aurora_bench.rulers.summary import (
     as_json,
     detail_tables,
@@ -288,6 +289,7 @@ def _tell(
         unchecked_share(judged),
     )
     head = [repair_line(ruler.word, judged)] if judged else []
+    head += [read_back_line([t.placed for t in judged if t.placed is not None])]
     head += [file_line(file) for file in files]
     document: dict[str, Any] = {
         'files': [

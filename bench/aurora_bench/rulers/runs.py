@@ -19,6 +19,7 @@ from aurora_bench.prompts.reference_names import NotExpressibleError
 from aurora_bench.prompts.reference_spec import reference_spec
 from aurora_bench.rulers.causes import Found, cause_of, reasons
 from aurora_bench.rulers.checking import Check, Said, asked_of, independent_checker
+from aurora_bench.rulers.readback import ReadBack, read_back
 from aurora_bench.rulers.trial import Cause, JudgedTrial, Trial, judged
 from aurora_bench.rulers.watched import WatchedStages
 from aurora_cli.clock import MonotonicClock
@@ -119,6 +120,8 @@ class RunWork(ABC):
             words=found[1] if found is not None else (),
             summary=report.summary,
             said=said,
+            margin=report.metrics.worst_normalised,
+            placed=_placed(ran),
             trace_sha256=report.trace.sha256 if report.trace is not None else '',
             motion_sha256=report.trace.motion_sha256 if report.trace is not None else '',
             repairs=max(0, report.metrics.iterations - 1),
@@ -210,6 +213,15 @@ class OutcomeWork(RunWork):
             words=found[1] if found is not None else (),
             summary=ran.report.summary,
         )
+
+
+def _placed(ran: _Ran) -> ReadBack | None:
+    outcome, trace = ran.stages.grounding, ran.report.trace
+    agsg = None if outcome is None else outcome.agsg
+    # What repair grounded again is not what was remembered.
+    if trace is None or agsg is None or agsg.grounding is None or ran.report.repairs:
+        return None
+    return read_back(ran.folder / trace.bag, agsg.grounding)
 
 
 def _repaired(report: RunReport) -> bool:

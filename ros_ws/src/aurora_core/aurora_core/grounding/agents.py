@@ -46,6 +46,7 @@ from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Limits
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.map_records import SpawnTable, may_stand
+from aurora_core.knowledge.net_types import Lane
 from aurora_core.knowledge.route_path import RoutePath
 from aurora_core.knowledge.settings import Settings
 from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
@@ -198,6 +199,8 @@ class AgentPlacer:
         ]
         if any(p.of == Place.MAIN_ROAD for p in agent.placements):
             lanes = on_main_roads(lanes)
+        if any(p.of == Place.ROADSIDE for p in agent.placements):
+            lanes = [lane for lane in lanes if self._is_outermost(lane, record.vclass)]
         if changes_lane(spec, agent):
             lanes = with_another_lane(lanes)
         if not lanes:
@@ -248,6 +251,11 @@ class AgentPlacer:
             stop_m=arc_m + STOP_AFTER_M if stops(agent) else None,
             parked=parked,
         )
+
+    def _is_outermost(self, lane: Lane, vclass: str) -> bool:
+        """Tell whether no lane for a class is to the right of a lane."""
+        right = lane.right_lane_id
+        return right is None or vclass not in self._map.network.lane(right).allows
 
     def _grounded(
         self,
@@ -311,6 +319,7 @@ class AgentPlacer:
             acceleration_mps2=record.accel_mps2,
             deceleration_mps2=record.decel_mps2,
             parked=parked,
+            runs_red=in_emergency(agent),
             stop_lane_id=stop_lane_id,
             stop_position_m=stop_position_m,
         )

@@ -18,6 +18,7 @@ from aurora_core.grounding.pace import (
     encounters,
     met_persons,
     own_speed_mps,
+    partings,
 )
 from aurora_core.grounding.places import POINTS, has_point
 from aurora_core.grounding.ties import (
@@ -36,6 +37,7 @@ from aurora_core.spec.scenario import (
     AgentAction,
     Behavior,
     GroundAgent,
+    Link,
     Placement,
     ScenarioSpec,
     SendMessage,
@@ -52,6 +54,16 @@ ALONG: dict[Relation, tuple[int, int]] = {
     Relation.LEFT: (0, 1),
     Relation.RIGHT: (0, -1),
     Relation.BESIDE: (0, 1),
+    Relation.NEAR: (-1, 0),
+}
+
+# Where a person is to a vehicle that is placed by the person, which is put there in its stead.
+BY_PERSONS: dict[Relation, Relation] = {
+    Relation.AHEAD: Relation.BEHIND,
+    Relation.BEHIND: Relation.AHEAD,
+    Relation.LEFT: Relation.RIGHT,
+    Relation.BESIDE: Relation.BESIDE,
+    Relation.NEAR: Relation.NEAR,
 }
 
 # Gap of an agent that follows without a stated placement (contract default for vehicles).
@@ -125,11 +137,15 @@ class _Distances:
         tolerance: So far inside a one-sided distance they are put.
         meetings: Encounters still to come.
         speeds_mps: Stated ones of agents.
+        near: Those near whom another one begins, who that is by its id.
+        persons: Ids.
     """
 
     tolerance: Tolerance
     meetings: tuple[Encounter, ...]
     speeds_mps: Mapping[str, float]
+    near: Mapping[str, str]
+    persons: frozenset[str]
 
     def placed(self, agent: str, other: str | None, placement: Placement) -> float:
         """Return the distance that a placement asks for, metres.
@@ -213,7 +229,13 @@ def split_scene(
     unsupported: list[str] = []
     by_id = {a.id: a for a in vehicles}
     speeds = {a.id: v for a in spec.agents if (v := own_speed_mps(a)) is not None}
-    distances = _Distances(tolerance=tolerance, meetings=encounters(spec), speeds_mps=speeds)
+    distances = _Distances(
+        tolerance=tolerance,
+        meetings=encounters(spec),
+        speeds_mps=speeds,
+        near=_near(spec),
+        persons=frozenset(a.id for a in persons),
+    )
     passing = passing_pairs(spec)
     ties = [
         in_passing_lane(t, passing)
@@ -243,6 +265,7 @@ def split_scene(
     targets |= {a.id for a in vehicles if bound_to_places(spec, a)}
     targets |= {vehicle for vehicle, _ in let_cross(spec)}
     targets |= {p.of for person in persons for p in person.placements}
+    targets |= {a.id for a in vehicles for p in a.placements if p.of in distances.persons}
     if targets & set(by_id):
         # A message has a range: who is to receive one is near those who are watched.
         targets |= {e.action.receiver for e in spec.events if isinstance(e.action, SendMessage)}
@@ -289,6 +312,24 @@ def split_scene(
     )
 
 
+def _near(spec: ScenarioSpec) -> Mapping[str, str]:
+    """Return who begins near whom: who is to get away from it, or tells it something by radio."""
+    parting = [sorted(pair) for pair in partings(spec)]
+    told: list[SendMessage | Link] = list(spec.links)
+    told += [e.action for e in spec.events if isinstance(e.action, SendMessage)]
+    pairs = [(pair[-1], pair[0]) for pair in parting] + [(t.sender, t.receiver) for t in told]
+    egos = {a.id for a in spec.agents if a.role is Role.EGO}
+    near: dict[str, str] = {}
+    by_id = {a.id: a for a in spec.agents}
+    for one, other in pairs:
+        if any(name in by_id and bound_to_places(spec, by_id[name]) for name in (one, other)):
+            continue
+        behind, front = (other, one) if one in egos else (one, other)
+        if behind != front and near.get(behind) != front:
+            near.setdefault(front, behind)
+    return near
+
+
 def _is_before_place(placement: Placement) -> bool:
     return placement.relation is Relation.BEFORE and placement.of in POINTS
 
@@ -329,6 +370,8 @@ def can_be_placed(agent: str, placement: Placement, spec: ScenarioSpec) -> bool:
     persons = (AgentType.PEDESTRIAN, AgentType.RSU)
     vehicles = {a.id for a in spec.agents if a.type not in persons}
     known = placement.relation in ALONG or placement.relation is Relation.ONCOMING
+    if placement.of in {a.id for a in spec.agents} - vehicles:
+        return placement.relation in BY_PERSONS
     return placement.of in vehicles and known
 
 
@@ -344,6 +387,8 @@ def _ties(
             others.setdefault(str(placement.of), []).append(placement)
         elif _is_before_place(placement) or _is_at_place(placement):
             continue  # nobody else's place follows from it
+        elif placement.of in distances.persons and placement.relation in BY_PERSONS:
+            continue  # it is the person who is put there
         elif placement.relation not in _ON or placement.of not in _ROADS:
             where = f' {placement.of}' if placement.of is not None else ''
             unsupported.append(f'{agent.id}: placement {placement.relation.value}{where}')
@@ -369,6 +414,11 @@ def _ties(
             for meeting in distances.meetings
             # Nothing says where the actor is: it comes from behind.
             if meeting.actor == agent.id and meeting.other in by_id
+        ][:1]
+        or [
+            Tie(agent.id, other, -distances.between(agent.id, other, None), 0, guess=True)
+            for other in distances.near
+            if agent.id == distances.near[other] and other in by_id
         ][:1]
     )
 

@@ -8,16 +8,19 @@ placement says where it stands at t = 0, a behaviour or a trigger where its way 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+
+import shapely
 
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.awaited import awaited_at
 from aurora_core.grounding.places import MapPlaces, arrivals, has_point
-from aurora_core.grounding.sites import SeatedAgent, Site
+from aurora_core.grounding.sites import LONGEST_WAY_M, SeatedAgent, Site
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Tolerances
 from aurora_core.knowledge.map_model import MapModel
+from aurora_core.spec.parameter import Bound, Parameter, Provenance
 from aurora_core.spec.reference import is_landmark
 from aurora_core.spec.scenario import GroundAgent, ScenarioSpec
 from aurora_core.spec.vocabulary import BehaviorKind, Relation
@@ -37,6 +40,8 @@ _LEADS = (
 
 # A vehicle has at least this way to a place that it goes to, and at most that (m).
 _WAY_M = (40.0, 260.0)
+# ... and where no street leads straight on to it.
+_WIDE_M = (40.0, LONGEST_WAY_M)
 
 # Who stops where no place is named does so after this way (m), or before the way ends.
 STOP_AFTER_M = 60.0
@@ -46,6 +51,13 @@ _INSIDE_M = 2.0
 
 # Sites are so far apart where a place says exactly where a vehicle stands (m).
 _NARROW_M = 2.5
+
+# And so far where it says how far away that is (m): that share of its tolerance is used.
+_EXACT_M = 1.0
+_OF_TOLERANCE = 0.8
+
+# "At least 40 m away" is not the other end of the town: at most so much farther (m).
+_ROOM_BEYOND_M = 40.0
 
 # Steps in which a spot to stop at is looked for (m).
 _STEP_M = 1.0
@@ -57,12 +69,14 @@ class _Bound:
 
     Attributes:
         stops: It comes to a stop there.
+        least_m: And no nearer.
     """
 
     place: str
     within_m: float
     at_start: bool
     stops: bool = False
+    least_m: float = 0.0
 
 
 def stops(agent: GroundAgent) -> bool:
@@ -91,7 +105,12 @@ class GoalFinder:
         self._tolerances = tolerances
 
     def fits(
-        self, spec: ScenarioSpec, site: Site, anchor: tuple[float, float] | None = None
+        self,
+        spec: ScenarioSpec,
+        site: Site,
+        anchor: tuple[float, float] | None = None,
+        *,
+        wide: bool = False,
     ) -> bool:
         """Tell whether every vehicle of a site stands at, and comes to, its places.
 
@@ -99,6 +118,7 @@ class GoalFinder:
             spec: The request.
             site: Where the vehicles stand.
             anchor: Of the scene, x and y in m; the origin of the site when not given.
+            wide: A long way does, too.
         """
         x, y = site.origin()[:2] if anchor is None else anchor
         for seat in site.seated:
@@ -106,14 +126,20 @@ class GoalFinder:
                 point = self._places.point(bound.place, (x, y))
                 if bound.at_start:
                     here = seat.path.position_at(seat.arc_m)
-                    if norm2(here[0] - point[0], here[1] - point[1]) > bound.within_m:
+                    away_m = norm2(here[0] - point[0], here[1] - point[1])
+                    if not bound.least_m <= away_m <= bound.within_m:
                         return False
-                elif self._arc_near(seat, point, bound) is None:
+                elif self._arc_near(seat, point, bound, wide=wide) is None:
                     return False
         return True
 
     def leads(
-        self, spec: ScenarioSpec, site: Site, anchor: tuple[float, float] | None = None
+        self,
+        spec: ScenarioSpec,
+        site: Site,
+        anchor: tuple[float, float] | None = None,
+        *,
+        wide: bool = False,
     ) -> bool:
         """Tell whether everybody on a site comes to where an event waits for it.
 
@@ -121,6 +147,7 @@ class GoalFinder:
             spec: The request.
             site: Where the vehicles stand.
             anchor: Of the scene, x and y in m; the origin of the site when not given.
+            wide: A long way does, too.
         """
         at = site.origin()[:2] if anchor is None else anchor
         for awaited in awaited_at(spec):
@@ -137,15 +164,51 @@ class GoalFinder:
                     return False  # it would hold from the start on
                 within_m = awaited.within_m - _INSIDE_M
             bound = _Bound(place=awaited.place, within_m=within_m, at_start=False)
-            if self._arc_near(seat, point, bound) is None:
+            if self._arc_near(seat, point, bound, wide=wide) is None:
                 return False
         return True
+
+    def edges_on_the_way(
+        self, spec: ScenarioSpec, agents: Sequence[GroundAgent]
+    ) -> tuple[frozenset[str], ...]:
+        """Return the edges at each landmark that agents come to, in the order of the request.
+
+        Of an intersection or a crosswalk there is one on every way.
+        """
+        names = {agent.id for agent in agents}
+        bounds = (b for agent in agents for b in self._bounds(spec, agent))
+        wanted = {b.place: b.within_m for b in bounds if not b.at_start and is_landmark(b.place)}
+        for awaited in awaited_at(spec):
+            if awaited.agent in names and is_landmark(awaited.place):
+                within_m = (
+                    self._tolerances.arrival_m if awaited.within_m is None else (awaited.within_m)
+                )
+                wanted.setdefault(awaited.place, within_m)
+        vclasses = {self._types[agent.type.value].vclass for agent in agents}
+        found = []
+        for place, within_m in wanted.items():
+            x, y = self._places.point(place, (0.0, 0.0))
+            lanes = (
+                lane
+                for vclass in sorted(vclasses)
+                for lane in self._map.network.driving_lanes(vclass)
+            )
+            found.append(
+                frozenset(
+                    lane.edge_id
+                    for lane in lanes
+                    if shapely.LineString(lane.polyline).distance(shapely.Point(x, y)) <= within_m
+                )
+            )
+        return tuple(edges for edges in found if edges)
 
     def spacing_m(self, spec: ScenarioSpec, default_m: float) -> float:
         """Return how far apart sites may be, so that some of them is where a place asks."""
         bounds = (b for agent in spec.agents for b in self._bounds(spec, agent))
-        narrow = any(b.at_start and b.within_m < default_m for b in bounds)
-        return _NARROW_M if narrow else default_m
+        found = [b for b in bounds if b.at_start]
+        if any(b.least_m > 0.0 for b in found):
+            return _EXACT_M
+        return _NARROW_M if any(b.within_m < default_m for b in found) else default_m
 
     def places_of(self, spec: ScenarioSpec, name: str) -> tuple[str, ...]:
         """Return the places with a point that a vehicle is bound to."""
@@ -169,8 +232,23 @@ class GoalFinder:
         x, y, _, _ = site.origin()
         for bound in self._bounds(spec, seat.agent):
             if bound.stops:
-                return self._arc_near(seat, self._places.point(bound.place, (x, y)), bound)
+                point = self._places.point(bound.place, (x, y))
+                near = self._arc_near(seat, point, bound)
+                return near or self._arc_near(seat, point, bound, wide=True)
         return self._open_arc(seat, seat.arc_m + STOP_AFTER_M)
+
+    def _exactly(self, agent: GroundAgent, place: str, stated: Parameter) -> _Bound:
+        """Return the bound of a stated distance from a place, well inside its tolerance."""
+        parked = any(p.relation is Relation.PARKED_AT for p in agent.placements)
+        t = self._tolerances
+        tolerance = t.placement_other_m if parked else t.placement_vehicle_m
+        slack_m = _OF_TOLERANCE * tolerance.of(stated.value, approximate=stated.approximate)
+        low_m, high_m = stated.value - slack_m, stated.value + slack_m
+        if stated.bound is Bound.AT_MOST:
+            low_m, high_m = 0.0, stated.value - slack_m
+        elif stated.bound is Bound.AT_LEAST:
+            low_m, high_m = stated.value + slack_m, stated.value + _ROOM_BEYOND_M
+        return _Bound(place=place, within_m=high_m, at_start=True, least_m=low_m)
 
     def _bounds(self, spec: ScenarioSpec, agent: GroundAgent) -> Iterator[_Bound]:
         arrival_m = self._tolerances.arrival_m - _INSIDE_M
@@ -182,6 +260,9 @@ class GoalFinder:
             if relation is Relation.NEAR:
                 stated = placement.distance_m
                 near_m = self._tolerances.near_m if stated is None else stated.value
+                if stated is not None and stated.provenance is Provenance.EXPLICIT:
+                    yield self._exactly(agent, of, stated)
+                    continue
             yield _Bound(place=of, within_m=near_m, at_start=True)
         for behavior in agent.behaviors:
             if behavior.target is not None and has_point(behavior.target):
@@ -198,10 +279,15 @@ class GoalFinder:
                 yield _Bound(place=trigger.place, within_m=arrival_m, at_start=False)
 
     def _arc_near(
-        self, seat: SeatedAgent, point: tuple[float, float], bound: _Bound
+        self,
+        seat: SeatedAgent,
+        point: tuple[float, float],
+        bound: _Bound,
+        *,
+        wide: bool = False,
     ) -> float | None:
         """Return where a way comes near a point at a fair distance (m along it), else None."""
-        low, high = (seat.arc_m + way_m for way_m in _WAY_M)
+        low, high = (seat.arc_m + way_m for way_m in (_WIDE_M if wide else _WAY_M))
         arc_m, _ = seat.path.line.project(
             *point, near_s=(low + high) / 2.0, window_m=(high - low) / 2.0
         )
