@@ -89,8 +89,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 with closing(runs) as answers:
                     for index, answer in answers:
                         trial = left[index]
-                        is_lost = isinstance(answer, Lost)
-                        result = lost(trial, answer.why) if is_lost else answer
+                        result = lost(trial, answer.why) if isinstance(answer, Lost) else answer
                         judged[trial.key] = result
                         journal.add(trial.key, result.model_dump(mode='json'))
                         progress.step(f'{trial.key}: {shown(result)}')

@@ -170,12 +170,14 @@ def worlds(landmark: str) -> Iterator[Cell]:
 
 def zones(landmark: str, other: str) -> Iterator[Cell]:
     """Yield what is to be kept away from, in each mode."""
-    for how, fields in (('avoided', {}), ('40 m off', {'avoid_m': 40.0})):
+    hows: tuple[tuple[str, Doc], ...] = (('avoided', {}), ('40 m off', {'avoid_m': 40.0}))
+    for how, fields in hows:
         for mode in MissionMode:
             aim = {'hover': landmark, 'track': 'car1', 'navigate': landmark}[mode.value]
             body = _CAR if mode is MissionMode.TRACK else ()
             pattern = {'pattern': 'orbit'} if mode is MissionMode.NAVIGATE else {}
-            flight = flies(mode.value, aim, altitude_m=40.0, avoid=(other,), **fields, **pattern)
+            stated: Doc = {'altitude_m': 40.0, 'avoid': (other,), **fields, **pattern}
+            flight = {**flies(mode.value, aim), **stated}
             cell = [*body, uav(), flight]
             yield Cell(table='Zone', row=how, column=mode.value, parts=cell)
     ends: dict[str, Doc] = {'from A to B': {'start': landmark, 'end': other}}

@@ -39,6 +39,7 @@ from aurora_core.grounding.sites import (
     brisk_lanes,
     line_from,
     on_main_roads,
+    parked_pose,
     tied_way_m,
     with_another_lane,
 )
@@ -56,9 +57,6 @@ from aurora_core.spec.scenario import (
     ScenarioSpec,
 )
 from aurora_core.spec.vocabulary import BehaviorKind, MissionMode, Place
-
-# Free space between the border of its lane and the flank of a parked vehicle (m).
-KERB_CLEARANCE_M = 0.3
 
 # Speed limit of the slowest streets (m/s).
 _SLOWEST_MPS = 8.0
@@ -280,9 +278,8 @@ class AgentPlacer:
         factor = max(style.get('speed_factor', 1.0), _urged(record, speed_mps))
         edges = path.edge_ids[path.edge_ids.index(first) :]
         x, y, hx, hy = path.position_at(arc_m)
-        if parked:  # right of its lane
-            aside_m = 0.5 * lane.width_m + 0.5 * record.width_m + KERB_CLEARANCE_M
-            x, y = x + aside_m * hy, y - aside_m * hx
+        if parked:
+            x, y, _, _ = parked_pose((x, y, hx, hy), lane, record)
         route_xy_m = ((x, y), *line_from(path, arc_m)[1:])
         stop_lane_id, stop_position_m = '', 0.0
         if stop_m is not None:

@@ -12,17 +12,18 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from aurora_core.grounding.awaited import bound_to_places
+from aurora_core.grounding.nearby import BY_PERSONS, begins_near
 from aurora_core.grounding.pace import (
     Encounter,
     encounter_room_m,
     encounters,
     met_persons,
     own_speed_mps,
-    partings,
 )
 from aurora_core.grounding.places import POINTS, has_point
 from aurora_core.grounding.ties import (
     IN_LINE_M,
+    BeforePlace,
     Tie,
     agreed,
     in_passing_lane,
@@ -37,7 +38,6 @@ from aurora_core.spec.scenario import (
     AgentAction,
     Behavior,
     GroundAgent,
-    Link,
     Placement,
     ScenarioSpec,
     SendMessage,
@@ -55,15 +55,6 @@ ALONG: dict[Relation, tuple[int, int]] = {
     Relation.RIGHT: (0, -1),
     Relation.BESIDE: (0, 1),
     Relation.NEAR: (-1, 0),
-}
-
-# Where a person is to a vehicle that is placed by the person, which is put there in its stead.
-BY_PERSONS: dict[Relation, Relation] = {
-    Relation.AHEAD: Relation.BEHIND,
-    Relation.BEHIND: Relation.AHEAD,
-    Relation.LEFT: Relation.RIGHT,
-    Relation.BESIDE: Relation.BESIDE,
-    Relation.NEAR: Relation.NEAR,
 }
 
 # Gap of an agent that follows without a stated placement (contract default for vehicles).
@@ -172,21 +163,6 @@ class _Distances:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class BeforePlace:
-    """A member whose place along its route an intersection or a crosswalk decides.
-
-    Attributes:
-        agent: Id.
-        place: What it stands before.
-        distance_m: Along its route from its reference point to the middle of that.
-    """
-
-    agent: str
-    place: Place
-    distance_m: float
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
 class SceneSplit:
     """Agents by how they are placed.
 
@@ -233,7 +209,7 @@ def split_scene(
         tolerance=tolerance,
         meetings=encounters(spec),
         speeds_mps=speeds,
-        near=_near(spec),
+        near=begins_near(spec),
         persons=frozenset(a.id for a in persons),
     )
     passing = passing_pairs(spec)
@@ -264,6 +240,7 @@ def split_scene(
     targets = {m.target for m in spec.missions}
     targets |= {a.id for a in vehicles if bound_to_places(spec, a)}
     targets |= {vehicle for vehicle, _ in let_cross(spec)}
+    targets |= {a.id for a in vehicles if any(map(_is_before_place, a.placements))}
     targets |= {p.of for person in persons for p in person.placements}
     targets |= {a.id for a in vehicles for p in a.placements if p.of in distances.persons}
     if targets & set(by_id):
@@ -310,24 +287,6 @@ def split_scene(
         unsupported=tuple(unsupported),
         before=before,
     )
-
-
-def _near(spec: ScenarioSpec) -> Mapping[str, str]:
-    """Return who begins near whom: who is to get away from it, or tells it something by radio."""
-    parting = [sorted(pair) for pair in partings(spec)]
-    told: list[SendMessage | Link] = list(spec.links)
-    told += [e.action for e in spec.events if isinstance(e.action, SendMessage)]
-    pairs = [(pair[-1], pair[0]) for pair in parting] + [(t.sender, t.receiver) for t in told]
-    egos = {a.id for a in spec.agents if a.role is Role.EGO}
-    near: dict[str, str] = {}
-    by_id = {a.id: a for a in spec.agents}
-    for one, other in pairs:
-        if any(name in by_id and bound_to_places(spec, by_id[name]) for name in (one, other)):
-            continue
-        behind, front = (other, one) if one in egos else (one, other)
-        if behind != front and near.get(behind) != front:
-            near.setdefault(front, behind)
-    return near
 
 
 def _is_before_place(placement: Placement) -> bool:
@@ -388,7 +347,7 @@ def _ties(
         elif _is_before_place(placement) or _is_at_place(placement):
             continue  # nobody else's place follows from it
         elif placement.of in distances.persons and placement.relation in BY_PERSONS:
-            continue  # it is the person who is put there
+            continue
         elif placement.relation not in _ON or placement.of not in _ROADS:
             where = f' {placement.of}' if placement.of is not None else ''
             unsupported.append(f'{agent.id}: placement {placement.relation.value}{where}')

@@ -216,15 +216,6 @@ class GoalFinder:
         bounds = (bound.place for agent in agents for bound in self._bounds(spec, agent))
         return tuple(dict.fromkeys(bounds))
 
-    def nearest_street_m(self, spec: ScenarioSpec, name: str, place: str) -> float | None:
-        """Return how far a landmark is from the nearest lane for a vehicle (m), else None."""
-        if not is_landmark(place):
-            return None
-        agent = next(a for a in spec.agents if a.id == name)
-        vclass = self._types[agent.type.value].vclass
-        point = self._places.point(place, (0.0, 0.0))
-        return self._map.network.nearest_lane(*point, vclass)[2]
-
     def stop_arc_m(self, spec: ScenarioSpec, site: Site, seat: SeatedAgent) -> float | None:
         """Return where on its way a vehicle stops (m), None when it does not by itself."""
         if not stops(seat.agent):

@@ -13,7 +13,8 @@ from dataclasses import dataclass, replace
 
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.awaited import awaited_at
-from aurora_core.grounding.convoy import BY_PERSONS, DEFAULT_GAP_M, stands
+from aurora_core.grounding.convoy import DEFAULT_GAP_M, parks, stands
+from aurora_core.grounding.nearby import ON_SIDEWALKS, by_vehicles, in_order
 from aurora_core.grounding.pace import (
     WALKING_MPS,
     encounter_room_m,
@@ -23,7 +24,14 @@ from aurora_core.grounding.pace import (
 from aurora_core.grounding.places import MapPlaces, arrivals, has_point
 from aurora_core.grounding.releases import person_release
 from aurora_core.grounding.routes import route_finder
-from aurora_core.grounding.sites import ANY_CLASS, SeatedAgent, SeatedPerson, Site, line_from
+from aurora_core.grounding.sites import (
+    ANY_CLASS,
+    SeatedAgent,
+    SeatedPerson,
+    Site,
+    line_from,
+    parked_pose,
+)
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.walk_path import WalkPath, kerb_to_kerb, sidewalk_of, walk_along
@@ -38,7 +46,7 @@ from aurora_core.spec.scenario import (
     Placement,
     ScenarioSpec,
 )
-from aurora_core.spec.vocabulary import AgentType, BehaviorKind, Place, Relation
+from aurora_core.spec.vocabulary import BehaviorKind, Place, Relation
 
 # Who waits stands this far before the end of the sidewalk (m), the next one behind the first.
 _KERB_M = 0.6
@@ -52,6 +60,10 @@ _STEP_M = 0.5
 
 # Two persons side by side on a sidewalk are so far apart (m).
 _ABREAST_M = 0.65
+
+# Round the middle of a person is so much room (m), and so far its way is looked at.
+_BODY_M = 0.4
+_SHORT_WAY_M = 60.0
 
 # Who has crossed walks on this far (m), out of the way of the next one.
 _BEYOND_M = 6.0
@@ -73,9 +85,6 @@ _ON_WAY_M = 10.0
 
 # Of a place, the sidewalk is at most so far away (m).
 _BESIDE_PLACE_M = 50.0
-
-# Who stands on sidewalks: persons, and roadside units, which never go.
-ON_SIDEWALKS = (AgentType.PEDESTRIAN, AgentType.RSU)
 
 # Along or against the route of a vehicle, by relation.
 _ALONG = {
@@ -159,15 +168,43 @@ class PersonPlacer:
             site: Where the vehicles stand.
             run_s: How long they may walk.
         """
-        for number, agent in enumerate(_in_order(persons)):
+        for number, agent in enumerate(in_order(persons)):
             spot = self._spot(spec, agent, site, run_s, number)
             if isinstance(spot, str):
                 return spot
             walker = SeatedPerson(
                 agent=agent, path=spot.path, arc_m=spot.arc_m, lateral_m=spot.lateral_m
             )
+            if self._runs_into_parked(spec, site, walker):
+                return 'sidewalk'
             site = replace(site, walkers=(*site.walkers, walker))
         return site
+
+    def _runs_into_parked(self, spec: ScenarioSpec, site: Site, walker: SeatedPerson) -> bool:
+        """Tell whether a person stands in, or walks through, a vehicle parked on its sidewalk."""
+        way_m = _SHORT_WAY_M if _goes(spec, walker.agent) else _STEP_M
+        end_m = min(walker.path.length_m, walker.arc_m + way_m)
+        steps = range(int((end_m - walker.arc_m) / _STEP_M) + 1)
+        points = [walker.path.position_at(walker.arc_m + k * _STEP_M) for k in steps]
+        points = [
+            (x - walker.lateral_m * hy, y + walker.lateral_m * hx, 0.0, 0.0)
+            for x, y, hx, hy in points
+        ]
+        for seat in (*site.seated, *site.others):
+            if not parks(spec, seat.agent):
+                continue
+            record = self._types[seat.agent.type.value]
+            lane = self._map.network.lane(seat.lane_id)
+            x, y, hx, hy = parked_pose(seat.path.position_at(seat.arc_m), lane, record)
+            for px, py, _, _ in points:
+                along_m = abs((px - x) * hx + (py - y) * hy)
+                aside_m = abs((py - y) * hx - (px - x) * hy)
+                if (
+                    along_m < 0.5 * record.length_m + _BODY_M
+                    and aside_m < 0.5 * record.width_m + _BODY_M
+                ):
+                    return True
+        return False
 
     def grounded(self, spec: ScenarioSpec, site: Site) -> Iterator[GroundedAgent]:
         """Yield the persons of a site as they enter the run."""
@@ -287,7 +324,7 @@ class PersonPlacer:
         self, spec: ScenarioSpec, agent: GroundAgent, site: Site, number: int
     ) -> _Spot | str | None:
         """Return the spot that a placement to a vehicle gives, None where there is no such."""
-        for placement in (*agent.placements, *_of_vehicles(spec, agent)):
+        for placement in (*agent.placements, *by_vehicles(spec, agent)):
             seat = site.seat(placement.of or '')
             if seat is None or placement.relation not in _ALONG:
                 continue
@@ -385,7 +422,7 @@ class PersonPlacer:
         names += [awaited.place for awaited in awaited_at(spec) if awaited.agent == agent.id]
         stated = {p.of: p.distance_m.value for p in agent.placements if p.distance_m is not None}
         for name in names:
-            if name in stated and has_point(name):
+            if name is not None and name in stated and has_point(name):
                 return self._at_distance(self._places.point(name, (x, y)), stated[name], number)
             if name == Place.CROSSWALK:
                 crossing = self._places.crossing_near((x, y))
@@ -443,34 +480,6 @@ class PersonPlacer:
         edges = self._finder.straight_route(spot.path.edge_ids[0], spot.arc_m + way_m)
         path = walk_along(self._map.network, edges) if edges else None
         return 'sidewalk' if path is None else _Spot(path, spot.arc_m, spot.lateral_m)
-
-
-def _in_order(persons: tuple[GroundAgent, ...]) -> list[GroundAgent]:
-    """Return persons so that whoever stands by another one comes after that one."""
-    names = {agent.id for agent in persons}
-    found: list[GroundAgent] = []
-    left = list(persons)
-    while left:
-        done = {agent.id for agent in found}
-        ready = [
-            agent
-            for agent in left
-            if not {p.of for p in agent.placements if p.of in names} - done - {agent.id}
-        ]
-        found += ready or left  # those who wait for each other come as they were listed
-        left = [agent for agent in left if agent not in found]
-    return found
-
-
-def _of_vehicles(spec: ScenarioSpec, person: GroundAgent) -> Iterator[Placement]:
-    """Yield where a person is by the placements of vehicles that name it."""
-    for agent in spec.agents:
-        for placement in agent.placements:
-            if placement.of == person.id and agent.type not in ON_SIDEWALKS:
-                relation = BY_PERSONS.get(placement.relation)
-                if relation is not None:
-                    changed = {'relation': relation, 'of': agent.id}
-                    yield placement.model_copy(update=changed)
 
 
 def _goes(spec: ScenarioSpec, agent: GroundAgent) -> bool:

@@ -16,9 +16,10 @@ import numpy.typing as npt
 
 from aurora_core.errors import MapError
 from aurora_core.geometry.kernel import norm2
-from aurora_core.grounding.convoy import BeforePlace, ConvoyMember
+from aurora_core.grounding.convoy import ConvoyMember
 from aurora_core.grounding.places import MapPlaces, has_point, nearest_to
 from aurora_core.grounding.routes import route_finder
+from aurora_core.grounding.ties import BeforePlace
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.map_records import SpawnTable, may_stand
@@ -49,6 +50,14 @@ LONGEST_WAY_M = 900.0
 
 # Who lets others pass, and they, go the same way for so long (m).
 _PASSING_M = 150.0
+
+# Free space between the border of its lane and the flank of a parked vehicle (m).
+KERB_CLEARANCE_M = 0.3
+
+# Who is in a lane beside another one is at least so far from its middle (m), looked for so far
+# along it.
+_ASIDE_M = 1.5
+_NEXT_LANE_M = 20.0
 
 # A limit of 13.89 m/s is meant where 50 km/h are asked (m/s).
 _LIMIT_SLACK_MPS = 0.05
@@ -390,6 +399,8 @@ def _site(
     origin = path_of(types[convoy[0].agent.type.value].vclass if convoy else ANY_CLASS, 0)
     if origin is None or origin_arc_m > origin.length_m:
         return None
+    if any(s.member.lane_shift and not _is_aside(s, origin) for s in seated):
+        return None  # its lane has ended, or joined the other one, before it gets there
     rear = min((s.arc_m for s in seated), default=origin_arc_m)
     front = max((s.arc_m for s in seated), default=origin_arc_m)
     signals = [s[0] for s in origin.signals if s[0] >= rear]
@@ -406,6 +417,13 @@ def _shared_m(network: RoadNetwork, one: tuple[str, ...], other: tuple[str, ...]
     """Return how long two routes are the same from their beginning on, metres of their edges."""
     pairs = itertools.takewhile(lambda pair: pair[0] == pair[1], zip(one, other, strict=False))
     return sum(network.edge(edge).length_m for edge, _ in pairs)
+
+
+def _is_aside(seat: SeatedAgent, origin: RoutePath) -> bool:
+    """Tell whether a member is beside the way of the convoy's origin, not on it."""
+    x, y, _, _ = seat.path.position_at(seat.arc_m)
+    _, aside_m = origin.line.project(x, y, near_s=seat.arc_m, window_m=_NEXT_LANE_M)
+    return abs(aside_m) > _ASIDE_M
 
 
 def _lets_pass(agent: GroundAgent) -> bool:
@@ -429,6 +447,21 @@ def _overlap(seated: Sequence[SeatedAgent], types: Mapping[str, AgentTypeRecord]
         ):
             return True
     return False
+
+
+def parked_pose(
+    pose: tuple[float, float, float, float], lane: Lane, record: AgentTypeRecord
+) -> tuple[float, float, float, float]:
+    """Return where a vehicle is parked that would stand at a pose of a lane: right of it.
+
+    Args:
+        pose: x, y (m) and unit heading on the lane.
+        lane: The lane.
+        record: Size of the vehicle.
+    """
+    x, y, hx, hy = pose
+    aside_m = 0.5 * lane.width_m + 0.5 * record.width_m + KERB_CLEARANCE_M
+    return x + aside_m * hy, y - aside_m * hx, hx, hy
 
 
 def samples_along(
