@@ -65,6 +65,9 @@ _ABREAST_M = 0.65
 _BODY_M = 0.4
 _SHORT_WAY_M = 60.0
 
+# Inside a bound on a distance one stands so far (m).
+_INSIDE_M = 1.0
+
 # Who has crossed walks on this far (m), out of the way of the next one.
 _BEYOND_M = 6.0
 
@@ -330,7 +333,8 @@ class PersonPlacer:
                 continue
             stated = placement.distance_m
             if placement.relation is Relation.NEAR and stated is not None:
-                return self._so_near(seat, stated.value) or 'sidewalk'
+                aimed_m = max(0.0, stated.inside(_INSIDE_M))
+                return self._so_near(seat, aimed_m) or 'sidewalk'
             sign = _ALONG[placement.relation]
             away_m = sign * (self._near_m(seat) if stated is None else stated.value)
             if isinstance(seat, SeatedPerson) and sign == 0.0:
@@ -420,7 +424,11 @@ class PersonPlacer:
         x, y, _, _ = site.origin()
         names = [p.of for p in agent.placements] + [b.target for b in agent.behaviors]
         names += [awaited.place for awaited in awaited_at(spec) if awaited.agent == agent.id]
-        stated = {p.of: p.distance_m.value for p in agent.placements if p.distance_m is not None}
+        stated = {
+            p.of: max(0.0, p.distance_m.inside(_INSIDE_M))
+            for p in agent.placements
+            if p.distance_m is not None
+        }
         for name in names:
             if name is not None and name in stated and has_point(name):
                 return self._at_distance(self._places.point(name, (x, y)), stated[name], number)

@@ -56,7 +56,7 @@ KERB_CLEARANCE_M = 0.3
 
 # Who is in a lane beside another one is at least so far from its middle (m), looked for so far
 # along it.
-_ASIDE_M = 1.5
+_BESIDE_M = 1.5
 _NEXT_LANE_M = 20.0
 
 # A limit of 13.89 m/s is meant where 50 km/h are asked (m/s).
@@ -423,7 +423,7 @@ def _is_aside(seat: SeatedAgent, origin: RoutePath) -> bool:
     """Tell whether a member is beside the way of the convoy's origin, not on it."""
     x, y, _, _ = seat.path.position_at(seat.arc_m)
     _, aside_m = origin.line.project(x, y, near_s=seat.arc_m, window_m=_NEXT_LANE_M)
-    return abs(aside_m) > _ASIDE_M
+    return abs(aside_m) > _BESIDE_M
 
 
 def _lets_pass(agent: GroundAgent) -> bool:
