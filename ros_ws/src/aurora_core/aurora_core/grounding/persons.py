@@ -431,7 +431,7 @@ class PersonPlacer:
         }
         for name in names:
             if name is not None and name in stated and has_point(name):
-                return self._at_distance(self._places.point(name, (x, y)), stated[name], number)
+                return self._at_distance(self._places.itself(name, (x, y)), stated[name], number)
             if name == Place.CROSSWALK:
                 crossing = self._places.crossing_near((x, y))
                 path = None if crossing is None else kerb_to_kerb(self._map.network, crossing)
