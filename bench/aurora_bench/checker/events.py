@@ -165,6 +165,8 @@ def _ready_s(
     if action.get('do') == 'send_message' and trigger.get('on') in STATES:
         # Who tracks somebody may report from its capture on.
         for body in case.bodies(action.get('sender')):
+            if not scene.bodies[body].is_uav:
+                continue
             flown = [m for m in case.annotation.requirements if _is_flown(m, case, body)]
             captured = uav_actions.first_captured(case, body)
             if captured is not None and flown[0].get('mode') == 'track':

@@ -211,6 +211,8 @@ def _senseless(relation: Relation, of: str, *, is_person: bool) -> str:
     """Return why nobody says this, '' where somebody may."""
     if relation in _LANES and (is_person or of != 'vehicle'):
         return 'lanes relate vehicles'
+    if relation in _SIDES and of in ('intersection', 'crosswalk', 'landmark'):
+        return 'a place has no heading; before says where one comes from'
     if of in ('vehicle', 'person') and relation in (Relation.ON, Relation.AT, Relation.PARKED_AT):
         return 'of places'
     if relation is Relation.PARKED_AT and is_person:

@@ -288,8 +288,9 @@ def _tell(
         len(silent_failures(judged)),
         unchecked_share(judged),
     )
-    head = [repair_line(ruler.word, judged)] if judged else []
-    head += [read_back_line([t.placed for t in judged if t.placed is not None])]
+    placed = [t.placed for t in judged if t.placed is not None]
+    head = [read_back_line(placed)] if placed else []
+    head += [repair_line(ruler.word, judged)] if judged else []
     head += [file_line(file) for file in files]
     document: dict[str, Any] = {
         'files': [

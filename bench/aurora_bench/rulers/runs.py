@@ -24,6 +24,7 @@ from aurora_bench.rulers.trial import Cause, JudgedTrial, Trial, judged
 from aurora_bench.rulers.watched import WatchedStages
 from aurora_cli.clock import MonotonicClock
 from aurora_cli.installed import installed
+from aurora_core.errors import AuroraError
 from aurora_core.pipeline.run import run
 from aurora_core.pipeline.stages import RunControl, RunRequest
 from aurora_core.report.outputs import write_report
@@ -221,7 +222,10 @@ def _placed(ran: _Ran) -> ReadBack | None:
     # What repair grounded again is not what was remembered.
     if trace is None or agsg is None or agsg.grounding is None or ran.report.repairs:
         return None
-    return read_back(ran.folder / trace.bag, agsg.grounding)
+    try:
+        return read_back(ran.folder / trace.bag, agsg.grounding)
+    except AuroraError:
+        return None  # a damaged bag has its own words in the report
 
 
 def _repaired(report: RunReport) -> bool:

@@ -332,7 +332,8 @@ class PersonPlacer:
             if seat is None or placement.relation not in _ALONG:
                 continue
             stated = placement.distance_m
-            if placement.relation is Relation.NEAR and stated is not None:
+            told = stated is not None and stated.provenance is Provenance.EXPLICIT
+            if told and stated is not None and placement.relation is Relation.NEAR:
                 aimed_m = max(0.0, stated.inside(_INSIDE_M))
                 return self._so_near(seat, aimed_m) or 'sidewalk'
             sign = _ALONG[placement.relation]
@@ -427,7 +428,7 @@ class PersonPlacer:
         stated = {
             p.of: max(0.0, p.distance_m.inside(_INSIDE_M))
             for p in agent.placements
-            if p.distance_m is not None
+            if p.distance_m is not None and p.distance_m.provenance is Provenance.EXPLICIT
         }
         for name in names:
             if name is not None and name in stated and has_point(name):
