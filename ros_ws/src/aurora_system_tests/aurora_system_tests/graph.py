@@ -11,6 +11,7 @@ from pathlib import Path
 
 from aurora_ros.matching import wait_until
 from aurora_ros.testing.domains import own_domain
+from aurora_ros.testing.forked import ForkedNode
 from aurora_ros.testing.partner import Partner, partner
 from aurora_ros.testing.processes import NodeProcess
 
@@ -91,7 +92,7 @@ def running_graph(
         play = stack.enter_context(partner(domain))
 
         def start(name: str) -> NodeProcess:
-            return NodeProcess(MODULES[name], domain, folder, arguments.get(name, ()))
+            return ForkedNode(MODULES[name], domain, folder, arguments.get(name, ()))
 
         started = {name: start(name) for name in names}
         stack.callback(_kill_all, started)
