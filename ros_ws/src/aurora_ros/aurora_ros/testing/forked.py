@@ -25,7 +25,8 @@ from aurora_ros.testing.processes import NodeProcess, Process
 
 def _context() -> ForkServerContext:
     context = multiprocessing.get_context('forkserver')
-    context.set_forkserver_preload(['aurora_ros.testing.imported'])
+    # By name, as it is above this package; without it each node imports its own.
+    context.set_forkserver_preload(['aurora_nodes.imported'])
     return context
 
 
