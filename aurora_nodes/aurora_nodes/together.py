@@ -66,8 +66,8 @@ def _become(name: str, core: str, run_dir: Path, log_dir: Path) -> None:
         os.sched_setaffinity(0, {int(core)})
     # Who was started in the background of a script may have been told to ignore them.
     signal.signal(signal.SIGINT, signal.default_int_handler)
-    for number in (signal.SIGTERM, signal.SIGHUP):
-        signal.signal(number, signal.SIG_DFL)
+    for other in (signal.SIGTERM, signal.SIGHUP):
+        signal.signal(other, signal.SIG_DFL)
     nothing = os.open(os.devnull, os.O_RDONLY)
     log = os.open(log_dir / f'{name}.log', os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o644)
     for descriptor, number in ((nothing, 0), (log, 1), (log, 2)):

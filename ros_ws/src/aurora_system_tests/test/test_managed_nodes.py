@@ -15,6 +15,7 @@ from lifecycle_msgs.msg import State, Transition
 from lifecycle_msgs.srv import ChangeState, GetState
 
 from aurora_core.errors import ExecutionError
+from aurora_nodes.imported import MODULES
 from aurora_ros import interfaces as on
 from aurora_ros.interfaces import Call
 from aurora_ros.matching import wait_until
@@ -22,7 +23,6 @@ from aurora_ros.testing.domains import own_domain
 from aurora_ros.testing.forked import ForkedNode
 from aurora_ros.testing.partner import Partner, partner
 from aurora_ros.testing.processes import nodes
-from aurora_system_tests.graph import MODULES
 
 pytestmark = pytest.mark.ros
 

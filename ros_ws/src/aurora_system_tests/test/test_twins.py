@@ -12,9 +12,10 @@ import pytest
 pytest.importorskip('rclpy')
 
 from aurora_core.errors import AuroraError
+from aurora_nodes.imported import MODULES
 from aurora_ros import interfaces as on
 from aurora_ros.testing.forked import ForkedNode
-from aurora_system_tests.graph import MODULES, RunningGraph, running_graph
+from aurora_system_tests.graph import RunningGraph, running_graph
 
 pytestmark = pytest.mark.ros
 
