@@ -8,6 +8,7 @@ import os
 import signal
 import subprocess
 import sys
+from functools import partial
 from pathlib import Path
 
 import pytest
@@ -32,6 +33,10 @@ def together(folder: Path, domain: int, lines: str) -> subprocess.CompletedProce
         timeout=LIMIT_S,
         check=False,
     )
+
+
+def _has_ended(pid: int) -> bool:
+    return process_state(pid) is None
 
 
 def test_a_node_that_is_unknown_starts_none(tmp_path: Path) -> None:
@@ -64,6 +69,6 @@ def test_each_node_has_its_group_its_core_its_files_and_its_end(tmp_path: Path) 
             for pid in pids.values():
                 os.killpg(pid, signal.SIGINT)
         for name, pid in pids.items():
-            assert wait_until(lambda pid=pid: process_state(pid) is None, LIMIT_S), name
+            assert wait_until(partial(_has_ended, pid), LIMIT_S), name
             assert not (tmp_path / f'{name}.ready').exists()
             assert 'Traceback' not in (tmp_path / f'{name}.log').read_text()
