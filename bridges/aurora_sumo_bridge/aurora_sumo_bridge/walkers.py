@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import libsumo
 
+from aurora_core.geometry.frames import sumo_angle_to_heading
 from aurora_core.ports.simulators import GroundAgentLoad
 from aurora_sumo_bridge.checks import unplaceable
 from aurora_sumo_bridge.network import PEDESTRIAN, Network
@@ -21,6 +22,8 @@ from aurora_sumo_bridge.polyline import Point
 ARRIVAL_MARGIN_M = 0.45
 # A walker that only stands still needs a walk: to this far from the end of its sidewalk.
 END_MARGIN_M = 0.5
+# From so far behind a person is put on its spot (m).
+_RUN_UP_M = 0.3
 
 
 class Walker:
@@ -93,7 +96,7 @@ class Walker:
             raise unplaceable(agent, 'SUMO did not insert the person')
         # moveTo turns the reported angle towards the jump, so the angle is read before.
         angle_deg = float(libsumo.person.getAngle(agent.agent_id))
-        libsumo.person.moveTo(agent.agent_id, self.lane_id, self._position_m, 0.0)
+        self._put(self.lane_id, self._position_m, 0.0, self._way(angle_deg))
         self._type_mps = float(libsumo.person.getMaxSpeed(agent.agent_id))
         self._usual_mps = agent.speed_factor * self._type_mps
         self.set_speed(agent.speed_mps if agent.speed_mps > 0.0 else self._usual_mps)
@@ -149,7 +152,8 @@ class Walker:
         libsumo.person.appendWalkingStage(agent_id, edges, arrival_m)
         libsumo.person.removeStage(agent_id, 0)
         # The new stage put it on another stripe: back to the spot, before SUMO moves it.
-        libsumo.person.moveTo(agent_id, lane_id, lane_position_m, left_m)
+        way = self._way(float(libsumo.person.getAngle(agent_id)))
+        self._put(lane_id, lane_position_m, left_m, way)
         self._edges, self._arrival_m, self._standing = edges, arrival_m, False
         self._apply_speed()
         return ''
@@ -165,6 +169,36 @@ class Walker:
         if to_go_m <= self._reach_m():
             self._standing = True
             self._apply_speed()
+
+    def _put(self, lane_id: str, position_m: float, left_m: float, way: float) -> None:
+        """Put the person on a spot of its lane, so that it goes on in its direction.
+
+        SUMO takes the direction of a walk from the jump that `moveTo` makes, and takes a person
+        out whose goal lies behind it. A jump aside says nothing, so the last one is along the
+        lane, out of the place behind (measured: a walker stays in then, also on bent sidewalks).
+
+        Args:
+            lane_id: Lane that it stands on.
+            position_m: On it, as SUMO counts.
+            left_m: Left of its middle.
+            way: 1 with the lane, -1 against it.
+        """
+        person = self._agent.agent_id
+        behind_m = position_m - way * _RUN_UP_M
+        if 0.0 <= behind_m <= float(libsumo.lane.getLength(lane_id)):
+            libsumo.person.moveTo(person, lane_id, behind_m, left_m)
+        libsumo.person.moveTo(person, lane_id, position_m, left_m)
+
+    def _way(self, angle_deg: float) -> float:
+        """Return whether a compass angle leads along the lane under the person, 1 or -1."""
+        person = self._agent.agent_id
+        lane_id = str(libsumo.person.getLaneID(person))
+        arc_m = self._network.arc_position_m(
+            lane_id, float(libsumo.person.getLanePosition(person))
+        )
+        _, (along_x, along_y) = self._network.shape(lane_id).at(arc_m)
+        x, y = sumo_angle_to_heading(angle_deg)
+        return 1.0 if x * along_x + y * along_y >= 0.0 else -1.0
 
     def _reach_m(self) -> float:
         return self._wanted_mps * self._dt_s + ARRIVAL_MARGIN_M

@@ -124,18 +124,19 @@ def test_a_changed_multirotor_is_refused_until_measured_and_then_planned_with(
     assert refused.code == 4
     assert 'measured with multirotor_sha256' in refused.out
     assert call('map', 'measure', 'junction').code == 0
-    flight = installed.installed().settings.flight
-    assert flight.climb_mps == pytest.approx(1.0, abs=0.01)
+    known = installed.installed()
+    assert known.limits.uav_climb_max_mps == 0.8  # of 1.0 m/s, with the reserve
+    assert 0.5 < known.settings.flight.climb_mps < 0.8
     after = json.loads(call('check', '--map', 'junction', '--json', high).out)
     assert after['horizon_s'] > before['horizon_s'] + 100.0
 
 
 def test_a_clearance_that_changes_is_measured_again(config: Path, call: Call) -> None:
-    _edit(config / 'limits.json', '"clearance_min_m": 3.0', '"clearance_min_m": 4.0')
+    _edit(config / 'limits.json', '"clearance_min_m": 3.0', '"clearance_min_m": 6.0')
     installed.forget()
     refused = call('check', '--map', 'junction', TRUCK)
     assert refused.code == 4
-    assert 'measured with clearance_m 3.0, here is 4.0' in refused.out
+    assert 'measured with clearance_m 5.0, here is 6.7' in refused.out
     assert call('map', 'measure', 'junction').code == 0
     assert call('check', '--map', 'junction', TRUCK).code == 0
 

@@ -24,7 +24,7 @@ from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.map_records import SpawnTable, may_stand
 from aurora_core.knowledge.net_types import Lane
 from aurora_core.knowledge.road_network import RoadNetwork
-from aurora_core.knowledge.route_path import RoutePath
+from aurora_core.knowledge.route_path import RoutePath, arc_at
 from aurora_core.knowledge.settings import GroundingSettings
 from aurora_core.knowledge.walk_path import WalkPath
 from aurora_core.spec.scenario import GroundAgent, ScenarioSpec
@@ -43,6 +43,8 @@ _ASIDE_M = 8.0
 
 # Clear road in front of the first and behind the last bumper at t = 0.
 _END_GAP_M = 2.0
+# Within so much of its place along the way, a member is looked for beside it (m).
+_ABREAST_M = 30.0
 
 # A limit of 13.89 m/s is meant where 50 km/h are asked (m/s).
 _LIMIT_SLACK_MPS = 0.05
@@ -257,15 +259,20 @@ def sites(
                 site = None
                 if exact_m is not None:
                     site = _site(map_model, convoy, types, edges, lane.id, exact_m, paths)
-            if site is not None and _stands(site, spawns):
+            if site is not None and _stands(network, site, spawns):
                 yield site
             arc_m += spacing_m
 
 
-def _stands(site: Site, spawns: SpawnTable | None) -> bool:
+def _stands(network: RoadNetwork, site: Site, spawns: SpawnTable | None) -> bool:
     """Tell whether every member can be put where it is to be."""
     return all(
-        may_stand(spawns, seat.agent.type.value, seat.lane_id, seat.lane_position_m)
+        may_stand(
+            spawns,
+            seat.agent.type.value,
+            seat.lane_id,
+            arc_at(network.lane(seat.lane_id), seat.lane_position_m),
+        )
         for seat in site.seated
     )
 
@@ -366,6 +373,8 @@ def _site(
     origin = path_of(types[convoy[0].agent.type.value].vclass if convoy else ANY_CLASS, 0)
     if origin is None or origin_arc_m > origin.length_m:
         return None
+    if any(m.lane_shift != 0 for m in convoy) and not _abreast(network, origin, seated):
+        return None
     rear = min((s.arc_m for s in seated), default=origin_arc_m)
     front = max((s.arc_m for s in seated), default=origin_arc_m)
     signals = [s[0] for s in origin.signals if s[0] >= rear]
@@ -376,6 +385,20 @@ def _site(
         free_run_m=(signals[0] if signals else origin.length_m) - front,
         steady=not any(s.path.has_lane_change for s in seated),
     )
+
+
+def _abreast(network: RoadNetwork, origin: RoutePath, seated: Sequence[SeatedAgent]) -> bool:
+    """Tell whether members are as many lanes beside the origin's way as they are to be.
+
+    They begin so on the first edge; where lanes join before their places, they no longer are.
+    """
+    for seat in seated:
+        x, y, _, _ = seat.path.position_at(seat.arc_m)
+        _, aside_m = origin.line.project(x, y, near_s=seat.arc_m, window_m=_ABREAST_M)
+        width_m = network.lane(seat.lane_id).width_m
+        if abs(aside_m - seat.member.lane_shift * width_m) > width_m / 2.0:
+            return False
+    return True
 
 
 def _overlap(seated: Sequence[SeatedAgent], types: Mapping[str, AgentTypeRecord]) -> bool:
