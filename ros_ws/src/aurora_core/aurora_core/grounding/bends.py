@@ -34,12 +34,12 @@ def bends_between(
     """
     seats = {seat.agent.id: seat for seat in site.seated}
     if before is not None:
-        own = seats[before.agent]
-        x, y, _, _ = own.path.position_at(own.arc_m)
-        end_m = min(own.path.length_m, own.arc_m + before.distance_m)
-        ahead_x, ahead_y, _, _ = own.path.position_at(end_m)
+        member = seats[before.agent]
+        x, y, _, _ = member.path.position_at(member.arc_m)
+        end_m = min(member.path.length_m, member.arc_m + before.distance_m)
+        ahead_x, ahead_y, _, _ = member.path.position_at(end_m)
         lost_m = before.distance_m - norm2(ahead_x - x, ahead_y - y)
-        aside = any(own.arc_m < c.end_m and c.start_m < end_m for c in own.path.lane_changes)
+        aside = any(member.arc_m < c.end_m and c.start_m < end_m for c in member.path.lane_changes)
         if aside or lost_m > _USED * tolerance.of(before.distance_m):
             return True
     for agent in spec.agents:
