@@ -17,6 +17,7 @@ from aurora_cli.map_measure import measure
 from aurora_core.knowledge.config_files import ENVIRONMENT_VARIABLE, config_root
 from aurora_core.knowledge.map_model import load_map
 from aurora_core.outcomes.grounded import GroundedScenario
+from aurora_core.pipeline.background import registries
 from aurora_core.pipeline.functions import parse_stage
 
 Call = Callable[..., SimpleNamespace]
@@ -129,6 +130,58 @@ def test_a_changed_multirotor_is_refused_until_measured_and_then_planned_with(
     assert 0.5 < known.settings.flight.climb_mps < 0.8
     after = json.loads(call('check', '--map', 'junction', '--json', high).out)
     assert after['horizon_s'] > before['horizon_s'] + 100.0
+
+
+def _seen() -> dict[str, tuple[float, ...]]:
+    """What the parser is offered, and what grounding places, in numbers."""
+    known = installed.installed()
+    offered = {record.id: record.data for record in registries(known, 'junction')}
+    types, limits = offered['agent_types'], offered['limits']
+    found = _grounded(TRUCK)
+    (truck,) = [a for a in found.agents if a.type_name == 'truck']
+    settings = known.settings
+    return {
+        'parser: truck, m and m/s': (types['truck']['length_m'], types['truck']['max_speed_mps']),
+        'parser: UAV, m/s and s': (limits['uav_speed_max_mps'], limits['uav_endurance_s']),
+        'parser: UAV at most, m': (limits['uav_altitude_max_m'],),
+        'grounding: truck, m long': (truck.length_m,),
+        'grounding: UAV, m/s planned': (settings.flight.speed_max_mps,),
+        'grounding: UAV, m from obstacles': (settings.grounding.clearance_m,),
+    }
+
+
+def test_one_measurement_reaches_parser_grounding_and_check(config: Path, call: Call) -> None:
+    asked = {
+        FAST_TRUCK: 'agent_types/truck/max_speed_mps',
+        'A drone flies to four waypoints at 14 m/s at 40 m.': 'uav_speed_max_mps',
+        'A drone hovers over the intersection at 40 m for 1200 seconds.': 'uav_endurance_s',
+        'A drone hovers over the intersection at 100 m for 10 seconds.': 'uav_altitude_m',
+    }
+    before = _seen()
+    for prompt in asked:
+        assert call('check', '--map', 'junction', prompt).code == 0, prompt
+    types, model = config / 'maps' / 'vtypes.add.xml', config / 'multirotor.json'
+    _edit(
+        types,
+        'length="8.50" width="2.50" height="3.40" maxSpeed="36.00"',
+        'length="9.50" width="2.50" height="3.40" maxSpeed="12.00"',
+    )
+    _edit(model, '"horizontal_speed_limit_mps": 21.5', '"horizontal_speed_limit_mps": 11.5')
+    _edit(model, '"battery_wh": 90.0', '"battery_wh": 45.0')
+    _edit(config / 'limits.json', '"uav_altitude_max_m": 120.0', '"uav_altitude_max_m": 80.0')
+    _edit(config / 'limits.json', '"clearance_min_m": 3.0', '"clearance_min_m": 6.0')
+    assert call('map', 'measure', 'junction').code == 0
+    after, shown = _seen(), []
+    for name, values in after.items():
+        shown.append(f'{name}: {before[name]} -> {values}')
+        assert values != before[name], name
+    for prompt, limit in asked.items():
+        refused = call('check', '--map', 'junction', '--json', prompt)
+        assert refused.code == 5, prompt
+        (proof,) = json.loads(refused.out)['feasibility']['certificates']
+        shown.append(f'check: {proof["sentence"]}')
+        assert proof['limit_name'] == limit
+    print('\n'.join(shown))  # pytest -rP shows it
 
 
 def test_a_clearance_that_changes_is_measured_again(config: Path, call: Call) -> None:
