@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import json
 import shutil
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from types import SimpleNamespace
@@ -181,7 +182,7 @@ def test_one_measurement_reaches_parser_grounding_and_check(config: Path, call: 
         (proof,) = json.loads(refused.out)['feasibility']['certificates']
         shown.append(f'check: {proof["sentence"]}')
         assert proof['limit_name'] == limit
-    print('\n'.join(shown))  # pytest -rP shows it
+    sys.stdout.write('\n'.join(shown))  # pytest -rP shows it
 
 
 def test_a_clearance_that_changes_is_measured_again(config: Path, call: Call) -> None:
