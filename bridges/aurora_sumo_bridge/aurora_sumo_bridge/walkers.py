@@ -152,8 +152,7 @@ class Walker:
         libsumo.person.appendWalkingStage(agent_id, edges, arrival_m)
         libsumo.person.removeStage(agent_id, 0)
         # The new stage put it on another stripe: back to the spot, before SUMO moves it.
-        way = self._way(float(libsumo.person.getAngle(agent_id)))
-        self._put(lane_id, lane_position_m, left_m, way)
+        libsumo.person.moveTo(agent_id, lane_id, lane_position_m, left_m)
         self._edges, self._arrival_m, self._standing = edges, arrival_m, False
         self._apply_speed()
         return ''

@@ -10,6 +10,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 
 import pytest
 
@@ -136,7 +137,7 @@ def test_a_changed_multirotor_is_refused_until_measured_and_then_planned_with(
 def _seen() -> dict[str, tuple[float, ...]]:
     """What the parser is offered, and what grounding places, in numbers."""
     known = installed.installed()
-    offered = {record.id: record.data for record in registries(known, 'junction')}
+    offered: dict[str, Any] = {r.id: r.data for r in registries(known, 'junction')}
     types, limits = offered['agent_types'], offered['limits']
     found = _grounded(TRUCK)
     (truck,) = [a for a in found.agents if a.type_name == 'truck']
