@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from aurora_bench.feasibility.corrupt import Corrupted, corrupted
-from aurora_bench.feasibility.families import Case, family_cases
+from aurora_bench.feasibility.families import Case, family_cases, typed_cases
 from aurora_bench.feasibility.judge import Judged, judged
 from aurora_bench.feasibility.pushes import push_cases
 from aurora_bench.machine import machine_facts
@@ -30,7 +30,9 @@ from aurora_bench.rulers.runs import on_map
 from aurora_cli.installed import installed
 from aurora_core.spec.scenario import ScenarioSpec
 
-_SOURCES = ('prompt', 'annotation', 'push')
+# Who says it: the offline reader, or a specification.
+_READ = ('prompt', 'typed')
+_SOURCES = (*_READ, 'annotation', 'push', 'reference')
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -47,7 +49,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     known = installed()
     known.map(options.map)
     references = tuple(_references(options.map))
-    cases = [*family_cases(), *push_cases(references, options.each)]
+    cases = [*family_cases(), *typed_cases(), *push_cases(references, options.each)]
     if options.references:
         cases += [Case(id=i, source='reference', prompt=s.prompt, because=(), spec=s)
                   for i, s in references]  # fmt: skip
@@ -143,7 +145,7 @@ def _quantile(ordered: Sequence[float], share: float) -> float:
 
 def _totals(results: Sequence[Judged]) -> Table:
     rows = []
-    for source in (*_SOURCES, 'reference'):
+    for source in _SOURCES:
         over = [r for r in results if r.case.source == source and r.case.must_be_refused]
         kept = [r for r in results if r.case.source == source and not r.case.must_be_refused]
         if over or kept:

@@ -3,13 +3,13 @@
 """`python -m aurora_bench.feasibility.attack`: try to realise what was proven impossible.
 
 Certified requests of the families, as annotations and as the offline parser reads them, run in the
-local engine as if they had not been refused: with other seeds, at other places of the map, and
-with what nobody states drawn anew from its domain. The independent checker says whether a run is
-what was asked, and the product whether it kept what every run has to keep: one such run refutes a
-certificate, however often it was checked.
+local engine as if they had not been refused (`attempt.py`): with other seeds, at other places of
+the map, with other plans. The independent checker says whether a run is what was asked, and the
+product whether it kept what every run has to keep: one such run refutes a certificate, however
+often it was checked.
 
 A number beyond a limit is left out: the limit says so, not the world. So are flights longer than
-the battery, which take minutes to fly. Finished runs are kept in a journal; `--resume` goes on.
+`--longest` seconds. Finished runs are kept in a journal; `--resume` goes on.
 """
 
 from __future__ import annotations
@@ -17,7 +17,6 @@ from __future__ import annotations
 import argparse
 import dataclasses
 import random
-import shutil
 import sys
 import tempfile
 import time
@@ -28,44 +27,39 @@ from typing import Any
 
 from aurora_bench.campaign.code import code_digest
 from aurora_bench.campaign.journal import Journal, JournalHead, journal_path
+from aurora_bench.feasibility.attempt import ENDS, REALISED, SEEDS, Attempts
 from aurora_bench.feasibility.families import Case, family_cases
 from aurora_bench.feasibility.judge import judged
 from aurora_bench.progress import Progress
 from aurora_bench.results import Table, markdown_table, write_results
-from aurora_bench.rulers.checking import Check, asked_of, independent_checker
-from aurora_bench.rulers.runs import on_map
+from aurora_bench.rulers.checking import independent_checker
 from aurora_cli.installed import installed
 from aurora_cli.local_engine import LocalStages
-from aurora_core.errors import AuroraError
 from aurora_core.outcomes.feasibility import Rule
-from aurora_core.outcomes.parse import ParseOutcome
-from aurora_core.outcomes.repair import Anchor, RepairPlan
-from aurora_core.pipeline.functions import parse_stage, understood
-from aurora_core.pipeline.stages import RunControl, RunRequest
-from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.pipeline.functions import parse_stage
 
-# A number that nobody states is drawn anew this often; else it stays as it is. A place where an
-# earlier run has been is avoided as often.
-_DRAWN = 0.5
-# Certificates of flights that last longer say little about placements and take hours to fly.
-_LONGEST_S = 400.0
 _MOST_AGENTS = 20
-# What every run has to keep and no annotation says: clearance, separation, no-fly zones.
-_SAFETY = 'safety.'
-# How an attack can end; only the first one refutes a certificate.
-REALISED = 'realised'
-DENIED = 'denied'  # the checker denies a requirement
-UNSAFE = 'unsafe'  # nothing is denied, but the run broke what every run has to keep
-UNDECIDED = 'undecided'  # nothing is denied, and something cannot be told
-NO_PLACE = 'no place'
-ERROR = 'error'
-_ENDS = (REALISED, DENIED, UNSAFE, UNDECIDED, NO_PLACE, ERROR)
+# Recordings are judged and thrown away: memory is good enough for them, where it is a folder.
+_IN_MEMORY = Path('/dev/shm')
+
+
+@dataclasses.dataclass(frozen=True, slots=True, kw_only=True)
+class Certified:
+    """A refused request that can be attacked.
+
+    Attributes:
+        case: With its specification.
+        rule: By which it was refused first.
+    """
+
+    case: Case
+    rule: Rule
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Attack; return 0 when nothing was realised, else 1."""
     options = _options(arguments)
-    chosen = _sample(_certified(options.map, options.only), options.each)
+    chosen = _sample(_certified(options.map, options.only, options.longest), options.each)
     head = JournalHead(
         campaign='attack',
         files={'code': code_digest()},
@@ -73,33 +67,38 @@ def main(arguments: Sequence[str] | None = None) -> int:
     )
     path = journal_path(options.resume or options.results or Path('/tmp'), options.name)
     told: dict[str, dict[str, Any]] = {}
+    memory = _IN_MEMORY if _IN_MEMORY.is_dir() else None
     with (
         Journal(path, head, resume=options.resume is not None) as journal,
-        tempfile.TemporaryDirectory(prefix='aurora_attack_') as place,
+        tempfile.TemporaryDirectory(prefix='aurora_attack_', dir=memory) as place,
     ):
         told.update(journal.finished)
-        _attack(chosen, options, Path(place), journal, told)
-        if all(_key(case, k) in told for case in chosen for k in range(options.runs)):
+        cases = [c.case for c in chosen]
+        _attack(cases, options, Path(place), journal, told)
+        if all(_key(case, k) in told for case in cases for k in range(options.runs)):
             journal.end()
-    ends = [_ends(case, told) for case in chosen]
-    table = _table(chosen, ends)
-    found, runs = sum(e[REALISED] for e in ends), sum(e.total() for e in ends)
-    line = f'attacked {len(chosen)} requests, {runs} runs; realised {found}'
-    sys.stdout.write(f'{markdown_table(table)}\n\n{line}\n')
+    tables = _by_request(chosen, told), _by_rule(chosen, told)
+    runs = [r for c in chosen for r in _runs(c.case, told)]
+    found = sum(r['ended'] == REALISED for r in runs)
+    line = f'attacked {len(chosen)} requests, {len(runs)} runs; realised {found}'
+    for table in tables:
+        sys.stdout.write(f'{markdown_table(table)}\n\n')
+    sys.stdout.write(f'{line}\n')
     if options.results is not None:
-        document = {'rows': [list(row) for row in table.rows], 'last_line': line}
+        document = {'rows': [list(row) for row in tables[0].rows], 'last_line': line}
         title = 'What was proven impossible, tried'
-        write_results(options.results, options.name, document, title=title, tables=(table,))
+        write_results(options.results, options.name, document, title=title, tables=tables)
     return 1 if found else 0
 
 
 def _options(arguments: Sequence[str] | None) -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog='aurora_bench.feasibility.attack', description=__doc__)
     parser.add_argument('--map', default='downtown')
-    parser.add_argument('--each', type=int, default=0,
-                        help='requests per reason, read or annotated; 0: all')  # fmt: skip
+    parser.add_argument('--each', type=int, default=0, help='requests per rule; 0: all')
     parser.add_argument('--runs', type=int, default=200, help='runs of each')
     parser.add_argument('--minutes', type=float, default=0.0, help='stop then; 0: never')
+    parser.add_argument('--longest', type=float, default=400.0,
+                        help='seconds that stated phases may last together')  # fmt: skip
     parser.add_argument('--seed', type=int, default=1, help='of what is drawn')
     parser.add_argument('--only', default='', help='requests whose id begins so')
     parser.add_argument('--resume', type=Path, default=None, help='journal, or its folder')
@@ -108,15 +107,16 @@ def _options(arguments: Sequence[str] | None) -> argparse.Namespace:
     return parser.parse_args(arguments)
 
 
-def _certified(map_name: str, only: str) -> list[Case]:
+def _certified(map_name: str, only: str, longest_s: float) -> list[Certified]:
     """Return requests that are refused and that a run could be long enough for."""
     known = installed()
     found = []
     for case in family_cases():
         if not case.document or not case.must_be_refused or not case.id.startswith(only):
             continue
-        proofs = judged(known, map_name, case).certificates
-        if not any(p.rule not in (Rule.LIMIT, Rule.COUNT, Rule.BATTERY) for p in proofs):
+        rules = [p.rule for p in judged(known, map_name, case).certificates]
+        rule = next((r for r in rules if r not in (None, Rule.LIMIT, Rule.COUNT)), None)
+        if rule is None:
             continue
         spec = case.spec or parse_stage(known, case.prompt, map_name, 1).spec
         if spec is None:
@@ -124,23 +124,30 @@ def _certified(map_name: str, only: str) -> list[Case]:
         long = [m.duration_s for m in spec.missions if m.duration_s is not None]
         world = spec.world.duration_s
         length = sum(d.value for d in long) + (world.value if world is not None else 0.0)
-        if length <= _LONGEST_S and len(spec.agents) <= _MOST_AGENTS:
-            found.append(dataclasses.replace(case, spec=spec))
+        if rule is Rule.BATTERY:
+            length = max(length, known.limits.uav_endurance_s)
+        if length <= longest_s and len(spec.agents) <= _MOST_AGENTS:
+            found.append(Certified(case=dataclasses.replace(case, spec=spec), rule=rule))
     return found
 
 
-def _sample(cases: Sequence[Case], each: int) -> list[Case]:
-    """Return so many requests of every reason and source: of both, other ones where it can be."""
-    if each == 0:
-        return list(cases)
-    groups: dict[tuple[str, str], list[Case]] = {}
-    for case in cases:
-        groups.setdefault((case.because[0], case.source), []).append(case)
-    return [
-        case
-        for (_, source), group in groups.items()
-        for case in (group[:each] if source == 'annotation' else group[-each:])
-    ]
+def _sample(certified: Sequence[Certified], each: int) -> list[Certified]:
+    """Return so many requests of every rule: one family after the other, read or annotated."""
+    chosen = []
+    for number, rule in enumerate(dict.fromkeys(c.rule for c in certified)):
+        families: dict[str, list[Certified]] = {}
+        for one in (c for c in certified if c.rule is rule):
+            families.setdefault(one.case.id.rpartition('-refused-')[0], []).append(one)
+        # One of each family, then another one: as a prompt and as an annotation in turn.
+        turns = []
+        for k, of in enumerate(families.values()):
+            read = [c for c in of if c.case.source == 'prompt']
+            built = [c for c in of if c.case.source != 'prompt']
+            turns.append([*read, *built] if (number + k) % 2 else [*built, *read])
+        longest = max(len(of) for of in turns)
+        ordered = [of[k] for k in range(longest) for of in turns if k < len(of)]
+        chosen += ordered[: each or None]
+    return chosen
 
 
 def _key(case: Case, index: int) -> str:
@@ -154,18 +161,19 @@ def _attack(
     journal: Journal,
     told: dict[str, dict[str, Any]],
 ) -> None:
-    """Run all cases in turn, so that however early it ends every one has been tried."""
-    stages, check = LocalStages(installed()), independent_checker()
-    left = [(c, k) for k in range(options.runs) for c in cases if _key(c, k) not in told]
+    """Run one case after the other; fewer `--runs` at first try all of them."""
+    attempts = Attempts(LocalStages(installed()), independent_checker(), options.map, place)
+    left = [(c, k) for c in cases for k in range(options.runs) if _key(c, k) not in told]
     progress = Progress('attack', len(left))
     end = time.monotonic() + 60.0 * options.minutes if options.minutes else None
     for done, (case, k) in enumerate(left):
         if end is not None and time.monotonic() > end:
             progress.note(f'the time is over: {len(left) - done} runs are left')
             return
-        places = [r['place'] for i in range(k) if (r := told.get(_key(case, i))) and r['place']]
-        draw = random.Random(f'{options.seed} {case.id} {k}')
-        result = _Attacked(stages, check, options.map, place).once(case, k, draw, places)
+        plan = k // SEEDS
+        earlier = [told[_key(case, i)] for i in range(plan * SEEDS)]
+        draw = random.Random(f'{options.seed} {case.id} {plan}')
+        result = attempts.once(case, k, draw, earlier)
         told[_key(case, k)] = result
         journal.add(_key(case, k), result)
         minutes = progress.elapsed_s / (done + 1) * (len(left) - done - 1) / 60.0
@@ -173,95 +181,40 @@ def _attack(
         progress.step(f'{what}; {minutes:.0f} min left')
 
 
-@dataclasses.dataclass
-class _Attacked:
-    stages: LocalStages
-    check: Check
-    map_name: str
-    place: Path
-
-    def once(
-        self, case: Case, index: int, draw: random.Random, places: Sequence[Mapping[str, Any]]
-    ) -> dict[str, Any]:
-        """Run a request once; the first time as it is, then varied and elsewhere.
-
-        Args:
-            case: The request, with its specification.
-            index: Of the run; the seed is one more.
-            draw: Draws what is varied.
-            places: Where earlier runs have been.
-        """
-        assert case.spec is not None
-        asked = on_map(case.spec, self.map_name)
-        spec = asked if index == 0 else varied(asked, draw)
-        distinct = {p['lane']: p for p in places}
-        avoided = tuple(
-            Anchor(lane=p['lane'], position_m=p['position_m'], whole_road=draw.random() < _DRAWN)
-            for p in distinct.values()
-            if draw.random() < _DRAWN
-        )
-        request = RunRequest(prompt=case.prompt, seed=index + 1, map_name=self.map_name)
-        try:
-            return self._run(case, spec, request, RepairPlan(avoided=avoided) if avoided else None)
-        except AuroraError as err:
-            return {'ended': ERROR, 'why': [str(err)], 'place': None}
-        finally:
-            shutil.rmtree(self.place / 'bag', ignore_errors=True)
-
-    def _run(
-        self, case: Case, spec: ScenarioSpec, request: RunRequest, plan: RepairPlan | None
-    ) -> dict[str, Any]:
-        outcome = understood(self.stages.known, ParseOutcome(spec=spec))
-        assert outcome.agsg is not None
-        grounding = self.stages.ground(outcome.agsg, request, plan)
-        if grounding.agsg is None or grounding.agsg.grounding is None:
-            why = [] if grounding.failure is None else [str(grounding.failure.reason)]
-            return {'ended': NO_PLACE, 'why': why, 'place': None}
-        at = grounding.agsg.grounding
-        place = {'lane': at.anchor_lane, 'position_m': at.anchor_position_m}
-        result = self.stages.execute(grounding.agsg, self.place / 'bag', request, RunControl())
-        said = asked_of(self.check, result.bag, dict(case.document))
-        denied = sorted({s.kind for s in said if s.outcome == 'does_not'})
-        if denied:
-            return {'ended': DENIED, 'why': denied, 'place': place}
-        # Only what nothing is denied of is worth all the margins.
-        verdict = self.stages.verify(grounding.agsg, result.bag)
-        broken = [c.id for c in verdict.results if not c.satisfied]
-        unsafe = [ident for ident in broken if ident.startswith(_SAFETY)]
-        open_ = sorted({s.kind for s in said if s.outcome != 'holds'})
-        ended = UNSAFE if unsafe else UNDECIDED if open_ or not said else REALISED
-        return {'ended': ended, 'why': [*open_, *broken], 'place': place}
-
-
-def _ends(case: Case, told: Mapping[str, Mapping[str, Any]]) -> Counter[str]:
+def _runs(case: Case, told: Mapping[str, Mapping[str, Any]]) -> list[Mapping[str, Any]]:
     start = f'{case.source}/{case.id}/'
-    return Counter(str(r['ended']) for key, r in told.items() if key.startswith(start))
+    return [r for key, r in told.items() if key.startswith(start)]
 
 
-def _table(cases: Sequence[Case], ends: Sequence[Counter[str]]) -> Table:
+def _counts(runs: Sequence[Mapping[str, Any]]) -> tuple[int, ...]:
+    """Return how many runs there are, on how many lanes, and how they ended."""
+    ends = Counter(str(r['ended']) for r in runs)
+    lanes = {r['place']['lane'] for r in runs if r['place']}
+    return len(runs), len(lanes), *(ends[name] for name in ENDS)
+
+
+def _by_request(chosen: Sequence[Certified], told: Mapping[str, Mapping[str, Any]]) -> Table:
     rows: list[tuple[str | int, ...]] = [
-        (c.id, c.source, '/'.join(c.because), e.total(), *(e[name] for name in _ENDS))
-        for c, e in zip(cases, ends, strict=True)
+        (c.case.id, c.case.source, c.rule.value, *_counts(_runs(c.case, told))) for c in chosen
     ]
-    return Table(headings=('request', 'source', 'reason', 'runs', *_ENDS), rows=rows)
+    return Table(
+        headings=('request', 'source', 'rule', 'runs', 'roads', *ENDS),
+        rows=rows,
+        caption='By request',
+    )
 
 
-def varied(spec: ScenarioSpec, draw: random.Random) -> ScenarioSpec:
-    """Return a request with some of what nobody states drawn anew from its domain."""
-
-    def change(value: Any) -> Any:
-        if isinstance(value, list):
-            return [change(inner) for inner in value]
-        if not isinstance(value, dict):
-            return value
-        if value.get('provenance') == 'default':
-            low, high = value['low'], value['high']
-            if low < high and draw.random() < _DRAWN:
-                return {**value, 'value': round(draw.uniform(low, high), 1)}
-            return value
-        return {name: change(inner) for name, inner in value.items()}
-
-    return ScenarioSpec.model_validate(change(spec.model_dump(mode='json')))
+def _by_rule(chosen: Sequence[Certified], told: Mapping[str, Mapping[str, Any]]) -> Table:
+    rows: list[tuple[str | int, ...]] = []
+    for rule in dict.fromkeys(c.rule for c in chosen):
+        of = [c.case for c in chosen if c.rule is rule]
+        runs, _, *ends = _counts([r for case in of for r in _runs(case, told)])
+        rows.append(
+            (rule.value, '/'.join(sorted({c.because[0] for c in of})), len(of), runs, *ends)
+        )
+    return Table(
+        headings=('rule', 'reason', 'requests', 'runs', *ENDS), rows=rows, caption='By rule'
+    )
 
 
 if __name__ == '__main__':

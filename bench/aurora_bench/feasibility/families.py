@@ -15,7 +15,8 @@ from aurora_bench.prompts.format import AnnotatedPrompt
 from aurora_bench.prompts.reference_spec import reference_spec
 from aurora_core.spec.scenario import ScenarioSpec
 
-_FILE = 'families.yaml'
+_FAMILIES = 'families.yaml'
+_TYPED = 'typed.yaml'
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -24,7 +25,8 @@ class Case:
 
     Attributes:
         id: Family or push, with its number.
-        source: `prompt` is read by the offline parser; `annotation` and `push` are specifications.
+        source: `prompt` and `typed` are read by the offline parser; `annotation`, `push` and
+            `reference` are specifications.
         because: Fair reasons to refuse it; empty for what must not be refused.
         spec: None for a prompt.
         document: The annotation: of a specification, that it was built from; of a prompt, what it
@@ -50,7 +52,7 @@ def family_cases() -> Iterator[Case]:
     Raises:
         ValueError: A family is not well-formed.
     """
-    for family in yaml.safe_load(files(__package__).joinpath(_FILE).read_text('utf-8')):
+    for family in yaml.safe_load(files(__package__).joinpath(_FAMILIES).read_text('utf-8')):
         because = tuple(family['because'])
         for side, reasons in (('refused', because), ('kept', ())):
             for k, value in enumerate(family[side], start=1):
@@ -67,6 +69,19 @@ def family_cases() -> Iterator[Case]:
                 spec = reference_spec(AnnotatedPrompt.model_validate(document), judged=True)
                 yield read
                 yield replace(read, source='annotation', spec=spec)
+
+
+def typed_cases() -> Iterator[Case]:
+    """Yield the requests as people type them: first what cannot be, then what can.
+
+    A reason may be several that are fair, with spaces between them.
+    """
+    typed = yaml.safe_load(files(__package__).joinpath(_TYPED).read_text('utf-8'))
+    for side, name in (('cannot', 'refused'), ('can', 'kept')):
+        for k, row in enumerate(typed[side], start=1):
+            because = tuple(row['because'].split()) if side == 'cannot' else ()
+            ident = f'{row["because"].split()[0]}-{name}-{k}'
+            yield Case(id=ident, source='typed', prompt=row['prompt'].strip(), because=because)
 
 
 def _annotated(

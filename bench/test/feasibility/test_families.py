@@ -4,13 +4,10 @@
 
 from __future__ import annotations
 
-import random
-
 import pytest
 
-from aurora_bench.feasibility.attack import varied
 from aurora_bench.feasibility.corrupt import corrupted
-from aurora_bench.feasibility.families import Case, family_cases
+from aurora_bench.feasibility.families import Case, family_cases, typed_cases
 from aurora_bench.feasibility.judge import judged
 from aurora_bench.feasibility.pushes import PUSHES, push_cases
 from aurora_cli.installed import installed
@@ -46,10 +43,9 @@ def test_every_push_goes_over_a_limit_of_a_request_that_fits_it() -> None:
         assert judged(installed(), 'downtown', case).refused is case.must_be_refused, case.id
 
 
-def test_only_what_nobody_states_is_drawn_anew() -> None:
-    spec = next(c.spec for c in CASES if c.id == 'sensing-night-refused-1')
-    assert spec is not None
-    other = varied(spec, random.Random(3))
-    assert other != spec
-    assert other.missions[0].standoff_m == spec.missions[0].standoff_m
-    assert other.world == spec.world
+def test_the_typed_requests_are_on_both_sides_of_every_reason() -> None:
+    typed = tuple(typed_cases())
+    assert len({c.id for c in typed}) == len(typed) == 120
+    refused = {c.because[0] for c in typed if c.must_be_refused}
+    kept = {c.id.partition('-kept-')[0] for c in typed if not c.must_be_refused}
+    assert refused == kept >= {'geofence', 'clearance', 'sensing_range', 'comm_range', 'count'}
