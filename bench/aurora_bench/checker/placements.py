@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import numpy as np
 import shapely
+from shapely.ops import substring
 
 from aurora_bench.checker import limits
 from aurora_bench.checker.answers import (
@@ -33,6 +34,9 @@ AHEAD_MOST_M = 300.0
 # A lane beside one's own: share of the lane's width between the two.
 ADJACENT = (0.6, 1.7)
 T0 = np.zeros(1)
+
+# So far ahead the route of a body leads past a place for the first time.
+_FIRST_PASS_M = 200.0
 
 
 def placement(case: Case, requirement: Requirement) -> Judged:
@@ -290,8 +294,16 @@ def _upstream(case: Case, requirement: Requirement, body: str, place: str) -> Ju
         # Who never moves and has no plan: its lane, straight on.
         end = own.xy_m[-1] + scene.heading(body)[0] * 300.0
         line = shapely.LineString([*own.xy_m, end])
+    plan = scene.bodies[body].route_xy_m
     for spot in (*scene.places.spots(place), *scene.places.approaches(place)):
-        gaps += _to_spot(line, start, spot)
+        driven = _to_spot(line, start, spot)
+        gaps += driven
+        # The contract measures along the route: who changes lanes on it drives a longer way.
+        if driven and len(plan) >= 2:
+            route = shapely.LineString(plan)
+            here = route.project(shapely.Point(scene.xy(body)[0]))
+            # A route that leads round comes by again: only its first pass is meant.
+            gaps += _to_spot(substring(route, here, here + _FIRST_PASS_M), 0.0, spot)
     ahead = sorted(g for g in gaps if g >= -1.0)
     shown = [round(g, 1) for g in ahead[:4]]
     why = f'{body} is {shown} m before {place} along its way'
@@ -300,7 +312,7 @@ def _upstream(case: Case, requirement: Requirement, body: str, place: str) -> Ju
     if asked is None:
         return graded(ahead[0] <= AHEAD_MOST_M, True, why)
     # The edge, the middle and the far side of a place are all called by its name.
-    fits = any(asked.counts(g) for g in ahead[:6])
+    fits = any(asked.counts(g) for g in ahead[:12])
     return decide(fits, f'{why}, asked {asked.text()} m')
 
 

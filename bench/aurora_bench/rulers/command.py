@@ -23,6 +23,7 @@ from aurora_bench.progress import Progress
 from aurora_bench.prompts.format import AnnotatedPrompt, beyond
 from aurora_bench.prompts.shipped import first_files
 from aurora_bench.results import ResultsError, markdown_table, write_results
+from aurora_bench.rulers.anywhere import place_names, places_of_maps
 from aurora_bench.rulers.readback import read_back_line
 from aurora_bench.rulers.summary import (
     as_json,
@@ -145,7 +146,16 @@ def _parser(ruler: Ruler) -> argparse.ArgumentParser:
     parser.add_argument('--map', default='downtown', help='map of the runs')
     parser.add_argument('--only', default='', help='prompts whose id begins so')
     parser.add_argument(
-        '--first', type=int, default=None, metavar='N', help='the first N prompts of each file'
+        '--first',
+        type=int,
+        default=None,
+        metavar='N',
+        help='of each file the first N of the prompts that are measured',
+    )
+    parser.add_argument(
+        '--anywhere',
+        action='store_true',
+        help='only prompts that name no landmark and no street of a bundled map',
     )
     parser.add_argument(
         '--limit-s', type=float, default=600.0, help='wall seconds that a trial may take'
@@ -183,11 +193,16 @@ def _trials(
     ruler: Ruler, files: Sequence[PromptFile], options: argparse.Namespace
 ) -> Iterator[Trial]:
     """Yield every prompt with every seed: a prompt and a seed are one trial."""
+    named = places_of_maps() if options.anywhere else frozenset()
     for file in files:
-        pairs = list(zip(file.prompts, file.documents, strict=True))
+        pairs = [
+            (prompt, document)
+            for prompt, document in zip(file.prompts, file.documents, strict=True)
+            if prompt.id.startswith(options.only)
+            and ruler.takes(prompt)
+            and named.isdisjoint(place_names(document.get('requirements')))
+        ]
         for prompt, document in pairs[: options.first]:
-            if not prompt.id.startswith(options.only) or not ruler.takes(prompt):
-                continue
             for seed in options.seeds:
                 yield Trial(
                     key=f'{file.sha256[:16]}:{prompt.id}:{seed}',

@@ -11,15 +11,22 @@ import numpy as np
 
 from aurora_core.errors import GroundSimulatorError
 from aurora_core.geometry.frames import sumo_angle_to_heading
+from aurora_core.geometry.kernel import norm2
 from aurora_core.ports.simulators import FloatArray
 from aurora_core.trace.layout import GROUND_WIDTH, GroundColumn
-from aurora_sumo_bridge.conversions import centre_from_front
+from aurora_sumo_bridge.conversions import centre_from_front, front_from_centre
 from aurora_sumo_bridge.placement import Body
 from aurora_sumo_bridge.polyline import Box
 
 # SUMO's own mark for "no value" is -2^30; no map is that large.
 _FARTHEST_M = 1e8
 _UNKNOWN = 'is not known'
+# SUMO turns a long vehicle at once where the lanes under it meet at a kink. A rear bumper that
+# goes aside by more than this within one tick is towed by the front instead (m), until SUMO's
+# direction has come so near; a front that itself jumps farther is left as it is.
+_KINK_M = 1.0
+_REACHED_M = 0.1
+_JUMP_M = 3.0
 
 # Bound once: these four calls are most of what a tick costs outside SUMO.
 _position_of = libsumo.vehicle.getPosition
@@ -43,6 +50,7 @@ class StateReader:
         # A vehicle on a straight street keeps its angle: its heading is not worked out again.
         self._angles_deg = [nan] * len(bodies)
         self._headings = [(0.0, 0.0)] * len(bodies)
+        self._is_towed = [False] * len(bodies)
 
     def is_present(self, agent: int) -> bool:
         return self._present[agent]
@@ -138,7 +146,10 @@ class StateReader:
         if angle_deg != self._angles_deg[index]:
             self._angles_deg[index] = angle_deg
             self._headings[index] = sumo_angle_to_heading(angle_deg)
+            self._is_towed[index] |= self._is_kink(index, body)
         heading_x, heading_y = self._headings[index]
+        if self._is_towed[index]:
+            heading_x, heading_y = self._towed(index, body, front_x_m, front_y_m)
         x_m, y_m = centre_from_front(front_x_m, front_y_m, heading_x, heading_y, body.length_m)
         return (
             x_m,
@@ -149,6 +160,36 @@ class StateReader:
             _acceleration_of(vehicle),
             1.0,
         )
+
+    def _is_kink(self, index: int, body: Body) -> bool:
+        """Tell whether the rear bumper goes aside at once, with the direction that SUMO has."""
+        before = self._heading_before(index)
+        turn = norm2(*(b - a for a, b in zip(before, self._headings[index], strict=True)))
+        return before != (0.0, 0.0) and turn * body.length_m > _KINK_M
+
+    def _towed(
+        self, index: int, body: Body, front_x_m: float, front_y_m: float
+    ) -> tuple[float, float]:
+        """Return the direction of a body whose front pulls its rear bumper (unit vector)."""
+        row = self._values[self._rows[index]]
+        x_m, y_m = row[GroundColumn.X], row[GroundColumn.Y]
+        hx, hy = self._heading_before(index)
+        old_x, old_y = front_from_centre(x_m, y_m, hx, hy, body.length_m)
+        rear_x, rear_y = front_from_centre(x_m, y_m, -hx, -hy, body.length_m)
+        dx, dy = front_x_m - rear_x, front_y_m - rear_y
+        away_m = norm2(dx, dy)
+        target = self._headings[index]
+        if norm2(front_x_m - old_x, front_y_m - old_y) > _JUMP_M or away_m == 0.0:
+            self._is_towed[index] = False
+            return target
+        found = dx / away_m, dy / away_m
+        off_m = norm2(target[0] - found[0], target[1] - found[1]) * body.length_m
+        self._is_towed[index] = off_m > _REACHED_M
+        return found if self._is_towed[index] else target
+
+    def _heading_before(self, index: int) -> tuple[float, float]:
+        row = self._values[self._rows[index]]
+        return row[GroundColumn.HEADING_X], row[GroundColumn.HEADING_Y]
 
     def _person_row(self, index: int, body: Body) -> tuple[float, ...]:
         person = body.agent_id

@@ -4,9 +4,8 @@
 
 from __future__ import annotations
 
-from aurora_cli.commands.maps import known_map, measured_state
+from aurora_cli.commands.maps import known_map, measured_on
 from aurora_cli.output import answer_console, print_json
-from aurora_core.knowledge.map_model import MapModel
 from aurora_core.report.map_gaps import MapGap, map_gaps
 from aurora_core.report.terminal import line
 
@@ -19,7 +18,10 @@ def map_doctor_command(name: str, *, as_json: bool) -> int:
         AuroraError: The map is damaged.
     """
     model = known_map(name)
-    gaps = (*map_gaps(model), *_unmeasured(model))
+    found = measured_on(model)
+    gaps = map_gaps(model, None if isinstance(found, str) else found.records)
+    if isinstance(found, str):
+        gaps += (MapGap(f'measured: {found}', 'vehicles are placed where none was tried before'),)
     if as_json:
         print_json(
             {
@@ -35,10 +37,3 @@ def map_doctor_command(name: str, *, as_json: bool) -> int:
     if not gaps:
         line(console, f'{model.name}: lacks nothing that requests need')
     return int(bool(gaps))
-
-
-def _unmeasured(model: MapModel) -> tuple[MapGap, ...]:
-    state = measured_state(model)
-    if state == 'yes':
-        return ()
-    return (MapGap(f'measured: {state}', 'vehicles are placed where none was tried before'),)

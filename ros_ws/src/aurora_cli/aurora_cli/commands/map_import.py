@@ -13,6 +13,7 @@ from aurora_cli.map_import.importer import Imported, import_map, name_of
 from aurora_cli.map_measure.measure import measure
 from aurora_cli.output import UsageProblem, answer_console, print_json, quiet_stdout, say
 from aurora_core.knowledge.map_folders import is_map_name
+from aurora_core.knowledge.map_records import MapRecords
 from aurora_core.report.map_gaps import map_gaps
 from aurora_core.report.terminal import line
 
@@ -49,7 +50,11 @@ def import_command(
         with quiet_stdout():
             records = measure(done.model, lambda step: say(f'aurora: measure: {step}')).records
         seconds['measure'] = round(time.monotonic() - begin_s, 3)
-    facts = {**_facts(done), 'seconds': seconds, 'measured': 'no' if records is None else 'yes'}
+    facts = {
+        **_facts(done, records),
+        'seconds': seconds,
+        'measured': 'no' if records is None else 'yes',
+    }
     if as_json:
         print_json(facts)
         return 0
@@ -67,10 +72,10 @@ def import_command(
     return 0
 
 
-def _facts(done: Imported) -> dict[str, Any]:
+def _facts(done: Imported, records: MapRecords | None) -> dict[str, Any]:
     network = done.model.network
     lanes = network.driving_lanes('passenger')
-    gaps = [gap.text for gap in map_gaps(done.model)]
+    gaps = [gap.text for gap in map_gaps(done.model, records)]
     if done.is_guessed:
         gaps.append(
             'walkways and crossings: guessed by netconvert along streets that may have them'

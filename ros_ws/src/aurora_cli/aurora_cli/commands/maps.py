@@ -10,12 +10,10 @@ from typing import Any
 from aurora_cli.files import write_file
 from aurora_cli.output import UsageProblem, answer_console, print_json, quiet_stdout, say
 from aurora_core.errors import ConfigError, MapError
-from aurora_core.knowledge.config_files import config_path
-from aurora_core.knowledge.limits import load_limits
 from aurora_core.knowledge.map_folders import bundled_maps, list_maps, own_maps
 from aurora_core.knowledge.map_model import MapModel, load_map
-from aurora_core.knowledge.map_records import load_measured_map
-from aurora_core.knowledge.settings import load_settings
+from aurora_core.knowledge.map_records import MeasuredMap
+from aurora_core.pipeline.knowledge import installed_knowledge
 from aurora_core.report.terminal import line, print_table
 
 
@@ -66,14 +64,13 @@ def known_map(name: str) -> MapModel:
     return load_map(name)
 
 
-def measured_state(model: MapModel) -> str:
-    """Return 'yes' of a map whose records fit what is installed, else what to do about it."""
-    limits = load_limits(config_path('limits.json'))
+def measured_on(model: MapModel) -> MeasuredMap | str:
+    """Return the records of a map, or in words why there are none to use."""
     try:
-        found = load_measured_map(model, load_settings().run.dt_s, limits.clearance_min_m)
+        found = installed_knowledge().measured(model.name)
     except ConfigError as err:
         return f'no longer: {err}'
-    return 'yes' if found is not None else f'no (aurora map measure {model.name})'
+    return found or f'no (aurora map measure {model.name})'
 
 
 def show_command(name: str, picture: Path | None, *, as_json: bool) -> int:
@@ -128,6 +125,7 @@ def _facts(model: MapModel) -> dict[str, Any]:
     network = model.network
     lanes = network.driving_lanes('passenger')
     tallest = max(model.buildings, key=lambda b: (b.height_m, b.id), default=None)
+    found = measured_on(model)
     return {
         **summary(model),
         'folder': str(model.folder),
@@ -149,5 +147,5 @@ def _facts(model: MapModel) -> dict[str, Any]:
         ],
         'bus_stops': [stop.name or stop.id for stop in model.bus_stops],
         'parking_places': sum(len(area.places) for area in model.parking_areas),
-        'measured': measured_state(model),
+        'measured': 'yes' if isinstance(found, MeasuredMap) else found,
     }

@@ -4,13 +4,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from math import ceil, pi, sqrt
 
 from aurora_core.comm.link import LinkSettings, MessageLink, Path, link_stream
 from aurora_core.errors import AirSimulatorError
 from aurora_core.knowledge.limits import Limits
 from aurora_core.knowledge.uav_record import (
+    RESERVE,
     BrakingRow,
     DriftRow,
     LagRow,
@@ -36,6 +37,7 @@ _BRAKING_MPS = (5.0, 10.0, 15.0)
 _TURN_MPS = (2.0, 5.0, 10.0, 15.0)
 _LAG_MPS = (5.0, 10.0, 15.0)
 _WINDS_MPS = ((0.0, 0.0), (3.0, 2.0), (6.0, 4.0), (10.0, 5.0))
+_MOST_GUST_MPS = 5.0
 _HOVER_S = 120.0
 _SEED = 1
 _AIR_KGPM3 = 1.225  # standard atmosphere at sea level
@@ -106,7 +108,7 @@ def measure_multirotor(dt_s: float, limits: Limits) -> UavRecord:
 
     Args:
         dt_s: Step of the set-points.
-        limits: Whose link ranges the table of messages has.
+        limits: Whose link ranges the table of messages has, and up to whose wind it hovers.
 
     Raises:
         AirSimulatorError: The vehicle does not fly.
@@ -114,9 +116,8 @@ def measure_multirotor(dt_s: float, limits: Limits) -> UavRecord:
     """
     speed, gain_s = _top_speed(dt_s)
     climb, descent = (_vertical(dt_s, sign) for sign in (1.0, -1.0))
-    stops = tuple(
-        _braking(dt_s, v) for v in sorted({*(b for b in _BRAKING_MPS if b < speed), speed})
-    )
+    stops = tuple(_braking(dt_s, v) for v in _below(_BRAKING_MPS, speed))
+    asked = _rounded(speed / RESERVE)  # as fast as it may be asked to fly
     power_w, endurance_s = _endurance(dt_s)
     return UavRecord(
         speed_mps=speed,
@@ -127,11 +128,18 @@ def measure_multirotor(dt_s: float, limits: Limits) -> UavRecord:
         power_w=power_w,
         endurance_s=endurance_s,
         braking=stops,
-        turns=tuple(_turn(dt_s, v) for v in _TURN_MPS if v < speed),
-        lags=tuple(_lag(dt_s, v) for v in _LAG_MPS if v < speed),
-        drifts=tuple(_drift(dt_s, wind) for wind in _WINDS_MPS),
+        turns=tuple(_turn(dt_s, v) for v in _below(_TURN_MPS, asked)),
+        lags=tuple(_lag(dt_s, v) for v in _below(_LAG_MPS, asked)),
+        drifts=tuple(
+            _drift(dt_s, w) for w in (*_WINDS_MPS, (limits.wind_max_mps, _MOST_GUST_MPS))
+        ),
         link=_link(dt_s, limits),
     )
+
+
+def _below(speeds: Sequence[float], most: float) -> Sequence[float]:
+    """Return the speeds below a greatest one, and that."""
+    return [*(v for v in speeds if v < most), most]
 
 
 def _rounded(value: float) -> float:
@@ -187,17 +195,17 @@ def _turn(dt_s: float, speed_mps: float) -> TurnRow:
 
 
 def _lag(dt_s: float, speed_mps: float) -> LagRow:
-    """A set-point that begins to move at once; the greatest distance behind it."""
+    """A set-point that begins to move at once; the distance behind it when it has settled."""
     flight = _Flight(dt_s)
     behind = 0.0
 
     def target(t_s: float) -> Target:
         nonlocal behind
-        behind = max(behind, speed_mps * t_s - flight.body.x)
+        behind = speed_mps * t_s - flight.body.x
         return Target((speed_mps * t_s, 0.0), _HEIGHT_M, (speed_mps, 0.0), 0.0, _EAST)
 
-    flight.fly(target, 2.0 * _SETTLE_S)
-    return LagRow(speed_mps=speed_mps, lag_m=_rounded(behind))
+    flight.fly(target, 4.0 * _SETTLE_S)
+    return LagRow(speed_mps=speed_mps, lag_m=_rounded(max(0.0, behind)))
 
 
 def _drift(dt_s: float, wind_mps: tuple[float, float]) -> DriftRow:

@@ -49,7 +49,7 @@ from aurora_core.knowledge.measured_on import ground_basis, uav_basis, vtypes_pa
 from aurora_core.knowledge.reach import edge_parts
 from aurora_core.knowledge.settings import load_settings
 from aurora_core.knowledge.sight_shares import CornerShare, SightShare, corner_shares, sight_shares
-from aurora_core.knowledge.uav_record import UavRecord
+from aurora_core.knowledge.uav_record import UavRecord, planned_clearance_m
 from aurora_core.spec.vocabulary import AgentType
 from aurora_sumo_bridge.drive_probe import measure_types
 from aurora_sumo_bridge.spawn_probe import Spot, probe_spawns
@@ -86,12 +86,12 @@ def measure(model: MapModel, tell: Tell) -> Measured:
     seconds: dict[str, float] = {}
     dt_s = load_settings().run.dt_s
     limits = load_limits(config_path('limits.json'))
-    clearance_m = limits.clearance_min_m
     with _timed(seconds, 'vehicles', tell):
         names = sorted(kind.value for kind in AgentType)
         types = measure_types(vtypes_path(), names, dt_s, lambda _: None)
     with _timed(seconds, 'multirotor', tell):
         multirotor = measure_multirotor(dt_s, limits)
+    clearance_m = planned_clearance_m(load_settings(), limits, multirotor)
     with _timed(seconds, 'lane samples', tell):
         samples = sample_lanes(model)
         lattice = height_lattice(model, clearance_m)
@@ -133,7 +133,13 @@ def measure(model: MapModel, tell: Tell) -> Measured:
         done.files = write_records(
             {
                 config_path().joinpath(*agent_types.RECORDS): _types_text(types, dt_s),
-                config_path().joinpath(*uav_record.RECORDS): _multirotor_text(multirotor, dt_s),
+                config_path().joinpath(*uav_record.RECORDS): _text(
+                    {
+                        'schema_version': _SCHEMA,
+                        'made_of': uav_basis(dt_s, limits),
+                        'multirotor': multirotor.model_dump(mode='json'),
+                    }
+                ),
                 folder / ARRAYS_NAME: data,
                 folder / RECORDS_NAME: records_text(records).encode('utf-8'),
             }
@@ -225,11 +231,6 @@ def _sight(
 def _types_text(types: Sequence[AgentTypeRecord], dt_s: float) -> bytes:
     rows = [record.model_dump(mode='json', exclude_none=True) for record in types]
     return _text({'schema_version': _SCHEMA, 'made_of': ground_basis(dt_s), 'types': rows})
-
-
-def _multirotor_text(record: UavRecord, dt_s: float) -> bytes:
-    row = record.model_dump(mode='json')
-    return _text({'schema_version': _SCHEMA, 'made_of': uav_basis(dt_s), 'multirotor': row})
 
 
 def _text(document: Mapping[str, object]) -> bytes:

@@ -6,9 +6,11 @@ from __future__ import annotations
 
 import json
 import shutil
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from types import SimpleNamespace
+from typing import Any
 
 import pytest
 
@@ -17,6 +19,7 @@ from aurora_cli.map_measure import measure
 from aurora_core.knowledge.config_files import ENVIRONMENT_VARIABLE, config_root
 from aurora_core.knowledge.map_model import load_map
 from aurora_core.outcomes.grounded import GroundedScenario
+from aurora_core.pipeline.background import registries
 from aurora_core.pipeline.functions import parse_stage
 
 Call = Callable[..., SimpleNamespace]
@@ -124,18 +127,71 @@ def test_a_changed_multirotor_is_refused_until_measured_and_then_planned_with(
     assert refused.code == 4
     assert 'measured with multirotor_sha256' in refused.out
     assert call('map', 'measure', 'junction').code == 0
-    flight = installed.installed().settings.flight
-    assert flight.climb_mps == pytest.approx(1.0, abs=0.01)
+    known = installed.installed()
+    assert known.limits.uav_climb_max_mps == 0.8  # of 1.0 m/s, with the reserve
+    assert 0.5 < known.settings.flight.climb_mps < 0.8
     after = json.loads(call('check', '--map', 'junction', '--json', high).out)
     assert after['horizon_s'] > before['horizon_s'] + 100.0
 
 
+def _seen() -> dict[str, tuple[float, ...]]:
+    """What the parser is offered, and what grounding places, in numbers."""
+    known = installed.installed()
+    offered: dict[str, Any] = {r.id: r.data for r in registries(known, 'junction')}
+    types, limits = offered['agent_types'], offered['limits']
+    found = _grounded(TRUCK)
+    (truck,) = [a for a in found.agents if a.type_name == 'truck']
+    settings = known.settings
+    return {
+        'parser: truck, m and m/s': (types['truck']['length_m'], types['truck']['max_speed_mps']),
+        'parser: UAV, m/s and s': (limits['uav_speed_max_mps'], limits['uav_endurance_s']),
+        'parser: UAV at most, m': (limits['uav_altitude_max_m'],),
+        'grounding: truck, m long': (truck.length_m,),
+        'grounding: UAV, m/s planned': (settings.flight.speed_max_mps,),
+        'grounding: UAV, m from obstacles': (settings.grounding.clearance_m,),
+    }
+
+
+def test_one_measurement_reaches_parser_grounding_and_check(config: Path, call: Call) -> None:
+    asked = {
+        FAST_TRUCK: 'agent_types/truck/max_speed_mps',
+        'A drone flies to four waypoints at 14 m/s at 40 m.': 'uav_speed_max_mps',
+        'A drone hovers over the intersection at 40 m for 1200 seconds.': 'uav_endurance_s',
+        'A drone hovers over the intersection at 100 m for 10 seconds.': 'uav_altitude_m',
+    }
+    before = _seen()
+    for prompt in asked:
+        assert call('check', '--map', 'junction', prompt).code == 0, prompt
+    types, model = config / 'maps' / 'vtypes.add.xml', config / 'multirotor.json'
+    _edit(
+        types,
+        'length="8.50" width="2.50" height="3.40" maxSpeed="36.00"',
+        'length="9.50" width="2.50" height="3.40" maxSpeed="12.00"',
+    )
+    _edit(model, '"horizontal_speed_limit_mps": 21.5', '"horizontal_speed_limit_mps": 11.5')
+    _edit(model, '"battery_wh": 90.0', '"battery_wh": 45.0')
+    _edit(config / 'limits.json', '"uav_altitude_max_m": 120.0', '"uav_altitude_max_m": 80.0')
+    _edit(config / 'limits.json', '"clearance_min_m": 3.0', '"clearance_min_m": 6.0')
+    assert call('map', 'measure', 'junction').code == 0
+    after, shown = _seen(), []
+    for name, values in after.items():
+        shown.append(f'{name}: {before[name]} -> {values}')
+        assert values != before[name], name
+    for prompt, limit in asked.items():
+        refused = call('check', '--map', 'junction', '--json', prompt)
+        assert refused.code == 5, prompt
+        (proof,) = json.loads(refused.out)['feasibility']['certificates']
+        shown.append(f'check: {proof["sentence"]}')
+        assert proof['limit_name'] == limit
+    sys.stdout.write('\n'.join(shown))  # pytest -rP shows it
+
+
 def test_a_clearance_that_changes_is_measured_again(config: Path, call: Call) -> None:
-    _edit(config / 'limits.json', '"clearance_min_m": 3.0', '"clearance_min_m": 4.0')
+    _edit(config / 'limits.json', '"clearance_min_m": 3.0', '"clearance_min_m": 6.0')
     installed.forget()
     refused = call('check', '--map', 'junction', TRUCK)
     assert refused.code == 4
-    assert 'measured with clearance_m 3.0, here is 4.0' in refused.out
+    assert 'measured with clearance_m 5.0, here is 6.7' in refused.out
     assert call('map', 'measure', 'junction').code == 0
     assert call('check', '--map', 'junction', TRUCK).code == 0
 

@@ -23,6 +23,7 @@ from aurora_core.feasibility.zones import check_zones
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_model import MapModel
+from aurora_core.knowledge.uav_record import UavRecord
 from aurora_core.outcomes.feasibility import (
     Certificate,
     CheckStage,
@@ -52,6 +53,7 @@ def check_request(
     tolerances: Tolerances,
     types: Mapping[str, AgentTypeRecord],
     without: frozenset[CheckStage] = frozenset(),
+    uav: UavRecord | None = None,
 ) -> FeasibilityVerdict:
     """Check limits, and what several stated things together or the map rule out.
 
@@ -62,6 +64,7 @@ def check_request(
         tolerances: How far stated numbers may be missed: what they allow is not refused.
         types: What the agent types can reach.
         without: Stages that are left out.
+        uav: What the multirotor was measured to do.
 
     Returns:
         `infeasible` with its proofs; `unknown` with what is in doubt; else `feasible`.
@@ -69,7 +72,7 @@ def check_request(
     findings = () if CheckStage.STATIC in without else tuple(check_static(spec))
     verdict = FeasibilityVerdict(result=Feasibility.FEASIBLE)
     if CheckStage.PROOFS not in without:
-        verdict = _proven(spec, map_model, limits, tolerances, types)
+        verdict = _proven(spec, map_model, limits, tolerances, types, uav)
     if not findings:
         return verdict
     result = verdict.result
@@ -85,6 +88,7 @@ def _proven(
     limits: Limits,
     tolerances: Tolerances,
     types: Mapping[str, AgentTypeRecord],
+    uav: UavRecord | None,
 ) -> FeasibilityVerdict:
     # A condition of what has no such quantity is a fault of the reader, and proves nothing.
     sound = tuple(c for c in spec.conditions if operands_fit(spec, c))
@@ -118,7 +122,7 @@ def _proven(
         return FeasibilityVerdict(result=Feasibility.INFEASIBLE, certificates=told)
     notes = (
         *(f'{c.sentence} But part of that clause was not read.' for c in doubtful),
-        *doubts(spec, map_model, limits, tolerances),
+        *doubts(spec, map_model, limits, tolerances, uav),
     )
     notes = tuple(dict.fromkeys(notes))
     result = Feasibility.UNKNOWN if notes else Feasibility.FEASIBLE

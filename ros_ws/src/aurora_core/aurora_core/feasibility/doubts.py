@@ -5,21 +5,27 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import isfinite
 
 from aurora_core.feasibility.bounds import exclusive
 from aurora_core.feasibility.geometry import check_geometry
 from aurora_core.feasibility.scene import check_scene
 from aurora_core.feasibility.times import check_times
-from aurora_core.knowledge.limits import EXACT, Limits, Tolerances
+from aurora_core.knowledge.limits import EXACT, Limits, Tolerances, hover_drift_limit_m
 from aurora_core.knowledge.map_model import MapModel
+from aurora_core.knowledge.uav_record import UavRecord
 from aurora_core.spec.parameter import Bound
 from aurora_core.spec.scenario import ScenarioSpec
-from aurora_core.spec.stated import is_stated, most
+from aurora_core.spec.stated import is_stated, least, most
 from aurora_core.spec.vocabulary import MissionMode, Pattern
 
 
 def doubts(
-    spec: ScenarioSpec, map_model: MapModel, limits: Limits, tolerances: Tolerances
+    spec: ScenarioSpec,
+    map_model: MapModel,
+    limits: Limits,
+    tolerances: Tolerances,
+    uav: UavRecord | None = None,
 ) -> Iterator[str]:
     """Yield, in sentences, why a request may be impossible that nothing proves to be so.
 
@@ -28,6 +34,7 @@ def doubts(
         map_model: Its map.
         limits: Limits in force.
         tolerances: How far stated numbers may be missed.
+        uav: What the multirotor was measured to do; None: that is not asked.
     """
     exact = tolerances.model_copy(
         update={'altitude_m': EXACT, 'standoff_m': EXACT, 'duration_s': EXACT}
@@ -42,11 +49,13 @@ def doubts(
     yield from (f'{c.sentence} Only inside the tolerances it can be.' for c in nominal)
     for closed in check_scene(spec, own=True):
         yield f'{closed.sentence} Some of them may be the same.'
-    yield from _fast_targets(spec, limits)
-    yield from _short_legs(spec, tolerances)
+    yield from _fast_targets(spec, limits, uav)
+    yield from _short_legs(spec, tolerances, uav)
+    if uav is not None:
+        yield from _strong_wind(spec, limits, tolerances, uav)
 
 
-def _fast_targets(spec: ScenarioSpec, limits: Limits) -> Iterator[str]:
+def _fast_targets(spec: ScenarioSpec, limits: Limits, uav: UavRecord | None) -> Iterator[str]:
     top = limits.uav_speed_max_mps
     for mission in (m for m in spec.missions if m.mode is MissionMode.TRACK):
         agent = next((a for a in spec.agents if a.id == mission.target), None)
@@ -58,9 +67,39 @@ def _fast_targets(spec: ScenarioSpec, limits: Limits) -> Iterator[str]:
                     f'{mission.target} drives at {speed.value:g} m/s, {mission.uav} flies at most '
                     f'{top:g} m/s: it may lose it.'
                 )
+            elif speed is not None and fast and uav is not None:
+                lag_m, allowed_m = uav.lag_m(speed.value), limits.tracking_horizontal_m
+                if lag_m > allowed_m:
+                    yield (
+                        f'{mission.target} drives at {speed.value:g} m/s, at which '
+                        f'{mission.uav} was measured to stay {lag_m:.1f} m behind; it tracks '
+                        f'within {allowed_m:g} m.'
+                    )
 
 
-def _short_legs(spec: ScenarioSpec, tolerances: Tolerances) -> Iterator[str]:
+def _strong_wind(
+    spec: ScenarioSpec, limits: Limits, tolerances: Tolerances, uav: UavRecord
+) -> Iterator[str]:
+    """A hover in wind that was measured to push the multirotor farther than it may drift."""
+    world = spec.world
+    mean_mps = limits.wind_mean_mps[world.weather.value]
+    if world.wind_mps is not None:
+        mean_mps = least(world.wind_mps, 0.0, 0.0)
+    drift_m = uav.drift_m(mean_mps, limits.wind_gust_mps[world.weather.value])
+    allowed_m = hover_drift_limit_m(world, limits, tolerances)
+    if drift_m <= allowed_m:
+        return
+    known = f'to drift {drift_m:.1f} m' if isfinite(drift_m) else 'in no such gusts'
+    for mission in (m for m in spec.missions if m.mode is MissionMode.HOVER):
+        yield (
+            f'{mission.uav} was measured {known} in a wind of {mean_mps:g} m/s; it hovers within '
+            f'{allowed_m:g} m.'
+        )
+
+
+def _short_legs(
+    spec: ScenarioSpec, tolerances: Tolerances, uav: UavRecord | None
+) -> Iterator[str]:
     """A stated speed for which the legs are too short at the acceleration of most flights."""
     for mission in spec.missions:
         speed, size = mission.speed_mps, mission.size_m
@@ -72,10 +111,11 @@ def _short_legs(spec: ScenarioSpec, tolerances: Tolerances) -> Iterator[str]:
         if not all(is_stated(side) for side in sides):
             continue
         needed_m = speed.value * speed.value / tolerances.route_acceleration_mps2
+        if uav is not None:
+            needed_m = max(needed_m, uav.start_m(speed.value) + uav.stop_m(speed.value))
         longest_m = max(most(side, 0.0, 1e9) for side in sides)
         if longest_m < needed_m:
             yield (
-                f'{mission.uav} needs {needed_m:.0f} m to get to {speed.value:g} m/s and to brake '
-                f'at {tolerances.route_acceleration_mps2:g} m/s^2; no leg of {mission.id} is '
-                f'longer than {longest_m:g} m.'
+                f'{mission.uav} needs {needed_m:.0f} m to get to {speed.value:g} m/s and to '
+                f'brake; no leg of {mission.id} is longer than {longest_m:g} m.'
             )

@@ -48,7 +48,7 @@ from aurora_core.knowledge.limits import Limits
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.map_records import SpawnTable, may_stand
 from aurora_core.knowledge.net_types import Lane
-from aurora_core.knowledge.route_path import RoutePath
+from aurora_core.knowledge.route_path import RoutePath, arc_at
 from aurora_core.knowledge.settings import Settings
 from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
 from aurora_core.spec.own_events import let_cross, overtakings
@@ -214,7 +214,7 @@ class AgentPlacer:
         for (lane, position, away_m), reach in itertools.chain(drawn, scanned):
             if not low <= away_m <= reach:
                 continue
-            if not may_stand(self._spawns, record.name, lane.id, position):
+            if not may_stand(self._spawns, record.name, lane.id, arc_at(lane, position)):
                 continue
             edges = finder.wandering_route(lane.edge_id, run_m, generator)
             try:
@@ -273,6 +273,7 @@ class AgentPlacer:
         record = self._types[agent.type.value]
         lane_id, position_m = path.lane_position_at(arc_m)
         lane = self._map.network.lane(lane_id)
+        lane_arc_m = arc_at(lane, position_m)
         first = lane.edge_id
         late = still or release.on is not ReleaseOn.START
         factor = max(style.get('speed_factor', 1.0), _urged(record, speed_mps))
@@ -283,7 +284,8 @@ class AgentPlacer:
         route_xy_m = ((x, y), *line_from(path, arc_m)[1:])
         stop_lane_id, stop_position_m = '', 0.0
         if stop_m is not None:
-            stop_lane_id, stop_position_m = path.lane_position_at(stop_m)
+            stop_lane_id, position_m = path.lane_position_at(stop_m)
+            stop_position_m = arc_at(self._map.network.lane(stop_lane_id), position_m)
         return GroundedAgent(
             id=agent.id,
             type_name=agent.type.value,
@@ -295,7 +297,7 @@ class AgentPlacer:
             edges=edges,
             route_xy_m=route_xy_m,
             lane_id=lane_id,
-            lane_position_m=position_m,
+            lane_position_m=lane_arc_m,
             x_m=x,
             y_m=y,
             heading_x=hx,

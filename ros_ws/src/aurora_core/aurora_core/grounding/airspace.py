@@ -15,6 +15,7 @@ import numpy.typing as npt
 from aurora_core.geometry.obstacles import ObstacleField
 from aurora_core.geometry.prism import Prism
 from aurora_core.geometry.sight import SightModel
+from aurora_core.knowledge.height_lattice import HeightLattice
 from aurora_core.knowledge.map_types import Building, NoFlyZone
 from aurora_core.outcomes.grounded import Ring
 
@@ -58,14 +59,21 @@ class Airspace:
     Args:
         buildings: Of the map.
         zones: No-fly zones; they block flights, not views.
+        lattice: Above which height the air over both is free, as it was measured.
     """
 
-    def __init__(self, buildings: Sequence[Building], zones: Sequence[NoFlyZone]) -> None:
+    def __init__(
+        self,
+        buildings: Sequence[Building],
+        zones: Sequence[NoFlyZone],
+        lattice: HeightLattice | None = None,
+    ) -> None:
         self._solids = (tuple(buildings), tuple(zones))
         prisms = building_prisms(buildings)
         self.obstacles = ObstacleField((*prisms, *zone_prisms(zones)))
         self.sight = SightModel(prisms)
         self.highest_m = max((b.height_m for b in buildings), default=0.0)
+        self._lattice = lattice
         self._segment = lru_cache(maxsize=4096)(self._segment_clearance)
 
     def keeping_out(self, rings: Sequence[Ring]) -> Airspace:
@@ -94,6 +102,23 @@ class Airspace:
         if len(points) == 1:
             return self.points_clearance_m(np.array([points[0]]))
         return min(self._segment(a, b) for a, b in itertools.pairwise(points))
+
+    def way_is_free(
+        self, points: Sequence[tuple[float, float, float]], clearance_m: float
+    ) -> bool:
+        """Tell whether the straight legs between points (x, y, z in m) keep a clearance.
+
+        Where the lattice frees a leg, nothing else is asked: it never does where the exact
+        check would not.
+        """
+        lattice = self._lattice
+        if lattice is None or lattice.clearance_m < clearance_m:
+            return self.way_clearance_m(points) >= clearance_m
+        legs = zip(points, points[1:] or points, strict=False)
+        return all(
+            lattice.frees_way(np.array(a), np.array(b)) or self._segment(a, b) >= clearance_m
+            for a, b in legs
+        )
 
     def _segment_clearance(
         self, a: tuple[float, float, float], b: tuple[float, float, float]

@@ -8,6 +8,7 @@ A stated distance is judged both ways, so it can be kept on a straight street on
 from __future__ import annotations
 
 from aurora_core.geometry.kernel import norm2
+from aurora_core.grounding.convoy import BeforePlace
 from aurora_core.grounding.sites import Site
 from aurora_core.knowledge.limits import Tolerance
 from aurora_core.spec.parameter import Provenance
@@ -19,15 +20,28 @@ _ALONG = (Relation.AHEAD, Relation.BEHIND)
 _USED = 0.25
 
 
-def bends_between(spec: ScenarioSpec, site: Site, tolerance: Tolerance) -> bool:
+def bends_between(
+    spec: ScenarioSpec, site: Site, tolerance: Tolerance, before: BeforePlace | None = None
+) -> bool:
     """Tell whether a bend spoils a stated distance between two vehicles of the convoy.
 
     Args:
         spec: Request.
         site: Place of the convoy.
         tolerance: Of stated distances.
+        before: Who stands before a place: the way there is counted as it is driven, so that a
+            bend or another lane spoils that distance, too.
     """
     seats = {seat.agent.id: seat for seat in site.seated}
+    if before is not None:
+        member = seats[before.agent]
+        x, y, _, _ = member.path.position_at(member.arc_m)
+        end_m = min(member.path.length_m, member.arc_m + before.distance_m)
+        ahead_x, ahead_y, _, _ = member.path.position_at(end_m)
+        lost_m = before.distance_m - norm2(ahead_x - x, ahead_y - y)
+        aside = any(member.arc_m < c.end_m and c.start_m < end_m for c in member.path.lane_changes)
+        if aside or lost_m > _USED * tolerance.of(before.distance_m):
+            return True
     for agent in spec.agents:
         for placement in agent.placements:
             own, other = seats.get(agent.id), seats.get(placement.of or '')

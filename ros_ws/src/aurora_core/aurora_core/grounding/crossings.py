@@ -77,7 +77,7 @@ def _ends_of(plan: MissionPlan, site: Site, speed_mps: float) -> list[Point3]:
 def _is_straight(airspace: Airspace, start: Point3, goal: Point3, clearance_m: float) -> bool:
     """Tell whether the straight way is free at both altitudes."""
     ways = (((*start[:2], z), (*goal[:2], z)) for z in {start[2], goal[2]})
-    return all(airspace.way_clearance_m(way) >= clearance_m for way in ways)
+    return all(airspace.way_is_free(way, clearance_m) for way in ways)
 
 
 def _over(
@@ -88,7 +88,7 @@ def _over(
     while height_m <= top_m:
         down = ((*goal[:2], height_m), goal)
         ways = [((s, (*s[:2], height_m), (*goal[:2], height_m))) for s in starts]
-        if all(airspace.way_clearance_m(way) >= clearance_m for way in (down, *ways)):
+        if all(airspace.way_is_free(way, clearance_m) for way in (down, *ways)):
             return height_m
         height_m += _STEP_M
     return None

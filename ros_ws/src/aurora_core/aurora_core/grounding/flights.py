@@ -234,7 +234,7 @@ class FlightPlanner:
                 for x, y in taken
             )
             top = (spot[0], spot[1], first[2])
-            if far and self._air.way_clearance_m((top, first)) >= self._settings.clearance_m:
+            if far and self._air.way_is_free((top, first), self._settings.clearance_m):
                 home = spot
                 break
         if home is None:
@@ -364,7 +364,7 @@ class FlightPlanner:
         """Tell whether the air over a courtyard is left by no level way, as in a stadium."""
         x, y, z = point
         return self._air.is_inside(x, y) and all(
-            self._air.way_clearance_m(((*spot, z), point)) < self._settings.clearance_m
+            not self._air.way_is_free(((*spot, z), point), self._settings.clearance_m)
             for spot in self._spots.near(x, y, _WAYS_OUT)
         )
 

@@ -40,7 +40,7 @@ from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.basis import Basis
 from aurora_core.knowledge.limits import Limits, Tolerances, hover_capture_m
 from aurora_core.knowledge.map_model import MapModel
-from aurora_core.knowledge.map_records import SpawnTable
+from aurora_core.knowledge.map_records import SpawnTable, WalkTable
 from aurora_core.knowledge.settings import Settings
 from aurora_core.mission.plan import UavPlan
 from aurora_core.outcomes.grounded import AnchorScore, GroundedScenario
@@ -86,6 +86,7 @@ class Grounder:
         executor_version: Version of the executor that will run it, written there too.
         spawns: Where vehicle types were measured to stand; None where the map was not measured.
         airspace: Of the map, when it exists already.
+        walks: Which sidewalks and crossings were walked; None where the map was not measured.
     """
 
     def __init__(
@@ -99,11 +100,13 @@ class Grounder:
         executor_version: int = 0,
         spawns: SpawnTable | None = None,
         airspace: Airspace | None = None,
+        walks: WalkTable | None = None,
     ) -> None:
         self._map = map_model
         self._basis = basis
         self._executor_version = executor_version
         self._spawns = spawns
+        self._walks = walks
         self._types = types
         self._limits = limits
         self._tolerances = tolerances
@@ -169,7 +172,7 @@ class Grounder:
         )
         run_s = horizon_s(spec, self._limits, self._settings.flight)
         run_m = run_s * self._drive_speed(spec, split) + 300.0
-        persons = PersonPlacer(self._map, self._types)
+        persons = PersonPlacer(self._map, self._types, self._walks)
         oncoming = OncomingPlacer(self._map, self._types, self._spawns)
         ranked = self._ranked_sites(spec, split, run_m)
         if plan is not None:
@@ -269,9 +272,9 @@ class Grounder:
         for site in self._fitting(spec, members, found):
             free = min(1.0, site.free_run_m / need_m) if need_m > 0.0 else 1.0
             brisk = min(1.0, site.fastest_mps(self._map.network, way_m) / wanted)
-            bends = max(0.0, 1.0 - site.turns(way_m, grounding) / grounding.turns_bad)
-            road = 0.4 * free + 0.2 * float(site.steady) + 0.2 * brisk + 0.2 * bends
-            if bends_between(spec, site, self._tolerances.placement_vehicle_m):
+            straight = max(0.0, 1.0 - site.turns(way_m, grounding) / grounding.turns_bad)
+            road = 0.4 * free + 0.2 * float(site.steady) + 0.2 * brisk + 0.2 * straight
+            if bends_between(spec, site, self._tolerances.placement_vehicle_m, split.before):
                 road *= _BENT
             if not self._goals.leads(spec, site, wide=True):
                 road *= _ASTRAY

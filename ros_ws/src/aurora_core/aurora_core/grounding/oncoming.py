@@ -132,7 +132,7 @@ class OncomingPlacer:
         if not room_m <= along_m <= lane.arc_length_m - room_m:
             return None
         position_m = along_m / lane.arc_length_m * lane.length_m
-        if not may_stand(self._spawns, record.name, lane.id, position_m):
+        if not may_stand(self._spawns, record.name, lane.id, along_m):
             return None
         try:
             path = self._network.route_path(edges, record.vclass, start_lane_id=lane.id)

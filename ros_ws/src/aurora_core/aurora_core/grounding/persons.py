@@ -34,6 +34,7 @@ from aurora_core.grounding.sites import (
 )
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.map_model import MapModel
+from aurora_core.knowledge.map_records import WalkTable
 from aurora_core.knowledge.walk_path import WalkPath, kerb_to_kerb, sidewalk_of, walk_along
 from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
 from aurora_core.spec.events import sets_off
@@ -152,9 +153,16 @@ class PersonPlacer:
     Args:
         map_model: Map.
         types: Agent sizes.
+        walks: Which sidewalks and crossings were walked; None where the map was not measured.
     """
 
-    def __init__(self, map_model: MapModel, types: Mapping[str, AgentTypeRecord]) -> None:
+    def __init__(
+        self,
+        map_model: MapModel,
+        types: Mapping[str, AgentTypeRecord],
+        walks: WalkTable | None = None,
+    ) -> None:
+        self._walks = walks
         self._map = map_model
         self._places = MapPlaces(map_model)
         self._types = types
@@ -178,7 +186,7 @@ class PersonPlacer:
             walker = SeatedPerson(
                 agent=agent, path=spot.path, arc_m=spot.arc_m, lateral_m=spot.lateral_m
             )
-            if self._runs_into_parked(spec, site, walker):
+            if not self._walked(spot.path) or self._runs_into_parked(spec, site, walker):
                 return 'sidewalk'
             site = replace(site, walkers=(*site.walkers, walker))
         return site
@@ -208,6 +216,14 @@ class PersonPlacer:
                 ):
                     return True
         return False
+
+    def _walked(self, path: WalkPath) -> bool:
+        """Tell whether somebody was found to walk where a walk begins, and over its crossing."""
+        walks = self._walks
+        if walks is None:
+            return True
+        crossed = path.crossing_id is None or walks.crosses(path.crossing_id)
+        return crossed and walks.walks(path.lane_id)
 
     def grounded(self, spec: ScenarioSpec, site: Site) -> Iterator[GroundedAgent]:
         """Yield the persons of a site as they enter the run."""

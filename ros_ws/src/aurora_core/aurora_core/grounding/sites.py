@@ -25,7 +25,7 @@ from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.map_records import SpawnTable, may_stand
 from aurora_core.knowledge.net_types import Lane
 from aurora_core.knowledge.road_network import RoadNetwork
-from aurora_core.knowledge.route_path import RoutePath
+from aurora_core.knowledge.route_path import RoutePath, arc_at
 from aurora_core.knowledge.settings import GroundingSettings
 from aurora_core.knowledge.walk_path import WalkPath
 from aurora_core.spec.scenario import GroundAgent, ScenarioSpec
@@ -44,6 +44,8 @@ _ASIDE_M = 8.0
 
 # Clear road in front of the first and behind the last bumper at t = 0.
 _END_GAP_M = 2.0
+# Within so much of its place along the way, a member is looked for beside it (m).
+_ABREAST_M = 30.0
 
 # Where no street leads straight on to a place, ways are so long at most (m).
 LONGEST_WAY_M = 900.0
@@ -53,11 +55,6 @@ _PASSING_M = 150.0
 
 # Free space between the border of its lane and the flank of a parked vehicle (m).
 KERB_CLEARANCE_M = 0.3
-
-# Who is in a lane beside another one is at least so far from its middle (m), looked for so far
-# along it.
-_BESIDE_M = 1.5
-_NEXT_LANE_M = 20.0
 
 # A limit of 13.89 m/s is meant where 50 km/h are asked (m/s).
 _LIMIT_SLACK_MPS = 0.05
@@ -280,15 +277,20 @@ def sites(
                 if exact_m is not None:
                     ways = (edges, aside)
                     site = _site(map_model, convoy, types, ways, lane.id, exact_m, paths)
-            if site is not None and _stands(site, spawns):
+            if site is not None and _stands(network, site, spawns):
                 yield site
             arc_m += spacing_m
 
 
-def _stands(site: Site, spawns: SpawnTable | None) -> bool:
+def _stands(network: RoadNetwork, site: Site, spawns: SpawnTable | None) -> bool:
     """Tell whether every member can be put where it is to be."""
     return all(
-        may_stand(spawns, seat.agent.type.value, seat.lane_id, seat.lane_position_m)
+        may_stand(
+            spawns,
+            seat.agent.type.value,
+            seat.lane_id,
+            arc_at(network.lane(seat.lane_id), seat.lane_position_m),
+        )
         for seat in site.seated
     )
 
@@ -399,8 +401,8 @@ def _site(
     origin = path_of(types[convoy[0].agent.type.value].vclass if convoy else ANY_CLASS, 0)
     if origin is None or origin_arc_m > origin.length_m:
         return None
-    if any(s.member.lane_shift and not _is_aside(s, origin) for s in seated):
-        return None  # its lane has ended, or joined the other one, before it gets there
+    if any(m.lane_shift != 0 for m in convoy) and not _abreast(network, origin, seated):
+        return None
     rear = min((s.arc_m for s in seated), default=origin_arc_m)
     front = max((s.arc_m for s in seated), default=origin_arc_m)
     signals = [s[0] for s in origin.signals if s[0] >= rear]
@@ -419,18 +421,25 @@ def _shared_m(network: RoadNetwork, one: tuple[str, ...], other: tuple[str, ...]
     return sum(network.edge(edge).length_m for edge, _ in pairs)
 
 
-def _is_aside(seat: SeatedAgent, origin: RoutePath) -> bool:
-    """Tell whether a member is beside the way of the convoy's origin, not on it."""
-    x, y, _, _ = seat.path.position_at(seat.arc_m)
-    _, aside_m = origin.line.project(x, y, near_s=seat.arc_m, window_m=_NEXT_LANE_M)
-    return abs(aside_m) > _BESIDE_M
-
-
 def _lets_pass(agent: GroundAgent) -> bool:
     """Tell whether a vehicle lets others pass and goes to no place of its own."""
     kinds = {b.kind for b in agent.behaviors}
     to_places = any(has_point(b.target) for b in agent.behaviors)
     return BehaviorKind.YIELD in kinds and not to_places
+
+
+def _abreast(network: RoadNetwork, origin: RoutePath, seated: Sequence[SeatedAgent]) -> bool:
+    """Tell whether members are as many lanes beside the origin's way as they are to be.
+
+    They begin so on the first edge; where lanes join before their places, they no longer are.
+    """
+    for seat in seated:
+        x, y, _, _ = seat.path.position_at(seat.arc_m)
+        _, aside_m = origin.line.project(x, y, near_s=seat.arc_m, window_m=_ABREAST_M)
+        width_m = network.lane(seat.lane_id).width_m
+        if abs(aside_m - seat.member.lane_shift * width_m) > width_m / 2.0:
+            return False
+    return True
 
 
 def _overlap(seated: Sequence[SeatedAgent], types: Mapping[str, AgentTypeRecord]) -> bool:

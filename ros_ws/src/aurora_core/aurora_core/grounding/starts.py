@@ -50,7 +50,7 @@ def uncrossed(
             exchanged[k] = _started_at(plans[k], homes[column])
     for plan, (x, y, z) in zip(exchanged, first_points, strict=True):
         way = ((plan.home_x_m, plan.home_y_m, z), (x, y, z))
-        if airspace.way_clearance_m(way) < clearance_m:
+        if not airspace.way_is_free(way, clearance_m):
             return tuple(plans)
     return tuple(exchanged)
 

@@ -118,7 +118,7 @@ class TrafficPlacer:
             gap_m = self._settings.background_gap_m
             if any(norm2(x - u, y - v) < gap_m for u, v in taken):
                 continue
-            if not may_stand(self._spawns, _TYPE.value, lane.id, position_m):
+            if not may_stand(self._spawns, _TYPE.value, lane.id, arc_at(lane, position_m)):
                 continue
             way = self._way(lane, position_m, centre, streets, run_m, generator)
             share = 0.0 if way is None else self._share_near(way[1], centre)

@@ -5,7 +5,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any, Self
 
 import numpy as np
@@ -30,7 +31,8 @@ class HeightLattice:
     """Heights over a grid of square cells.
 
     At or above the height of its cell, a point keeps the clearance from every building and every
-    no-fly zone. Below it, it may or may not: the exact check decides.
+    no-fly zone. Below it, it may or may not: the exact check decides. Ways of UAVs are looked up
+    here first.
 
     Attributes:
         west_m: West border of the first column (south_m: south border of the first row).
@@ -55,6 +57,35 @@ class HeightLattice:
         cells = self.free_above_dm[row[inside].astype(int), column[inside].astype(int)]
         out[inside] = cells * _STEP_M
         return out
+
+    def frees_way(self, start: FloatArray, end: FloatArray) -> bool:
+        """Tell whether a straight way surely keeps the clearance all along.
+
+        The way is looked at once per cell length, each time with the cells around, so that no
+        cell that it touches is left out. False says nothing: the exact check decides.
+
+        Args:
+            start: (3,) ENU metres.
+            end: (3,) ENU metres.
+        """
+        length_m = float(np.linalg.norm(end - start))
+        if not np.isfinite(length_m):
+            return False
+        count = 1 + int(np.ceil(length_m / self.cell_m))
+        points = start + np.linspace(0.0, 1.0, count)[:, None] * (end - start)
+        lowest_m = points[:, 2] - (self.cell_m / 2.0 if start[2] != end[2] else 0.0)
+        return bool((lowest_m >= self._around.free_above_m(points[:, :2])).all())
+
+    @cached_property
+    def _around(self) -> HeightLattice:
+        """The same with the height of the highest cell around each; beyond the grid is none."""
+        rows, columns = self.free_above_dm.shape
+        wide = np.pad(self.free_above_dm, 1, constant_values=np.iinfo(np.uint16).max)
+        highest = self.free_above_dm
+        for row in range(3):
+            for column in range(3):
+                highest = np.maximum(highest, wide[row : row + rows, column : column + columns])
+        return replace(self, free_above_dm=highest)
 
     def arrays(self) -> dict[str, npt.NDArray[Any]]:
         """Return everything as arrays, by name."""

@@ -124,6 +124,27 @@ def may_stand(spawns: SpawnTable | None, type_name: str, lane_id: str, arc_m: fl
 
 
 @dataclass(frozen=True, kw_only=True)
+class WalkTable:
+    """Which sidewalks and crossings were walked from one end to the other.
+
+    Attributes:
+        sidewalk_s: Seconds along each sidewalk, 0 where it was not walked.
+        crossing_s: Seconds over each crossing, 0 where it was not walked.
+    """
+
+    sidewalk_s: Mapping[str, float]
+    crossing_s: Mapping[str, float]
+
+    def walks(self, lane_id: str) -> bool:
+        """Tell whether somebody gets along a sidewalk; one that was not tried is not refused."""
+        return self.sidewalk_s.get(lane_id, 1.0) > 0.0
+
+    def crosses(self, crossing_id: str) -> bool:
+        """Tell whether somebody gets over a crossing; one not tried is not refused."""
+        return self.crossing_s.get(crossing_id, 1.0) > 0.0
+
+
+@dataclass(frozen=True, kw_only=True)
 class MeasuredMap:
     """The records of a map with their arrays.
 
@@ -132,16 +153,14 @@ class MeasuredMap:
         samples: Lane samples.
         spawns: Where vehicle types stand.
         lattice: Above which height the air is free.
-        sidewalk_s: Seconds along each sidewalk, 0 where it was not walked.
-        crossing_s: Seconds over each crossing, 0 where it was not walked.
+        walks: Which sidewalks and crossings were walked.
     """
 
     records: MapRecords
     samples: LaneSamples
     spawns: SpawnTable
     lattice: HeightLattice
-    sidewalk_s: Mapping[str, float]
-    crossing_s: Mapping[str, float]
+    walks: WalkTable
 
 
 def packed(
@@ -252,8 +271,7 @@ def _unpacked(records: MapRecords, arrays: Arrays) -> MeasuredMap:
         samples=samples,
         spawns=table,
         lattice=HeightLattice.of_arrays(_below(arrays, _LATTICE)),
-        sidewalk_s=seconds[0],
-        crossing_s=seconds[1],
+        walks=WalkTable(sidewalk_s=seconds[0], crossing_s=seconds[1]),
     )
 
 

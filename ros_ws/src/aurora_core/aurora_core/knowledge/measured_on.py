@@ -16,6 +16,7 @@ from pathlib import Path
 from aurora_core.errors import ConfigError
 from aurora_core.files import MAP_BYTES, read_bytes
 from aurora_core.knowledge.config_files import config_path
+from aurora_core.knowledge.limits import Limits
 
 Made = Mapping[str, str | float]
 
@@ -65,9 +66,20 @@ def ground_basis(dt_s: float) -> dict[str, str | float]:
     }
 
 
-def uav_basis(dt_s: float) -> dict[str, str | float]:
-    """Return what the record of the multirotor is made of here."""
-    return {'multirotor_sha256': file_sha256(config_path('multirotor.json')), 'dt_s': dt_s}
+def uav_basis(dt_s: float, limits: Limits) -> dict[str, str | float]:
+    """Return what the record of the multirotor is made of here.
+
+    Args:
+        dt_s: Step of the set-points.
+        limits: Whose link ranges and winds it is measured at.
+    """
+    return {
+        'multirotor_sha256': file_sha256(config_path('multirotor.json')),
+        'dt_s': dt_s,
+        'link_range_sight_m': limits.link_range_sight_m,
+        'link_range_blocked_m': limits.link_range_blocked_m,
+        'wind_max_mps': limits.wind_max_mps,
+    }
 
 
 def check_made_of(path: Path, made: Made, here: Made, map_name: str = '') -> None:

@@ -4,17 +4,26 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterable
+
 from pydantic import ValidationError
 
 from aurora_core.document import Document
 from aurora_core.errors import ConfigError
 from aurora_core.files import CONFIG_BYTES, read_json
-from aurora_core.knowledge.config_files import config_root
-from aurora_core.knowledge.limits import NotNegative, Positive
+from aurora_core.knowledge.config_files import config_path, config_root
+from aurora_core.knowledge.limits import Limits, NotNegative, Positive, load_limits
 from aurora_core.knowledge.measured_on import check_made_of, measure_command, uav_basis
-from aurora_core.knowledge.settings import FlightDefaults, load_settings
+from aurora_core.knowledge.settings import FlightDefaults, Settings, load_settings
 
 RECORDS = ('knowledge', 'measured', 'multirotor.json')
+
+# A limit leaves the vehicle this much to control itself with, as those of the contract do.
+RESERVE = 1.15
+# What is planned stays so far below a limit.
+_PLANNED_SHARE = 0.92
+_STEPS = 10.0  # limits that follow from a measurement are whole tenths
 
 
 class BrakingRow(Document):
@@ -33,7 +42,7 @@ class TurnRow(Document):
 
 
 class LagRow(Document):
-    """A point that moves straight at a speed: how far behind it is followed."""
+    """A point that moves straight at a speed: how far behind it is followed in the end."""
 
     speed_mps: Positive
     lag_m: NotNegative
@@ -86,6 +95,38 @@ class UavRecord(Document):
     drifts: tuple[DriftRow, ...]
     link: tuple[LinkRow, ...]
 
+    def stop_m(self, speed_mps: float) -> float:
+        """Return the way of a stop from a speed, metres."""
+        return _at_least(((r.speed_mps, r.distance_m) for r in self.braking), speed_mps)
+
+    def start_m(self, speed_mps: float) -> float:
+        """Return the way from a hover to a speed, metres."""
+        return speed_mps * speed_mps / (2.0 * self.acceleration_mps2)
+
+    def overshoot_m(self, speed_mps: float) -> float:
+        """Return how far beyond a corner it gets that is flown at a speed, metres."""
+        return _at_least(((r.speed_mps, r.overshoot_m) for r in self.turns), speed_mps)
+
+    def lag_m(self, speed_mps: float) -> float:
+        """Return how far behind a point it is that moves at a speed, metres."""
+        return _at_least(((r.speed_mps, r.lag_m) for r in self.lags), speed_mps)
+
+    def drift_m(self, mean_mps: float, gust_mps: float) -> float:
+        """Return how far from its point it gets in a wind, metres; infinite beyond the winds."""
+        met = (r.drift_m for r in self.drifts if r.mean_mps >= mean_mps and r.gust_mps >= gust_mps)
+        return min(met, default=math.inf)
+
+    def received_m(self, *, with_sight: bool) -> float:
+        """Return the greatest distance over which a message was received, metres."""
+        rows = (r for r in self.link if (r.with_sight if with_sight else r.without_sight))
+        return max((r.distance_m for r in rows), default=0.0)
+
+
+def _at_least(rows: Iterable[tuple[float, float]], speed_mps: float) -> float:
+    """Return the figure of the next speed that was measured; beyond the last one, of that one."""
+    figures = sorted(rows)
+    return next((f for v, f in figures if v >= speed_mps), figures[-1][1] if figures else 0.0)
+
 
 def load_uav_record() -> UavRecord:
     """Read the record of the multirotor.
@@ -107,18 +148,70 @@ def load_uav_record() -> UavRecord:
         raise ConfigError(f'{path} is not valid: {where}: {first["msg"]}', hint=hint) from err
     except (ValueError, LookupError, TypeError) as err:
         raise ConfigError(f'{path} is not valid: {err!r}', hint=hint) from err
-    check_made_of(path, made, uav_basis(load_settings().run.dt_s))
+    limits = load_limits(config_path('limits.json'))
+    check_made_of(path, made, uav_basis(load_settings().run.dt_s, limits))
     return record
 
 
-def within(flight: FlightDefaults, record: UavRecord) -> FlightDefaults:
+def possible_limits(limits: Limits, record: UavRecord) -> Limits:
+    """Return limits that a vehicle can be asked to keep up to: with a reserve to what it does."""
+    most = {
+        'uav_speed_max_mps': record.speed_mps,
+        'uav_climb_max_mps': record.climb_mps,
+        'uav_descent_max_mps': record.descent_mps,
+        'uav_endurance_s': record.endurance_s,
+    }
+    found = {
+        name: min(getattr(limits, name), max(1.0, math.floor(_STEPS * value / RESERVE)) / _STEPS)
+        for name, value in most.items()
+    }
+    return Limits.model_validate(limits.model_dump() | found)
+
+
+def possible_settings(settings: Settings, limits: Limits, record: UavRecord) -> Settings:
+    """Return settings that ask nothing of a vehicle that it was not measured to do.
+
+    Args:
+        settings: As configured.
+        limits: As configured; the possible ones follow from the record.
+        record: Of the vehicle.
+    """
+    grounding = settings.grounding.model_dump() | {
+        'clearance_m': planned_clearance_m(settings, limits, record)
+    }
+    return Settings.model_validate(
+        settings.model_dump()
+        | {'flight': within(settings.flight, limits, record), 'grounding': grounding}
+    )
+
+
+def planned_clearance_m(settings: Settings, limits: Limits, record: UavRecord) -> float:
+    """Return what planned ways keep from obstacles: the vehicle leaves them in wind and corners.
+
+    Args:
+        settings: As configured: the clearance is at least theirs.
+        limits: Clearance that has to be kept, and the wind of every weather.
+        record: Of the vehicle.
+    """
+    drift_m = record.drift_m(
+        max(limits.wind_mean_mps.values()), max(limits.wind_gust_mps.values())
+    )
+    aside_m = record.overshoot_m(settings.flight.corner_speed_mps) + drift_m
+    needed_m = limits.clearance_min_m + aside_m
+    return max(settings.grounding.clearance_m, needed_m)
+
+
+def within(flight: FlightDefaults, limits: Limits, record: UavRecord) -> FlightDefaults:
     """Return the reference motion, nowhere beyond what the multirotor was measured to do."""
+    possible = possible_limits(limits, record)
     return FlightDefaults.model_validate(
         flight.model_dump()
         | {
-            'speed_max_mps': min(flight.speed_max_mps, record.speed_mps),
-            'climb_mps': min(flight.climb_mps, record.climb_mps),
-            'descent_mps': min(flight.descent_mps, record.descent_mps),
+            'speed_max_mps': min(
+                flight.speed_max_mps, _PLANNED_SHARE * possible.uav_speed_max_mps
+            ),
+            'climb_mps': min(flight.climb_mps, _PLANNED_SHARE * possible.uav_climb_max_mps),
+            'descent_mps': min(flight.descent_mps, _PLANNED_SHARE * possible.uav_descent_max_mps),
             'acceleration_mps2': min(flight.acceleration_mps2, record.acceleration_mps2),
         }
     )

@@ -27,6 +27,7 @@ class WalkPath:
         goal_lane_id: The last one.
         polyline: Points in ENU map metres.
         line: The same, measured.
+        crossing_id: The crossing between the first and the second edge, if there is one.
     """
 
     edge_ids: tuple[str, ...]
@@ -34,6 +35,7 @@ class WalkPath:
     goal_lane_id: str
     polyline: Points
     line: Polyline = field(compare=False, repr=False)
+    crossing_id: str | None = None
 
     @property
     def length_m(self) -> float:
@@ -83,6 +85,7 @@ def walk_along(
         goal_lane_id=walks[-1].id,
         polyline=tuple(kept),
         line=Polyline(kept),
+        crossing_id=None if crossing is None else crossing.id,
     )
 
 

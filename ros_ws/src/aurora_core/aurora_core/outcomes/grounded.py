@@ -52,7 +52,8 @@ class GroundedAgent(Document):
         edges: Planned route.
         route_xy_m: Path of its reference point along the route, ENU map frame.
         lane_id: Lane of the reference point ('' for persons).
-        lane_position_m: Arc length of the reference point (vehicles: box centre) on that lane.
+        lane_position_m: Arc length of the reference point (vehicles: box centre) along the centre
+            line of that lane, as drawn; simulators may count a lane longer or shorter.
         release: When it may start to move.
         release_uav: The UAV whose state releases it.
         release_mission: The mission whose capture releases it.

@@ -26,19 +26,21 @@ _SECTIONS = ('agents', 'weather', 'time_of_day')
 
 def registries(known: Knowledge, map_name: str) -> tuple[Record, ...]:
     """Return what is shown with every prompt."""
+    measured = known.measured(map_name)
     return registry_records(
         limits=known.limits,
         types=known.types,
         map_model=known.map(map_name),
         maps=list_maps(),
         unsaid=unsaid_values(),
+        measured=None if measured is None else measured.records,
     )
 
 
 def map_records(known: Knowledge, map_name: str) -> tuple[Record, ...]:
     """Return assets and the spawn examples of a map."""
     return (
-        *asset_records(known.types, known.limits, _words()),
+        *asset_records(known.types, known.limits, _words(), known.uav),
         *spawn_records(known.map(map_name)),
     )
 

@@ -71,7 +71,9 @@ def check_stage(
     """
     spec = agsg.spec
     map_model = known.map(spec.world.map_name)
-    return check_request(spec, map_model, known.limits, known.tolerances, known.types, without)
+    return check_request(
+        spec, map_model, known.limits, known.tolerances, known.types, without, known.uav
+    )
 
 
 def ground_stage(

@@ -19,7 +19,12 @@ from aurora_core.knowledge.limits import Limits, Tolerances, load_limits, load_t
 from aurora_core.knowledge.map_model import MapModel, load_map
 from aurora_core.knowledge.map_records import MeasuredMap, load_measured_map
 from aurora_core.knowledge.settings import Settings, load_settings
-from aurora_core.knowledge.uav_record import UavRecord, load_uav_record, within
+from aurora_core.knowledge.uav_record import (
+    UavRecord,
+    load_uav_record,
+    possible_limits,
+    possible_settings,
+)
 from aurora_core.knowledge.world import WorldModel
 from aurora_core.repair.settings import RepairSettings, load_repair_settings
 from aurora_core.report.versions import AURORA_VERSION
@@ -32,9 +37,9 @@ class Knowledge:
     share, are loaded when they are first asked for.
 
     Args:
-        limits: Limits in force.
+        limits: Limits as configured; those in force ask nothing that `uav` cannot do.
         tolerances: Tolerances in force.
-        settings: Settings of grounding and execution.
+        settings: Settings of grounding and execution, as configured.
         types: Ground agents by type, as measured.
         uav: The multirotor as measured; it is never planned to do more.
     """
@@ -48,11 +53,9 @@ class Knowledge:
         types: Mapping[str, AgentTypeRecord],
         uav: UavRecord,
     ) -> None:
-        self.limits = limits
+        self.limits = possible_limits(limits, uav)
         self.tolerances = tolerances
-        self.settings = Settings(
-            grounding=settings.grounding, flight=within(settings.flight, uav), run=settings.run
-        )
+        self.settings = possible_settings(settings, limits, uav)
         self.types = types
         self.uav = uav
         tables = Tables(limits=self.limits, tolerances=self.tolerances, settings=self.settings)
@@ -82,7 +85,7 @@ class Knowledge:
         """
         if name not in self._measured:
             self._measured[name] = load_measured_map(
-                self.map(name), self.settings.run.dt_s, self.limits.clearance_min_m
+                self.map(name), self.settings.run.dt_s, self.settings.grounding.clearance_m
             )
         return self._measured[name]
 
@@ -106,13 +109,15 @@ class Knowledge:
                 EXECUTOR_VERSION,
                 None if measured is None else measured.spawns,
                 self._airspace(name),
+                None if measured is None else measured.walks,
             )
         return self._grounders[name]
 
     def _airspace(self, name: str) -> Airspace:
         if name not in self._airspaces:
-            known = self.map(name)
-            self._airspaces[name] = Airspace(known.buildings, known.zones)
+            known, measured = self.map(name), self.measured(name)
+            lattice = None if measured is None else measured.lattice
+            self._airspaces[name] = Airspace(known.buildings, known.zones, lattice)
         return self._airspaces[name]
 
     def parts_of(self, world: WorldModel) -> MapParts | None:

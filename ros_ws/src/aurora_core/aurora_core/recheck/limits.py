@@ -9,7 +9,7 @@ from typing import Any
 from aurora_core.outcomes.feasibility import Certificate
 from aurora_core.recheck.finding import Step
 from aurora_core.recheck.owners import limits_on
-from aurora_core.recheck.request import node_at, quoted, read_config
+from aurora_core.recheck.request import node_at, quoted, read_config, read_limits
 
 # Limit name of a certificate -> (key in limits.json of its lower end, of its upper end).
 _LIMITS: dict[str, tuple[str | None, str]] = {
@@ -98,7 +98,7 @@ def _limit(proof: Certificate) -> list[Step]:
 
 def _ends(name: str) -> tuple[float, float] | None:
     """Return what a limit allows; None for a limit that is not known."""
-    table = read_config('limits.json')
+    table = read_limits()
     parts = name.split('/')
     if len(parts) == 3 and (parts[0], parts[2]) == ('agent_types', 'max_speed_mps'):
         rows = read_config('knowledge', 'measured', 'agent_types.json')['types']

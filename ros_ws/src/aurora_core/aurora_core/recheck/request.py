@@ -18,6 +18,14 @@ from aurora_core.recheck.finding import Step
 
 # "about" widens a relative tolerance to a tenth.
 _ABOUT = 0.10
+# A vehicle is asked for this much less than it was measured to do, in whole tenths.
+_UAV_RESERVE = 1.15
+_OF_THE_UAV = {
+    'uav_speed_max_mps': 'speed_mps',
+    'uav_climb_max_mps': 'climb_mps',
+    'uav_descent_max_mps': 'descent_mps',
+    'uav_endurance_s': 'endurance_s',
+}
 # A landmark so near to a building stands in it.
 _BESIDE_M = 1.0
 
@@ -25,6 +33,16 @@ _BESIDE_M = 1.0
 def read_config(*parts: str) -> Any:
     """Return a JSON document of the configuration."""
     return read_json(config_path(*parts), MAP_BYTES)
+
+
+def read_limits() -> dict[str, Any]:
+    """Return the limits in force: what is configured, nowhere beyond what the UAV can do."""
+    table: dict[str, Any] = read_config('limits.json')
+    uav = read_config('knowledge', 'measured', 'multirotor.json')['multirotor']
+    for limit, measured in _OF_THE_UAV.items():
+        most = max(1.0, math.floor(10.0 * float(uav[measured]) / _UAV_RESERVE)) / 10.0
+        table[limit] = min(float(table[limit]), most)
+    return table
 
 
 def read_map_file(name: str, file: str) -> Any:
@@ -53,7 +71,7 @@ class Request:
 
     def __init__(self, spec: dict[str, Any]) -> None:
         self.spec = spec
-        self.limits: dict[str, Any] = read_config('limits.json')
+        self.limits: dict[str, Any] = read_limits()
         self.tolerances: dict[str, Any] = read_config('tolerances.json')
 
     def all(self, kind: str) -> list[dict[str, Any]]:

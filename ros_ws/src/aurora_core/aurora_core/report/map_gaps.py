@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from aurora_core.knowledge.map_model import MapModel
+from aurora_core.knowledge.map_records import MapRecords
 from aurora_core.knowledge.net_types import Point
-from aurora_core.knowledge.reach import edge_parts
 from aurora_core.knowledge.road_network import RoadNetwork
 
 # "closing from 45 meters" and a follow of half a minute need about this much road ahead (m).
@@ -36,22 +36,43 @@ class MapGap:
         return f'{self.lacks}: {self.means}'
 
 
-def map_gaps(model: MapModel) -> tuple[MapGap, ...]:
-    """Return what a map lacks for some kinds of request, the weightiest first."""
-    return (*_roads(model.network), *_walking(model.network), *_surroundings(model))
+def map_gaps(model: MapModel, measured: MapRecords | None = None) -> tuple[MapGap, ...]:
+    """Return what a map lacks for some kinds of request, the weightiest first.
+
+    Args:
+        model: Map.
+        measured: What was measured on it; what only that tells is left out without.
+    """
+    tried = () if measured is None else _tried(measured)
+    return (*_roads(model.network), *_walking(model.network), *_surroundings(model), *tried)
+
+
+def _tried(measured: MapRecords) -> Iterator[MapGap]:
+    """Yield what did not work where it was tried."""
+    for part in measured.parts:
+        if part.largest_share < _SHARE:
+            yield MapGap(
+                f'unconnected roads for the class {part.vehicle_class} '
+                f'({1.0 - part.largest_share:.0%} of the length)',
+                'vehicles that are placed there cannot come back, and none can be sent there',
+            )
+    for walk, name in ((measured.sidewalks, 'sidewalks'), (measured.crossings, 'crossings')):
+        if walk.walked < walk.tried:
+            yield MapGap(
+                f'{walk.tried - walk.walked} of {walk.tried} {name} that nobody gets along',
+                'no pedestrian is placed there',
+            )
+    worst = min(measured.spawns, key=lambda s: s.stands / max(1, s.tried), default=None)
+    if worst is not None and worst.stands < _SHARE * worst.tried:
+        yield MapGap(
+            f'{worst.tried - worst.stands} of {worst.tried} places where no {worst.type_name} '
+            'stands',
+            'none is placed there',
+        )
 
 
 def _roads(network: RoadNetwork) -> Iterator[MapGap]:
     lanes = network.driving_lanes('passenger')
-    parts = edge_parts(network, 'passenger')
-    length_m = {edge: network.edge(edge).length_m for part in parts for edge in part}
-    total_m = sum(length_m.values())
-    main_m = sum(length_m[edge] for edge in parts[0]) if parts else 0.0
-    if main_m < _SHARE * total_m:
-        yield MapGap(
-            f'unconnected roads ({1.0 - main_m / total_m:.0%} of the length)',
-            'vehicles that are placed there cannot come back, and none can be sent there',
-        )
     folds = _folds(network)
     if folds:
         yield MapGap(

@@ -10,6 +10,7 @@ from pydantic import JsonValue
 
 from aurora_core.knowledge.agent_types import AgentTypeRecord, top_speed_mps
 from aurora_core.knowledge.limits import Limits
+from aurora_core.knowledge.uav_record import UavRecord
 from aurora_core.outcomes.retrieval import RecordKind
 from aurora_core.retrieval.record import Record
 from aurora_core.spec.vocabulary import AgentType, TimeOfDay, Weather
@@ -32,19 +33,23 @@ _UAV_WORDS = 'flies in the air: hover, track, follow from above, patrol, survey,
 
 
 def asset_records(
-    types: Mapping[str, AgentTypeRecord], limits: Limits, words: Words
+    types: Mapping[str, AgentTypeRecord], limits: Limits, words: Words, measured: UavRecord
 ) -> tuple[Record, ...]:
     """Return one record per agent type, weather, time of day, for UAVs and for links.
 
     Args:
         types: Measured sizes and dynamics.
         limits: Limits in force.
+        measured: What the multirotor does, and over what distances messages were received.
         words: Synonyms by agent type, weather, time of day and `uav`, from the lexicon.
     """
     records = [_type(kind, types, limits, words) for kind in AgentType]
-    uav = {name: getattr(limits, name) for name in _UAV_LIMITS}
+    uav: dict[str, JsonValue] = {name: getattr(limits, name) for name in _UAV_LIMITS}
+    uav['stop_m'] = measured.stop_m(limits.uav_speed_max_mps)
     records.append(_asset(UAV_ID, words, 'limits.json', uav, _UAV_WORDS))
-    link = {name: getattr(limits, name) for name in _LINK_LIMITS}
+    link: dict[str, JsonValue] = {name: getattr(limits, name) for name in _LINK_LIMITS}
+    link['received_sight_m'] = measured.received_m(with_sight=True)
+    link['received_blocked_m'] = measured.received_m(with_sight=False)
     about = (
         'radio link: message, alert, warning, report, communication range, packet loss, latency'
     )

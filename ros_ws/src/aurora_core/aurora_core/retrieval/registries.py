@@ -12,6 +12,7 @@ from pydantic import JsonValue
 from aurora_core.knowledge.agent_types import AgentTypeRecord, top_speed_mps
 from aurora_core.knowledge.limits import Limits
 from aurora_core.knowledge.map_model import MapModel
+from aurora_core.knowledge.map_records import MapRecords
 from aurora_core.outcomes.retrieval import RecordKind
 from aurora_core.retrieval.record import Record
 from aurora_core.spec.vocabulary import (
@@ -57,6 +58,7 @@ def registry_records(
     map_model: MapModel,
     maps: Sequence[str],
     unsaid: Mapping[str, float],
+    measured: MapRecords | None,
 ) -> tuple[Record, ...]:
     """Return the registries.
 
@@ -65,13 +67,14 @@ def registry_records(
         types: Those that grounding makes bodies from.
         map_model: The active map.
         maps: Names of all maps.
+        measured: What was measured on the active map; None where nothing was.
         unsaid: The parser's values for what a prompt leaves out, SI, angles in degrees.
     """
     return (
         _registry('agent_types', 'knowledge/measured/agent_types.json', _types(types, limits)),
         _registry('mission_templates', 'parsing/defaults.yaml', _templates(unsaid)),
         _registry('limits', 'limits.json', limits.model_dump(mode='json')),
-        _registry('maps', f'maps/{map_model.name}', _map(map_model, maps)),
+        _registry('maps', f'maps/{map_model.name}', _map(map_model, maps, measured)),
         _registry(
             'vocabulary',
             'spec/vocabulary.py',
@@ -105,8 +108,11 @@ def _templates(unsaid: Mapping[str, float]) -> dict[str, JsonValue]:
     }
 
 
-def _map(map_model: MapModel, maps: Sequence[str]) -> dict[str, JsonValue]:
+def _map(
+    map_model: MapModel, maps: Sequence[str], measured: MapRecords | None
+) -> dict[str, JsonValue]:
     return {
+        **({} if measured is None else _offers(measured)),
         'active': map_model.name,
         'all': list(maps),
         'description': map_model.description,
@@ -117,4 +123,23 @@ def _map(map_model: MapModel, maps: Sequence[str]) -> dict[str, JsonValue]:
             {'name': zone.name, 'floor_m': zone.floor_m, 'ceiling_m': zone.ceiling_m}
             for zone in map_model.zones
         ],
+    }
+
+
+def _offers(measured: MapRecords) -> dict[str, JsonValue]:
+    """What was found to be possible on the map: where to drive, to walk and to see from."""
+    return {
+        'street_km': {
+            part.vehicle_class: round(part.length_km * part.largest_share, 2)
+            for part in measured.parts
+        },
+        'walked': {
+            'sidewalks': measured.sidewalks.walked,
+            'crossings': measured.crossings.walked,
+        },
+        'seen_share': [
+            {'height_m': s.height_m, 'distance_m': s.distance_m, 'share': s.free_share}
+            for s in measured.sight
+        ],
+        'hidden_corners_share': {f'{c.before_m:g} m': c.hidden_share for c in measured.corners},
     }

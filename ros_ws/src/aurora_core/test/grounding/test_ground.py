@@ -73,8 +73,8 @@ def test_position_lane_and_route_say_the_same_place(case: Case) -> None:
     for agent in found.agents:
         lane = the_map.network.lane(agent.lane_id)
         assert not lane.is_internal, 'nobody starts inside a junction'
-        x, y, hx, hy = the_map.network.position_on_lane(agent.lane_id, agent.lane_position_m)
-        assert (agent.x_m, agent.y_m) == pytest.approx((x, y), abs=0.01)
+        x, y, hx, hy = lane.line.at(agent.lane_position_m)
+        assert (agent.x_m, agent.y_m) == pytest.approx((x, y), abs=1e-3)
         assert (agent.heading_x, agent.heading_y) == pytest.approx((hx, hy), abs=1e-6)
         assert agent.edges[0] == lane.edge_id
         assert agent.route_xy_m[0] == pytest.approx((agent.x_m, agent.y_m), abs=1e-9)
@@ -88,7 +88,7 @@ def test_nobody_reaches_into_a_junction_or_into_another(case: Case) -> None:
     for agent in found.agents:
         half = agent.length_m / 2.0
         lane = the_map.network.lane(agent.lane_id)
-        assert agent.lane_position_m + half <= lane.length_m + 1e-6 or len(agent.edges) > 1
+        assert agent.lane_position_m + half <= lane.arc_length_m + 1e-6 or len(agent.edges) > 1
 
 
 def _box(agent: GroundedAgent) -> shapely.Polygon:

@@ -14,7 +14,7 @@ from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.lane_samples import sample_lanes
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_model import MapModel
-from aurora_core.knowledge.map_records import REFUSED, STANDS, SpawnTable
+from aurora_core.knowledge.map_records import REFUSED, STANDS, SpawnTable, WalkTable
 from aurora_core.knowledge.settings import Settings
 from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.outcomes.grounding import GroundingFailure
@@ -96,6 +96,33 @@ def test_nobody_is_placed_where_its_type_was_refused(
         assert len(found.agents) > 1 or 'dense' not in prompt
         for agent in found.agents:
             assert measured.spawns.accepts(agent.type_name, agent.lane_id, agent.lane_position_m)
+
+
+def test_nobody_crosses_where_nobody_gets_over(
+    map_of: Callable[[str], MapModel],
+    agent_types: Mapping[str, AgentTypeRecord],
+    limits: Limits,
+    tolerances: Tolerances,
+    settings: Settings,
+    read_prompt: Callable[..., ScenarioSpec],
+) -> None:
+    model = map_of('downtown')
+    spec = read_prompt(
+        'A pedestrian crosses at the crosswalk while a drone hovers over it at 30 m.'
+    )
+
+    def begins(blocked: str = '', *, crossings: bool = True) -> str:
+        shut = {} if crossings else {crossing.id: 0.0 for crossing in model.network.crossings}
+        walks = WalkTable(sidewalk_s={blocked: 0.0}, crossing_s=shut)
+        grounder = Grounder(model, agent_types, limits, tolerances, settings, walks=walks)
+        found = grounder.ground(spec, 1)
+        if isinstance(found, GroundingFailure):
+            return found.reason
+        return found.agents[0].lane_id
+
+    usual = begins()
+    assert begins(usual) not in (usual, 'sidewalk')
+    assert begins(crossings=False) == 'sidewalk'
 
 
 def test_traffic_and_free_vehicles_leave_a_refused_lane(

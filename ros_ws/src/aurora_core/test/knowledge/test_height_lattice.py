@@ -10,7 +10,7 @@ import pytest
 from aurora_core.errors import MapError
 from aurora_core.geometry.obstacles import ObstacleField
 from aurora_core.geometry.polygon import Polygon, PolygonSet
-from aurora_core.grounding.airspace import building_prisms
+from aurora_core.grounding.airspace import Airspace, building_prisms
 from aurora_core.knowledge.height_lattice import HeightLattice, height_lattice
 from aurora_core.knowledge.map_model import MapModel
 
@@ -65,6 +65,43 @@ def test_it_does_not_block_all_of_the_air(downtown: MapModel, lattice: HeightLat
 def test_off_the_grid_nothing_is_known_to_be_free(lattice: HeightLattice) -> None:
     outside = np.array([(lattice.west_m - 1.0, lattice.south_m + 1.0), (1e6, 1e6)])
     assert np.isinf(lattice.free_above_m(outside)).all()
+
+
+def test_a_way_that_it_frees_keeps_the_clearance(
+    downtown: MapModel, lattice: HeightLattice
+) -> None:
+    draws = np.random.default_rng(5)
+    west, south, east, north = downtown.bounds_m
+    air = Airspace(downtown.buildings, downtown.zones)
+    freed = 0
+    for _ in range(1500):
+        start = draws.uniform((west, south, 3.0), (east, north, 120.0))
+        end = start + draws.uniform((-150.0, -150.0, -30.0), (150.0, 150.0, 30.0))
+        if draws.random() < 0.5:
+            end[2] = start[2]
+        if lattice.frees_way(start, end):
+            freed += 1
+            way = (tuple(start.tolist()), tuple(end.tolist()))
+            assert air.way_clearance_m(way) >= lattice.clearance_m, (start, end)
+    assert 150 < freed < 1350
+
+
+def test_ways_are_free_with_it_where_they_are_without(
+    downtown: MapModel, lattice: HeightLattice
+) -> None:
+    draws = np.random.default_rng(6)
+    west, south, east, north = downtown.bounds_m
+    plain = Airspace(downtown.buildings, downtown.zones)
+    quick = Airspace(downtown.buildings, downtown.zones, lattice)
+    found = set()
+    for _ in range(300):
+        height_m = float(draws.uniform(5.0, 90.0))
+        ends = draws.uniform((west, south), (east, north), (2, 2)).tolist()
+        way = tuple((x, y, height_m) for x, y in ends)
+        free = quick.way_is_free(way, CLEARANCE_M)
+        assert free == plain.way_is_free(way, CLEARANCE_M)
+        found.add(free)
+    assert found == {True, False}
 
 
 def test_arrays_come_back_the_same(lattice: HeightLattice) -> None:

@@ -41,7 +41,7 @@ def test_it_has_what_a_city_has(helsinki: MapModel) -> None:
 
 
 def test_its_sidewalks_and_crossings_are_walked_and_refusals_are_few(helsinki: MapModel) -> None:
-    found = load_measured_map(helsinki, 0.05, 3.0)
+    found = load_measured_map(helsinki, 0.05, 5.0)
     assert found is not None
     records = found.records
     assert records.sidewalks.walked == records.sidewalks.tried > 300

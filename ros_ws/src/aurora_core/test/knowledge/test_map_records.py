@@ -29,7 +29,7 @@ from aurora_core.knowledge.map_records import (
 )
 
 DT_S = 0.05
-CLEARANCE_M = 3.0
+CLEARANCE_M = 5.0  # that planned ways keep
 
 
 def _loaded(model: MapModel) -> MeasuredMap:
@@ -52,9 +52,11 @@ def test_every_bundled_map_is_measured() -> None:
         for row in found.records.spawns:
             number = found.spawns.type_names.index(row.type_name)
             assert (found.spawns.table[number] == STANDS).sum() == row.stands
-        assert set(found.sidewalk_s) == {lane.id for lane in model.network.sidewalks}
-        assert set(found.crossing_s) == {crossing.id for crossing in model.network.crossings}
-        assert sum(s > 0.0 for s in found.crossing_s.values()) == found.records.crossings.walked
+        assert set(found.walks.sidewalk_s) == {lane.id for lane in model.network.sidewalks}
+        assert set(found.walks.crossing_s) == {crossing.id for crossing in model.network.crossings}
+        assert (
+            sum(map(found.walks.crosses, found.walks.crossing_s)) == found.records.crossings.walked
+        )
 
 
 def test_all_records_together_are_small() -> None:
@@ -93,7 +95,7 @@ def test_records_of_something_else_are_refused(
 
 
 def test_a_changed_clearance_is_refused(junction: MapModel) -> None:
-    with pytest.raises(ConfigError, match=r'measured with clearance_m 3\.0, here is 4\.0'):
+    with pytest.raises(ConfigError, match=r'measured with clearance_m 5\.0, here is 4\.0'):
         load_measured_map(junction, DT_S, 4.0)
 
 

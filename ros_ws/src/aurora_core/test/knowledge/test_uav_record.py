@@ -12,9 +12,21 @@ import pytest
 
 from aurora_core.errors import ConfigError
 from aurora_core.knowledge.config_files import config_path
-from aurora_core.knowledge.limits import load_limits
-from aurora_core.knowledge.settings import load_settings
-from aurora_core.knowledge.uav_record import RECORDS, UavRecord, load_uav_record, within
+from aurora_core.knowledge.limits import Limits, load_limits
+from aurora_core.knowledge.settings import Settings, load_settings
+from aurora_core.knowledge.uav_record import (
+    RECORDS,
+    UavRecord,
+    load_uav_record,
+    planned_clearance_m,
+    possible_limits,
+    possible_settings,
+    within,
+)
+
+
+def _shipped() -> tuple[Limits, Settings, UavRecord]:
+    return load_limits(config_path('limits.json')), load_settings(), load_uav_record()
 
 
 def test_every_figure_exceeds_its_limit_by_fifteen_percent() -> None:
@@ -38,8 +50,9 @@ def test_faster_means_longer_stops_wider_turns_and_more_lag() -> None:
 
 
 def test_the_shipped_motion_is_within_what_was_measured() -> None:
-    flight = load_settings().flight
-    assert within(flight, load_uav_record()) == flight
+    limits, settings, record = _shipped()
+    assert possible_limits(limits, record) == limits
+    assert possible_settings(settings, limits, record) == settings
 
 
 @pytest.mark.parametrize(
@@ -52,9 +65,50 @@ def test_the_shipped_motion_is_within_what_was_measured() -> None:
     ],
 )
 def test_a_weaker_vehicle_is_planned_to_do_less(measured: str, planned: str, value: float) -> None:
-    record = UavRecord.model_validate(load_uav_record().model_dump() | {measured: value})
-    flight = load_settings().flight
-    assert within(flight, record).model_dump() == flight.model_dump() | {planned: value}
+    limits, settings, shipped = _shipped()
+    record = UavRecord.model_validate(shipped.model_dump() | {measured: value})
+    flight, weaker = settings.flight, within(settings.flight, limits, record)
+    assert weaker.model_dump() == flight.model_dump() | {planned: getattr(weaker, planned)}
+    assert 0.5 * value < getattr(weaker, planned) <= value
+
+
+@pytest.mark.parametrize(
+    ('measured', 'limit', 'value', 'least'),
+    [
+        ('speed_mps', 'uav_speed_max_mps', 11.5, 10.0),
+        ('climb_mps', 'uav_climb_max_mps', 2.3, 2.0),
+        ('descent_mps', 'uav_descent_max_mps', 1.15, 1.0),
+        ('endurance_s', 'uav_endurance_s', 1150.0, 1000.0),
+    ],
+)
+def test_no_limit_asks_for_more_than_the_vehicle_can_do(
+    measured: str, limit: str, value: float, least: float
+) -> None:
+    limits, settings, shipped = _shipped()
+    record = UavRecord.model_validate(shipped.model_dump() | {measured: value})
+    possible = possible_limits(limits, record)
+    assert possible.model_dump() == limits.model_dump() | {limit: least}
+    # What is planned stays below the limit that the verdict will ask to be kept.
+    assert within(settings.flight, limits, record).speed_max_mps < possible.uav_speed_max_mps
+
+
+def test_who_leaves_its_way_in_corners_keeps_farther_from_obstacles() -> None:
+    limits, settings, shipped = _shipped()
+    rows = tuple(row.model_copy(update={'overshoot_m': 6.0}) for row in shipped.turns)
+    clumsy = shipped.model_copy(update={'turns': rows})
+    drift_m = shipped.drift_m(6.0, 4.0)
+    found = planned_clearance_m(settings, limits, clumsy)
+    assert found == pytest.approx(limits.clearance_min_m + 6.0 + drift_m)
+    assert planned_clearance_m(settings, limits, shipped) == settings.grounding.clearance_m
+
+
+def test_figures_between_those_measured_are_of_the_next_one() -> None:
+    _, _, record = _shipped()
+    assert record.stop_m(7.0) == record.stop_m(10.0) > record.stop_m(5.0)
+    assert record.stop_m(99.0) == record.braking[-1].distance_m
+    assert record.drift_m(4.0, 1.0) == record.drift_m(6.0, 4.0)
+    assert record.drift_m(99.0, 0.0) == float('inf')
+    assert record.received_m(with_sight=True) > record.received_m(with_sight=False) > 0.0
 
 
 def test_the_record_of_another_model_is_refused(config: Path) -> None:
