@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 from aurora_core.feasibility.bounds import exclusive
 from aurora_core.feasibility.geometry import check_geometry
@@ -19,7 +19,11 @@ from aurora_core.spec.vocabulary import MissionMode, Pattern
 
 
 def doubts(
-    spec: ScenarioSpec, map_model: MapModel, limits: Limits, tolerances: Tolerances
+    spec: ScenarioSpec,
+    map_model: MapModel,
+    limits: Limits,
+    tolerances: Tolerances,
+    known: Collection[str] = (),
 ) -> Iterator[str]:
     """Yield, in sentences, why a request may be impossible that nothing proves to be so.
 
@@ -28,6 +32,7 @@ def doubts(
         map_model: Its map.
         limits: Limits in force.
         tolerances: How far stated numbers may be missed.
+        known: Sentences of what is told of already: it does not hang on the tolerances.
     """
     exact = tolerances.model_copy(
         update={'altitude_m': EXACT, 'standoff_m': EXACT, 'duration_s': EXACT}
@@ -39,7 +44,8 @@ def doubts(
         *check_geometry(spec, map_model, close, exact),
         *check_times(spec, limits, exact, map_model),
     )
-    yield from (f'{c.sentence} Only inside the tolerances it can be.' for c in nominal)
+    near = (c.sentence for c in nominal if c.sentence not in known)
+    yield from (f'{sentence} Only inside the tolerances it can be.' for sentence in near)
     for closed in check_scene(spec, own=True):
         yield f'{closed.sentence} Some of them may be the same.'
     yield from _fast_targets(spec, limits)
