@@ -102,7 +102,7 @@ class Intake:
         """
         with self._lock:
             self._acked = -1
-            self._lone.begin(wanted)
+            self._lone.begin(wanted | {on.CLOCK.full_name})  # which is recorded of every run
             self._recording = recording
         if not self._thread.is_alive():
             self._thread.start()

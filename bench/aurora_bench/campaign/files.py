@@ -15,6 +15,7 @@ from aurora_bench.prompts.format import AnnotatedPrompt, beyond
 from aurora_bench.prompts.reading import read_prompts
 from aurora_bench.results import ResultsError
 from aurora_core.document import Document
+from aurora_core.files import DOCUMENT_BYTES, read_bytes
 from aurora_core.report.share import Share
 
 
@@ -61,7 +62,7 @@ def _read(path: Path) -> PromptFile:
     resolved = path.resolve()
     return PromptFile(
         name=f'{resolved.parent.name}/{resolved.name}',
-        sha256=hashlib.sha256(path.read_bytes()).hexdigest(),
+        sha256=hashlib.sha256(read_bytes(path, DOCUMENT_BYTES)).hexdigest(),
         prompts=prompts,
         documents=tuple(read_documents(path)),
     )

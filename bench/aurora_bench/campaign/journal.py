@@ -19,8 +19,10 @@ from pydantic import ValidationError
 
 from aurora_core.document import Document
 from aurora_core.errors import AuroraError
+from aurora_core.files import read_bytes
 
 JOURNAL_VERSION = 1
+_JOURNAL_BYTES = 1 << 30
 _ENDING = '.journal.jsonl'
 
 
@@ -106,7 +108,7 @@ class Journal:
 
     def _read(self, head: JournalHead) -> int:
         """Take in what is there and return how many of its bytes are whole lines."""
-        data = self.path.read_bytes()
+        data = read_bytes(self.path, _JOURNAL_BYTES)
         whole = data.rfind(b'\n') + 1
         lines = data[:whole].splitlines()
         if not lines:

@@ -236,11 +236,10 @@ def _to_place(case: Case, requirement: Requirement, body: str, place: str) -> Ju
     point = scene.xy(body)[:1]
     if relation == 'before':
         return _upstream(case, requirement, body, place)
-    outline = float(scene.places.outline_distance(place, point, on_road=True)[0])
     asked = _distance(case, requirement, body)
+    outline = float(scene.places.outline_distance(place, point, on_road=asked is None)[0])
     if asked is not None:
-        known = (*scene.places.spots(place), *scene.places.approaches(place))
-        spots = [float(np.linalg.norm(s.xy - point[0])) for s in known]
+        spots = [float(np.linalg.norm(s.xy - point[0])) for s in scene.places.spots(place)]
         best = min([outline, *spots], key=asked.off)
         why = f'{body} {best:.2f} m from {place}, asked {asked.text()} m'
         return decide(asked.counts(best), why)

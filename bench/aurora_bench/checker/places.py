@@ -112,24 +112,24 @@ class Places:
         folded = f'{APPROACH}{name.casefold().strip().removeprefix(LANDMARK)}'
         return tuple(Spot(x, y) for n, x, y in self.world.places if n.casefold() == folded)
 
-    def distance(self, name: str, xy: FloatArray, *, on_road: bool = False) -> FloatArray:
-        """Return (n,) metres from points to the nearest position (of an area: to the area).
-
-        Args:
-            name: The place.
-            xy: (n, 2) the points.
-            on_road: They are of a body on the ground: it may be where the road comes to the place.
-        """
+    def distance(self, name: str, xy: FloatArray) -> FloatArray:
+        """Return (n,) metres from points to the nearest position (of an area: to the area)."""
         if not self.known(name):
             return np.full(len(xy), np.nan)
         if self.is_region(name):
             return self.outline_distance(name, xy)
-        near = self.approaches(name) if on_road else ()
-        spots = np.array([s.xy for s in (*self.chosen(name), *near)])
+        spots = np.array([s.xy for s in self.chosen(name)])
         return np.asarray(np.linalg.norm(xy[:, None] - spots[None], axis=2).min(axis=1))
 
     def outline_distance(self, name: str, xy: FloatArray, *, on_road: bool = False) -> FloatArray:
-        """Return (n,) metres from points to the nearest outline; 0 inside, to a bare position."""
+        """Return (n,) metres from points to the nearest outline; 0 inside, to a bare position.
+
+        Args:
+            name: The place.
+            xy: (n, 2) the points.
+            on_road: They are of a body on the ground that is to be at the place: it may be where
+                the road comes to it.
+        """
         best = np.full(len(xy), np.inf)
         if not self.area(name).is_empty:
             best = np.asarray(shapely.distance(self.area(name), shapely.points(xy)))

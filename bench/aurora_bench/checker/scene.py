@@ -160,8 +160,7 @@ class Scene:
             flat, height = np.hypot(delta[:, 0], delta[:, 1]), delta[:, 2]
             present = self.present(a) & self.present(b)
         else:
-            on_road = not self.bodies[a].is_uav
-            flat = self.places.distance(b, start[:, :2], on_road=on_road)
+            flat = self.places.distance(b, start[:, :2])
             height = start[:, 2]
             present = self.present(a)
         whole = flat if horizontal else np.hypot(flat, height)

@@ -33,7 +33,7 @@ PLANTED: tuple[Planted, ...] = (
         'm1.capture',
     ),
     _bug(
-        'hovers 30 m beside the place', 'hover', bugs.HOVERS_ASIDE, 'r2', 'm1.drift', 'm1.capture'
+        'hovers 60 m beside the place', 'hover', bugs.HOVERS_ASIDE, 'r2', 'm1.drift', 'm1.capture'
     ),
     _bug(
         'skips the landing',

@@ -12,6 +12,7 @@ from pydantic import ValidationError
 from aurora_bench.prompts.findings import Finding, Rule
 from aurora_bench.prompts.format import AnnotatedPrompt
 from aurora_bench.results import ResultsError
+from aurora_core.files import DOCUMENT_BYTES, read_text
 
 
 def read_lines(text: str) -> tuple[tuple[AnnotatedPrompt, ...], tuple[Finding, ...]]:
@@ -62,7 +63,7 @@ def file_text(path: Path) -> str:
         ResultsError: It cannot be read or is not UTF-8.
     """
     try:
-        return path.read_text(encoding='utf-8')
+        return read_text(path, DOCUMENT_BYTES)
     except (OSError, UnicodeDecodeError) as err:
         raise ResultsError(f'expected a UTF-8 prompt file at {path}: {err}') from err
 

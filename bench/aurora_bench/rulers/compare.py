@@ -9,11 +9,12 @@ Exit code 0: none ended or moved otherwise (trace hashes may differ: they hold c
 from __future__ import annotations
 
 import argparse
-import json
 import sys
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
+
+from aurora_core.files import DOCUMENT_BYTES, read_json
 
 Trials = Mapping[tuple[str, int], Mapping[str, Any]]
 _DECIDING = ('status', 'motion_sha256')
@@ -34,7 +35,7 @@ def _short(value: object) -> str:
 
 
 def _read(path: Path) -> Trials:
-    document = json.loads(path.read_text(encoding='utf-8'))
+    document = read_json(path, DOCUMENT_BYTES)
     return {(trial['id'], trial['seed']): trial for trial in document['trials']}
 
 

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 from pathlib import Path
 from typing import Any
 
@@ -87,3 +88,11 @@ def test_any_edit_of_the_code_or_the_configuration_is_another_product(
     (tmp_path / 'config').mkdir()
     monkeypatch.setenv('AURORA_CONFIG_DIR', str(tmp_path / 'config'))
     assert code_digest() != here
+
+
+def test_a_pipe_or_a_device_is_refused_before_it_is_read(tmp_path: Path) -> None:
+    # Nobody writes into the pipe, and the device never ends: reading either would not come back.
+    os.mkfifo(tmp_path / 'pipe.jsonl')
+    for path in (tmp_path / 'pipe.jsonl', Path('/dev/zero')):
+        with pytest.raises(ResultsError, match='expected a regular file'):
+            read_files([path])

@@ -249,6 +249,18 @@ def test_distance_fires_when_it_is_crossed(make_stage: Any) -> None:
         assert stage.says(asked) == outcome
 
 
+def test_a_landmark_is_as_far_as_it_stands(make_stage: Any) -> None:
+    # The road before it is 15 m nearer: who drives by there is 31.7 m from the hall itself.
+    for value_m, outcome in ((40, 'holds'), (25, 'does_not')):
+        stage = make_stage()
+        stage.drive('car1', 'car', 8.0, x=0.0)
+        stage.ground('rsu1', 'rsu', 0.0, 8.0)
+        stage.message('rsu1', 'car1', (210.0 - np.sqrt(40.0**2 - 31.65**2)) / 8.0 + 0.1)
+        near = {'on': 'distance_below', 'a': 'car1', 'b': 'City Hall', 'value_m': value_m}
+        asked = _event(near, {'do': 'send_message', 'sender': 'rsu1', 'receiver': 'car1'})
+        assert stage.says(asked) == outcome
+
+
 def test_a_trigger_that_never_fires_does_not_hold(stage: Any) -> None:
     stage.drive('car1', 'car', 4.0)
     stage.ground('bus1', 'bus', -100.0, 20.0)

@@ -269,9 +269,13 @@ def test_a_page_that_tells_otherwise_is_found(run: Path, call: Call) -> None:
     page.write_text(shown)
     (run / 'picture.png').write_bytes(b'\x89PNG of another run')
     assert 'report.html is not the page' in said(call, str(run)).first
-    # What nobody was shown tells nothing wrong.
+    # What nobody was shown tells nothing wrong; what cannot be compared may.
     page.unlink()
     assert said(call, str(run)).code == 0
+    page.mkdir()
+    found = said(call, str(run))
+    assert (found.code, found.integrity) == (4, 'unknown')
+    assert 'report.html cannot be read' in found.first
 
 
 def test_a_report_of_an_older_version_is_judged_by_what_it_tells(run: Path, call: Call) -> None:

@@ -82,9 +82,15 @@ class Observation:
         index = self._roster.uav_index(body_id)
         return None if index is None else instant.uav_speed_mps(self._uav[index])
 
-    def distance_m(self, a: str, b: str) -> float | None:
-        """Return the 3-D distance of two reference points, None when one of them is gone."""
-        on_road = any(self._roster.agent_index(name) is not None for name in (a, b))
+    def distance_m(self, a: str, b: str, *, on_road: bool = False) -> float | None:
+        """Return the 3-D distance of two reference points, None when one of them is gone.
+
+        Args:
+            a: Body or place.
+            b: Body or place.
+            on_road: Who is on the ground is measured from where the road leads to a landmark.
+        """
+        on_road = on_road and any(self._roster.agent_index(n) is not None for n in (a, b))
         p, q = self.position(a, on_road=on_road), self.position(b, on_road=on_road)
         return None if p is None or q is None else instant.distance_m(p, q)
 

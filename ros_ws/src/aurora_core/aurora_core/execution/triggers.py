@@ -108,7 +108,7 @@ def _state_holds(
             return speed <= trigger.value_mps.value
         return speed >= trigger.value_mps.value
     if isinstance(trigger, ArrivalTrigger):
-        distance = observation.distance_m(trigger.who, trigger.place)
+        distance = observation.distance_m(trigger.who, trigger.place, on_road=True)
         return distance is not None and distance <= progress.arrival_m
     if not _looks(trigger, observation, progress):
         return False

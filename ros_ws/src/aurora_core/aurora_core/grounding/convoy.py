@@ -73,8 +73,6 @@ _SAME_PLACE_M = 1e-6
 # Where a vehicle is anyway, at the right kerb, and where it can be put.
 _ROADS = (None, Place.MAIN_ROAD, Place.ROADSIDE)
 
-_MOVES = frozenset({BehaviorKind.DRIVE, BehaviorKind.WALK, BehaviorKind.CROSS, BehaviorKind.STOP})
-
 # Where a vehicle can be put at a place with a point; no distance is stated but with `near`.
 _AT = (Relation.NEAR, Relation.AT, Relation.PARKED_AT)
 
@@ -89,6 +87,7 @@ _CHASES = frozenset(
 )
 
 _STILL = frozenset({BehaviorKind.WAIT, BehaviorKind.PARK})
+_MOVES = frozenset(BehaviorKind) - _STILL
 
 
 def parks(spec: ScenarioSpec, agent: GroundAgent) -> bool:

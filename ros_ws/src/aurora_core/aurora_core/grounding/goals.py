@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from math import atan2, degrees
 
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.awaited import awaited_at
@@ -18,6 +19,7 @@ from aurora_core.grounding.sites import SeatedAgent, Site
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Tolerances
 from aurora_core.knowledge.map_model import MapModel
+from aurora_core.spec.parameter import Bound, Parameter, Provenance
 from aurora_core.spec.reference import is_landmark
 from aurora_core.spec.scenario import GroundAgent, ScenarioSpec
 from aurora_core.spec.vocabulary import BehaviorKind, Relation
@@ -44,8 +46,14 @@ STOP_AFTER_M = 60.0
 # Who stops at a place stops this far inside its surroundings (m).
 _INSIDE_M = 2.0
 
+# Who is awaited within a distance comes at least this much nearer (m): ticks are that far apart.
+_NEARER_M = 0.5
+
 # Sites are so far apart where a place says exactly where a vehicle stands (m).
 _NARROW_M = 2.5
+
+# Share of a tolerance inside which a place is aimed at.
+_SAFE = 0.8
 
 # Steps in which a spot to stop at is looked for (m).
 _STEP_M = 1.0
@@ -56,18 +64,33 @@ class _Bound:
     """What binds a vehicle to a place: within a distance, from t = 0 on or later.
 
     Attributes:
+        place: Which place.
+        within_m: At most so far from it.
+        at_start: At t = 0; else on its way.
+        beyond_m: At least so far from it.
+        bearing_deg: Compass bearing from it, None: any.
         stops: It comes to a stop there.
+        stated: The distance is stated: it counts from where a landmark stands, to the middle of a
+            vehicle, not from the street before it.
     """
 
     place: str
     within_m: float
     at_start: bool
+    beyond_m: float = 0.0
+    bearing_deg: float | None = None
     stops: bool = False
+    stated: bool = False
 
 
 def stops(agent: GroundAgent) -> bool:
     """Tell whether a vehicle is to come to a stop by itself, not by an event."""
     return any(b.kind is BehaviorKind.STOP for b in agent.behaviors)
+
+
+def _told(value: Parameter | None) -> Parameter | None:
+    """Return a value that the prompt states, None for defaults."""
+    return value if value is not None and value.provenance is Provenance.EXPLICIT else None
 
 
 class GoalFinder:
@@ -103,10 +126,9 @@ class GoalFinder:
         x, y = site.origin()[:2] if anchor is None else anchor
         for seat in site.seated:
             for bound in self._bounds(spec, seat.agent):
-                point = self._places.point(bound.place, (x, y))
+                point = self._point(bound, (x, y))
                 if bound.at_start:
-                    here = seat.path.position_at(seat.arc_m)
-                    if norm2(here[0] - point[0], here[1] - point[1]) > bound.within_m:
+                    if not self._stands(seat, point, bound):
                         return False
                 elif self._arc_near(seat, point, bound) is None:
                     return False
@@ -127,16 +149,16 @@ class GoalFinder:
             seat = next((s for s in site.seated if s.agent.id == awaited.agent), None)
             if seat is None:
                 continue
-            point = self._places.point(awaited.place, at)
-            within_m = self._tolerances.arrival_m - _INSIDE_M
-            if awaited.within_m is not None:
-                if awaited.mission is not None:
-                    point = self._places.itself(awaited.place, at)  # the UAV is over it
+            within_m, stated = self._tolerances.arrival_m - _INSIDE_M, awaited.within_m is not None
+            point = self._places.itself(awaited.place, at)
+            if awaited.within_m is None:
+                point = self._places.point(awaited.place, at)
+            else:
                 here = seat.path.position_at(seat.arc_m)
                 if norm2(here[0] - point[0], here[1] - point[1]) <= awaited.within_m:
                     return False  # it would hold from the start on
-                within_m = awaited.within_m - _INSIDE_M
-            bound = _Bound(place=awaited.place, within_m=within_m, at_start=False)
+                within_m = awaited.within_m - _NEARER_M
+            bound = _Bound(place=awaited.place, within_m=within_m, at_start=False, stated=stated)
             if self._arc_near(seat, point, bound) is None:
                 return False
         return True
@@ -144,8 +166,9 @@ class GoalFinder:
     def spacing_m(self, spec: ScenarioSpec, default_m: float) -> float:
         """Return how far apart sites may be, so that some of them is where a place asks."""
         bounds = (b for agent in spec.agents for b in self._bounds(spec, agent))
-        narrow = any(b.at_start and b.within_m < default_m for b in bounds)
-        return _NARROW_M if narrow else default_m
+        widths = [b.within_m - b.beyond_m for b in bounds if b.at_start]
+        narrow = _NARROW_M if any(width_m < default_m for width_m in widths) else default_m
+        return min([narrow, *(width_m for width_m in widths if width_m > 0.0)])
 
     def places_of(self, spec: ScenarioSpec, name: str) -> tuple[str, ...]:
         """Return the places with a point that a vehicle is bound to."""
@@ -169,7 +192,7 @@ class GoalFinder:
         x, y, _, _ = site.origin()
         for bound in self._bounds(spec, seat.agent):
             if bound.stops:
-                return self._arc_near(seat, self._places.point(bound.place, (x, y)), bound)
+                return self._arc_near(seat, self._point(bound, (x, y)), bound)
         return self._open_arc(seat, seat.arc_m + STOP_AFTER_M)
 
     def _bounds(self, spec: ScenarioSpec, agent: GroundAgent) -> Iterator[_Bound]:
@@ -178,11 +201,13 @@ class GoalFinder:
             of, relation = placement.of, placement.relation
             if of is None or not has_point(of) or relation is Relation.BEFORE:
                 continue
-            near_m = arrival_m
-            if relation is Relation.NEAR:
-                stated = placement.distance_m
-                near_m = self._tolerances.near_m if stated is None else stated.value
-            yield _Bound(place=of, within_m=near_m, at_start=True)
+            near_m = self._tolerances.near_m if relation is Relation.NEAR else arrival_m
+            distance, bearing = _told(placement.distance_m), _told(placement.bearing_deg)
+            if distance is None and bearing is None:
+                yield _Bound(place=of, within_m=near_m, at_start=True)
+            else:
+                parked = relation is Relation.PARKED_AT
+                yield self._stated(of, distance, bearing, near_m, parked=parked)
         for behavior in agent.behaviors:
             if behavior.target is not None and has_point(behavior.target):
                 stays = behavior.kind in _STAYS
@@ -197,6 +222,51 @@ class GoalFinder:
             if has_point(trigger.place):
                 yield _Bound(place=trigger.place, within_m=arrival_m, at_start=False)
 
+    def _stated(
+        self,
+        place: str,
+        distance: Parameter | None,
+        bearing: Parameter | None,
+        near_m: float,
+        *,
+        parked: bool,
+    ) -> _Bound:
+        """Return where a stated distance or bearing from a place puts a vehicle."""
+        low_m, high_m, t = 0.0, near_m, self._tolerances
+        if distance is not None:
+            allowed = t.placement_other_m if parked else t.placement_vehicle_m
+            slack_m = _SAFE * allowed.of(distance.value, approximate=distance.approximate)
+            low_m, high_m = distance.value - slack_m, distance.value + slack_m
+            if distance.bound is Bound.AT_MOST:
+                low_m, high_m = 0.0, distance.value - slack_m
+            elif distance.bound is Bound.AT_LEAST:
+                low_m, high_m = distance.value + slack_m, distance.value + near_m
+        return _Bound(
+            place=place,
+            within_m=high_m,
+            at_start=True,
+            beyond_m=low_m,
+            bearing_deg=None if bearing is None else bearing.value,
+            stated=True,
+        )
+
+    def _point(self, bound: _Bound, anchor: tuple[float, float]) -> tuple[float, float]:
+        """Return the point that a bound counts from (x, y in m, ENU)."""
+        if bound.stated:
+            return self._places.itself(bound.place, anchor)
+        return self._places.point(bound.place, anchor)
+
+    def _stands(self, seat: SeatedAgent, point: tuple[float, float], bound: _Bound) -> bool:
+        """Tell whether a vehicle stands where a bound wants it at t = 0."""
+        here = seat.path.position_at(seat.arc_m)
+        east_m, north_m = here[0] - point[0], here[1] - point[1]
+        if not bound.beyond_m <= norm2(east_m, north_m) <= bound.within_m:
+            return False
+        if bound.bearing_deg is None:
+            return True
+        off_deg = degrees(atan2(east_m, north_m)) - bound.bearing_deg
+        return abs((off_deg + 180.0) % 360.0 - 180.0) <= _SAFE * self._tolerances.bearing_deg
+
     def _arc_near(
         self, seat: SeatedAgent, point: tuple[float, float], bound: _Bound
     ) -> float | None:
@@ -206,11 +276,12 @@ class GoalFinder:
             *point, near_s=(low + high) / 2.0, window_m=(high - low) / 2.0
         )
         half_m = self._types[seat.agent.type.value].length_m / 2.0
+        reach_m = bound.within_m + (0.0 if bound.stated else half_m)
         # Who stops stands neither on the place nor inside a junction: back along the way.
         while low <= arc_m <= high:
             x, y, _, _ = seat.path.position_at(arc_m)
             away_m = norm2(x - point[0], y - point[1])
-            if away_m > bound.within_m + half_m:
+            if away_m > reach_m:
                 return None
             if not bound.stops or (away_m > half_m + _STEP_M and self._is_open(seat, arc_m)):
                 return arc_m

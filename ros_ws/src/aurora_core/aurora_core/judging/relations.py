@@ -136,7 +136,7 @@ def _place_slack(context: Context, condition: Condition, asked: Related) -> Floa
     if on and place in _SURFACES:
         surface = view.geometry.surfaces(_SURFACES[Place(place)])
         return -surface.signed_distance(point, _CUTOFF_M)
-    return asked.near_m - motion.horizontal_distance(view, name, place)
+    return asked.near_m - motion.horizontal_distance(view, name, place, on_road=True)
 
 
 def before_place(context: Context, condition: Condition) -> tuple[float, float]:
@@ -148,7 +148,7 @@ def before_place(context: Context, condition: Condition) -> tuple[float, float]:
     name, place = condition.of
     route = planned_route(view, view.body(name))
     own = view.reference(name)[0].tolist()
-    other = (view.reference(name) - view.between(name, place))[0].tolist()
+    other = (view.reference(name) - view.between(name, place, on_road=True))[0].tolist()
     own_s, _ = route.project(own[0], own[1], 0.0, _CUTOFF_M, extend=True)
     place_s, offset_m = route.project(other[0], other[1], extend=True)
     low = own_s

@@ -282,6 +282,9 @@ def _told(frame: Frame) -> bool:
     action = messages.message(frame) or actions.agent_action(frame)
     if action is None:
         return False
+    links = [link for link in frame.scene.links if link.id in frame.scene.clause.ids]
+    if any(link.rate is not None for link in links):
+        return True  # `reports every 2 s`: a stream, no event
     frame.scene.became(frame.scene.add_event(action, frame.span).id)
     return True
 

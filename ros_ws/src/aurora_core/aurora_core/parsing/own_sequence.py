@@ -58,7 +58,7 @@ def _follows(scene: Scene, event: EventDraft, action: UavAction) -> bool:
     phases = [m.id for m in scene.missions if m.uav.id == action.uav]
     if action.do == 'change_mission':
         return action.mission in phases[1:]
-    return bool(phases) and action.do != 'ascend'
+    return bool(phases) and action.do == 'land'
 
 
 def _ends_flight(scene: Scene, event: EventDraft, action: UavAction) -> bool:

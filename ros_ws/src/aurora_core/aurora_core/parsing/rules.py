@@ -339,7 +339,7 @@ def _general_links(scene: Scene) -> None:
                     clause.status = ClauseStatus.NOT_ENCODED
                     clause.notes.append('no message link is named that this could be about')
         for link in owned:
-            for name in ('loss', 'latency', 'range', 'retransmissions'):
+            for name in ('loss', 'latency', 'range', 'retransmissions', 'outage', 'rate'):
                 if getattr(link, name) is None:
                     setattr(link, name, getattr(values_only, name))
         for clause in scene.clauses:

@@ -24,15 +24,15 @@ BoolArray = npt.NDArray[np.bool_]
 COURSE_MPS = 0.5
 
 
-def distance(view: RunView, a: str, b: str) -> FloatArray:
-    """Return the 3-D distance of two reference points in metres."""
-    delta = view.between(a, b)
+def distance(view: RunView, a: str, b: str, *, on_road: bool = False) -> FloatArray:
+    """Return the 3-D distance of two reference points in metres; `on_road`: see `between`."""
+    delta = view.between(a, b, on_road=on_road)
     return distance_3d(delta[:, 0], delta[:, 1], delta[:, 2])
 
 
-def horizontal_distance(view: RunView, a: str, b: str) -> FloatArray:
-    """Return the distance of two reference points in the plane, metres."""
-    delta = view.between(a, b)
+def horizontal_distance(view: RunView, a: str, b: str, *, on_road: bool = False) -> FloatArray:
+    """Return the distance of two reference points in the plane, metres; see `distance`."""
+    delta = view.between(a, b, on_road=on_road)
     return distance_2d(delta[:, 0], delta[:, 1])
 
 

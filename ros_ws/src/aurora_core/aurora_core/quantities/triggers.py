@@ -467,5 +467,5 @@ def trigger_series(
         case ArrivalTrigger():
             if view.geometry.place_point(trigger.place) is None:
                 return None
-            apart = motion.distance(view, trigger.who, trigger.place)
+            apart = motion.distance(view, trigger.who, trigger.place, on_road=True)
             return (apart <= rules.arrival_m) & view.present(trigger.who)

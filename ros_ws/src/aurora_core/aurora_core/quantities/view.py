@@ -134,14 +134,17 @@ class RunView:
         rows: FloatArray = self.trace.uav_commands[:, body.row, :]
         return rows
 
-    def between(self, a: str, b: str) -> FloatArray:
+    def between(self, a: str, b: str, *, on_road: bool = False) -> FloatArray:
         """Return the vectors from b to a, bodies or places, (T, 3) ENU metres.
 
-        A body on the ground comes to a landmark where the road leads to it: there it is measured
-        from; whatever flies, from the landmark itself.
+        Args:
+            a: Body or place.
+            b: Body or place.
+            on_road: Measure a body on the ground from where the road leads to a landmark, not
+                from where it stands: to arrive there, or to be at it or near it, is to be there.
         """
         ends = {name: self.reference(name) for name in (a, b)}
-        for place, body in ((a, b), (b, a)):
+        for place, body in ((a, b), (b, a)) if on_road else ():
             if self.has(body) and not self.has(place) and not self.body(body).is_uav:
                 point = self.geometry.approach_point(place)
                 assert point is not None  # it has a reference point

@@ -295,6 +295,8 @@ def _beside(run: Path, report: RunReport, iteration: int, bag: JudgedBag) -> Ite
     elif feasibility != report.feasibility:
         yield altered(f'{name} is not the feasibility of {REPORT}')
     page = read_stored(run / REPORT_HTML)
+    if isinstance(page, Unreadable) and not page.missing:
+        yield unknown(page.why)
     # A page shows the bag that the run was judged by; another version lays it out otherwise.
     of_bag = report.trace is None or report.trace.bag == f'bag.{iteration}'
     same = of_bag and report.versions.get('aurora') == AURORA_VERSION

@@ -32,7 +32,7 @@ def _agent(found: GroundedScenario, agent_type: str) -> GroundedAgent:
         (
             'A drone hovers over Ridge School at 60 m. When it sees a police car, it lands.',
             SCHOOL,
-            20.0,
+            60.0,
         ),
         (
             'A drone hovers over City Hall at 40 m. When a bus comes within 80 m of '
@@ -48,7 +48,7 @@ def test_the_way_leads_there_from_farther_off(
     found = ground(read_prompt(prompt, 'downtown'), 'downtown')
     assert isinstance(found, GroundedScenario), found
     agent = next(a for a in found.agents if not a.is_person)
-    point = MapPlaces(map_of('downtown')).point(place, (0.0, 0.0))
+    point = MapPlaces(map_of('downtown')).itself(place, (0.0, 0.0))
     line = Polyline(agent.route_xy_m)
     arc_m, _ = line.project(*point)
     assert dist(line.at(arc_m)[:2], point) <= within_m

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import dist
+from math import atan2, degrees, dist, hypot
 
 import pytest
 import shapely
@@ -13,6 +13,7 @@ import shapely
 from aurora_core.grounding.places import MapPlaces
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.outcomes.grounded import GroundedAgent, GroundedScenario
+from aurora_core.outcomes.grounding import GroundingFailure
 from aurora_core.spec.scenario import ScenarioSpec
 
 Read = Callable[..., ScenarioSpec]
@@ -49,6 +50,35 @@ def test_who_stands_at_a_place_is_there(
 ) -> None:
     agent, point, _ = first(prompt, place)
     assert dist((agent.x_m, agent.y_m), point) <= within_m
+
+
+@pytest.mark.parametrize(
+    ('words', 'nearest_m', 'farthest_m', 'bearing_deg'),
+    [
+        ('70 m from', 68.6, 71.4, None),
+        ('120 m from', 117.6, 122.4, None),
+        ('at most 75 m from', 0.0, 75.0, None),
+        ('105 m west of', 102.9, 107.1, 270.0),
+    ],
+)
+def test_a_stated_distance_is_from_where_the_landmark_stands(
+    first: First, words: str, nearest_m: float, farthest_m: float, bearing_deg: float | None
+) -> None:
+    agent, _, the_map = first(f'A car stands {words} City Hall.', 'landmark:City Hall')
+    hall = the_map.landmark('City Hall')
+    east_m, north_m = agent.x_m - hall.x_m, agent.y_m - hall.y_m
+    assert nearest_m <= hypot(east_m, north_m) <= farthest_m
+    if bearing_deg is not None:
+        off_deg = degrees(atan2(east_m, north_m)) - bearing_deg
+        assert abs((off_deg + 180.0) % 360.0 - 180.0) <= 15.0
+
+
+def test_no_car_stands_nearer_to_a_landmark_than_a_street_is(
+    read_prompt: Read, ground: Ground
+) -> None:
+    # The street is 57 m from the hall, the point before it 0 m from the street.
+    found = ground(read_prompt('A car stands 15 m from City Hall.', 'downtown'), 'downtown')
+    assert isinstance(found, GroundingFailure)
 
 
 @pytest.mark.parametrize(

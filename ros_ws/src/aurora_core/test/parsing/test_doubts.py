@@ -79,7 +79,7 @@ _NEAR = 'when the van comes within 30 m of the ego car'
         ('A drone follows the bus first at 30 m and then at 60 m altitude.', 'and then at 60 m'),
         ('A drone tracks a car at 30 m for 20 s, then climbs to 60 m and tracks it.', 'climbs'),
         ('A drone circles the drone that hovers over City Hall.', 'the drone'),
-        ('The drone films the bus from the front.', 'from the front'),
+        ('The drone films the bus from below.', 'from below'),
         ('The drone flies to City Hall and back.', 'and back'),
         ('The bus follows the truck without exceeding 6 m/s.', 'without exceeding'),
     ],

@@ -93,8 +93,9 @@ def _check_numbers(prompt: str, spec: ScenarioSpec) -> None:
         text = prompt[parameter['span']['start'] : parameter['span']['end']]
         simple = _simple_value(text)
         if simple is not None:
-            halved = simple / 2  # a stated diameter is a radius
-            assert parameter['value'] in (simple, halved), (text, parameter)
+            # A stated diameter is a radius, a stated interval a rate.
+            meant = (simple, simple / 2, 1.0 / simple if simple else simple)
+            assert parameter['value'] in meant, (text, parameter)
     spans = [p['span'] for p in parameters if p['span'] is not None]
     spans += [a.span.model_dump() for a in spec.agents if a.span is not None]
     spans += [u.span.model_dump() for u in spec.uavs if u.span is not None]

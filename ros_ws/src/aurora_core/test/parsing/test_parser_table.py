@@ -33,6 +33,7 @@ _TABLES = [
         'documents.yaml',
         'events.yaml',
         'reactions.yaml',
+        'flight_words.yaml',
         'flights.yaml',
         'scenes.yaml',
         'several.yaml',
@@ -82,12 +83,14 @@ def _mission(mission: UavMission) -> str:
         ('for', mission.duration_s),
         ('radius', mission.radius_m),
         ('waypoints', mission.waypoint_count),
+        ('turns', mission.turns),
         ('speed', mission.speed_mps),
     ):
         if value is not None:
             parts.append(f'{name} {_p(value)}')
     if mission.size_m is not None:
         parts.append(f'size {_p(mission.size_m[0])}x{_p(mission.size_m[1])}')
+    parts += [mission.side.value] if mission.side is not None else []
     parts += ['streets'] * mission.over_streets + ['stays-up'] * mission.ends_in_flight
     return ' '.join(parts)
 
@@ -105,6 +108,9 @@ def scene_lines(spec: ScenarioSpec) -> list[str]:
     stated += [world.time_of_day.value] if world.time_of_day_span else []
     stated += [f'traffic {world.traffic_density.value}'] if world.traffic_density else []
     stated += [f'for {_p(world.duration_s)}'] if world.duration_s else []
+    stated += [f'wind {_p(world.wind_mps)}'] if world.wind_mps else []
+    stated += [f'wind from {_p(world.wind_from_deg)}'] if world.wind_from_deg else []
+    stated += [world.wind.value] if world.wind else []
     if stated:
         lines.append('world ' + ' '.join(stated))
     lines += [_agent(a) for a in spec.agents]
@@ -115,7 +121,10 @@ def scene_lines(spec: ScenarioSpec) -> list[str]:
         )
         if link.range_m is not None:
             line += f' range {_p(link.range_m)}'
-        lines.append(f'{line} retries {_p(link.retransmissions)}')
+        line += f' retries {_p(link.retransmissions)}'
+        if link.outage_s is not None:
+            line += f' out {_p(link.outage_s[0])}-{_p(link.outage_s[1])}'
+        lines.append(line + (f' rate {_p(link.rate_hz)}' if link.rate_hz is not None else ''))
     for event in spec.events:
         trigger = _fields(event.trigger) if event.trigger is not None else '?'
         action = _fields(event.action) if event.action is not None else '?'

@@ -57,7 +57,7 @@ def _unread(prompt: str) -> list[str]:
         ('A pedestrian crosses in front of a bus.', 'crosses in front of'),
         ('A van stops after 20 s and stops again after 50 s.', 'stops again'),
         ('A van turns around and drives back.', 'turns around'),
-        ('A drone tracks a van for 20 s and flies home.', 'flies home'),
+        ('The van tracks a bus and drives home.', 'home'),
         ('A van stops after 30 s because a pedestrian crosses the street.', 'because'),
         (
             'A drone tracks a van for 20 s, then hovers over City Hall just as long.',

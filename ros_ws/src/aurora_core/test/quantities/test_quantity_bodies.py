@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from types import ModuleType
 
@@ -208,7 +209,7 @@ def test_who_is_not_there_is_named(tb: ModuleType) -> None:
 
 
 @pytest.mark.parametrize(('behind', 'seen'), [(False, True), (True, False)])
-def test_a_landmark_is_itself_for_who_flies_and_its_approach_for_who_drives(
+def test_a_landmark_is_where_it_stands_and_arrived_at_on_the_road(
     tb: ModuleType, behind: bool, seen: bool
 ) -> None:
     hall = tb.building(90.0, 40.0, 110.0, 60.0, 25.0, 'Hall')
@@ -226,7 +227,12 @@ def test_a_landmark_is_itself_for_who_flies_and_its_approach_for_who_drives(
     view, place = RunView(run.trace(), world), 'landmark:Hall'
     assert motion.horizontal_distance(view, 'uav1', place)[200] == pytest.approx(30.0)
     assert motion.horizontal_distance(view, place, 'uav1')[200] == pytest.approx(30.0)
-    assert motion.horizontal_distance(view, 'car1', place)[200] == pytest.approx(20.0)
+    # 20 m from where the road leads to it, and 54 m from the hall.
+    itself_m = motion.horizontal_distance(view, 'car1', place)[200]
+    assert itself_m == pytest.approx(math.hypot(20.0, 50.0))
+    assert motion.horizontal_distance(view, 'car1', place, on_road=True)[200] == 20.0
+    flown_m = motion.horizontal_distance(view, 'uav1', place, on_road=True)[200]
+    assert flown_m == pytest.approx(30.0)
     # The building that is looked at does not hide itself; another one does.
     series = sight_series(view, 'uav1', place)
     assert bool(series.visible[200]) is seen

@@ -61,7 +61,7 @@ class AtPlace(Quantity):
             return Missing(reason=Reason.PREMISE_NEVER, story=f'{name} never stood')
         # From its nearest end: a bus at an intersection has its middle farther away than a car.
         reach_m = self.near_m + view.body(name).entry.length_m / 2.0
-        left_m = reach_m - motion.horizontal_distance(view, name, place)
+        left_m = reach_m - motion.horizontal_distance(view, name, place, on_road=True)
         best = int(ticks[int(np.argmax(left_m[ticks]))])
         topics = ground_topics(condition)
         return at_tick(best, float(left_m[best]), evidence=topics, later=Later.RISES)

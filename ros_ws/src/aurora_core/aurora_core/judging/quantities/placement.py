@@ -42,6 +42,7 @@ from aurora_core.quantities import motion
 from aurora_core.quantities.ticks import first_tick
 from aurora_core.spec.parameter import Bound, Parameter, Provenance
 from aurora_core.spec.quantity import QuantityName
+from aurora_core.spec.reference import is_landmark
 from aurora_core.spec.scenario import Behavior, GroundAgent, Placement
 from aurora_core.spec.vocabulary import Place, Relation
 
@@ -215,24 +216,26 @@ def implied(
 ) -> Iterator[Condition]:
     """Yield that an agent is where a placement says at t = 0: relation, distance, bearing."""
     relation, words = placement.relation, RELATION_WORDS[placement.relation]
-    pair = (agent.id, of)
-    yield condition(
-        id=name,
-        sentence=f'{agent.id} is {words} {of} at t = 0',
-        signal=f'{relation.value}({agent.id},{of})',
-        of=pair,
-        target=Target(op='>' if relation in _ALONG else '>=', threshold=0.0, unit='m'),
-        arguments=Placed(
-            **inputs.common,
-            relation=relation,
-            offset_m=offset_m(inputs, relation),
-            near_m=near_m(inputs, relation, of),
-        ),
-        source=source,
-        every_sample=False,
-    )
-    distance = placement.distance_m
-    if distance is not None and distance.provenance is Provenance.EXPLICIT:
+    pair, distance = (agent.id, of), placement.distance_m
+    stated = distance is not None and distance.provenance is Provenance.EXPLICIT
+    # "100 m from City Hall" is no more than that: how near is near is left open.
+    if not (stated and relation is Relation.NEAR and is_landmark(of)):
+        yield condition(
+            id=name,
+            sentence=f'{agent.id} is {words} {of} at t = 0',
+            signal=f'{relation.value}({agent.id},{of})',
+            of=pair,
+            target=Target(op='>' if relation in _ALONG else '>=', threshold=0.0, unit='m'),
+            arguments=Placed(
+                **inputs.common,
+                relation=relation,
+                offset_m=offset_m(inputs, relation),
+                near_m=near_m(inputs, relation, of),
+            ),
+            source=source,
+            every_sample=False,
+        )
+    if distance is not None and stated:
         yield condition(
             id=f'{name}.distance',
             sentence=f'{agent.id} is {_so_far(distance)} {words} {of} at t = 0',

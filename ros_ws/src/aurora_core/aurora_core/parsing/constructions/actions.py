@@ -9,7 +9,7 @@ from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
 from aurora_core.parsing.atoms import ACTORS, NounKind
 from aurora_core.parsing.constructions import missions
 from aurora_core.parsing.constructions.flight_values import take_flight_values
-from aurora_core.parsing.constructions.flyers import flyers
+from aurora_core.parsing.constructions.flyers import flyers, landed_by
 from aurora_core.parsing.constructions.messages import message
 from aurora_core.parsing.constructions.places import add_placement, place_of, placements_of
 from aurora_core.parsing.frames import Frame
@@ -69,7 +69,7 @@ def together(frame: Frame) -> tuple[EventAction, ...]:
     found: tuple[EventAction, ...] = ()
     if frame.key == 'land':
         uavs = flyers(frame)
-        found = tuple(UavAction(do='land', uav=u.id) for u in uavs)
+        found = tuple(UavAction(do=landed_by(frame), uav=u.id) for u in uavs)
         frame.scene.became(*(u.id for u in uavs))
     elif frame.key in ('ascend', 'descend'):
         uavs = flyers(frame)
@@ -180,7 +180,7 @@ def _uav_action(frame: Frame) -> UavAction | None:
             return None
         frame.scene.became(uavs[0].id)
         return UavAction(
-            do='land' if frame.key == 'land' else 'ascend',
+            do=landed_by(frame) if frame.key == 'land' else 'ascend',
             uav=uavs[0].id,
             altitude_m=found.altitude,
         )

@@ -7,8 +7,9 @@ from __future__ import annotations
 from aurora_core.parsing.adjuncts import AdjunctKind
 from aurora_core.parsing.atoms import AtomKind
 from aurora_core.parsing.constructions.flight_values import take_flight_values
-from aurora_core.parsing.constructions.flyers import flyers
+from aurora_core.parsing.constructions.flyers import flyers, landed_by
 from aurora_core.parsing.frames import Frame
+from aurora_core.spec.scenario import MissionDoneTrigger, UavAction
 from aurora_core.spec.vocabulary import MissionMode
 
 
@@ -47,7 +48,7 @@ def _above(frame: Frame) -> str | None:
 
 
 def landing(frame: Frame) -> bool:
-    """`then lands`, `does not land`, `stays in the air`."""
+    """`then lands`, `then returns home`, `does not land`, `stays in the air`."""
     airborne_end = None
     if frame.key in ('keep', 'be', 'land', ''):
         airborne_end = frame.mark(AtomKind.IN_FLIGHT.value)
@@ -62,5 +63,10 @@ def landing(frame: Frame) -> bool:
             return False
         for one in missions:
             one.ends_in_flight = True
+    elif landed_by(frame) == 'return_home':
+        for one in missions:
+            home = UavAction(do='return_home', uav=one.uav.id)
+            done = MissionDoneTrigger(on='mission_done', uav=one.uav.id)
+            frame.scene.became(frame.scene.add_event(home, frame.span, done).id)
     frame.scene.became(*([m.id for m in missions] or [u.id for u in flying]))
     return True

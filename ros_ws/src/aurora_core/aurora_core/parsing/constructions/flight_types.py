@@ -14,15 +14,18 @@ from aurora_core.parsing.measures import COUNT, LENGTH, Measure
 from aurora_core.parsing.scene import MissionDraft
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.scenario import StatedCondition
+from aurora_core.spec.vocabulary import Side
 
 _FIELDS = (
     'altitude',
     'standoff',
     'bearing',
+    'side',
     'duration',
     'size',
     'radius',
     'waypoint_count',
+    'turns',
     'speed',
 )
 
@@ -34,10 +37,12 @@ class FlightValues:
     altitude: Parameter | None = None
     standoff: Parameter | None = None
     bearing: Parameter | None = None
+    side: Side | None = None
     duration: Parameter | None = None
     size: tuple[Parameter, Parameter] | None = None
     radius: Parameter | None = None
     waypoint_count: Parameter | None = None
+    turns: Parameter | None = None
     speed: Parameter | None = None
     square: bool = False
     over_streets: bool = False

@@ -18,7 +18,10 @@ from aurora_core.parsing.constructions.flight_types import (
 from aurora_core.parsing.constructions.pattern_values import take_pattern_values
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.measures import COUNT, LENGTH
-from aurora_core.spec.vocabulary import MissionMode, Pattern
+from aurora_core.spec.vocabulary import MissionMode, Pattern, Side
+
+# The relations of places that are sides of somebody tracked.
+_SIDES = {side.value: side for side in Side}
 
 
 def take_flight_values(
@@ -35,6 +38,7 @@ def take_flight_values(
     found = FlightValues()
     _altitude(frame, found, mode)
     _standoff(frame, found, mode, pattern)
+    _side(frame, found, mode)
     _bearing(frame, found)
     take_pattern_values(frame, found, pattern)
     _bare_length(frame, found, MissionMode.HOVER if above else mode)
@@ -90,24 +94,34 @@ def _standoff(
     for place in frame.free(AdjunctKind.PLACE):
         if place.key in ('compass', 'oncoming') or place.measure is None:
             continue
+        if _of_the_target(frame, place):
+            continue
         parameter = stated_value('standoff', place.measure)
         if parameter is None:
             continue
         found.standoff = parameter
+        found.side = _SIDES.get(place.key)
         use(found, place)
         if place.nouns:
             found.target = noun_target(frame, place)
-        if place.key in ('behind', 'ahead', 'left', 'right'):
-            before = place.measure.end < place.end
-            start, end = (
-                (place.measure.end, place.end) if before else (place.start, place.measure.start)
-            )
-            text = frame.scene.prompt[start:end]
-            frame.flag(start + len(text) - len(text.lstrip()), start + len(text.rstrip()))
-            frame.scene.clause.notes.append(
-                f'a UAV has a standoff in metres and a compass bearing, not {place.key!r}'
-            )
         return
+
+
+def _of_the_target(frame: Frame, place: Adjunct) -> bool:
+    """`follows the truck behind the ego`: where the truck is, not the UAV."""
+    named = [n for n in place.nouns if n.kind is not NounKind.PRONOUN]
+    return bool(named) and any(a.kind is AdjunctKind.OBJECT and a.nouns for a in frame.adjuncts)
+
+
+def _side(frame: Frame, found: FlightValues, mode: MissionMode | None) -> None:
+    """Take `from the left`, `ahead of the bus`: which side of whom it tracks."""
+    for place in frame.free(AdjunctKind.PLACE, *_SIDES):
+        tracks = mode in (MissionMode.TRACK, None) and not _of_the_target(frame, place)
+        if place.measure is None and tracks and found.side is None:
+            found.side = _SIDES[place.key]
+            use(found, place)
+            if place.nouns:
+                found.target = noun_target(frame, place)
 
 
 def _round_it(frame: Frame) -> Adjunct | None:

@@ -4,9 +4,12 @@
 
 from __future__ import annotations
 
+from typing import Literal
+
 from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
 from aurora_core.parsing.atoms import AtomKind, Determiner, NounKind
 from aurora_core.parsing.frames import Frame
+from aurora_core.parsing.lexicon import shipped_lexicon
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.pronouns import airborne
 from aurora_core.parsing.scene import Entity
@@ -141,3 +144,10 @@ def new_uav(frame: Frame) -> Entity:
     entity = Entity(id=frame.scene.new_id('uav'), is_uav=True, span=frame.span)
     frame.scene.entities.append(entity)
     return entity
+
+
+def landed_by(frame: Frame) -> Literal['land', 'return_home']:
+    """Return which of the two a landing is: `returns to its base` is no landing on the spot."""
+    words = frame.verb.words.split() if frame.verb is not None else []
+    home = bool(words) and words[-1] in shipped_lexicon().turns['homeward']
+    return 'return_home' if home else 'land'

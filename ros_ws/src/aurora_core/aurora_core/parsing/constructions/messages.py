@@ -12,7 +12,8 @@ from aurora_core.parsing import values
 from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
 from aurora_core.parsing.atoms import ACTORS, AtomKind, Determiner, NounKind, NounPhrase
 from aurora_core.parsing.frames import Frame
-from aurora_core.parsing.measures import RATIO
+from aurora_core.parsing.lexicon import shipped_lexicon
+from aurora_core.parsing.measures import COUNT, RATIO, TIME
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.pronouns import airborne
 from aurora_core.parsing.scene import Entity, LinkDraft, Scene
@@ -60,9 +61,19 @@ def message(frame: Frame) -> SendMessage | None:
         frame.scene.clause.notes.append('only one sender and one receiver were taken')
         frame.flag(frame.piece.start, frame.piece.end)
     link = link_between(frame, senders[0], receivers[0])
+    _rate(frame, link)
     frame.scene.clause.objects = receivers
     frame.scene.became(link.id)
     return SendMessage(do='send_message', sender=senders[0].id, receiver=receivers[0].id)
+
+
+def _rate(frame: Frame, link: LinkDraft) -> None:
+    """Take `reports its position every 2 s`."""
+    every = frame.time('every')
+    if every is not None and every.measure is not None and every.measure.value > 0.0:
+        every.used = True
+        per_second = replace(every.measure, dimension=COUNT, value=1.0 / every.measure.value)
+        link.rate = values.explicit('link_rate', per_second)
 
 
 def _awaits(frame: Frame, senders: tuple[Entity, ...]) -> tuple[Entity, ...]:
@@ -213,9 +224,11 @@ def link_values(frame: Frame) -> bool:
     _reaching(frame, found)
     _losing(frame, found)
     _no_retries(frame, found)
-    if not found:
+    outage = _outage(frame)
+    if not found and outage is None:
         return False
     draft = _link_of_clause(frame)
+    draft.outage = outage or draft.outage
     others = {a.key: a for a in _told_between(frame)[1:]}
     for name, parameter in found.items():
         if name in others:  # `the loss between A and B is 10 %, the latency between B and C 1 s`
@@ -240,6 +253,26 @@ def _reaching(frame: Frame, found: dict[str, Parameter]) -> None:
     if adjunct is not None and adjunct.measure is not None:
         adjunct.used = True
         found['radio_range'] = values.explicit('link_range', adjunct.measure)
+
+
+def _outage(frame: Frame) -> tuple[Parameter, Parameter] | None:
+    """Take `the link is lost from 10 s to 20 s`, `is down between 10 s and 20 s`."""
+    told = frame.scene.prompt[frame.piece.start : frame.piece.end].lower().split()
+    down = not shipped_lexicon().turns['out_of_order'].isdisjoint(told)
+    if frame.negated or not down or not frame.has_mark(AtomKind.LINK.value):
+        return None
+    for adjunct in frame.free(AdjunctKind.MEASURE, TIME):
+        if adjunct.measure is not None and adjunct.measure.upper is not None:
+            adjunct.used = True
+            return values.range_ends('link_outage', adjunct.measure)
+    begins, ends = frame.time('from'), frame.time('to')
+    if begins is None or begins.measure is None or ends is None or ends.measure is None:
+        return None
+    begins.used = ends.used = True
+    return (
+        values.explicit('link_outage', begins.measure),
+        values.explicit('link_outage', ends.measure),
+    )
 
 
 def _losing(frame: Frame, found: dict[str, Parameter]) -> None:

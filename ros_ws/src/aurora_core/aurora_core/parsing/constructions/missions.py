@@ -98,7 +98,7 @@ def mission(frame: Frame) -> bool:
         mode = MissionMode.HOVER
     if mode is None:
         return _plain_flight(frame, flying, found)
-    made = []
+    made = _from_where(frame, flying, found) if pattern is Pattern.WAYPOINTS else []
     heights, standoffs = _respective(frame, flying, mode)
     for k, uav in enumerate(flying):
         found.altitude = heights[k] if heights else found.altitude
@@ -106,6 +106,32 @@ def mission(frame: Frame) -> bool:
         made.append(_one(frame, uav, mode, target, pattern, found))
     frame.scene.became(*made)
     return True
+
+
+def _from_where(frame: Frame, flying: tuple[Entity, ...], found: FlightValues) -> list[str]:
+    """Take `flies from the station to the park`: a first phase, which ends at the station."""
+    scene = frame.scene
+    made = []
+    for adjunct in frame.free(AdjunctKind.PHRASE, 'from'):
+        place = next((p for n in adjunct.nouns if (p := frame.resolver.place(n))), None)
+        if place is None or any(scene.missions_of(uav) for uav in flying):
+            continue
+        adjunct.used = True
+        for uav in flying:
+            draft = MissionDraft(
+                id=scene.new_id('m'),
+                uav=uav,
+                mode=MissionMode.NAVIGATE,
+                clause=scene.clause_number,
+                target=place,
+                pattern=Pattern.WAYPOINTS,
+                waypoint_count=values.inferred('waypoint_count', 1),
+                span=frame.span,
+            )
+            found.apply(draft)
+            scene.missions.append(draft)
+            made.append(draft.id)
+    return made
 
 
 def watching(frame: Frame) -> None:

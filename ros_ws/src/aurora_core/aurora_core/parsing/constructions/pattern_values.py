@@ -13,7 +13,7 @@ from aurora_core.parsing.constructions.flight_types import (
     use,
 )
 from aurora_core.parsing.frames import Frame
-from aurora_core.parsing.measures import LENGTH, Measure
+from aurora_core.parsing.measures import COUNT, LENGTH, Measure
 from aurora_core.spec.parameter import Parameter, Provenance, Span
 from aurora_core.spec.vocabulary import Pattern
 
@@ -28,8 +28,18 @@ def take_pattern_values(frame: Frame, found: FlightValues, pattern: Pattern | No
         return
     if pattern is Pattern.ORBIT:
         _radius(frame, found)
+        _turns(frame, found)
     else:
         _size(frame, found, pattern)
+
+
+def _turns(frame: Frame, found: FlightValues) -> None:
+    """Take `for three laps`, `twice`."""
+    adjunct = frame.attribute('turn') or frame.measure(COUNT, '')
+    if adjunct is not None and adjunct.measure is not None:
+        found.turns = stated_value('turns', adjunct.measure)
+        if found.turns is not None:
+            use(found, adjunct)
 
 
 def _radius(frame: Frame, found: FlightValues) -> None:

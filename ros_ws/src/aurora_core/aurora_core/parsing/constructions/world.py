@@ -8,9 +8,9 @@ from aurora_core.parsing import values
 from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
 from aurora_core.parsing.atoms import ACTORS, AtomKind
 from aurora_core.parsing.frames import Frame
-from aurora_core.parsing.measures import TIME
+from aurora_core.parsing.measures import ANGLE, TIME
 from aurora_core.spec.parameter import Bound, Span
-from aurora_core.spec.vocabulary import TimeOfDay, TrafficDensity, Weather
+from aurora_core.spec.vocabulary import RelativeWind, TimeOfDay, TrafficDensity, Weather
 
 WORLD_ID = 'world'
 _BETWEEN = (
@@ -38,6 +38,7 @@ def world_words(frame: Frame) -> bool:
         found = found or mark.used
     for mark in frame.free(AdjunctKind.MARK, AtomKind.NO_TRAFFIC.value):
         mark.used = found = True
+    found = _wind(frame) or found
     found = _duration(frame) or found
     if found:
         frame.scene.became(WORLD_ID)
@@ -66,6 +67,52 @@ def _set(frame: Frame, mark: Adjunct) -> bool:
             return _clash(frame, 'traffic', world.traffic.value, word)
         world.traffic = traffic
     return True
+
+
+def _wind(frame: Frame) -> bool:
+    """Take `a wind of 6 m/s from the west`, `an 8 m/s crosswind`, `in a headwind`."""
+    names = ('wind', *(w.value for w in RelativeWind))
+    told = frame.attribute(*names)
+    bare = [m for m in frame.free(AdjunctKind.MARK, 'thing') if m.value in names]
+    speed = told or (frame.attribute('speed') if bare and not frame.subject_nouns else None)
+    if frame.negated or not (told or bare):
+        return False
+    name = told.key if told is not None else bare[0].value
+    world = frame.scene.world
+    if speed is not None and speed.measure is not None:
+        if not values.accepts('wind_speed', speed.measure):
+            return False
+        world.wind_speed = values.explicit('wind_speed', speed.measure)
+        speed.used = True
+    elif name == 'wind':  # how strong it is remains open
+        frame.flag(bare[0].start, bare[0].end)
+        return False
+    if name != 'wind':
+        world.wind = RelativeWind(name)
+    for mark in bare:
+        mark.used = True
+    ends = [(a.start, a.end) for a in (told, speed, *bare) if a is not None]
+    if speed is not None and speed.measure is not None:
+        ends.append((speed.measure.start, speed.measure.end))
+    for place in frame.free(AdjunctKind.PLACE, 'compass'):
+        if place.measure is None and not place.nouns and _beside(frame, place, ends):
+            place.used = True
+            bearing = float(place.value)
+            world.wind_from = values.stated('wind_from', bearing, place.start, place.end)
+    for angle in frame.free(AdjunctKind.MEASURE, ANGLE):
+        if angle.prep == 'from' and angle.measure is not None and _beside(frame, angle, ends):
+            angle.used = True
+            world.wind_from = values.explicit('wind_from', angle.measure)
+    return True
+
+
+def _beside(frame: Frame, adjunct: Adjunct, ends: list[tuple[int, int]]) -> bool:
+    """Tell whether an adjunct belongs to the wind that is named at some stretches."""
+    text = frame.scene.prompt
+    if frame.key == 'be':  # the clause is about the wind alone
+        return True
+    gaps = [text[min(end, adjunct.end) : max(start, adjunct.start)] for start, end in ends]
+    return any(not gap.strip(' ,') for gap in gaps)
 
 
 def _clash(frame: Frame, what: str, first: str, second: str) -> bool:

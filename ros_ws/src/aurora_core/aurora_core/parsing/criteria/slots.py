@@ -33,7 +33,7 @@ _TOPICS_OF = {
     'L': frozenset({'drift', 'horizontal', 'altitude', 'distance', 'pairs'}),
     'V': frozenset({'speed', 'altitude'}),
     'T': frozenset({'seen', 'delivered', 'latency'}),
-    'P': frozenset({'seen', 'tracked', 'delivered'}),
+    'P': frozenset({'battery', 'seen', 'tracked', 'delivered'}),
     'C': frozenset({'waypoints', 'seen', 'tracked', 'delivered'}),
     '': frozenset({'landed', 'completed', 'delivered'}),
 }
@@ -96,6 +96,9 @@ def _criterion(atoms: tuple[Atom, ...], asked: bool) -> Criterion | None:
         kind = found.limits[0].dimension if found is not None and found.limits else ''
         if found is not None and (kind == 'V' or (kind == 'L' and len(found.nouns) > 1)):
             return replace(found, placed=placed)
+    sided = any(a.kind is AtomKind.RELATION and a.key in ('left', 'right') for a in rest)
+    if sided:  # `always staying on its left, 25 m away`: a flight
+        return None
     found = _Reading(told(atoms), criteria_words()).run(asked=asked)
     if found is not None or not placed:
         return found

@@ -18,7 +18,12 @@ from aurora_core.parsing.criteria.parties import Parties
 from aurora_core.parsing.criteria.slots import criterion
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.scene import Entity
-from aurora_core.spec.scenario import AltitudeTrigger, SpeedTrigger, Trigger
+from aurora_core.spec.scenario import (
+    AltitudeTrigger,
+    BatteryTrigger,
+    SpeedTrigger,
+    Trigger,
+)
 
 _OF_HEIGHT = re.compile(r'\b(?:altitude|height|elevation|agl|above (?:the )?ground)\b')
 
@@ -37,6 +42,8 @@ def threshold(frame: Frame) -> DistanceCause | Trigger | None:
         found = _speed(who, limit)
     elif limit.dimension == 'L' and _OF_HEIGHT.search(told.words):
         found = _altitude(who, limit)
+    elif limit.dimension == 'P' and 'battery' in told.topics:
+        found = _battery(who, limit)
     elif limit.dimension == 'L':
         found = _distance(who, told, limit)
     if found is not None:
@@ -66,6 +73,15 @@ def _altitude(who: Parties, limit: Limit) -> AltitudeTrigger | None:
         return None
     value = values.explicit('altitude', limit.measure)
     return AltitudeTrigger(on='altitude_reached', uav=flyers[0].id, value_m=value)
+
+
+def _battery(who: Parties, limit: Limit) -> BatteryTrigger | None:
+    flyers = who.flyers()
+    fits = values.accepts('condition_ratio', limit.measure)
+    if len(flyers) != 1 or not _below(limit) or not fits:
+        return None
+    value = values.explicit('condition_ratio', limit.measure)
+    return BatteryTrigger(on='battery_below', uav=flyers[0].id, value=value)
 
 
 def _distance(who: Parties, told: Criterion, limit: Limit) -> DistanceCause | None:

@@ -15,7 +15,7 @@ from aurora_core.parsing import values
 from aurora_core.parsing.atoms import AtomKind
 from aurora_core.parsing.llm.facts import PromptFacts, inside, overlap
 from aurora_core.parsing.llm.reading import Number
-from aurora_core.parsing.measures import UNREADABLE, Measure
+from aurora_core.parsing.measures import TIME, UNREADABLE, Measure
 from aurora_core.spec.parameter import Bound, Parameter, Span
 
 # A model may round `60 feet` to 18.29 m; what counts is what the prompt says.
@@ -132,6 +132,8 @@ class StatedNumbers:
 
     def _meanings(self, name: str, measure: Measure) -> list[tuple[int, float]]:
         """Return what a measure may mean for a parameter: which of its numbers, and the value."""
+        if name == 'link_rate' and measure.dimension == TIME and measure.value > 0.0:
+            return [(0, 1.0 / measure.value)]  # `every 2 s`
         if not values.accepts(name, replace(measure, upper=None, second=None)):
             return []
         found = [(0, measure.value)]
@@ -172,7 +174,7 @@ class StatedNumbers:
         for atom in self._facts.atoms:
             if not any(overlap(atom, span) for span in spans) and atom not in before:
                 continue
-            north = name == 'bearing' and atom.kind is AtomKind.COMPASS
+            north = name in ('bearing', 'wind_from') and atom.kind is AtomKind.COMPASS
             if north and _close(float(atom.key) % 360, number.value % 360):
                 return values.stated(name, float(atom.key), atom.start, atom.end)
             no = name == 'link_retransmissions' and atom.kind is AtomKind.NEGATION

@@ -116,7 +116,7 @@ def honest_reading(spec: ScenarioSpec) -> dict[str, Any]:
                 'id': k.id,
                 'sender': k.sender,
                 'receiver': k.receiver,
-                **numbers(k, 'loss', 'latency_s', 'range_m', 'retransmissions'),
+                **numbers(k, 'loss', 'latency_s', 'range_m', 'retransmissions', 'rate_hz'),
                 'quote': quote(k.span),
             }
             for k in spec.links
