@@ -38,7 +38,7 @@ typecheck: ## mypy --strict over sources and tests
 	@tools/setup.sh --dev --no-build
 	@_ROS_WHEELS_BOOTSTRAP_COMPLETE=1 .venv/bin/python tools/typecheck.py
 
-bench-%: ## one benchmark or campaign: lockstep, latency, faults, bags, graphs, endurance, replay, stl, stn, maps, online, mutation, contradictions, judged, fidelity, realise, outcome, feasibility, repair, fuzz, retrieval (results in docs/bench)
+bench-%: ## one benchmark or campaign: lockstep, latency, faults, bags, graphs, endurance, replay, stl, stn, maps, matrix, encounters, online, mutation, contradictions, judged, fidelity, realise, outcome, feasibility, repair, fuzz, retrieval (results in docs/bench)
 	@tools/setup.sh --dev
 	@tools/in_env.sh python -m aurora_bench.$* --results docs/bench
 

@@ -28,6 +28,7 @@ setup(
             'monitor = aurora_nodes.monitor:main',
             'recorder = aurora_nodes.recorder:main',
             'replay = aurora_nodes.replay:main',
+            'together = aurora_nodes.together:main',
         ]
     },
 )

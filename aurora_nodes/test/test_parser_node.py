@@ -21,6 +21,7 @@ from aurora_core.ports.language_model import ModelCall
 from aurora_llm.testing.model_server import ModelServer, Turn
 from aurora_ros import interfaces as on
 from aurora_ros.testing.domains import own_domain
+from aurora_ros.testing.forked import ForkedNode
 from aurora_ros.testing.partner import Partner, partner
 from aurora_ros.testing.processes import NodeProcess, nodes
 
@@ -54,7 +55,7 @@ def options(model: str) -> str:
 @pytest.fixture
 def graph(tmp_path: Path) -> Iterator[tuple[NodeProcess, Partner]]:
     with own_domain() as domain, partner(domain) as play:
-        process = NodeProcess('aurora_nodes.parser', domain, tmp_path)
+        process = ForkedNode('aurora_nodes.parser', domain, tmp_path)
         with nodes(process):
             yield process, play
 

@@ -28,6 +28,7 @@ from aurora_ros.conversions.messages import message_builder
 from aurora_ros.conversions.states import ground_state
 from aurora_ros.matching import wait_until
 from aurora_ros.testing.domains import own_domain
+from aurora_ros.testing.forked import ForkedNode
 from aurora_ros.testing.partner import Partner, partner
 from aurora_ros.testing.processes import NodeProcess, nodes
 
@@ -78,7 +79,7 @@ def graph(tmp_path: Path) -> Iterator[Graph]:
     options = ['match_limit_s:=1.0', 'stop_limit_s:=1.0']
     arguments = ['--ros-args', *(word for option in options for word in ('-p', option))]
     with own_domain() as domain, partner(domain) as play:
-        process = NodeProcess('aurora_nodes.recorder', domain, tmp_path, arguments)
+        process = ForkedNode('aurora_nodes.recorder', domain, tmp_path, arguments)
         with nodes(process):
             yield Graph(process, play)
             assert process.end(signal.SIGINT) == 0

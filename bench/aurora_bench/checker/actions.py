@@ -190,7 +190,7 @@ def _stop(case: Case, agent: str, window: Window) -> Acted:
     bound = float(scene.speed(agent)[onset]) / 1.0 + 2.0
     start, end = float(scene.times[onset]), float(scene.times[after[0]])
     gap = scene.speed(agent)[onset : after[0]]
-    again = bool((np.maximum.accumulate(gap[::-1])[::-1] > gap[0] + 2.0).any())
+    again = bool(len(gap)) and bool((gap > gap[0] + 2.0).any())
     why = f'{agent} slows down at {start:.2f} s and stands from {end:.2f} s'
     possibly = not again and not _idle_too_long(case, _slowing(case, agent), onset, after[0])
     return Acted(graded(took <= bound and possibly, possibly, why), start, end)
@@ -255,8 +255,10 @@ def _slow(case: Case, agent: str, window: Window, value: float | None) -> Acted:
         time = float(scene.times[half[0]])
         return Acted(holds(f'{agent} at half of its speed at {time:.2f} s'), time, time)
     else:
-        there = speed <= speed[scene.tick(window.early_s)] / 2.0 + 1e-9
-        what = f'slow to half of {speed[scene.tick(window.early_s)]:.2f} m/s'
+        # Within a step of the trigger either speed is the one that it had then.
+        base = float(speed[scene.tick(window.early_s) : at + 1].max())
+        there = speed <= base / 2.0 + 1e-9
+        what = f'slow to half of {base:.2f} m/s'
     return _reach(case, agent, window, _slowing(case, agent), there, what, slows=True)
 
 

@@ -162,6 +162,17 @@ def _ready_s(
                 ready = max(ready, float(scene.times[ascent_end_tick(scene, body)]))
     at_last = 0.0
     trigger = requirement.get('trigger') or {}
+    if action.get('do') == 'send_message' and trigger.get('on') in STATES:
+        # Who tracks somebody may report from its capture on.
+        for body in case.bodies(action.get('sender')):
+            if not scene.bodies[body].is_uav:
+                continue
+            flown = [m for m in case.annotation.requirements if _is_flown(m, case, body)]
+            captured = uav_actions.first_captured(case, body)
+            if captured is not None and flown[0].get('mode') == 'track':
+                at_last = max(at_last, float(scene.times[captured[0]]))
+            elif not flown:  # what it flies was left to the run: it may track, too
+                at_last = max(at_last, ready + limits.CAPTURE_S)
     if action.get('do') in OWN_FLIGHT and trigger.get('on') in STATES:
         # What ends or changes a mission counts once that has begun: from its capture on.
         for body in case.bodies(action.get('uav')):
@@ -177,6 +188,11 @@ def _ready_s(
             start = happened(case, first).start_s
             ready = max(ready, start) if start is not None else ready
     return ready, max(ready, at_last)
+
+
+def _is_flown(requirement: Requirement, case: Case, uav: str) -> bool:
+    """Tell whether a requirement is a mission of a UAV."""
+    return requirement['kind'] == 'mission' and uav in case.bodies(requirement.get('uav'))
 
 
 def _done(case: Case, event: str) -> Fired:

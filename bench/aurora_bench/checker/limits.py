@@ -52,6 +52,8 @@ HOVER_DRIFT_CALM_M = 2.0
 HOVER_DRIFT_WIND_M = 3.0
 
 # Actions.
+# Capture follows within this after the ascent, apart from the way there (s).
+CAPTURE_S = 30.0
 ONSET_S = 1.0
 ACTION_DONE_S = 2.0
 PHASE_SHOWS_S = 2.0

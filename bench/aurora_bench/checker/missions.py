@@ -106,8 +106,11 @@ def _seen(flight: Flight, start: int) -> Judged:
 
 
 def _hover_point(flight: Flight) -> FloatArray:
-    xy = flight.scene.xy(flight.uav)[flight.ticks]
-    return np.asarray(np.median(xy[len(xy) // 2 :], axis=0))
+    """Return where a UAV stays in the end: a long way there may take most of its flight."""
+    half = (flight.ticks.start + flight.ticks.stop) // 2
+    xy = flight.scene.xy(flight.uav)[half : flight.ticks.stop]
+    still = flight.scene.speed(flight.uav)[half : flight.ticks.stop] < limits.STARTED_MPS
+    return np.asarray(np.median(xy[still] if still.any() else xy, axis=0))
 
 
 def _hover_capture(

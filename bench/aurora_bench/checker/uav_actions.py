@@ -249,11 +249,12 @@ def first_captured(case: Case, uav: str) -> tuple[int, int] | None:
 
 def hand_over(case: Case, action: Mapping[str, Any], window: Window) -> Acted:
     """Return what can be seen of a hand-over: the other UAV begins a mission."""
-    starts = [
-        float(case.scene.times[s.start])
-        for uav in case.bodies(action.get('to'))
-        for s in segments(case.scene, uav)
-    ]
+    others = case.bodies(action.get('to'))
+    parts = [part for uav in others for part in segments(case.scene, uav)]
+    starts = [float(case.scene.times[part.start]) for part in parts]
+    for uav in others:  # who is still on the ground begins by taking off
+        up = np.flatnonzero(case.scene.airborne(uav))
+        starts += [float(case.scene.times[up[0]])] if len(up) else []
     if not any(_inside(case, window, s) or s <= window.last_s for s in starts):
         return Acted(does_not(f'{action.get("to")} begins no mission ({starts} s)'))
     return Acted(cannot_tell('who observes whom after a hand-over is not in the states'))

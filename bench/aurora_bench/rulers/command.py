@@ -23,6 +23,7 @@ from aurora_bench.progress import Progress
 from aurora_bench.prompts.format import AnnotatedPrompt, beyond
 from aurora_bench.prompts.shipped import first_files
 from aurora_bench.results import ResultsError, markdown_table, write_results
+from aurora_bench.rulers.readback import read_back_line
 from aurora_bench.rulers.summary import (
     as_json,
     detail_tables,
@@ -287,7 +288,9 @@ def _tell(
         len(silent_failures(judged)),
         unchecked_share(judged),
     )
-    head = [repair_line(ruler.word, judged)] if judged else []
+    placed = [t.placed for t in judged if t.placed is not None]
+    head = [read_back_line(placed)] if placed else []
+    head += [repair_line(ruler.word, judged)] if judged else []
     head += [file_line(file) for file in files]
     document: dict[str, Any] = {
         'files': [

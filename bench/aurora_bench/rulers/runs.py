@@ -19,10 +19,12 @@ from aurora_bench.prompts.reference_names import NotExpressibleError
 from aurora_bench.prompts.reference_spec import reference_spec
 from aurora_bench.rulers.causes import Found, cause_of, reasons
 from aurora_bench.rulers.checking import Check, Said, asked_of, independent_checker
+from aurora_bench.rulers.readback import ReadBack, read_back
 from aurora_bench.rulers.trial import Cause, JudgedTrial, Trial, judged
 from aurora_bench.rulers.watched import WatchedStages
 from aurora_cli.clock import MonotonicClock
 from aurora_cli.installed import installed
+from aurora_core.errors import AuroraError
 from aurora_core.pipeline.run import run
 from aurora_core.pipeline.stages import RunControl, RunRequest
 from aurora_core.report.outputs import write_report
@@ -119,6 +121,8 @@ class RunWork(ABC):
             words=found[1] if found is not None else (),
             summary=report.summary,
             said=said,
+            margin=report.metrics.worst_normalised,
+            placed=_placed(ran),
             trace_sha256=report.trace.sha256 if report.trace is not None else '',
             motion_sha256=report.trace.motion_sha256 if report.trace is not None else '',
             repairs=max(0, report.metrics.iterations - 1),
@@ -210,6 +214,18 @@ class OutcomeWork(RunWork):
             words=found[1] if found is not None else (),
             summary=ran.report.summary,
         )
+
+
+def _placed(ran: _Ran) -> ReadBack | None:
+    outcome, trace = ran.stages.grounding, ran.report.trace
+    agsg = None if outcome is None else outcome.agsg
+    # What repair grounded again is not what was remembered.
+    if trace is None or agsg is None or agsg.grounding is None or ran.report.repairs:
+        return None
+    try:
+        return read_back(ran.folder / trace.bag, agsg.grounding)
+    except AuroraError:
+        return None  # a damaged bag has its own words in the report
 
 
 def _repaired(report: RunReport) -> bool:

@@ -12,6 +12,7 @@ from pydantic import FiniteFloat
 
 from aurora_bench.prompts.format import AnnotatedPrompt, Category, Feasibility
 from aurora_bench.rulers.checking import Said
+from aurora_bench.rulers.readback import ReadBack
 from aurora_core.document import Document
 
 
@@ -58,6 +59,8 @@ class JudgedTrial(Document):
         words: What exactly, in words that are the same for many prompts.
         summary: What the run's report says.
         said: The checker's answers; () for a run that is not verified.
+        margin: Least normalised one, None where there is none.
+        placed: Where bodies stood at t = 0, None where nothing was recorded.
         trace_sha256: '' without a trace.
         motion_sha256: '' without a trace.
         repairs: Co-simulations that repair spent.
@@ -76,6 +79,8 @@ class JudgedTrial(Document):
     words: tuple[str, ...] = ()
     summary: str = ''
     said: tuple[Said, ...] = ()
+    margin: FiniteFloat | None = None
+    placed: ReadBack | None = None
     trace_sha256: str = ''
     motion_sha256: str = ''
     repairs: int = 0

@@ -127,6 +127,16 @@ def test_a_hover_stays(stage: Any, drift: float, outcome: str) -> None:
     assert stage.says({**HOVER, 'duration_s': 40}) == outcome
 
 
+@pytest.mark.parametrize(('x', 'outcome'), [(210.0, 'holds'), (260.0, 'does_not')])
+def test_a_hover_is_where_it_ends_however_long_the_way_there(
+    make_stage: Any, x: float, outcome: str
+) -> None:
+    # 50 s of way at 16 m/s, then 15 s of hover: most of the second half is way.
+    stage = make_stage(90.0)
+    stage.uav('drone', lambda t: (x - 16.0 * np.clip(60.0 - t, 0.0, 50.0), 30, 50), ends=(75.0,))
+    assert stage.says({**HOVER, 'duration_s': 15}) == outcome
+
+
 def test_altitude_of_a_range_is_judged_by_the_range(stage: Any) -> None:
     stage.uav('drone', lambda t: (210, 30, 43))
     asked = {**HOVER, 'id': 'm', 'altitude_m': 40}

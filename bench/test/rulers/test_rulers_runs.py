@@ -53,7 +53,7 @@ def verified(monkeypatch: pytest.MonkeyPatch) -> None:
             summary='',
             trace=trace,
             timing=timing,
-            metrics=SimpleNamespace(iterations=1),
+            metrics=SimpleNamespace(iterations=1, worst_normalised=None),
         )
 
     monkeypatch.setattr(runs, 'run', run)

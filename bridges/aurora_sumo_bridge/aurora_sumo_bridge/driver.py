@@ -13,6 +13,8 @@ DEFAULT_LANE_CHANGE_MODE = 0b011001010101
 # No change of its own; commanded ones respect the gaps (0 would let them hit other vehicles).
 NO_LANE_CHANGE_MODE = 0b001000000000
 _RELEASED = -1.0
+# All of SUMO's checks of speeds but that of red lights: those who cross are looked out for.
+_PAST_RED = 0b01111
 
 
 class Driver:
@@ -40,6 +42,8 @@ class Driver:
             libsumo.vehicle.setMinGap(self._vehicle, agent.min_gap_m)
         if agent.acceleration_mps2 is not None:
             libsumo.vehicle.setAccel(self._vehicle, agent.acceleration_mps2)
+        if agent.runs_red:
+            libsumo.vehicle.setSpeedMode(self._vehicle, _PAST_RED)
         self._apply_speed_factor()
         self._apply_mode()
 

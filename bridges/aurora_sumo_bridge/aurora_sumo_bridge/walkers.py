@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import libsumo
 
+from aurora_core.geometry.frames import sumo_angle_to_heading
 from aurora_core.ports.simulators import GroundAgentLoad
 from aurora_sumo_bridge.checks import unplaceable
 from aurora_sumo_bridge.network import PEDESTRIAN, Network
@@ -21,6 +22,8 @@ from aurora_sumo_bridge.polyline import Point
 ARRIVAL_MARGIN_M = 0.45
 # A walker that only stands still needs a walk: to this far from the end of its sidewalk.
 END_MARGIN_M = 0.5
+# Jumps to a spot begin so far before it.
+_RUN_UP_M = 0.5
 
 
 class Walker:
@@ -93,7 +96,7 @@ class Walker:
             raise unplaceable(agent, 'SUMO did not insert the person')
         # moveTo turns the reported angle towards the jump, so the angle is read before.
         angle_deg = float(libsumo.person.getAngle(agent.agent_id))
-        libsumo.person.moveTo(agent.agent_id, self.lane_id, self._position_m, 0.0)
+        self._jump(self.lane_id, self._position_m, agent.lateral_m, angle_deg)
         self._type_mps = float(libsumo.person.getMaxSpeed(agent.agent_id))
         self._usual_mps = agent.speed_factor * self._type_mps
         self.set_speed(agent.speed_mps if agent.speed_mps > 0.0 else self._usual_mps)
@@ -101,8 +104,27 @@ class Walker:
 
     def asked_point(self) -> Point:
         """Return the asked spot: the middle of the sidewalk (ENU, m)."""
-        point, _ = self._network.shape(self.lane_id).at(self._agent.lane_position_m)
-        return point
+        line, left_m = self._network.shape(self.lane_id), self._agent.lateral_m
+        (x, y), (tx, ty) = line.at(self._agent.lane_position_m)
+        return x - left_m * ty, y + left_m * tx
+
+    def _jump(self, lane_id: str, position_m: float, left_m: float, angle_deg: float) -> None:
+        """Move the person to a spot of a lane without turning it round.
+
+        SUMO takes the direction of the jump for that of the walk, and a person of which it thinks
+        that it walks back from where its walk began is gone in the next step (seen where a
+        sidewalk bends). So the last of two jumps goes ahead.
+        """
+        hx, hy = sumo_angle_to_heading(angle_deg)
+        _, (tx, ty) = self._network.shape(lane_id).at(
+            self._network.arc_position_m(lane_id, position_m)
+        )
+        back_m = -_RUN_UP_M if hx * tx + hy * ty >= 0.0 else _RUN_UP_M
+        end_m = self._network.sumo_position_m(lane_id, self._network.arc_length_m(lane_id))
+        before_m = min(max(position_m + back_m, 0.0), end_m)
+        if before_m != position_m:
+            libsumo.person.moveTo(self._agent.agent_id, lane_id, before_m, left_m)
+        libsumo.person.moveTo(self._agent.agent_id, lane_id, position_m, left_m)
 
     def set_speed(self, speed_mps: float) -> None:
         """Walk at this speed; a walker at its goal stays there until the next walk."""
@@ -149,7 +171,8 @@ class Walker:
         libsumo.person.appendWalkingStage(agent_id, edges, arrival_m)
         libsumo.person.removeStage(agent_id, 0)
         # The new stage put it on another stripe: back to the spot, before SUMO moves it.
-        libsumo.person.moveTo(agent_id, lane_id, lane_position_m, left_m)
+        angle_deg = float(libsumo.person.getAngle(agent_id))
+        self._jump(lane_id, lane_position_m, left_m, angle_deg)
         self._edges, self._arrival_m, self._standing = edges, arrival_m, False
         self._apply_speed()
         return ''

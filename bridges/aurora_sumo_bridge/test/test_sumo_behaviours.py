@@ -206,3 +206,16 @@ def test_who_is_gentle_accelerates_no_harder(
     client.load(scene(on_parkway('ego', 'car', 35.0, acceleration_mps2=1.2)))
     states = run_on(client, 61)
     assert 3.3 < states[60][0, SPEED] < 3.7  # 3 s, 1.2 m/s2; a car has 2.6
+
+
+def test_who_runs_red_goes_round_the_circuit_without_a_stop(
+    client: SumoClient, scene: Scene, on_parkway: Build, run_on: RunOn
+) -> None:
+    # On its own lane everybody else stands at some of the three signals.
+    def stood_s(**fields: Any) -> float:
+        client.load(scene(on_parkway('amb', 'ambulance', 80.0, **fields)))
+        states = run_on(client, 4000)[200:]
+        return DT_S * sum(float(s[0, SPEED]) < 0.1 for s in states)
+
+    assert stood_s() > 5.0
+    assert stood_s(runs_red=True) == 0.0

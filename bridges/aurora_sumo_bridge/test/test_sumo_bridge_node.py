@@ -23,6 +23,7 @@ from aurora_msgs.msg import GroundCommand, Tick
 from aurora_ros import interfaces as on
 from aurora_ros.matching import wait_until
 from aurora_ros.testing.domains import own_domain
+from aurora_ros.testing.forked import ForkedNode
 from aurora_ros.testing.partner import Partner, partner
 from aurora_ros.testing.processes import NodeProcess, nodes
 
@@ -84,7 +85,7 @@ class Graph:
 @pytest.fixture
 def graph(tmp_path: Path) -> Iterator[Graph]:
     with own_domain() as domain, partner(domain) as play:
-        process = NodeProcess('aurora_sumo_bridge.node', domain, tmp_path)
+        process = ForkedNode('aurora_sumo_bridge.node', domain, tmp_path)
         with nodes(process):
             yield Graph(process, play)
             assert process.end() == 0

@@ -175,3 +175,29 @@ def test_a_walker_can_be_removed(walking: SumoClient, command: Order, run_on: Ru
     state = walking.advance(11, (command(0, 'REMOVE'),))
     assert state[0, PRESENT] == 0.0
     assert run_on(walking, 5)[-1].tolist() == state.tolist()
+
+
+@pytest.mark.parametrize('place_m', [5.0, 13.6, 60.0, 100.0])
+def test_who_stands_where_a_sidewalk_bends_stays(
+    place_m: float, client: SumoClient, scene: Scene, walker: Build, run_on: RunOn
+) -> None:
+    # SUMO once took the jump to the spot for a walk back, and the person away.
+    ann = walker('ann', edges=('ridge_road_1_eb',), lane_position_m=place_m)
+    client.load(scene(ann, map_name='downtown'))
+    start = client.state()
+    states = run_on(client, 40)
+    assert {float(s[0, PRESENT]) for s in states} == {1.0}
+    assert states[-1][0, :2].tolist() == start[0, :2].tolist()
+
+
+def test_two_stand_side_by_side(client: SumoClient, scene: Scene, walker: Build) -> None:
+    client.load(
+        scene(
+            walker('ann', edges=(EDGE,), lane_position_m=40.0),
+            walker('bob', edges=(EDGE,), lane_position_m=40.0, lateral_m=0.65),
+            map_name='junction',
+        )
+    )
+    ann, bob = client.state()
+    assert bob[X] == pytest.approx(ann[X], abs=0.01)  # the street leads east
+    assert bob[Y] - ann[Y] == pytest.approx(0.65, abs=0.01)

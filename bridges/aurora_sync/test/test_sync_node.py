@@ -19,6 +19,7 @@ from aurora_ros import interfaces as on
 from aurora_ros.errors import write_error
 from aurora_ros.matching import wait_until
 from aurora_ros.testing.domains import own_domain
+from aurora_ros.testing.forked import ForkedNode
 from aurora_ros.testing.partner import Partner, partner
 from aurora_ros.testing.processes import NodeProcess, nodes
 
@@ -83,7 +84,7 @@ class Graph:
 @pytest.fixture
 def graph(tmp_path: Path) -> Iterator[Graph]:
     with own_domain() as domain, partner(domain) as play:
-        process = NodeProcess(
+        process = ForkedNode(
             'aurora_sync.node',
             domain,
             tmp_path,

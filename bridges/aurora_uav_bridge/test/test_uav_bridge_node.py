@@ -30,6 +30,7 @@ from aurora_ros import interfaces as on
 from aurora_ros.conversions.states import uav_command
 from aurora_ros.matching import wait_until
 from aurora_ros.testing.domains import own_domain
+from aurora_ros.testing.forked import ForkedNode
 from aurora_ros.testing.partner import Partner, partner
 from aurora_ros.testing.processes import NodeProcess, nodes
 
@@ -87,8 +88,8 @@ class Graph:
 @pytest.fixture
 def graph(tmp_path: Path) -> Iterator[Graph]:
     with own_domain() as domain, partner(domain) as play:
-        simulator = NodeProcess('aurora_uav_sim.udp_main', domain, tmp_path)
-        bridge = NodeProcess(
+        simulator = ForkedNode('aurora_uav_sim.udp_main', domain, tmp_path)
+        bridge = ForkedNode(
             'aurora_uav_bridge.node',
             domain,
             tmp_path,

@@ -25,9 +25,7 @@ nap() { read -r -t "$1" -u "$silence" || true; }
 
 # Starts one node in a process group of its own, out of reach of a Ctrl-C: start PACKAGE NAME
 start() {
-  local log="$log_dir/$2.log"
-  rm -f "$run_dir/$2.ready" "$run_dir/$2.silent"
-  [ ! -e "$log" ] || mv -f "$log" "$log.1"
+  prepare "$2"
   # Job control makes the group, and signals are not ignored (without it a script's background job
   # ignores SIGINT).
   set -m
@@ -37,13 +35,42 @@ start() {
     write_pid "$2" "$BASHPID"
     take_seat "$2"
     AURORA_READY_FILE="$run_dir/$2.ready" AURORA_SUPERVISION_DIR="$run_dir" \
-      exec ros2 run "$1" "$2" < /dev/null > "$log" 2>&1 8>&- 9>&- {silence}>&-
+      exec ros2 run "$1" "$2" < /dev/null > "$log_dir/$2.log" 2>&1 8>&- 9>&- {silence}>&-
   ) &
   # Its end is noticed by looking; the shell need not tell of it.
   disown $!
   # The file must be there before anybody looks for it.
   until [ -e "$run_dir/$2.pid" ] || ! look $!; do nap 0.005; done
   set +m
+}
+
+# Starts every node, as forks of one process that has imported what they need; one by one where that
+# cannot be (see its log).
+start_all() {
+  local entry name seat wanted=''
+  for name in "${AURORA_NAMES[@]}"; do
+    prepare "$name"
+    find_seat "$name"
+    wanted+="$name ${seat:--}"$'\n'
+  done
+  (
+    trap - INT TERM HUP USR1 PIPE
+    exec ros2 run aurora_nodes together "$run_dir" "$log_dir" \
+      <<< "${wanted%$'\n'}" > "$log_dir/together.log" 2>&1 8>&- 9>&- {silence}>&-
+  ) && return
+  heed
+  for entry in "${AURORA_NODES[@]}"; do
+    if [ -n "$(pid_of "${entry#* }")" ]; then continue; fi
+    start "${entry% *}" "${entry#* }"
+    heed
+  done
+}
+
+# Makes room for a node that begins: its files, and the log of the one before.
+prepare() {
+  local log="$log_dir/$1.log"
+  rm -f "$run_dir/$1.ready" "$run_dir/$1.silent"
+  [ ! -e "$log" ] || mv -f "$log" "$log.1"
 }
 
 package_of() {

@@ -8,6 +8,9 @@ applied to reach tick k + 1; everything is recorded with the tick it belongs to.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import closing
+from itertools import chain, starmap
 from operator import attrgetter
 from pathlib import Path
 
@@ -21,7 +24,7 @@ from aurora_core.outcomes.agsg import Agsg
 from aurora_core.pipeline.stages import ExecutionResult, RunControl
 from aurora_core.ports.simulators import AirSimulator, FloatArray, GroundSimulator
 from aurora_core.trace import messages
-from aurora_core.trace.bag_writer import BagWriter
+from aurora_core.trace.bag_writer import FLUSH_NS, BagWriter, Message
 from aurora_core.trace.commands import GroundCommand
 from aurora_core.trace.definitions import MessageDefinitions
 from aurora_core.trace.hashing import trace_hashes
@@ -85,7 +88,11 @@ _RUN_NUMBER = 1
 
 
 class _Recorder:
-    """Writes the messages of a run as the ROS recorder would."""
+    """Writes the messages of a run as the ROS recorder would, some ticks at a time.
+
+    Ticks are encoded together, as many as leave the process together anyway: between two steps
+    of the simulators each of them would find the caches full of something else.
+    """
 
     def __init__(self, writer: BagWriter, definitions: MessageDefinitions, dt_s: float) -> None:
         self._writer = writer
@@ -93,48 +100,69 @@ class _Recorder:
         self._build = MessageBuilder(definitions, _RUN_NUMBER, dt_s)
         self._encode = TickEncoder(definitions, _RUN_NUMBER, dt_s)
         self._dt = dt_s
+        self._ticks: list[tuple[int, FloatArray, FloatArray, StepOutput]] = []
+        self._together = max(1, round(FLUSH_NS / 1e9 / dt_s))
 
     def prologue(self, run_id: str, agsg: Agsg, execution: Execution) -> None:
         """Write graph, roster and world."""
         header = self._build.header(0)
         create = self._definitions.create
-        self._put(messages.AGSG, 0, agsg_message(create, header, run_id, agsg))
-        self._put(messages.ROSTER, 0, self._build.roster(run_id, execution.roster))
-        self._put(
-            messages.WORLD,
-            0,
-            world_message(self._definitions, header, run_id, execution.world),
+        self._writer.write_all(
+            self._message(topic, 0, value)
+            for topic, value in (
+                (messages.AGSG, agsg_message(create, header, run_id, agsg)),
+                (messages.ROSTER, self._build.roster(run_id, execution.roster)),
+                (
+                    messages.WORLD,
+                    world_message(self._definitions, header, run_id, execution.world),
+                ),
+            )
         )
 
-    def states(self, tick: int, ground: FloatArray, uav: FloatArray) -> None:
-        """Write the states of a tick."""
-        self._rows(messages.GROUND_STATE, tick, ground)
-        if len(uav):
-            self._rows(messages.UAV_STATE, tick, uav)
+    def add(self, tick: int, ground: FloatArray, uav: FloatArray, output: StepOutput) -> None:
+        """Take the states of a tick, its records and the commands for the next one.
 
-    def output(self, tick: int, output: StepOutput) -> None:
-        """Write the records of a tick and the commands for the next one."""
+        The arrays are kept for a while, so they must not change afterwards.
+        """
+        self._ticks.append((tick, ground, uav, output))
+        # The first tick and each phase of a mission are out at once.
+        if tick == 0 or output.events or len(self._ticks) >= self._together:
+            self.close()
+
+    def close(self) -> None:
+        """Write what was taken and is not written yet; more may come."""
+        if self._ticks:
+            ticks, self._ticks = self._ticks, []
+            self._writer.write_all(chain.from_iterable(starmap(self._messages, ticks)))
+
+    def _messages(
+        self, tick: int, ground: FloatArray, uav: FloatArray, output: StepOutput
+    ) -> Iterator[Message]:
+        """Yield the messages of a tick in the order in which the graph sends them."""
+        has_uavs = len(uav) > 0
+        yield self._rows(messages.GROUND_STATE, tick, ground)
+        if has_uavs:
+            yield self._rows(messages.UAV_STATE, tick, uav)
         for link in output.links:
-            self._put(messages.COMM, tick, self._build.link(link))
+            yield self._message(messages.COMM, tick, self._build.link(link))
         for sight in output.sights:
-            self._put(messages.SENSING, tick, self._build.sight(sight))
+            yield self._message(messages.SENSING, tick, self._build.sight(sight))
         for event in output.events:
-            self._put(messages.EVENTS, tick, self._build.event(event))
+            yield self._message(messages.EVENTS, tick, self._build.event(event))
         after = tick + 1
         cdr = self._encode.ground_commands(after, output.ground_commands)
-        self._write(messages.GROUND_COMMAND, after, cdr)
-        if len(output.uav_commands):
-            self._rows(messages.UAV_COMMAND, after, output.uav_commands)
+        yield self._encoded(messages.GROUND_COMMAND, after, cdr)
+        if has_uavs:
+            yield self._rows(messages.UAV_COMMAND, after, output.uav_commands)
 
-    def _rows(self, topic: str, tick: int, rows: FloatArray) -> None:
-        self._write(topic, tick, self._encode.rows(topic, tick, rows))
+    def _rows(self, topic: str, tick: int, rows: FloatArray) -> Message:
+        return self._encoded(topic, tick, self._encode.rows(topic, tick, rows))
 
-    def _put(self, topic: str, tick: int, message: object) -> None:
-        cdr = self._definitions.encode(messages.TOPICS[topic], message)
-        self._write(topic, tick, cdr)
+    def _message(self, topic: str, tick: int, value: object) -> Message:
+        return self._encoded(topic, tick, self._definitions.encode(messages.TOPICS[topic], value))
 
-    def _write(self, topic: str, tick: int, cdr: bytes) -> None:
-        self._writer.write(topic, messages.TOPICS[topic], cdr, time_ns(tick, self._dt))
+    def _encoded(self, topic: str, tick: int, cdr: bytes) -> Message:
+        return topic, messages.TOPICS[topic], cdr, time_ns(tick, self._dt)
 
 
 def run_lockstep(
@@ -157,37 +185,35 @@ def run_lockstep(
     outcome = 'finished'
     has_uavs = bool(execution.roster.uavs)
     collected = TraceCollector(execution.roster)
-    with no_collection(), BagWriter(bag_directory, definitions) as writer:
-        try:
-            recorder = _Recorder(writer, definitions, dt_s)
-            recorder.prologue(run_id, agsg, execution)
-            ground.load(execution.ground_load)
-            ground_rows = ground.state()
+    with (
+        no_collection(),
+        BagWriter(bag_directory, definitions) as writer,
+        closing(ground),
+        closing(air),
+        closing(_Recorder(writer, definitions, dt_s)) as recorder,
+    ):
+        recorder.prologue(run_id, agsg, execution)
+        ground.load(execution.ground_load)
+        ground_rows = ground.state()
+        if has_uavs:
+            air.load(execution.air_load)
+        uav_rows = air.state() if has_uavs else ground_rows[:0, :0]
+        tick = 0
+        while True:
+            output = execution.stepper.step(tick, ground_rows, uav_rows)
+            collected.add(ground_rows, uav_rows, output)
+            recorder.add(tick, ground_rows, uav_rows, output)
+            control.progress('execute', min(1.0, tick * dt_s / execution.horizon_s), tick * dt_s)
+            if output.finished:
+                outcome = output.outcome
+                break
+            if control.cancelled():
+                outcome = 'cancelled'
+                break
+            tick += 1
+            ground_rows = ground.advance(tick, output.ground_commands)
             if has_uavs:
-                air.load(execution.air_load)
-            uav_rows = air.state() if has_uavs else ground_rows[:0, :0]
-            tick = 0
-            while True:
-                recorder.states(tick, ground_rows, uav_rows)
-                output = execution.stepper.step(tick, ground_rows, uav_rows)
-                collected.add(ground_rows, uav_rows, output)
-                recorder.output(tick, output)
-                control.progress(
-                    'execute', min(1.0, tick * dt_s / execution.horizon_s), tick * dt_s
-                )
-                if output.finished:
-                    outcome = output.outcome
-                    break
-                if control.cancelled():
-                    outcome = 'cancelled'
-                    break
-                tick += 1
-                ground_rows = ground.advance(tick, output.ground_commands)
-                if has_uavs:
-                    uav_rows = air.advance(tick, output.uav_commands)
-        finally:
-            ground.close()
-            air.close()
+                uav_rows = air.advance(tick, output.uav_commands)
     trace = collected.trace()
     hashes = trace_hashes(trace, execution.world)
     return ExecutionResult.model_validate(

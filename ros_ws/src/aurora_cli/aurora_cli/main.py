@@ -151,7 +151,7 @@ def run_prompt(
         if seeds is not None:
             from aurora_cli.commands.seeds import seeds_command
 
-            return seeds_command(prompt, prompt_file, options, seeds, as_json=as_json)
+            return seeds_command(prompt, prompt_file, options, seeds, quiet=quiet, as_json=as_json)
         return run_command(prompt, prompt_file, options, quiet=quiet, as_json=as_json)
 
     finish(command, as_json=as_json)

@@ -51,6 +51,12 @@ def test_a_seed_that_fails_shows_in_table_and_code(here: Path, call: Call) -> No
     assert done.out.startswith('verified 0 of 1 seeds  0.000 [0.000, 0.793], violated 1')
 
 
+def test_quiet_seeds_say_the_share_alone(here: Path, call: Call) -> None:
+    done = call('run', PROMPT, '--seeds', '1', '--quiet')
+    assert (done.code, done.err) == (0, '')
+    assert done.out.splitlines() == ['verified 1 of 1 seeds  1.000 [0.207, 1.000]']
+
+
 @pytest.mark.parametrize('seeds', ['0', '-3', '1000000'])
 def test_a_number_of_seeds_that_cannot_be(here: Path, call: Call, seeds: str) -> None:
     done = call('run', PROMPT, '--seeds', seeds)

@@ -12,6 +12,7 @@ import pytest
 from aurora_cli.installed import installed
 from aurora_cli.local_engine import LocalStages
 from aurora_core.agsg.build import build_agsg
+from aurora_core.errors import ExecutionError
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.feasibility import CheckStage
 from aurora_core.pipeline.stages import RunControl, RunRequest
@@ -86,3 +87,20 @@ def test_a_level_of_the_check_can_be_left_out_and_nothing_else(
     verdict = stages.check(graph, request)
     assert bool(verdict.findings) is (CheckStage.STATIC not in without)
     assert bool(verdict.certificates) is (CheckStage.PROOFS not in without)
+
+
+def test_a_run_that_breaks_has_recorded_every_tick_until_then(tmp_path: Path) -> None:
+    """Ticks are written some at a time: those that wait must not be lost."""
+    request = RunRequest(prompt='A drone hovers at 20 meters for 5 seconds.')
+
+    def progress(_stage: str, _share: float, now_s: float) -> None:
+        if now_s > 2.34:
+            raise ExecutionError('broke', component='executor')
+
+    with pytest.raises(ExecutionError, match='broke'):
+        LocalStages(installed()).execute(
+            grounded(request), tmp_path / 'r' / 'bag.0', request, RunControl(progress=progress)
+        )
+    content = read_bag(tmp_path / 'r' / 'bag.0', message_definitions())
+    assert content.trace.ticks == 48  # 2.35 s and the first
+    assert gc.isenabled()

@@ -9,25 +9,13 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 
+from aurora_nodes.imported import MODULES
 from aurora_ros.matching import wait_until
 from aurora_ros.testing.domains import own_domain
+from aurora_ros.testing.forked import ForkedNode
 from aurora_ros.testing.partner import Partner, partner
 from aurora_ros.testing.processes import NodeProcess
 
-# Node name and the module that holds its `main`.
-MODULES = {
-    'sync': 'aurora_sync.node',
-    'sumo_bridge': 'aurora_sumo_bridge.node',
-    'uav_sim': 'aurora_uav_sim.udp_main',
-    'uav_bridge': 'aurora_uav_bridge.node',
-    'recorder': 'aurora_nodes.recorder',
-    'executor': 'aurora_nodes.executor',
-    'parser': 'aurora_nodes.parser',
-    'grounding': 'aurora_nodes.grounding',
-    'monitor': 'aurora_nodes.monitor',
-    'repair': 'aurora_nodes.repair',
-    'orchestrator': 'aurora_nodes.orchestrator',
-}
 ROS_NODES = tuple(name for name in MODULES if name != 'uav_sim')
 
 
@@ -91,7 +79,7 @@ def running_graph(
         play = stack.enter_context(partner(domain))
 
         def start(name: str) -> NodeProcess:
-            return NodeProcess(MODULES[name], domain, folder, arguments.get(name, ()))
+            return ForkedNode(MODULES[name], domain, folder, arguments.get(name, ()))
 
         started = {name: start(name) for name in names}
         stack.callback(_kill_all, started)

@@ -15,18 +15,20 @@ import rclpy
 from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.publisher import Publisher
+from rosgraph_msgs.msg import Clock
 
 from aurora_msgs.msg import GroundState, UavCommand
 from aurora_ros import interfaces as on
 
-TOPICS = {'command': on.UAV_COMMAND, 'state': on.GROUND_STATE}
+TOPICS = {'command': on.UAV_COMMAND, 'state': on.GROUND_STATE, 'clock': on.CLOCK}
 NAME = 'intruder'
 # Of the run in which it writes.
 TICK = 200
 _FIRST_NUMBER = {'command': 1, 'state': 0}
 _OFF_M = 3.0
-# Recorder, monitor, who acts on it, and itself.
-_LISTENERS = 4
+_DT_S = 0.05
+# Recorder, monitor, who acts on it, and itself; of the clock the first and the last.
+_LISTENERS = {'command': 4, 'state': 4, 'clock': 2}
 
 
 class Intruder(Node):
@@ -41,7 +43,7 @@ class Intruder(Node):
     def __init__(self, kind: str, *, early: bool, passing: bool) -> None:
         super().__init__(NAME)
         self._topic = TOPICS[kind]
-        self._column = _FIRST_NUMBER[kind]
+        self._kind = kind
         self._passing = passing
         self._publisher = self._create() if early else None
         self.done = False
@@ -52,20 +54,30 @@ class Intruder(Node):
     def _create(self) -> Publisher:
         return self.create_publisher(self._topic.type, self._topic.full_name, self._topic.qos)
 
-    def _on_message(self, message: UavCommand | GroundState) -> None:
-        if message.tick < TICK or self.done:
+    def _on_message(self, message: UavCommand | GroundState | Clock) -> None:
+        if _tick_of(message) < TICK or self.done:
             return
         if self._publisher is None:
             self._publisher = self._create()
-        if self._publisher.get_subscription_count() < _LISTENERS:
+        if self._publisher.get_subscription_count() < _LISTENERS[self._kind]:
             return
-        message.tick += 1
-        message.data[self._column] += _OFF_M
+        if isinstance(message, Clock):
+            message.clock.sec += 1
+        else:
+            message.tick += 1
+            message.data[_FIRST_NUMBER[self._kind]] += _OFF_M
         self._publisher.publish(message)
         if self._passing:
             self._publisher.wait_for_all_acked(Duration(seconds=1))
             self.destroy_publisher(self._publisher)
             self.done = True
+
+
+def _tick_of(message: UavCommand | GroundState | Clock) -> int:
+    if isinstance(message, Clock):
+        time_s: float = message.clock.sec + 1e-9 * message.clock.nanosec
+        return round(time_s / _DT_S)
+    return int(message.tick)
 
 
 def main(arguments: list[str] | None = None) -> int:

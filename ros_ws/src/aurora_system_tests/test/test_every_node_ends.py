@@ -13,9 +13,10 @@ import pytest
 
 pytest.importorskip('rclpy')
 
+from aurora_nodes.imported import MODULES
 from aurora_ros.testing.domains import own_domain
 from aurora_ros.testing.processes import NodeProcess
-from aurora_system_tests.graph import MODULES, ROS_NODES
+from aurora_system_tests.graph import ROS_NODES
 
 pytestmark = pytest.mark.ros
 

@@ -15,13 +15,14 @@ from lifecycle_msgs.msg import State, Transition
 from lifecycle_msgs.srv import ChangeState, GetState
 
 from aurora_core.errors import ExecutionError
+from aurora_nodes.imported import MODULES
 from aurora_ros import interfaces as on
 from aurora_ros.interfaces import Call
 from aurora_ros.matching import wait_until
 from aurora_ros.testing.domains import own_domain
+from aurora_ros.testing.forked import ForkedNode
 from aurora_ros.testing.partner import Partner, partner
-from aurora_ros.testing.processes import NodeProcess, nodes
-from aurora_system_tests.graph import MODULES
+from aurora_ros.testing.processes import nodes
 
 pytestmark = pytest.mark.ros
 
@@ -89,7 +90,7 @@ def settled_endpoints(play: Partner, name: str) -> int:
 @pytest.mark.parametrize('name', MANAGED)
 def test_a_managed_node_goes_through_its_states_and_back(name: str, tmp_path: Path) -> None:
     with own_domain() as domain, partner(domain) as play:
-        process = NodeProcess(
+        process = ForkedNode(
             MODULES[name], domain, tmp_path, ['--ros-args', '-p', 'autostart:=false']
         )
         with nodes(process):
@@ -123,7 +124,7 @@ def test_an_inactive_node_refuses_a_load_and_serves_once_activated(
     name: str, call: Call, fields: dict[str, Any], tmp_path: Path
 ) -> None:
     with own_domain() as domain, partner(domain) as play:
-        process = NodeProcess(
+        process = ForkedNode(
             MODULES[name], domain, tmp_path, ['--ros-args', '-p', 'autostart:=false']
         )
         with nodes(process):

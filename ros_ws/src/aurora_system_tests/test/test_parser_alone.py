@@ -15,7 +15,8 @@ pytest.importorskip('rclpy')
 import yaml
 
 from aurora_ros.testing.domains import own_domain
-from aurora_ros.testing.processes import NodeProcess, nodes
+from aurora_ros.testing.forked import ForkedNode
+from aurora_ros.testing.processes import nodes
 
 pytestmark = pytest.mark.ros
 
@@ -26,7 +27,7 @@ LIMIT_S = 90.0
 @pytest.fixture(scope='module')
 def domain(tmp_path_factory: pytest.TempPathFactory) -> Iterator[int]:
     with own_domain() as number:
-        node = NodeProcess('aurora_nodes.parser', number, tmp_path_factory.mktemp('parser'))
+        node = ForkedNode('aurora_nodes.parser', number, tmp_path_factory.mktemp('parser'))
         with nodes(node):
             node.await_ready()
             yield number

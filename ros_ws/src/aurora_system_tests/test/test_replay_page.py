@@ -15,7 +15,8 @@ import pytest
 pytest.importorskip('rclpy')
 
 from aurora_ros.testing.domains import own_domain
-from aurora_ros.testing.processes import NodeProcess, nodes
+from aurora_ros.testing.forked import ForkedNode
+from aurora_ros.testing.processes import nodes
 
 pytestmark = pytest.mark.ros
 
@@ -51,7 +52,7 @@ def test_every_command_of_the_page(tmp_path: Path) -> None:
         code, output = shell(make, tmp_path, domain)
         assert code == 0, output
         (run,) = (tmp_path / 'runs').iterdir()
-        with nodes(NodeProcess('aurora_nodes.monitor', domain, tmp_path)):
+        with nodes(ForkedNode('aurora_nodes.monitor', domain, tmp_path)):
             for line in replays:
                 code, output = shell(line.replace('<run_id>', run.name), tmp_path, domain)
                 assert code == 0, f'{line}\n{output}'

@@ -12,9 +12,10 @@ import pytest
 pytest.importorskip('rclpy')
 
 from aurora_core.errors import AuroraError
+from aurora_nodes.imported import MODULES
 from aurora_ros import interfaces as on
-from aurora_ros.testing.processes import NodeProcess
-from aurora_system_tests.graph import MODULES, RunningGraph, running_graph
+from aurora_ros.testing.forked import ForkedNode
+from aurora_system_tests.graph import RunningGraph, running_graph
 
 pytestmark = pytest.mark.ros
 
@@ -35,7 +36,7 @@ def test_a_second_sync_is_named_and_is_forgotten_when_it_was_killed(
     elsewhere = tmp_path / 'elsewhere'
     elsewhere.mkdir()
     domain = graph.play.node.context.get_domain_id()
-    twin = NodeProcess(MODULES['sync'], domain, elsewhere)
+    twin = ForkedNode(MODULES['sync'], domain, elsewhere)
     try:
         twin.await_ready()
         with pytest.raises(AuroraError, match='another graph runs in this') as caught:

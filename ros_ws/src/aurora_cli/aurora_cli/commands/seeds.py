@@ -41,10 +41,12 @@ def seeds_command(
     options: RunOptions,
     count: int,
     *,
+    quiet: bool,
     as_json: bool,
 ) -> int:
     """Run a prompt with `count` seeds from `options.seed` on, and return the exit code.
 
+    Quiet: no progress and no table, the share that is verified alone.
     No picture and no page is made: `aurora open RUN` makes those of a run.
 
     Raises:
@@ -61,12 +63,12 @@ def seeds_command(
     request = with_prompt(first, prompt_bytes(argument, prompt_file))
     if isinstance(request, PromptError):
         raise UsageProblem(f'--seeds needs a prompt that can be read: {request.message}')
-    runs = _run_all(request, count, options.out.absolute())
+    runs = _run_all(request, count, options.out.absolute(), quiet=quiet)
     statuses = [run.status for run in runs]
     if as_json:
         print_json({'runs': [_row(run) for run in runs], **_summary(statuses, count)})
     else:
-        _print(runs, count)
+        _print(runs, count, quiet=quiet)
     return worst_exit_code(statuses, all_run=len(runs) == count)
 
 
@@ -78,19 +80,20 @@ def worst_exit_code(statuses: Sequence[Status], *, all_run: bool) -> int:
     return int(next((code for code in _WORST_FIRST if code in codes), ExitCode.OK))
 
 
-def _run_all(request: RunRequest, count: int, root: Path) -> list[Run]:
+def _run_all(request: RunRequest, count: int, root: Path, *, quiet: bool) -> list[Run]:
     done: list[Run] = []
     with quiet_stdout(), Interrupts() as interrupts:
         for run_id in close_unfinished(root):
             say(f'aurora: closed the unfinished run {run_id} as error')
         for seed in range(request.seed, request.seed + count):
             one = request.model_copy(update={'seed': seed})
-            with RunProgress(stages=False) as progress:
+            with RunProgress(stages=False, quiet=quiet) as progress:
                 control = RunControl(progress=progress.update, cancelled=interrupts.cancelled)
                 run = run_request(one, root, control, lambda text: say(f'aurora: {text}'))
             done.append(run)
-            said = run.status.value.replace('_', ' ').upper()
-            say(f'aurora: seed {seed} ({len(done)} of {count}): {said}  {run.folder}')
+            if not quiet:
+                said = run.status.value.replace('_', ' ').upper()
+                say(f'aurora: seed {seed} ({len(done)} of {count}): {said}  {run.folder}')
             if interrupts.cancelled():
                 break
     return done
@@ -135,7 +138,7 @@ def _summary(statuses: Sequence[Status], count: int) -> dict[str, object]:
     }
 
 
-def _print(runs: Sequence[Run], count: int) -> None:
+def _print(runs: Sequence[Run], count: int, *, quiet: bool) -> None:
     console = answer_console()
     share = Share(met=sum(run.status is Status.VERIFIED for run in runs), total=len(runs))
     low, high = share.interval
@@ -148,6 +151,8 @@ def _print(runs: Sequence[Run], count: int) -> None:
         f'verified {share.met} of {share.total} seeds  {share.value:.3f} [{low:.3f}, {high:.3f}]'
         f'{rest}' + (f'; {count - len(runs)} not run' if len(runs) < count else ''),
     )
+    if quiet:
+        return
     print_table(
         'Seeds',
         ('seed', 'verdict', 'least margin', 'of', 'run'),

@@ -365,6 +365,8 @@ def _agent_load(agent: GroundedAgent) -> GroundAgentLoad:
         lane_change_mode=agent.lane_change_mode,
         parked=agent.parked,
         acceleration_mps2=agent.gentle_mps2,
+        runs_red=agent.runs_red,
+        lateral_m=agent.lateral_m,
     )
 
 

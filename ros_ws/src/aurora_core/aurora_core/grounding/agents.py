@@ -39,6 +39,7 @@ from aurora_core.grounding.sites import (
     brisk_lanes,
     line_from,
     on_main_roads,
+    parked_pose,
     tied_way_m,
     with_another_lane,
 )
@@ -46,6 +47,7 @@ from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Limits
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.map_records import SpawnTable, may_stand
+from aurora_core.knowledge.net_types import Lane
 from aurora_core.knowledge.route_path import RoutePath
 from aurora_core.knowledge.settings import Settings
 from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
@@ -55,9 +57,6 @@ from aurora_core.spec.scenario import (
     ScenarioSpec,
 )
 from aurora_core.spec.vocabulary import BehaviorKind, MissionMode, Place
-
-# Free space between the border of its lane and the flank of a parked vehicle (m).
-KERB_CLEARANCE_M = 0.3
 
 # Speed limit of the slowest streets (m/s).
 _SLOWEST_MPS = 8.0
@@ -198,6 +197,8 @@ class AgentPlacer:
         ]
         if any(p.of == Place.MAIN_ROAD for p in agent.placements):
             lanes = on_main_roads(lanes)
+        if any(p.of == Place.ROADSIDE for p in agent.placements):
+            lanes = [lane for lane in lanes if self._is_outermost(lane, record.vclass)]
         if changes_lane(spec, agent):
             lanes = with_another_lane(lanes)
         if not lanes:
@@ -249,6 +250,11 @@ class AgentPlacer:
             parked=parked,
         )
 
+    def _is_outermost(self, lane: Lane, vclass: str) -> bool:
+        """Tell whether no lane for a class is to the right of a lane."""
+        right = lane.right_lane_id
+        return right is None or vclass not in self._map.network.lane(right).allows
+
     def _grounded(
         self,
         agent: GroundAgent,
@@ -272,9 +278,8 @@ class AgentPlacer:
         factor = max(style.get('speed_factor', 1.0), _urged(record, speed_mps))
         edges = path.edge_ids[path.edge_ids.index(first) :]
         x, y, hx, hy = path.position_at(arc_m)
-        if parked:  # right of its lane
-            aside_m = 0.5 * lane.width_m + 0.5 * record.width_m + KERB_CLEARANCE_M
-            x, y = x + aside_m * hy, y - aside_m * hx
+        if parked:
+            x, y, _, _ = parked_pose((x, y, hx, hy), lane, record)
         route_xy_m = ((x, y), *line_from(path, arc_m)[1:])
         stop_lane_id, stop_position_m = '', 0.0
         if stop_m is not None:
@@ -311,6 +316,7 @@ class AgentPlacer:
             acceleration_mps2=record.accel_mps2,
             deceleration_mps2=record.decel_mps2,
             parked=parked,
+            runs_red=in_emergency(agent),
             stop_lane_id=stop_lane_id,
             stop_position_m=stop_position_m,
         )

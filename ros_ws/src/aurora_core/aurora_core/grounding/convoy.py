@@ -12,6 +12,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from aurora_core.grounding.awaited import bound_to_places
+from aurora_core.grounding.nearby import BY_PERSONS, begins_near
 from aurora_core.grounding.pace import (
     Encounter,
     encounter_room_m,
@@ -22,6 +23,7 @@ from aurora_core.grounding.pace import (
 from aurora_core.grounding.places import POINTS, has_point
 from aurora_core.grounding.ties import (
     IN_LINE_M,
+    BeforePlace,
     Tie,
     agreed,
     in_passing_lane,
@@ -52,6 +54,7 @@ ALONG: dict[Relation, tuple[int, int]] = {
     Relation.LEFT: (0, 1),
     Relation.RIGHT: (0, -1),
     Relation.BESIDE: (0, 1),
+    Relation.NEAR: (-1, 0),
 }
 
 # Gap of an agent that follows without a stated placement (contract default for vehicles).
@@ -124,11 +127,15 @@ class _Distances:
         tolerance: So far inside a one-sided distance they are put.
         meetings: Encounters still to come.
         speeds_mps: Stated ones of agents.
+        near: Those near whom another one begins, who that is by its id.
+        persons: Ids.
     """
 
     tolerance: Tolerance
     meetings: tuple[Encounter, ...]
     speeds_mps: Mapping[str, float]
+    near: Mapping[str, str]
+    persons: frozenset[str]
 
     def placed(self, agent: str, other: str | None, placement: Placement) -> float:
         """Return the distance that a placement asks for, metres.
@@ -152,21 +159,6 @@ class _Distances:
             if {m.actor, m.other} == {agent, other}
         ]
         return max([DEFAULT_GAP_M if stated is None else stated.value, *room])
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class BeforePlace:
-    """A member whose place along its route an intersection or a crosswalk decides.
-
-    Attributes:
-        agent: Id.
-        place: What it stands before.
-        distance_m: Along its route from its reference point to the middle of that.
-    """
-
-    agent: str
-    place: Place
-    distance_m: float
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -212,7 +204,13 @@ def split_scene(
     unsupported: list[str] = []
     by_id = {a.id: a for a in vehicles}
     speeds = {a.id: v for a in spec.agents if (v := own_speed_mps(a)) is not None}
-    distances = _Distances(tolerance=tolerance, meetings=encounters(spec), speeds_mps=speeds)
+    distances = _Distances(
+        tolerance=tolerance,
+        meetings=encounters(spec),
+        speeds_mps=speeds,
+        near=begins_near(spec),
+        persons=frozenset(a.id for a in persons),
+    )
     passing = passing_pairs(spec)
     ties = [
         in_passing_lane(t, passing)
@@ -241,7 +239,9 @@ def split_scene(
     targets = {m.target for m in spec.missions}
     targets |= {a.id for a in vehicles if bound_to_places(spec, a)}
     targets |= {vehicle for vehicle, _ in let_cross(spec)}
+    targets |= {a.id for a in vehicles if any(map(_is_before_place, a.placements))}
     targets |= {p.of for person in persons for p in person.placements}
+    targets |= {a.id for a in vehicles for p in a.placements if p.of in distances.persons}
     if targets & set(by_id):
         # A message has a range: who is to receive one is near those who are watched.
         targets |= {e.action.receiver for e in spec.events if isinstance(e.action, SendMessage)}
@@ -328,6 +328,8 @@ def can_be_placed(agent: str, placement: Placement, spec: ScenarioSpec) -> bool:
     persons = (AgentType.PEDESTRIAN, AgentType.RSU)
     vehicles = {a.id for a in spec.agents if a.type not in persons}
     known = placement.relation in ALONG or placement.relation is Relation.ONCOMING
+    if placement.of in {a.id for a in spec.agents} - vehicles:
+        return placement.relation in BY_PERSONS
     return placement.of in vehicles and known
 
 
@@ -343,6 +345,8 @@ def _ties(
             others.setdefault(str(placement.of), []).append(placement)
         elif _is_before_place(placement) or _is_at_place(placement):
             continue  # nobody else's place follows from it
+        elif placement.of in distances.persons and placement.relation in BY_PERSONS:
+            continue
         elif placement.relation not in _ON or placement.of not in _ROADS:
             where = f' {placement.of}' if placement.of is not None else ''
             unsupported.append(f'{agent.id}: placement {placement.relation.value}{where}')
@@ -368,6 +372,11 @@ def _ties(
             for meeting in distances.meetings
             # Nothing says where the actor is: it comes from behind.
             if meeting.actor == agent.id and meeting.other in by_id
+        ][:1]
+        or [
+            Tie(agent.id, other, -distances.between(agent.id, other, None), 0, guess=True)
+            for other in distances.near
+            if agent.id == distances.near[other] and other in by_id
         ][:1]
     )
 

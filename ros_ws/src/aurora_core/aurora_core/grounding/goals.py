@@ -8,14 +8,16 @@ placement says where it stands at t = 0, a behaviour or a trigger where its way 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import atan2, degrees
+
+import shapely
 
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.awaited import awaited_at
 from aurora_core.grounding.places import MapPlaces, arrivals, has_point
-from aurora_core.grounding.sites import SeatedAgent, Site
+from aurora_core.grounding.sites import LONGEST_WAY_M, SeatedAgent, Site
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Tolerances
 from aurora_core.knowledge.map_model import MapModel
@@ -39,6 +41,8 @@ _LEADS = (
 
 # A vehicle has at least this way to a place that it goes to, and at most that (m).
 _WAY_M = (40.0, 260.0)
+# ... and where no street leads straight on to it.
+_WIDE_M = (40.0, LONGEST_WAY_M)
 
 # Who stops where no place is named does so after this way (m), or before the way ends.
 STOP_AFTER_M = 60.0
@@ -114,7 +118,12 @@ class GoalFinder:
         self._tolerances = tolerances
 
     def fits(
-        self, spec: ScenarioSpec, site: Site, anchor: tuple[float, float] | None = None
+        self,
+        spec: ScenarioSpec,
+        site: Site,
+        anchor: tuple[float, float] | None = None,
+        *,
+        wide: bool = False,
     ) -> bool:
         """Tell whether every vehicle of a site stands at, and comes to, its places.
 
@@ -122,6 +131,7 @@ class GoalFinder:
             spec: The request.
             site: Where the vehicles stand.
             anchor: Of the scene, x and y in m; the origin of the site when not given.
+            wide: A long way does, too.
         """
         x, y = site.origin()[:2] if anchor is None else anchor
         for seat in site.seated:
@@ -130,12 +140,17 @@ class GoalFinder:
                 if bound.at_start:
                     if not self._stands(seat, point, bound):
                         return False
-                elif self._arc_near(seat, point, bound) is None:
+                elif self._arc_near(seat, point, bound, wide=wide) is None:
                     return False
         return True
 
     def leads(
-        self, spec: ScenarioSpec, site: Site, anchor: tuple[float, float] | None = None
+        self,
+        spec: ScenarioSpec,
+        site: Site,
+        anchor: tuple[float, float] | None = None,
+        *,
+        wide: bool = False,
     ) -> bool:
         """Tell whether everybody on a site comes to where an event waits for it.
 
@@ -143,6 +158,7 @@ class GoalFinder:
             spec: The request.
             site: Where the vehicles stand.
             anchor: Of the scene, x and y in m; the origin of the site when not given.
+            wide: A long way does, too.
         """
         at = site.origin()[:2] if anchor is None else anchor
         for awaited in awaited_at(spec):
@@ -159,9 +175,43 @@ class GoalFinder:
                     return False  # it would hold from the start on
                 within_m = awaited.within_m - _NEARER_M
             bound = _Bound(place=awaited.place, within_m=within_m, at_start=False, stated=stated)
-            if self._arc_near(seat, point, bound) is None:
+            if self._arc_near(seat, point, bound, wide=wide) is None:
                 return False
         return True
+
+    def edges_on_the_way(
+        self, spec: ScenarioSpec, agents: Sequence[GroundAgent]
+    ) -> tuple[frozenset[str], ...]:
+        """Return the edges at each landmark that agents come to, in the order of the request.
+
+        Of an intersection or a crosswalk there is one on every way.
+        """
+        names = {agent.id for agent in agents}
+        bounds = (b for agent in agents for b in self._bounds(spec, agent))
+        wanted = {b.place: b.within_m for b in bounds if not b.at_start and is_landmark(b.place)}
+        for awaited in awaited_at(spec):
+            if awaited.agent in names and is_landmark(awaited.place):
+                within_m = (
+                    self._tolerances.arrival_m if awaited.within_m is None else (awaited.within_m)
+                )
+                wanted.setdefault(awaited.place, within_m)
+        vclasses = {self._types[agent.type.value].vclass for agent in agents}
+        found = []
+        for place, within_m in wanted.items():
+            x, y = self._places.point(place, (0.0, 0.0))
+            lanes = (
+                lane
+                for vclass in sorted(vclasses)
+                for lane in self._map.network.driving_lanes(vclass)
+            )
+            found.append(
+                frozenset(
+                    lane.edge_id
+                    for lane in lanes
+                    if shapely.LineString(lane.polyline).distance(shapely.Point(x, y)) <= within_m
+                )
+            )
+        return tuple(edges for edges in found if edges)
 
     def spacing_m(self, spec: ScenarioSpec, default_m: float) -> float:
         """Return how far apart sites may be, so that some of them is where a place asks."""
@@ -176,15 +226,6 @@ class GoalFinder:
         bounds = (bound.place for agent in agents for bound in self._bounds(spec, agent))
         return tuple(dict.fromkeys(bounds))
 
-    def nearest_street_m(self, spec: ScenarioSpec, name: str, place: str) -> float | None:
-        """Return how far a landmark is from the nearest lane for a vehicle (m), else None."""
-        if not is_landmark(place):
-            return None
-        agent = next(a for a in spec.agents if a.id == name)
-        vclass = self._types[agent.type.value].vclass
-        point = self._places.point(place, (0.0, 0.0))
-        return self._map.network.nearest_lane(*point, vclass)[2]
-
     def stop_arc_m(self, spec: ScenarioSpec, site: Site, seat: SeatedAgent) -> float | None:
         """Return where on its way a vehicle stops (m), None when it does not by itself."""
         if not stops(seat.agent):
@@ -192,7 +233,9 @@ class GoalFinder:
         x, y, _, _ = site.origin()
         for bound in self._bounds(spec, seat.agent):
             if bound.stops:
-                return self._arc_near(seat, self._point(bound, (x, y)), bound)
+                point = self._point(bound, (x, y))
+                near = self._arc_near(seat, point, bound)
+                return near or self._arc_near(seat, point, bound, wide=True)
         return self._open_arc(seat, seat.arc_m + STOP_AFTER_M)
 
     def _bounds(self, spec: ScenarioSpec, agent: GroundAgent) -> Iterator[_Bound]:
@@ -268,10 +311,15 @@ class GoalFinder:
         return abs((off_deg + 180.0) % 360.0 - 180.0) <= _SAFE * self._tolerances.bearing_deg
 
     def _arc_near(
-        self, seat: SeatedAgent, point: tuple[float, float], bound: _Bound
+        self,
+        seat: SeatedAgent,
+        point: tuple[float, float],
+        bound: _Bound,
+        *,
+        wide: bool = False,
     ) -> float | None:
         """Return where a way comes near a point at a fair distance (m along it), else None."""
-        low, high = (seat.arc_m + way_m for way_m in _WAY_M)
+        low, high = (seat.arc_m + way_m for way_m in (_WIDE_M if wide else _WAY_M))
         arc_m, _ = seat.path.line.project(
             *point, near_s=(low + high) / 2.0, window_m=(high - low) / 2.0
         )

@@ -8,7 +8,7 @@ Source: paper, "Joint road-airspace grounding", eq. (2).
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 
 from aurora_core.grounding.agents import AgentPlacer
@@ -48,7 +48,7 @@ from aurora_core.outcomes.grounding import GroundingFailure
 from aurora_core.outcomes.repair import RepairPlan
 from aurora_core.ports.random_streams import stream
 from aurora_core.spec.flight_order import begun_by
-from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.spec.scenario import GroundAgent, ScenarioSpec
 from aurora_core.spec.vocabulary import MissionMode
 
 # Clearance that earns the full air score (m above the planned clearance).
@@ -251,27 +251,29 @@ class Grounder:
         need_m = max(need_m, timed_way_m(spec, members, grounding.target_speed_mps))
         wanted = grounding.target_speed_mps
         ranked: list[tuple[float, Site]] = []
-        found = sites(
-            self._map,
-            split.convoy,
-            self._types,
-            run_m,
-            self._goals.spacing_m(spec, grounding.anchor_spacing_m),
-            split.before,
-            least_limit_mps=stated,
-            several_lanes=bool(changing),
-            spawns=self._spawns,
-        )
-        for site in found:
-            if not self._goals.fits(spec, site):
-                continue
+
+        def found(goals: tuple[frozenset[str], ...]) -> Iterator[Site]:
+            return sites(
+                self._map,
+                split.convoy,
+                self._types,
+                run_m,
+                self._goals.spacing_m(spec, grounding.anchor_spacing_m),
+                split.before,
+                least_limit_mps=stated,
+                several_lanes=bool(changing),
+                spawns=self._spawns,
+                goals=goals,
+            )
+
+        for site in self._fitting(spec, members, found):
             free = min(1.0, site.free_run_m / need_m) if need_m > 0.0 else 1.0
             brisk = min(1.0, site.fastest_mps(self._map.network, way_m) / wanted)
-            straight = max(0.0, 1.0 - site.turns(way_m, grounding) / grounding.turns_bad)
-            road = 0.4 * free + 0.2 * float(site.steady) + 0.2 * brisk + 0.2 * straight
+            bends = max(0.0, 1.0 - site.turns(way_m, grounding) / grounding.turns_bad)
+            road = 0.4 * free + 0.2 * float(site.steady) + 0.2 * brisk + 0.2 * bends
             if bends_between(spec, site, self._tolerances.placement_vehicle_m):
                 road *= _BENT
-            if not self._goals.leads(spec, site):
+            if not self._goals.leads(spec, site, wide=True):
                 road *= _ASTRAY
             if stated > 0.0:
                 road *= 0.5 + 0.5 * self._room_for(stated, site)
@@ -284,6 +286,24 @@ class Grounder:
         # Stable: equal scores keep the order of the map.
         ranked.sort(key=lambda r: -r[0])
         return ranked
+
+    def _fitting(
+        self,
+        spec: ScenarioSpec,
+        members: list[GroundAgent],
+        found: Callable[[tuple[frozenset[str], ...]], Iterator[Site]],
+    ) -> Iterator[Site]:
+        """Yield the sites that lead their vehicles to their places: straight on, else by turns."""
+        led = False
+        for site in found(()):
+            if self._goals.fits(spec, site):
+                led = led or self._goals.leads(spec, site)
+                yield site
+        goals = () if led else self._goals.edges_on_the_way(spec, members)
+        if goals:
+            for site in found(goals):
+                if self._goals.fits(spec, site, wide=True):
+                    yield site
 
     def _room_for(self, speed_mps: float, site: Site) -> float:
         """Return whether a stated speed can show near a site, in [0, 1]: far from junctions."""

@@ -51,8 +51,11 @@ class GroupPlacer:
     ) -> None:
         self._goals = goals
         self._spec = spec
-        self._candidates = [
-            _best_first(
+
+        def found(
+            group: tuple[ConvoyMember, ...], through: tuple[frozenset[str], ...]
+        ) -> list[Site]:
+            return _best_first(
                 sites(
                     map_model,
                     group,
@@ -61,9 +64,15 @@ class GroupPlacer:
                     goals.spacing_m(spec, settings.anchor_spacing_m),
                     least_limit_mps=fastest_stated_mps(spec, (m.agent for m in group)),
                     several_lanes=any(changes_lane(spec, m.agent) for m in group),
+                    goals=through,
                 )
             )
-            for group in groups
+
+        self._candidates = [found(group, ()) for group in groups]
+        ways = [goals.edges_on_the_way(spec, [m.agent for m in group]) for group in groups]
+        # Where no street leads straight on to a place, others do by turns.
+        self._turning = [
+            found(group, way) if way else [] for group, way in zip(groups, ways, strict=True)
         ]
 
     def seated(self, site: Site) -> Site | str:
@@ -72,8 +81,9 @@ class GroupPlacer:
         Args:
             site: Where the convoy stands.
         """
-        for candidates in self._candidates:
+        for candidates, turning in zip(self._candidates, self._turning, strict=True):
             found = next(self._fit(candidates, site, leading=True), None)
+            found = found or next(self._fit(turning, site, leading=True, wide=True), None)
             found = found or next(self._fit(candidates, site), None)
             if found is None:
                 return 'road'
@@ -81,16 +91,16 @@ class GroupPlacer:
         return site
 
     def _fit(
-        self, candidates: list[Site], site: Site, *, leading: bool = False
+        self, candidates: list[Site], site: Site, *, leading: bool = False, wide: bool = False
     ) -> Iterator[tuple[SeatedAgent, ...]]:
         """Yield the places of a group beside a site: `leading` to where an event waits for it."""
         anchor = site.origin()[:2]
         for one in _nearest_first(candidates, site):
             if (
-                self._goals.fits(self._spec, one, anchor)
+                self._goals.fits(self._spec, one, anchor, wide=wide)
                 and _apart(one.seated, site)
                 and all(_on_its_side(seat, site) for seat in one.seated)
-                and (not leading or self._goals.leads(self._spec, one, anchor))
+                and (not leading or self._goals.leads(self._spec, one, anchor, wide=wide))
             ):
                 yield one.seated
 

@@ -45,6 +45,8 @@ _BELOW_CAP_MPS = 0.5
 # Who is to accelerate to a speed drives so much slower before, but not slower than that (m/s).
 _GAINS_MPS = 5.0
 _LEAST_MPS = 3.0
+# Who is to accelerate, nobody says to what or from what, drives so fast before (m/s).
+_UNSAID_FROM_MPS = 7.0
 
 # Who is to slow down to a speed drives so much faster before (m/s).
 _SLOWS_BY_MPS = 4.0
@@ -196,13 +198,14 @@ def stated_speed_mps(spec: ScenarioSpec, agent: GroundAgent) -> float | None:
 
 
 def _gains_to_mps(spec: ScenarioSpec, agent: GroundAgent) -> list[float]:
-    """Return the speeds that an agent is to accelerate to."""
+    """Return the speeds that an agent is to accelerate to: without one, by a fair amount."""
+    unsaid = (own_speed_mps(agent) or _UNSAID_FROM_MPS) + _GAINS_MPS
     return [
-        e.action.value_mps.value
+        unsaid if e.action.value_mps is None else e.action.value_mps.value
         for e in spec.events
         if isinstance(e.action, AgentAction)
         and (e.action.agent, e.action.do) == (agent.id, 'accelerate')
-        and e.action.value_mps is not None
+        and agent.type is not AgentType.PEDESTRIAN
     ]
 
 

@@ -11,8 +11,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
+from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.awaited import awaited_at
-from aurora_core.grounding.convoy import DEFAULT_GAP_M, stands
+from aurora_core.grounding.convoy import DEFAULT_GAP_M, parks, stands
+from aurora_core.grounding.nearby import ON_SIDEWALKS, by_vehicles, in_order
 from aurora_core.grounding.pace import (
     WALKING_MPS,
     encounter_room_m,
@@ -22,7 +24,14 @@ from aurora_core.grounding.pace import (
 from aurora_core.grounding.places import MapPlaces, arrivals, has_point
 from aurora_core.grounding.releases import person_release
 from aurora_core.grounding.routes import route_finder
-from aurora_core.grounding.sites import ANY_CLASS, SeatedAgent, SeatedPerson, Site, line_from
+from aurora_core.grounding.sites import (
+    ANY_CLASS,
+    SeatedAgent,
+    SeatedPerson,
+    Site,
+    line_from,
+    parked_pose,
+)
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.walk_path import WalkPath, kerb_to_kerb, sidewalk_of, walk_along
@@ -37,7 +46,7 @@ from aurora_core.spec.scenario import (
     Placement,
     ScenarioSpec,
 )
-from aurora_core.spec.vocabulary import AgentType, BehaviorKind, Place, Relation
+from aurora_core.spec.vocabulary import BehaviorKind, Place, Relation
 
 # Who waits stands this far before the end of the sidewalk (m), the next one behind the first.
 _KERB_M = 0.6
@@ -45,6 +54,19 @@ _NEXT_M = 1.0
 
 # Who is to arrive at a crosswalk comes from so far away (m): not there yet at t = 0.
 _ARRIVES_FROM_M = 18.0
+
+# Steps in which a spot at a stated distance is looked for (m).
+_STEP_M = 0.5
+
+# Two persons side by side on a sidewalk are so far apart (m).
+_ABREAST_M = 0.65
+
+# Round the middle of a person is so much room (m), and so far its way is looked at.
+_BODY_M = 0.4
+_SHORT_WAY_M = 60.0
+
+# Inside a bound on a distance one stands so far (m).
+_INSIDE_M = 1.0
 
 # Who has crossed walks on this far (m), out of the way of the next one.
 _BEYOND_M = 6.0
@@ -67,9 +89,6 @@ _ON_WAY_M = 10.0
 # Of a place, the sidewalk is at most so far away (m).
 _BESIDE_PLACE_M = 50.0
 
-# Who stands on sidewalks: persons, and roadside units, which never go.
-ON_SIDEWALKS = (AgentType.PEDESTRIAN, AgentType.RSU)
-
 # Along or against the route of a vehicle, by relation.
 _ALONG = {
     Relation.AHEAD: 1.0,
@@ -78,9 +97,10 @@ _ALONG = {
     Relation.BESIDE: 0.0,
     Relation.NEAR: 0.0,
     Relation.RIGHT: 0.0,
+    Relation.LEFT: 0.0,
 }
 # Whoever stands beside a vehicle stands where the sidewalk is: a distance cannot be chosen.
-_NO_DISTANCE = (Relation.BESIDE, Relation.RIGHT)
+_NO_DISTANCE = (Relation.BESIDE, Relation.RIGHT, Relation.LEFT)
 
 # Who crosses the street in front of a vehicle.
 _BEFORE_IT = (Relation.AHEAD, Relation.BEFORE)
@@ -92,10 +112,11 @@ _AT = (Relation.AT, Relation.NEAR, Relation.ON)
 
 @dataclass(frozen=True, slots=True)
 class _Spot:
-    """A walk, and where it begins (m along it)."""
+    """A walk, and where it begins (m along it, and left of its middle)."""
 
     path: WalkPath
     arc_m: float
+    lateral_m: float = 0.0
 
 
 def crosses(spec: ScenarioSpec, agent: GroundAgent) -> bool:
@@ -110,9 +131,12 @@ def crosses(spec: ScenarioSpec, agent: GroundAgent) -> bool:
 
 def can_stand(agent: GroundAgent, placement: Placement, spec: ScenarioSpec) -> bool:
     """Tell whether a person can be placed so."""
-    vehicles = {a.id for a in spec.agents if a.type not in ON_SIDEWALKS}
+    others = {a.id for a in spec.agents if a.id != agent.id}
     of, relation = placement.of, placement.relation
-    if of in vehicles:
+    if of in others:
+        persons = {a.id for a in spec.agents if a.type in ON_SIDEWALKS}
+        if of in persons and relation is Relation.RIGHT:
+            return False  # SUMO has no room there
         stated = placement.distance_m is not None and relation in _NO_DISTANCE
         return relation in _ALONG and not stated and placement.bearing_deg is None
     if placement.distance_m is not None and relation is not Relation.NEAR:
@@ -147,13 +171,43 @@ class PersonPlacer:
             site: Where the vehicles stand.
             run_s: How long they may walk.
         """
-        walkers: list[SeatedPerson] = []
-        for agent in persons:
-            spot = self._spot(spec, agent, site, run_s, len(walkers))
+        for number, agent in enumerate(in_order(persons)):
+            spot = self._spot(spec, agent, site, run_s, number)
             if isinstance(spot, str):
                 return spot
-            walkers.append(SeatedPerson(agent=agent, path=spot.path, arc_m=spot.arc_m))
-        return replace(site, walkers=tuple(walkers))
+            walker = SeatedPerson(
+                agent=agent, path=spot.path, arc_m=spot.arc_m, lateral_m=spot.lateral_m
+            )
+            if self._runs_into_parked(spec, site, walker):
+                return 'sidewalk'
+            site = replace(site, walkers=(*site.walkers, walker))
+        return site
+
+    def _runs_into_parked(self, spec: ScenarioSpec, site: Site, walker: SeatedPerson) -> bool:
+        """Tell whether a person stands in, or walks through, a vehicle parked on its sidewalk."""
+        way_m = _SHORT_WAY_M if _goes(spec, walker.agent) else _STEP_M
+        end_m = min(walker.path.length_m, walker.arc_m + way_m)
+        steps = range(int((end_m - walker.arc_m) / _STEP_M) + 1)
+        points = [walker.path.position_at(walker.arc_m + k * _STEP_M) for k in steps]
+        points = [
+            (x - walker.lateral_m * hy, y + walker.lateral_m * hx, 0.0, 0.0)
+            for x, y, hx, hy in points
+        ]
+        for seat in (*site.seated, *site.others):
+            if not parks(spec, seat.agent):
+                continue
+            record = self._types[seat.agent.type.value]
+            lane = self._map.network.lane(seat.lane_id)
+            x, y, hx, hy = parked_pose(seat.path.position_at(seat.arc_m), lane, record)
+            for px, py, _, _ in points:
+                along_m = abs((px - x) * hx + (py - y) * hy)
+                aside_m = abs((py - y) * hx - (px - x) * hy)
+                if (
+                    along_m < 0.5 * record.length_m + _BODY_M
+                    and aside_m < 0.5 * record.width_m + _BODY_M
+                ):
+                    return True
+        return False
 
     def grounded(self, spec: ScenarioSpec, site: Site) -> Iterator[GroundedAgent]:
         """Yield the persons of a site as they enter the run."""
@@ -161,6 +215,7 @@ class PersonPlacer:
             agent, path = seat.agent, seat.path
             record = self._types[agent.type.value]
             x, y, hx, hy = path.position_at(seat.arc_m)
+            x, y = x - seat.lateral_m * hy, y + seat.lateral_m * hx
             stays = not _goes(spec, agent)
             release = person_release(spec, agent)
             arrival = self._arrival_m(spec, site, seat)
@@ -183,6 +238,7 @@ class PersonPlacer:
                 heading_x=hx,
                 heading_y=hy,
                 arrival_position_m=None if stays else arrival,
+                lateral_m=seat.lateral_m,
                 release=ReleaseOn.NEVER if stays else release.on,
                 release_uav=release.uav,
                 release_mission=release.mission,
@@ -271,14 +327,21 @@ class PersonPlacer:
         self, spec: ScenarioSpec, agent: GroundAgent, site: Site, number: int
     ) -> _Spot | str | None:
         """Return the spot that a placement to a vehicle gives, None where there is no such."""
-        for placement in agent.placements:
+        for placement in (*agent.placements, *by_vehicles(spec, agent)):
             seat = site.seat(placement.of or '')
             if seat is None or placement.relation not in _ALONG:
                 continue
             stated = placement.distance_m
+            told = stated is not None and stated.provenance is Provenance.EXPLICIT
+            if told and stated is not None and placement.relation is Relation.NEAR:
+                aimed_m = max(0.0, stated.inside(_INSIDE_M))
+                return self._so_near(seat, aimed_m) or 'sidewalk'
             sign = _ALONG[placement.relation]
             away_m = sign * (self._near_m(seat) if stated is None else stated.value)
-            return self._along(seat, away_m, 0) or 'sidewalk'
+            if isinstance(seat, SeatedPerson) and sign == 0.0:
+                return self._abreast_of(seat, placement.relation)
+            left = placement.relation is Relation.LEFT
+            return self._along(seat, away_m, 0, left=left) or 'sidewalk'
         if agent.placements or crosses(spec, agent):
             return None
         for person, other, within_m in met_persons(spec):
@@ -287,6 +350,16 @@ class PersonPlacer:
                 room_m = encounter_room_m(own_speed_mps(seat.agent))
                 return self._along(seat, within_m + room_m, number) or 'sidewalk'
         return None
+
+    def _abreast_of(self, seat: SeatedPerson, relation: Relation) -> _Spot:
+        """Return the spot beside a person, in the same walk."""
+        side_m = _ABREAST_M if relation is not Relation.RIGHT else -_ABREAST_M
+        width_m = self._map.network.lane(seat.path.lane_id).width_m
+        lateral_m = seat.lateral_m + side_m
+        free = relation not in (Relation.LEFT, Relation.RIGHT)
+        if free and abs(lateral_m) > 0.5 * width_m - _KERB_M:
+            lateral_m = seat.lateral_m - side_m
+        return _Spot(seat.path, seat.arc_m, lateral_m)
 
     def _near_m(self, seat: SeatedAgent | SeatedPerson) -> float:
         """Return how far from another agent somebody is of whom nobody says it (m).
@@ -299,13 +372,37 @@ class PersonPlacer:
             return DEFAULT_GAP_M
         return self._types[seat.agent.type.value].length_m / 2.0 + _STANDS_BEHIND_M
 
-    def _along(self, seat: SeatedAgent | SeatedPerson, away_m: float, number: int) -> _Spot | None:
-        """Return the sidewalk abreast of a point on the way of a vehicle."""
+    def _so_near(self, seat: SeatedAgent | SeatedPerson, stated_m: float) -> _Spot | None:
+        """Return the spot on the sidewalk that is so far from another one, ahead of it."""
+        x, y, _, _ = seat.path.position_at(seat.arc_m)
+        best: tuple[float, _Spot] | None = None
+        for step in range(round(stated_m / _STEP_M) + 1):
+            spot = self._along(seat, stated_m - step * _STEP_M, 0)
+            if spot is not None:
+                here = spot.path.position_at(spot.arc_m)
+                off_m = abs(norm2(here[0] - x, here[1] - y) - stated_m)
+                if best is None or off_m < best[0]:
+                    best = off_m, spot
+        return None if best is None else best[1]
+
+    def _along(
+        self,
+        seat: SeatedAgent | SeatedPerson,
+        away_m: float,
+        number: int,
+        *,
+        left: bool = False,
+    ) -> _Spot | None:
+        """Return the sidewalk abreast of a point on somebody's way: right of it, or `left`."""
         arc_m = seat.arc_m + away_m + _NEXT_M * number
         if not 0.0 <= arc_m <= seat.path.length_m:
             return None
         x, y, _, _ = seat.path.position_at(arc_m)
-        edge = next((e for e in seat.path.edge_ids if self._abreast(e, (x, y)) is not None), None)
+        edges = seat.path.edge_ids
+        if left:
+            across = (self._map.network.opposite_edge(e) for e in edges if not e.startswith(':'))
+            edges = tuple(e for e in across if e is not None)
+        edge = next((e for e in edges if self._abreast(e, (x, y)) is not None), None)
         if edge is None:
             return None
         spot = self._abreast(edge, (x, y))
@@ -328,7 +425,14 @@ class PersonPlacer:
         x, y, _, _ = site.origin()
         names = [p.of for p in agent.placements] + [b.target for b in agent.behaviors]
         names += [awaited.place for awaited in awaited_at(spec) if awaited.agent == agent.id]
+        stated = {
+            p.of: max(0.0, p.distance_m.inside(_INSIDE_M))
+            for p in agent.placements
+            if p.distance_m is not None and p.distance_m.provenance is Provenance.EXPLICIT
+        }
         for name in names:
+            if name is not None and name in stated and has_point(name):
+                return self._at_distance(self._places.itself(name, (x, y)), stated[name], number)
             if name == Place.CROSSWALK:
                 crossing = self._places.crossing_near((x, y))
                 path = None if crossing is None else kerb_to_kerb(self._map.network, crossing)
@@ -345,6 +449,30 @@ class PersonPlacer:
             return self._along(front, DEFAULT_GAP_M, number)
         return self._nearest((x, y), number)
 
+    def _at_distance(self, point: tuple[float, float], away_m: float, number: int) -> _Spot | None:
+        """Return the place on a sidewalk that is so far from a point, the next one beside it."""
+        best: tuple[float, _Spot] | None = None
+        for lane in self._map.network.sidewalks:
+            x0, y0 = lane.polyline[0]
+            if norm2(x0 - point[0], y0 - point[1]) > away_m + lane.arc_length_m + 1.0:
+                continue
+            path = walk_along(self._map.network, (lane.edge_id,))
+            if path is None or path.lane_id != lane.id:
+                continue
+            count = int(max(0.0, lane.arc_length_m - 2.0 * _KERB_M) / _STEP_M) + 1
+            for k in range(count):
+                arc_m = _KERB_M + k * _STEP_M
+                here = lane.line.at(arc_m)
+                off_m = abs(norm2(here[0] - point[0], here[1] - point[1]) - away_m)
+                if best is None or off_m < best[0] - 1e-6:
+                    best = off_m, _Spot(path, arc_m)
+        if best is None or best[0] > _STEP_M:
+            return None
+        spot = best[1]
+        lane = self._map.network.lane(spot.path.lane_id)
+        most_m = lane.arc_length_m - _KERB_M
+        return _Spot(spot.path, min(most_m, spot.arc_m + _NEXT_M * number))
+
     def _nearest(self, point: tuple[float, float], number: int) -> _Spot | None:
         """Return the place on a sidewalk that is nearest to a point."""
         lane_id, _, away_m = self._map.network.nearest_lane(*point, 'pedestrian')
@@ -360,7 +488,7 @@ class PersonPlacer:
         """Return a walk that goes on along the street for a way (m)."""
         edges = self._finder.straight_route(spot.path.edge_ids[0], spot.arc_m + way_m)
         path = walk_along(self._map.network, edges) if edges else None
-        return 'sidewalk' if path is None else _Spot(path, spot.arc_m)
+        return 'sidewalk' if path is None else _Spot(path, spot.arc_m, spot.lateral_m)
 
 
 def _goes(spec: ScenarioSpec, agent: GroundAgent) -> bool:

@@ -35,6 +35,9 @@ ROADS = frozenset({Place.MAIN_ROAD, Place.ROADSIDE})
 # Places that the anchor of a scenario decides: the nearest one is meant.
 POINTS = (Place.INTERSECTION, Place.CROSSWALK)
 
+# A landmark farther than this from the street that leads to it is come to on that street (m).
+_OFF_STREET_M = 50.0
+
 # Streets cross where at least this many ways lead on; the end of a street is no intersection.
 _CROSSING_WAYS = 3
 
@@ -183,16 +186,20 @@ class MapPlaces:
 
 
 def approach_point(map_model: MapModel, name: str) -> Point2:
-    """Return where one is at a landmark on the ground: itself, or the street before its building.
+    """Return where one is at a landmark on the ground: itself, or the street that leads to it.
+
+    That is so where it is a building, or so wide (a park) that no street comes near its middle.
 
     Raises:
         MapError: The map has no such landmark.
     """
     mark = map_model.landmark(name)
+    x, y, _, _ = map_model.network.position_on_lane(mark.approach_lane_id, mark.approach_pos_m)
+    if norm2(x - mark.x_m, y - mark.y_m) > _OFF_STREET_M:
+        return x, y
     point = shapely.Point(mark.x_m, mark.y_m)
     around = (b for b in map_model.buildings if _reaches(b.ring, mark.x_m, mark.y_m))
     if any(shapely.Polygon(b.ring).contains(point) for b in around):
-        x, y, _, _ = map_model.network.position_on_lane(mark.approach_lane_id, mark.approach_pos_m)
         return x, y
     return mark.x_m, mark.y_m
 

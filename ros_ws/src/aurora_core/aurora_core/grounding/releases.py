@@ -18,6 +18,7 @@ from aurora_core.spec.scenario import (
     AgentAction,
     ArrivalTrigger,
     DistanceTrigger,
+    EventDoneTrigger,
     GroundAgent,
     Link,
     ScenarioSpec,
@@ -69,7 +70,24 @@ def person_release(spec: ScenarioSpec, agent: GroundAgent) -> Release:
         if person == agent.id and not any(t.who == person for t in _arriving(spec)):
             within_m = _yields_within_m(spec, vehicle, person)
             return Release(on=ReleaseOn.NEARED, agent=vehicle, within_m=within_m)
+    if _told_in_time(spec, agent.id):
+        return Release()
     return _watched(spec, agent.id)
+
+
+def _told_in_time(spec: ScenarioSpec, name: str) -> bool:
+    """Tell whether something happens to somebody at a stated time, or by a chain from one."""
+    timed = {e.id for e in spec.events if isinstance(e.trigger, TimeTrigger)}
+    for _ in spec.events:
+        timed |= {
+            e.id
+            for e in spec.events
+            if isinstance(e.trigger, EventDoneTrigger) and e.trigger.event in timed
+        }
+    messages = [e.action for e in spec.events if e.id in timed]
+    heard = {m.receiver for m in messages if isinstance(m, SendMessage)}
+    acts = [e for e in spec.events if getattr(e.action, 'agent', None) == name]
+    return any(e.id in timed for e in acts) or (name in heard and bool(acts))
 
 
 def _watched(spec: ScenarioSpec, agent: str) -> Release:

@@ -6,14 +6,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import lru_cache
+from heapq import heappop, heappush
 from operator import itemgetter
 
 import numpy as np
 
+from aurora_core.geometry.kernel import norm2
 from aurora_core.knowledge.road_network import RoadNetwork
 
 # Finders that are kept: of the classes and speeds that are asked for on the maps in use.
 _FINDERS = 32
+
+# Cosine of 75 degrees: a turn that is asked for has at least 60, and lanes are not exact.
+_SHARP_COSINE = 0.26
 
 _ORDER = {'s': 0, 'R': 1, 'L': 2, 'r': 3, 'l': 4, 't': 9}
 
@@ -57,9 +62,58 @@ class RouteFinder:
         if start_edge not in self._endless:
             return ()
         for edge in self._following(start_edge):
-            if self._directions(start_edge).get(edge) == _ORDER[side]:
+            turns = self._directions(start_edge).get(edge) == _ORDER[side]
+            if turns and self._is_sharp(start_edge, edge):
                 onward = self.straight_route(edge, length_m)
                 return (start_edge, *onward) if onward else ()
+        return ()
+
+    def _is_sharp(self, edge_id: str, following: str) -> bool:
+        """Tell whether one edge turns off from another so that nobody takes it for a bend."""
+        before = self._network.lane(self._network.edge(edge_id).lane_ids[-1]).polyline
+        after = self._network.lane(self._network.edge(following).lane_ids[-1]).polyline
+        (ax, ay), (bx, by), (cx, cy), (dx, dy) = before[-2], before[-1], after[0], after[1]
+        cosine = (bx - ax) * (dx - cx) + (by - ay) * (dy - cy)
+        return cosine <= _SHARP_COSINE * norm2(bx - ax, by - ay) * norm2(dx - cx, dy - cy)
+
+    def leading_route(
+        self, start_edge: str, length_m: float, goals: Sequence[frozenset[str]], way_m: float
+    ) -> tuple[str, ...]:
+        """Return a route of at least `length_m` that comes through places, then goes straight on.
+
+        Args:
+            start_edge: First edge.
+            length_m: Least length.
+            goals: Edges of each place, in the order in which one comes there.
+            way_m: Longest way from one to the next.
+
+        Returns:
+            Empty where no way is that short.
+        """
+        if start_edge not in self._endless:
+            return ()
+        route: tuple[str, ...] = (start_edge,)
+        for goal in goals:
+            way = self._shortest_way(route[-1], goal, way_m)
+            if not way:
+                return ()
+            route += way[1:]
+        onward = self.straight_route(route[-1], length_m)
+        return (*route, *onward[1:]) if onward else ()
+
+    def _shortest_way(self, start: str, goal: frozenset[str], way_m: float) -> tuple[str, ...]:
+        """Return the shortest way from an edge to one of several, both included."""
+        queue: list[tuple[float, tuple[str, ...]]] = [(0.0, (start,))]
+        done: set[str] = set()
+        while queue:
+            length_m, way = heappop(queue)
+            if way[-1] in goal:
+                return way
+            if way[-1] in done or length_m > way_m:
+                continue
+            done.add(way[-1])
+            for edge in self._following(way[-1]):
+                heappush(queue, (length_m + self._lengths_m[edge], (*way, edge)))
         return ()
 
     def wandering_route(

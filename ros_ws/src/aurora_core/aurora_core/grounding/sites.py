@@ -16,9 +16,10 @@ import numpy.typing as npt
 
 from aurora_core.errors import MapError
 from aurora_core.geometry.kernel import norm2
-from aurora_core.grounding.convoy import BeforePlace, ConvoyMember
-from aurora_core.grounding.places import MapPlaces, nearest_to
+from aurora_core.grounding.convoy import ConvoyMember
+from aurora_core.grounding.places import MapPlaces, has_point, nearest_to
 from aurora_core.grounding.routes import route_finder
+from aurora_core.grounding.ties import BeforePlace
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.map_records import SpawnTable, may_stand
@@ -44,6 +45,20 @@ _ASIDE_M = 8.0
 # Clear road in front of the first and behind the last bumper at t = 0.
 _END_GAP_M = 2.0
 
+# Where no street leads straight on to a place, ways are so long at most (m).
+LONGEST_WAY_M = 900.0
+
+# Who lets others pass, and they, go the same way for so long (m).
+_PASSING_M = 150.0
+
+# Free space between the border of its lane and the flank of a parked vehicle (m).
+KERB_CLEARANCE_M = 0.3
+
+# Who is in a lane beside another one is at least so far from its middle (m), looked for so far
+# along it.
+_BESIDE_M = 1.5
+_NEXT_LANE_M = 20.0
+
 # A limit of 13.89 m/s is meant where 50 km/h are asked (m/s).
 _LIMIT_SLACK_MPS = 0.05
 
@@ -66,11 +81,12 @@ class SeatedAgent:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SeatedPerson:
-    """A person at its place: on the walk `path` at `arc_m`."""
+    """A person at its place: on the walk `path` at `arc_m`, so far left of its middle."""
 
     agent: GroundAgent
     path: WalkPath
     arc_m: float
+    lateral_m: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -198,6 +214,7 @@ def sites(
     *,
     several_lanes: bool = False,
     spawns: SpawnTable | None = None,
+    goals: Sequence[frozenset[str]] = (),
 ) -> Iterator[Site]:
     """Yield every site of the map in a fixed order.
 
@@ -211,6 +228,7 @@ def sites(
         least_limit_mps: Streets have this speed limit, or the highest one that the map has.
         several_lanes: Only on streets with several lanes for cars per direction.
         spawns: Where vehicle types were measured to stand.
+        goals: Edges of the places that the routes are to come through, in this order.
     """
     centres: Sequence[tuple[float, float]] = ()
     if before is not None:
@@ -241,22 +259,27 @@ def sites(
         # The right lane is where one drives; another only when a member has to be right of it.
         if has_right and not shifted:
             continue
-        if side:
+        if goals:
+            edges = finder.leading_route(lane.edge_id, route_length_m, goals, LONGEST_WAY_M)
+        elif side:
             edges = finder.turning_route(lane.edge_id, route_length_m, side)
         else:
             edges = finder.straight_route(lane.edge_id, route_length_m)
         if not edges:
             continue
-        paths: dict[tuple[str, int], RoutePath | None] = {}
+        # Who lets others pass stays in its lane: it goes straight on where they turn.
+        aside = finder.straight_route(lane.edge_id, route_length_m) if goals else ()
+        paths: dict[tuple[str, int, bool], RoutePath | None] = {}
         arc_m = back_m + _END_GAP_M
         end_m = lane.arc_length_m + max(0.0, back_m)
         while arc_m < end_m:
-            site = _site(map_model, convoy, types, edges, lane.id, arc_m, paths)
+            site = _site(map_model, convoy, types, (edges, aside), lane.id, arc_m, paths)
             if site is not None and before is not None:
                 exact_m = _exact_arc_m(site, before, centres, spacing_m)
                 site = None
                 if exact_m is not None:
-                    site = _site(map_model, convoy, types, edges, lane.id, exact_m, paths)
+                    ways = (edges, aside)
+                    site = _site(map_model, convoy, types, ways, lane.id, exact_m, paths)
             if site is not None and _stands(site, spawns):
                 yield site
             arc_m += spacing_m
@@ -317,33 +340,43 @@ def _site(
     map_model: MapModel,
     convoy: tuple[ConvoyMember, ...],
     types: Mapping[str, AgentTypeRecord],
-    edges: tuple[str, ...],
+    ways: tuple[tuple[str, ...], tuple[str, ...]],
     lane_id: str,
     origin_arc_m: float,
-    paths: dict[tuple[str, int], RoutePath | None],
+    paths: dict[tuple[str, int, bool], RoutePath | None],
 ) -> Site | None:
     network = map_model.network
     index = network.lane(lane_id).index
+    edges, aside = ways
     lane_ids = network.edge(edges[0]).lane_ids
 
-    def path_of(vclass: str, shift: int) -> RoutePath | None:
+    def path_of(vclass: str, shift: int, *, lets_pass: bool = False) -> RoutePath | None:
         # The paths of a lane serve all positions on it: `paths` outlives this call.
-        if (vclass, shift) not in paths:
-            paths[vclass, shift] = None
+        key = (vclass, shift, lets_pass)
+        if key not in paths:
+            paths[key] = None
             if 0 <= index + shift < len(lane_ids):
                 with contextlib.suppress(MapError):
-                    paths[vclass, shift] = network.route_path(
-                        edges, vclass, start_lane_id=lane_ids[index + shift]
+                    paths[key] = network.route_path(
+                        aside if lets_pass else edges,
+                        vclass,
+                        start_lane_id=lane_ids[index + shift],
                     )
-        return paths[vclass, shift]
+        return paths[key]
 
     seated = []
     for member in convoy:
         record = types[member.agent.type.value]
         path = path_of(record.vclass, member.lane_shift)
+        arc_m = origin_arc_m + member.offset_m
+        if aside and _lets_pass(member.agent):
+            own = path_of(record.vclass, member.lane_shift, lets_pass=True)
+            shared_m = _shared_m(network, edges, aside)
+            if shared_m < arc_m + _PASSING_M:
+                return None  # nobody could pass before they part
+            path = own
         if path is None:
             return None
-        arc_m = origin_arc_m + member.offset_m
         half_m = record.length_m / 2.0
         if arc_m - half_m < 0.0 or arc_m + half_m > path.length_m:
             return None
@@ -366,6 +399,8 @@ def _site(
     origin = path_of(types[convoy[0].agent.type.value].vclass if convoy else ANY_CLASS, 0)
     if origin is None or origin_arc_m > origin.length_m:
         return None
+    if any(s.member.lane_shift and not _is_aside(s, origin) for s in seated):
+        return None  # its lane has ended, or joined the other one, before it gets there
     rear = min((s.arc_m for s in seated), default=origin_arc_m)
     front = max((s.arc_m for s in seated), default=origin_arc_m)
     signals = [s[0] for s in origin.signals if s[0] >= rear]
@@ -376,6 +411,26 @@ def _site(
         free_run_m=(signals[0] if signals else origin.length_m) - front,
         steady=not any(s.path.has_lane_change for s in seated),
     )
+
+
+def _shared_m(network: RoadNetwork, one: tuple[str, ...], other: tuple[str, ...]) -> float:
+    """Return how long two routes are the same from their beginning on, metres of their edges."""
+    pairs = itertools.takewhile(lambda pair: pair[0] == pair[1], zip(one, other, strict=False))
+    return sum(network.edge(edge).length_m for edge, _ in pairs)
+
+
+def _is_aside(seat: SeatedAgent, origin: RoutePath) -> bool:
+    """Tell whether a member is beside the way of the convoy's origin, not on it."""
+    x, y, _, _ = seat.path.position_at(seat.arc_m)
+    _, aside_m = origin.line.project(x, y, near_s=seat.arc_m, window_m=_NEXT_LANE_M)
+    return abs(aside_m) > _BESIDE_M
+
+
+def _lets_pass(agent: GroundAgent) -> bool:
+    """Tell whether a vehicle lets others pass and goes to no place of its own."""
+    kinds = {b.kind for b in agent.behaviors}
+    to_places = any(has_point(b.target) for b in agent.behaviors)
+    return BehaviorKind.YIELD in kinds and not to_places
 
 
 def _overlap(seated: Sequence[SeatedAgent], types: Mapping[str, AgentTypeRecord]) -> bool:
@@ -392,6 +447,21 @@ def _overlap(seated: Sequence[SeatedAgent], types: Mapping[str, AgentTypeRecord]
         ):
             return True
     return False
+
+
+def parked_pose(
+    pose: tuple[float, float, float, float], lane: Lane, record: AgentTypeRecord
+) -> tuple[float, float, float, float]:
+    """Return where a vehicle is parked that would stand at a pose of a lane: right of it.
+
+    Args:
+        pose: x, y (m) and unit heading on the lane.
+        lane: The lane.
+        record: Size of the vehicle.
+    """
+    x, y, hx, hy = pose
+    aside_m = 0.5 * lane.width_m + 0.5 * record.width_m + KERB_CLEARANCE_M
+    return x + aside_m * hy, y - aside_m * hx, hx, hy
 
 
 def samples_along(

@@ -11,7 +11,7 @@ from math import copysign
 
 from aurora_core.spec.own_events import let_pass, own_events
 from aurora_core.spec.scenario import AgentAction, ScenarioSpec
-from aurora_core.spec.vocabulary import BehaviorKind, Relation
+from aurora_core.spec.vocabulary import BehaviorKind, Place, Relation
 
 # Two vehicles whose places are nearer than this stand in each other's way, and how far apart they
 # line up behind a third one: the last one still has to follow it (m, centre to centre).
@@ -32,6 +32,21 @@ class Tie:
     lane_shift: int
     free: bool = False
     guess: bool = False
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BeforePlace:
+    """A member whose place along its route an intersection or a crosswalk decides.
+
+    Attributes:
+        agent: Id.
+        place: What it stands before.
+        distance_m: Along its route from its reference point to the middle of that.
+    """
+
+    agent: str
+    place: Place
+    distance_m: float
 
 
 def agreed(ties: list[Tie]) -> list[Tie]:

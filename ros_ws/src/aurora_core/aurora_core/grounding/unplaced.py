@@ -19,9 +19,6 @@ from aurora_core.spec.scenario import ScenarioSpec
 # Yields the sites of vehicles that hold these places towards each other.
 Sites = Callable[[tuple[ConvoyMember, ...]], Iterator[Site]]
 
-# A place is beside a street when that is nearer (m).
-_FAR_M = 10.0
-
 # What a site lacked, in words; `{who}` are those whom it is about.
 _LACKS = {
     'road': 'beside the street of the others there is no second one for those at places of '
@@ -107,15 +104,9 @@ def _lost(spec: ScenarioSpec, name: str, goals: GoalFinder) -> str:
     kind = next(a.type.value for a in spec.agents if a.id == name)
     if not places:
         return f'no street of the map is one that {name} ({kind}) may stand on and drive along'
-    words = []
-    for place in places:
-        away_m = goals.nearest_street_m(spec, name, place)
-        far = away_m is not None and away_m > _FAR_M
-        near = f', whose nearest street is {away_m:.0f} m away,' if far else ''
-        words.append(f'{_plain(place)}{near}')
     return (
-        f'no street leads {name} ({kind}) to {" and ".join(words)} in one way; another place, or '
-        'one place less, would fit'
+        f'no street leads {name} ({kind}) to {_plain(" and ".join(places))} in one way; another '
+        'place, or one place less, would fit'
     )
 
 

@@ -64,6 +64,8 @@ class GroundedAgent(Document):
         parked: Stands beside the traffic, right of its lane.
         stop_lane_id: Where it comes to a stop by itself, '' when it does not.
         stop_position_m: Arc length there of its reference point.
+        runs_red: It drives on at a red light where nobody is in its way.
+        lateral_m: Persons: so far left of the middle of the sidewalk.
         gentle_mps2: It accelerates no harder, so that who keeps a distance behind it can (None:
             as its type does).
     """
@@ -99,6 +101,8 @@ class GroundedAgent(Document):
     stop_lane_id: str = omitted('')
     stop_position_m: FiniteFloat = omitted(0.0)
     gentle_mps2: FiniteFloat | None = omitted(None)
+    runs_red: bool = omitted(False)
+    lateral_m: FiniteFloat = omitted(0.0)
     release_agent: str = omitted('')
     release_within_m: FiniteFloat = omitted(0.0)
 

@@ -43,6 +43,8 @@ class GroundAgentLoad:
         acceleration_mps2: It accelerates no harder; None = as its type does.
         parked: Stands beside the traffic lanes and never moves: right of `lane_id` where its class
             may drive on that lane, in the middle of `lane_id` elsewhere (parking lane, sidewalk).
+        runs_red: Drives on at a red light where nobody is in its way.
+        lateral_m: Persons: so far left of the middle of the sidewalk.
     """
 
     agent_id: str
@@ -59,6 +61,8 @@ class GroundAgentLoad:
     lane_change_mode: int | None = None
     acceleration_mps2: float | None = None
     parked: bool = False
+    runs_red: bool = False
+    lateral_m: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

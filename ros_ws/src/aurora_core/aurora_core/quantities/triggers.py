@@ -79,9 +79,13 @@ NEEDS_CHANGE = frozenset({'distance_above', 'speed_below', 'occluded'})
 
 
 def _is_near_the_sender(event: Event) -> bool:
-    """Tell whether a message says that somebody has come near its sender."""
+    """Tell whether a message says that somebody has come near its sender, or into its sight."""
     action, trigger = event.action, event.trigger
-    if not isinstance(trigger, DistanceTrigger) or not isinstance(action, SendMessage):
+    if not isinstance(action, SendMessage):
+        return False
+    if isinstance(trigger, VisibilityTrigger):
+        return trigger.on == 'visible' and action.sender == trigger.observer
+    if not isinstance(trigger, DistanceTrigger):
         return False
     return trigger.on == 'distance_below' and action.sender in (trigger.a, trigger.b)
 
@@ -151,9 +155,9 @@ class EventTimes:
     def possible_tick(self, event_id: str, start: int) -> int | None:
         """Return the first tick from `start` on at which an action is possible.
 
-        Who changes lane has to be on a street with another lane. What comes near itself a UAV
-        reports once it is up, or has captured what it tracks: it may be near before. All else is
-        possible anywhere. None where it never is.
+        Who changes lane has to be on a street with another lane. What comes near itself, or into
+        its sight, a UAV reports once it is up, or has captured what it tracks: it may be so
+        before. All else is possible anywhere. None where it never is.
         """
         event, rules = self.event(event_id), self.rules.actions
         if event is not None and _is_near_the_sender(event):

@@ -13,7 +13,7 @@ it; a bag without one was never closed.
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
@@ -41,6 +41,8 @@ from aurora_core.trace.records import ScenarioEventKind
 # Simulated time after which what was written leaves this process, and is on the disk.
 FLUSH_NS = 500_000_000
 SYNC_NS = 1_000_000_000
+# Topic, type name, encoding, simulated time of its tick (ns).
+Message = tuple[str, str, bytes, int]
 # Bytes of messages after which they do so anyway.
 _PENDING_BYTES = 1 << 20
 
@@ -144,21 +146,37 @@ class BagWriter:
         Raises:
             BagError: The disk is full or the file cannot be written, or the bag is closed.
         """
-        self._refuse_closed(f'takes no message on {topic}')
-        channel = self._channels.get(topic) or self._define(topic, type_name)
-        self._pending.append(Entry(channel.number, channel.count, time_ns, cdr))
-        self._pending_bytes += len(cdr)
-        channel.count += 1
-        if self._first_ns is None or time_ns < self._first_ns:
-            self._first_ns = time_ns
-        if time_ns > self._last_ns:
-            self._last_ns = time_ns
-        if time_ns - self._flushed_ns >= FLUSH_NS or self._pending_bytes > _PENDING_BYTES:
-            self._guard(lambda: self._bring(to_disk=time_ns - self._synced_ns >= SYNC_NS))
-        if topic == EVENTS and self._begins_phase(cdr):
+        self.write_all(((topic, type_name, cdr, time_ns),))
+
+    def write_all(self, messages: Iterable[Message]) -> None:
+        """Append messages one after the other; they leave this process together or not at all.
+
+        Raises:
+            BagError: As `write`.
+        """
+        pending, channels = self._pending, self._channels
+        first_ns, last_ns, size = self._first_ns, self._last_ns, self._pending_bytes
+        phase_ns: int | None = None
+        for topic, type_name, cdr, time_ns in messages:
+            if self._closed:
+                self._refuse_closed(f'takes no message on {topic}')
+            channel = channels.get(topic) or self._define(topic, type_name)
+            pending.append(Entry(channel.number, channel.count, time_ns, cdr))
+            channel.count += 1
+            size += len(cdr)
+            if first_ns is None or time_ns < first_ns:
+                first_ns = time_ns
+            if time_ns > last_ns:
+                last_ns = time_ns
+            if topic == EVENTS and self._begins_phase(cdr):
+                phase_ns = time_ns
+        self._first_ns, self._last_ns, self._pending_bytes = first_ns, last_ns, size
+        if last_ns - self._flushed_ns >= FLUSH_NS or size > _PENDING_BYTES:
+            self._guard(lambda: self._bring(to_disk=last_ns - self._synced_ns >= SYNC_NS))
+        if phase_ns is not None:
             # With the next tick: what belongs to this one is still to come.
-            self._flushed_ns = min(self._flushed_ns, time_ns + 1 - FLUSH_NS)
-            self._synced_ns = min(self._synced_ns, time_ns + 1 - SYNC_NS)
+            self._flushed_ns = min(self._flushed_ns, phase_ns + 1 - FLUSH_NS)
+            self._synced_ns = min(self._synced_ns, phase_ns + 1 - SYNC_NS)
 
     def define(self, topic: str, schema: Schema, encoding: str = 'cdr') -> None:
         """Define a topic by a foreign schema; without it the topic gets ours.

@@ -9,7 +9,8 @@ from typing import Any
 
 import pytest
 
-from aurora_core.grounding.convoy import DETACHED_M, BeforePlace, SceneSplit, split_scene
+from aurora_core.grounding.convoy import DETACHED_M, SceneSplit, split_scene
+from aurora_core.grounding.ties import BeforePlace
 from aurora_core.knowledge.limits import Tolerances
 from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.scenario import (

@@ -373,10 +373,6 @@ def test_what_has_no_place_fails_with_its_reason(
     ('prompt', 'told'),
     [
         (
-            'A bus is parked at Meadow Park.',
-            ('bus1', 'Meadow Park', 'nearest street is', 'another place'),
-        ),
-        (
             'A truck is to the left of the ego car and waits at the intersection. The ego car '
             'drives to Mercy Hospital.',
             ('truck1', 'ego', 'would'),

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import sqrt
+from math import hypot, sqrt
 
 import pytest
 import shapely
@@ -52,25 +52,31 @@ def test_one_comes_to_a_landmark_outside_of_every_building(map_of: Maps) -> None
         approach_point(the_map, 'Nowhere')
 
 
-@pytest.mark.parametrize(
-    ('prompt', 'place'),
-    [
-        ('A drone hovers 40 m above the intersection for 20 seconds.', 'intersection'),
-        ('A drone hovers over the Meadow Park at 90 m for 20 seconds.', 'landmark:Meadow Park'),
-    ],
-)
 def test_the_flight_and_the_world_mean_the_same_place(
-    prompt: str,
-    place: str,
     read_prompt: Callable[..., ScenarioSpec],
     ground: Callable[..., GroundedScenario],
     map_of: Maps,
 ) -> None:
-    spec = read_prompt(prompt)
+    spec = read_prompt('A drone hovers 40 m above the intersection for 20 seconds.')
     found = ground(spec)
     point = found.uavs[0].missions[0].hover_point
     assert point is not None
-    assert place_positions(spec, map_of('downtown'), found) == {place: (point[0], point[1])}
+    places = place_positions(spec, map_of('downtown'), found)
+    assert places == {'intersection': (point[0], point[1])}
+
+
+def test_a_park_is_flown_over_at_its_middle_and_come_to_on_the_street_that_leads_there(
+    read_prompt: Callable[..., ScenarioSpec],
+    ground: Callable[..., GroundedScenario],
+    map_of: Maps,
+) -> None:
+    park = map_of('downtown').landmark('Meadow Park')
+    spec = read_prompt('A drone hovers over the Meadow Park at 90 m for 20 seconds.')
+    assert ground(spec).uavs[0].missions[0].hover_point == (park.x_m, park.y_m, 90.0)
+    parked = ground(read_prompt('A bus is parked at Meadow Park.')).agents[0]
+    x, y = approach_point(map_of('downtown'), 'Meadow Park')
+    assert hypot(parked.x_m - x, parked.y_m - y) < 20.0
+    assert hypot(x - park.x_m, y - park.y_m) > 100.0
 
 
 @pytest.mark.parametrize('doing', ['hovers over', 'orbits'])

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from itertools import pairwise
+from math import atan2, degrees
 
 import pytest
 
@@ -106,3 +107,29 @@ def test_straight_on_is_preferred_and_turning_round_is_the_last_resort(
                 assert 's' in taken, (a, b)
             if onward - {'t'}:
                 assert taken != {'t'}, (a, b)
+
+
+def test_a_leading_route_comes_through_its_places_in_their_order(
+    map_of: Callable[[str], MapModel],
+) -> None:
+    network = map_of('downtown').network
+    finder = RouteFinder(network, 'passenger')
+    start, first, then = 'meridian_parkway_2_eb', 'cannery_street_8_eb', 'juniper_street_5_wb'
+    route = finder.leading_route(start, 3000.0, [frozenset({first}), frozenset({then})], 2000.0)
+    assert route[0] == start
+    assert route.index(first) < route.index(then)
+    assert all(b in network.successors(a, 'passenger') for a, b in pairwise(route))
+    assert finder.leading_route(start, 3000.0, [frozenset({then})], 50.0) == ()
+
+
+@pytest.mark.parametrize('side', ['l', 'r'])
+def test_a_turn_that_is_asked_for_is_no_bend(side: str, map_of: Callable[[str], MapModel]) -> None:
+    network = map_of('downtown').network
+    finder = RouteFinder(network, 'passenger')
+    turns = [r for e in network.edges if (r := finder.turning_route(e, 500.0, side))]
+    assert turns
+    for before, after, *_ in turns:
+        (ax, ay), (bx, by) = network.lane(network.edge(before).lane_ids[-1]).polyline[-2:]
+        (cx, cy), (dx, dy) = network.lane(network.edge(after).lane_ids[-1]).polyline[:2]
+        turned = atan2(dy - cy, dx - cx) - atan2(by - ay, bx - ax)
+        assert abs((degrees(turned) + 180.0) % 360.0 - 180.0) >= 74.0

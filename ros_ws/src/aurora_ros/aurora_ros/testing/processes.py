@@ -12,11 +12,32 @@ import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Protocol
 
 from aurora_ros.main import READY_FILE_VARIABLE
 
 READY_LIMIT_S = 30.0
 END_LIMIT_S = 10.0
+
+
+class Process(Protocol):
+    """What is asked of a process here; `subprocess.Popen` is one."""
+
+    @property
+    def pid(self) -> int:
+        """Process id."""
+
+    def poll(self) -> int | None:
+        """Return the exit code, None while it runs."""
+
+    def wait(self, timeout: float | None = None) -> int:
+        """Wait for the end and return the exit code; subprocess.TimeoutExpired: it goes on."""
+
+    def send_signal(self, sig: int) -> None:
+        """Send a signal to a process that runs."""
+
+    def kill(self) -> None:
+        """End it."""
 
 
 class NodeProcess:
@@ -46,11 +67,15 @@ class NodeProcess:
             'ROS_LOG_DIR': str(folder / 'ros_log'),
             READY_FILE_VARIABLE: str(self.ready_file),
         }
-        code = f'import sys\nfrom {module} import main\nsys.exit(main())'
+        self._process = self._launch(arguments, {**os.environ, **own, **(environment or {})})
+
+    def _launch(self, arguments: Sequence[str], environment: dict[str, str]) -> Process:
+        """Start the process, its output going to the log."""
+        code = f'import sys\nfrom {self.module} import main\nsys.exit(main())'
         with self._log.open('wb') as log:
-            self._process = subprocess.Popen(
+            return subprocess.Popen(
                 [sys.executable, '-c', code, *arguments],
-                env={**os.environ, **own, **(environment or {})},
+                env=environment,
                 stdout=log,
                 stderr=subprocess.STDOUT,
                 start_new_session=True,

@@ -1,0 +1,70 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Who begins near whom where no place is stated, and persons and vehicles placed by each other."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from aurora_core.grounding.awaited import bound_to_places
+from aurora_core.grounding.pace import partings
+from aurora_core.spec.scenario import GroundAgent, Link, Placement, ScenarioSpec, SendMessage
+from aurora_core.spec.vocabulary import AgentType, Relation, Role
+
+# Who stands on sidewalks: persons, and roadside units, which never go.
+ON_SIDEWALKS = (AgentType.PEDESTRIAN, AgentType.RSU)
+
+# Where a person is to a vehicle that is placed by the person, which is put there in its stead.
+BY_PERSONS: dict[Relation, Relation] = {
+    Relation.AHEAD: Relation.BEHIND,
+    Relation.BEHIND: Relation.AHEAD,
+    Relation.LEFT: Relation.RIGHT,
+    Relation.BESIDE: Relation.BESIDE,
+    Relation.NEAR: Relation.NEAR,
+}
+
+
+def begins_near(spec: ScenarioSpec) -> Mapping[str, str]:
+    """Return who begins near whom: who is to get away from it, or tells it something by radio."""
+    parting = [sorted(pair) for pair in partings(spec)]
+    told: list[SendMessage | Link] = list(spec.links)
+    told += [e.action for e in spec.events if isinstance(e.action, SendMessage)]
+    pairs = [(pair[-1], pair[0]) for pair in parting] + [(t.sender, t.receiver) for t in told]
+    egos = {a.id for a in spec.agents if a.role is Role.EGO}
+    near: dict[str, str] = {}
+    by_id = {a.id: a for a in spec.agents}
+    for one, other in pairs:
+        if any(name in by_id and bound_to_places(spec, by_id[name]) for name in (one, other)):
+            continue
+        behind, front = (other, one) if one in egos else (one, other)
+        if behind != front and near.get(behind) != front:
+            near.setdefault(front, behind)
+    return near
+
+
+def in_order(persons: tuple[GroundAgent, ...]) -> list[GroundAgent]:
+    """Return persons so that whoever stands by another one comes after that one."""
+    names = {agent.id for agent in persons}
+    found: list[GroundAgent] = []
+    left = list(persons)
+    while left:
+        done = {agent.id for agent in found}
+        ready = [
+            agent
+            for agent in left
+            if not {p.of for p in agent.placements if p.of in names} - done - {agent.id}
+        ]
+        found += ready or left  # those who wait for each other come as they were listed
+        left = [agent for agent in left if agent not in found]
+    return found
+
+
+def by_vehicles(spec: ScenarioSpec, person: GroundAgent) -> Iterator[Placement]:
+    """Yield where a person is by the placements of vehicles that name it."""
+    for agent in spec.agents:
+        for placement in agent.placements:
+            if placement.of == person.id and agent.type not in ON_SIDEWALKS:
+                relation = BY_PERSONS.get(placement.relation)
+                if relation is not None:
+                    changed = {'relation': relation, 'of': agent.id}
+                    yield placement.model_copy(update=changed)
