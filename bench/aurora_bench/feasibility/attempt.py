@@ -76,7 +76,9 @@ class Hurried(Knowledge):
             known: What runs here are made with.
         """
         super().__init__(
-            limits=known.limits.model_copy(update={'horizon_inferred_min_s': 0.0}),
+            limits=known.limits.model_copy(
+                update={'horizon_inferred_min_s': known.limits.duration_min_s}
+            ),
             tolerances=known.tolerances,
             settings=known.settings,
             types=known.types,

@@ -9,6 +9,7 @@ import pytest
 from aurora_bench.feasibility.corrupt import corrupted
 from aurora_bench.feasibility.families import Case, family_cases, typed_cases
 from aurora_bench.feasibility.judge import judged
+from aurora_bench.feasibility.other_maps import rests_on_map
 from aurora_bench.feasibility.pushes import PUSHES, push_cases
 from aurora_cli.installed import installed
 
@@ -49,3 +50,11 @@ def test_the_typed_requests_are_on_both_sides_of_every_reason() -> None:
     refused = {c.because[0] for c in typed if c.must_be_refused}
     kept = {c.id.partition('-kept-')[0] for c in typed if not c.must_be_refused}
     assert refused == kept >= {'geofence', 'clearance', 'sensing_range', 'comm_range', 'count'}
+
+
+def test_what_needs_the_map_is_known_as_such() -> None:
+    """Proofs by zones and landmarks are held against other maps; a limit is one everywhere."""
+    asked = {'geofence-over-refused-1': True, 'sensing-elsewhere-refused-1': True}
+    for ident, expected in (asked | {'space-altitude-refused-1': False}).items():
+        result = judged(installed(), 'downtown', next(c for c in CASES if c.id == ident))
+        assert [rests_on_map(p) for p in result.certificates] == [expected], ident

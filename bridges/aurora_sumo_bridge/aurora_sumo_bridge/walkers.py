@@ -188,3 +188,40 @@ class Walker:
         if to_go_m <= self._reach_m():
             self._standing = True
             self._apply_speed()
+
+    def _reach_m(self) -> float:
+        return self._wanted_mps * self._dt_s + ARRIVAL_MARGIN_M
+
+    def _apply_speed(self) -> None:
+        speed_mps = 0.0 if self._standing else self._wanted_mps
+        libsumo.person.setSpeed(self._agent.agent_id, speed_mps)
+
+    def _left_of_middle_m(self, lane_id: str, lane_position_m: float) -> float:
+        position = libsumo.person.getPosition(self._agent.agent_id)
+        return self._network.shape(lane_id).left_offset_m(
+            (position[0], position[1]), self._network.arc_position_m(lane_id, lane_position_m)
+        )
+
+    def _goal(self) -> tuple[tuple[str, ...], float, bool]:
+        """Return edges, SUMO's arrival position and whether the person just stands."""
+        agent, network = self._agent, self._network
+        goal_lane = network.lane_for(agent.edges[-1], PEDESTRIAN)
+        length_m = network.arc_length_m(goal_lane)
+        single = len(agent.edges) == 1
+        arrival_arc_m = agent.arrival_position_m
+        if arrival_arc_m is None:
+            arrival_arc_m = agent.lane_position_m if single else 0.5 * length_m
+        if arrival_arc_m > length_m:
+            raise unplaceable(
+                agent,
+                f'arrival_position_m {arrival_arc_m:g}: lane {goal_lane} ends at {length_m:.2f} m',
+            )
+        arrival_m = network.sumo_position_m(goal_lane, arrival_arc_m)
+        at_goal = single and abs(arrival_m - self._position_m) <= self._reach_m()
+        if not agent.parked and not at_goal:
+            return agent.edges, arrival_m, False
+        # A walk that is never walked: without a stage SUMO would take the person away.
+        here_m = network.arc_length_m(self.lane_id)
+        margin_m = min(END_MARGIN_M, 0.25 * here_m)
+        far_arc_m = margin_m if agent.lane_position_m > 0.5 * here_m else here_m - margin_m
+        return agent.edges[:1], network.sumo_position_m(self.lane_id, far_arc_m), True

@@ -9,7 +9,7 @@ from pathlib import Path
 from aurora_cli.collector import no_collection
 from aurora_core.execution.plan import Execution
 from aurora_core.outcomes.agsg import Agsg
-from aurora_core.outcomes.feasibility import FeasibilityVerdict
+from aurora_core.outcomes.feasibility import CheckStage, FeasibilityVerdict
 from aurora_core.outcomes.grounding import GroundingOutcome
 from aurora_core.outcomes.parse import ParseOutcome
 from aurora_core.outcomes.repair import Attempt, Proposal, RepairPlan
@@ -28,6 +28,8 @@ class LocalStages:
 
     Args:
         known: What the stages work with.
+        without: Levels of the check that are left out, for a benchmark that asks what they are
+            worth; all else is as it is.
 
     Attributes:
         verified: The bag that the last verdict is about, as it was read back; None before.
@@ -35,8 +37,9 @@ class LocalStages:
         verified_bag: Where that bag lies.
     """
 
-    def __init__(self, known: Knowledge) -> None:
+    def __init__(self, known: Knowledge, without: frozenset[CheckStage] = frozenset()) -> None:
         self.known = known
+        self.without = without
         self.verified: BagContent | None = None
         self.verified_bag: Path | None = None
         self.judged: Judged | None = None
@@ -53,7 +56,7 @@ class LocalStages:
 
     def check(self, agsg: Agsg, request: RunRequest) -> FeasibilityVerdict:
         """Judge feasibility."""
-        return functions.check_stage(self.known, agsg)
+        return functions.check_stage(self.known, agsg, self.without)
 
     def execution(self, agsg: Agsg, request: RunRequest) -> Execution:
         """Return what is run: loads, roster, world and the executor."""

@@ -14,7 +14,9 @@ from aurora_cli.local_engine import LocalStages
 from aurora_core.agsg.build import build_agsg
 from aurora_core.errors import ExecutionError
 from aurora_core.outcomes.agsg import Agsg
+from aurora_core.outcomes.feasibility import CheckStage
 from aurora_core.pipeline.stages import RunControl, RunRequest
+from aurora_core.spec.scenario import StatedCondition
 from aurora_core.trace.bag_reader import read_bag
 from aurora_core.trace.definitions import message_definitions
 from aurora_core.trace.hashing import trace_sha256
@@ -58,6 +60,33 @@ def test_the_hash_is_that_of_the_bag(
     assert result.trace_sha256 == trace_sha256(content.trace, content.world)
     assert (result.outcome == 'cancelled') is (stop_after_s < 1000.0)
     assert gc.isenabled()
+
+
+@pytest.mark.parametrize('without', [(), (CheckStage.STATIC,), (CheckStage.PROOFS,)])
+def test_a_level_of_the_check_can_be_left_out_and_nothing_else(
+    without: tuple[CheckStage, ...],
+) -> None:
+    """The ablation B5 of the benchmark: the same engine, without static verification."""
+    prompt = 'A drone hovers over City Hall at 150 m.'
+    stages = LocalStages(installed(), without=frozenset(without))
+    request = RunRequest(prompt=prompt)
+    outcome = stages.parse(request)
+    assert outcome.agsg is not None
+    spec = outcome.agsg.spec
+    odd = StatedCondition.model_validate(
+        {
+            'id': 'c9',
+            'quantity': 'altitude',
+            'of': ('landmark:City Hall',),
+            'op': '<=',
+            'value': spec.missions[0].altitude_m,
+        }
+    )
+    faulty = spec.model_copy(update={'conditions': (*spec.conditions, odd)})
+    graph = build_agsg(faulty, map_digest=outcome.agsg.map_digest)
+    verdict = stages.check(graph, request)
+    assert bool(verdict.findings) is (CheckStage.STATIC not in without)
+    assert bool(verdict.certificates) is (CheckStage.PROOFS not in without)
 
 
 def test_a_run_that_breaks_has_recorded_every_tick_until_then(tmp_path: Path) -> None:

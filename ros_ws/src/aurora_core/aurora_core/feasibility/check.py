@@ -122,7 +122,7 @@ def _proven(
         return FeasibilityVerdict(result=Feasibility.INFEASIBLE, certificates=told)
     notes = (
         *(f'{c.sentence} But part of that clause was not read.' for c in doubtful),
-        *doubts(spec, map_model, limits, tolerances, uav),
+        *doubts(spec, map_model, limits, tolerances, uav, known={c.sentence for c in doubtful}),
     )
     notes = tuple(dict.fromkeys(notes))
     result = Feasibility.UNKNOWN if notes else Feasibility.FEASIBLE

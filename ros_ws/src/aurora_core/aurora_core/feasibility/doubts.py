@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from math import isfinite
 
 from aurora_core.feasibility.bounds import exclusive
@@ -26,6 +26,8 @@ def doubts(
     limits: Limits,
     tolerances: Tolerances,
     uav: UavRecord | None = None,
+    *,
+    known: Collection[str] = (),
 ) -> Iterator[str]:
     """Yield, in sentences, why a request may be impossible that nothing proves to be so.
 
@@ -35,6 +37,7 @@ def doubts(
         limits: Limits in force.
         tolerances: How far stated numbers may be missed.
         uav: What the multirotor was measured to do; None: that is not asked.
+        known: Sentences of what is told of already: it does not hang on the tolerances.
     """
     exact = tolerances.model_copy(
         update={'altitude_m': EXACT, 'standoff_m': EXACT, 'duration_s': EXACT}
@@ -46,7 +49,8 @@ def doubts(
         *check_geometry(spec, map_model, close, exact),
         *check_times(spec, limits, exact, map_model),
     )
-    yield from (f'{c.sentence} Only inside the tolerances it can be.' for c in nominal)
+    near = (c.sentence for c in nominal if c.sentence not in known)
+    yield from (f'{sentence} Only inside the tolerances it can be.' for sentence in near)
     for closed in check_scene(spec, own=True):
         yield f'{closed.sentence} Some of them may be the same.'
     yield from _fast_targets(spec, limits, uav)

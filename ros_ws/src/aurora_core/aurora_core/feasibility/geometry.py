@@ -20,7 +20,14 @@ from aurora_core.outcomes.feasibility import Certificate, Fact, Rule
 from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.reference import LANDMARK
-from aurora_core.spec.scenario import Link, ScenarioSpec, SendMessage, StatedCondition, UavMission
+from aurora_core.spec.scenario import (
+    Link,
+    ScenarioSpec,
+    SendMessage,
+    StatedCondition,
+    UavAction,
+    UavMission,
+)
 from aurora_core.spec.stated import is_stated, least, most
 from aurora_core.spec.vocabulary import MissionMode
 
@@ -35,18 +42,21 @@ class Geometry:
 
     def __init__(self, spec: ScenarioSpec, limits: Limits, tolerances: Tolerances) -> None:
         self._flying = frozenset(uav.id for uav in spec.uavs)
+        self._changes = altitude_changes(spec)
         self._limits = limits
         self._tolerances = tolerances
 
     def altitude(self, mission: UavMission) -> tuple[float, float]:
-        """Return the lowest and highest altitude of a phase, in metres."""
-        stated = mission.altitude_m
-        slack = self._tolerances.altitude_m.of(stated.value, approximate=stated.approximate)
-        limits = self._limits
-        return (
-            least(stated, slack, limits.uav_altitude_min_m),
-            most(stated, slack, limits.uav_altitude_max_m),
-        )
+        """Return the lowest and highest altitude of a phase, in metres.
+
+        Where an event makes the UAV climb or descend, that is part of it.
+        """
+        limits, lows, highs = self._limits, [], []
+        for stated in (mission.altitude_m, *self._changes.get(mission.uav, {}).values()):
+            slack = self._tolerances.altitude_m.of(stated.value, approximate=stated.approximate)
+            lows.append(least(stated, slack, limits.uav_altitude_min_m))
+            highs.append(most(stated, slack, limits.uav_altitude_max_m))
+        return min(lows), max(highs)
 
     def horizontal(self, mission: UavMission) -> tuple[float, float]:
         """Return the least and greatest horizontal distance to the target, in metres."""
@@ -80,11 +90,24 @@ class Geometry:
         base = f'missions/{mission.id}'
         named = {'altitude_m': mission.altitude_m, 'standoff_m': mission.standoff_m}
         used = {name: number for name, number in named.items() if is_stated(number)}
+        changes = self._changes.get(mission.uav, {})
         return (
             *(fact for name, number in used.items() for fact in says(f'{base}/{name}', number)),
+            *(fact for path, number in changes.items() for fact in says(path, number)),
             *limit_facts(self._limits, 'uav_altitude_min_m', 'uav_altitude_max_m'),
             *tolerance_facts(self._tolerances, *used),
         )
+
+
+def altitude_changes(spec: ScenarioSpec) -> dict[str, dict[str, Parameter]]:
+    """Return the altitudes to which events send UAVs, by UAV and path."""
+    found: dict[str, dict[str, Parameter]] = {}
+    for event in spec.events:
+        action = event.action
+        if isinstance(action, UavAction) and action.altitude_m is not None:
+            path = f'events/{event.id}/action/altitude_m'
+            found.setdefault(action.uav, {})[path] = action.altitude_m
+    return found
 
 
 def check_geometry(
@@ -283,7 +306,10 @@ def _stacked(spec: ScenarioSpec, limits: Limits) -> Iterator[Certificate]:
     only what holds for all of them is refused.
     """
     limit = limits.separation_min_m
+    changing = altitude_changes(spec)
     for above in spec.missions:
+        if {above.uav, above.target} & changing.keys():
+            continue
         others = [m for m in spec.missions if m.uav == above.target]
         standoff = above.standoff_m
         over = standoff is None and above.mode is MissionMode.HOVER

@@ -10,6 +10,7 @@ import shapely
 
 from aurora_core.feasibility.certificates import beyond
 from aurora_core.feasibility.facts import limit_facts, map_fact, says, tolerance_facts
+from aurora_core.feasibility.geometry import altitude_changes
 from aurora_core.feasibility.operands import AT_MOST, whole
 from aurora_core.feasibility.zones import hover_area, is_half_read, roof_of
 from aurora_core.knowledge.limits import Limits, Tolerances
@@ -109,6 +110,8 @@ def check_walls(
             continue
         for mission in (m for m in spec.missions if m.uav == condition.of[0]):
             altitude = mission.altitude_m
+            if mission.uav in altitude_changes(spec):
+                continue
             if not is_stated(altitude) or is_half_read(spec, mission):
                 continue
             slack = tolerances.altitude_m.of(altitude.value, approximate=altitude.approximate)

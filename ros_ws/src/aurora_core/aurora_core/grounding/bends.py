@@ -8,8 +8,8 @@ A stated distance is judged both ways, so it can be kept on a straight street on
 from __future__ import annotations
 
 from aurora_core.geometry.kernel import norm2
-from aurora_core.grounding.convoy import BeforePlace
 from aurora_core.grounding.sites import Site
+from aurora_core.grounding.ties import BeforePlace
 from aurora_core.knowledge.limits import Tolerance
 from aurora_core.spec.parameter import Provenance
 from aurora_core.spec.scenario import ScenarioSpec

@@ -9,7 +9,7 @@ from typing import Any
 
 from aurora_core.outcomes.feasibility import Certificate
 from aurora_core.recheck.finding import Step
-from aurora_core.recheck.request import Request, left_open, names_of, stated
+from aurora_core.recheck.request import Request, left_open, names_of, sent_to, stated
 from aurora_core.recheck.zones import farthest, read_whole
 
 # What is looked at stands at most this high above the ground.
@@ -17,9 +17,12 @@ _TOP_OF_TARGET_M = 2.0
 
 
 def _heights(request: Request, mission: dict[str, Any]) -> tuple[float, float]:
-    number = mission['altitude_m']
-    low, high = request.limit('uav_altitude_min_m'), request.limit('uav_altitude_max_m')
-    return left_open(number, request.slack('altitude_m', number), low, high)
+    floor, ceiling = request.limit('uav_altitude_min_m'), request.limit('uav_altitude_max_m')
+    ranges = [
+        left_open(number, request.slack('altitude_m', number), floor, ceiling)
+        for number in (mission['altitude_m'], *sent_to(request, mission['uav']))
+    ]
+    return min(low for low, _ in ranges), max(high for _, high in ranges)
 
 
 def _aside(request: Request, mission: dict[str, Any]) -> tuple[float, float]:
@@ -206,6 +209,10 @@ def stacking(proof: Certificate, request: Request) -> list[Step]:
         _same(proof, least),
         _asked(proof, upper['altitude_m']),
         (fixed, 'its place beside the other is fixed'),
+        (
+            not any(sent_to(request, uav) for uav in (upper['uav'], upper.get('target'))),
+            'no event sends either of them to another height',
+        ),
         (
             bool(gaps) and max(gaps) < least,
             f'the two may be {max(gaps, default=math.inf):g} m apart, {least:g} m are kept',

@@ -125,6 +125,12 @@ def names_of(request: Request, kind: str) -> set[str]:
     return {b[key] for b in request.all(kind) for key in ('id', 'group') if b.get(key)}
 
 
+def sent_to(request: Request, uav: str | None) -> list[dict[str, Any]]:
+    """Return the altitudes to which events send a UAV."""
+    actions = [e.get('action') or {} for e in request.all('events')]
+    return [a['altitude_m'] for a in actions if a.get('uav') == uav and a.get('altitude_m')]
+
+
 def stated(number: Any) -> TypeGuard[dict[str, Any]]:
     """Return whether the prompt itself gives this number."""
     return isinstance(number, dict) and number.get('provenance') == 'explicit'

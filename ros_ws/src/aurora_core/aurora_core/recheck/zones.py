@@ -17,7 +17,7 @@ from shapely.geometry import Point, shape
 
 from aurora_core.outcomes.feasibility import Certificate
 from aurora_core.recheck.finding import Step
-from aurora_core.recheck.request import Request, left_open, stated
+from aurora_core.recheck.request import Request, left_open, sent_to, stated
 
 _PIECE_M = 0.25
 _RAYS = 720
@@ -115,6 +115,7 @@ def wall(proof: Certificate, request: Request) -> list[Step]:
             condition['op'] in ('<', '<=') and float(value['value']) < allowed and not partly,
             f'{condition["op"]} {value["value"]:g} m is always under {allowed:g} m',
         ),
+        (not sent_to(request, uav), f'no event sends {uav} to another height'),
         (
             bool(highest) and all(h <= top for h in highest),
             f'it stays below {max(highest, default=math.inf):g} m, the roof is at {top:g} m',

@@ -125,3 +125,28 @@ def test_a_clash_with_a_half_read_clause_is_no_proof() -> None:
     verdict = _judged(prompt)
     assert verdict.result is Feasibility.UNKNOWN
     assert verdict.notes
+
+
+def test_a_half_read_deadline_is_not_said_to_hang_on_the_tolerances() -> None:
+    """95 m need 19 s: no tolerance makes 8 s of it."""
+    verdict = _judged(
+        'A drone hovers over Meadow Park at 100 m. Its altitude must be at least 95 m within the '
+        'first 8 s of the scenario.'
+    )
+    assert verdict.result is Feasibility.UNKNOWN
+    assert [note for note in verdict.notes if 'part of that clause was not read' in note]
+    assert not [note for note in verdict.notes if 'tolerances' in note]
+
+
+@pytest.mark.parametrize(
+    'prompt',
+    [
+        'A drone hovers over the intersection at 40 m and, when a truck stops, climbs to 60 m. '
+        'The altitude of the drone must be above 55 m.',
+        'In fog a drone hovers over the crosswalk at 95 m and, when a truck stops, descends to '
+        '40 m.',
+    ],
+)
+def test_what_an_event_changes_about_a_height_is_counted(prompt: str) -> None:
+    """A condition, or the sight, may be meant for the time after the event."""
+    assert _judged(prompt).certificates == ()
