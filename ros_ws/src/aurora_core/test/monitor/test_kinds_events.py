@@ -159,10 +159,11 @@ ROWS = (
         within=0.06,
         what='speed',
     ),
+    # Seen on its way up: who tracks reports from its capture on.
     Row(
         id='e1.within',
         make=lambda: _late_after(on='visible', observer='uav1', target='van1'),
-        margin=1.0 - 25.25,
+        margin=1.0 - 22.55,
         within=0.06,
         what='visible',
     ),
