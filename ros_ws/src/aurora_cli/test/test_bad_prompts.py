@@ -22,9 +22,8 @@ from aurora_core.knowledge.config_files import config_path
 from aurora_core.report.run_folder import PROMPT
 
 Call = Callable[..., SimpleNamespace]
-# Processor time that nothing may exceed, whatever comes in. About 0.1 s is usual, 8 s the most on
-# a quiet machine: the limit shows what never ends, not what is slow.
-LIMIT_S = 40.0
+# Processor time that nothing may exceed, whatever comes in; about 0.1 s is usual.
+LIMIT_S = 10.0
 
 SCHEMA = json.loads(config_path('schema', 'report.schema.json').read_text('utf-8'))
 NEVER_RUN = [case for case in READABLE if case.may == ('not_understood',)]

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from functools import lru_cache
 from itertools import pairwise
 
 from pydantic import BaseModel
@@ -333,22 +334,32 @@ def taking_part(spec: ScenarioSpec, clause: Clause) -> frozenset[str]:
 
 def _told(spec: ScenarioSpec, clause: Clause) -> set[str]:
     """Return ids and places of the elements of a clause, and of the bodies that take part."""
+    elements = _elements(spec)
+    told = set(clause.ids)
+    told |= {
+        name
+        for name, parts in elements.items()
+        if any(meet(clause.span, span) for spans, _ in parts for span in spans)
+    }
+    for _ in range(2):
+        told |= {word for name in told for _, words in elements.get(name, ()) for word in words}
+    return told
+
+
+# Every clause asks for them again, of one specification after the other.
+@lru_cache(maxsize=1)
+def _elements(spec: ScenarioSpec) -> dict[str, list[tuple[tuple[Span, ...], frozenset[str]]]]:
+    """Return the spans and words of the elements of a specification by their ids."""
     parts: list[tuple[str, BaseModel]] = []
     for agent in spec.agents:
         parts += [(agent.id, part) for part in (*agent.placements, *agent.behaviors)]
-    parts += [(m.id, m) for m in spec.missions]
-    parts += [(e.id, e) for e in spec.events]
-    parts += [(c.id, c) for c in spec.conditions]
-    parts += [(link.id, link) for link in spec.links]
-    parts += [(o.id, o) for o in spec.orders]
-    by_id: dict[str, list[BaseModel]] = {}
+    for group in (spec.missions, spec.events, spec.conditions, spec.links, spec.orders):
+        parts += [(one.id, one) for one in group]
+    found: dict[str, list[tuple[tuple[Span, ...], frozenset[str]]]] = {}
     for name, part in parts:
-        by_id.setdefault(name, []).append(part)
-    told = set(clause.ids)
-    told |= {name for name, part in parts if any(meet(clause.span, s) for s in _spans(part))}
-    for _ in range(2):
-        told |= {word for name in told for part in by_id.get(name, ()) for word in _strings(part)}
-    return told
+        told = tuple(_spans(part)), frozenset(_strings(part))
+        found.setdefault(name, []).append(told)
+    return found
 
 
 def _spans(value: object) -> Iterator[Span]:
