@@ -31,6 +31,7 @@ from aurora_core.grounding.pace import (
     partings,
     stated_speed_mps,
 )
+from aurora_core.grounding.parked import parked_pose
 from aurora_core.grounding.releases import Release, convoy_release, group_releases, own_release
 from aurora_core.grounding.routes import route_finder
 from aurora_core.grounding.sites import (
@@ -39,7 +40,6 @@ from aurora_core.grounding.sites import (
     brisk_lanes,
     line_from,
     on_main_roads,
-    parked_pose,
     tied_way_m,
     with_another_lane,
 )

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.awaited import awaited_at
-from aurora_core.grounding.convoy import DEFAULT_GAP_M, parks, stands
+from aurora_core.grounding.convoy import DEFAULT_GAP_M, stands
 from aurora_core.grounding.nearby import ON_SIDEWALKS, by_vehicles, in_order
 from aurora_core.grounding.pace import (
     WALKING_MPS,
@@ -21,6 +21,7 @@ from aurora_core.grounding.pace import (
     met_persons,
     own_speed_mps,
 )
+from aurora_core.grounding.parked import parked_boxes, walks_into
 from aurora_core.grounding.places import MapPlaces, arrivals, has_point
 from aurora_core.grounding.releases import person_release
 from aurora_core.grounding.routes import route_finder
@@ -30,7 +31,6 @@ from aurora_core.grounding.sites import (
     SeatedPerson,
     Site,
     line_from,
-    parked_pose,
 )
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.map_model import MapModel
@@ -62,8 +62,7 @@ _STEP_M = 0.5
 # Two persons side by side on a sidewalk are so far apart (m).
 _ABREAST_M = 0.65
 
-# Round the middle of a person is so much room (m), and so far its way is looked at.
-_BODY_M = 0.4
+# So far the way of a person is looked at for parked vehicles (m).
 _SHORT_WAY_M = 60.0
 
 # Inside a bound on a distance one stands so far (m).
@@ -186,36 +185,13 @@ class PersonPlacer:
             walker = SeatedPerson(
                 agent=agent, path=spot.path, arc_m=spot.arc_m, lateral_m=spot.lateral_m
             )
-            if not self._walked(spot.path) or self._runs_into_parked(spec, site, walker):
+            way_m = _SHORT_WAY_M if _goes(spec, agent) else 0.0
+            seats = (*site.seated, *site.others)
+            parked = parked_boxes(spec, seats, self._map.network, self._types)
+            if not self._walked(spot.path) or walks_into(parked, walker, way_m):
                 return 'sidewalk'
             site = replace(site, walkers=(*site.walkers, walker))
         return site
-
-    def _runs_into_parked(self, spec: ScenarioSpec, site: Site, walker: SeatedPerson) -> bool:
-        """Tell whether a person stands in, or walks through, a vehicle parked on its sidewalk."""
-        way_m = _SHORT_WAY_M if _goes(spec, walker.agent) else _STEP_M
-        end_m = min(walker.path.length_m, walker.arc_m + way_m)
-        steps = range(int((end_m - walker.arc_m) / _STEP_M) + 1)
-        points = [walker.path.position_at(walker.arc_m + k * _STEP_M) for k in steps]
-        points = [
-            (x - walker.lateral_m * hy, y + walker.lateral_m * hx, 0.0, 0.0)
-            for x, y, hx, hy in points
-        ]
-        for seat in (*site.seated, *site.others):
-            if not parks(spec, seat.agent):
-                continue
-            record = self._types[seat.agent.type.value]
-            lane = self._map.network.lane(seat.lane_id)
-            x, y, hx, hy = parked_pose(seat.path.position_at(seat.arc_m), lane, record)
-            for px, py, _, _ in points:
-                along_m = abs((px - x) * hx + (py - y) * hy)
-                aside_m = abs((py - y) * hx - (px - x) * hy)
-                if (
-                    along_m < 0.5 * record.length_m + _BODY_M
-                    and aside_m < 0.5 * record.width_m + _BODY_M
-                ):
-                    return True
-        return False
 
     def _walked(self, path: WalkPath) -> bool:
         """Tell whether somebody was found to walk where a walk begins, and over its crossing."""

@@ -53,9 +53,6 @@ LONGEST_WAY_M = 900.0
 # Who lets others pass, and they, go the same way for so long (m).
 _PASSING_M = 150.0
 
-# Free space between the border of its lane and the flank of a parked vehicle (m).
-KERB_CLEARANCE_M = 0.3
-
 # A limit of 13.89 m/s is meant where 50 km/h are asked (m/s).
 _LIMIT_SLACK_MPS = 0.05
 
@@ -456,21 +453,6 @@ def _overlap(seated: Sequence[SeatedAgent], types: Mapping[str, AgentTypeRecord]
         ):
             return True
     return False
-
-
-def parked_pose(
-    pose: tuple[float, float, float, float], lane: Lane, record: AgentTypeRecord
-) -> tuple[float, float, float, float]:
-    """Return where a vehicle is parked that would stand at a pose of a lane: right of it.
-
-    Args:
-        pose: x, y (m) and unit heading on the lane.
-        lane: The lane.
-        record: Size of the vehicle.
-    """
-    x, y, hx, hy = pose
-    aside_m = 0.5 * lane.width_m + 0.5 * record.width_m + KERB_CLEARANCE_M
-    return x + aside_m * hy, y - aside_m * hx, hx, hy
 
 
 def samples_along(

@@ -1,0 +1,74 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Parked vehicles: where they stand beside their lane, and persons who would walk into them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+
+from aurora_core.grounding.convoy import parks
+from aurora_core.grounding.sites import SeatedAgent, SeatedPerson
+from aurora_core.knowledge.agent_types import AgentTypeRecord
+from aurora_core.knowledge.net_types import Lane
+from aurora_core.knowledge.road_network import RoadNetwork
+from aurora_core.spec.scenario import ScenarioSpec
+
+# Free space between the border of its lane and the flank of a parked vehicle (m).
+KERB_CLEARANCE_M = 0.3
+
+# Round the middle of a person is so much room, and its way is looked at in such steps (m).
+_BODY_M = 0.4
+_STEP_M = 0.5
+
+Pose = tuple[float, float, float, float]
+
+
+def parked_pose(pose: Pose, lane: Lane, record: AgentTypeRecord) -> Pose:
+    """Return where a vehicle is parked that would stand at a pose of a lane: right of it.
+
+    Args:
+        pose: x, y (m) and unit heading on the lane.
+        lane: The lane.
+        record: Size of the vehicle.
+    """
+    x, y, hx, hy = pose
+    aside_m = 0.5 * lane.width_m + 0.5 * record.width_m + KERB_CLEARANCE_M
+    return x + aside_m * hy, y - aside_m * hx, hx, hy
+
+
+def parked_boxes(
+    spec: ScenarioSpec,
+    seats: Iterable[SeatedAgent],
+    network: RoadNetwork,
+    types: Mapping[str, AgentTypeRecord],
+) -> Iterator[tuple[Pose, AgentTypeRecord]]:
+    """Yield pose (m, unit heading) and size of every parked vehicle."""
+    for seat in seats:
+        if parks(spec, seat.agent):
+            record = types[seat.agent.type.value]
+            lane = network.lane(seat.lane_id)
+            yield parked_pose(seat.path.position_at(seat.arc_m), lane, record), record
+
+
+def walks_into(
+    parked: Iterable[tuple[Pose, AgentTypeRecord]], walker: SeatedPerson, way_m: float
+) -> bool:
+    """Tell whether a person stands in, or walks through, a parked vehicle.
+
+    Args:
+        parked: Poses and sizes of the vehicles.
+        walker: The person.
+        way_m: So far its way is looked at; it is a step at least.
+    """
+    end_m = min(walker.path.length_m, walker.arc_m + max(way_m, _STEP_M))
+    steps = range(int((end_m - walker.arc_m) / _STEP_M) + 1)
+    poses = [walker.path.position_at(walker.arc_m + k * _STEP_M) for k in steps]
+    left_m = walker.lateral_m
+    points = [(x - left_m * hy, y + left_m * hx) for x, y, hx, hy in poses]
+    for (x, y, hx, hy), record in parked:
+        along_m, aside_m = 0.5 * record.length_m + _BODY_M, 0.5 * record.width_m + _BODY_M
+        for px, py in points:
+            along = abs((px - x) * hx + (py - y) * hy) < along_m
+            if along and abs((py - y) * hx - (px - x) * hy) < aside_m:
+                return True
+    return False
