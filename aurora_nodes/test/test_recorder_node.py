@@ -15,6 +15,7 @@ import pytest
 pytest.importorskip('rclpy')
 
 from mcap.reader import make_reader
+from rclpy.duration import Duration
 
 from aurora_core.errors import BagError
 from aurora_core.trace.bag_metadata import file_sha256
@@ -179,23 +180,26 @@ def test_a_folder_that_exists_is_refused_with_a_code(graph: Graph, tmp_path: Pat
 def test_who_starts_another_recording_during_a_run_is_refused(
     graph: Graph, tmp_path: Path
 ) -> None:
-    executor = graph.play.publisher(on.HEARTBEAT)
-    assert wait_until(lambda: executor.get_subscription_count() >= 1, 5.0)
+    # The recorder and the partner's own watch. What comes late would be said within the run.
+    executor = graph.play.publisher(on.HEARTBEAT, subscribers=2)
     executor.publish(Heartbeat(node='executor', state=Heartbeat.IDLE))
+    assert executor.wait_for_all_acked(Duration(seconds=5))
     graph.start(tmp_path / 'bag')
     graph.send_states(range(10))
     for _ in range(2):  # before the executor's first heartbeat in the run, and after it
         with pytest.raises(BagError, match=f'run {RUN} is being recorded'):
             graph.start(tmp_path / 'stray', run_number=0, topics=[])
         executor.publish(Heartbeat(node='executor', state=Heartbeat.BUSY, run_number=RUN))
+        assert executor.wait_for_all_acked(Duration(seconds=5))
     graph.send_states(range(10, 30))
     graph.stop({on.GROUND_STATE.full_name: 30})
 
 
 def test_a_recording_that_an_earlier_run_left_open_is_closed(graph: Graph, tmp_path: Path) -> None:
-    executor = graph.play.publisher(on.HEARTBEAT)
+    executor = graph.play.publisher(on.HEARTBEAT, subscribers=2)
     graph.start(tmp_path / 'bag.0')
     executor.publish(Heartbeat(node='executor', state=Heartbeat.BUSY, run_number=RUN + 1))
+    assert executor.wait_for_all_acked(Duration(seconds=5))
     graph.start(tmp_path / 'bag.1', run_number=RUN + 1)
     graph.stop(run_number=RUN + 1)
     assert (tmp_path / 'bag.0' / 'metadata.yaml').is_file()
