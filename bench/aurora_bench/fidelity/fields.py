@@ -164,6 +164,8 @@ def mission_names(r: MissionRequirement) -> list[str]:
         *_named(r.target, 'target'),
         *_named(r.pattern, 'pattern'),
         *_named(r.side, 'side'),
+        *_named(r.start, 'start'),
+        *_named(r.end, 'end'),
     ]
     return [*names, *_numbers(r, *_MISSION_NUMBERS), *_numbers(r, 'size_m')]
 
@@ -180,6 +182,10 @@ def mission_fields(
         fields['pattern'] = mission.pattern is r.pattern
     if r.side is not None:
         fields['side'] = mission.side is not None and mission.side.value == r.side
+    if r.start is not None:
+        fields['start'] = subject.binding.means(r.start, mission.start)
+    if r.end is not None:
+        fields['end'] = subject.binding.means(r.end, mission.target)
     for name in _numbers(r, *_MISSION_NUMBERS):
         fields[name] = rule.counts(name, getattr(r, name), getattr(mission, name))
     if r.size_m is not None:

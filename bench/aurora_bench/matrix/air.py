@@ -182,7 +182,7 @@ def zones(landmark: str, other: str) -> Iterator[Cell]:
             yield Cell(table='Zone', row=how, column=mode.value, parts=cell)
     ends: dict[str, Doc] = {'from A to B': {'start': landmark, 'end': other}}
     for name, more in ends.items():
-        flight = flies('navigate', None, pattern='line', altitude_m=60.0, **more)
+        flight = flies('navigate', None, pattern='waypoints', altitude_m=60.0, **more)
         yield Cell(table='Zone', row=name, column='navigate', parts=[uav(), flight])
 
 

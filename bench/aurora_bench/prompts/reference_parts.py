@@ -157,7 +157,8 @@ def mission(
     """Return a mission; an action that changes a mission has the same fields."""
     prefix = 'action.' if isinstance(r, Action) else ''
     mode = r.mode.value if r.mode is not None else ('track' if r.target else 'hover')
-    found: Doc = {'id': ident, 'uav': uav, 'mode': mode, 'target': names.one(r.target)}
+    target = names.one(r.target if r.end is None else r.end)
+    found: Doc = {'id': ident, 'uav': uav, 'mode': mode, 'target': target}
     found |= {} if r.side is None else {'side': r.side}
     found |= {'altitude_m': default('altitude_m'), **numbers.of(r, _MISSION_NUMBERS, prefix)}
     if mode == 'track':
@@ -166,12 +167,16 @@ def mission(
             found |= {'target': names.agent(None), 'target_inferred': True}
     if mode != 'navigate':
         return {'duration_s': default('duration_s'), **found}
-    pattern = str(r.pattern) if r.pattern is not None else 'rectangle'
+    goes = r.start is not None or r.end is not None
+    pattern = str(r.pattern) if r.pattern is not None else 'waypoints' if goes else 'rectangle'
     found = {'speed_mps': default('speed_mps'), **found, 'pattern': pattern}
+    if r.start is not None:
+        return found | {'start': names.one(r.start)}
     if pattern == 'orbit':
         found = {'radius_m': default('radius_m'), **found}
     elif pattern == 'waypoints':
-        found = {'waypoint_count': default('waypoint_count'), **found}
+        count = numbers.unsaid(1.0, '1') if goes else default('waypoint_count')
+        found = {'waypoint_count': count, **found}
     if r.size_m is not None or pattern in ('rectangle', 'lawnmower', 'line'):
         if r.size_m is not None:
             found['size_m'] = [

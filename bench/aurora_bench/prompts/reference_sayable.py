@@ -23,7 +23,7 @@ from aurora_bench.prompts.reference_names import NotExpressibleError
 from aurora_core.spec.requirements import STATED_QUANTITIES
 from aurora_core.spec.vocabulary import Pattern
 
-_OF_A_FLIGHT = ('start', 'end', 'avoid', 'avoid_m')
+_OF_A_FLIGHT = ('avoid', 'avoid_m')
 
 
 def check_sayable(r: Requirement) -> None:
@@ -56,5 +56,10 @@ def _of_flight(flight: MissionRequirement | Action) -> Iterator[str]:
     yield from (name for name in _OF_A_FLIGHT if name in stated)
     if flight.pattern is not None and flight.pattern not in set(Pattern):
         yield f'pattern {flight.pattern}'
+    goes = flight.pattern in (None, Pattern.WAYPOINTS) and flight.waypoint_count is None
+    if flight.start is not None and not (goes and (flight.end or flight.target)):
+        yield 'start of a pattern'
+    if flight.end is not None and flight.target not in (None, flight.end):
+        yield 'end of a pattern'
     if isinstance(flight.altitude_m, tuple):
         yield 'altitude_m from low to high'

@@ -143,6 +143,7 @@ SAYABLE = frozenset(
     {
         'count-of-type',
         'beyond',
+        'ends',
         'side',
         'turns',
         'wind',
@@ -162,6 +163,18 @@ def test_a_reference_closes_the_scene() -> None:
     closed = {'kind': 'count', 'type': 'vehicle', 'value': 1, 'scope': 'scene'}
     spec = reference_spec(AnnotatedPrompt.model_validate(document(closed)), judged=True)
     assert [(count.kind, count.value.value) for count in spec.counts] == [('vehicle', 1.0)]
+
+
+def test_a_reference_goes_from_start_to_end() -> None:
+    ends = {'start': 'City Hall', 'end': 'crosswalk'}
+    flight = {**MISSION, 'mode': 'navigate', **ends}
+    (made,) = reference_spec(
+        AnnotatedPrompt.model_validate(document(flight)), judged=True
+    ).missions
+    assert (made.start, made.target) == ('landmark:City Hall', 'crosswalk')
+    around = AnnotatedPrompt.model_validate(document({**flight, 'pattern': 'rectangle'}))
+    with pytest.raises(NotExpressibleError, match='start of a pattern'):
+        reference_spec(around, judged=True)
 
 
 @pytest.mark.parametrize('good', [e[1] for e in UNSAYABLE], ids=[e[0] for e in UNSAYABLE])

@@ -77,6 +77,9 @@ class Edges:
             looks = mission.mode is not MissionMode.NAVIGATE
             kind = EdgeType.PERCEPTUAL if looks else EdgeType.SPATIAL
             yield _edge(source, mission.uav, kind, mission.mode.value)
+            if mission.start is not None:
+                start = self._node(mission.start) or ENVIRONMENT_ID
+                yield _edge(start, mission.uav, EdgeType.SPATIAL, 'starts from')
 
     def _links(self) -> Iterator[AgsgEdge]:
         for link in self._spec.links:

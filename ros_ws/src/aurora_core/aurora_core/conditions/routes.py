@@ -45,7 +45,7 @@ def route_conditions(
     _check_size(mission, arguments)
     points = arguments.waypoints
     yield waypoints_visited.all_points(inputs, arguments, source)
-    if points[0] == points[-1] and arguments.left_by is None:
+    if len(points) > 1 and points[0] == points[-1] and arguments.left_by is None:
         yield route_closed.implied(inputs, arguments, source)
     if mission.pattern is Pattern.ORBIT:
         lasts = mission.duration_s is not None or arguments.left_by is not None
@@ -55,7 +55,10 @@ def route_conditions(
         yield waypoints_visited.stated_count(inputs, arguments, count, source)
     if mission.over_a_road:
         yield over_carriageway.implied(inputs, arguments, source)
-    if mission.target is not None:
+    if mission.start is not None and mission.target is not None:
+        yield pattern_centre.of_end(inputs, arguments, 'first', mission.start, source)
+        yield pattern_centre.of_end(inputs, arguments, 'last', mission.target, source)
+    elif mission.target is not None:
         yield pattern_centre.implied(inputs, arguments, mission.target, source)
     speed = mission.speed_mps
     if speed is not None and speed.provenance is Provenance.EXPLICIT:

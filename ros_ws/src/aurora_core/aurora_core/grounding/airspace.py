@@ -11,10 +11,12 @@ from functools import lru_cache
 
 import numpy as np
 import numpy.typing as npt
+import shapely
 
 from aurora_core.geometry.obstacles import ObstacleField
 from aurora_core.geometry.prism import Prism
 from aurora_core.geometry.sight import SightModel
+from aurora_core.grounding.ways_round import Point2, way_round
 from aurora_core.knowledge.height_lattice import HeightLattice
 from aurora_core.knowledge.map_types import Building, NoFlyZone
 from aurora_core.outcomes.grounded import Ring
@@ -70,7 +72,8 @@ class Airspace:
     ) -> None:
         self._solids = (tuple(buildings), tuple(zones))
         prisms = building_prisms(buildings)
-        self.obstacles = ObstacleField((*prisms, *zone_prisms(zones)))
+        self._prisms = (*prisms, *zone_prisms(zones))
+        self.obstacles = ObstacleField(self._prisms)
         self.sight = SightModel(prisms)
         self.highest_m = max((b.height_m for b in buildings), default=0.0)
         self._lattice = lattice
@@ -92,6 +95,17 @@ class Airspace:
             for k, ring in enumerate(rings)
         )
         return Airspace(buildings, (*zones, *more))
+
+    def level_way(
+        self, start: Point2, end: Point2, height_m: float, clearance_m: float
+    ) -> tuple[Point2, ...] | None:
+        """Return the shortest way at one height that keeps a clearance, see `way_round`."""
+        solids = [
+            shapely.Polygon(prism.ring_xy)
+            for prism in self._prisms
+            if prism.base_m - clearance_m < height_m < prism.top_m + clearance_m
+        ]
+        return way_round(start, end, solids, clearance_m)
 
     def points_clearance_m(self, points: FloatArray) -> float:
         """Return the least clearance of points (T, 3), metres."""

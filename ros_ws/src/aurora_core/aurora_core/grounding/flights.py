@@ -13,7 +13,7 @@ import numpy.typing as npt
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.grounding.apart import sharing
-from aurora_core.grounding.beside import side_first, turned_along, with_turns
+from aurora_core.grounding.beside import turned_along, with_turns
 from aurora_core.grounding.crossings import crossed
 from aurora_core.grounding.laps import Laps
 from aurora_core.grounding.offsets import Spread, from_afar, is_lost, loses_sight, offsets
@@ -38,7 +38,7 @@ from aurora_core.grounding.planned_flight import (
 from aurora_core.grounding.routes_flown import RoutePlanner
 from aurora_core.grounding.sites import SeatedAgent, SeatedPerson, Site, samples_along
 from aurora_core.grounding.spots import SpotFinder
-from aurora_core.grounding.starts import uncrossed
+from aurora_core.grounding.starts import Starts, uncrossed
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_model import MapModel
@@ -111,7 +111,14 @@ class FlightPlanner:
         self._settings = settings
         self._range = sensing_range_m
         self._hover_capture_m = hover_capture_m
-        self._apart_m, self._layer_m, self._wide_m = apart_m, layer_m, homes_m
+        self._apart_m, self._layer_m = apart_m, layer_m
+        self._starts = Starts(
+            spots=spots,
+            airspace=airspace,
+            clearance_m=settings.clearance_m,
+            apart_m=max(settings.home_spacing_m, homes_m),
+            wide=homes_m > 0.0,
+        )
         self._spread = Spread(apart_m=apart_m, strict=homes_m > 0.0, bearings=settings.bearings)
         self._routes = RoutePlanner(
             map_model=map_model,
@@ -172,6 +179,9 @@ class FlightPlanner:
         centre = self._centre(mission, site)
         if centre is None:
             return Rejected(reason='target_place')
+        if mission.start is not None:
+            here = self._places.itself(mission.start, site.origin()[:2])
+            return self._routes.between(mission, here, centre[:2])
         if mission.mode is MissionMode.NAVIGATE:
             return self._routes.plan(mission, centre, beside=self._air.is_inside(*centre[:2]))
         targets = self._watched(spec, mission, site, centre, speed_mps)
@@ -220,23 +230,13 @@ class FlightPlanner:
         if ways is None:
             return Rejected(reason='way_between_missions')
         first = first_point(flights[0].plan, site, lead_m)
-        home = None
-        spots = self._spots.near(
-            first[0], first[1], (6 + 20 * len(taken)) * (4 if self._wide_m else 1)
+        seat = site.seat(flights[0].plan.target or '') if flights[0].plan.offset_turns else None
+        home = self._starts.free(
+            first,
+            taken,
+            way_m=self._routes.least_way_m(flights[0].plan),
+            beside=None if seat is None else seat.path.position_at(seat.arc_m)[:2],
         )
-        if flights[0].plan.offset_turns:
-            target = site.seat(flights[0].plan.target or '')
-            assert target is not None  # it was planned for its seat
-            spots = side_first(spots, target.path.position_at(target.arc_m)[:2], first[:2])
-        for spot in spots:
-            far = all(
-                norm2(spot[0] - x, spot[1] - y) >= max(self._settings.home_spacing_m, self._wide_m)
-                for x, y in taken
-            )
-            top = (spot[0], spot[1], first[2])
-            if far and self._air.way_is_free((top, first), self._settings.clearance_m):
-                home = spot
-                break
         if home is None:
             return Rejected(reason='start_spot')
         highest = max(f.plan.altitude_m for f in flights)

@@ -33,7 +33,7 @@ def pattern_points(
         length_m: Extent along x (rectangle, lawnmower, line).
         width_m: Extent along y (rectangle, lawnmower).
         radius_m: Orbit.
-        waypoint_count: `waypoints`: number of points on a ring of `radius_m`.
+        waypoint_count: `waypoints`: number of points on a ring of `radius_m`; one is its centre.
 
     Returns:
         Points (x, y) in flight order; None when the numbers give no pattern that can be planned:
@@ -59,7 +59,7 @@ def pattern_points(
         return tuple(points)
     if pattern is Pattern.ORBIT:
         return _ring(radius_m, round(360.0 / _ORBIT_STEP_DEG), closed=True)
-    return _ring(radius_m, max(2, waypoint_count), closed=False)
+    return _ring(radius_m, waypoint_count, closed=False) if waypoint_count > 1 else ((0.0, 0.0),)
 
 
 def place_pattern(

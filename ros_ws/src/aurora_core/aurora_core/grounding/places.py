@@ -51,7 +51,7 @@ def place_positions(
     )
     names = {p.of for a in spec.agents for p in a.placements}
     names |= {b.target for a in spec.agents for b in a.behaviors}
-    names |= {m.target for m in spec.missions}
+    names |= {place for m in spec.missions for place in (m.target, m.start)}
     names |= {name for c in spec.conditions for name in c.of if is_place(name)}
     for event in spec.events:
         names |= {getattr(event.trigger, name, None) for name in ('b', 'place', 'target')}

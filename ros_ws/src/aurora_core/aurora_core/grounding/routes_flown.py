@@ -28,6 +28,8 @@ from aurora_core.spec.parameter import Provenance
 from aurora_core.spec.scenario import UavMission
 from aurora_core.spec.vocabulary import Pattern
 
+Point3 = tuple[float, float, float]
+
 # Planned share of a leg over a carriageway, beyond what the condition asks.
 SPARE_SHARE = 0.05
 
@@ -98,6 +100,30 @@ class RoutePlanner:
                 return found
         return plain
 
+    def least_way_m(self, plan: MissionPlan) -> float:
+        """Return how long the way to a mission has to be to show its speed, 0 for any."""
+        if plan.way_mps is None:
+            return 0.0
+        return _shown_m(plan.way_mps, self._tolerances.route_acceleration_mps2)
+
+    def between(
+        self, mission: UavMission, start: tuple[float, float], end: tuple[float, float]
+    ) -> PlannedFlight | Rejected:
+        """Return the plan of the way from one place to another (x, y in m), round obstacles."""
+        height_m = planned_height_m(mission, self._limits, self._tolerances)
+        level = self._air.level_way(start, end, height_m, self._settings.clearance_m)
+        if level is None:
+            return Rejected(reason='clearance')
+        way = tuple((x, y, height_m) for x, y in level)
+        clearance = self._air.way_clearance_m(way)
+        if clearance < self._settings.clearance_m:
+            return Rejected(reason='clearance')
+        over = self._over_street(level)
+        if mission.over_a_road and over < self._leg_share:
+            return Rejected(reason='clearance')
+        plan = self._plan(mission, way)
+        return PlannedFlight(plan=plan, clearance_m=clearance, seen=1.0, over_street=over)
+
     def _around(
         self, mission: UavMission, centre: tuple[float, float, float, float]
     ) -> PlannedFlight | Rejected:
@@ -118,8 +144,6 @@ class RoutePlanner:
         hx, hy = centre[2], centre[3]
         shifts = self._settings.pattern_shifts_m
         height_m = planned_height_m(mission, self._limits, self._tolerances)
-        slack_m = altitude_slack_m(mission, self._tolerances)
-        below_m = ascent_tolerance_m(mission, self._limits, self._tolerances)
         best: PlannedFlight | None = None
         headings = ((hx, hy), (-hy, hx)) if mission.pattern is not Pattern.ORBIT else ((hx, hy),)
         for heading in headings:
@@ -134,23 +158,31 @@ class RoutePlanner:
                 if mission.over_a_road and over < self._leg_share:
                     continue
                 if best is None or over > best.over_street:
-                    plan = MissionPlan(
-                        id=mission.id,
-                        mode=mission.mode,
-                        target=mission.target,
-                        altitude_m=height_m,
-                        capture_horizontal_m=self._tolerances.waypoint_horizontal_m,
-                        capture_altitude_m=slack_m,
-                        ascent_tolerance_m=below_m,
-                        waypoints=way,
-                        speed_mps=mission.speed_mps.value,
-                    )
+                    plan = self._plan(mission, way)
                     best = PlannedFlight(
                         plan=plan, clearance_m=clearance, seen=1.0, over_street=over
                     )
         if best is None:
             return Rejected(reason='clearance')
         return replace(best, plan=self._lasting(mission, best.plan))
+
+    def _plan(self, mission: UavMission, way: tuple[Point3, ...]) -> MissionPlan:
+        speed = mission.speed_mps
+        assert speed is not None
+        # The way to a single point is all that shows a stated speed.
+        shows = len(way) == 1 and speed.provenance is Provenance.EXPLICIT
+        return MissionPlan(
+            id=mission.id,
+            mode=mission.mode,
+            target=mission.target,
+            altitude_m=planned_height_m(mission, self._limits, self._tolerances),
+            capture_horizontal_m=self._tolerances.waypoint_horizontal_m,
+            capture_altitude_m=altitude_slack_m(mission, self._tolerances),
+            ascent_tolerance_m=ascent_tolerance_m(mission, self._limits, self._tolerances),
+            waypoints=way,
+            speed_mps=speed.value,
+            way_mps=speed.value if shows else None,
+        )
 
     def _lasting(self, mission: UavMission, plan: MissionPlan) -> MissionPlan:
         """Return a plan whose route is flown as often, or for as long, as the request states."""
@@ -190,7 +222,7 @@ class RoutePlanner:
 def _radius_m(mission: UavMission, count: int, acceleration_mps2: float) -> float:
     """Return the radius of an orbit or of a ring of waypoints: stated, else wide enough.
 
-    A stated speed shows on legs that are longer than the ways to get to it and to brake.
+    A stated speed has to show on the legs.
     """
     radius, speed = mission.radius_m, mission.speed_mps
     radius_m = _RADIUS_M if radius is None else radius.value
@@ -199,5 +231,10 @@ def _radius_m(mission: UavMission, count: int, acceleration_mps2: float) -> floa
         return radius_m
     if speed.provenance is not Provenance.EXPLICIT:
         return radius_m
-    leg_m = speed.value * speed.value / acceleration_mps2 + _CRUISE_M
+    leg_m = _shown_m(speed.value, acceleration_mps2)
     return max(radius_m, leg_m / (2.0 * sin(pi / count)))
+
+
+def _shown_m(speed_mps: float, acceleration_mps2: float) -> float:
+    """Return how long a leg is that shows a speed: longer than to get to it and to brake."""
+    return speed_mps * speed_mps / acceleration_mps2 + _CRUISE_M

@@ -1,18 +1,81 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""Which UAV starts where, so that the ways to their first points never cross."""
+"""Where UAVs start: on free spots, and so that the ways to their first points never cross."""
 
 from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
+from dataclasses import dataclass
+from math import cos, pi, sin
 
 import numpy as np
 
+from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.airspace import Airspace
+from aurora_core.grounding.beside import side_first
+from aurora_core.grounding.spots import Point2, SpotFinder
 from aurora_core.mission.plan import UavPlan
 
 Point3 = tuple[float, float, float]
+
+# A start at a distance is looked for in so many directions, on so many spots in each.
+_DIRECTIONS, _SPOTS = 12, 3
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Starts:
+    """Finds where a UAV can start.
+
+    Attributes:
+        spots: Free spots of the map.
+        airspace: The way up and to the first point is free.
+        clearance_m: Of that way.
+        apart_m: Distance of two starts.
+        wide: They are farther apart than usual: more spots are looked at.
+    """
+
+    spots: SpotFinder
+    airspace: Airspace
+    clearance_m: float
+    apart_m: float
+    wide: bool
+
+    def free(
+        self,
+        first: Point3,
+        taken: Sequence[Point2],
+        *,
+        way_m: float = 0.0,
+        beside: Point2 | None = None,
+    ) -> Point2 | None:
+        """Return the first spot that does, the nearest ones first; None for none.
+
+        Args:
+            first: Where the UAV flies first (x, y, z in m).
+            taken: Starts of others.
+            way_m: Least way from the start to `first`.
+            beside: Where its target stands: spots on the side of `first` come first.
+        """
+        x, y, z = first
+        if way_m:
+            spots = self._around((x, y), way_m + self.apart_m)
+        else:
+            spots = self.spots.near(x, y, (6 + 20 * len(taken)) * (4 if self.wide else 1))
+        if beside is not None:
+            spots = side_first(spots, beside, (x, y))
+        for spot in spots:
+            away_m = norm2(spot[0] - x, spot[1] - y)
+            apart = all(norm2(spot[0] - a, spot[1] - b) >= self.apart_m for a, b in taken)
+            way = ((*spot, z), first)
+            if apart and away_m >= way_m and self.airspace.way_is_free(way, self.clearance_m):
+                return spot
+        return None
+
+    def _around(self, centre: Point2, away_m: float) -> tuple[Point2, ...]:
+        angles = [2.0 * pi * k / _DIRECTIONS for k in range(_DIRECTIONS)]
+        ring = [(centre[0] + away_m * cos(a), centre[1] + away_m * sin(a)) for a in angles]
+        return tuple(dict.fromkeys(s for at in ring for s in self.spots.near(*at, _SPOTS)))
 
 
 def uncrossed(

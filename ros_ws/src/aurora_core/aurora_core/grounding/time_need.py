@@ -36,6 +36,8 @@ _CORNER_S = 8.0
 _TRANSIT_S = 40.0
 _EVENT_S = 45.0
 _SLOWEST_MPS = 0.2
+# Between two places of a map, with its bends (m).
+_ACROSS_M = 2000.0
 
 
 def horizon_s(spec: ScenarioSpec, limits: Limits, flight: FlightDefaults | None = None) -> float:
@@ -112,6 +114,8 @@ def _mission_s(mission: UavMission) -> float:
 
 
 def _route_m(mission: UavMission) -> float:
+    if mission.start is not None:
+        return _ACROSS_M
     length, width = (p.value for p in mission.size_m) if mission.size_m else (100.0, 60.0)
     radius = mission.radius_m.value if mission.radius_m is not None else 30.0
     if mission.pattern is Pattern.RECTANGLE:

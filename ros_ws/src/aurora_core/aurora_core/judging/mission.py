@@ -120,11 +120,8 @@ def _first_point(mission: UavMission, facts: MissionFacts) -> tuple[float, float
             raise VerificationError(f'the plan has no hover point for mission {mission.id}')
         return facts.hover_point[0], facts.hover_point[1]
     if mission.mode is MissionMode.NAVIGATE:
-        if len(facts.waypoints) < 2:
-            raise VerificationError(
-                f'mission {mission.id} needs at least 2 waypoints, the plan has '
-                f'{len(facts.waypoints)}'
-            )
+        if not facts.waypoints:
+            raise VerificationError(f'the plan has no waypoints for mission {mission.id}')
         return facts.waypoints[0][0], facts.waypoints[0][1]
     return None
 

@@ -38,7 +38,13 @@ def route_flown(
 def flown_legs(
     context: Context, condition: Condition, mission: MissionArguments
 ) -> tuple[Leg, ...]:
-    """Return the legs whose two ends were visited, and the one that an event cut short."""
+    """Return the legs whose two ends were visited, and the one that an event cut short.
+
+    The leg of a route with one point is the way to it, from the end of the ascent or of the
+    mission before.
+    """
+    if len(mission.waypoints) == 1:
+        return _way_there(context, condition, mission)
     flown = route_flown(context, condition, mission)
     found = legs(mission.waypoints, flown)
     if not is_broken_off(context, condition, mission):
@@ -51,6 +57,17 @@ def flown_legs(
         stop=stop,
     )
     return (*(leg for leg in found if leg.stop <= last.start), last)
+
+
+def _way_there(
+    context: Context, condition: Condition, mission: MissionArguments
+) -> tuple[Leg, ...]:
+    phase = context.phase(mission, condition.arguments.touchdown_m)
+    start, stop = phase.ready_tick, phase.capture_tick
+    if start is None or stop is None or start >= stop:
+        return ()
+    x, y, z = context.position(mission)[start].tolist()
+    return (Leg(a=(x, y, z), b=mission.waypoints[0], start=start, stop=stop),)
 
 
 def visited(flown: Sequence[Passage]) -> tuple[Passage, ...]:

@@ -415,7 +415,7 @@ class MissionMachine:
             else:
                 rest, still = self._rest_point()[:2], (0.0, 0.0)
                 goal, velocity = self._way_there.goal(self._pursuit, rest, (first, still))
-                self._pursuit.step(goal, velocity, self._settings, self._dt)
+                self._pursuit.step(goal, velocity, self._settings, self._dt, mission.way_mps)
                 return False
         self._route.step(self._settings, self._dt)
         self._pursuit.x, self._pursuit.y = self._route.x, self._route.y

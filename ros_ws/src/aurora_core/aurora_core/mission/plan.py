@@ -26,6 +26,7 @@ class MissionPlan(Document):
         hover_point: Hover: where to hold.
         duration_s: Length of the phase from capture on; a route without it ends at its last point.
         speed_mps: Navigate: speed on the legs.
+        way_mps: Navigate: speed at most on the way to the first point; None: the usual one.
         over_m: So high it crosses to where it begins: up first, then across, then down. None:
             straight.
         waits: An event lets it begin; until then the UAV stays where the one before has led it.
@@ -46,6 +47,7 @@ class MissionPlan(Document):
     hover_point: Point3 | None = None
     duration_s: FiniteFloat | None = None
     speed_mps: FiniteFloat = 8.0
+    way_mps: FiniteFloat | None = omitted(None)
     over_m: FiniteFloat | None = omitted(None)
     waits: bool = omitted(False)
     until_event: bool = omitted(False)

@@ -103,7 +103,9 @@ def _mission(draft: MissionDraft, altitude: Parameter, by_event: bool) -> UavMis
     count = draft.waypoint_count
     if pattern is Pattern.WAYPOINTS and count is not None and count.value == 1:
         sized = False
-    if count is None and pattern is Pattern.WAYPOINTS:
+    if draft.start is not None:
+        sized, count = False, None
+    elif count is None and pattern is Pattern.WAYPOINTS:
         count = values.default('waypoint_count')
     standoff = draft.standoff
     # `watches the tower` leaves open from where; `hovers over the tower` does not.
@@ -126,6 +128,7 @@ def _mission(draft: MissionDraft, altitude: Parameter, by_event: bool) -> UavMis
         mode=draft.mode,
         target=draft.target,
         target_inferred=draft.target_inferred,
+        start=draft.start,
         altitude_m=altitude,
         standoff_m=standoff,
         bearing_deg=draft.bearing,

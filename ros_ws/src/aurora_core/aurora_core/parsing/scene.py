@@ -74,6 +74,7 @@ class MissionDraft:
     clause: int
     target: str | None = None
     target_inferred: bool = False
+    start: str | None = None
     needs_target: bool = False
     altitude: Parameter | None = None
     standoff: Parameter | None = None

@@ -241,6 +241,8 @@ def _flies(mission: UavMission) -> str:
         case MissionMode.NAVIGATE:
             pattern = mission.pattern.value if mission.pattern is not None else 'route'
             what = f'flies the pattern {pattern} at {target}'
+            if mission.start is not None:
+                what = f'flies from {_place(mission.start)} to {target}'
     if mission.side is not None:
         what += f', keeping {_RELATIONS.get(Relation(mission.side.value), mission.side.value)} it'
     if mission.over_streets:

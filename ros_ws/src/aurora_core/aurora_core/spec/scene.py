@@ -132,6 +132,7 @@ class UavMission(Element):
     Attributes:
         target: Agent id or place that is tracked, observed or flown around (None: the scene).
         target_inferred: The prompt names no target; the scene rules chose it.
+        start: Place that the way to the target begins at (`from A to B`); None: anywhere.
         altitude_m: Above ground.
         standoff_m: Horizontal distance from the target (track).
         bearing_deg: Compass bearing of the UAV from the target, when stated.
@@ -149,6 +150,7 @@ class UavMission(Element):
     mode: MissionMode
     target: Id | PlaceRef | None = None
     target_inferred: bool = False
+    start: PlaceRef | None = omitted(None)
     altitude_m: Parameter
     standoff_m: Parameter | None = None
     bearing_deg: Parameter | None = None
@@ -189,6 +191,10 @@ class UavMission(Element):
             raise ValueError(f'mission {self.id}: only who tracks keeps to a side')
         if self.pattern is not Pattern.ORBIT and self.turns is not None:
             raise ValueError(f'mission {self.id}: only an orbit has turns')
+        if self.start is not None and (
+            self.pattern is not Pattern.WAYPOINTS or self.target in (None, self.start)
+        ):
+            raise ValueError(f'mission {self.id}: a way from {self.start} has to lead elsewhere')
         return self
 
 

@@ -233,7 +233,11 @@ def test_facts_that_do_not_fit_are_refused(tb: ModuleType) -> None:
     (facts,) = case.facts.missions
     short = dict(facts) | {'waypoints': facts.waypoints[:1]}
     case.facts = case.facts.model_validate({'horizon_s': 90.0, 'missions': (short,)})
-    with pytest.raises(VerificationError, match='at least 2 waypoints'):
+    with pytest.raises(VerificationError, match='the plan has 1 points of another shape'):
+        _derive(tb, case)
+    none = dict(facts) | {'waypoints': ()}
+    case.facts = case.facts.model_validate({'horizon_s': 90.0, 'missions': (none,)})
+    with pytest.raises(VerificationError, match='no waypoints for mission m1'):
         _derive(tb, case)
     case = tb.hover_case()
     (facts,) = case.facts.missions

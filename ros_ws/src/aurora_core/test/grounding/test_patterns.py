@@ -69,7 +69,7 @@ def test_orbit_is_closed_and_keeps_its_radius() -> None:
     assert all(sqrt(x * x + y * y) > 45.0 * 0.996 for x, y in middles)
 
 
-@pytest.mark.parametrize(('asked', 'made'), [(5, 5), (2, 2), (1, 2), (12, 12)])
+@pytest.mark.parametrize(('asked', 'made'), [(5, 5), (2, 2), (1, 1), (12, 12)])
 def test_waypoints_are_as_many_as_asked(asked: int, made: int) -> None:
     points = pattern_points(
         Pattern.WAYPOINTS, length_m=1.0, width_m=1.0, radius_m=30.0, waypoint_count=asked

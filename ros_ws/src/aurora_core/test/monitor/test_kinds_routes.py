@@ -9,12 +9,14 @@ a sample.
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import pytest
 from kind_rows import Row, gone, grounded
 from trace_builder import DT_S, Run, flight, number, world
 from trace_cases import Case, facts_of, mission, spec, survey_case
 
+from aurora_core.knowledge.world import NamedPlace
 from aurora_core.outcomes.schedule import MissionFacts
 from aurora_core.outcomes.verdict import Reason
 from aurora_core.spec.parameter import Bound, Unit
@@ -84,6 +86,48 @@ def _turning(asked: float, flown: float, bound: Bound = Bound.EXACTLY) -> Case:
     return case
 
 
+def _way(end_x: float = 300.0, flown_mps: float = 8.0, points: int = 2) -> Case:
+    """A way of 300 m from the old gate to the new one, or to the new one alone, at 8 m/s."""
+    ticks = 1801
+    names = ('landmark:Old Gate', 'landmark:New Gate')
+    ends = ((0.0, 0.0, 30.0), (end_x, 0.0, 30.0))
+
+    def path(k: int) -> tuple[float, float, float]:
+        return min(max(0, k - 200) * DT_S * flown_mps, end_x), 0.0, 30.0
+
+    landing = 221 + int(end_x / flown_mps / DT_S)
+    single: dict[str, object] = {'waypoint_count': number(1.0, Unit.ONE)}
+    plan = mission(
+        'm1',
+        MissionMode.NAVIGATE,
+        pattern=Pattern.WAYPOINTS,
+        target=names[1],
+        speed_mps=number(8.0, Unit.METRE_PER_SECOND, explicit=True),
+        **({'start': names[0]} if points == 2 else single),
+    )
+    facts = facts_of(
+        MissionFacts(
+            mission='m1',
+            uav='uav1',
+            mode=MissionMode.NAVIGATE,
+            altitude_m=30.0,
+            waypoints=ends[-points:],
+        ),
+        horizon_s=90.0,
+    )
+    run = Run(ticks=ticks, flights=[flight(ticks, (0.0, 0.0), 30.0, path, landing=landing)])
+    gates = tuple(
+        NamedPlace(name=name, x_m=x, y_m=y)
+        for name, (x, y) in zip(names, ((4.0, 0.0), (300.0, 3.0)), strict=True)
+    )
+    return Case(
+        spec=spec(uavs=(Uav(id='uav1'),), missions=(plan,)),
+        facts=facts,
+        world=replace(world(), places=gates),
+        run=run,
+    )
+
+
 def _elsewhere() -> Case:
     case = survey_case()
     case.world = world(streets=((-1000.0, 500.0, 1000.0, 510.0),))
@@ -147,6 +191,18 @@ ROWS = (
     Row(id='m1.speed', make=lambda: _circling(10.0), margin=0.0 - 0.8, what='orbit'),
     # 16 m/s need 85 m to be reached and 85 m to brake: no leg has that.
     Row(id='m1.speed', make=lambda: _speed(16.0), reason=EMPTY),
+    # A way between two places: both ends, and its speed; to one place, the way there.
+    Row(id='m1.start', make=_way, margin=10.0 - 4.0),
+    Row(id='m1.end', make=_way, margin=10.0 - 3.0),
+    Row(id='m1.end', make=lambda: _way(280.0), margin=10.0 - math.hypot(20.0, 3.0), within=0.001),
+    Row(id='m1.speed', make=_way, margin=1.0 - 0.8, what='way'),
+    Row(id='m1.speed', make=lambda: _way(points=1), margin=1.0 - 0.8, what='to-one'),
+    Row(
+        id='m1.speed',
+        make=lambda: _way(flown_mps=6.5, points=1),
+        margin=0.0 - 0.8,
+        what='to-one-slowly',
+    ),
     # 3 m are allowed at each end of the 100 m and of the 60 m.
     Row(id='m1.length', make=_sized, margin=6.0),
     Row(id='m1.length', make=lambda: _sized(stop_after=350), margin=6.0 - 40.0, within=0.5),

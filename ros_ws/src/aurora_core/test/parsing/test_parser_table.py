@@ -76,6 +76,7 @@ def _mission(mission: UavMission) -> str:
         parts.append(mission.pattern.value)
     if mission.target is not None:
         parts.append(mission.target + ('?' if mission.target_inferred else ''))
+    parts += [f'from {mission.start}'] if mission.start is not None else []
     for name, value in (
         ('alt', mission.altitude_m),
         ('standoff', mission.standoff_m),

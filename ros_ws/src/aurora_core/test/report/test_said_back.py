@@ -42,6 +42,12 @@ def _said(prompt: str) -> dict[str, ElementReport]:
             'when van1 comes within 20 m of ego, uav1 sends a message to ego',
             '',
         ),
+        (
+            'A drone flies from Harbor Market to City Hall at 50 m.',
+            'm1',
+            'uav1 flies from Harbor Market to City Hall, altitude 50 m',
+            'speed 8 m/s',
+        ),
         ('At night in fog a car drives.', 'world', 'downtown: fog weather, night', ''),
         (
             'Two drones hover over City Hall at 40 m and 60 m and stay at least 15 m apart.',

@@ -32,6 +32,7 @@ _ROUTE = _HOVER | {
     'size_m': [_number(), _number()],
     'speed_mps': _number('m/s'),
 }
+_WAY = _ROUTE | {'pattern': 'waypoints'}
 _LINK = {
     'id': 'l1',
     'sender': 'uav1',
@@ -94,6 +95,11 @@ def test_the_scene_itself_is_valid() -> None:
         ({'missions': [_HOVER | {'dwell_s': _number('s')}]}, 'only a route'),
         ({'missions': [_HOVER | {'side': 'left'}]}, 'only who tracks'),
         ({'missions': [_ROUTE | {'turns': _number('1')}]}, 'only an orbit'),
+        ({'missions': [_ROUTE | {'start': 'crosswalk'}]}, 'has to lead elsewhere'),
+        (
+            {'missions': [_WAY | {'start': 'crosswalk', 'target': 'crosswalk'}]},
+            'has to lead elsewhere',
+        ),
         # references
         ({'missions': [_HOVER | {'target': 'uav1'}]}, 'its own target'),
         ({'links': [_LINK | {'receiver': 'uav1'}]}, 'cannot send to itself'),

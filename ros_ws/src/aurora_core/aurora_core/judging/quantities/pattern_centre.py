@@ -6,6 +6,9 @@ from __future__ import annotations
 
 from typing import Literal
 
+import shapely
+
+from aurora_core.document import omitted
 from aurora_core.judging.build import Inputs, Source, Target, condition, number
 from aurora_core.judging.evaluation import Context, Evaluation, Missing, at_tick
 from aurora_core.judging.quantity import OfMission
@@ -19,6 +22,9 @@ from aurora_core.spec.quantity import QuantityName
 class PatternCentre(OfMission):
     """Distance from the centre of the pattern, or the hover point, to the target at t = 0, metres.
 
+    Of a way between two places it is the first or last point that counts, and the outline of a
+    landmark that is a building.
+
     A landmark is where the map has it; a hover over the roof of its building is over it. The
     street before it is another place.
     """
@@ -26,6 +32,7 @@ class PatternCentre(OfMission):
     name = QuantityName.PATTERN_CENTRE
     kind: Literal['pattern_centre'] = 'pattern_centre'
     window: Window = Window.START
+    end: Literal['first', 'last'] | None = omitted(None)
 
     def measure(self, context: Context, condition: Condition) -> Evaluation:
         """Return that distance."""
@@ -35,12 +42,24 @@ class PatternCentre(OfMission):
         target = condition.of[1]
         if not context.view.present(target)[0]:
             return Missing(reason=Reason.TARGET_GONE, story=f'{target} is absent at t = 0', tick=0)
+        if self.end is not None:
+            return self._at_end(context, target)
         hovers = not self.mission.waypoints and self.mission.point_m is not None
         point = self.mission.point_m or (0.0, 0.0)
         x, y = point if hovers else pattern_centre(self.mission.waypoints)
         value = self._away_m(context, target, (x, y), hovers=hovers)
         what = 'hover point' if hovers else 'centre of the pattern'
         story = f'the {what} is {value:.2f} m from {target} at t = 0'
+        return at_tick(0, value, story, (f'state[{target}]',))
+
+    def _at_end(self, context: Context, target: str) -> Evaluation:
+        x, y, _ = self.mission.waypoints[0 if self.end == 'first' else -1]
+        building = context.view.geometry.building_of(target)
+        if building is not None:
+            value = float(shapely.Polygon(building.ring).distance(shapely.Point(x, y)))
+        else:
+            value = self._away_m(context, target, (x, y), hovers=False)
+        story = f'the {self.end} point of the way is {value:.2f} m from {target}'
         return at_tick(0, value, story, (f'state[{target}]',))
 
     def _away_m(
@@ -70,6 +89,27 @@ def implied(inputs: Inputs, mission: MissionArguments, target: str, source: Sour
         of=(mission.uav, target),
         target=Target(op='<=', threshold=limit, unit='m'),
         arguments=PatternCentre(**inputs.common, mission=mission),
+        source=source,
+        every_sample=False,
+    )
+
+
+def of_end(
+    inputs: Inputs,
+    mission: MissionArguments,
+    end: Literal['first', 'last'],
+    place: str,
+    source: Source,
+) -> Condition:
+    """Return that a way begins, or ends, at a place."""
+    limit = inputs.tolerances.pattern_centre_m
+    name, verb = ('start', 'begins') if end == 'first' else ('end', 'ends')
+    return condition(
+        id=f'{mission.mission}.{name}',
+        sentence=f'the way of {mission.uav} {verb} within {number(limit)} m of {place}',
+        of=(mission.uav, place),
+        target=Target(op='<=', threshold=limit, unit='m'),
+        arguments=PatternCentre(**inputs.common, mission=mission, end=end),
         source=source,
         every_sample=False,
     )

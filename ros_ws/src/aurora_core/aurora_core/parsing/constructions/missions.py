@@ -98,7 +98,7 @@ def mission(frame: Frame) -> bool:
         mode = MissionMode.HOVER
     if mode is None:
         return _plain_flight(frame, flying, found)
-    made = _from_where(frame, flying, found) if pattern is Pattern.WAYPOINTS else []
+    made = []
     heights, standoffs = _respective(frame, flying, mode)
     for k, uav in enumerate(flying):
         found.altitude = heights[k] if heights else found.altitude
@@ -108,30 +108,14 @@ def mission(frame: Frame) -> bool:
     return True
 
 
-def _from_where(frame: Frame, flying: tuple[Entity, ...], found: FlightValues) -> list[str]:
-    """Take `flies from the station to the park`: a first phase, which ends at the station."""
-    scene = frame.scene
-    made = []
+def _from_where(frame: Frame, target: str | None, found: FlightValues) -> str | None:
+    """Return where `flies from the station to the park` begins."""
     for adjunct in frame.free(AdjunctKind.PHRASE, 'from'):
         place = next((p for n in adjunct.nouns if (p := frame.resolver.place(n))), None)
-        if place is None or any(scene.missions_of(uav) for uav in flying):
-            continue
-        adjunct.used = True
-        for uav in flying:
-            draft = MissionDraft(
-                id=scene.new_id('m'),
-                uav=uav,
-                mode=MissionMode.NAVIGATE,
-                clause=scene.clause_number,
-                target=place,
-                pattern=Pattern.WAYPOINTS,
-                waypoint_count=values.inferred('waypoint_count', 1),
-                span=frame.span,
-            )
-            found.apply(draft)
-            scene.missions.append(draft)
-            made.append(draft.id)
-    return made
+        if place is not None and target not in (None, place) and found.waypoint_count is None:
+            adjunct.used = True
+            return place
+    return None
 
 
 def watching(frame: Frame) -> None:
@@ -338,7 +322,9 @@ def _one(
     # `watches the plaza, hovering there`: from where it watches is said after all.
     draft.watching = draft.watching and frame.key not in ('hover', 'wait')
     draft.target = draft.target or target
-    draft.on_the_way = is_transit(frame, draft, pattern, found)
+    if pattern is Pattern.WAYPOINTS:
+        draft.start = draft.start or _from_where(frame, draft.target, found)
+    draft.on_the_way = draft.start is None and is_transit(frame, draft, pattern, found)
     draft.needs_target = draft.mode is MissionMode.TRACK and draft.target is None
     if draft.pattern is None or (draft.pattern_assumed and pattern is not None):
         draft.pattern = pattern

@@ -10,6 +10,7 @@ from aurora_core.parsing.llm.reading import LinkReading, MissionReading
 from aurora_core.parsing.scene import LinkDraft, MissionDraft
 from aurora_core.parsing.values import default
 from aurora_core.spec.parameter import Parameter
+from aurora_core.spec.reference import is_place
 from aurora_core.spec.vocabulary import MissionMode, Pattern, Side
 
 
@@ -31,6 +32,7 @@ def add_mission(said: MissionReading, parts: Parts) -> None:
             mode=said.mode,
             clause=0,
             target=parts.ref_or_none(said.target),
+            start=_start(said, parts),
             needs_target=tracks and said.target is None,
             altitude=parts.number('altitude', said.altitude_m, f'{where}.altitude_m'),
             standoff=parts.number('standoff', said.standoff_m, f'{where}.standoff_m'),
@@ -50,6 +52,23 @@ def add_mission(said: MissionReading, parts: Parts) -> None:
             span=parts.span(said.quote, where),
         )
     )
+
+
+def _start(said: MissionReading, parts: Parts) -> str | None:
+    start = parts.ref_or_none(said.start)
+    if start is None:
+        return None
+    ends = parts.ref_or_none(said.target)
+    if (
+        said.pattern is not Pattern.WAYPOINTS
+        or ends is None
+        or not (is_place(start) and is_place(ends))
+    ):
+        parts.complaints.append(
+            f'{said.id}.start: a way by waypoints leads from a place to a target that is a place'
+        )
+        return None
+    return start
 
 
 def _side(said: MissionReading, parts: Parts) -> Side | None:

@@ -69,7 +69,8 @@ def _references(reading: Reading) -> Iterator[str]:
     for agent in reading.agents:
         yield from (p.of for p in agent.placements if p.of is not None)
         yield from (b.target for b in agent.behaviors if b.target is not None)
-    yield from (m.target for m in reading.missions if m.target is not None)
+    for mission in reading.missions:
+        yield from (name for name in (mission.target, mission.start) if name is not None)
     yield from (e.trigger.other for e in reading.events if e.trigger.other is not None)
     for condition in reading.conditions:
         yield from condition.of

@@ -96,6 +96,7 @@ class MissionReading(Document):
     uav: Name
     mode: MissionMode
     target: Reference | None = None
+    start: Reference | None = None
     altitude_m: Number | None = None
     standoff_m: Number | None = None
     bearing_deg: Number | None = None

@@ -16,6 +16,7 @@ from aurora_core.spec.vocabulary import RelativeWind, Side
 
 Judge = Callable[..., Judgement]
 ORBIT = 'A drone flies two turns round a bus on an orbit.'
+WAY = 'A drone flies from the crosswalk to the intersection.'
 TRACK = 'In a crosswind of 6 m/s a drone tracks a bus on its left.'
 
 
@@ -70,6 +71,25 @@ def _track(**mission: Any) -> dict[str, Any]:
     }
 
 
+def _way(**mission: Any) -> dict[str, Any]:
+    return {
+        'uavs': [{'id': 'u', 'quote': 'A drone'}],
+        'missions': [
+            {
+                'id': 'm',
+                'uav': 'u',
+                'mode': 'navigate',
+                'pattern': 'waypoints',
+                'start': 'crosswalk',
+                'target': 'intersection',
+                'quote': WAY[2:-1],
+                **mission,
+            }
+        ],
+        'clauses': [{'quote': WAY[:-1], 'status': 'encoded', 'ids': ['m', 'u']}],
+    }
+
+
 def _spec(judgement: Judgement) -> ScenarioSpec:
     assert judgement.outcome is not None, judgement.complaints
     assert judgement.outcome.spec is not None
@@ -80,6 +100,12 @@ def test_turns_are_read_from_their_words(judged: Judge) -> None:
     turns = _spec(judged(_orbit(), ORBIT)).missions[0].turns
     assert turns is not None
     assert (turns.value, turns.provenance) == (2.0, Provenance.EXPLICIT)
+
+
+def test_a_way_between_two_places_is_read(judged: Judge) -> None:
+    (mission,) = _spec(judged(_way(), WAY)).missions
+    assert (mission.start, mission.target) == ('crosswalk', 'intersection')
+    assert (mission.waypoint_count, mission.size_m) == (None, None)
 
 
 def test_a_side_and_a_wind_are_read(judged: Judge) -> None:
@@ -112,6 +138,7 @@ def test_a_return_is_read(judged: Judge) -> None:
     ('reading', 'prompt', 'words'),
     [
         (_orbit(pattern='rectangle'), ORBIT, 'only an orbit has turns'),
+        (_way(pattern='orbit'), WAY, 'a way by waypoints leads'),
         (_track(mode='hover'), TRACK, 'only who tracks keeps to a side'),
     ],
 )
