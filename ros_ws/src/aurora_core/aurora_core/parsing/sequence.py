@@ -25,7 +25,7 @@ from aurora_core.parsing.pronouns import anything, mobile
 from aurora_core.parsing.reactions import REACTIONS, reaction
 from aurora_core.parsing.scene import EventDraft, Scene
 from aurora_core.parsing.told_pieces import is_phase, without_link
-from aurora_core.spec.parameter import Bound
+from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.scenario import (
     AgentAction,
     AltitudeTrigger,
@@ -241,16 +241,25 @@ def soon(frame: Frame, before: int) -> None:
     made = events[before:] or [e for e in events if e.id in frame.scene.clause.ids]
     if not made or made[-1].delay is not None:
         return
-    if not isinstance(made[-1].trigger, EventDoneTrigger | MissionDoneTrigger | AltitudeTrigger):
-        return
+    if isinstance(made[-1].trigger, EventDoneTrigger | MissionDoneTrigger | AltitudeTrigger):
+        made[-1].delay = _deadline(frame)
+
+
+def onset_within(frame: Frame, action: EventAction | None) -> Parameter | None:
+    """Take the time within which a driver answers; what takes longer would have to end in it."""
+    at_once = isinstance(action, AgentAction) and action.do in ('brake', 'start')
+    return _deadline(frame) if at_once else None
+
+
+def _deadline(frame: Frame) -> Parameter | None:
     for adjunct in frame.free(AdjunctKind.MEASURE, TIME):
         measure = adjunct.measure
         assert measure is not None
         bounded = measure.bound is Bound.AT_MOST or adjunct.prep in ('within', 'below')
         if bounded and values.accepts('delay', measure):
             adjunct.used = True
-            made[-1].delay = values.rebound(values.explicit('delay', measure), Bound.AT_MOST)
-            return
+            return values.rebound(values.explicit('delay', measure), Bound.AT_MOST)
+    return None
 
 
 def _reacts(frame: Frame) -> bool:

@@ -21,6 +21,7 @@ from aurora_core.parsing.mission_changes import begins_late
 from aurora_core.parsing.pieces import Link, Piece
 from aurora_core.parsing.pronouns import airborne
 from aurora_core.parsing.scene import ClauseDraft, EventDraft, MissionDraft, UntilDraft
+from aurora_core.parsing.sequence import onset_within
 from aurora_core.parsing.story import Story
 from aurora_core.spec.scenario import AgentAction, EventAction, SendMessage, UavAction
 from aurora_core.spec.vocabulary import BehaviorKind, ClauseStatus
@@ -44,6 +45,7 @@ def effect_then_cause(story: Story, piece: Piece, because: Piece) -> None:
         main_clause(frame)
     messages.link_values(frame)
     demands(frame)
+    limit = onset_within(frame, action)
     story.close(frame)
     second = story.open(because)
     if isinstance(action, SendMessage):
@@ -70,7 +72,7 @@ def effect_then_cause(story: Story, piece: Piece, because: Piece) -> None:
     clause = story.scene.clause
     event = complete_event(story.scene, found, action, frame.span, (effect_clause, clause))
     if event is not None:
-        event.delay = delay
+        event.delay = delay or limit
         _shared_cause(story, event, effect_clause)
         flight_details(second)  # `follows it when it starts, for 1 min`
     messages.link_values(second)

@@ -17,23 +17,35 @@ from aurora_core.planning.orders import waiting
 from aurora_core.spec.events import Event, MessageTrigger, actor_of
 from aurora_core.spec.parameter import Parameter, Provenance
 from aurora_core.spec.quantity import QuantityName
-from aurora_core.spec.scenario import ScenarioSpec, SendMessage, StatedCondition, Uav, UavMission
+from aurora_core.spec.scenario import (
+    AgentAction,
+    GroundAgent,
+    ScenarioSpec,
+    SendMessage,
+    StatedCondition,
+    Uav,
+    UavMission,
+)
 from aurora_core.spec.scene import Link, World
-from aurora_core.spec.vocabulary import MissionMode
+from aurora_core.spec.vocabulary import AgentType, BehaviorKind, MissionMode
 
 # Sight is lost now and then: this much longer than the time of sight that is asked. A scenario of
 # stated length has no such room.
 SPARE = 1.25
 
+_WITH_SIREN = (AgentType.AMBULANCE, AgentType.FIRETRUCK, AgentType.POLICE)
+
 
 def complete(spec: ScenarioSpec, limits: Limits) -> ScenarioSpec:
     """Return a request with missions for all UAVs, triggers for orders, durations and altitudes.
+
+    Who yields gets somebody to yield to.
 
     Args:
         spec: The request, whoever read it; it is not changed.
         limits: Limits in force.
     """
-    spec = waiting(hovering(reporting(telling(blowing(spec, limits)))))
+    spec = waiting(hovering(reporting(telling(yielding(blowing(spec, limits))))))
     return layered(bent(lasting(spec), limits), limits)
 
 
@@ -53,6 +65,49 @@ def blowing(spec: ScenarioSpec, limits: Limits) -> ScenarioSpec:
         speed = speed.model_copy(update={'value': usual_mps})
     world = World.model_validate({**dict(world), 'wind_mps': speed})
     return ScenarioSpec.model_validate({**dict(spec), 'world': world})
+
+
+def yielding(spec: ScenarioSpec) -> ScenarioSpec:
+    """Return the specification with somebody to yield to for who yields to nobody named.
+
+    That is the person who crosses, else the vehicle with a siren, else who does something about
+    the agent itself; where there are several of a kind it stays open.
+
+    Args:
+        spec: The request, whoever read it; returned as it is when nothing was added.
+    """
+    agents = tuple(_yielding(spec, agent) for agent in spec.agents)
+    if agents == spec.agents:
+        return spec
+    return ScenarioSpec.model_validate({**dict(spec), 'agents': agents})
+
+
+def _yielding(spec: ScenarioSpec, agent: GroundAgent) -> GroundAgent:
+    crosses = {
+        e.action.agent
+        for e in spec.events
+        if isinstance(e.action, AgentAction) and e.action.do == 'cross'
+    }
+    others = [a for a in spec.agents if a.id != agent.id]
+    kinds = (
+        [a for a in others if a.id in crosses or _does(a, BehaviorKind.CROSS)],
+        [a for a in others if a.type in _WITH_SIREN],
+        [a for a in others if any(b.target == agent.id for b in a.behaviors)],
+    )
+    found = next((kind for kind in kinds if kind), [])
+    if len(found) != 1:
+        return agent
+    behaviors = tuple(
+        b.model_copy(update={'target': found[0].id, 'target_inferred': True})
+        if b.kind is BehaviorKind.YIELD and b.target is None
+        else b
+        for b in agent.behaviors
+    )
+    return agent.model_copy(update={'behaviors': behaviors})
+
+
+def _does(agent: GroundAgent, kind: BehaviorKind) -> bool:
+    return any(behavior.kind is kind for behavior in agent.behaviors)
 
 
 def reporting(spec: ScenarioSpec) -> ScenarioSpec:

@@ -158,12 +158,13 @@ def _agent(agent: GroundAgent) -> ElementReport:
     kind += ' (the ego)' if agent.role is Role.EGO else ''
     kind += ' of the background' if agent.role is Role.BACKGROUND else ''
     parts = [f'{agent.id} is {kind}', *map(_placement, agent.placements)]
-    parts += [_behavior(b) for b in agent.behaviors]
+    parts += [_behavior(b) for b in agent.behaviors if not b.target_inferred]
     assumed = [
         text
         for element in (*agent.placements, *agent.behaviors)
         for text in _named_numbers(element, stated=False)
     ]
+    assumed += [f'{_behavior(b)}' for b in agent.behaviors if b.target_inferred]
     return ElementReport(id=agent.id, text='; '.join(parts), assumed=', '.join(assumed))
 
 

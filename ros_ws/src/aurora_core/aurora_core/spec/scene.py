@@ -102,6 +102,7 @@ class Behavior(Element):
     Attributes:
         kind: See `BehaviorKind`.
         target: Agent id or place it refers to.
+        target_inferred: The prompt names no target; it was completed.
         speed_mps: Stated speed.
         closing_from_m: Tailgate or approach: distance to `target` at t = 0 and when the
             closing starts.
@@ -109,6 +110,7 @@ class Behavior(Element):
 
     kind: BehaviorKind
     target: Id | PlaceRef | None = None
+    target_inferred: bool = omitted(False)
     speed_mps: Parameter | None = None
     closing_from_m: Parameter | None = None
     span: Span | None = None

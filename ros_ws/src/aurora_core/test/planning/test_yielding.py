@@ -1,0 +1,41 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Who yields without a word of whom gets somebody to yield to, where there is one alone."""
+
+from __future__ import annotations
+
+import pytest
+
+from aurora_core.parsing.parser import ParseContext, parse_offline
+from aurora_core.planning.complete import yielding
+
+CONTEXT = ParseContext(landmark_names=())
+
+
+@pytest.mark.parametrize(
+    ('prompt', 'whom'),
+    [
+        ('A pedestrian crosses at the crosswalk. The ego car yields.', 'pedestrian1'),
+        ('A pedestrian crosses when the ego is 40 m away. The ego yields.', 'pedestrian1'),
+        ('An ambulance approaches the ego car from behind. The ego car yields.', 'ambulance1'),
+        ('A van approaches the ego car from behind. The ego car yields.', 'van1'),
+        # A person goes before a siren, and of two persons neither is chosen.
+        ('An ambulance waits. A pedestrian crosses. The ego car yields.', 'pedestrian1'),
+        ('Two pedestrians cross the street. The ego car yields.', None),
+        ('A bus drives. The ego car yields.', None),
+    ],
+)
+def test_who_yields_yields_to_somebody(prompt: str, whom: str | None) -> None:
+    read = parse_offline(prompt, CONTEXT).spec
+    assert read is not None
+    done = yielding(read)
+    ego = next(agent for agent in done.agents if agent.id == 'ego')
+    (behavior,) = ego.behaviors
+    assert (behavior.target, behavior.target_inferred) == (whom, whom is not None)
+
+
+def test_who_is_told_to_whom_keeps_it() -> None:
+    prompt = 'A pedestrian crosses. An ambulance drives. The ego car yields to the ambulance.'
+    read = parse_offline(prompt, CONTEXT).spec
+    assert read is not None
+    assert yielding(read) == read
