@@ -56,6 +56,10 @@ def _unread(prompt: str) -> list[str]:
         ('A van stops next to a parked bus.', 'stops next to'),
         ('A pedestrian crosses in front of a bus.', 'crosses in front of'),
         ('A van stops after 20 s and stops again after 50 s.', 'stops again'),
+        (
+            'The ego overtakes a cyclist, keeping 1.5 m away from it.',
+            'overtakes a cyclist, keeping 1.5 m',
+        ),
         ('A van turns around and drives back.', 'turns around'),
         ('The van tracks a bus and drives home.', 'home'),
         ('A van stops after 30 s because a pedestrian crosses the street.', 'because'),
