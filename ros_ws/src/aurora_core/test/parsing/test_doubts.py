@@ -109,6 +109,7 @@ def test_what_no_element_says_is_admitted(prompt: str, quoted: str) -> None:
         'A car drives with a bus 20 m ahead of it and a van to its left.',
         'A car that starts 25 m behind a bus overtakes it.',
         'A pedestrian stands beside a roadside unit at Harbor Market.',
+        'A roadside unit warns the drone, and the drone warns the ego.',
     ],
 )
 def test_what_elements_say_is_not_doubted(prompt: str) -> None:

@@ -11,7 +11,13 @@ from aurora_core.parsing.atoms import Atom, AtomKind
 from aurora_core.parsing.doubts.bodies import taking_part, unnamed
 from aurora_core.parsing.doubts.clauses import BREAKS, TOLD, clause_of, events_in, sentences
 from aurora_core.spec.parameter import Span
-from aurora_core.spec.scenario import GroundAgent, ScenarioSpec, SendMessage, bodies_of
+from aurora_core.spec.scenario import (
+    GroundAgent,
+    MessageTrigger,
+    ScenarioSpec,
+    SendMessage,
+    bodies_of,
+)
 from aurora_core.spec.vocabulary import AgentType, BehaviorKind
 
 _ENDS = frozenset({AtomKind.VERB, AtomKind.SUBORDINATOR, AtomKind.STOP, AtomKind.COMMA})
@@ -46,8 +52,14 @@ def other_receivers(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]
 def open_moments(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
     """`overtakes it, then the drone warns the ego`: a message at no time where words tell one.
 
-    Its moment stays open only where nothing else happens in the sentence.
+    Its moment stays open only where nothing else happens in the sentence, or where it is what
+    somebody answers to.
     """
+    answered = {
+        (e.trigger.sender, e.trigger.by)
+        for e in spec.events
+        if isinstance(e.trigger, MessageTrigger)
+    }
     waited = {getattr(e.trigger, 'event', None) for e in spec.events}
     ordered = {name for o in spec.orders for name in (o.first, o.then)}
     for sentence in sentences(atoms):
@@ -64,6 +76,7 @@ def open_moments(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
                 isinstance(e.action, SendMessage)
                 and e.trigger is None
                 and e.id not in waited | ordered
+                and (e.action.sender, e.action.receiver) not in answered
                 for e in events_in(spec, clause)
             ):
                 yield clause.span
