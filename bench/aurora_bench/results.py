@@ -17,6 +17,7 @@ write_results(
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -157,6 +158,13 @@ def goal_table(goals: Sequence[Goal]) -> Table:
         headings=('goal', 'target', 'found', ''),
         rows=tuple((goal.name, goal.target, goal.figure, words[goal.met]) for goal in goals),
     )
+
+
+def told_goals(goals: Sequence[Goal]) -> int:
+    """Say on standard error how each goal came out; return the exit code, 1 where one is not."""
+    for goal in goals:
+        sys.stderr.write(f'{goal.name}: {goal.figure} (target {goal.target})\n')
+    return int(any(goal.met is False for goal in goals))
 
 
 def markdown_table(table: Table) -> str:

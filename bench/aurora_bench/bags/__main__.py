@@ -19,7 +19,7 @@ from aurora_bench.bags.judge import Judgement, judge
 from aurora_bench.interrupt import stop_on_sigterm
 from aurora_bench.machine import machine_facts
 from aurora_bench.progress import Progress
-from aurora_bench.results import Goal, Table, write_results
+from aurora_bench.results import Goal, Table, told_goals, write_results
 from aurora_cli.main import run_command_line
 from aurora_core.trace.definitions import message_definitions
 
@@ -70,9 +70,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         ),
         machine=machine,
     )
-    for goal in goals:
-        sys.stderr.write(f'{goal.name}: {goal.figure} (target {goal.target})\n')
-    return int(any(goal.met is False for goal in goals))
+    return told_goals(goals)
 
 
 def _damages(

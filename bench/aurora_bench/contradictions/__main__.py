@@ -21,7 +21,7 @@ from aurora_bench.contradictions.prompts import REQUESTS
 from aurora_bench.interrupt import stop_on_sigterm
 from aurora_bench.machine import machine_facts
 from aurora_bench.progress import Progress
-from aurora_bench.results import Goal, Table, write_results
+from aurora_bench.results import Goal, Table, told_goals, write_results
 
 PLANTED_LEAST = 12
 ALTERED_LEAST = 30
@@ -56,10 +56,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         ),
         machine=machine,
     )
-    for goal in goals:
-        sys.stderr.write(f'{goal.name}: {goal.figure} (target {goal.target})\n')
+    code = told_goals(goals)
     sys.stdout.write(_last_line(baselines, found))
-    return int(any(goal.met is False for goal in goals))
+    return code
 
 
 def _last_line(baselines: Sequence[Baseline], found: Sequence[Found]) -> str:

@@ -17,7 +17,6 @@ from statistics import median
 
 import numpy as np
 
-from aurora_bench.campaign.pool import Lost, run_tasks
 from aurora_bench.encounters.pairs import KINDS, Pair, pairs
 from aurora_bench.interrupt import stop_on_sigterm
 from aurora_bench.machine import machine_facts
@@ -25,7 +24,7 @@ from aurora_bench.progress import Progress
 from aurora_bench.results import Table, markdown_table, write_results
 from aurora_bench.rulers.readback import read_back_line
 from aurora_bench.rulers.runs import RealiseWork
-from aurora_bench.rulers.trial import JudgedTrial, Trial, lost
+from aurora_bench.rulers.trial import JudgedTrial, Trial, judged_trials
 from aurora_core.errors import AuroraError
 from aurora_core.trace.bag_reader import read_bag
 from aurora_core.trace.definitions import message_definitions
@@ -69,11 +68,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
     with tempfile.TemporaryDirectory(prefix='aurora_encounters_') as folder:
         place = options.keep or Path(folder)
         work = RealiseWork(folder=place, keep=True, map_name=options.map, repair=0)
-        runs = run_tasks(work, trials, jobs=options.jobs, limit_s=_LIMIT_S)
+        runs = judged_trials(work, trials, jobs=options.jobs, limit_s=_LIMIT_S)
         with closing(runs) as answers:
-            for index, answer in answers:
+            for index, result in answers:
                 trial = trials[index]
-                result = lost(trial, answer.why) if isinstance(answer, Lost) else answer
                 judged[index] = result
                 bags = sorted((place / trial.folder).glob('*/bag.0'))
                 missed[index] = apart_s(bags[-1], chosen[index]) if bags else None

@@ -20,7 +20,7 @@ from aurora_bench.endurance.holdings import Holdings, growth_goals, holdings
 from aurora_bench.interrupt import stop_on_sigterm
 from aurora_bench.machine import machine_facts
 from aurora_bench.progress import Progress
-from aurora_bench.results import Goal, Table, write_results
+from aurora_bench.results import Goal, Table, told_goals, write_results
 from aurora_cli.clock import MonotonicClock
 from aurora_cli.installed import installed
 from aurora_cli.local_engine import LocalStages
@@ -84,9 +84,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         ),
         machine=machine,
     )
-    for goal in goals:
-        sys.stderr.write(f'{goal.name}: {goal.figure} (target {goal.target})\n')
-    return int(any(goal.met is False for goal in goals))
+    return told_goals(goals)
 
 
 def sameness_goals(outcomes: Sequence[Sequence[Outcome]]) -> tuple[Goal, ...]:

@@ -19,7 +19,6 @@ from pydantic import ValidationError
 
 from aurora_bench.campaign.code import code_digest
 from aurora_bench.campaign.journal import Journal, JournalHead, journal_path
-from aurora_bench.campaign.pool import Lost, run_tasks
 from aurora_bench.interrupt import stop_on_sigterm
 from aurora_bench.machine import machine_facts
 from aurora_bench.matrix import air, ground
@@ -28,7 +27,7 @@ from aurora_bench.progress import Progress
 from aurora_bench.results import Goal, Table, goal_table, markdown_table, write_results
 from aurora_bench.rulers.readback import read_back_line
 from aurora_bench.rulers.runs import RealiseWork
-from aurora_bench.rulers.trial import JudgedTrial, Trial, lost
+from aurora_bench.rulers.trial import JudgedTrial, Trial, judged_trials
 from aurora_cli.installed import installed
 from aurora_core.errors import AuroraError
 
@@ -85,14 +84,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
                     folder=options.keep or Path(folder), keep=options.keep is not None,
                     map_name=name, repair=0,
                 )  # fmt: skip
-                runs = run_tasks(work, left, jobs=options.jobs, limit_s=_LIMIT_S)
+                runs = judged_trials(work, left, jobs=options.jobs, limit_s=_LIMIT_S)
                 with closing(runs) as answers:
-                    for index, answer in answers:
-                        trial = left[index]
-                        result = lost(trial, answer.why) if isinstance(answer, Lost) else answer
-                        judged[trial.key] = result
-                        journal.add(trial.key, result.model_dump(mode='json'))
-                        progress.step(f'{trial.key}: {shown(result)}')
+                    for index, result in answers:
+                        key = left[index].key
+                        judged[key] = result
+                        journal.add(key, result.model_dump(mode='json'))
+                        progress.step(f'{key}: {shown(result)}')
             journal.end()
         goals = goals_of(chosen, judged)
         tables = [t for name in options.maps for t in tables_of(name, chosen, judged)]

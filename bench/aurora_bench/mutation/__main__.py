@@ -17,7 +17,7 @@ from aurora_bench.machine import machine_facts
 from aurora_bench.mutation.campaign import Campaign, Outcome, recordings
 from aurora_bench.mutation.prompts import FAILING, SOUND
 from aurora_bench.progress import Progress
-from aurora_bench.results import Goal, Table, write_results
+from aurora_bench.results import Goal, Table, told_goals, write_results
 
 BREAKING_LEAST = 500
 CAUGHT_LEAST = 0.99
@@ -65,9 +65,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         ),
         machine=machine,
     )
-    for goal in goals:
-        sys.stderr.write(f'{goal.name}: {goal.figure} (target {goal.target})\n')
-    return int(any(goal.met is False for goal in goals))
+    return told_goals(goals)
 
 
 def _goals(outcomes: Sequence[Outcome], planted: Sequence[Outcome]) -> list[Goal]:

@@ -16,7 +16,7 @@ from typing import Any
 from aurora_bench.campaign.code import code_digest
 from aurora_bench.campaign.files import PromptFile, file_line, read_files, verdict_line
 from aurora_bench.campaign.journal import Journal, JournalError, JournalHead, journal_path
-from aurora_bench.campaign.pool import Lost, PoolError, Work, run_tasks
+from aurora_bench.campaign.pool import PoolError, Work
 from aurora_bench.interrupt import stop_on_sigterm
 from aurora_bench.machine import Machine, machine_facts
 from aurora_bench.progress import Progress
@@ -35,7 +35,7 @@ from aurora_bench.rulers.summary import (
     total_tables,
     unchecked_share,
 )
-from aurora_bench.rulers.trial import JudgedTrial, Trial, lost
+from aurora_bench.rulers.trial import JudgedTrial, Trial, judged_trials
 from aurora_bench.seeds import seeds_option
 from aurora_core.errors import AuroraError, ConfigError, MapError
 from aurora_core.knowledge.map_folders import list_maps
@@ -265,13 +265,13 @@ def _campaign(
             progress.step(f'{_shown(judged[trial.key], options)} (from the journal)')
     left = [t for t in trials if t.key not in judged]
     # Closed before anything else goes: a worker that is still at it would write into the folder.
-    with closing(run_tasks(work, left, jobs=options.jobs, limit_s=options.limit_s)) as answers:
-        for index, answer in answers:
-            trial = left[index]
-            result = lost(trial, answer.why) if isinstance(answer, Lost) else answer
-            judged[trial.key] = result
+    trials_run = judged_trials(work, left, jobs=options.jobs, limit_s=options.limit_s)
+    with closing(trials_run) as answers:
+        for index, result in answers:
+            key = left[index].key
+            judged[key] = result
             if journal is not None:
-                journal.add(trial.key, result.model_dump(mode='json'))
+                journal.add(key, result.model_dump(mode='json'))
             progress.step(_shown(result, options))
     return tuple(judged[t.key] for t in trials)
 

@@ -4,12 +4,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Generator, Mapping, Sequence
+from contextlib import closing
 from enum import StrEnum
 from typing import Any
 
 from pydantic import FiniteFloat
 
+from aurora_bench.campaign.pool import Lost, Work, run_tasks
 from aurora_bench.prompts.format import AnnotatedPrompt, Category, Feasibility
 from aurora_bench.rulers.checking import Said
 from aurora_bench.rulers.readback import ReadBack
@@ -122,3 +124,21 @@ def judged(
 def lost(trial: Trial, why: str) -> JudgedTrial:
     """Return the result of a trial whose worker gave none."""
     return judged(trial, status='lost', cause=Cause.ERROR, words=(why,), summary=why)
+
+
+def judged_trials(
+    work: Work[Trial, JudgedTrial], trials: Sequence[Trial], *, jobs: int, limit_s: float
+) -> Generator[tuple[int, JudgedTrial], None, None]:
+    """Yield how trials ended, as they end, each with its place among them.
+
+    It is closed by whoever leaves it early: a worker that is still at it writes into its folder.
+
+    Args:
+        work: How they are run.
+        trials: Which.
+        jobs: Worker processes.
+        limit_s: Wall seconds of one; whoever takes longer is lost.
+    """
+    with closing(run_tasks(work, trials, jobs=jobs, limit_s=limit_s)) as answers:
+        for index, answer in answers:
+            yield index, lost(trials[index], answer.why) if isinstance(answer, Lost) else answer

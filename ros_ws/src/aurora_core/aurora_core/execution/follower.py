@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 from aurora_core.execution.lane_changer import LaneChanger
 from aurora_core.execution.observe import Observation
+from aurora_core.knowledge.settings import DrivingStyle
 from aurora_core.quantities.actions import SPEED_ACTIONS
 from aurora_core.spec.own_events import keeps_to_lanes, own_events
 from aurora_core.spec.scenario import AgentAction, ScenarioSpec
@@ -21,17 +22,8 @@ from aurora_core.trace.commands import GroundCommand
 from aurora_core.trace.layout import GroundCommandKind
 from aurora_core.trace.roster import Roster
 
-# The gap that is kept, bumper to bumper: so much, and what is driven in so long (m, s); and how
-# fast one comes up to it (1/s).
-_GAP_M = 3.0
-_GAP_S = 2.0
-_GAIN_PER_S = 0.4
-
 # A smaller change of speed is not worth a command (m/s).
 _NEW_MPS = 0.2
-
-# From so far away nobody keeps a gap (m).
-_LOST_M = 80.0
 
 # An ordered change of lane is given this long before it is ordered again (s).
 _AGAIN_S = 5.0
@@ -66,6 +58,7 @@ class Follower:
         roster: Row order.
         lanes: Orders changes of lane.
         drive: Gives the command that lets the agent of a row drive on.
+        style: The gap that they keep.
     """
 
     def __init__(
@@ -74,7 +67,9 @@ class Follower:
         roster: Roster,
         lanes: LaneChanger,
         drive: Callable[[int], GroundCommand],
+        style: DrivingStyle,
     ) -> None:
+        self._style = style
         self._roster = roster
         self._lanes = lanes
         self._drive = drive
@@ -116,13 +111,13 @@ class Follower:
         if one.told_mps is None and not starts:
             return []
         gap_m = seen.ahead_m(one.row, other)
-        if apart is False or abs(gap_m) > _LOST_M:
+        if apart is False or abs(gap_m) > self._style.follow_lost_m:
             if one.told_mps is None:
                 return []
             one.told_mps = None
             return [self._drive(one.row)]
-        wanted_m = _GAP_M + _GAP_S * lead_mps
-        wanted_mps = max(0.0, lead_mps + _GAIN_PER_S * (gap_m - wanted_m))
+        wanted_m = self._style.follow_gap_m + self._style.follow_gap_s * lead_mps
+        wanted_mps = max(0.0, lead_mps + self._style.follow_gain_hz * (gap_m - wanted_m))
         if one.told_mps is not None and abs(wanted_mps - one.told_mps) < _NEW_MPS:
             return []
         one.told_mps = wanted_mps

@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from aurora_core.execution.observe import Observation
+from aurora_core.knowledge.settings import DrivingStyle
 from aurora_core.knowledge.world import CentreLine, WorldModel
 from aurora_core.quantities.lane_changes import (
     CENTRED_M,
@@ -30,11 +31,6 @@ ROUTE_CHANGES = 257
 # For so long the new lane is kept, the change itself included (s).
 _STAYS_S = LANE_CHANGE_S + 5.0
 
-# A lane is free beside a vehicle when nobody is on it nearer than this, bumper to bumper (m), now
-# or after so much time (s).
-_FREE_M = 5.0
-_FREE_S = 2.0
-
 
 class LaneChanger:
     """Changes of lane of the ground agents of a run.
@@ -43,9 +39,13 @@ class LaneChanger:
         world: With the lanes.
         roster: Row order.
         driving_mps: Speed that counts as driving.
+        style: When a lane is free.
     """
 
-    def __init__(self, world: WorldModel, roster: Roster, driving_mps: float) -> None:
+    def __init__(
+        self, world: WorldModel, roster: Roster, driving_mps: float, style: DrivingStyle
+    ) -> None:
+        self._style = style
         self._world = world
         self._roster = roster
         self._driving_mps = driving_mps
@@ -132,7 +132,8 @@ class LaneChanger:
         x, y, hx, hy, speed = seen.ground(row)[: GroundColumn.SPEED + 1].tolist()
         to_x, to_y, _, _, other_speed = seen.ground(other)[: GroundColumn.SPEED + 1].tolist()
         now_m = (to_x - x) * hx + (to_y - y) * hy
-        later_m = now_m + (other_speed - speed) * _FREE_S
+        later_m = now_m + (other_speed - speed) * self._style.lane_free_s
         agents = self._roster.agents
-        need_m = _FREE_M + (agents[row].length_m + agents[other].length_m) / 2.0
+        boxes_m = (agents[row].length_m + agents[other].length_m) / 2.0
+        need_m = self._style.lane_free_m + boxes_m
         return bool(min(now_m, later_m) >= need_m or max(now_m, later_m) <= -need_m)

@@ -11,18 +11,11 @@ from dataclasses import dataclass
 
 from aurora_core.execution.lane_changer import LaneChanger
 from aurora_core.execution.observe import Observation
+from aurora_core.knowledge.settings import DrivingStyle
 from aurora_core.spec.own_events import overtakings
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.trace.commands import GroundCommand
 from aurora_core.trace.roster import Roster
-
-# It pulls out this close behind the other one, and in again this far ahead of it (m, bumper to
-# bumper).
-_OUT_M = 30.0
-_IN_M = 10.0
-
-# The lane to pass on is kept for so long (s): longer than it takes to pass on any street.
-_PASSES_S = 60.0
 
 
 @dataclass(slots=True)
@@ -47,10 +40,14 @@ class Overtaker:
         spec: The request.
         roster: Row order.
         lanes: Orders changes of lane.
+        style: When they pull out and in.
     """
 
-    def __init__(self, spec: ScenarioSpec, roster: Roster, lanes: LaneChanger) -> None:
+    def __init__(
+        self, spec: ScenarioSpec, roster: Roster, lanes: LaneChanger, style: DrivingStyle
+    ) -> None:
         self._roster = roster
+        self._style = style
         self._lanes = lanes
         passed: dict[int, list[int]] = {}
         for agent, other in overtakings(spec):
@@ -67,15 +64,15 @@ class Overtaker:
         agents = self._roster.agents
         if not one.is_out:
             gaps_m = [seen.ahead_m(one.row, agents[other].body_id) for other in one.others]
-            if not any(0.0 < gap_m <= _OUT_M for gap_m in gaps_m):
+            if not any(0.0 < gap_m <= self._style.overtake_out_m for gap_m in gaps_m):
                 return []
             goal = self._lanes.goal(one.row, seen)
             if goal is None:
                 return []
             one.is_out = True
-            return self._lanes.commands(one.row, goal, stays_s=_PASSES_S)
+            return self._lanes.commands(one.row, goal, stays_s=self._style.overtake_lane_s)
         own = agents[one.row].body_id
-        if any(seen.ahead_m(other, own) < _IN_M for other in one.others):
+        if any(seen.ahead_m(other, own) < self._style.overtake_in_m for other in one.others):
             return []
         goal = self._lanes.goal(one.row, seen, back=True)
         if goal is None:

@@ -194,6 +194,7 @@ def build_stepper(
                 endurance_s=limits.uav_endurance_s, touchdown_m=tolerances.touchdown_height_m
             ),
             action_rules=action_rules(tolerances),
+            driving=settings.run.driving,
             horizon_ticks=round(schedule.horizon_s / dt_s),
             stated_horizon=schedule.stated_horizon,
             earliest_end_ticks=round(limits.horizon_inferred_min_s / dt_s),

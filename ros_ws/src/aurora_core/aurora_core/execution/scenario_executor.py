@@ -28,6 +28,7 @@ from aurora_core.execution.step_output import StepOutput
 from aurora_core.execution.triggers import BatteryRule
 from aurora_core.execution.ways import Ways
 from aurora_core.grounding.airspace import Airspace
+from aurora_core.knowledge.settings import DrivingStyle
 from aurora_core.mission.machine import MissionMachine
 from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
 from aurora_core.quantities.actions import ActionRules
@@ -65,6 +66,7 @@ class ExecutionSetup:
         drive_m: Way after which an agent counts as having driven.
         battery: What the level of a UAV's battery is counted by.
         action_rules: When the actions of ground agents are complete.
+        driving: How drivers are led.
         landing_clearance_m: The way to a landing spot keeps this clearance.
         earliest_end_ticks: Runs with an inferred horizon do not end before.
         settle_ticks: Time between the last thing done and the end.
@@ -82,6 +84,7 @@ class ExecutionSetup:
     drive_m: float
     battery: BatteryRule
     action_rules: ActionRules
+    driving: DrivingStyle
     horizon_ticks: int
     stated_horizon: bool
     earliest_end_ticks: int
@@ -108,8 +111,10 @@ class ScenarioExecutor:
         self._runner = self._run_events(EventRunner)
         self._reports = Reports(setup.links, setup.roster.dt_s, self._runner.next_message)
         self._premises = Premises(setup.spec, setup.roster, self._ways)
-        self._overtaker = Overtaker(setup.spec, setup.roster, self._lanes())
-        self._follower = Follower(setup.spec, setup.roster, self._lanes(), self._drives)
+        self._overtaker = Overtaker(setup.spec, setup.roster, self._lanes(), setup.driving)
+        self._follower = Follower(
+            setup.spec, setup.roster, self._lanes(), self._drives, setup.driving
+        )
         self._done_tick: int | None = None
         self._landing_since: dict[int, int] = {}
         self._sight = InstantSight(setup.geometry, setup.roster)
@@ -181,7 +186,7 @@ class ScenarioExecutor:
 
     def _lanes(self) -> LaneChanger:
         s = self._setup
-        return LaneChanger(s.geometry.world, s.roster, s.action_rules.start_mps)
+        return LaneChanger(s.geometry.world, s.roster, s.action_rules.start_mps, s.driving)
 
     def _initial_commands(self) -> list[GroundCommand]:
         commands = []

@@ -20,7 +20,6 @@ from aurora_core.grounding.goals import STOP_AFTER_M, GoalFinder, stops
 from aurora_core.grounding.kept_gaps import KeptGap, kept_gaps
 from aurora_core.grounding.lane_changers import ORDERED_CHANGES, changes_lane
 from aurora_core.grounding.pace import (
-    EMERGENCY_FACTOR,
     PACED,
     Encounter,
     convoy_pace_mps,
@@ -109,7 +108,9 @@ class AgentPlacer:
         front_m = max((s.arc_m for s in site.seated), default=0.0)
         gaps = kept_gaps(spec, seats, self._types)
         in_line = _in_line(spec)
-        entries = entry_speeds_mps(spec, seats, self._types, self._map.network)
+        entries = entry_speeds_mps(
+            spec, seats, self._types, self._map.network, self._settings.grounding.speeds
+        )
         parting = any(changes_lane(spec, s.agent) for s in site.seated)
         placed = []
         for agent in spec.agents:
@@ -129,7 +130,7 @@ class AgentPlacer:
                     seat.arc_m,
                     release=own_release(spec, agent, apart.get(agent.id, release)),
                     still=still,
-                    speed_mps=stated_speed_mps(spec, agent),
+                    speed_mps=self._stated_mps(spec, agent),
                     entry_mps=entries.get(agent.id, 0.0),
                     style=style,
                     lane_changes=self._lane_changes(spec, agent, tied=len(site.seated) > 1),
@@ -138,6 +139,14 @@ class AgentPlacer:
                 )
             )
         return placed
+
+    def _stated_mps(self, spec: ScenarioSpec, agent: GroundAgent) -> float | None:
+        return stated_speed_mps(spec, agent, self._settings.grounding.speeds)
+
+    def _emergency_style(self, agent: GroundAgent) -> dict[str, float]:
+        """Return what an emergency run makes of limits: enough for a stated speed anywhere."""
+        least, stated = self._settings.grounding.speeds.emergency_factor, own_speed_mps(agent)
+        return {'speed_factor': least if stated is None else max(least, stated / _SLOWEST_MPS)}
 
     def free(
         self,
@@ -183,7 +192,7 @@ class AgentPlacer:
         parked: bool,
     ) -> GroundedAgent | None:
         record = self._types[agent.type.value]
-        speed_mps = stated_speed_mps(spec, agent)
+        speed_mps = self._stated_mps(spec, agent)
         network = self._map.network
         drivable, least_mps = brisk_lanes(
             list(network.driving_lanes(record.vclass)), speed_mps or 0.0
@@ -244,7 +253,7 @@ class AgentPlacer:
             release=release,
             still=parked or stands(agent),
             speed_mps=speed_mps,
-            style={'speed_factor': _emergency_factor(agent)} if in_emergency(agent) else {},
+            style=self._emergency_style(agent) if in_emergency(agent) else {},
             lane_changes=self._lane_changes(spec, agent, tied=False),
             stop_m=arc_m + STOP_AFTER_M if stops(agent) else None,
             parked=parked,
@@ -339,7 +348,9 @@ class AgentPlacer:
         if not watched and not waits and len(site.seated) < 2:
             return 1.0
         fastest = site.fastest_mps(self._map.network, tied_way_m(spec, self._settings.grounding))
-        stated = fastest_stated_mps(spec, (s.agent for s in site.seated))
+        stated = fastest_stated_mps(
+            spec, (s.agent for s in site.seated), self._settings.grounding.speeds
+        )
         pace = max(stated, convoy_pace_mps(spec, self._limits, self._settings.grounding))
         return min(1.0, pace / fastest)
 
@@ -376,7 +387,7 @@ class AgentPlacer:
                 'min_gap_m': run.tailgate_min_gap_m,
             }
         if in_emergency(agent):
-            return {'speed_factor': _emergency_factor(agent)}
+            return self._emergency_style(agent)
         behind = self._settings.grounding.convoy_speed_factor_behind
         style = {'speed_factor': factor if is_front else factor * behind}
         if agent.id in in_line:
@@ -439,12 +450,6 @@ def _last(pair: frozenset[str], seats: Mapping[str, SeatedAgent]) -> str | None:
     if not pair <= seats.keys():
         return None
     return min(sorted(pair), key=lambda name: seats[name].arc_m)
-
-
-def _emergency_factor(agent: GroundAgent) -> float:
-    """Return what an emergency run makes of speed limits: enough for a stated speed anywhere."""
-    stated = own_speed_mps(agent)
-    return EMERGENCY_FACTOR if stated is None else max(EMERGENCY_FACTOR, stated / _SLOWEST_MPS)
 
 
 def _urged(record: AgentTypeRecord, speed_mps: float | None) -> float:

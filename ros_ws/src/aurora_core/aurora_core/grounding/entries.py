@@ -14,6 +14,7 @@ from aurora_core.grounding.pace import PACED, own_speed_mps, stated_speed_mps
 from aurora_core.grounding.sites import SeatedAgent
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.road_network import RoadNetwork
+from aurora_core.knowledge.settings import SpeedSettings
 from aurora_core.quantities.actions import SPEED_ACTIONS
 from aurora_core.spec.own_events import own_events
 from aurora_core.spec.scenario import AgentAction, GroundAgent, ScenarioSpec
@@ -30,6 +31,7 @@ def entry_speeds_mps(
     seats: Mapping[str, SeatedAgent],
     types: Mapping[str, AgentTypeRecord],
     network: RoadNetwork,
+    speeds: SpeedSettings,
 ) -> dict[str, float]:
     """Return the speeds at t = 0 of those who do not start from rest, by agent.
 
@@ -38,6 +40,7 @@ def entry_speeds_mps(
         seats: Places of the vehicles by agent.
         types: Agent sizes and dynamics.
         network: With the speed limits.
+        speeds: What is open of speeds.
     """
     found: dict[str, float] = {}
     moving = {a.id for a in spec.agents if a.id in seats and _comes_in(spec, a)}
@@ -51,7 +54,7 @@ def entry_speeds_mps(
         record, lane = types[seat.agent.type.value], network.lane(seat.lane_id)
         led_mps = [found.get(b.target or '', 0.0) for b in seat.agent.behaviors if b.kind in PACED]
         speed_mps = min(
-            stated_speed_mps(spec, seat.agent) or max(led_mps, default=0.0),
+            stated_speed_mps(spec, seat.agent, speeds) or max(led_mps, default=0.0),
             lane.speed_limit_mps,
             record.desired_speed_mps or lane.speed_limit_mps,
         )

@@ -17,10 +17,11 @@ import shapely
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.awaited import awaited_at
 from aurora_core.grounding.places import MapPlaces, arrivals, has_point
-from aurora_core.grounding.sites import LONGEST_WAY_M, SeatedAgent, Site
+from aurora_core.grounding.sites import SeatedAgent, Site
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Tolerances
 from aurora_core.knowledge.map_model import MapModel
+from aurora_core.knowledge.settings import GroundingSettings
 from aurora_core.spec.parameter import Bound, Parameter, Provenance
 from aurora_core.spec.reference import is_landmark
 from aurora_core.spec.scenario import GroundAgent, ScenarioSpec
@@ -41,14 +42,9 @@ _LEADS = (
 
 # A vehicle has at least this way to a place that it goes to, and at most that (m).
 _WAY_M = (40.0, 260.0)
-# ... and where no street leads straight on to it.
-_WIDE_M = (40.0, LONGEST_WAY_M)
 
 # Who stops where no place is named does so after this way (m), or before the way ends.
 STOP_AFTER_M = 60.0
-
-# Who stops at a place stops this far inside its surroundings (m).
-_INSIDE_M = 2.0
 
 # Who is awaited within a distance comes at least this much nearer (m): ticks are that far apart.
 _NEARER_M = 0.5
@@ -104,6 +100,7 @@ class GoalFinder:
         map_model: Map.
         types: Agent sizes.
         tolerances: How near is near, and at.
+        settings: How far inside that one stops, and how long a way may be.
     """
 
     def __init__(
@@ -111,11 +108,15 @@ class GoalFinder:
         map_model: MapModel,
         types: Mapping[str, AgentTypeRecord],
         tolerances: Tolerances,
+        settings: GroundingSettings,
     ) -> None:
         self._map = map_model
         self._places = MapPlaces(map_model)
         self._types = types
         self._tolerances = tolerances
+        self._arrival_m = tolerances.arrival_m - settings.inside_bound_m
+        # Where no street leads straight on to a place.
+        self._wide_m = (_WAY_M[0], settings.longest_way_m)
 
     def fits(
         self,
@@ -165,7 +166,7 @@ class GoalFinder:
             seat = next((s for s in site.seated if s.agent.id == awaited.agent), None)
             if seat is None:
                 continue
-            within_m, stated = self._tolerances.arrival_m - _INSIDE_M, awaited.within_m is not None
+            within_m, stated = self._arrival_m, awaited.within_m is not None
             point = self._places.itself(awaited.place, at)
             if awaited.within_m is None:
                 point = self._places.point(awaited.place, at)
@@ -239,7 +240,7 @@ class GoalFinder:
         return self._open_arc(seat, seat.arc_m + STOP_AFTER_M)
 
     def _bounds(self, spec: ScenarioSpec, agent: GroundAgent) -> Iterator[_Bound]:
-        arrival_m = self._tolerances.arrival_m - _INSIDE_M
+        arrival_m = self._arrival_m
         for placement in agent.placements:
             of, relation = placement.of, placement.relation
             if of is None or not has_point(of) or relation is Relation.BEFORE:
@@ -319,7 +320,7 @@ class GoalFinder:
         wide: bool = False,
     ) -> float | None:
         """Return where a way comes near a point at a fair distance (m along it), else None."""
-        low, high = (seat.arc_m + way_m for way_m in (_WIDE_M if wide else _WAY_M))
+        low, high = (seat.arc_m + way_m for way_m in (self._wide_m if wide else _WAY_M))
         arc_m, _ = seat.path.line.project(
             *point, near_s=(low + high) / 2.0, window_m=(high - low) / 2.0
         )

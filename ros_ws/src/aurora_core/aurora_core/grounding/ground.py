@@ -115,7 +115,7 @@ class Grounder:
             airspace = Airspace(map_model.buildings, map_model.zones)
         self._air = airspace
         self._spots = SpotFinder(map_model, settings.grounding)
-        self._goals = GoalFinder(map_model, types, tolerances)
+        self._goals = GoalFinder(map_model, types, tolerances, settings.grounding)
 
     def ground(
         self,
@@ -172,8 +172,12 @@ class Grounder:
         )
         run_s = horizon_s(spec, self._limits, self._settings.flight)
         run_m = run_s * self._drive_speed(spec, split) + 300.0
-        persons = PersonPlacer(self._map, self._types, self._walks)
-        oncoming = OncomingPlacer(self._map, self._types, self._spawns)
+        persons = PersonPlacer(
+            self._map, self._types, self._settings.grounding.persons, self._walks
+        )
+        oncoming = OncomingPlacer(
+            self._map, self._types, self._settings.grounding.inside_bound_m, self._spawns
+        )
         ranked = self._ranked_sites(spec, split, run_m)
         if plan is not None:
             ranked = allowed_sites(ranked, plan, self._map.network)
@@ -228,10 +232,12 @@ class Grounder:
 
     def _no_street(self, spec: ScenarioSpec, split: SceneSplit, run_m: float) -> str:
         """Return in words why no street has room for the convoy."""
+        grounding = self._settings.grounding
 
         def found(members: tuple[ConvoyMember, ...]) -> Iterator[Site]:
-            spacing_m = self._goals.spacing_m(spec, self._settings.grounding.anchor_spacing_m)
-            return sites(self._map, members, self._types, run_m, spacing_m, spawns=self._spawns)
+            spacing_m = self._goals.spacing_m(spec, grounding.anchor_spacing_m)
+            where = (self._map, members, self._types, grounding)
+            return sites(*where, run_m, spacing_m, spawns=self._spawns)
 
         return on_no_street(spec, split, self._goals, found)
 
@@ -247,11 +253,11 @@ class Grounder:
     ) -> list[tuple[float, Site]]:
         grounding = self._settings.grounding
         way_m = tied_way_m(spec, grounding)
-        stated = fastest_stated_mps(spec, (m.agent for m in split.convoy))
+        stated = fastest_stated_mps(spec, (m.agent for m in split.convoy), grounding.speeds)
         changing = {m.agent.id for m in split.convoy if changes_lane(spec, m.agent)}
         need_m = way_m if len(split.convoy) > 1 else _LOOKED_S / 2.0 * stated
         members = [m.agent for m in split.convoy]
-        need_m = max(need_m, timed_way_m(spec, members, grounding.target_speed_mps))
+        need_m = max(need_m, timed_way_m(spec, members, grounding))
         wanted = grounding.target_speed_mps
         ranked: list[tuple[float, Site]] = []
 
@@ -260,6 +266,7 @@ class Grounder:
                 self._map,
                 split.convoy,
                 self._types,
+                grounding,
                 run_m,
                 self._goals.spacing_m(spec, grounding.anchor_spacing_m),
                 split.before,

@@ -60,9 +60,12 @@ class GroupPlacer:
                     map_model,
                     group,
                     types,
+                    settings,
                     run_m,
                     goals.spacing_m(spec, settings.anchor_spacing_m),
-                    least_limit_mps=fastest_stated_mps(spec, (m.agent for m in group)),
+                    least_limit_mps=fastest_stated_mps(
+                        spec, (m.agent for m in group), settings.speeds
+                    ),
                     several_lanes=any(changes_lane(spec, m.agent) for m in group),
                     goals=through,
                 )

@@ -23,9 +23,6 @@ from aurora_core.spec.vocabulary import Relation
 # the first one that the street has room for.
 _MEETING_M = (60.0, 80.0, 45.0, 35.0, 25.0)
 
-# So far inside a bound on the distance (m).
-_INSIDE_M = 2.0
-
 # Cosine of two headings that are opposite to each other.
 _OPPOSITE = -0.9
 
@@ -39,6 +36,7 @@ class OncomingPlacer:
     Args:
         map_model: Map.
         types: Agent sizes.
+        inside_m: How far inside a bound on the distance they stand.
         spawns: Where vehicle types were measured to stand.
     """
 
@@ -46,10 +44,12 @@ class OncomingPlacer:
         self,
         map_model: MapModel,
         types: Mapping[str, AgentTypeRecord],
+        inside_m: float,
         spawns: SpawnTable | None = None,
     ) -> None:
         self._network = map_model.network
         self._types = types
+        self._inside_m = inside_m
         self._spawns = spawns
 
     def seated(self, agents: tuple[GroundAgent, ...], site: Site, run_m: float) -> Site | str:
@@ -76,7 +76,7 @@ class OncomingPlacer:
         told = placement if ahead is None else ahead
         stated = told.distance_m
         given = stated is not None and stated.provenance is Provenance.EXPLICIT
-        tried = (stated.inside(_INSIDE_M),) if given and stated is not None else _MEETING_M
+        tried = (stated.inside(self._inside_m),) if given and stated is not None else _MEETING_M
         straight = ahead is None
         seats = (self._at(agent, met, away_m, run_m, straight=straight) for away_m in tried)
         return next((seat for seat in seats if seat is not None), None)

@@ -12,7 +12,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from aurora_core.knowledge.limits import Limits
-from aurora_core.knowledge.settings import GroundingSettings
+from aurora_core.knowledge.settings import GroundingSettings, SpeedSettings
 from aurora_core.quantities.actions import FROM_MOTION
 from aurora_core.spec.own_events import own_events
 from aurora_core.spec.quantity import QuantityName
@@ -29,27 +29,6 @@ from aurora_core.spec.vocabulary import AgentType, BehaviorKind, MissionMode
 
 # An observed convoy covers at most this share of the sensing range during a hover.
 _OBSERVED_SHARE = 0.5
-
-# Speed of a person who walks, unless the request says another (m/s).
-WALKING_MPS = 1.4
-
-# What an emergency run makes of speed limits.
-EMERGENCY_FACTOR = 1.2
-
-# Who has to be faster than a number drives so much faster (m/s).
-_FASTER_MPS = 0.7
-
-# Who is never to be faster than a number drives so much slower (m/s).
-_BELOW_CAP_MPS = 0.5
-
-# Who is to accelerate to a speed drives so much slower before, but not slower than that (m/s).
-_GAINS_MPS = 5.0
-_LEAST_MPS = 3.0
-# Who is to accelerate, nobody says to what or from what, drives so fast before (m/s).
-_UNSAID_FROM_MPS = 7.0
-
-# Who is to slow down to a speed drives so much faster before (m/s).
-_SLOWS_BY_MPS = 4.0
 
 # Distance beyond the trigger distance at which two that are to meet start: so much, and what a
 # stated speed needs to be reached and driven for so long (m, m/s^2, s).
@@ -164,17 +143,19 @@ def own_speed_mps(agent: GroundAgent) -> float | None:
     return speeds[0] if speeds else None
 
 
-def slows_from_mps(agent: GroundAgent) -> float:
+def slows_from_mps(agent: GroundAgent, speeds: SpeedSettings) -> float:
     """Return how fast an agent has to drive for its slowing down to show, 0 where it does not."""
     goals = [
         b.speed_mps.value
         for b in agent.behaviors
         if b.kind is BehaviorKind.SLOW and b.speed_mps is not None
     ]
-    return max((goal + _SLOWS_BY_MPS for goal in goals), default=0.0)
+    return max((goal + speeds.before_slowing_mps for goal in goals), default=0.0)
 
 
-def stated_speed_mps(spec: ScenarioSpec, agent: GroundAgent) -> float | None:
+def stated_speed_mps(
+    spec: ScenarioSpec, agent: GroundAgent, settings: SpeedSettings
+) -> float | None:
     """Return the stated speed of an agent, else of one that follows it: both drive the same.
 
     Whose speed an event waits for, as more than a number, drives faster than that.
@@ -185,21 +166,22 @@ def stated_speed_mps(spec: ScenarioSpec, agent: GroundAgent) -> float | None:
         if any(b.kind in PACED and b.target == agent.id for b in a.behaviors)
     ]
     awaited = [
-        e.trigger.value_mps.value + _FASTER_MPS
+        e.trigger.value_mps.value + settings.above_awaited_mps
         for e in spec.events
         if isinstance(e.trigger, SpeedTrigger)
         and e.trigger.on == 'speed_above'
         and e.trigger.who == agent.id
         and agent.type is not AgentType.PEDESTRIAN
     ]
-    gains = _gains_from_mps(spec, agent)
-    speeds = (own_speed_mps(agent), *followers, *awaited, gains, _capped_mps(spec, agent))
+    gains = _gains_from_mps(spec, agent, settings)
+    capped = _capped_mps(spec, agent, settings)
+    speeds = (own_speed_mps(agent), *followers, *awaited, gains, capped)
     return next((speed for speed in speeds if speed is not None), None)
 
 
-def _gains_to_mps(spec: ScenarioSpec, agent: GroundAgent) -> list[float]:
+def _gains_to_mps(spec: ScenarioSpec, agent: GroundAgent, speeds: SpeedSettings) -> list[float]:
     """Return the speeds that an agent is to accelerate to: without one, by a fair amount."""
-    unsaid = (own_speed_mps(agent) or _UNSAID_FROM_MPS) + _GAINS_MPS
+    unsaid = (own_speed_mps(agent) or speeds.unsaid_mps) + speeds.before_gain_mps
     return [
         unsaid if e.action.value_mps is None else e.action.value_mps.value
         for e in spec.events
@@ -209,13 +191,15 @@ def _gains_to_mps(spec: ScenarioSpec, agent: GroundAgent) -> list[float]:
     ]
 
 
-def _gains_from_mps(spec: ScenarioSpec, agent: GroundAgent) -> float | None:
+def _gains_from_mps(spec: ScenarioSpec, agent: GroundAgent, speeds: SpeedSettings) -> float | None:
     """Return how fast an agent drives before it accelerates to a speed, None if it does not."""
-    goals = _gains_to_mps(spec, agent)
-    return max(_LEAST_MPS, min(goals) - _GAINS_MPS) if goals else None
+    goals = _gains_to_mps(spec, agent, speeds)
+    if not goals:
+        return None
+    return max(speeds.least_before_gain_mps, min(goals) - speeds.before_gain_mps)
 
 
-def _capped_mps(spec: ScenarioSpec, agent: GroundAgent) -> float | None:
+def _capped_mps(spec: ScenarioSpec, agent: GroundAgent, speeds: SpeedSettings) -> float | None:
     """Return how fast an agent drives that is never to be faster than a number, None if free."""
     caps = [
         one.value.value
@@ -225,10 +209,12 @@ def _capped_mps(spec: ScenarioSpec, agent: GroundAgent) -> float | None:
         and one.by_s is None
         and (agent.id in one.of or agent.group in one.of)
     ]
-    return max(0.0, min(caps) - _BELOW_CAP_MPS) if caps else None
+    return max(0.0, min(caps) - speeds.below_cap_mps) if caps else None
 
 
-def fastest_stated_mps(spec: ScenarioSpec, agents: Iterable[GroundAgent]) -> float:
+def fastest_stated_mps(
+    spec: ScenarioSpec, agents: Iterable[GroundAgent], speeds: SpeedSettings
+) -> float:
     """Return the highest speed that the request states for any of them, 0 where for none.
 
     Who is on an emergency run does not count.
@@ -236,14 +222,20 @@ def fastest_stated_mps(spec: ScenarioSpec, agents: Iterable[GroundAgent]) -> flo
     bound = (agent for agent in agents if not in_emergency(agent))
     return max(
         (
-            max([stated_speed_mps(spec, a) or 0.0, slows_from_mps(a), *_gains_to_mps(spec, a)])
+            max(
+                stated_speed_mps(spec, a, speeds) or 0.0,
+                slows_from_mps(a, speeds),
+                *_gains_to_mps(spec, a, speeds),
+            )
             for a in bound
         ),
         default=0.0,
     )
 
 
-def timed_way_m(spec: ScenarioSpec, agents: Iterable[GroundAgent], pace_mps: float) -> float:
+def timed_way_m(
+    spec: ScenarioSpec, agents: Iterable[GroundAgent], settings: GroundingSettings
+) -> float:
     """Return how far agents get until the last of what they do on the move at a stated time.
 
     "At 45 s it stops": before a red light it would have stood by then, and nothing would change.
@@ -251,9 +243,10 @@ def timed_way_m(spec: ScenarioSpec, agents: Iterable[GroundAgent], pace_mps: flo
     Args:
         spec: The request.
         agents: Who.
-        pace_mps: Speed of whom no speed is stated, m/s.
+        settings: With the speed of whom no speed is stated.
     """
-    speeds = {a.id: stated_speed_mps(spec, a) or pace_mps for a in agents}
+    pace_mps = settings.target_speed_mps
+    speeds = {a.id: stated_speed_mps(spec, a, settings.speeds) or pace_mps for a in agents}
     return max(
         (
             event.trigger.at_s.value * speeds[event.action.agent]
@@ -272,7 +265,7 @@ def watched_speed_mps(
 ) -> float:
     """Return the speed of a mission's target: what is stated, else the pace of the convoy."""
     target = next((a for a in spec.agents if a.id == mission.target), None)
-    stated = None if target is None else stated_speed_mps(spec, target)
+    stated = None if target is None else stated_speed_mps(spec, target, settings.speeds)
     if stated is None and target is not None and target.type is AgentType.PEDESTRIAN:
-        return WALKING_MPS
+        return settings.persons.walking_mps
     return convoy_pace_mps(spec, limits, settings) if stated is None else stated

@@ -16,8 +16,7 @@ from aurora_core.spec.scenario import ScenarioSpec
 # Free space between the border of its lane and the flank of a parked vehicle (m).
 KERB_CLEARANCE_M = 0.3
 
-# Round the middle of a person is so much room, and its way is looked at in such steps (m).
-_BODY_M = 0.4
+# The way of a person is looked at in such steps (m).
 _STEP_M = 0.5
 
 Pose = tuple[float, float, float, float]
@@ -51,7 +50,10 @@ def parked_boxes(
 
 
 def walks_into(
-    parked: Iterable[tuple[Pose, AgentTypeRecord]], walker: SeatedPerson, way_m: float
+    parked: Iterable[tuple[Pose, AgentTypeRecord]],
+    walker: SeatedPerson,
+    way_m: float,
+    body_m: float,
 ) -> bool:
     """Tell whether a person stands in, or walks through, a parked vehicle.
 
@@ -59,6 +61,7 @@ def walks_into(
         parked: Poses and sizes of the vehicles.
         walker: The person.
         way_m: So far its way is looked at; it is a step at least.
+        body_m: Room round the middle of a person.
     """
     end_m = min(walker.path.length_m, walker.arc_m + max(way_m, _STEP_M))
     steps = range(int((end_m - walker.arc_m) / _STEP_M) + 1)
@@ -66,7 +69,7 @@ def walks_into(
     left_m = walker.lateral_m
     points = [(x - left_m * hy, y + left_m * hx) for x, y, hx, hy in poses]
     for (x, y, hx, hy), record in parked:
-        along_m, aside_m = 0.5 * record.length_m + _BODY_M, 0.5 * record.width_m + _BODY_M
+        along_m, aside_m = 0.5 * record.length_m + body_m, 0.5 * record.width_m + body_m
         for px, py in points:
             along = abs((px - x) * hx + (py - y) * hy) < along_m
             if along and abs((py - y) * hx - (px - x) * hy) < aside_m:

@@ -16,7 +16,6 @@ from aurora_core.grounding.awaited import awaited_at
 from aurora_core.grounding.convoy import DEFAULT_GAP_M, stands
 from aurora_core.grounding.nearby import ON_SIDEWALKS, by_vehicles, in_order
 from aurora_core.grounding.pace import (
-    WALKING_MPS,
     encounter_room_m,
     met_persons,
     own_speed_mps,
@@ -35,6 +34,7 @@ from aurora_core.grounding.sites import (
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.map_records import WalkTable
+from aurora_core.knowledge.settings import PersonSettings
 from aurora_core.knowledge.walk_path import WalkPath, kerb_to_kerb, sidewalk_of, walk_along
 from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
 from aurora_core.spec.events import sets_off
@@ -59,14 +59,8 @@ _ARRIVES_FROM_M = 18.0
 # Steps in which a spot at a stated distance is looked for (m).
 _STEP_M = 0.5
 
-# Two persons side by side on a sidewalk are so far apart (m).
-_ABREAST_M = 0.65
-
 # So far the way of a person is looked at for parked vehicles (m).
 _SHORT_WAY_M = 60.0
-
-# Inside a bound on a distance one stands so far (m).
-_INSIDE_M = 1.0
 
 # Who has crossed walks on this far (m), out of the way of the next one.
 _BEYOND_M = 6.0
@@ -152,6 +146,7 @@ class PersonPlacer:
     Args:
         map_model: Map.
         types: Agent sizes.
+        style: How they stand and walk.
         walks: Which sidewalks and crossings were walked; None where the map was not measured.
     """
 
@@ -159,12 +154,14 @@ class PersonPlacer:
         self,
         map_model: MapModel,
         types: Mapping[str, AgentTypeRecord],
+        style: PersonSettings,
         walks: WalkTable | None = None,
     ) -> None:
         self._walks = walks
         self._map = map_model
         self._places = MapPlaces(map_model)
         self._types = types
+        self._style = style
         self._finder = route_finder(map_model.network, ANY_CLASS)
 
     def seated(
@@ -188,7 +185,9 @@ class PersonPlacer:
             way_m = _SHORT_WAY_M if _goes(spec, agent) else 0.0
             seats = (*site.seated, *site.others)
             parked = parked_boxes(spec, seats, self._map.network, self._types)
-            if not self._walked(spot.path) or walks_into(parked, walker, way_m):
+            if not self._walked(spot.path) or walks_into(
+                parked, walker, way_m, self._style.body_m
+            ):
                 return 'sidewalk'
             site = replace(site, walkers=(*site.walkers, walker))
         return site
@@ -236,7 +235,7 @@ class PersonPlacer:
                 release_mission=release.mission,
                 release_agent=release.agent,
                 release_within_m=release.within_m,
-                drive_speed_mps=own_speed_mps(agent) or WALKING_MPS,
+                drive_speed_mps=own_speed_mps(agent) or self._style.walking_mps,
                 acceleration_mps2=record.accel_mps2,
                 deceleration_mps2=record.decel_mps2,
             )
@@ -279,7 +278,7 @@ class PersonPlacer:
             return placed
         if any(b.kind is BehaviorKind.STOP for b in agent.behaviors):
             return placed
-        way_m = (own_speed_mps(agent) or WALKING_MPS) * run_s
+        way_m = (own_speed_mps(agent) or self._style.walking_mps) * run_s
         return self._onward(placed, way_m)
 
     def _crossing(
@@ -326,7 +325,7 @@ class PersonPlacer:
             stated = placement.distance_m
             told = stated is not None and stated.provenance is Provenance.EXPLICIT
             if told and stated is not None and placement.relation is Relation.NEAR:
-                aimed_m = max(0.0, stated.inside(_INSIDE_M))
+                aimed_m = max(0.0, stated.inside(self._style.inside_bound_m))
                 return self._so_near(seat, aimed_m) or 'sidewalk'
             sign = _ALONG[placement.relation]
             away_m = sign * (self._near_m(seat) if stated is None else stated.value)
@@ -345,7 +344,8 @@ class PersonPlacer:
 
     def _abreast_of(self, seat: SeatedPerson, relation: Relation) -> _Spot:
         """Return the spot beside a person, in the same walk."""
-        side_m = _ABREAST_M if relation is not Relation.RIGHT else -_ABREAST_M
+        abreast_m = self._style.abreast_m
+        side_m = abreast_m if relation is not Relation.RIGHT else -abreast_m
         width_m = self._map.network.lane(seat.path.lane_id).width_m
         lateral_m = seat.lateral_m + side_m
         free = relation not in (Relation.LEFT, Relation.RIGHT)
@@ -418,7 +418,7 @@ class PersonPlacer:
         names = [p.of for p in agent.placements] + [b.target for b in agent.behaviors]
         names += [awaited.place for awaited in awaited_at(spec) if awaited.agent == agent.id]
         stated = {
-            p.of: max(0.0, p.distance_m.inside(_INSIDE_M))
+            p.of: max(0.0, p.distance_m.inside(self._style.inside_bound_m))
             for p in agent.placements
             if p.distance_m is not None and p.distance_m.provenance is Provenance.EXPLICIT
         }

@@ -9,6 +9,7 @@ import itertools
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Self
 
 import numpy as np
@@ -44,14 +45,9 @@ _ASIDE_M = 8.0
 
 # Clear road in front of the first and behind the last bumper at t = 0.
 _END_GAP_M = 2.0
-# Within so much of its place along the way, a member is looked for beside it (m).
+# Within so much of its place along the way, a member is looked for beside it (m): a window of
+# the search, wider than any box.
 _ABREAST_M = 30.0
-
-# Where no street leads straight on to a place, ways are so long at most (m).
-LONGEST_WAY_M = 900.0
-
-# Who lets others pass, and they, go the same way for so long (m).
-_PASSING_M = 150.0
 
 # A limit of 13.89 m/s is meant where 50 km/h are asked (m/s).
 _LIMIT_SLACK_MPS = 0.05
@@ -201,6 +197,7 @@ def sites(
     map_model: MapModel,
     convoy: tuple[ConvoyMember, ...],
     types: Mapping[str, AgentTypeRecord],
+    settings: GroundingSettings,
     route_length_m: float,
     spacing_m: float,
     before: BeforePlace | None = None,
@@ -216,6 +213,7 @@ def sites(
         map_model: Map.
         convoy: Who is to be placed.
         types: Agent sizes.
+        settings: How places are searched.
         route_length_m: Of the routes.
         spacing_m: How far apart they are.
         before: A member that stands before a place; only such sites are yielded.
@@ -254,7 +252,8 @@ def sites(
         if has_right and not shifted:
             continue
         if goals:
-            edges = finder.leading_route(lane.edge_id, route_length_m, goals, LONGEST_WAY_M)
+            longest_m = settings.longest_way_m
+            edges = finder.leading_route(lane.edge_id, route_length_m, goals, longest_m)
         elif side:
             edges = finder.turning_route(lane.edge_id, route_length_m, side)
         else:
@@ -263,17 +262,18 @@ def sites(
             continue
         # Who lets others pass stays in its lane: it goes straight on where they turn.
         aside = finder.straight_route(lane.edge_id, route_length_m) if goals else ()
-        paths: dict[tuple[str, int, bool], RoutePath | None] = {}
+        seated = partial(
+            _site, map_model, convoy, types, (edges, aside), lane.id, settings.passing_m, {}
+        )
         arc_m = back_m + _END_GAP_M
         end_m = lane.arc_length_m + max(0.0, back_m)
         while arc_m < end_m:
-            site = _site(map_model, convoy, types, (edges, aside), lane.id, arc_m, paths)
+            site = seated(arc_m)
             if site is not None and before is not None:
                 exact_m = _exact_arc_m(site, before, centres, spacing_m)
                 site = None
                 if exact_m is not None:
-                    ways = (edges, aside)
-                    site = _site(map_model, convoy, types, ways, lane.id, exact_m, paths)
+                    site = seated(exact_m)
             if site is not None and _stands(network, site, spawns):
                 yield site
             arc_m += spacing_m
@@ -341,8 +341,9 @@ def _site(
     types: Mapping[str, AgentTypeRecord],
     ways: tuple[tuple[str, ...], tuple[str, ...]],
     lane_id: str,
-    origin_arc_m: float,
+    passing_m: float,
     paths: dict[tuple[str, int, bool], RoutePath | None],
+    origin_arc_m: float,
 ) -> Site | None:
     network = map_model.network
     index = network.lane(lane_id).index
@@ -371,7 +372,7 @@ def _site(
         if aside and _lets_pass(member.agent):
             own = path_of(record.vclass, member.lane_shift, lets_pass=True)
             shared_m = _shared_m(network, edges, aside)
-            if shared_m < arc_m + _PASSING_M:
+            if shared_m < arc_m + passing_m:
                 return None  # nobody could pass before they part
             path = own
         if path is None:

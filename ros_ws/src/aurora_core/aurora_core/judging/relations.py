@@ -39,7 +39,8 @@ RELATION_WORDS = {
 
 # Farther than this from what is meant, the distance is not told apart (m).
 _CUTOFF_M = 200.0
-# A route passes a place where it comes nearly as near as it ever does (m); looked for in pieces.
+# A route passes a place where it comes so nearly as near (m) as it ever does; it is looked for in
+# pieces of such a length (m). Part of what "before" means: no tolerance of a site.
 _PASS_M = 10.0
 _PASS_WINDOW_M = 50.0
 

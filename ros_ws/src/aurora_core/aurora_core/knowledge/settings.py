@@ -8,6 +8,7 @@ from typing import Annotated, Self
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
+from aurora_core.document import omitted
 from aurora_core.errors import ConfigError
 from aurora_core.files import CONFIG_BYTES, read_json
 from aurora_core.knowledge.config_files import config_path
@@ -35,6 +36,27 @@ class AnchorWeights(_Table):
         return self
 
 
+class SpeedSettings(_Table):
+    """Speeds of drivers that what the request says leaves open."""
+
+    above_awaited_mps: NotNegative = 0.7  # who has to be faster than a number
+    below_cap_mps: NotNegative = 0.5  # who is never to be faster than a number
+    before_gain_mps: NotNegative = 5.0  # below the speed that one is to accelerate to
+    least_before_gain_mps: NotNegative = 3.0  # but not slower than that
+    unsaid_mps: Positive = 7.0  # before one accelerates, nobody says to what or from what
+    before_slowing_mps: NotNegative = 4.0  # above the speed that one is to slow down to
+    emergency_factor: Positive = 1.2  # what an emergency run makes of speed limits
+
+
+class PersonSettings(_Table):
+    """How persons stand and walk."""
+
+    walking_mps: Positive = 1.4  # unless the request says another
+    abreast_m: Positive = 0.65  # between two side by side on a sidewalk
+    body_m: NotNegative = 0.4  # room round the middle of one
+    inside_bound_m: NotNegative = 1.0  # how far inside a bound on a distance one stands
+
+
 class GroundingSettings(_Table):
     """How places are searched."""
 
@@ -59,6 +81,12 @@ class GroundingSettings(_Table):
     background_radius_m: tuple[NotNegative, Positive]
     background_gap_m: NotNegative
     traffic_reach_share: Positive  # of `traffic_radius_m`; traffic does not leave it if it can
+    # What came later has a default: recordings made before are judged by what held then.
+    longest_way_m: Positive = omitted(900.0)  # to a place that no street leads straight on to
+    passing_m: NotNegative = omitted(150.0)  # who lets others pass, and they, go the same way
+    inside_bound_m: NotNegative = omitted(2.0)  # how far inside a bound a vehicle stands
+    speeds: SpeedSettings = omitted(SpeedSettings())
+    persons: PersonSettings = omitted(PersonSettings())
 
 
 class FlightDefaults(_Table):
@@ -72,6 +100,20 @@ class FlightDefaults(_Table):
     position_gain_hz: Positive
 
 
+class DrivingStyle(_Table):
+    """How drivers are led that follow, overtake or change lane; gaps are bumper to bumper."""
+
+    overtake_out_m: Positive = 30.0  # one pulls out this close behind the other one
+    overtake_in_m: NotNegative = 10.0  # and in again this far ahead of it
+    overtake_lane_s: Positive = 60.0  # the lane to pass on is kept so long: longer than it takes
+    follow_gap_m: NotNegative = 3.0  # the gap that is kept: so much, and
+    follow_gap_s: NotNegative = 2.0  # what is driven in so long
+    follow_gain_hz: Positive = 0.4  # how fast one comes up to it
+    follow_lost_m: Positive = 80.0  # from so far away nobody keeps a gap
+    lane_free_m: NotNegative = 5.0  # a lane is free where nobody on it is nearer than this,
+    lane_free_s: NotNegative = 2.0  # now or after so much time
+
+
 class RunSettings(_Table):
     """Lockstep and style of driving."""
 
@@ -82,6 +124,7 @@ class RunSettings(_Table):
     tailgate_speed_factor: Positive
     tailgate_time_gap_s: Positive
     tailgate_min_gap_m: NotNegative
+    driving: DrivingStyle = omitted(DrivingStyle())
 
 
 class Settings(_Table):

@@ -29,7 +29,8 @@ _WINDOW_S = 1.0
 _VEHICLE_M = 1.0
 _OF_WAY = 0.15
 # Inside a junction the lanes of a turn count the same length: who drives outside of their middle
-# goes by so much (m) more per radian. Elsewhere the lanes are known.
+# goes by so much (m) more per radian: the width of a lane of which SUMO is told none. Elsewhere
+# the lanes are known.
 _ASIDE_M = 3.2
 # A UAV reports both of one point (m).
 _UAV_M = 0.5

@@ -22,6 +22,7 @@ from aurora_core.grounding.airspace import Airspace
 from aurora_core.knowledge.config_files import config_path
 from aurora_core.knowledge.limits import load_limits, load_tolerances
 from aurora_core.knowledge.map_types import Building
+from aurora_core.knowledge.settings import DrivingStyle, load_settings
 from aurora_core.knowledge.world import (
     CentreLine,
     NamedPlace,
@@ -99,6 +100,7 @@ class Stage:
     hold_said: bool = True
     horizon_ticks: int = 4000
     drive_m: float = 20.0
+    driving: DrivingStyle = field(default_factory=lambda: load_settings().run.driving)
     stated_horizon: bool = False
     earliest_end_ticks: int = 0
     settle_ticks: int = 10
@@ -333,6 +335,7 @@ class Stage:
             drive_m=self.drive_m,
             battery=BatteryRule(endurance_s=10.0, touchdown_m=0.3),
             action_rules=action_rules(load_tolerances(config_path('tolerances.json'))),
+            driving=self.driving,
             horizon_ticks=self.horizon_ticks,
             stated_horizon=self.stated_horizon,
             earliest_end_ticks=self.earliest_end_ticks,

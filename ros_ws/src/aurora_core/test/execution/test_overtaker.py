@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from aurora_core.knowledge.settings import DrivingStyle
 from aurora_core.knowledge.world import CentreLine
 from aurora_core.spec.scenario import Behavior
 from aurora_core.spec.vocabulary import BehaviorKind
@@ -32,9 +33,9 @@ def _street(count: int) -> tuple[CentreLine, ...]:
     )
 
 
-def _scene(stage: Build, lanes: int = 2) -> Any:
+def _scene(stage: Build, lanes: int = 2, **fields: Any) -> Any:
     overtakes = Behavior(kind=BehaviorKind.OVERTAKE, target='van1')
-    return stage(tracks={}, behaviors={'ego': (overtakes,)}, lanes=_street(lanes))
+    return stage(tracks={}, behaviors={'ego': (overtakes,)}, lanes=_street(lanes), **fields)
 
 
 def _orders(scene: Any) -> list[tuple[str, float]]:
@@ -65,3 +66,11 @@ def test_who_is_ahead_already_does_nothing(stage: Build) -> None:
     scene = _scene(stage)
     scene.put('van1', 200.0, speed=6.0).put('ego', 230.0, speed=13.0).step(5)
     assert _orders(scene) == []
+
+
+def test_a_site_says_how_close_it_pulls_out(stage: Build) -> None:
+    scene = _scene(stage, driving=DrivingStyle(overtake_out_m=10.0))
+    scene.put('van1', 200.0, speed=6.0).put('ego', 175.0, speed=13.0).step(3)
+    assert _orders(scene) == [], 'close enough for the shipped distance only'
+    scene.put('ego', 190.0, speed=13.0).step(3)
+    assert _orders(scene) == [('ego', 1.0)]

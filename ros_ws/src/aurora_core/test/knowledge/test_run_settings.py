@@ -38,6 +38,27 @@ def test_reference_motion_stays_below_the_limits() -> None:
 
 
 @pytest.mark.parametrize(
+    ('group', 'field'),
+    [
+        ('grounding', 'inside_bound_m'),
+        ('grounding', 'longest_way_m'),
+        ('grounding', 'passing_m'),
+        ('grounding', 'persons'),
+        ('grounding', 'speeds'),
+        ('run', 'driving'),
+    ],
+)
+def test_recordings_from_before_a_setting_are_judged_by_what_held_then(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, group: str, field: str
+) -> None:
+    shipped = load_settings()
+    assert field in json.loads(config_path('settings.json').read_text(encoding='utf-8'))[group]
+    _use(tmp_path, monkeypatch, lambda table: table[group].pop(field))
+    assert load_settings() == shipped
+    assert field not in shipped.model_dump(mode='json')[group]
+
+
+@pytest.mark.parametrize(
     ('group', 'field', 'value'),
     [
         ('run', 'dt_s', 0.0),

@@ -84,29 +84,36 @@ def event_first(
     inputs: Inputs, order: Order, mission: MissionArguments, source: Source
 ) -> Condition:
     """Return that a mission begins after the event that is to come before it."""
-    return condition(
-        id=f'{order.id}.holds',
-        sentence=f'{mission.uav} begins {mission.mission} after {order.first}',
-        signal=f'time_between({order.first},{mission.mission})',
-        of=(mission.uav,),
-        target=Target(op='>=', threshold=0.0, unit='s'),
-        arguments=PhaseAfterEvent(**inputs.of_event(order.first), mission=mission),
-        source=source,
-        every_sample=False,
-    )
+    sentence = f'{mission.uav} begins {mission.mission} after {order.first}'
+    signal = f'time_between({order.first},{mission.mission})'
+    arguments = PhaseAfterEvent(**inputs.of_event(order.first), mission=mission)
+    return _after(order, arguments, sentence, signal, source)
 
 
 def mission_first(
     inputs: Inputs, order: Order, mission: MissionArguments, goal_m: float, source: Source
 ) -> Condition:
     """Return that a UAV is as high as a climb asks only after the mission before that."""
+    sentence = f'{mission.uav} is {number(goal_m)} m high only after {mission.mission}'
+    signal = f'time_between({mission.mission},{order.then})'
+    arguments = ClimbAfterPhase(**inputs.common, mission=mission, goal_m=goal_m)
+    return _after(order, arguments, sentence, signal, source)
+
+
+def _after(
+    order: Order,
+    arguments: PhaseAfterEvent | ClimbAfterPhase,
+    sentence: str,
+    signal: str,
+    source: Source,
+) -> Condition:
     return condition(
         id=f'{order.id}.holds',
-        sentence=f'{mission.uav} is {number(goal_m)} m high only after {mission.mission}',
-        signal=f'time_between({mission.mission},{order.then})',
-        of=(mission.uav,),
+        sentence=sentence,
+        signal=signal,
+        of=(arguments.mission.uav,),
         target=Target(op='>=', threshold=0.0, unit='s'),
-        arguments=ClimbAfterPhase(**inputs.common, mission=mission, goal_m=goal_m),
+        arguments=arguments,
         source=source,
         every_sample=False,
     )
