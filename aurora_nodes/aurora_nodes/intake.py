@@ -21,7 +21,7 @@ from aurora_ros import qos
 from aurora_ros.interfaces import Topic
 from aurora_ros.node import AuroraNode, defect
 from aurora_ros.polling import PolledGroup, drain
-from aurora_ros.writers import LoneWriters
+from aurora_ros.writers import MatchedWriters
 
 # How often it is looked who writes, while recording (s).
 _LOOK_S = 0.2
@@ -80,7 +80,7 @@ class Intake:
             ): node.subscription(topic, _ignore, raw=True, group=group)
             for topic, belonging, first_tick in _TOPICS
         }
-        self._lone = LoneWriters(
+        self._writers = MatchedWriters(
             node,
             {topic: tap for (topic, _, _), tap in zip(_TOPICS, self._taps.values(), strict=True)},
         )
@@ -93,16 +93,11 @@ class Intake:
         # Starts with the first recording: endpoints must not be used while others are created.
         self._thread = threading.Thread(target=self._work, name='intake', daemon=True)
 
-    def begin(self, recording: Recording, wanted: set[str]) -> None:
-        """Store what belongs to a recording from now on; nobody else may begin to write it.
-
-        Args:
-            recording: What to store.
-            wanted: Topics that have their writers.
-        """
+    def begin(self, recording: Recording) -> None:
+        """Store what belongs to a recording from now on; nobody else may begin to write it."""
         with self._lock:
             self._acked = -1
-            self._lone.begin(wanted | {on.CLOCK.full_name})  # which is recorded of every run
+            self._writers.begin()
             self._recording = recording
         if not self._thread.is_alive():
             self._thread.start()
@@ -123,14 +118,17 @@ class Intake:
         with self._lock:
             self._drain()
 
-    def check_writers(self) -> None:
-        """Look whether anybody else has written since the recording began.
+    def end(self) -> None:
+        """Store nothing more, and look whether anybody else has written what is stored.
+
+        In this order: a sample comes only from a writer that was matched before.
 
         Raises:
             ExecutionError: Somebody has, or may have.
         """
         with self._lock:
-            self._lone.check()
+            self._recording = None
+            self._writers.check(last=True)
 
     def close(self) -> None:
         """End the thread; the subscriptions may be destroyed afterwards."""
@@ -138,7 +136,7 @@ class Intake:
         self._changed.set()
         if self._thread.is_alive():
             self._thread.join()
-        self._lone.close()
+        self._writers.close()
 
     def unmatched(self, wanted: set[str]) -> list[str]:
         """Return which of these topics have no publisher.
@@ -194,12 +192,12 @@ class Intake:
         now_s = time.monotonic()
         if now_s - self._looked_s >= _LOOK_S:
             self._looked_s = now_s
-            self._lone.check()
+            self._writers.check()
 
     def _cause(self, error: AuroraError) -> AuroraError:
         """Return what is behind an error: a message too many may be a stranger's."""
         try:
-            self._lone.check()
+            self._writers.check()
         except ExecutionError as err:
             return err
         return error

@@ -94,7 +94,7 @@ class RecorderNode(AuroraNode):
         recording = Recording(writer, run_id=request.run_id, run_number=request.run_number)
         with self._lock:
             self._writer, self._recording = writer, recording
-        self._intake.begin(recording, set(request.topics))
+        self._intake.begin(recording)
         self._began_s = time.monotonic()
         self.heartbeat.busy(request.run_number)
         response.ready = True
@@ -129,7 +129,7 @@ class RecorderNode(AuroraNode):
         expected = dict(zip(request.expected_topics, request.expected_counts, strict=True))
         try:
             self._await_stored(recording, expected)
-            self._intake.check_writers()
+            self._intake.end()
         finally:
             summary = self._close()
         if summary is None:

@@ -28,7 +28,7 @@ from aurora_ros.lifecycle import ManagedNode
 from aurora_ros.matching import await_subscribers, twins, wait_until
 from aurora_ros.parameters import require_positive
 from aurora_ros.writers import COMPONENT as WRITERS
-from aurora_ros.writers import Stranger, named, second_one, strangers
+from aurora_ros.writers import MatchedWriters, Stranger, named, second_one, strangers
 
 CALLS = (
     on.GROUND_LOAD,
@@ -43,6 +43,8 @@ _LOOK_S = 0.05
 _SETTLE_S = 0.6  # the others' leases of whoever died end within one announcement of ours
 _WRITERS_S = 0.2  # how often it is looked who writes and serves
 _LATCHED = (on.AGSG, on.ROSTER, on.WORLD)
+# Of these the recorder does not know who writes.
+_UNRECORDED = tuple(topic for topic in on.RUN_TOPICS if topic not in on.RECORDED)
 _RECORDED = (*_LATCHED, on.GROUND_STATE, on.GROUND_COMMAND, on.COMM, on.SENSING, on.EVENTS)
 _RECORDED_WITH_UAVS = (*_RECORDED, on.UAV_STATE, on.UAV_COMMAND)
 
@@ -117,6 +119,7 @@ class RunDriver:
         self._caller.prepare(*CALLS)
         self._publishers = {topic: node.publisher(topic) for topic in (*_LATCHED, on.RUN_END)}
         self._observers = ['recorder', *(['monitor'] if settings.live_monitor else [])]
+        self._matched = MatchedWriters.on(node, _UNRECORDED)
 
     def run(
         self, order: Order, *, on_tick: Callable[[int], None], cancelled: Callable[[], bool]
@@ -145,6 +148,7 @@ class RunDriver:
         try:
             self._await_participants(cancelled)
             self._await_alone(cancelled)
+            self._matched.begin()
             self._load(order, run)
             self._start_recording(order, run)
             recording = True
@@ -157,6 +161,8 @@ class RunDriver:
             self._publish_end(order, run)
             self._stop_clock(run)
             bag = self._stop_recording(run, complete=True)
+            recording = False
+            self._check_writers(self._strangers(), last=True)
         except AuroraError as err:
             cause = self._cause(err)
             self._participants = ()  # the clean-up goes on without whoever died
@@ -216,11 +222,12 @@ class RunDriver:
         names = (self._node.get_name(), *self._participants)
         return [*strangers(self._node, on.RUN_TOPICS, names), *self._caller.strangers()]
 
-    def _check_writers(self, before: list[Stranger]) -> list[Stranger]:
+    def _check_writers(self, before: list[Stranger], *, last: bool = False) -> list[Stranger]:
         """Raise when somebody else writes or serves; return those that have no name yet.
 
         Args:
             before: What this returned at the last look.
+            last: There is no later look.
 
         Raises:
             ExecutionError: Somebody does.
@@ -229,6 +236,7 @@ class RunDriver:
         for stranger in there:
             if stranger.node or stranger in before:
                 raise second_one(next(iter(named(self._strangers)), stranger))
+        self._matched.check(last=last)
         return there
 
     def _load(self, order: Order, run: ActiveRun) -> None:
@@ -244,7 +252,7 @@ class RunDriver:
                 **common,
                 dt_s=run.dt_s,
                 participants=[self._node.get_name()],
-                listeners=1 + run.has_uavs,
+                listeners=1 + run.has_uavs + 1,  # the bridges, and who counts the writers here
                 observers=self._observers,
             ),
         )

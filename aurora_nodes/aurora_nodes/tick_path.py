@@ -100,9 +100,10 @@ class TickPath:
             with_uavs: Whether there are any.
             observers: How many hear all of the run.
         """
-        # Commands: bridge and observers; records: observers; done: sync.
+        # Commands: bridge and observers; records: observers; done: sync, and who counts the
+        # writers here.
         counts = dict.fromkeys((on.COMM, on.SENSING, on.EVENTS), observers)
-        counts |= {on.GROUND_COMMAND: 1 + observers, on.TICK_DONE: 1}
+        counts |= {on.GROUND_COMMAND: 1 + observers, on.TICK_DONE: 1 + 1}
         if with_uavs:
             counts[on.UAV_COMMAND] = 1 + observers
         return {self._publishers[topic]: count for topic, count in counts.items()}

@@ -142,6 +142,8 @@ JUDGED = (
     SENSING,
     EVENTS,
 )
+# What the recorder hears.
+RECORDED = (*JUDGED, CLOCK, VERDICT)
 
 RUN_PROMPT = Call(name='run_prompt', type=srv.RunPrompt, server='orchestrator')
 GET_RUN = Call(name='get_run', type=srv.GetRun, server='orchestrator')

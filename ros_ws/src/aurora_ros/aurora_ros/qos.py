@@ -54,6 +54,14 @@ CLOCK_HISTORY = QoSProfile(
     durability=DurabilityPolicy.VOLATILE,
 )
 
+# Any reliable topic, for a reader that wants to know who writes and not what.
+UNHEARD = QoSProfile(
+    history=HistoryPolicy.KEEP_LAST,
+    depth=1,
+    reliability=ReliabilityPolicy.RELIABLE,
+    durability=DurabilityPolicy.VOLATILE,
+)
+
 # Heartbeats: AUTOMATIC liveliness is asserted by the middleware's own thread, so a node that is
 # busy in a callback stays alive and one that was killed or stopped is noticed within the lease.
 # Transient local, so that a restarted node counts as alive as soon as it is discovered.

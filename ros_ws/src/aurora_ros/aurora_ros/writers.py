@@ -19,8 +19,10 @@ from rclpy.subscription import Subscription
 from rclpy.topic_endpoint_info import TopicEndpointInfo
 
 from aurora_core.errors import ExecutionError
+from aurora_ros import qos
 from aurora_ros.interfaces import Call, Topic
 from aurora_ros.matching import wait_until
+from aurora_ros.polling import PolledGroup
 
 # Not the node that notices it, and not the one whose name the stranger may have taken.
 COMPONENT = 'network'
@@ -126,68 +128,127 @@ def second_one(stranger: Stranger) -> ExecutionError:
     )
 
 
-class LoneWriters:
-    """Tells when somebody else begins to write what a node hears, however short.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Matched:
+    """The writers of a topic at one moment.
+
+    Attributes:
+        total: How many a subscription was ever matched with.
+        current: How many of them it is matched with now.
+        endpoints: Those that the graph knows.
+        all_known: Whether the graph knows them all, with their nodes.
+    """
+
+    total: int
+    current: int
+    endpoints: frozenset[bytes]
+    all_known: bool
+
+
+class MatchedWriters:
+    """Tells when somebody begins to write what a node hears and should not, however short.
 
     Args:
-        node: The node.
+        node: The node; those who may write share its namespace.
         heard: Its subscriptions.
     """
 
     def __init__(self, node: Node, heard: Mapping[Topic, Subscription]) -> None:
         self._node = node
-        self._topics = {topic.full_name: topic for topic in heard}
-        self._events = {topic.full_name: _matched_event(tap) for topic, tap in heard.items()}
-        self._totals: dict[str, int] = {}
+        self._events = {topic: _matched_event(tap) for topic, tap in heard.items()}
+        self._seen: dict[Topic, _Matched] = {}
 
-    def begin(self, names: Collection[str]) -> None:
-        """Take those who write now as the ones who should.
+    @classmethod
+    def on(cls, node: Node, topics: Iterable[Topic]) -> MatchedWriters:
+        """Return one with subscriptions of its own, which take nothing."""
+        group = PolledGroup()
+        heard = {
+            topic: node.create_subscription(
+                topic.type, topic.name, _ignore, qos.UNHEARD, raw=True, callback_group=group
+            )
+            for topic in topics
+        }
+        return cls(node, heard)
+
+    def begin(self) -> None:
+        """Take those who write now as the ones who should."""
+        self._seen = {topic: self._look(topic) for topic in self._events}
+
+    def check(self, *, last: bool = False) -> None:
+        """Look whether somebody has come since; who should write may come late.
 
         Args:
-            names: Full names of topics; those that several nodes write are left out.
-        """
-        self._totals = {
-            name: self._total(name)
-            for name, topic in self._topics.items()
-            if name in names and len(topic.writers) == 1
-        }
-
-    def check(self) -> None:
-        """Look whether somebody has come since.
+            last: There is no later look, at which whoever has no name yet would have one.
 
         Raises:
-            ExecutionError: Somebody has; it is named if it is still there.
+            ExecutionError: Somebody has who should not; it is named if it is still there.
         """
-        more = [name for name, total in self._totals.items() if self._total(name) != total]
-        if not more:
-            return
-        topics = [self._topics[name] for name in more]
-        everybody = {writer for topic in topics for writer in topic.writers}
-
-        def there() -> list[Stranger]:
-            return [s for s in strangers(self._node, topics, everybody) if s.node]
-
-        wait_until(lambda: bool(there()), _NAMED_WITHIN_S)
-        for stranger in there():
-            raise second_one(stranger)
-        raise ExecutionError(
-            f'second writer on {", ".join(more)}: a node that is gone again',
-            component=COMPONENT,
-            hint='run in a ROS_DOMAIN_ID that nobody else uses',
-        )
+        for topic, seen in self._seen.items():
+            if self._counts(topic)[0] != seen.total:
+                self._seen[topic] = self._accepted(topic, seen, last=last)
 
     def close(self) -> None:
         """Let go of the subscriptions."""
-        self._totals = {}
+        self._seen = {}
         for event in self._events.values():
             event.destroy_when_not_in_use()
         self._events = {}
 
-    def _total(self, name: str) -> int:
-        """Return how many writers a subscription was ever matched with."""
-        event = self._events[name]
+    def _accepted(self, topic: Topic, seen: _Matched, *, last: bool) -> _Matched:
+        """Return what is to be compared with from now on; the same until all are known."""
+        participants = topic.writers if len(topic.writers) == 1 else ()
+
+        def there() -> list[Stranger]:
+            return strangers(self._node, [topic], participants)
+
+        def is_settled() -> bool:
+            now = self._look(topic)
+            return any(s.node for s in there()) or (now.all_known and not _gone(seen, now))
+
+        wait_until(is_settled, _KNOWN_WITHIN_S if last else _NAMED_WITHIN_S)
+        for stranger in there():
+            if stranger.node or last:
+                raise second_one(stranger)
+        now = self._look(topic)
+        if _gone(seen, now):
+            raise ExecutionError(
+                f'second writer on {topic.full_name}: a node that is gone again',
+                component=COMPONENT,
+                hint='run in a ROS_DOMAIN_ID that nobody else uses',
+            )
+        if now.all_known:
+            return now
+        if last:
+            raise second_one(Stranger(place=f'writer on {topic.full_name}', node=''))
+        return seen
+
+    def _look(self, topic: Topic) -> _Matched:
+        total, current = self._counts(topic)
+        name = self._node.resolve_topic_name(topic.name)
+        infos = self._node.get_publishers_info_by_topic(name)
+        return _Matched(
+            total=total,
+            current=current,
+            endpoints=frozenset(bytes(info.endpoint_gid) for info in infos),
+            all_known=current <= len(infos) and not any(_is_unnamed([i]) for i in infos),
+        )
+
+    def _counts(self, topic: Topic) -> tuple[int, int]:
+        """Return how many writers a subscription was ever matched with, and is now."""
+        event = self._events[topic]
         with event:
-            return int(event.take_event().total_count)
+            status = event.take_event()
+        return int(status.total_count), int(status.current_count)
+
+
+def _ignore(_cdr: bytes) -> None:
+    """Nothing: the subscription is there to be matched."""
+
+
+def _gone(before: _Matched, now: _Matched) -> bool:
+    """Return whether more have gone than those who were known."""
+    gone = (now.total - before.total) - (now.current - before.current)
+    return gone > len(before.endpoints - now.endpoints)
 
 
 def _matched_event(subscription: Subscription) -> rclpy_implementation.EventHandle:

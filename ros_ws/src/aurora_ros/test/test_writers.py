@@ -18,6 +18,7 @@ from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.publisher import Publisher
+from rclpy.subscription import Subscription
 
 from aurora_core.errors import ExecutionError
 from aurora_ros import interfaces as on
@@ -26,7 +27,7 @@ from aurora_ros.matching import wait_until
 from aurora_ros.testing.domains import own_domain
 from aurora_ros.testing.partner import partner
 from aurora_ros.writers import (
-    LoneWriters,
+    MatchedWriters,
     Stranger,
     named,
     second_one,
@@ -116,37 +117,74 @@ def test_who_takes_no_part_in_a_run_may_stand_beside_its_dead_self(make: Make) -
     assert found(asks, on.AGSG, 'executor', 'recorder') == []
 
 
+def matched(tap: Subscription, count: int) -> bool:
+    return wait_until(lambda: tap.get_publisher_count() == count, LIMIT_S)
+
+
 def test_who_has_gone_again_was_there(make: Make) -> None:
     hears = make('recorder')
-    taps = {
-        topic: hears.create_subscription(
-            topic.type, topic.full_name, lambda _message: None, topic.qos
-        )
-        for topic in (on.UAV_COMMAND, on.GROUND_STATE, on.AGSG)
-    }
-    writer(make('executor'), on.UAV_COMMAND)
-    assert wait_until(lambda: taps[on.UAV_COMMAND].get_publisher_count() == 1, LIMIT_S)
-    lone = LoneWriters(hears, taps)
-    lone.begin({on.UAV_COMMAND.full_name, on.AGSG.full_name})
-    lone.check()
-    # Not asked for, and one of several that may write.
-    for topic in (on.GROUND_STATE, on.AGSG):
-        writer(make('parser'), topic)
-    others = (taps[on.GROUND_STATE], taps[on.AGSG])
-    assert wait_until(lambda: all(t.get_publisher_count() == 1 for t in others), LIMIT_S)
-    lone.check()
+    topic = on.UAV_COMMAND
+    tap = hears.create_subscription(topic.type, topic.full_name, lambda _message: None, topic.qos)
+    writer(make('executor'), topic)
+    assert matched(tap, 1)
+    writers = MatchedWriters(hears, {topic: tap})
+    writers.begin()
+    writers.check()
     intruder = make('intruder', '/')
-    second = writer(intruder, on.UAV_COMMAND)
-    assert wait_until(lambda: taps[on.UAV_COMMAND].get_publisher_count() == 2, LIMIT_S)
+    second = writer(intruder, topic)
+    assert matched(tap, 2)
     with pytest.raises(ExecutionError, match='second writer on /aurora/uav/command: node /intr'):
-        lone.check()
+        writers.check()
     intruder.destroy_publisher(second)
-    assert wait_until(lambda: taps[on.UAV_COMMAND].get_publisher_count() == 1, LIMIT_S)
+    assert matched(tap, 1)
     with pytest.raises(ExecutionError, match='/aurora/uav/command: a node that is gone again'):
-        lone.check()
-    lone.begin({on.UAV_COMMAND.full_name})
-    lone.check()
-    lone.close()
+        writers.check()
+    writers.begin()
+    writers.check(last=True)
+    writers.close()
+
+
+def told(writers: MatchedWriters) -> str:
+    """Return what is said of a stranger, empty when nobody is."""
+    try:
+        writers.check(last=True)
+    except ExecutionError as err:
+        return err.message
+    return ''
+
+
+def test_of_several_who_may_write_one_comes_late_and_another_goes(make: Make) -> None:
+    asks, topic = make('sync'), on.HEARTBEAT
+    leaving = make('repair')
+    repairs = writer(leaving, topic)
+    assert known(asks, topic, 1)
+    writers = MatchedWriters.on(asks, [topic, on.RUN_END])
+    assert wait_until(lambda: repairs.get_subscription_count() == 1, LIMIT_S)
+    writers.begin()
+    writer(make('grounding'), topic)
+    writer(make('executor'), on.RUN_END)
+    assert known(asks, topic, 2)
+    assert known(asks, on.RUN_END, 1)
+    assert told(writers) == ''
+    leaving.destroy_publisher(repairs)
+    assert known(asks, topic, 1)
+    assert told(writers) == ''
+
+
+@pytest.mark.parametrize('topic', [on.HEARTBEAT, on.RUN_END, on.TICK_DONE, on.AGSG])
+def test_who_passes_by_is_noticed_beside_who_should_write(make: Make, topic: Topic) -> None:
+    asks, intruder = make('sync'), make('intruder', '/')
+    writer(make('executor'), topic)
+    assert known(asks, topic, 1)
+    writers = MatchedWriters.on(asks, [topic])
+    writers.begin()
+    passing = writer(intruder, topic)
+    assert known(asks, topic, 2)
+    intruder.destroy_publisher(passing)
+    assert known(asks, topic, 1)
+    expected = f'second writer on {topic.full_name}: a node that is gone again'
+    assert wait_until(lambda: told(writers) == expected, LIMIT_S)
+    writers.close()
 
 
 def served(asks: Node, service: str, count: int) -> bool:

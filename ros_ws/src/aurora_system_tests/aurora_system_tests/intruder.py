@@ -2,14 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """A process that is no part of the graph and writes into a run that is going on.
 
-It hears the commands or states of the run and publishes one for the coming tick that is a few
-metres off, before the node that should.
+It hears the run and publishes for the coming tick what is a few metres off, before the node that
+should, or what is of no run.
 """
 
 from __future__ import annotations
 
 import argparse
 import sys
+from typing import Any
 
 import rclpy
 from rclpy.duration import Duration
@@ -17,18 +18,21 @@ from rclpy.node import Node
 from rclpy.publisher import Publisher
 from rosgraph_msgs.msg import Clock
 
-from aurora_msgs.msg import GroundState, UavCommand
 from aurora_ros import interfaces as on
 
-TOPICS = {'command': on.UAV_COMMAND, 'state': on.GROUND_STATE, 'clock': on.CLOCK}
+_NUMBERED = {'command': on.UAV_COMMAND, 'state': on.GROUND_STATE}
+_OTHERS = {
+    topic.name.replace('/', '_'): topic
+    for topic in on.RUN_TOPICS
+    if topic is not on.CLOCK and topic not in _NUMBERED.values()
+}
+TOPICS = {**_NUMBERED, 'clock': on.CLOCK, **_OTHERS}
 NAME = 'intruder'
 # Of the run in which it writes.
 TICK = 200
 _FIRST_NUMBER = {'command': 1, 'state': 0}
 _OFF_M = 3.0
-_DT_S = 0.05
-# Recorder, monitor, who acts on it, and itself; of the clock the first and the last.
-_LISTENERS = {'command': 4, 'state': 4, 'clock': 2}
+_OFF_NS = 7  # of the clock: no tick of any run
 
 
 class Intruder(Node):
@@ -47,37 +51,41 @@ class Intruder(Node):
         self._passing = passing
         self._publisher = self._create() if early else None
         self.done = False
-        self.create_subscription(
-            self._topic.type, self._topic.full_name, self._on_message, self._topic.qos
-        )
+        heard = self._topic if kind in _NUMBERED else on.GROUND_STATE
+        self.create_subscription(heard.type, heard.full_name, self._on_message, heard.qos)
 
     def _create(self) -> Publisher:
         return self.create_publisher(self._topic.type, self._topic.full_name, self._topic.qos)
 
-    def _on_message(self, message: UavCommand | GroundState | Clock) -> None:
-        if _tick_of(message) < TICK or self.done:
+    def _on_message(self, message: Any) -> None:
+        if message.tick < TICK or self.done:
             return
         if self._publisher is None:
             self._publisher = self._create()
-        if self._publisher.get_subscription_count() < _LISTENERS[self._kind]:
+        if not self._is_heard(self._publisher):
             return
-        if isinstance(message, Clock):
-            message.clock.sec += 1
-        else:
-            message.tick += 1
-            message.data[_FIRST_NUMBER[self._kind]] += _OFF_M
-        self._publisher.publish(message)
+        self._publisher.publish(self._forged(message))
         if self._passing:
             self._publisher.wait_for_all_acked(Duration(seconds=1))
             self.destroy_publisher(self._publisher)
             self.done = True
 
+    def _is_heard(self, publisher: Publisher) -> bool:
+        """Return whether everybody hears it who listens to the topic."""
+        listeners = len(self.get_subscriptions_info_by_topic(publisher.topic_name))
+        matched: int = publisher.get_subscription_count()
+        return matched >= max(1, listeners)
 
-def _tick_of(message: UavCommand | GroundState | Clock) -> int:
-    if isinstance(message, Clock):
-        time_s: float = message.clock.sec + 1e-9 * message.clock.nanosec
-        return round(time_s / _DT_S)
-    return int(message.tick)
+    def _forged(self, message: Any) -> Any:
+        if self._kind in _NUMBERED:
+            message.tick += 1
+            message.data[_FIRST_NUMBER[self._kind]] += _OFF_M
+            return message
+        if self._kind == 'clock':
+            forged = Clock()
+            forged.clock.sec, forged.clock.nanosec = int(message.tick), _OFF_NS
+            return forged
+        return self._topic.type()
 
 
 def main(arguments: list[str] | None = None) -> int:
