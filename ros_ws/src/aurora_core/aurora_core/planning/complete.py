@@ -15,6 +15,7 @@ from aurora_core.planning.bounds import bent
 from aurora_core.planning.ids import free_ids
 from aurora_core.planning.orders import waiting
 from aurora_core.spec.events import Event, MessageTrigger, actor_of
+from aurora_core.spec.own_events import overtakings
 from aurora_core.spec.parameter import Parameter, Provenance
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import (
@@ -39,13 +40,13 @@ _WITH_SIREN = (AgentType.AMBULANCE, AgentType.FIRETRUCK, AgentType.POLICE)
 def complete(spec: ScenarioSpec, limits: Limits) -> ScenarioSpec:
     """Return a request with missions for all UAVs, triggers for orders, durations and altitudes.
 
-    Who yields gets somebody to yield to.
+    Who yields gets somebody to yield to, and who is overtaken is ahead until then only.
 
     Args:
         spec: The request, whoever read it; it is not changed.
         limits: Limits in force.
     """
-    spec = waiting(hovering(reporting(telling(yielding(blowing(spec, limits))))))
+    spec = waiting(hovering(reporting(telling(yielding(passed(blowing(spec, limits)))))))
     return layered(bent(lasting(spec), limits), limits)
 
 
@@ -65,6 +66,31 @@ def blowing(spec: ScenarioSpec, limits: Limits) -> ScenarioSpec:
         speed = speed.model_copy(update={'value': usual_mps})
     world = World.model_validate({**dict(world), 'wind_mps': speed})
     return ScenarioSpec.model_validate({**dict(spec), 'world': world})
+
+
+def passed(spec: ScenarioSpec) -> ScenarioSpec:
+    """Return the specification in which nobody stays ahead of who is to overtake him.
+
+    "A truck drives in front of the ego car. The ego car overtakes it": there it starts.
+
+    Args:
+        spec: The request, whoever read it; returned as it is when nobody overtakes.
+    """
+    pairs = {frozenset(pair) for pair in overtakings(spec)}
+
+    def at_first(agent: GroundAgent) -> GroundAgent:
+        placements = tuple(
+            p.model_copy(update={'kept_in_motion': False})
+            if p.kept_in_motion and not p.throughout and frozenset((agent.id, p.of)) in pairs
+            else p
+            for p in agent.placements
+        )
+        return agent.model_copy(update={'placements': placements})
+
+    agents = tuple(map(at_first, spec.agents)) if pairs else spec.agents
+    if agents == spec.agents:
+        return spec
+    return ScenarioSpec.model_validate({**dict(spec), 'agents': agents})
 
 
 def yielding(spec: ScenarioSpec) -> ScenarioSpec:

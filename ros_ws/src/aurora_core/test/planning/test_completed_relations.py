@@ -1,13 +1,13 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""Who yields without a word of whom gets somebody to yield to, where there is one alone."""
+"""What bodies are to each other is completed: to whom one yields, until when one is ahead."""
 
 from __future__ import annotations
 
 import pytest
 
 from aurora_core.parsing.parser import ParseContext, parse_offline
-from aurora_core.planning.complete import yielding
+from aurora_core.planning.complete import passed, yielding
 
 CONTEXT = ParseContext(landmark_names=())
 
@@ -39,3 +39,19 @@ def test_who_is_told_to_whom_keeps_it() -> None:
     read = parse_offline(prompt, CONTEXT).spec
     assert read is not None
     assert yielding(read) == read
+
+
+@pytest.mark.parametrize(
+    ('prompt', 'kept'),
+    [
+        ('A truck drives in front of the ego car. The ego car overtakes it.', False),
+        ('A truck drives in front of the ego car. The ego car overtakes a bus.', True),
+        ('The ego car drives behind a truck and then overtakes it.', False),
+    ],
+)
+def test_who_is_overtaken_is_ahead_at_first_only(prompt: str, kept: bool) -> None:
+    read = parse_offline(prompt, CONTEXT).spec
+    assert read is not None
+    done = passed(read)
+    placed = [p for agent in done.agents for p in agent.placements if 'truck1' in (agent.id, p.of)]
+    assert [p.kept_in_motion for p in placed] == [kept]
