@@ -49,13 +49,15 @@ def map_gaps(model: MapModel, measured: MapRecords | None = None) -> tuple[MapGa
 
 def _tried(measured: MapRecords) -> Iterator[MapGap]:
     """Yield what did not work where it was tried."""
+    apart: dict[str, list[str]] = {}
     for part in measured.parts:
         if part.largest_share < _SHARE:
-            yield MapGap(
-                f'unconnected roads for the class {part.vehicle_class} '
-                f'({1.0 - part.largest_share:.0%} of the length)',
-                'vehicles that are placed there cannot come back, and none can be sent there',
-            )
+            apart.setdefault(f'{1.0 - part.largest_share:.0%}', []).append(part.vehicle_class)
+    for share, classes in apart.items():
+        yield MapGap(
+            f'unconnected roads, {share} of the length for {", ".join(classes)}',
+            'vehicles that are placed there cannot come back, and none can be sent there',
+        )
     for walk, name in ((measured.sidewalks, 'sidewalks'), (measured.crossings, 'crossings')):
         if walk.walked < walk.tried:
             yield MapGap(
