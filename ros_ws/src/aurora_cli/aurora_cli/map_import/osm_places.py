@@ -96,7 +96,8 @@ def landmarks(shapes: OsmShapes, reach: Reach, extent: shapely.Geometry) -> tupl
     """Return the named places, each with the lane from which a vehicle reaches it.
 
     Of places with one name the most notable stays, then the largest. A name that prompts use for
-    something else (`Taxi`) is left out, and so is a place that no street passes within 150 m.
+    something else (`Taxi`) is left out, and so are a name of the town itself and a place that no
+    street passes within 150 m.
 
     Args:
         shapes: Shapes of the extract.
@@ -105,9 +106,10 @@ def landmarks(shapes: OsmShapes, reach: Reach, extent: shapely.Geometry) -> tupl
     """
     taken: set[tuple[str, ...]] = set()
     found: list[Landmark] = []
+    towns = {landmark_words(plain_name(name)) for name in shapes.towns()}
     for one in sorted(_candidates(shapes), key=lambda c: (c.rank, c.name)):
         words = landmark_words(one.name)
-        if words in taken or is_plain_word(words) or len(found) >= _MOST_LANDMARKS:
+        if words in taken | towns or is_plain_word(words) or len(found) >= _MOST_LANDMARKS:
             continue
         nearest = reach.nearest(*one.at)
         if (

@@ -82,6 +82,7 @@ def small_city() -> str:
     outer, inner = osm.box(0.2, 1.2, 0.6), osm.box(0.3, 1.3, 0.3)
     osm.hole(outer, inner, building='yes', building__levels=2, name='Taxi')
     osm.node(1.5, 1.06, highway='bus_stop', name='Row One')
+    osm.node(1.5, 0.1, railway='station', name='Smallham', addr__city='Smallham')
     osm.node(1.7, 1.5, tourism='museum', name='Old\u202eTown\nMuseum')
     return osm.text()
 

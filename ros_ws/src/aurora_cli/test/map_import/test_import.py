@@ -90,6 +90,7 @@ def test_no_building_stands_on_a_street(city: MapModel) -> None:
 def test_places_have_a_lane_that_reaches_them(city: MapModel) -> None:
     marks = {mark.name: mark for mark in city.landmarks}
     kinds = {name: mark.kind for name, mark in marks.items()}
+    # The station has the name of the town: all of it is `in Smallham`.
     assert kinds == {
         'Corn Market': 'square',
         'Saint Anna Hospital': 'hospital',
