@@ -14,6 +14,7 @@ from aurora_core.knowledge.map_folders import bundled_maps, list_maps, own_maps
 from aurora_core.knowledge.map_model import MapModel, load_map
 from aurora_core.knowledge.map_records import MeasuredMap
 from aurora_core.pipeline.knowledge import installed_knowledge
+from aurora_core.report.lane_facts import along_lanes, hidden_at_corners, seen_from_air
 from aurora_core.report.terminal import line, print_table
 
 
@@ -148,4 +149,14 @@ def _facts(model: MapModel) -> dict[str, Any]:
         'bus_stops': [stop.name or stop.id for stop in model.bus_stops],
         'parking_places': sum(len(area.places) for area in model.parking_areas),
         'measured': 'yes' if isinstance(found, MeasuredMap) else found,
+        **(_measured(found) if isinstance(found, MeasuredMap) else {}),
+    }
+
+
+def _measured(found: MeasuredMap) -> dict[str, Any]:
+    """Return what the records say of the streets: what can be asked on this map, and seen."""
+    return {
+        'along_lanes': along_lanes(found.samples),
+        'seen_from_air': seen_from_air(found.records),
+        'hidden_at_corners': hidden_at_corners(found.records),
     }

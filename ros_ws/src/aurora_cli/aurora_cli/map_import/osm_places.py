@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import shapely
 
 from aurora_cli.map_import.osm_data import Tags
-from aurora_cli.map_import.osm_shapes import OsmShapes, Point
+from aurora_cli.map_import.osm_shapes import OsmArea, OsmShapes, Point
 from aurora_cli.map_import.text import plain_name
 from aurora_core.knowledge.map_types import Area, BusStop, Landmark
 from aurora_core.knowledge.reach import Reach
@@ -51,6 +51,7 @@ _KINDS: tuple[tuple[str, str, str], ...] = (
     ('leisure', 'garden', 'park'),
     ('leisure', 'sports_centre', 'sports_centre'),
     ('place', 'square', 'square'),
+    ('highway', 'pedestrian', 'square'),
     ('tourism', 'museum', 'museum'),
     ('tourism', 'gallery', 'museum'),
     ('tourism', 'hotel', 'hotel'),
@@ -67,6 +68,7 @@ _GROUND = {
     ('leisure', 'park'): 'park',
     ('leisure', 'garden'): 'park',
     ('place', 'square'): 'plaza',
+    ('highway', 'pedestrian'): 'plaza',
     ('amenity', 'school'): 'school_zone',
     ('aeroway', 'helipad'): 'helipad',
     ('natural', 'water'): 'water',
@@ -75,6 +77,8 @@ _MOST_LANDMARKS = 400
 # From farther away nobody says that a vehicle is there.
 _REACH_M = 150.0
 _LEAST_GROUND_M2 = 100.0
+# A paved area for walkers that is longer than so many times its width is a street, no square.
+_LONGEST_SQUARE = 3.0
 # A stop's sign stands on the walkway beside its lane.
 _STOP_REACH_M = 15.0
 _STOP_LENGTH_M = 15.0
@@ -92,7 +96,8 @@ def landmarks(shapes: OsmShapes, reach: Reach, extent: shapely.Geometry) -> tupl
     """Return the named places, each with the lane from which a vehicle reaches it.
 
     Of places with one name the most notable stays, then the largest. A name that prompts use for
-    something else (`Taxi`) is left out, and so is a place that no street passes within 150 m.
+    something else (`Taxi`) is left out, and so are a name of the town itself and a place that no
+    street passes within 150 m.
 
     Args:
         shapes: Shapes of the extract.
@@ -101,9 +106,10 @@ def landmarks(shapes: OsmShapes, reach: Reach, extent: shapely.Geometry) -> tupl
     """
     taken: set[tuple[str, ...]] = set()
     found: list[Landmark] = []
+    towns = {landmark_words(plain_name(name)) for name in shapes.towns()}
     for one in sorted(_candidates(shapes), key=lambda c: (c.rank, c.name)):
         words = landmark_words(one.name)
-        if words in taken or is_plain_word(words) or len(found) >= _MOST_LANDMARKS:
+        if words in taken | towns or is_plain_word(words) or len(found) >= _MOST_LANDMARKS:
             continue
         nearest = reach.nearest(*one.at)
         if (
@@ -128,10 +134,24 @@ def landmarks(shapes: OsmShapes, reach: Reach, extent: shapely.Geometry) -> tupl
 
 def _candidates(shapes: OsmShapes) -> Iterator[_Candidate]:
     for area in shapes.areas(_KEYS):
+        if _is_walking_street(area):
+            continue
         point = shapely.point_on_surface(area.shape)
         yield from _named(area.tags, (point.x, point.y), area.shape.area, area.id)
     for id_, at, tags in shapes.points():
         yield from _named(tags, at, 0.0, id_)
+
+
+def _is_walking_street(area: OsmArea) -> bool:
+    """Tell whether an area is a street for walkers that is drawn as an area."""
+    if area.tags.get('highway') != 'pedestrian':
+        return False
+    box = shapely.minimum_rotated_rectangle(area.shape)
+    if box.geom_type != 'Polygon':
+        return True
+    a, b, c, *_ = box.exterior.coords
+    sides = sorted((math.dist(a, b), math.dist(b, c)))
+    return sides[1] > _LONGEST_SQUARE * sides[0]
 
 
 def _named(tags: Tags, at: Point, area_m2: float, id_: str) -> Iterator[_Candidate]:
@@ -154,7 +174,7 @@ def areas(shapes: OsmShapes, extent: shapely.Geometry) -> tuple[Area, ...]:
     found = []
     for area in shapes.areas({key for key, _ in _GROUND}):
         kinds = (kind for (key, value), kind in _GROUND.items() if area.tags.get(key) == value)
-        kind = next(kinds, '')
+        kind = '' if _is_walking_street(area) else next(kinds, '')
         name = plain_name(area.tags.get('name', ''))
         largest = max(area.shape.geoms, key=lambda p: p.area)
         outline = shapely.simplify(largest, 0.2)

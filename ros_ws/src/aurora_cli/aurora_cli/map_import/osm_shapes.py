@@ -14,6 +14,8 @@ from aurora_cli.map_import.frame import Frame
 from aurora_cli.map_import.osm_data import OsmData, OsmRelation, Tags
 
 Point = tuple[float, float]
+_NAMES = ('name', 'name:en')
+_TOWNS = ('city', 'town', 'village', 'suburb', 'borough')
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,6 +43,21 @@ class OsmShapes:
         self._points: dict[int, Point] = dict(
             zip(ids, zip(x.tolist(), y.tolist(), strict=True), strict=True)
         )
+
+    def towns(self) -> frozenset[str]:
+        """Return the names of towns: of those that lie in the extract, and in its addresses."""
+        data = self._data
+        nodes = data.node_tags.values()
+        ways = (way.tags for way in data.ways.values())
+        named = {tags.get('addr:city', '') for tags in (*nodes, *ways)}
+        named |= {
+            tags[key]
+            for tags in nodes
+            if tags.get('place') in _TOWNS
+            for key in _NAMES
+            if key in tags
+        }
+        return frozenset(named - {''})
 
     def points(self) -> Iterator[tuple[str, Point, Tags]]:
         """Return id, position and tags of the tagged nodes."""

@@ -75,10 +75,14 @@ def small_city() -> str:
     osm.box(0.6, 0.6, 0.2, building='yes', layer=-1)
     osm.box(1.3, 0.3, 0.3, building='hospital', amenity='hospital', name='Saint Anna Hospital')
     osm.box(1.2, 1.2, 0.6, leisure='park', name='Meadow Park')
+    osm.box(1.05, 1.85, 0.1, highway='pedestrian', area='yes', name='Corn Market')
+    lane = [osm.node(1.3 + x, 0.7 + y) for x, y in ((0, 0), (0.5, 0), (0.5, 0.05), (0, 0.05))]
+    osm.way([*lane, lane[0]], highway='pedestrian', area='yes', name='Shoe Lane')
     osm.box(0.95, 1.4, 0.1, building='yes', height=20)  # across the middle street
     outer, inner = osm.box(0.2, 1.2, 0.6), osm.box(0.3, 1.3, 0.3)
     osm.hole(outer, inner, building='yes', building__levels=2, name='Taxi')
     osm.node(1.5, 1.06, highway='bus_stop', name='Row One')
+    osm.node(1.5, 0.1, railway='station', name='Smallham', addr__city='Smallham')
     osm.node(1.7, 1.5, tourism='museum', name='Old\u202eTown\nMuseum')
     return osm.text()
 

@@ -16,6 +16,7 @@ import pytest
 
 from aurora_cli import installed
 from aurora_cli.map_measure import measure
+from aurora_cli.testing.small_maps import xodr
 from aurora_core.knowledge.config_files import ENVIRONMENT_VARIABLE, config_root
 from aurora_core.knowledge.map_model import load_map
 from aurora_core.outcomes.grounded import GroundedScenario
@@ -237,6 +238,23 @@ def test_a_workspace_links_to_what_is_written_into_its_sources(
     assert linked == _files(config / 'knowledge')
     assert 'measured/agent_types.json' in linked
     assert (share / 'knowledge' / 'measured' / 'agent_types.json').is_symlink()
+
+
+def test_an_import_measures_unless_it_is_told_not_to(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, call: Call
+) -> None:
+    monkeypatch.setenv('AURORA_MAPS', str(tmp_path / 'own'))
+    road = tmp_path / 'road.xodr'
+    road.write_text(xodr(walkways=True))
+    done = call('map', 'import', str(road), '--json')
+    assert done.code == 0, done.err
+    facts = json.loads(done.out)
+    assert facts['measured'] == 'yes'
+    assert facts['seconds']['measure'] > 0.0
+    assert json.loads(call('map', 'show', 'road', '--json').out)['measured'] == 'yes'
+    assert 'measured:' not in call('map', 'doctor', 'road').out
+    assert call('map', 'import', str(road), '--name', 'untried', '--no-measure').code == 0
+    assert 'measured: no (aurora map measure untried)' in call('map', 'doctor', 'untried').out
 
 
 def test_doctor_and_show_tell_what_was_measured(config: Path, call: Call) -> None:

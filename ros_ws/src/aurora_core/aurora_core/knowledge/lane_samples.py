@@ -49,7 +49,6 @@ class LaneSamples:
         arc_m: Place on its centre line.
         x_m: East (y_m north), ENU map frame.
         heading_x: Unit heading, east (heading_y north).
-        index: Lane index, counted from the right kerb.
         left: Lane to the left for vehicles (right: to the right), same direction.
         opposite: Nearest lane of the other direction of the same street.
         limit_mps: Speed limit.
@@ -57,7 +56,6 @@ class LaneSamples:
         crossing_m: Way to the crossing in front of that junction's middle.
         walkway_m: Distance to the nearest walkway.
         building_m: Distance to the nearest building.
-        building_height_m: Height of that building, 0 where there is none.
     """
 
     lane_ids: tuple[str, ...]
@@ -67,7 +65,6 @@ class LaneSamples:
     y_m: SmallFloats
     heading_x: SmallFloats
     heading_y: SmallFloats
-    index: IntArray
     left: IntArray
     right: IntArray
     opposite: IntArray
@@ -76,7 +73,6 @@ class LaneSamples:
     crossing_m: SmallFloats
     walkway_m: SmallFloats
     building_m: SmallFloats
-    building_height_m: SmallFloats
 
     def __len__(self) -> int:
         return len(self.lane)
@@ -144,8 +140,6 @@ def sample_lanes(model: MapModel) -> LaneSamples:
     length_m = np.repeat([lane.arc_length_m for lane in lanes], counts)
     xy = places[:, :2]
     crossing_m = np.repeat([_crossing_behind(network, lane) for lane in lanes], counts)
-    building_m, building = _nearest_building(xy, model.buildings)
-    heights = np.array([0.0, *(b.height_m for b in model.buildings)])
     return LaneSamples(
         lane_ids=tuple(lane.id for lane in lanes),
         lane=_repeated(range(len(lanes)), counts),
@@ -154,7 +148,6 @@ def sample_lanes(model: MapModel) -> LaneSamples:
         y_m=_kept(xy[:, 1]),
         heading_x=_kept(places[:, 2], 1e-4),
         heading_y=_kept(places[:, 3], 1e-4),
-        index=_repeated([lane.index for lane in lanes], counts),
         left=_repeated([_beside(lane.left_lane_id, number) for lane in lanes], counts),
         right=_repeated([_beside(lane.right_lane_id, number) for lane in lanes], counts),
         opposite=_opposite(network, lanes, number, counts, places),
@@ -162,8 +155,7 @@ def sample_lanes(model: MapModel) -> LaneSamples:
         junction_m=_kept(length_m - arc_m),
         crossing_m=_kept(length_m - arc_m + crossing_m),
         walkway_m=_kept(_walkway_m(network, xy)),
-        building_m=_kept(building_m),
-        building_height_m=_kept(heights[building + 1]),
+        building_m=_kept(_building_m(xy, model.buildings)),
     )
 
 
@@ -227,27 +219,19 @@ def _opposite(
 
 def _walkway_m(network: RoadNetwork, xy: FloatArray) -> FloatArray:
     lines = [shapely.LineString(lane.polyline) for lane in network.sidewalks]
-    distance_m, _ = _nearest(xy, lines, WALKWAY_REACH_M)
-    return distance_m
+    return _nearest_m(xy, lines, WALKWAY_REACH_M)
 
 
-def _nearest_building(
-    xy: FloatArray, buildings: Sequence[Building]
-) -> tuple[FloatArray, npt.NDArray[np.int64]]:
-    return _nearest(xy, [shapely.Polygon(b.ring, b.holes) for b in buildings], BUILDING_REACH_M)
+def _building_m(xy: FloatArray, buildings: Sequence[Building]) -> FloatArray:
+    return _nearest_m(xy, [shapely.Polygon(b.ring, b.holes) for b in buildings], BUILDING_REACH_M)
 
 
-def _nearest(
-    xy: FloatArray, shapes: Sequence[shapely.Geometry], reach_m: float
-) -> tuple[FloatArray, npt.NDArray[np.int64]]:
-    """Return the distance of points to the nearest shape, and which; of equal ones the first."""
+def _nearest_m(xy: FloatArray, shapes: Sequence[shapely.Geometry], reach_m: float) -> FloatArray:
+    """Return how far points are from the nearest shape, infinite where none is within reach."""
     distance_m = np.full(len(xy), np.inf)
-    which = np.full(len(xy), -1, dtype=np.int64)
     if shapes and len(xy):
-        (row, item), found = shapely.STRtree(shapes).query_nearest(
-            shapely.points(xy), max_distance=reach_m, return_distance=True, all_matches=True
+        (row, _), found = shapely.STRtree(shapes).query_nearest(
+            shapely.points(xy), max_distance=reach_m, return_distance=True, all_matches=False
         )
-        order = np.lexsort((-item, -row))  # the last written is the first shape
-        distance_m[row[order]] = found[order]
-        which[row[order]] = item[order]
-    return distance_m, which
+        distance_m[row] = found
+    return distance_m

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from difflib import SequenceMatcher
 from enum import StrEnum
 
 from pydantic import Field
@@ -14,6 +15,9 @@ from aurora_core.outcomes.retrieval import Retrieval
 from aurora_core.ports.language_model import ModelCall
 from aurora_core.spec.parameter import Span
 from aurora_core.spec.scenario import Clause, ScenarioSpec
+
+# A sentence names so many of a longer list, those most like the word first.
+_NAMED = 12
 
 
 class RefusalKind(StrEnum):
@@ -52,8 +56,20 @@ class Refusal(Document):
 
     def sentence(self) -> str:
         """Return the refusal in words."""
-        known = ', '.join(self.closed_list) if self.closed_list else 'none'
+        names = self.closed_list
+        if len(names) > _NAMED:
+            names = tuple(sorted(names, key=lambda name: (-self._likeness(name), name))[:_NAMED])
+        more = len(self.closed_list) - len(names)
+        known = (', '.join(names) or 'none') + (f' and {more} more' if more else '')
         return f'{self.word!r} is not one of the {self.list_name}: {known}.'
+
+    def _likeness(self, name: str) -> float:
+        """Return how much a name, or one of its words, is like the word, in [0, 1]."""
+        word = self.word.casefold()
+        return max(
+            SequenceMatcher(None, word, part).ratio()
+            for part in (name.casefold(), *name.casefold().split())
+        )
 
 
 class ParseOutcome(Document):

@@ -18,6 +18,9 @@ from aurora_core.knowledge.road_network import RoadNetwork
 # "closing from 45 meters" and a follow of half a minute need about this much road ahead (m).
 _LONG_M = 150.0
 _SHARE = 0.98
+# A usual view of a UAV: so high, so far away (m); with less of the streets in sight it is lost.
+_VIEW_M = (40.0, 50.0)
+_SEEN_SHARE = 0.5
 # From one lane to the next no street turns so sharply.
 _FOLD_RAD = math.radians(100.0)
 _GUESSED = ('default', 'default of its kind')
@@ -49,19 +52,28 @@ def map_gaps(model: MapModel, measured: MapRecords | None = None) -> tuple[MapGa
 
 def _tried(measured: MapRecords) -> Iterator[MapGap]:
     """Yield what did not work where it was tried."""
+    apart: dict[str, list[str]] = {}
     for part in measured.parts:
         if part.largest_share < _SHARE:
-            yield MapGap(
-                f'unconnected roads for the class {part.vehicle_class} '
-                f'({1.0 - part.largest_share:.0%} of the length)',
-                'vehicles that are placed there cannot come back, and none can be sent there',
-            )
+            apart.setdefault(f'{1.0 - part.largest_share:.0%}', []).append(part.vehicle_class)
+    for share, classes in apart.items():
+        yield MapGap(
+            f'unconnected roads, {share} of the length for {", ".join(classes)}',
+            'vehicles that are placed there cannot come back, and none can be sent there',
+        )
     for walk, name in ((measured.sidewalks, 'sidewalks'), (measured.crossings, 'crossings')):
         if walk.walked < walk.tried:
             yield MapGap(
                 f'{walk.tried - walk.walked} of {walk.tried} {name} that nobody gets along',
                 'no pedestrian is placed there',
             )
+    seen = next((s for s in measured.sight if (s.height_m, s.distance_m) == _VIEW_M), None)
+    if seen is not None and seen.free_share < _SEEN_SHARE:
+        yield MapGap(
+            f'narrow streets: {seen.free_share:.0%} seen from {seen.height_m:.0f} m up and '
+            f'{seen.distance_m:.0f} m away',
+            'a UAV that is not right above somebody often loses sight',
+        )
     worst = min(measured.spawns, key=lambda s: s.stands / max(1, s.tried), default=None)
     if worst is not None and worst.stands < _SHARE * worst.tried:
         yield MapGap(
@@ -86,6 +98,8 @@ def _roads(network: RoadNetwork) -> Iterator[MapGap]:
             'no street with two lanes in a direction',
             'no lane change, overtaking or cutting in',
         )
+    if all(network.opposite_edge(lane.edge_id) is None for lane in lanes):
+        yield MapGap('no street with two directions', 'nobody can be oncoming')
     if all(edge.length_m < _LONG_M for edge in network.edges.values()):
         yield MapGap(
             f'no street longer than {_LONG_M:.0f} m without a junction',

@@ -61,7 +61,6 @@ def test_place_heading_and_limit_are_those_of_the_lane(
             (hx, hy), abs=1e-3
         )
         assert samples.limit_mps[row] == pytest.approx(lane.speed_limit_mps, abs=0.01)
-        assert samples.index[row] == lane.index
         left_m = lane.arc_length_m - samples.arc_m[row]
         assert samples.junction_m[row] == pytest.approx(left_m, abs=0.02)
 
@@ -105,16 +104,8 @@ def test_walkways_and_buildings_are_the_nearest_ones(
         near_m = min(point.distance(shape) for shape in shapes.values())
         if math.isinf(samples.building_m[row]):
             assert near_m > BUILDING_REACH_M - 0.03
-            assert samples.building_height_m[row] == 0.0
         else:
             assert samples.building_m[row] == pytest.approx(near_m, abs=0.03)
-            heights = [
-                b.height_m
-                for b in downtown.buildings
-                if point.distance(shapes[b.id]) < near_m + 0.03
-            ]
-            height_m = samples.building_height_m[row]
-            assert any(height_m == pytest.approx(h, abs=0.01) for h in heights)
 
 
 def test_a_crossing_ahead_is_farther_than_the_end_of_the_lane(samples: LaneSamples) -> None:
