@@ -13,9 +13,10 @@ from aurora_core.feasibility.limits import check_limits
 from aurora_core.feasibility.operands import operands_fit
 from aurora_core.feasibility.places import check_placements
 from aurora_core.feasibility.pursuit import check_pursuit
-from aurora_core.feasibility.quotes import with_clauses
+from aurora_core.feasibility.quotes import rests_on_unread, with_clauses
 from aurora_core.feasibility.roofs import check_roofs, check_walls
 from aurora_core.feasibility.scene import check_scene
+from aurora_core.feasibility.sight import check_sight
 from aurora_core.feasibility.signs import check_signs
 from aurora_core.feasibility.static import check_static
 from aurora_core.feasibility.times import check_times
@@ -104,7 +105,8 @@ def _proven(
     found = (
         *beyond_limits,
         *(c for c in check_signs(spec) if c.span not in named),
-        *check_geometry(spec, map_model, limits, tolerances),
+        *check_sight(spec, map_model, limits, tolerances),
+        *check_geometry(spec, limits, tolerances),
         *check_pursuit(spec, limits, tolerances),
         *check_bounds(spec, limits, tolerances),
         *check_scene(spec),
@@ -115,7 +117,8 @@ def _proven(
         # A tower in a no-fly zone is told of once.
         *(c for c in roofs if c.path.rpartition('/')[0] not in {z.path for z in fenced}),
     )
-    doubtful = [c for c in found if c.rule in _BETWEEN_STATEMENTS and _half_read(spec, c)]
+    doubtful = [c for c in found if rests_on_unread(spec, c)]
+    doubtful += [c for c in found if c.rule in _BETWEEN_STATEMENTS and _half_read(spec, c)]
     certificates = tuple(c for c in found if c not in doubtful)
     if certificates:
         told = tuple(with_clauses(spec, c) for c in certificates)

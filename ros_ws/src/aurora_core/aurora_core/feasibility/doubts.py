@@ -10,6 +10,7 @@ from math import isfinite
 from aurora_core.feasibility.bounds import exclusive
 from aurora_core.feasibility.geometry import check_geometry
 from aurora_core.feasibility.scene import check_scene
+from aurora_core.feasibility.sight import check_sight
 from aurora_core.feasibility.times import check_times
 from aurora_core.knowledge.limits import EXACT, Limits, Tolerances, hover_drift_limit_m
 from aurora_core.knowledge.map_model import MapModel
@@ -46,7 +47,8 @@ def doubts(
     yield from (f'{s} They may be meant for different parts of the run.' for s in sorted(told))
     close = limits.model_copy(update={'tracking_horizontal_m': 0.0})
     nominal = (
-        *check_geometry(spec, map_model, close, exact),
+        *check_sight(spec, map_model, close, exact),
+        *check_geometry(spec, close, exact),
         *check_times(spec, limits, exact, map_model),
     )
     near = (c.sentence for c in nominal if c.sentence not in known)

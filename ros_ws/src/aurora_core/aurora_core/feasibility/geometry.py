@@ -12,14 +12,11 @@ from collections.abc import Iterator
 
 from aurora_core.feasibility.certificates import beyond, contradiction
 from aurora_core.feasibility.facts import limit_facts, says, tolerance_facts
-from aurora_core.feasibility.operands import AT_LEAST, upward, whole
-from aurora_core.feasibility.zones import is_half_read, is_over, place_distances, roof_reach_m
+from aurora_core.feasibility.operands import AT_LEAST, whole
 from aurora_core.knowledge.limits import Limits, Tolerances
-from aurora_core.knowledge.map_model import MapModel
 from aurora_core.outcomes.feasibility import Certificate, Fact, Rule
 from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.quantity import QuantityName
-from aurora_core.spec.reference import LANDMARK
 from aurora_core.spec.scenario import (
     Link,
     ScenarioSpec,
@@ -111,95 +108,14 @@ def altitude_changes(spec: ScenarioSpec) -> dict[str, dict[str, Parameter]]:
 
 
 def check_geometry(
-    spec: ScenarioSpec, map_model: MapModel, limits: Limits, tolerances: Tolerances
+    spec: ScenarioSpec, limits: Limits, tolerances: Tolerances
 ) -> Iterator[Certificate]:
-    """Return what sight, radio, separation and stated distances rule out."""
+    """Return what radio, separation and stated distances rule out."""
     geometry = Geometry(spec, limits, tolerances)
-    yield from _sight(spec, limits, geometry)
-    yield from _sight_of_places(spec, map_model, limits, tolerances)
     yield from _radio(spec, limits, geometry)
     yield from _separation(spec, limits)
     yield from _stated_distances(spec, limits, geometry)
     yield from _tracked_from_afar(spec, limits)
-
-
-def _sight(spec: ScenarioSpec, limits: Limits, geometry: Geometry) -> Iterator[Certificate]:
-    weather, hour = spec.world.weather.value, spec.world.time_of_day.value
-    reach = limits.sensing_range(weather, hour)
-    for mission in spec.missions:
-        if mission.target is None or mission.mode is MissionMode.NAVIGATE:
-            continue
-        near, _ = geometry.slant(mission)
-        if near > reach:
-            yield beyond(
-                Rule.SENSING,
-                'sensing_range',
-                _leading(mission),
-                f'missions/{mission.id}',
-                ('sensing_range_m', reach),
-                f'{mission.uav} would be at least {near:.0f} m from {mission.target}; its camera '
-                f'reaches {reach:g} m ({weather}, {hour}).',
-                (
-                    *geometry.facts(mission),
-                    *says('world/weather', weather),
-                    *says('world/time_of_day', hour),
-                    *limit_facts(limits, f'sensing_range_m/{weather}', f'sensing_factor/{hour}'),
-                ),
-            )
-
-
-def _sight_of_places(
-    spec: ScenarioSpec, map_model: MapModel, limits: Limits, tolerances: Tolerances
-) -> Iterator[Certificate]:
-    """A landmark that is to be seen from hovers that are all too far away from it."""
-    weather, hour = spec.world.weather.value, spec.world.time_of_day.value
-    reach = limits.sensing_range(weather, hour)
-    marks = {f'{LANDMARK}{m.name}': m for m in map_model.landmarks}
-    for condition in spec.conditions:
-        seen = condition.quantity in (QuantityName.VISIBLE_TIME, QuantityName.VISIBLE_FRACTION)
-        target = marks.get(condition.of[-1])
-        positive = upward(condition) and condition.value.value > 0.0
-        if not (seen and positive) or target is None:
-            continue
-        flown = [m for m in spec.missions if m.uav == condition.of[0]]
-        away = []
-        for mission in flown:
-            mark = marks.get(mission.target or '')
-            if mark is None or mission.mode is not MissionMode.HOVER:
-                away.append(0.0)
-                continue
-            _, far = place_distances(mission, limits, tolerances)
-            if is_over(mission):
-                far = max(far, roof_reach_m(mark, map_model.buildings))
-            away.append(math.hypot(mark.x_m - target.x_m, mark.y_m - target.y_m) - far)
-        if not flown or min(away) <= reach or any(is_half_read(spec, m) for m in flown):
-            continue
-        yield beyond(
-            Rule.SENSING,
-            'sensing_range',
-            condition.value,
-            f'conditions/{condition.id}',
-            ('sensing_range_m', reach),
-            f'{condition.of[0]} hovers at least {min(away):.0f} m from {target.name}; its camera '
-            f'reaches {reach:g} m ({weather}, {hour}).',
-            (
-                *says(f'conditions/{condition.id}/value', condition.value),
-                *(f for m in flown for f in says(f'missions/{m.id}/target', m.target)),
-                *(f for m in flown for f in says(f'missions/{m.id}/standoff_m', m.standoff_m)),
-                *says('world/weather', weather),
-                *says('world/time_of_day', hour),
-                *limit_facts(limits, f'sensing_range_m/{weather}', f'sensing_factor/{hour}'),
-                *tolerance_facts(tolerances, 'pattern_centre_m', 'hover_drift_wind_m'),
-            ),
-        )
-
-
-def _leading(mission: UavMission) -> Parameter:
-    """Return the stated number that puts the UAV far from its target."""
-    standoff = mission.standoff_m
-    if standoff is not None and is_stated(standoff) and standoff.value > mission.altitude_m.value:
-        return standoff
-    return mission.altitude_m
 
 
 def _radio(spec: ScenarioSpec, limits: Limits, geometry: Geometry) -> Iterator[Certificate]:

@@ -4,11 +4,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 from aurora_core.document import Document
 from aurora_core.outcomes.feasibility import Certificate, FactSource
-from aurora_core.spec.parameter import Span
+from aurora_core.spec.parameter import Parameter, Span
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.spec.vocabulary import ClauseStatus
 
@@ -20,23 +20,43 @@ def with_clauses(spec: ScenarioSpec, certificate: Certificate) -> Certificate:
         spec: The request that is refused.
         certificate: Why; its facts and bounds say what it needs, and nothing that it does not.
     """
-    paths = [certificate.path, *(bound.of for bound in certificate.chain)]
-    paths += [f.path for f in certificate.facts if f.source is FactSource.REQUEST]
-    spans = {_clause(spec, span) for path in paths for span in _spans(spec, path.split('/'))}
+    spans = {_clause(spec, span) for path in _paths(certificate) for span in _spans(spec, path)}
     ordered = sorted(spans, key=lambda s: (s.start, s.end))
     told = tuple(spec.prompt[s.start : s.end] for s in ordered)
     return certificate.model_copy(update={'clauses': tuple(t for t in told if t.strip())})
 
 
-def _spans(spec: ScenarioSpec, path: Sequence[str]) -> Iterator[Span]:
-    """Yield where the prompt says what stands at a path, or else what that is part of."""
+def rests_on_unread(spec: ScenarioSpec, certificate: Certificate) -> bool:
+    """Tell whether a proof rests on a number that stands in words which were not understood.
+
+    `12 m above it`, read as a height above ground: whoever reads admits it, and it proves nothing.
+    """
+    unread = [c.span for c in spec.clauses if c.status is ClauseStatus.NOT_ENCODED]
+    numbers = (at for path in _paths(certificate) for at in _spans(spec, path, numbers=True))
+    return any(u.start <= at.start and at.end <= u.end for at in numbers for u in unread)
+
+
+def _paths(certificate: Certificate) -> Iterator[str]:
+    yield certificate.path
+    yield from (bound.of for bound in certificate.chain)
+    yield from (f.path for f in certificate.facts if f.source is FactSource.REQUEST)
+
+
+def _spans(spec: ScenarioSpec, path: str, *, numbers: bool = False) -> Iterator[Span]:
+    """Yield where the prompt says what stands at a path, or else what that is part of.
+
+    Args:
+        spec: The request.
+        path: Of an element, or of a part of one.
+        numbers: Only where a number stands there.
+    """
     node: object = spec
     found: Span | None = None
-    for part in path:
+    for part in path.split('/'):
         node = _inside(node, part)
         span = getattr(node, 'span', None)
         found = span if isinstance(span, Span) else found
-    if found is not None:
+    if found is not None and (isinstance(node, Parameter) or not numbers):
         yield found
 
 

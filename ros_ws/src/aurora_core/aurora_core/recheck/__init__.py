@@ -19,7 +19,7 @@ from aurora_core.recheck.finding import Finding, Outcome, Step, finding
 from aurora_core.recheck.limits import by_limit, by_sign
 from aurora_core.recheck.listings import by_listing
 from aurora_core.recheck.operands import kinds_fit
-from aurora_core.recheck.request import Request, clauses_quoted, fact_holds, quoted
+from aurora_core.recheck.request import Request, clauses_quoted, fact_holds, quoted, was_read
 
 __all__ = ['Finding', 'Outcome', 'recheck']
 
@@ -61,7 +61,8 @@ def recheck(proof: Certificate, spec: dict[str, Any] | None) -> Finding:
     Raises:
         ConfigError: The configuration lacks limits or maps.
     """
-    return finding([*_steps(proof, spec), *clauses_quoted(proof, spec)])
+    said = *was_read(proof, spec), *clauses_quoted(proof, spec)
+    return finding([*_steps(proof, spec), *said])
 
 
 def _steps(proof: Certificate, spec: dict[str, Any] | None) -> list[Step]:

@@ -14,6 +14,9 @@ from aurora_core.recheck.zones import farthest, read_whole
 
 # What is looked at stands at most this high above the ground.
 _TOP_OF_TARGET_M = 2.0
+_AT = ('at', 'near', 'parked_at')
+# From a landmark to the middle of whoever stands where the road to it ends, at most.
+_ROAD_M = 160.0
 
 
 def _heights(request: Request, mission: dict[str, Any]) -> tuple[float, float]:
@@ -82,9 +85,9 @@ def _place_in_sight(proof: Certificate, request: Request, reach: float) -> list[
     observer, target = condition['of']
     marks = request.landmarks()
     flown = [m for m in request.all('missions') if m['uav'] == observer]
-    away = [0.0]
-    if flown and target in marks:
-        away = [_from_landmark(request, m, marks, marks[target]) for m in flown]
+    away, (place, aside) = [0.0], _stands_at(request, target)
+    if flown and place in marks:
+        away = [_from_landmark(request, m, marks, marks[place]) - aside for m in flown]
     seen = condition['op'] in ('>', '>=', '==') and float(condition['value']['value']) > 0.0
     return [
         _asked(proof, condition['value']),
@@ -92,6 +95,20 @@ def _place_in_sight(proof: Certificate, request: Request, reach: float) -> list[
         *(read_whole(request, m) for m in flown),
         (min(away) > reach, f'{observer} is {min(away):.1f} m from {target} at least'),
     ]
+
+
+def _stands_at(request: Request, target: str) -> tuple[str, float]:
+    """Return the landmark that something is at, and how far from it that may be."""
+    agent = request.one(f'agents/{target}')
+    actions = [e.get('action') or {} for e in request.all('events')]
+    if agent is None or any(a.get('agent') == target for a in actions):
+        return target, 0.0
+    if [b['kind'] for b in agent.get('behaviors', ())] != ['park']:
+        return '', 0.0
+    places = [p for p in agent.get('placements', ()) if p['relation'] in _AT]
+    # Whoever is at a place or near it is near the end of the road to it.
+    beside = float(request.tolerances['near_m']) + _ROAD_M
+    return next(((p['of'], beside) for p in places if p.get('of')), ('', 0.0))
 
 
 def _from_landmark(

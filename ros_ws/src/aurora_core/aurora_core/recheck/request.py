@@ -167,6 +167,23 @@ def fact_holds(request: Request, fact: Fact) -> Step:
     return found == fact.value, f'{fact.source} has {fact.path} = {found}'
 
 
+def was_read(proof: Certificate, spec: dict[str, Any] | None) -> list[Step]:
+    """No number that the proof rests on stands in words that the reader did not understand."""
+    if spec is None:
+        return []
+    unread = [c['span'] for c in spec.get('clauses') or () if c['status'] == 'not_encoded']
+    paths = {proof.path, *(f.path for f in proof.facts if f.source is FactSource.REQUEST)}
+    numbers = {p: n for p in paths if isinstance(n := node_at(spec, p), dict) and 'value' in n}
+    return [
+        (False, f'{path} stands in words that were not read')
+        for path, number in sorted(numbers.items())
+        for words in unread
+        if (at := number.get('span'))
+        and words['start'] <= at['start']
+        and at['end'] <= words['end']
+    ]
+
+
 def clauses_quoted(proof: Certificate, spec: dict[str, Any] | None) -> list[Step]:
     """The prompt has the clauses that the proof names."""
     if spec is None:

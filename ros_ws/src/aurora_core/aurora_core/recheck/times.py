@@ -181,7 +181,7 @@ def _way_s(request: Request, mission: dict[str, Any]) -> float:
     cut = 2.0 * float(request.tolerances['waypoint_horizontal_m'])
     ways = [max(0.0, leg - cut) for leg in _legs(request, mission)]
     top, speed = request.limit('uav_speed_max_mps'), mission.get('speed_mps')
-    if not stated(speed) or mission.get('pattern') == 'orbit':
+    if not stated(speed):
         return sum(ways) / top
     if speed.get('bound') == 'at_least' or not 0.0 < float(speed['value']) < top:
         return sum(ways) / top

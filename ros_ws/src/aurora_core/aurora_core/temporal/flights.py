@@ -173,7 +173,7 @@ def _route(basis: Basis, mission: UavMission) -> Link:
     cut_m = 2.0 * basis.tolerances.waypoint_horizontal_m
     ways_m = [max(0.0, leg - cut_m) for leg in legs]
     rate_mps = basis.limits.uav_speed_max_mps
-    speed = mission.speed_mps if mission.pattern is not Pattern.ORBIT else None
+    speed = mission.speed_mps
     if facts is not None or speed is None or not _holds_back(speed, rate_mps):
         speed = None
     seconds = sum(way / rate_mps for way in ways_m)

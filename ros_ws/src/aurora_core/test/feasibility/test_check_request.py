@@ -7,6 +7,7 @@ from __future__ import annotations
 import pytest
 
 from aurora_core.feasibility.check import check_request
+from aurora_core.feasibility.limits import check_limits
 from aurora_core.knowledge.agent_types import load_agent_types
 from aurora_core.knowledge.config_files import config_path
 from aurora_core.knowledge.limits import load_limits, load_tolerances
@@ -14,6 +15,9 @@ from aurora_core.knowledge.map_model import load_map
 from aurora_core.outcomes.feasibility import Feasibility, FeasibilityVerdict
 from aurora_core.outcomes.parse import ParseContext
 from aurora_core.parsing.parser import parse_offline
+from aurora_core.recheck import Outcome, recheck
+from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.spec.vocabulary import ClauseStatus
 
 REFUSED = (
     ('In fog a drone hovers over the crosswalk at 95 m.', 'sensing_range'),
@@ -71,6 +75,13 @@ REFUSED = (
         'temporal_contradiction',
     ),
     ('A drone orbits Mercy Hospital at a radius of 100 m, 110 m above the ground.', 'geofence'),
+    # Round the park as often at the speed that is asked for, not at the fastest there is.
+    ('A drone circles Meadow Park 24 times at 100 m radius with 5 m/s at 60 m.', 'endurance'),
+    (
+        'A drone hovers over Meadow Park at 50 m. A parked car at Eastgate Stadium has to be '
+        'visible to the drone all the time.',
+        'sensing_range',
+    ),
 )
 ACCEPTED = (
     # An event that ends the phase early leaves time enough.
@@ -90,17 +101,31 @@ ACCEPTED = (
     'A scenario of 40 seconds. The bus brakes at 30 s.',
     'A drone hovers over City Hall for 60 seconds at 30 m. It must be on the ground by 120 s.',
     'A drone hovers over City Hall for 900 s, then it hovers over Mercy Hospital for 600 s.',
+    'A drone circles Meadow Park 10 times at 100 m radius with 5 m/s at 60 m.',
+    # It stands at the road that leads there, which may be far from the middle of the park.
+    'A drone hovers over Meadow Park at 50 m. A parked car at Ridge School has to be visible to '
+    'the drone all the time.',
+    # It may drive to where it can be seen.
+    'A drone hovers over Meadow Park at 50 m. A car starts at Eastgate Stadium and drives to '
+    'Meadow Park. The car has to be visible to the drone for at least 10 seconds.',
+    # Above the other one, not above the ground.
+    'A drone hovers over City Hall at 50 m. Another drone hovers 2.5 m above it for 20 seconds.',
+    'A drone hovers over City Hall at 40 m. Another drone hovers 125 m above it for 20 seconds.',
 )
 
 
-def _judged(prompt: str) -> FeasibilityVerdict:
-    map_model = load_map('downtown')
-    context = ParseContext(landmark_names=tuple(m.name for m in map_model.landmarks))
+def _read(prompt: str) -> ScenarioSpec:
+    landmarks = load_map('downtown').landmarks
+    context = ParseContext(landmark_names=tuple(m.name for m in landmarks))
     spec = parse_offline(prompt, context).spec
     assert spec is not None, prompt
+    return spec
+
+
+def _judged(prompt: str) -> FeasibilityVerdict:
     return check_request(
-        spec,
-        map_model,
+        _read(prompt),
+        load_map('downtown'),
         load_limits(config_path('limits.json')),
         load_tolerances(config_path('tolerances.json')),
         load_agent_types(),
@@ -125,6 +150,19 @@ def test_a_clash_with_a_half_read_clause_is_no_proof() -> None:
     verdict = _judged(prompt)
     assert verdict.result is Feasibility.UNKNOWN
     assert verdict.notes
+
+
+def test_a_number_in_words_that_were_not_read_proves_nothing() -> None:
+    """A certificate that rests on one all the same is refuted."""
+    prompt = 'A drone hovers over City Hall at 50 m. Another drone hovers 2 m above it.'
+    assert _judged(prompt).result is Feasibility.UNKNOWN
+    spec = _read(prompt)
+    whole = spec.model_copy(
+        update={'clauses': tuple(c for c in spec.clauses if c.status is ClauseStatus.ENCODED)}
+    )
+    [proof] = check_limits(whole, load_limits(config_path('limits.json'))).certificates
+    assert recheck(proof, whole.model_dump(mode='json')).valid
+    assert recheck(proof, spec.model_dump(mode='json')).outcome is Outcome.REFUTED
 
 
 def test_a_half_read_deadline_is_not_said_to_hang_on_the_tolerances() -> None:

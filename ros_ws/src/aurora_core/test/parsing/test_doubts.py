@@ -57,6 +57,10 @@ _NEAR = 'when the van comes within 30 m of the ego car'
             'stops.',
             'hovers at 60 m',
         ),
+        (
+            'A drone hovers over City Hall at 40 m. Another drone hovers 12 m above it.',
+            '12 m above',
+        ),
         (f'{_TRACKS} and no other vehicle comes within 30 m of the van.', 'no other vehicle'),
         (
             'A drone alerts the ego car when a van comes within 30 m of it and climbs to 60 m.',

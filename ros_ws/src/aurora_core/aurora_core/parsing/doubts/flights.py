@@ -5,9 +5,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 
 from aurora_core.parsing.atoms import Atom, AtomKind
-from aurora_core.parsing.doubts.clauses import clause_of, events_in, sentences, within
+from aurora_core.parsing.doubts.clauses import clause_of, events_in, over, sentences, within
 from aurora_core.spec.parameter import Span
 from aurora_core.spec.scenario import Clause, ScenarioSpec
 from aurora_core.spec.vocabulary import ClauseStatus, MissionMode
@@ -70,6 +71,17 @@ def folded_climbs(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
                 yield clause.span
             if atom.key not in _CLIMBS:
                 begun |= told
+
+
+def heights_over_fliers(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`another one hovers 12 m above it` that became a hover 12 m above the ground."""
+    flying = {uav.id for uav in spec.uavs}
+    told = [m.altitude_m.span for m in spec.missions if m.target in flying]
+    for measure, place in pairwise(atoms):
+        if measure.measure is None or (place.kind, place.key) != (AtomKind.PREPOSITION, 'over'):
+            continue
+        if Span(start=measure.measure.start, end=measure.measure.end) in told:
+            yield over(measure, place)
 
 
 def _flown(spec: ScenarioSpec, atoms: Sequence[Atom]) -> set[str]:

@@ -28,6 +28,7 @@ from aurora_core.parsing.doubts.bodies import (
 from aurora_core.parsing.doubts.flights import (
     flights_without_verb,
     folded_climbs,
+    heights_over_fliers,
     watched_while_hovering,
 )
 from aurora_core.parsing.doubts.messages import (
@@ -64,6 +65,7 @@ _CHECKS: tuple[_Check, ...] = (
     watched_while_hovering,
     flights_without_verb,
     folded_climbs,
+    heights_over_fliers,
     other_receivers,
     open_moments,
     places_of_deeds,
