@@ -60,6 +60,10 @@ def _unread(prompt: str) -> list[str]:
             'The ego overtakes a cyclist, keeping 1.5 m away from it.',
             'overtakes a cyclist, keeping 1.5 m',
         ),
+        (
+            'A drone patrols the main road and tracks the first truck that it sees.',
+            'the first truck that it sees',
+        ),
         ('A van turns around and drives back.', 'turns around'),
         ('The van tracks a bus and drives home.', 'home'),
         ('A van stops after 30 s because a pedestrian crosses the street.', 'because'),
