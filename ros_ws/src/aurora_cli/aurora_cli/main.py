@@ -112,7 +112,10 @@ def run_prompt(
     map_name: Map = 'downtown',
     out: Annotated[Path, typer.Option(help='Folder of the run folders.')] = Path('runs'),
     allow_relax: Annotated[
-        bool, typer.Option('--allow-relax', help='Recorded; repair changes no request yet.')
+        bool,
+        typer.Option(
+            '--allow-relax', help='Of a violated run, say with which stated numbers it would hold.'
+        ),
     ] = False,
     repair: Repair = None,
     no_repair: NoRepair = False,

@@ -9,7 +9,7 @@ values that nobody states are realised otherwise; both travel in the grounding
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from enum import StrEnum
 from typing import Any
 
@@ -207,32 +207,64 @@ def with_values(spec: ScenarioSpec, values: tuple[ValueEdit, ...]) -> ScenarioSp
     if len(wanted) != len(values):
         raise SpecError('a value is realised in two ways at once')
     used: set[str] = set()
-    changed = _changed(spec, '', wanted, used)
+    changed = _changed(spec, '', lambda path, now: _realised(wanted, path, now), used)
     missing = sorted(wanted.keys() - used)
     if missing:
         raise SpecError(f'the request has no {missing[0]}')
     return ScenarioSpec.model_validate(changed.model_dump())
 
 
-def _changed(value: Any, path: str, wanted: Mapping[str, ValueEdit], used: set[str]) -> Any:
+def restated(spec: ScenarioSpec, values: Mapping[str, float]) -> ScenarioSpec:
+    """Return another request: with other numbers in the place of what the prompt states.
+
+    Args:
+        spec: The request; it is not changed.
+        values: By path, in the unit of the parameter.
+
+    Raises:
+        SpecError: The request has no such number.
+    """
+    used: set[str] = set()
+
+    def stated(path: str, now: Parameter) -> Parameter | None:
+        return now.model_copy(update={'value': values[path]}) if path in values else None
+
+    changed = _changed(spec, '', stated, used)
+    missing = sorted(values.keys() - used)
+    if missing:
+        raise SpecError(f'the request has no {missing[0]}')
+    return ScenarioSpec.model_validate(changed.model_dump())
+
+
+def _changed(
+    value: Any, path: str, other: Callable[[str, Parameter], Parameter | None], used: set[str]
+) -> Any:
+    """Return a value with other parameters, where there is another one for its path."""
     if isinstance(value, Parameter):
-        edit = wanted.get(path)
-        if edit is None:
+        found = other(path, value)
+        if found is None:
             return value
         used.add(path)
-        return _moved(value, edit)
+        return found
     if isinstance(value, BaseModel):
         fields = {
-            name: _changed(getattr(value, name), f'{path}/{name}'.lstrip('/'), wanted, used)
+            name: _changed(getattr(value, name), f'{path}/{name}'.lstrip('/'), other, used)
             for name in type(value).model_fields
         }
         return value.model_copy(update=fields)
     if isinstance(value, tuple):
         return tuple(
-            _changed(item, f'{path}/{getattr(item, "id", None) or k}', wanted, used)
+            _changed(item, f'{path}/{getattr(item, "id", None) or k}', other, used)
             for k, item in enumerate(value)
         )
     return value
+
+
+def _realised(
+    wanted: Mapping[str, ValueEdit], path: str, parameter: Parameter
+) -> Parameter | None:
+    edit = wanted.get(path)
+    return None if edit is None else _moved(parameter, edit)
 
 
 def _moved(parameter: Parameter, edit: ValueEdit) -> Parameter:

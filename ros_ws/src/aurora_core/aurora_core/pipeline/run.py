@@ -23,6 +23,7 @@ from aurora_core.outcomes.repair import Attempt, Proposal, ProposalOutcome, Repa
 from aurora_core.outcomes.verdict import VerdictStatus
 from aurora_core.pipeline.history import remember
 from aurora_core.pipeline.knowledge import Knowledge
+from aurora_core.pipeline.relaxing import relaxed
 from aurora_core.pipeline.repairing import (
     Realisation,
     nothing_left,
@@ -31,6 +32,7 @@ from aurora_core.pipeline.repairing import (
     why_not,
 )
 from aurora_core.pipeline.stages import ExecutionResult, RunControl, RunRequest, Stages
+from aurora_core.pipeline.verification import load_bag
 from aurora_core.ports.clock import SteadyClock
 from aurora_core.report.build import build_report
 from aurora_core.report.facts import ExecutionFacts, RunFacts
@@ -138,6 +140,7 @@ class _Run:
         first = self.execute(grounding, iteration=0)
         if first.verdict.status is VerdictStatus.VIOLATED:
             self.repair(graph, first)
+            self.relax()
 
     def understand(self) -> Agsg | None:
         """Parse and check the stated numbers; None when the run ends here."""
@@ -237,6 +240,18 @@ class _Run:
             self.note(grounding=best.grounding, execution=best.execution, verdict=best.verdict)
             self.note(iterations=len(made))
             self._share = None
+
+    def relax(self) -> None:
+        """Look with which stated numbers the run would hold, where whoever asks wants to know."""
+        facts = self.facts
+        violated = facts.verdict is not None and facts.verdict.status is VerdictStatus.VIOLATED
+        if not (self.request.allow_relax and violated):
+            return
+        assert facts.verdict is not None
+        assert facts.execution is not None  # what has a verdict was executed
+        with self.stage('repair'):
+            content, graph = load_bag(self.folder.path / facts.execution.bag)
+            self.note(relaxed=relaxed(self.known, graph, facts.verdict, content))
 
     def budget(self) -> int:
         """Return how many co-simulations repair may spend.

@@ -35,7 +35,7 @@ class RunRequest(Document):
         prompt: Byte-identical to what was typed.
         model: `offline`, or language models as `config/models.yaml` says; it is recorded, and
             holds no secret.
-        allow_relax: Repair might propose changes of the request itself; it proposes none yet.
+        allow_relax: Of a violated run, tell with which stated numbers it would hold.
         repair: Co-simulations that repair may spend after a violation; None: as many as
             `config/repair.yaml` says, and none where faults are injected.
         faults: Injected run-time faults; invisible to feasibility and monitor.

@@ -12,6 +12,7 @@ from aurora_core.outcomes.grounding import GroundingOutcome
 from aurora_core.outcomes.parse import ParseOutcome
 from aurora_core.outcomes.verdict import Verdict
 from aurora_core.pipeline.knowledge import Knowledge
+from aurora_core.pipeline.relaxing import relaxed
 from aurora_core.pipeline.verification import Judged, judge_content, recorded_plan
 from aurora_core.report.clauses import clause_reports
 from aurora_core.report.comparison import Comparison
@@ -45,7 +46,7 @@ def verify_found(
     """
     judged = judge_content(known, content, agsg, as_recorded=as_recorded)
     foreign = _foreign_to(judged, content) if as_recorded else None
-    bag = _judged_bag(content, agsg, judged.verdict, judged.plan, judged.context)
+    bag = _judged_bag(known, content, agsg, judged.verdict, judged.plan, judged.context)
     if found.run is None:
         return verify_report(str(found.bag), bag, as_recorded=foreign)
     run, recorded = check_run(found.run, found.iteration, bag)
@@ -75,12 +76,13 @@ def report_beside(
     """
     conditions = conditions_from_json(content.world.conditions_json)
     plan = recorded_plan(known, content.world, conditions, agsg)
-    bag = _judged_bag(content, agsg, verdict, plan)
+    bag = _judged_bag(known, content, agsg, verdict, plan)
     run = None if found.run is None else check_run(found.run, found.iteration, bag)[0]
     return verify_report(str(found.bag), bag, run=run, recorded=heard)
 
 
 def _judged_bag(
+    known: Knowledge,
     content: BagContent,
     agsg: Agsg,
     verdict: Verdict,
@@ -114,6 +116,7 @@ def _judged_bag(
         clauses=clause_reports(facts),
         facts=facts,
         context=context,
+        relaxed=lambda: relaxed(known, agsg, verdict, content),
     )
 
 

@@ -10,6 +10,7 @@ from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.condition import Condition
 from aurora_core.outcomes.feasibility import Certificate, Feasibility, FeasibilityVerdict
 from aurora_core.outcomes.parse import ParseOutcome, Refusal
+from aurora_core.outcomes.verdict import VerdictStatus
 from aurora_core.report.clauses import clause_reports
 from aurora_core.report.facts import RunFacts
 from aurora_core.report.judged import condition_reports, is_undecided
@@ -52,6 +53,7 @@ def build_report(facts: RunFacts) -> RunReport:
         limits=facts.limits,
         feasibility=feasibility,
         repairs=facts.repairs,
+        relaxed=facts.relaxed,
         timing=dict(facts.timing),
         cost=_cost(facts),
         trace=_trace(facts),
@@ -93,6 +95,10 @@ def _status_facts(
     conditions: tuple[Condition, ...],
 ) -> StatusFacts:
     verdict = facts.verdict
+    # Without clauses nobody has shown that the whole prompt was read.
+    encoded = bool(clauses) and all(not clause.status.is_open for clause in clauses)
+    other = facts.relaxed.verdict if facts.relaxed is not None else None
+    edited = encoded and other is VerdictStatus.VERIFIED
     judged = verdict is not None and {r.id for r in rows} >= {c.id for c in conditions}
     return StatusFacts(
         error=facts.error is not None,
@@ -101,10 +107,9 @@ def _status_facts(
         infeasible=feasibility is not None and feasibility.result is Feasibility.INFEASIBLE,
         judged=judged and bool(rows),
         undecided=verdict is not None and is_undecided(verdict),
-        violated=not all(row.satisfied and row.exercised for row in rows),
-        # Without clauses nobody has shown that the whole prompt was read.
-        encoded=bool(clauses) and all(not clause.status.is_open for clause in clauses),
-        edited=facts.relaxed,
+        violated=not edited and not all(row.satisfied and row.exercised for row in rows),
+        encoded=encoded,
+        edited=edited,
     )
 
 

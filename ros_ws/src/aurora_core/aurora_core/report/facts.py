@@ -15,7 +15,7 @@ from aurora_core.outcomes.feasibility import FeasibilityVerdict
 from aurora_core.outcomes.grounding import GroundingOutcome
 from aurora_core.outcomes.parse import ParseOutcome
 from aurora_core.outcomes.verdict import Verdict
-from aurora_core.report.run_report import BagReport, RepairReport
+from aurora_core.report.run_report import BagReport, RelaxedReport, RepairReport
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -81,7 +81,7 @@ class RunFacts:
     faults: tuple[Fault, ...] = ()
     iterations: int = 0
     repairs: tuple[RepairReport, ...] = ()
-    relaxed: bool = False
+    relaxed: RelaxedReport | None = None
 
     @property
     def graph(self) -> Agsg | None:

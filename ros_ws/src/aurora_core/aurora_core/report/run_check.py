@@ -10,7 +10,7 @@ of these in agreement is not found: that would take a signature.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -37,7 +37,13 @@ from aurora_core.report.run_folder import (
     StageFile,
     is_run_id,
 )
-from aurora_core.report.run_report import BagReport, ClauseReport, RunReport, TraceReport
+from aurora_core.report.run_report import (
+    BagReport,
+    ClauseReport,
+    RelaxedReport,
+    RunReport,
+    TraceReport,
+)
 from aurora_core.report.status import Status
 from aurora_core.report.versions import AURORA_VERSION
 from aurora_core.spec.scenario import ScenarioSpec
@@ -76,6 +82,7 @@ class JudgedBag:
         clauses: Of the prompt in it, with what became of each.
         facts: What a report tells of a run, as far as the bag gives it.
         context: In which it was judged, None measures anew what the page shows.
+        relaxed: Works out with which stated numbers it would hold.
     """
 
     content: BagContent
@@ -85,6 +92,7 @@ class JudgedBag:
     clauses: tuple[ClauseReport, ...]
     facts: RunFacts
     context: Context | None = None
+    relaxed: Callable[[], RelaxedReport | None] = lambda: None
 
 
 def unread(clauses: Sequence[ClauseReport]) -> tuple[ClauseReport, ...]:
@@ -371,12 +379,15 @@ def _by_which_judged(
         yield altered(f'{REPORT} has other clauses than the bag gives')
     if bag.verdict.integrity is not Integrity.INTACT or report.status in _CLAIMS_NOTHING:
         return
-    facts = replace(bag.facts, iterations=executions)
+    again = None if report.relaxed is None else bag.relaxed()
+    facts = replace(bag.facts, iterations=executions, relaxed=again)
     found = first_difference(report, restated(report, facts))
     if found is not None:
         path, told, given = found
         yield altered(f'{REPORT} has {path} {_short(told)}, the bag gives {_short(given)}')
     allowed = _MAY_CLAIM.get(bag.verdict.status, frozenset())
+    if again is not None and again.verdict is VerdictStatus.VERIFIED:
+        allowed |= {Status.VERIFIED_AS_EDITED}
     if report.status not in allowed:
         yield altered(
             f'{REPORT} says {report.status.value}, the bag shows {bag.verdict.status.value}'
@@ -386,7 +397,7 @@ def _by_which_judged(
 
 
 _CLAIMS_NOTHING = (Status.ERROR, Status.CANCELLED, Status.INCONCLUSIVE)
-_HOLDS = frozenset({Status.VERIFIED, Status.VERIFIED_AS_EDITED, Status.INCOMPLETE})
+_HOLDS = frozenset({Status.VERIFIED, Status.INCOMPLETE})
 _MAY_CLAIM = {
     VerdictStatus.VERIFIED: _HOLDS,
     VerdictStatus.VIOLATED: frozenset({Status.VIOLATED}),

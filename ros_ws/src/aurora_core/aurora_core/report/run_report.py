@@ -9,7 +9,7 @@ from typing import Literal
 
 from pydantic import Field, FiniteFloat
 
-from aurora_core.document import Document
+from aurora_core.document import Document, omitted
 from aurora_core.execution.faults import Fault
 from aurora_core.knowledge.limits import Limits
 from aurora_core.outcomes.feasibility import FeasibilityVerdict
@@ -126,6 +126,37 @@ class RepairReport(Document):
     implicated: tuple[Implicated, ...] = ()
 
 
+class StatedChange(Document):
+    """A stated number with which a condition would hold on the recorded trace.
+
+    Attributes:
+        path: Of the number in the specification.
+        stated: As the prompt has it.
+        relaxed: As it would have to be.
+        condition: That would hold.
+        sentence: What that would then say.
+    """
+
+    path: str
+    stated: FiniteFloat
+    relaxed: FiniteFloat
+    unit: str = ''
+    condition: str
+    sentence: str
+
+
+class RelaxedReport(Document):
+    """Another request, which the recorded run would satisfy better than the one that was asked.
+
+    Attributes:
+        changes: What of the request would be another number.
+        verdict: On the request with all changes, from the same trace.
+    """
+
+    changes: tuple[StatedChange, ...]
+    verdict: VerdictStatus
+
+
 class RealisedReport(Document):
     """A number of the request and what grounding made of it."""
 
@@ -234,6 +265,8 @@ class RunReport(Document):
         clauses: Every clause of the prompt.
         elements: The request said back, each element in a sentence.
         conditions: Every success condition with its margin.
+        relaxed: What of the request would have to be another for the run to hold, where that was
+            asked for; the status is that of the request as it is.
         timing: Wall seconds by stage.
         question: What was missing (status `not_understood`).
     """
@@ -255,6 +288,7 @@ class RunReport(Document):
     conditions: tuple[ConditionReport, ...] = ()
     feasibility: FeasibilityVerdict | None = None
     repairs: tuple[RepairReport, ...] = ()
+    relaxed: RelaxedReport | None = omitted(None)
     metrics: Metrics = Metrics()
     timing: dict[str, FiniteFloat] = Field(default_factory=dict)
     cost: Cost = Cost()

@@ -30,7 +30,10 @@ def summary_of(report: RunReport, grounding: GroundingOutcome | None) -> str:
             f'prompt is encoded.{_repaired(report)}'
         )
     if report.status is Status.VERIFIED_AS_EDITED:
-        return f'{held}, but only after a change of the request that you allowed.'
+        return (
+            f'As asked {held}; violated: {_violated(report.conditions)}. The same run holds with '
+            f'{_changes(report)}: another request than the one that was asked.'
+        )
     if report.status is Status.INCOMPLETE:
         return f'What was encoded holds ({held}), but not all was encoded: {_lost(report)}.'
     if report.status is Status.VIOLATED:
@@ -48,6 +51,13 @@ def summary_of(report: RunReport, grounding: GroundingOutcome | None) -> str:
     if report.status is Status.ERROR and report.error is not None:
         return f'{report.error.component} failed: {report.error.message}'
     return 'Cancelled by the user; nothing is claimed about the prompt.'
+
+
+def _changes(report: RunReport) -> str:
+    changes = report.relaxed.changes if report.relaxed is not None else ()
+    return ', '.join(
+        f'{c.relaxed:g} {c.unit} instead of {c.stated:g} {c.unit} ({c.condition})' for c in changes
+    )
 
 
 def _doubted(report: RunReport) -> str:

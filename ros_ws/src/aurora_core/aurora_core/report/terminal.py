@@ -18,6 +18,7 @@ from aurora_core.report.run_report import (
     ClauseReport,
     ConditionReport,
     RealisedReport,
+    RelaxedReport,
     RepairReport,
     RunReport,
 )
@@ -110,6 +111,7 @@ def _print_all(report: RunReport, console: Console) -> None:
     print_realised(report.requested_and_realised, console)
     print_words((row.sentence for row in report.conditions), console)
     print_repairs(report.repairs, console)
+    print_relaxed(report.relaxed, console)
     for fault in report.faults:
         line(console, f'injected fault: {fault.kind} on {fault.subject} from {fault.at_s:g} s')
     if report.trace is not None:
@@ -135,6 +137,21 @@ def print_repairs(repairs: Sequence[RepairReport], console: Console) -> None:
                 repair.reason,
             )
             for repair in repairs
+        ],
+        console,
+    )
+
+
+def print_relaxed(relaxed: RelaxedReport | None, console: Console) -> None:
+    """Print with which stated numbers the run would hold: another request than was asked."""
+    if relaxed is None:
+        return
+    print_table(
+        f'Of another request the same run would be {relaxed.verdict.value.upper()}',
+        ('number', 'stated', 'would hold with', 'condition'),
+        [
+            (c.path, f'{c.stated:g} {c.unit}', f'{c.relaxed:g} {c.unit}', c.sentence)
+            for c in relaxed.changes
         ],
         console,
     )

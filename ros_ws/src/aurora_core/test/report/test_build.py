@@ -15,7 +15,7 @@ from aurora_core.outcomes.grounding import GroundingFailure, GroundingOutcome
 from aurora_core.outcomes.parse import ParseOutcome, Refusal, RefusalKind
 from aurora_core.outcomes.verdict import Finding, Reason, VerdictStatus
 from aurora_core.report.build import build_report
-from aurora_core.report.run_report import RunReport
+from aurora_core.report.run_report import RelaxedReport, RunReport, StatedChange
 from aurora_core.report.status import Status
 from aurora_core.report.summary import margin_value
 from aurora_core.spec.parameter import Span
@@ -178,8 +178,33 @@ def test_a_cancelled_run_keeps_its_trace_but_claims_nothing(make: SimpleNamespac
     assert report.trace.verdict is None
 
 
-def test_a_change_of_the_request_is_told_in_the_status(make: SimpleNamespace) -> None:
-    assert build_report(make.facts(relaxed=True)).status is Status.VERIFIED_AS_EDITED
+@pytest.mark.parametrize(
+    ('other', 'status'),
+    [
+        (VerdictStatus.VERIFIED, Status.VERIFIED_AS_EDITED),
+        (VerdictStatus.VIOLATED, Status.VIOLATED),
+    ],
+)
+def test_a_change_of_the_request_is_told_in_the_status(
+    make: SimpleNamespace, other: VerdictStatus, status: Status
+) -> None:
+    change = StatedChange(
+        path='conditions/c1/value',
+        stated=20.0,
+        relaxed=23.5,
+        unit='m',
+        condition='c1',
+        sentence='d <= 23.5 m',
+    )
+    relaxed = RelaxedReport(changes=(change,), verdict=other)
+    report = build_report(
+        make.facts(verdict=make.verdict(make.result(margin=-0.3)), relaxed=relaxed)
+    )
+    assert report.status is status
+    assert report.relaxed == relaxed
+    assert report.trace is not None
+    assert report.trace.verdict is VerdictStatus.VIOLATED
+    assert ('23.5 m instead of 20 m' in report.summary) is (status is Status.VERIFIED_AS_EDITED)
 
 
 def test_the_monitor_can_be_more_careful_than_its_margins(make: SimpleNamespace) -> None:
