@@ -8,9 +8,6 @@ angles turn in `aurora_core.geometry.frames`.
 
 from __future__ import annotations
 
-# Free space between the kerb-side border of a traffic lane and the flank of a parked vehicle.
-KERB_CLEARANCE_M = 0.3
-
 
 def centre_from_front(
     front_x_m: float, front_y_m: float, heading_x: float, heading_y: float, length_m: float
@@ -26,8 +23,3 @@ def front_from_centre(
     """Return the front bumper (ENU, m) of a body whose box centre is at the given point."""
     half_m = 0.5 * length_m
     return centre_x_m + half_m * heading_x, centre_y_m + half_m * heading_y
-
-
-def kerb_offset_m(lane_width_m: float, vehicle_width_m: float) -> float:
-    """Return how far right of a traffic lane's centre line a parked vehicle's centre stands."""
-    return 0.5 * lane_width_m + 0.5 * vehicle_width_m + KERB_CLEARANCE_M

@@ -14,9 +14,9 @@ from dataclasses import dataclass
 import libsumo
 
 from aurora_core.geometry.frames import heading_to_sumo_angle
-from aurora_core.ports.simulators import GroundAgentLoad
+from aurora_core.ports.simulators import GroundAgentLoad, kerb_offset_m
 from aurora_sumo_bridge.checks import unplaceable
-from aurora_sumo_bridge.conversions import front_from_centre, kerb_offset_m
+from aurora_sumo_bridge.conversions import front_from_centre
 from aurora_sumo_bridge.driver import Driver
 from aurora_sumo_bridge.network import PEDESTRIAN, Network
 from aurora_sumo_bridge.polyline import Point

@@ -9,12 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from aurora_core.geometry.frames import sumo_angle_to_heading
-from aurora_sumo_bridge.conversions import (
-    KERB_CLEARANCE_M,
-    centre_from_front,
-    front_from_centre,
-    kerb_offset_m,
-)
+from aurora_core.ports.simulators import KERB_CLEARANCE_M, kerb_offset_m
+from aurora_sumo_bridge.conversions import centre_from_front, front_from_centre
 
 _ANGLES = st.floats(min_value=-1080.0, max_value=1080.0)
 _METRES = st.floats(min_value=-5000.0, max_value=5000.0)

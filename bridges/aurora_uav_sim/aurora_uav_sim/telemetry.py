@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from math import asin, atan2, nan, sqrt
+from math import nan, sqrt
 from typing import Any
 
 from pymavlink.dialects.v20 import common as mavlink
@@ -14,6 +14,8 @@ from aurora_core.geometry.frames import (
     attitude_enu_to_ned,
     enu_to_ned,
     flu_to_frd,
+    heading_to_yaw_enu,
+    quaternion_to_euler_ned,
     quaternion_to_yaw_enu,
     yaw_enu_to_compass_deg,
 )
@@ -133,12 +135,10 @@ def attitude_quaternion(vehicle: Vehicle) -> Any:
 def attitude(vehicle: Vehicle) -> Any:
     """ATTITUDE."""
     body = vehicle.autopilot.body
-    w, x, y, z = attitude_enu_to_ned(body.qw, body.qx, body.qy, body.qz)
+    attitude_ned = attitude_enu_to_ned(body.qw, body.qx, body.qy, body.qz)
     return mavlink.MAVLink_attitude_message(
         _boot_ms(vehicle),
-        atan2(2.0 * (w * x + y * z), 1.0 - 2.0 * (x * x + y * y)),
-        asin(min(max(2.0 * (w * y - z * x), -1.0), 1.0)),
-        atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z)),
+        *quaternion_to_euler_ned(*attitude_ned),
         *flu_to_frd(body.p, body.q, body.r),
     )
 
@@ -147,7 +147,7 @@ def gps_raw(vehicle: Vehicle) -> Any:
     """GPS_RAW_INT of a receiver without error."""
     body = vehicle.autopilot.body
     latitude_deg, longitude_deg = vehicle.to_geodetic(body.x, body.y)
-    course_deg = yaw_enu_to_compass_deg(atan2(body.vy, body.vx))
+    course_deg = yaw_enu_to_compass_deg(heading_to_yaw_enu(body.vx, body.vy))
     return mavlink.MAVLink_gps_raw_int_message(
         int(vehicle.autopilot.time_s * 1e6 + 0.5),
         mavlink.GPS_FIX_TYPE_3D_FIX,

@@ -69,13 +69,6 @@ class SpecError(AuroraError):
     default_component = 'parser'
 
 
-class GroundingError(AuroraError):
-    """Grounding was given what it cannot work with (not: found no place)."""
-
-    default_code = 300
-    default_component = 'grounding'
-
-
 class SimulatorError(AuroraError):
     """A simulator refused, failed or fell silent."""
 

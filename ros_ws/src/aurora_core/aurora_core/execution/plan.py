@@ -18,9 +18,9 @@ from aurora_core.execution.step_output import Stepper
 from aurora_core.execution.triggers import BatteryRule
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.grounding.places import place_positions
-from aurora_core.knowledge.config_files import config_path
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_model import MapModel
+from aurora_core.knowledge.measured_on import vtypes_path
 from aurora_core.knowledge.settings import Settings
 from aurora_core.knowledge.world import NamedPlace, Wind, WorldModel
 from aurora_core.mission.machine import MissionMachine
@@ -341,7 +341,7 @@ def _ground_load(
     return GroundLoad(
         map_name=map_model.name,
         net_path=map_model.net_path,
-        vtypes_path=config_path('maps', 'vtypes.add.xml'),
+        vtypes_path=vtypes_path(),
         map_digest=map_model.digest,
         dt_s=dt_s,
         seed=seed,

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.reference import is_place
 from aurora_core.spec.scenario import AgentAction, ScenarioSpec, StatedCondition, UavAction
@@ -121,8 +120,3 @@ def _begins_all(action: UavAction | AgentAction, flown: Sequence[str]) -> bool:
 def upward(condition: StatedCondition) -> bool:
     """Tell whether a condition asks for its stated value or more."""
     return condition.op in (*AT_LEAST, '==') and is_stated(condition.value)
-
-
-def binds_from_below(number: Parameter) -> bool:
-    """Tell whether nothing below a stated number meets it."""
-    return is_stated(number) and number.bound is not Bound.AT_MOST

@@ -150,6 +150,11 @@ def heading_to_sumo_angle(east: float, north: float) -> float:
     return angle_deg if angle_deg >= 0.0 else angle_deg + 360.0
 
 
+def heading_to_yaw_enu(east: float, north: float) -> float:
+    """Return the ENU yaw in (-pi, pi] of a vector of any length."""
+    return math.atan2(north, east)
+
+
 def offset_at_bearing(distance_m: float, bearing_deg: float) -> tuple[float, float]:
     """Return (east, north) in metres of what lies at a distance, clockwise from north."""
     compass_rad = bearing_deg * math.pi / 180.0
@@ -166,6 +171,15 @@ def quaternion_to_yaw_enu(w: float, x: float, y: float, z: float) -> float:
         z: Third imaginary part.
     """
     return math.atan2(2.0 * (x * y + w * z), 1.0 - 2.0 * (y * y + z * z))
+
+
+def quaternion_to_euler_ned(w: float, x: float, y: float, z: float) -> Vector3:
+    """Return (roll, pitch, yaw) in rad of an attitude FRD-to-NED: yaw first, then pitch, roll."""
+    return (
+        math.atan2(2.0 * (w * x + y * z), 1.0 - 2.0 * (x * x + y * y)),
+        math.asin(min(max(2.0 * (w * y - z * x), -1.0), 1.0)),
+        math.atan2(2.0 * (w * z + x * y), 1.0 - 2.0 * (y * y + z * z)),
+    )
 
 
 def enu_to_geodetic(

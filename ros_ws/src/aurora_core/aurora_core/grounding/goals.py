@@ -10,10 +10,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from math import atan2, degrees
 
 import shapely
 
+from aurora_core.geometry.frames import heading_to_sumo_angle
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.awaited import awaited_at
 from aurora_core.grounding.places import MapPlaces, arrivals, has_point
@@ -308,7 +308,7 @@ class GoalFinder:
             return False
         if bound.bearing_deg is None:
             return True
-        off_deg = degrees(atan2(east_m, north_m)) - bound.bearing_deg
+        off_deg = heading_to_sumo_angle(east_m, north_m) - bound.bearing_deg
         return abs((off_deg + 180.0) % 360.0 - 180.0) <= _SAFE * self._tolerances.bearing_deg
 
     def _arc_near(

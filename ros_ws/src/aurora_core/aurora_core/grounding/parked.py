@@ -11,10 +11,8 @@ from aurora_core.grounding.sites import SeatedAgent, SeatedPerson
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.net_types import Lane
 from aurora_core.knowledge.road_network import RoadNetwork
+from aurora_core.ports.simulators import kerb_offset_m
 from aurora_core.spec.scenario import ScenarioSpec
-
-# Free space between the border of its lane and the flank of a parked vehicle (m).
-KERB_CLEARANCE_M = 0.3
 
 # The way of a person is looked at in such steps (m).
 _STEP_M = 0.5
@@ -31,7 +29,7 @@ def parked_pose(pose: Pose, lane: Lane, record: AgentTypeRecord) -> Pose:
         record: Size of the vehicle.
     """
     x, y, hx, hy = pose
-    aside_m = 0.5 * lane.width_m + 0.5 * record.width_m + KERB_CLEARANCE_M
+    aside_m = kerb_offset_m(lane.width_m, record.width_m)
     return x + aside_m * hy, y - aside_m * hx, hx, hy
 
 

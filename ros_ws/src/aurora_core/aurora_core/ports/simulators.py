@@ -19,6 +19,14 @@ from aurora_core.trace.commands import GroundCommand
 
 FloatArray = npt.NDArray[np.float64]
 
+# Free space between the kerb-side border of a traffic lane and the flank of a parked vehicle (m).
+KERB_CLEARANCE_M = 0.3
+
+
+def kerb_offset_m(lane_width_m: float, vehicle_width_m: float) -> float:
+    """Return how far right of a traffic lane's centre line a parked vehicle's centre stands."""
+    return 0.5 * lane_width_m + 0.5 * vehicle_width_m + KERB_CLEARANCE_M
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GroundAgentLoad:

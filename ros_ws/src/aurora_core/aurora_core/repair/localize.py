@@ -103,11 +103,6 @@ def localize(agsg: Agsg, verdict: Verdict) -> tuple[Implicated, ...]:
     return tuple(sorted(found, key=lambda i: (-i.score, i.field, -i.direction)))
 
 
-def ranked_fields(implicated: Sequence[Implicated]) -> tuple[str, ...]:
-    """Return the fields in their order, each once."""
-    return tuple(dict.fromkeys(item.field for item in implicated))
-
-
 def _roots(rows: Sequence[ConditionResult]) -> frozenset[str]:
     """Return the conditions that are no mere consequence of another one.
 

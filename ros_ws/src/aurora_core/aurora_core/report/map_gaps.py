@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 
+from aurora_core.geometry.frames import heading_to_yaw_enu
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.map_records import MapRecords
 from aurora_core.knowledge.net_types import Point
@@ -130,7 +131,7 @@ def _folds(network: RoadNetwork) -> tuple[str, ...]:
 
 
 def _heading(a: Point, b: Point) -> float:
-    return math.atan2(b[1] - a[1], b[0] - a[0])
+    return heading_to_yaw_enu(b[0] - a[0], b[1] - a[1])
 
 
 def _walking(network: RoadNetwork) -> Iterator[MapGap]:

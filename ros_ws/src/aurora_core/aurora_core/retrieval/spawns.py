@@ -9,10 +9,11 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator
-from math import atan2, degrees
+from math import degrees
 
 from pydantic import JsonValue
 
+from aurora_core.geometry.frames import heading_to_yaw_enu
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.net_types import Crossing, Junction, Lane
 from aurora_core.outcomes.retrieval import RecordKind
@@ -56,7 +57,7 @@ def _on_lane(map_model: MapModel, lane_id: str, pos_m: float) -> Data:
         'pos_m': round(pos_m, 2),
         'x_m': round(x, 2),
         'y_m': round(y, 2),
-        'yaw_enu_deg': round(degrees(atan2(north, east)), 1),
+        'yaw_enu_deg': round(degrees(heading_to_yaw_enu(east, north)), 1),
         'speed_limit_mps': round(lane.speed_limit_mps, 2),
     }
 
@@ -153,12 +154,13 @@ def _stops(map_model: MapModel) -> Iterator[Record]:
 def _parking(map_model: MapModel) -> Iterator[Record]:
     for row in map_model.parking_areas:
         place = row.places[0]
+        yaw_rad = heading_to_yaw_enu(place.heading_east, place.heading_north)
         data: Data = {
             'parking': row.id,
             'places': len(row.places),
             'x_m': round(place.x_m, 2),
             'y_m': round(place.y_m, 2),
-            'yaw_enu_deg': round(degrees(atan2(place.heading_north, place.heading_east)), 1),
+            'yaw_enu_deg': round(degrees(yaw_rad), 1),
             'place_length_m': place.length_m,
         }
         about = f'parked, kerbside parking row with {len(row.places)} places at the roadside'

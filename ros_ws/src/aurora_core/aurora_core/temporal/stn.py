@@ -76,11 +76,6 @@ class Minimal:
         bound = int(self.bounds_us[self.points.index(earlier), self.points.index(later)])
         return None if bound == UNBOUNDED else bound
 
-    def least_us(self, earlier: str, later: str) -> int | None:
-        """Return by how much a point comes after another at least, None without a bound."""
-        bound = self.most_us(later, earlier)
-        return None if bound is None else -bound
-
 
 class Stn(Generic[Reason]):
     """A network that does not change.

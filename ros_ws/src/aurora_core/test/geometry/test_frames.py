@@ -176,3 +176,19 @@ def test_geodetic_directions() -> None:
     assert lon > 11.0
     # One degree of latitude is about 111 km.
     assert (lat - 48.0) * 111_000.0 == pytest.approx(200.0, rel=0.01)
+
+
+@pytest.mark.parametrize(
+    ('east', 'north', 'yaw_deg'), [(2.0, 0.0, 0.0), (0.0, 3.0, 90.0), (-1.0, 0.0, 180.0)]
+)
+def test_the_yaw_of_a_heading_runs_from_east(east: float, north: float, yaw_deg: float) -> None:
+    assert frames.heading_to_yaw_enu(east, north) == pytest.approx(math.radians(yaw_deg))
+
+
+@pytest.mark.parametrize('axis', [0, 1, 2], ids=['roll', 'pitch', 'yaw'])
+def test_a_turn_round_one_axis_is_that_angle_alone(axis: int) -> None:
+    turned = [math.cos(0.15), 0.0, 0.0, 0.0]
+    turned[axis + 1] = math.sin(0.15)
+    wanted = [0.0, 0.0, 0.0]
+    wanted[axis] = 0.3
+    assert frames.quaternion_to_euler_ned(*turned) == pytest.approx(wanted)

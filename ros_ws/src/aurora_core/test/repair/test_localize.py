@@ -7,7 +7,7 @@ from collections.abc import Callable
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.verdict import Verdict
 from aurora_core.repair.helps import ANCHOR, HELPS
-from aurora_core.repair.localize import localize, ranked_fields
+from aurora_core.repair.localize import localize
 from aurora_core.repair.lock import is_movable
 from aurora_core.spec.quantity import QuantityName
 
@@ -36,9 +36,9 @@ def test_lost_sight_implicates_the_own_flight_with_a_reason(agsg: Agsg, failing:
 
 def test_only_what_is_open_is_ever_in_it(agsg: Agsg, failing: Failing) -> None:
     everything = {c.id.replace('.', '__'): -1.0 for c in agsg.conditions}
-    fields = ranked_fields(localize(agsg, failing(**everything)))
+    fields = {item.field for item in localize(agsg, failing(**everything))}
     movable = {row.path for row in agsg.parameters if is_movable(row)}
-    assert set(fields) <= movable | {ANCHOR}
+    assert fields <= movable | {ANCHOR}
     # The prompt states the 45 m and the 20 m.
     assert not any('trigger' in name or 'distance_m' in name for name in fields)
 
