@@ -38,7 +38,7 @@ from aurora_core.parsing.doubts.messages import (
     places_of_deeds,
 )
 from aurora_core.parsing.doubts.roles import misanchored, misplaced
-from aurora_core.parsing.doubts.telling_words import untold
+from aurora_core.parsing.doubts.telling_words import comparisons, untold
 from aurora_core.parsing.doubts.times import (
     at_one_moment,
     bare_sequels,
@@ -55,6 +55,7 @@ from aurora_core.spec.scenario import ScenarioSpec
 _Check = Callable[[ScenarioSpec, Sequence[Atom]], Iterable[Span]]
 _CHECKS: tuple[_Check, ...] = (
     untold,
+    comparisons,
     without_part,
     strangers,
     idle,

@@ -15,11 +15,11 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import lru_cache
 from itertools import pairwise
 
-from aurora_core.parsing.atoms import Atom
+from aurora_core.parsing.atoms import Atom, AtomKind
 from aurora_core.parsing.coverage import parameters
 from aurora_core.parsing.data_files import read_data
-from aurora_core.parsing.doubts.clauses import meet
-from aurora_core.spec.parameter import Parameter, Provenance, Span, Unit
+from aurora_core.parsing.doubts.clauses import clause_of, meet, over
+from aurora_core.spec.parameter import Bound, Parameter, Provenance, Span, Unit
 from aurora_core.spec.scenario import (
     AgentAction,
     Clause,
@@ -37,6 +37,9 @@ from aurora_core.spec.scenario import (
 from aurora_core.spec.vocabulary import BehaviorKind, ClauseStatus, MissionMode, Pattern
 
 _PAUSES = ' \t\n,;.:-('
+_COMPARING = frozenset({'above', 'below', 'beyond', 'under', 'within'})
+_PLACES = frozenset({'beyond', 'within'})
+_NO_PLACE = frozenset({'ratio', 'speed'})  # dimensions of numbers
 # Rows about whole clauses, by their first words.
 _OPENINGS = ('as_long_as', 'because', 'cause', 'later', 'meanwhile')
 
@@ -55,6 +58,29 @@ def untold(spec: ScenarioSpec, atoms: Sequence[Atom]) -> list[Span]:
             if clauses and not any(_CARRIERS[n](spec, c) for n in carriers for c in clauses):
                 found.append(span)
     return found
+
+
+def comparisons(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`slows to below 5 m/s`, `a radius of less than 40 m` that became exactly that."""
+    judged = [*spec.conditions, *(event.trigger for event in spec.events)]
+    compared = [parameter.span for part in judged for parameter in parameters(part)]
+    for word, number in pairwise(atoms):
+        if not _compares(word, number) or clause_of(spec, number) is None:
+            continue
+        span = over(number, number)
+        told = [p for p in _stated(spec) if p.span is not None and meet(p.span, span)]
+        exact = all(p.bound is Bound.EXACTLY and p.span not in compared for p in told)
+        if told and exact:
+            yield over(word, number)
+
+
+def _compares(word: Atom, number: Atom) -> bool:
+    """Return whether a word makes a bound of the number behind it: `within` may be a place."""
+    if word.kind is not AtomKind.PREPOSITION or number.measure is None:
+        return False
+    if word.key == 'over':  # `over 200 m of road`, `over after 90 s`
+        return number.key in _NO_PLACE
+    return word.key in _COMPARING and word.words not in _PLACES
 
 
 def _openings(spec: ScenarioSpec, opening: re.Pattern[str]) -> Iterator[Span]:
