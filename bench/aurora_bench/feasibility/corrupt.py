@@ -168,12 +168,11 @@ def _span(proof: Doc, _draw: random.Random) -> str | None:
 
 
 def _nearest(proof: Doc, draw: random.Random) -> str | None:
-    if proof['nearest'] is None:
+    if not proof.get('mends'):
         return None
-    # Farther into what cannot be.
-    away = proof['requested'] - proof['nearest']
-    proof['nearest'] = proof['nearest'] + (draw.choice((1.0, 5.0)) if away > 0.0 else -1.0)
-    return f'nearest {proof["nearest"]:g}'
+    mend = draw.choice(proof['mends'])
+    mend['nearest'] += draw.choice((-5.0, -1.0, 1.0, 5.0))
+    return f'nearest {mend["nearest"]:g}'
 
 
 def _clause(proof: Doc, _draw: random.Random) -> str | None:

@@ -4,6 +4,9 @@
 
 from __future__ import annotations
 
+import copy
+import dataclasses
+
 import pytest
 
 from aurora_bench.feasibility.corrupt import corrupted
@@ -12,6 +15,8 @@ from aurora_bench.feasibility.judge import judged
 from aurora_bench.feasibility.other_maps import rests_on_map
 from aurora_bench.feasibility.pushes import PUSHES, push_cases
 from aurora_cli.installed import installed
+from aurora_core.recheck.request import node_at
+from aurora_core.spec.scenario import ScenarioSpec
 
 # Many bodies make a long test of the same thing.
 _MOST_AGENTS = 60
@@ -26,6 +31,31 @@ def test_what_cannot_be_is_refused_and_its_neighbour_is_not(case: Case) -> None:
     assert result.refused is case.must_be_refused
     assert not result.refused or result.right_reason
     assert all(result.valid)
+
+
+ONCE = [c for c in CASES if c.must_be_refused and c.id.endswith('-refused-1')]
+
+
+@pytest.mark.parametrize('case', ONCE, ids=lambda case: case.id)
+def test_what_could_be_asked_instead_is_not_refused(case: Case) -> None:
+    """Each value alone, unless a proof that has nothing to do with it is left."""
+    result = judged(installed(), 'downtown', case)
+    if len(result.certificates) > 1:
+        pytest.skip('it is refused for several reasons')
+    for mend in result.certificates[0].mends:
+        document = copy.deepcopy(result.document)
+        number = node_at(document, mend.path)
+        if not isinstance(number, dict):
+            continue  # as many elements as can be
+        number['value'] = mend.nearest
+        asked = dataclasses.replace(case, spec=ScenarioSpec.model_validate(document))
+        assert not judged(installed(), 'downtown', asked).refused, mend
+
+
+def test_most_refusals_are_told_with_a_value_that_can_be() -> None:
+    """None where no number of the request is at fault, or one alone mends nothing."""
+    told = [p for c in ONCE for p in judged(installed(), 'downtown', c).certificates]
+    assert len([p for p in told if p.mends]) >= 0.9 * len(told)
 
 
 def test_corrupted_certificates_are_rejected() -> None:

@@ -88,7 +88,8 @@ def test_what_cannot_be_is_refused_with_a_proof_that_checks_again(here: Path, ca
     done = call('run', 'A drone hovers at 500 meters altitude over the ego car.', '--json')
     report = json.loads(done.out)
     assert (done.code, report['status']) == (5, 'infeasible')
-    assert report['feasibility']['certificates'][0]['nearest'] == 120.0
+    [mend] = report['feasibility']['certificates'][0]['mends']
+    assert (mend['requested'], mend['nearest']) == (500.0, 120.0)
     again = call('certificate', 'check', f'runs/{report["run_id"]}')
     assert again.code == 0, again.out
 

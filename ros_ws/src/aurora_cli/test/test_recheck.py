@@ -12,11 +12,16 @@ import pytest
 import aurora_core.recheck
 from aurora_cli.main import run_command_line
 from aurora_core.knowledge.map_model import load_map
-from aurora_core.outcomes.feasibility import Certificate
+from aurora_core.outcomes.feasibility import Certificate, Mend
 from aurora_core.recheck import Outcome, recheck
 from aurora_core.spec.parameter import Span
 
 PROMPT = 'A drone hovers at 500 meters.'
+
+
+def _mend(nearest: float, path: str = 'missions/m1/altitude_m', **more: Any) -> Mend:
+    values = {'path': path, 'requested': 500.0, 'nearest': nearest, 'unit': 'm', **more}
+    return Mend.model_validate(values)
 
 
 def _too_high(**changes: Any) -> Certificate:
@@ -28,7 +33,7 @@ def _too_high(**changes: Any) -> Certificate:
         'unit': 'm',
         'limit_name': 'uav_altitude_m',
         'limit': 120.0,
-        'nearest': 120.0,
+        'mends': (_mend(120.0),),
         'span': Span(start=18, end=28),
         'sentence': 'too high',
     }
@@ -51,7 +56,9 @@ def test_a_true_proof_holds_with_and_without_the_specification() -> None:
     'changes',
     [
         {'limit': 100.0},
-        {'nearest': 125.0},
+        {'mends': (_mend(125.0),)},
+        {'mends': (_mend(100.0),)},
+        {'mends': (_mend(120.0, requested=400.0),)},
         {'requested': 119.0},
         {'requested': 120.0},
         {'limit_name': 'invented'},
@@ -100,13 +107,14 @@ def test_the_recheck_knows_nothing_of_the_checker_but_its_document() -> None:
 
 
 def test_certain_loss_is_a_proof() -> None:
-    proof = _too_high(limit_name='link_loss', requested=1.0, limit=1.0, nearest=None, unit='1')
+    proof = _too_high(limit_name='link_loss', requested=1.0, limit=1.0, mends=(), unit='1')
     assert recheck(proof, None).valid
 
 
 def test_counts_are_counted() -> None:
+    mend = _mend(10.0, 'uavs', requested=11.0, unit='1')
     proof = _too_high(
-        path='uavs', limit_name='uavs_max', requested=11.0, limit=10.0, nearest=10.0, span=None
+        path='uavs', limit_name='uavs_max', requested=11.0, limit=10.0, mends=(mend,), span=None
     )
     assert recheck(proof, {'prompt': '', 'uavs': [{}] * 11}).valid
     assert not recheck(proof, {'prompt': '', 'uavs': [{}] * 9}).valid

@@ -79,17 +79,10 @@ def exclusive(spec: ScenarioSpec, *, split: bool) -> Iterator[Certificate]:
             Rule.BOUNDS,
             _REASONS.get(second.value.unit, 'spatial_contradiction'),
             f'conditions/{other.condition.id}',
-            f'{_told(first)} and {_told(second)} exclude each other: no value is both. '
-            f'{_could_be(below, above)}',
+            f'{_told(first)} and {_told(second)} exclude each other: no value is both.',
             other.condition.span,
             (*_says(first), *_says(second)),
         )
-
-
-def _could_be(below: _Asked, above: _Asked) -> str:
-    low = above.condition.value
-    more = 'more than ' if below.strict or above.strict else ''
-    return f'With {more}{low.value:g} {low.unit} as the upper bound it could be.'
 
 
 def _asked(condition: StatedCondition) -> Iterator[_Asked]:

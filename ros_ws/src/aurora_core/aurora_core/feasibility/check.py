@@ -4,12 +4,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 from aurora_core.feasibility.bounds import check_bounds
-from aurora_core.feasibility.doubts import doubts
+from aurora_core.feasibility.doubts import doubts, nominal
 from aurora_core.feasibility.geometry import check_geometry
 from aurora_core.feasibility.limits import check_limits
+from aurora_core.feasibility.mends import Check, Mends
 from aurora_core.feasibility.operands import operands_fit
 from aurora_core.feasibility.places import check_placements
 from aurora_core.feasibility.pursuit import check_pursuit
@@ -95,41 +96,71 @@ def _proven(
     sound = tuple(c for c in spec.conditions if operands_fit(spec, c))
     if len(sound) < len(spec.conditions):
         spec = spec.model_copy(update={'conditions': sound})
-    beyond_limits = check_limits(spec, limits, types).certificates
-    named = {c.span for c in beyond_limits}
-    marks = map_model.landmarks
-    fenced = list(
-        check_zones(spec, map_model.zones, marks, limits, tolerances, map_model.buildings)
-    )
-    roofs = check_roofs(spec, map_model.buildings, marks, limits, tolerances)
-    found = (
-        *beyond_limits,
-        *(c for c in check_signs(spec) if c.span not in named),
-        *check_sight(spec, map_model, limits, tolerances),
-        *check_geometry(spec, limits, tolerances),
-        *check_pursuit(spec, limits, tolerances),
-        *check_bounds(spec, limits, tolerances),
-        *check_scene(spec),
-        *check_times(spec, limits, tolerances, map_model),
-        *check_placements(spec, tolerances),
-        *fenced,
-        *check_walls(spec, map_model.buildings, limits, tolerances),
-        # A tower in a no-fly zone is told of once.
-        *(c for c in roofs if c.path.rpartition('/')[0] not in {z.path for z in fenced}),
-    )
-    doubtful = [c for c in found if rests_on_unread(spec, c)]
-    doubtful += [c for c in found if c.rule in _BETWEEN_STATEMENTS and _half_read(spec, c)]
-    certificates = tuple(c for c in found if c not in doubtful)
+    checks = _checks(map_model, limits, tolerances, types)
+    by_check = [list(check(spec)) for check in checks]
+    found = [c for proofs in by_check for c in proofs]
+    certificates = [c for c in found if not _is_doubtful(spec, c)]
     if certificates:
-        told = tuple(with_clauses(spec, c) for c in certificates)
+        # A value that only the tolerances allow is no help to anybody.
+        mends = Mends(spec, _checks(map_model, *nominal(limits, tolerances), types), _is_doubtful)
+        told = tuple(
+            with_clauses(spec, mends.added_to(c, index))
+            for index, proofs in enumerate(by_check)
+            for c in proofs
+            if c in certificates
+        )
         return FeasibilityVerdict(result=Feasibility.INFEASIBLE, certificates=told)
     notes = (
-        *(f'{c.sentence} But part of that clause was not read.' for c in doubtful),
-        *doubts(spec, map_model, limits, tolerances, uav, known={c.sentence for c in doubtful}),
+        *(f'{c.sentence} But part of that clause was not read.' for c in found),
+        *doubts(spec, map_model, limits, tolerances, uav, known={c.sentence for c in found}),
     )
     notes = tuple(dict.fromkeys(notes))
     result = Feasibility.UNKNOWN if notes else Feasibility.FEASIBLE
     return FeasibilityVerdict(result=result, notes=notes)
+
+
+def _checks(
+    map_model: MapModel,
+    limits: Limits,
+    tolerances: Tolerances,
+    types: Mapping[str, AgentTypeRecord],
+) -> tuple[Check, ...]:
+    """Return the checks, each of which gives the proofs of its own kind of a request."""
+
+    def numbers(spec: ScenarioSpec) -> Iterator[Certificate]:
+        beyond_limits = check_limits(spec, limits, types).certificates
+        named = {c.span for c in beyond_limits}
+        yield from beyond_limits
+        yield from (c for c in check_signs(spec) if c.span not in named)
+
+    def places(spec: ScenarioSpec) -> Iterator[Certificate]:
+        marks, buildings = map_model.landmarks, map_model.buildings
+        fenced = list(check_zones(spec, map_model.zones, marks, limits, tolerances, buildings))
+        yield from fenced
+        # A tower in a no-fly zone is told of once.
+        told = {zone.path for zone in fenced}
+        roofs = check_roofs(spec, buildings, marks, limits, tolerances)
+        yield from (c for c in roofs if c.path.rpartition('/')[0] not in told)
+
+    return (
+        numbers,
+        lambda spec: check_sight(spec, map_model, limits, tolerances),
+        lambda spec: check_geometry(spec, limits, tolerances),
+        lambda spec: check_pursuit(spec, limits, tolerances),
+        lambda spec: check_bounds(spec, limits, tolerances),
+        check_scene,
+        lambda spec: check_times(spec, limits, tolerances, map_model),
+        lambda spec: check_placements(spec, tolerances),
+        places,
+        lambda spec: check_walls(spec, map_model.buildings, limits, tolerances),
+    )
+
+
+def _is_doubtful(spec: ScenarioSpec, proof: Certificate) -> bool:
+    """Tell whether words that were not read may say otherwise."""
+    if rests_on_unread(spec, proof):
+        return True
+    return proof.rule in _BETWEEN_STATEMENTS and _half_read(spec, proof)
 
 
 def _half_read(spec: ScenarioSpec, certificate: Certificate) -> bool:

@@ -21,6 +21,13 @@ from aurora_core.spec.stated import is_stated, least, most
 from aurora_core.spec.vocabulary import MissionMode, Pattern
 
 
+def nominal(limits: Limits, tolerances: Tolerances) -> tuple[Limits, Tolerances]:
+    """Return limits and tolerances with which a flight is to be met just as it is stated."""
+    exact = {'altitude_m': EXACT, 'standoff_m': EXACT, 'duration_s': EXACT}
+    close = limits.model_copy(update={'tracking_horizontal_m': 0.0})
+    return close, tolerances.model_copy(update=exact)
+
+
 def doubts(
     spec: ScenarioSpec,
     map_model: MapModel,
@@ -40,18 +47,15 @@ def doubts(
         uav: What the multirotor was measured to do; None: that is not asked.
         known: Sentences of what is told of already: it does not hang on the tolerances.
     """
-    exact = tolerances.model_copy(
-        update={'altitude_m': EXACT, 'standoff_m': EXACT, 'duration_s': EXACT}
-    )
+    close, exact = nominal(limits, tolerances)
     told = {c.sentence for c in exclusive(spec, split=True)}
     yield from (f'{s} They may be meant for different parts of the run.' for s in sorted(told))
-    close = limits.model_copy(update={'tracking_horizontal_m': 0.0})
-    nominal = (
+    strained = (
         *check_sight(spec, map_model, close, exact),
         *check_geometry(spec, close, exact),
         *check_times(spec, limits, exact, map_model),
     )
-    near = (c.sentence for c in nominal if c.sentence not in known)
+    near = (c.sentence for c in strained if c.sentence not in known)
     yield from (f'{sentence} Only inside the tolerances it can be.' for sentence in near)
     for closed in check_scene(spec, own=True):
         yield f'{closed.sentence} Some of them may be the same.'

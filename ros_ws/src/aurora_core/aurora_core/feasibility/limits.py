@@ -266,7 +266,6 @@ def _broken(rule: _Rule) -> Iterator[Certificate]:
         unit=parameter.unit.value,
         limit_name=rule.limit_name,
         limit=limit,
-        nearest=None if excluded else limit,
         span=parameter.span,
         rule=Rule.LIMIT,
         sentence=(
@@ -292,7 +291,6 @@ def _counts(spec: ScenarioSpec, limits: Limits) -> list[Certificate]:
                     unit='1',
                     limit_name=f'{path}_max',
                     limit=float(top),
-                    nearest=float(top),
                     rule=Rule.COUNT,
                     sentence=f'{count} {path} are asked for; at most {top} are possible.',
                 )

@@ -20,7 +20,7 @@ def with_clauses(spec: ScenarioSpec, certificate: Certificate) -> Certificate:
         spec: The request that is refused.
         certificate: Why; its facts and bounds say what it needs, and nothing that it does not.
     """
-    spans = {_clause(spec, span) for path in _paths(certificate) for span in _spans(spec, path)}
+    spans = {_clause(spec, span) for path in paths_of(certificate) for span in _spans(spec, path)}
     ordered = sorted(spans, key=lambda s: (s.start, s.end))
     told = tuple(spec.prompt[s.start : s.end] for s in ordered)
     return certificate.model_copy(update={'clauses': tuple(t for t in told if t.strip())})
@@ -32,11 +32,12 @@ def rests_on_unread(spec: ScenarioSpec, certificate: Certificate) -> bool:
     `12 m above it`, read as a height above ground: whoever reads admits it, and it proves nothing.
     """
     unread = [c.span for c in spec.clauses if c.status is ClauseStatus.NOT_ENCODED]
-    numbers = (at for path in _paths(certificate) for at in _spans(spec, path, numbers=True))
+    numbers = (at for path in paths_of(certificate) for at in _spans(spec, path, numbers=True))
     return any(u.start <= at.start and at.end <= u.end for at in numbers for u in unread)
 
 
-def _paths(certificate: Certificate) -> Iterator[str]:
+def paths_of(certificate: Certificate) -> Iterator[str]:
+    """Yield the paths of the request that a proof names."""
     yield certificate.path
     yield from (bound.of for bound in certificate.chain)
     yield from (f.path for f in certificate.facts if f.source is FactSource.REQUEST)
@@ -53,14 +54,15 @@ def _spans(spec: ScenarioSpec, path: str, *, numbers: bool = False) -> Iterator[
     node: object = spec
     found: Span | None = None
     for part in path.split('/'):
-        node = _inside(node, part)
+        node = inside(node, part)
         span = getattr(node, 'span', None)
         found = span if isinstance(span, Span) else found
     if found is not None and (isinstance(node, Parameter) or not numbers):
         yield found
 
 
-def _inside(node: object, part: str) -> object:
+def inside(node: object, part: str) -> object:
+    """Return what is called so inside a part of a request: a field, an id, an index."""
     if isinstance(node, tuple):
         named = next((e for e in node if getattr(e, 'id', None) == part), None)
         if named is None and part.isdigit() and int(part) < len(node):

@@ -63,8 +63,7 @@ def check_roofs(
                 f'{base}/altitude_m',
                 ('clearance_min_m', gap),
                 f'{mission.uav} would fly at {high:g} m at most at {mark.name}, where {name} is '
-                f'{building.height_m:g} m high; {gap:g} m are kept from it. At '
-                f'{building.height_m + gap:g} m or more it could be.',
+                f'{building.height_m:g} m high; {gap:g} m are kept from it.',
                 (
                     *says(f'{base}/target', mission.target),
                     *says(f'{base}/altitude_m', altitude),
@@ -134,7 +133,7 @@ def check_walls(
                     *limit_facts(limits, 'clearance_min_m', 'uav_altitude_max_m'),
                     *tolerance_facts(tolerances, 'altitude_m', 'limit_margin'),
                 ),
-            ).model_copy(update={'word': building.id, 'nearest': gap})
+            ).model_copy(update={'word': building.id})
             break
 
 

@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
 from aurora_core.feasibility.certificates import beyond, contradiction
@@ -13,7 +12,7 @@ from aurora_core.feasibility.zones import roof_reach_m
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.outcomes.feasibility import BoundKind, Certificate, Fact, Rule, TimeBound
-from aurora_core.spec.parameter import Bound, Parameter, Span, Unit
+from aurora_core.spec.parameter import Span
 from aurora_core.spec.reference import LANDMARK
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.spec.stated import is_stated, least
@@ -102,7 +101,7 @@ def _certificate(basis: Basis, cycle: Cycle) -> Certificate | None:
     if rule is None:
         return None
     path = min(link.of for link in cycle if link.kind is kind)
-    found = contradiction(
+    return contradiction(
         rule,
         'endurance' if rule is Rule.BATTERY else 'temporal_contradiction',
         path,
@@ -111,35 +110,6 @@ def _certificate(basis: Basis, cycle: Cycle) -> Certificate | None:
         _facts(basis, cycle),
         tuple(_bound(link) for link in cycle),
     )
-    number = _number(cycle, rule)
-    if number is None:
-        return found
-    missing_s = sum((link.least_s or 0.0) - (link.most_s or 0.0) for link in cycle)
-    if rule is Rule.BATTERY:
-        # What a phase may be missed by shrinks with it.
-        share = 1.0 - basis.tolerances.duration_s.of(1e6, approximate=number.approximate) / 1e6
-        nearest = math.floor((number.value - missing_s / share) * 10.0) / 10.0
-    else:
-        nearest = math.ceil((number.value + missing_s) * 10.0) / 10.0
-    return found.model_copy(
-        update={'requested': number.value, 'unit': number.unit.value, 'nearest': nearest}
-    )
-
-
-def _number(cycle: Cycle, rule: Rule) -> Parameter | None:
-    """Return the stated time that could be another one: what a bound allows, or a phase.
-
-    None where there are several, and no value of one alone is the nearest that can be.
-    """
-    of_phases = rule is Rule.BATTERY
-    phases = [link for link in cycle if link.kind is BoundKind.PHASE]
-    links = phases if of_phases else [link for link in cycle if link.most_s is not None]
-    if len(links) != 1:
-        return None
-    wrong = Bound.AT_MOST if of_phases else Bound.AT_LEAST
-    numbers = [v for _, v in links[0].stated if isinstance(v, Parameter) and is_stated(v)]
-    fits = len(numbers) == 1 and numbers[0].unit is Unit.SECOND and numbers[0].bound is not wrong
-    return numbers[0] if fits else None
 
 
 def _bound(link: Link) -> TimeBound:

@@ -127,6 +127,23 @@ class TimeBound(Document):
         return self
 
 
+class Mend(Document):
+    """A stated number that could be another one.
+
+    Attributes:
+        path: Where it stands in the specification; `uavs` and `agents` are numbers of elements.
+        requested: As it is stated (SI).
+        nearest: The value next to it, in the steps of the report, with which the proof fails.
+        span: Where the prompt states it.
+    """
+
+    path: str
+    requested: FiniteFloat
+    nearest: FiniteFloat
+    unit: str
+    span: Span | None = None
+
+
 class Certificate(Document):
     """Proof of infeasibility that separate code can check again.
 
@@ -138,13 +155,13 @@ class Certificate(Document):
         requested: Stated value (SI), when the proof is about a number.
         limit_name: Name in limits.json.
         limit: Its value.
-        nearest: Nearest feasible value.
         listing: Closed list that lacks the element (missing_element, unsupported).
         rule: How it argues; None for what a closed list lacks.
         facts: What it rests on beside `requested`, `limit` and `listing`.
         chain: Bounds on times in a circle, each beginning where the one before ends: together
             they ask a point to come before itself.
         clauses: What the prompt says of the elements that it rests on, in its own words.
+        mends: Stated numbers of which another value, with all else as it is, could be.
     """
 
     kind: str
@@ -154,7 +171,6 @@ class Certificate(Document):
     unit: str = ''
     limit_name: str = ''
     limit: FiniteFloat | None = None
-    nearest: FiniteFloat | None = None
     word: str = ''
     listing: tuple[str, ...] = ()
     span: Span | None = None
@@ -163,6 +179,7 @@ class Certificate(Document):
     facts: tuple[Fact, ...] = omitted(())
     chain: tuple[TimeBound, ...] = omitted(())
     clauses: tuple[str, ...] = omitted(())
+    mends: tuple[Mend, ...] = omitted(())
 
 
 class CheckStage(StrEnum):

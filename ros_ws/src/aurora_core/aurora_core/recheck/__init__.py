@@ -18,6 +18,7 @@ from aurora_core.recheck import bounds, flights, places, pursuit, scene, schedul
 from aurora_core.recheck.finding import Finding, Outcome, Step, finding
 from aurora_core.recheck.limits import by_limit, by_sign
 from aurora_core.recheck.listings import by_listing
+from aurora_core.recheck.mends import exact, mends_hold
 from aurora_core.recheck.operands import kinds_fit
 from aurora_core.recheck.request import Request, clauses_quoted, fact_holds, quoted, was_read
 
@@ -61,8 +62,10 @@ def recheck(proof: Certificate, spec: dict[str, Any] | None) -> Finding:
     Raises:
         ConfigError: The configuration lacks limits or maps.
     """
-    said = *was_read(proof, spec), *clauses_quoted(proof, spec)
-    return finding([*_steps(proof, spec), *said])
+    steps = [*_steps(proof, spec), *was_read(proof, spec), *clauses_quoted(proof, spec)]
+    if finding(steps).valid:
+        steps += mends_hold(proof, spec, _holds)
+    return finding(steps)
 
 
 def _steps(proof: Certificate, spec: dict[str, Any] | None) -> list[Step]:
@@ -81,3 +84,20 @@ def _steps(proof: Certificate, spec: dict[str, Any] | None) -> list[Step]:
     facts: list[Step] = [fact_holds(request, fact) for fact in proof.facts]
     derived = derivation(proof, request)
     return [*facts, *kinds_fit(proof, request), *derived, *quoted(proof, spec)]
+
+
+def _holds(proof: Certificate, spec: dict[str, Any] | None, *, by_any: bool) -> bool:
+    """Whether the argument alone holds, without the tolerances of what is flown.
+
+    `by_any`: by these bounds on times or by any others.
+    """
+    derivation = _DERIVATIONS.get(proof.rule) if proof.rule is not None else None
+    if derivation is None or spec is None:
+        return finding(by_limit(proof, spec)).valid
+    request = exact(Request(spec))
+    timed = derivation in (schedule.times, schedule.battery)
+    if timed and by_any and schedule.excluded(request):
+        return True
+    if proof.chain:
+        proof = schedule.derived_anew(proof, request)
+    return finding(derivation(proof, request)).valid

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from aurora_core.outcomes.feasibility import Certificate
@@ -31,7 +32,7 @@ _SIGNED = {'m', 's', 'm/s', '1'}
 
 def by_limit(proof: Certificate, spec: dict[str, Any] | None) -> list[Step]:
     """A stated number, or a count, lies beyond a limit."""
-    return [*_limit(proof), *_nearest(proof), *_stated(proof, spec)]
+    return [*_limit(proof), *_stated(proof, spec)]
 
 
 def by_sign(proof: Certificate, spec: dict[str, Any]) -> list[Step]:
@@ -128,7 +129,8 @@ def _stated(proof: Certificate, spec: dict[str, Any] | None) -> list[Step]:
     value = parameter.get('value')
     above = (proof.requested or 0.0) > (proof.limit or 0.0) or proof.limit_name == _LOSS
     names = limits_on(spec, proof.path, above=above)
-    checks = [
+    checks: list[Step] = [
+        *_in_space(spec, proof),
         (proof.limit_name in names, f'{proof.path} is bound by {", ".join(names) or "nothing"}'),
         (value == proof.requested, f'the specification has {proof.path} = {value}'),
         (
@@ -143,11 +145,15 @@ def _stated(proof: Certificate, spec: dict[str, Any] | None) -> list[Step]:
     return [*checks, *quoted(proof, spec)]
 
 
-def _nearest(proof: Certificate) -> list[Step]:
-    """What is said to be the nearest value that can be is the end of the range."""
-    if proof.nearest is None:
+def _in_space(spec: dict[str, Any], proof: Certificate) -> list[Step]:
+    """The speed of a UAV, unless it is that of a route, is in space: it may climb as well."""
+    of_uav = proof.limit_name == 'uav_speed_max_mps' and proof.path.startswith('conditions/')
+    if not of_uav or (proof.requested or 0.0) < 0.0:
         return []
-    return [(proof.nearest == proof.limit, f'{proof.nearest:g} is the nearest that can be')]
+    table, margin = read_limits(), read_config('tolerances.json')['limit_margin']
+    fastest = math.hypot(float(table['uav_speed_max_mps']), float(table['uav_climb_max_mps']))
+    fastest *= 1.0 + float(margin)
+    return [((proof.requested or 0.0) > fastest, f'it flies {fastest:.2f} m/s in space at most')]
 
 
 def _at(spec: dict[str, Any], path: str) -> dict[str, Any] | None:

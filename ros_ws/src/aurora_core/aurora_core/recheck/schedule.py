@@ -4,13 +4,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 
 from aurora_core.outcomes.feasibility import (
     BoundKind,
     Certificate,
-    FactSource,
     Rule,
     TimeBound,
 )
@@ -33,10 +33,8 @@ _ABOUT: Mapping[Rule, frozenset[BoundKind]] = MappingProxyType(
 _STRICT = frozenset({BoundKind.ORDER, BoundKind.CAUSE, BoundKind.MESSAGE})
 # Rounding of sums of floating point numbers (s).
 _EXACT_S = 1e-9
-# The greatest share of a stated time by which it may be missed.
-_MISSED = 0.10
-# What can be is told to so much.
-_TOLD_S = 0.1 + 1e-6
+# By how much something comes before something else at least (s): not by nothing.
+_BEFORE_S = 1e-6
 
 
 def battery(proof: Certificate, request: Request) -> list[Step]:
@@ -65,39 +63,58 @@ def times(proof: Certificate, request: Request) -> list[Step]:
     named = any(b.of == proof.path and b.kind in (about or ()) for b in proof.chain)
     known: dict[_Key, list[Derived]] = {}
     for bound in derived(request):
-        key = bound.kind, bound.of, bound.earlier, bound.later
-        known.setdefault(key, []).append(bound)
+        known.setdefault(_key(bound), []).append(bound)
     return [
         (named, f'the bounds are about {proof.path}'),
         *(_follows(bound, known) for bound in proof.chain),
         *_circle(proof.chain),
-        *_mended(proof),
     ]
 
 
-def _mended(proof: Certificate) -> list[Step]:
-    """A stated time is named with the nearest one that the bounds leave room for."""
-    if proof.requested is None and proof.nearest is None:
-        return []
-    needed = sum(b.least_s for b in proof.chain if b.least_s is not None)
-    missing = needed - sum(b.most_s for b in proof.chain if b.most_s is not None)
-    asked, nearest = proof.requested, proof.nearest
-    times = [f.value for f in proof.facts if f.source is FactSource.REQUEST]
-    if asked is None or nearest is None or asked not in times:
-        return [(False, f'{asked} is a stated time, {nearest} the nearest that can be')]
-    # A phase has to be shorter, a deadline or a duration longer; told in tenths of a second.
-    shorter = proof.rule is Rule.BATTERY
-    more = asked - nearest if shorter else nearest - asked
-    # What a phase may be missed by shrinks with it.
-    most = missing / (1.0 - _MISSED) if shorter else missing
-    close = missing - _EXACT_S * len(proof.chain) <= more <= most + _TOLD_S
-    return [(close, f'{nearest:g} s instead of {asked:g} s make up for {missing:.3f} s')]
+def excluded(request: Request) -> bool:
+    """Whether the bounds of a request exclude each other, by the longest ways between them."""
+    ways: dict[tuple[str, str], float] = {}
+    for bound in derived(request):
+        least = bound.least_s + (_BEFORE_S if bound.kind in _STRICT else 0.0)
+        for way, length in (
+            ((bound.earlier, bound.later), least),
+            ((bound.later, bound.earlier), -bound.most_s),
+        ):
+            ways[way] = max(ways.get(way, -math.inf), length)
+    earliest = dict.fromkeys((point for way in ways for point in way), 0.0)
+    for _ in range(len(earliest) + 1):
+        late = [(b, earliest[a] + length) for (a, b), length in ways.items()
+                if earliest[a] + length > earliest[b] + _EXACT_S]  # fmt: skip
+        if not late:
+            return False
+        for point, time_s in late:
+            earliest[point] = max(earliest[point], time_s)
+    return True
+
+
+def derived_anew(proof: Certificate, request: Request) -> Certificate:
+    """Return a proof with its bounds as another request has them, as tight as they are there."""
+    bounds = list(derived(request))
+
+    def anew(bound: TimeBound) -> TimeBound:
+        mine = [b for b in bounds if _key(b) == _key(bound)]
+        if not mine:
+            return bound
+        if bound.least_s is not None:
+            return bound.model_copy(update={'least_s': max(b.least_s for b in mine)})
+        return bound.model_copy(update={'most_s': min(b.most_s for b in mine)})
+
+    return proof.model_copy(update={'chain': tuple(anew(b) for b in proof.chain)})
+
+
+def _key(bound: TimeBound | Derived) -> _Key:
+    return bound.kind, bound.of, bound.earlier, bound.later
 
 
 def _follows(bound: TimeBound, known: Mapping[_Key, Sequence[Derived]]) -> Step:
     """One bound follows from the specification, and is not tighter than it may be."""
     least, most = bound.least_s, bound.most_s
-    mine = known.get((bound.kind, bound.of, bound.earlier, bound.later), ())
+    mine = known.get(_key(bound), ())
     holds = any(
         (least is None or least <= k.least_s + _EXACT_S)
         and (most is None or most >= k.most_s - _EXACT_S)

@@ -109,7 +109,7 @@ def wall(proof: Certificate, request: Request) -> list[Step]:
     return [
         *(read_whole(request, m) for m in named),
         (place == f'landmark:{properties.get("name")}', f'{place} is this building'),
-        (proof.limit == gap == proof.nearest, f'{proof.limit_name} and nearest are {gap:g}'),
+        (proof.limit == gap, f'{proof.limit_name} is {gap:g}'),
         (stated(value) and proof.requested == value['value'], f'{proof.requested} m is stated'),
         (
             condition['op'] in ('<', '<=') and float(value['value']) < allowed and not partly,

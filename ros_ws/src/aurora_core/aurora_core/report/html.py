@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 from aurora_core.compiled import Compiled
 from aurora_core.report.clauses import status_word
+from aurora_core.report.mends import could_be
 from aurora_core.report.run_report import ClauseReport, RunReport
 from aurora_core.report.status import Status
 from aurora_core.report.summary import margin_value
@@ -170,6 +171,7 @@ def _environment() -> Environment:
         keep_trailing_newline=True,
         finalize=_legible,
     )
+    environment.filters['could_be'] = could_be
     environment.filters['number'] = number
     environment.filters['margin_value'] = margin_value
     environment.filters['status_word'] = status_word

@@ -14,6 +14,7 @@ from rich.table import Table
 from aurora_core.errors import AuroraError
 from aurora_core.report.check_report import CheckReport, CheckResult
 from aurora_core.report.clauses import status_word
+from aurora_core.report.mends import could_be
 from aurora_core.report.run_report import (
     ClauseReport,
     ConditionReport,
@@ -348,8 +349,9 @@ def _question_and_error(report: RunReport | CheckReport, console: Console) -> No
                     line(console, f'  "{clause}"')
             elif said is not None:
                 line(console, f'the prompt says: "{report.prompt[said.start : said.end]}"')
-            if proof.nearest is not None:
-                line(console, f'nearest feasible value: {_with_unit(proof.nearest, proof.unit)}')
+            for k, mend in enumerate(proof.mends):
+                words = could_be(mend, report.prompt)
+                line(console, f'{"or" if k else "it could be:"} {words}')
         for note in report.feasibility.notes:
             line(console, f'note: {note}')
         for finding in report.feasibility.findings:

@@ -173,7 +173,7 @@ def test_inside_at_and_outside_of_a_limit(
     [found] = _certificates(build(parameter, parameter(outside, unit)), limits)
     assert (found.reason, found.path) == (reason, path)
     assert (found.kind, found.requested, found.unit) == ('limit_exceeded', outside, unit)
-    assert found.limit == found.nearest == limit
+    assert found.limit == limit
     assert found.span is not None
     assert ('at least' if edge == 'low' else 'at most') in found.sentence
     assert found.limit_name in found.sentence
@@ -205,8 +205,6 @@ def test_a_link_that_loses_all_is_refused(
     assert len(found) == int(refused)
     if refused:
         assert found[0].reason == 'comm_range'
-        # Below 1 there is no nearest value; above 0 there is.
-        assert found[0].nearest == (None if loss >= 1.0 else 0.0)
         assert ('below 1' if loss >= 1.0 else 'at least 0') in found[0].sentence
 
 
@@ -234,7 +232,7 @@ def test_counts(extra: int, limits: Limits) -> None:
     )
     uavs = tuple(Uav(id=f'u{k}') for k in range(limits.uavs_max + extra))
     found = _certificates(ScenarioSpec(prompt='x', agents=agents, uavs=uavs), limits)
-    assert [(c.path, c.requested, c.nearest) for c in found] == (
+    assert [(c.path, c.requested, c.limit) for c in found] == (
         [('uavs', 11.0, 10.0), ('agents', 201.0, 200.0)] if extra else []
     )
 

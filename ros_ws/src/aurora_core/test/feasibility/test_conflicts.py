@@ -57,30 +57,10 @@ def test_every_clause_that_excludes_another_is_named() -> None:
     assert proof(in_time(30.0, 60.0), Rule.HORIZON).clauses == WORDS
 
 
-def test_the_nearest_time_can_be_and_a_little_less_cannot() -> None:
-    nearest = proof(in_time(30.0, 60.0), Rule.HORIZON).nearest
-    assert nearest is not None
-    assert judged(in_time(nearest, 60.0)).result is not Feasibility.INFEASIBLE
-    assert judged(in_time(nearest - 0.5, 60.0)).result is Feasibility.INFEASIBLE
-
-
-def test_the_nearest_phase_fits_into_the_battery() -> None:
-    def long(phase_s: float) -> ScenarioSpec:
-        return hover(118.0, mission={'duration_s': number(phase_s, 's')})
-
-    nearest = proof(long(1490.0), Rule.BATTERY).nearest
-    assert nearest is not None
-    assert judged(long(nearest)).result is not Feasibility.INFEASIBLE
-    assert judged(long(nearest + 0.5)).result is Feasibility.INFEASIBLE
-
-
 @pytest.mark.parametrize(
     'change',
     [
         {'clauses': ('nobody said this',)},
-        {'nearest': 40.0},
-        {'requested': 31.0},
-        {'nearest': 95.0},
     ],
 )
 def test_other_words_and_other_values_are_refuted(change: dict[str, Any]) -> None:
@@ -97,7 +77,6 @@ def near(value: float, op: str = '<=', altitude_m: float = 12.0) -> ScenarioSpec
 def test_a_clearance_under_the_limit_is_refused_below_the_roof() -> None:
     found = proof(near(1.5), Rule.WALL)
     assert found.reason == 'clearance'
-    assert found.nearest == 3.0
 
 
 @pytest.mark.parametrize(
