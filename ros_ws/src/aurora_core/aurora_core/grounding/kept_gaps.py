@@ -15,6 +15,7 @@ from itertools import pairwise
 
 from aurora_core.grounding.sites import SeatedAgent
 from aurora_core.knowledge.agent_types import AgentTypeRecord
+from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.spec.vocabulary import BehaviorKind, Relation
 
@@ -60,8 +61,20 @@ def kept_gaps(
         for behavior in agent.behaviors:
             own, other = seats.get(agent.id), seats.get(behavior.target or '')
             if behavior.kind is BehaviorKind.FOLLOW and own is not None and other is not None:
-                found += _in_line(own, other, seats, types)
+                line = _in_line(own, other, seats, types)
+                close = _is_close(spec, agent.id, other.member.agent.id) and not line
+                found += [_kept_gap(own, other, types)] if close else line
     return tuple(dict.fromkeys(found))
+
+
+def _is_close(spec: ScenarioSpec, follower: str, leader: str) -> bool:
+    """Tell whether a follower is never to be farther away than a stated distance."""
+    return any(
+        c.quantity in (QuantityName.DISTANCE, QuantityName.HORIZONTAL_DISTANCE)
+        and set(c.of) == {follower, leader}
+        and c.op in ('<=', '<')
+        for c in spec.conditions
+    )
 
 
 def _in_line(

@@ -16,12 +16,20 @@ from aurora_core.grounding.apart import ring_m
 from aurora_core.knowledge.limits import Limits
 from aurora_core.spec.parameter import Parameter, Provenance
 from aurora_core.spec.quantity import QuantityName
-from aurora_core.spec.scenario import AltitudeTrigger, ScenarioSpec, UavAction, UavMission
+from aurora_core.spec.scenario import (
+    AltitudeTrigger,
+    GroundAgent,
+    ScenarioSpec,
+    UavAction,
+    UavMission,
+)
 from aurora_core.spec.vocabulary import MissionMode
 
 # Room between a default and a bound, for wind and for the lag behind a moving target (m).
 _ALTITUDE_ROOM_M = 1.5
 _STANDOFF_ROOM_M = 8.0
+# And between two on the ground.
+_GAP_ROOM_M = 2.0
 # The same for a speed, for gusts and corners (m/s).
 _SPEED_ROOM_MPS = 1.0
 # Who is on a side of a target is so far from it, and no nearer than that (m).
@@ -37,7 +45,7 @@ _IN_SPACE = (QuantityName.DISTANCE, QuantityName.SEPARATION)
 
 
 @dataclass(frozen=True, slots=True)
-class _Range:
+class Range:
     """Where a number may lie (m)."""
 
     low: float = -inf
@@ -50,7 +58,7 @@ class _Range:
 
 
 def bent(spec: ScenarioSpec, limits: Limits) -> ScenarioSpec:
-    """Return the specification with default altitudes, standoffs and speeds in its stated bounds.
+    """Return the specification with default altitudes, standoffs, speeds and gaps in its bounds.
 
     Args:
         spec: The request; it is not changed.
@@ -60,19 +68,33 @@ def bent(spec: ScenarioSpec, limits: Limits) -> ScenarioSpec:
         _at_speed(spec, _standing_off(spec, _at_altitude(spec, m, limits), limits))
         for m in spec.missions
     )
-    if missions == spec.missions:
+    agents = tuple(_placed(spec, agent) for agent in spec.agents)
+    if (missions, agents) == (spec.missions, spec.agents):
         return spec
-    return ScenarioSpec.model_validate({**dict(spec), 'missions': missions})
+    return ScenarioSpec.model_validate({**dict(spec), 'missions': missions, 'agents': agents})
+
+
+def _placed(spec: ScenarioSpec, agent: GroundAgent) -> GroundAgent:
+    """Return an agent that starts as near to others as it is to stay."""
+    placements = []
+    for placed in agent.placements:
+        gap = placed.distance_m
+        if gap is not None and gap.provenance is Provenance.DEFAULT and placed.of is not None:
+            bounds = stated_range(spec, (*_IN_THE_PLANE, *_IN_SPACE), {agent.id, placed.of})
+            value = min(max(bounds.near(gap.value, _GAP_ROOM_M), gap.low), gap.high)
+            placed = placed.model_copy(update={'distance_m': _moved(gap, value, bounds)})
+        placements.append(placed)
+    return agent.model_copy(update={'placements': tuple(placements)})
 
 
 def _at_altitude(spec: ScenarioSpec, mission: UavMission, limits: Limits) -> UavMission:
     altitude = mission.altitude_m
     if altitude.provenance is not Provenance.DEFAULT:
         return mission
-    bounds = _stated(spec, (QuantityName.ALTITUDE,), {mission.uav})
+    bounds = stated_range(spec, (QuantityName.ALTITUDE,), {mission.uav})
     value = max(bounds.near(altitude.value, _ALTITUDE_ROOM_M), _passed_m(spec, mission))
     if mission.mode is MissionMode.TRACK and mission.target is not None:
-        reach_m = _stated(spec, _IN_SPACE, {mission.uav, mission.target}).high
+        reach_m = stated_range(spec, _IN_SPACE, {mission.uav, mission.target}).high
         if value > reach_m - _STANDOFF_ROOM_M:
             value = _HEIGHT_SHARE * reach_m
     value = min(max(value, limits.uav_altitude_min_m), limits.uav_altitude_max_m)
@@ -110,9 +132,9 @@ def _standing_off(spec: ScenarioSpec, mission: UavMission, limits: Limits) -> Ua
         beside = {'value': _SIDE_M, 'low': _SIDE_LEAST_M, 'high': high}
         standoff = standoff.model_copy(update=beside)
     pair = {mission.uav, mission.target}
-    bounds = _stated(spec, _IN_THE_PLANE, pair)
+    bounds = stated_range(spec, _IN_THE_PLANE, pair)
     value = bounds.near(standoff.value, _STANDOFF_ROOM_M)
-    in_space = _stated(spec, _IN_SPACE, pair)
+    in_space = stated_range(spec, _IN_SPACE, pair)
     height_m = mission.altitude_m.value
     away_m = in_space.near(norm2(value, height_m), _STANDOFF_ROOM_M)
     if away_m > norm2(value, height_m):
@@ -125,12 +147,12 @@ def _at_speed(spec: ScenarioSpec, mission: UavMission) -> UavMission:
     speed = mission.speed_mps
     if speed is None or speed.provenance is not Provenance.DEFAULT:
         return mission
-    bounds = _stated(spec, (QuantityName.SPEED,), {mission.uav})
+    bounds = stated_range(spec, (QuantityName.SPEED,), {mission.uav})
     value = min(max(bounds.near(speed.value, _SPEED_ROOM_MPS), speed.low), speed.high)
     return mission.model_copy(update={'speed_mps': _moved(speed, value, bounds)})
 
 
-def _stated(spec: ScenarioSpec, quantities: Iterable[str], of: set[str]) -> _Range:
+def stated_range(spec: ScenarioSpec, quantities: Iterable[str], of: set[str]) -> Range:
     """Return the range that the conditions of a request leave to a quantity of some bodies."""
     low, high = -inf, inf
     for one in spec.conditions:
@@ -140,10 +162,10 @@ def _stated(spec: ScenarioSpec, quantities: Iterable[str], of: set[str]) -> _Ran
             low = max(low, one.value.value)
         if one.op in ('<=', '<', '=='):
             high = min(high, one.value.value)
-    return _Range(low, high)
+    return Range(low, high)
 
 
-def _moved(parameter: Parameter, value: float, bounds: _Range) -> Parameter:
+def _moved(parameter: Parameter, value: float, bounds: Range) -> Parameter:
     """Return a parameter with another value, and with the part of its domain inside bounds."""
     low = min(value, max(parameter.low, bounds.low))
     high = max(value, min(parameter.high, bounds.high))

@@ -6,10 +6,15 @@ from __future__ import annotations
 
 import pytest
 
+from aurora_core.knowledge.config_files import config_path
+from aurora_core.knowledge.limits import load_limits
 from aurora_core.parsing.parser import ParseContext, parse_offline
+from aurora_core.planning.bounds import bent
 from aurora_core.planning.complete import passed, yielding
+from aurora_core.spec.parameter import Provenance
 
 CONTEXT = ParseContext(landmark_names=())
+LIMITS = load_limits(config_path('limits.json'))
 
 
 @pytest.mark.parametrize(
@@ -55,3 +60,21 @@ def test_who_is_overtaken_is_ahead_at_first_only(prompt: str, kept: bool) -> Non
     done = passed(read)
     placed = [p for agent in done.agents for p in agent.placements if 'truck1' in (agent.id, p.of)]
     assert [p.kept_in_motion for p in placed] == [kept]
+
+
+@pytest.mark.parametrize(
+    ('words', 'low_m', 'high_m'),
+    [
+        ('stays within 12 m of it', 5.0, 11.0),
+        ('stays at least 40 m away from it', 41.0, 60.0),
+        ('stays within 60 m of it', 20.0, 20.0),
+    ],
+)
+def test_who_stays_near_starts_near(words: str, low_m: float, high_m: float) -> None:
+    read = parse_offline(f'A van follows a car and {words}.', CONTEXT).spec
+    assert read is not None
+    (van,) = (a for a in bent(read, LIMITS).agents if a.id == 'van1')
+    (placed,) = van.placements
+    assert placed.distance_m is not None
+    assert low_m <= placed.distance_m.value <= high_m
+    assert placed.distance_m.provenance is Provenance.DEFAULT
