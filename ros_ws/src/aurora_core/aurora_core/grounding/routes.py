@@ -1,10 +1,14 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""Routes over the network: straight on where possible, or wandering, never into a dead end."""
+"""Routes over the network: straight on where possible, or wandering, never into a dead end.
+
+Extracts of real cities are full of streets that end at their border: nobody turns round there who
+can turn off before.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence, Set
 from functools import lru_cache
 from heapq import heappop, heappush
 from operator import itemgetter
@@ -36,10 +40,15 @@ class RouteFinder:
         self._network = network
         self._vclass = vclass
         self._least_limit_mps = least_limit_mps
-        self._endless = self._edges_on_cycles()
+        edges = {lane.edge_id for lane in network.driving_lanes(vclass)}
+        self._endless = _on_cycles({e: set(network.successors(e, vclass)) for e in edges})
         self._lengths_m = {edge_id: network.edge(edge_id).length_m for edge_id in self._endless}
-        self._following = lru_cache(maxsize=None)(self._ordered_successors)
         self._is_slow = lru_cache(maxsize=None)(self._lies_below_limit)
+        self._following = lru_cache(maxsize=None)(self._ordered_successors)
+        onward = {e: {f for f in self._following(e) if self._goes_on(e, f)} for e in self._endless}
+        # On a single road one turns round at its ends.
+        self._through = _on_cycles(onward) or self._endless
+        self._liked = lru_cache(maxsize=None)(self._successors_through)
 
     def straight_route(self, start_edge: str, length_m: float) -> tuple[str, ...]:
         """Return a route of at least `length_m`, going straight on where possible.
@@ -173,6 +182,22 @@ class RouteFinder:
         """Whether one can drive on from this edge for ever."""
         return edge_id in self._endless
 
+    def goes_through(self, edge_id: str) -> bool:
+        """Whether one can drive on from this edge for ever and never has to turn round.
+
+        On a map without any such edge it is where one can drive on for ever at all.
+        """
+        return edge_id in self._through
+
+    def _goes_on(self, edge_id: str, following: str) -> bool:
+        """Tell whether one comes from one edge onto the other without turning round."""
+        return self._directions(edge_id).get(following, 8) < _ORDER['t']
+
+    def _successors_through(self, edge_id: str) -> tuple[str, ...]:
+        """Return onto which edges one goes who wants to go on: not towards an end of the road."""
+        following = self._following(edge_id)
+        return tuple(e for e in following if e in self._through) or following
+
     def _lies_below_limit(self, edge_id: str) -> bool:
         """Whether no lane of an edge has the speed limit that is preferred."""
         lanes = (self._network.lane(name) for name in self._network.edge(edge_id).lane_ids)
@@ -191,7 +216,7 @@ class RouteFinder:
         edge, lengths_m = start_edge, self._lengths_m
         length = lengths_m[edge]
         while length < length_m:
-            edge = choose(self._following(edge))
+            edge = choose(self._liked(edge))
             route.append(edge)
             length += lengths_m[edge]
         return tuple(route)
@@ -217,16 +242,16 @@ class RouteFinder:
             sorted(onward or options, key=lambda e: (self._is_slow(e), direction.get(e, 8), e))
         )
 
-    def _edges_on_cycles(self) -> frozenset[str]:
-        """Edges from which one can go on for ever: remove edges without a way on, repeatedly."""
-        edges = {lane.edge_id for lane in self._network.driving_lanes(self._vclass)}
-        ways = {e: set(self._network.successors(e, self._vclass)) for e in edges}
-        shrinking = True
-        while shrinking:
-            dead = {e for e in edges if not ways[e] & edges}
-            shrinking = bool(dead)
-            edges -= dead
-        return frozenset(edges)
+
+def _on_cycles(ways: Mapping[str, Set[str]]) -> frozenset[str]:
+    """Edges from which one can go on for ever: remove edges without a way on, repeatedly."""
+    edges = set(ways)
+    shrinking = True
+    while shrinking:
+        dead = {e for e in edges if not ways[e] & edges}
+        shrinking = bool(dead)
+        edges -= dead
+    return frozenset(edges)
 
 
 @lru_cache(maxsize=_FINDERS)

@@ -240,6 +240,8 @@ def sites(
     lanes, least_mps = brisk_lanes(lanes, least_limit_mps)
     vclass = min(classes, key=lambda c: (len(network.driving_lanes(c)), c))
     finder = route_finder(network, vclass, least_mps)
+    # Who begins where the road only ends would turn round before long.
+    lanes = [lane for lane in lanes if finder.goes_through(lane.edge_id)] or lanes
     side = _turn(convoy)
     back_m = max(
         (types[m.agent.type.value].length_m / 2.0 - m.offset_m for m in convoy), default=0.0

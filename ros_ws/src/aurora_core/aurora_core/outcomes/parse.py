@@ -31,11 +31,13 @@ class ParseContext(Document):
     Attributes:
         map_name: Name of the map.
         landmark_names: The named places that it has.
+        landmark_kinds: What each of them is (`museum`), in the same order; () where nobody knows.
         seed: Seed of the run (the offline parser draws nothing from it).
     """
 
     map_name: str = 'downtown'
     landmark_names: tuple[str, ...] = ()
+    landmark_kinds: tuple[str, ...] = ()
     seed: int = 1
 
 

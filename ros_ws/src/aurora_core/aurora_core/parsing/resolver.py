@@ -81,10 +81,14 @@ class Resolver:
         return None
 
     def _short_name(self, noun: NounPhrase) -> str | None:
-        """`the station`, after Union Station was named; several that fit are asked about."""
-        fitting = [
-            name for name in self._scene.context.landmark_names if noun.key in _last_words(name)
-        ]
+        """`the station`, after Union Station was named; several that fit are asked about.
+
+        Where no name says what a place is (Ateneum), the map does: a museum.
+        """
+        context = self._scene.context
+        fitting = [name for name in context.landmark_names if noun.key in _last_words(name)]
+        kinds = zip(context.landmark_names, context.landmark_kinds, strict=False)
+        fitting = fitting or [name for name, kind in kinds if kind.replace('_', ' ') == noun.key]
         named = [name for name in self._scene.landmarks if name in fitting]
         if not named and len(fitting) > 1:
             self._scene.questions.append(

@@ -31,8 +31,13 @@ from aurora_core.trace.bag_content import BagContent
 
 def parse_context(known: Knowledge, map_name: str, seed: int) -> ParseContext:
     """Return the map as prompts are read against it."""
-    marks = tuple(mark.name for mark in known.map(map_name).landmarks)
-    return ParseContext(map_name=map_name, landmark_names=marks, seed=seed)
+    marks = known.map(map_name).landmarks
+    return ParseContext(
+        map_name=map_name,
+        landmark_names=tuple(mark.name for mark in marks),
+        landmark_kinds=tuple(mark.kind for mark in marks),
+        seed=seed,
+    )
 
 
 def parse_stage(known: Knowledge, prompt: str, map_name: str, seed: int) -> ParseOutcome:

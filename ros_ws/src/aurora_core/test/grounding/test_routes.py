@@ -72,6 +72,33 @@ def test_nobody_wanders_back_where_there_is_another_way(
             assert ways[b] != {'t'} or not others, (a, b)
 
 
+@pytest.mark.parametrize('name', ['downtown', 'helsinki'])
+def test_who_can_turn_off_before_the_end_of_a_road_never_turns_round(
+    name: str, map_of: Callable[[str], MapModel]
+) -> None:
+    """All streets of an extract that lead out of it end at its border."""
+    network = map_of(name).network
+    finder = RouteFinder(network, 'passenger')
+    edges = [e for e in _edges(map_of(name), 'passenger') if finder.endless(e)]
+    through = [e for e in edges if finder.goes_through(e)]
+    assert 0 < len(edges) - len(through) < 0.1 * len(edges)
+    for edge in through:
+        for route in (
+            finder.straight_route(edge, 2000.0),
+            finder.wandering_route(edge, 2000.0, stream(1, edge)),
+        ):
+            for a, b in pairwise(route):
+                assert _directions(network, a)[b] != {'t'}, (a, b)
+
+
+def test_on_a_map_where_every_road_ends_one_turns_round(
+    map_of: Callable[[str], MapModel],
+) -> None:
+    finder = RouteFinder(map_of('junction').network, 'passenger')
+    for edge in _edges(map_of('junction'), 'passenger'):
+        assert finder.goes_through(edge) == finder.endless(edge)
+
+
 def _directions(network: RoadNetwork, edge: str) -> dict[str, set[str]]:
     """Return the directions of the links to each following edge."""
     found: dict[str, set[str]] = {}
