@@ -72,6 +72,12 @@ class ExecutorNode(ManagedNode):
             cancel_callback=lambda _goal: CancelResponse.ACCEPT,
         )
 
+    def cleanup(self) -> None:
+        """Let go of the subscriptions, so that they end with the other endpoints."""
+        if self._path is not None:
+            self._path = None
+            self._driver.close()
+
     def deactivate(self) -> None:
         """Give up a run that is going on (its clean-up goes on in the worker)."""
         if not self._giving_up.is_set():  # else this is the end of the node

@@ -121,6 +121,10 @@ class RunDriver:
         self._observers = ['recorder', *(['monitor'] if settings.live_monitor else [])]
         self._matched = MatchedWriters.on(node, _UNRECORDED)
 
+    def close(self) -> None:
+        """Release what would keep endpoints of the node alive."""
+        self._matched.close()
+
     def run(
         self, order: Order, *, on_tick: Callable[[int], None], cancelled: Callable[[], bool]
     ) -> Done:
