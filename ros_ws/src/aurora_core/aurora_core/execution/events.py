@@ -240,7 +240,9 @@ class EventRunner:
             if action.do == 'change_lane' and row is not None:
                 state.lane = self._lanes.lane(row, seen)
         if isinstance(action, UavAction) and action.altitude_m is not None:
-            state.climbs = any(m.plan.id == action.uav and m.on_mission for m in machines)
+            state.climbs = any(
+                m.plan.id == action.uav and (m.on_mission or m.climbs_first) for m in machines
+            )
         if speed_mps is None and not state.climbs:
             state.done = True
             self._progress.done_tick[state.event.id] = tick + _shows_after(state.event)

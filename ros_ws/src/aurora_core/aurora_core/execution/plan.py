@@ -18,6 +18,7 @@ from aurora_core.execution.step_output import Stepper
 from aurora_core.execution.triggers import BatteryRule
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.grounding.places import place_positions
+from aurora_core.grounding.time_need import patience_s
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.measured_on import vtypes_path
@@ -35,10 +36,12 @@ from aurora_core.quantities.actions import action_rules
 from aurora_core.quantities.world_geometry import WorldGeometry
 from aurora_core.spec.flight_order import (
     awaits_climbs,
+    awaits_reports,
     begun_by,
     ending_landings,
     lasts_until_event,
     left_by,
+    patrols_until_told,
     returns_home,
 )
 from aurora_core.spec.scenario import Event, Link, ScenarioSpec, SendMessage
@@ -47,7 +50,7 @@ from aurora_core.trace.roster import Roster, RosterEntry
 
 # Raised whenever the same states give other commands or records than before: what was recorded
 # with another version cannot be recomputed here.
-EXECUTOR_VERSION = 7
+EXECUTOR_VERSION = 8
 
 # Box of the multirotor in the roster (m): motor to motor with propellers, and its height.
 UAV_SIZE_M = (0.7, 0.7, 0.3)
@@ -197,7 +200,7 @@ def build_stepper(
             driving=settings.run.driving,
             horizon_ticks=round(schedule.horizon_s / dt_s),
             stated_horizon=schedule.stated_horizon,
-            earliest_end_ticks=round(limits.horizon_inferred_min_s / dt_s),
+            earliest_end_ticks=round(_earliest_end_s(spec, schedule, limits) / dt_s),
             settle_ticks=round(settings.run.settle_s / dt_s),
             sight_period_ticks=max(1, round(settings.run.sight_period_s / dt_s)),
         )
@@ -205,6 +208,13 @@ def build_stepper(
     if not acting:
         return executor
     return FaultPort(executor, acting, roster, tuple(link.id for link in spec.links))
+
+
+def _earliest_end_s(spec: ScenarioSpec, schedule: Schedule, limits: Limits) -> float:
+    """Return when a run with an inferred horizon may end once all is done."""
+    if spec.missions:
+        return limits.horizon_inferred_min_s
+    return max(limits.horizon_inferred_min_s, schedule.horizon_s - patience_s(spec))
 
 
 def plans_with_events(
@@ -223,10 +233,12 @@ def plans_with_events(
     def awaited(event: Event | None) -> bool:
         return event is not None and event.id not in undone
 
+    telling = {u.id for u in plans if any(awaited(e) for e in awaits_reports(spec, u.id))}
     asked = {
         m.id: {
             'waits': awaited(begun_by(spec, m)),
-            'until_event': lasts_until_event(spec, m) and awaited(left_by(spec, m)),
+            'until_event': (lasts_until_event(spec, m) and awaited(left_by(spec, m)))
+            or (patrols_until_told(spec, m) and m.uav in telling),
         }
         for m in spec.missions
     }
@@ -236,7 +248,11 @@ def plans_with_events(
                 'missions': tuple(m.model_copy(update=asked[m.id]) for m in u.missions),
                 'lands_after': tuple(
                     e.id
-                    for e in (*awaits_climbs(spec, u.id), *ending_landings(spec, u.id))
+                    for e in (
+                        *awaits_climbs(spec, u.id),
+                        *ending_landings(spec, u.id),
+                        *awaits_reports(spec, u.id),
+                    )
                     if awaited(e)
                 ),
                 'returns': any(awaited(e) for e in returns_home(spec, u.id)),

@@ -16,6 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from aurora_core.comm.link import MessageLink, Path
+from aurora_core.execution.detours import Detours
 from aurora_core.execution.events import EventRunner
 from aurora_core.execution.follower import Follower
 from aurora_core.execution.landing import PATIENCE_S, landing_spot
@@ -118,6 +119,9 @@ class ScenarioExecutor:
         self._done_tick: int | None = None
         self._landing_since: dict[int, int] = {}
         self._sight = InstantSight(setup.geometry, setup.roster)
+        self._dt_s = setup.roster.dt_s
+        limits = setup.geometry.world.limits
+        self._detours = Detours(setup.airspace, limits.clearance_min_m, limits.uav_altitude_max_m)
 
     def step(self, tick: int, ground: FloatArray, uav: FloatArray) -> StepOutput:
         """Evaluate the states of `tick`, return the commands for tick + 1.
@@ -266,6 +270,7 @@ class ScenarioExecutor:
             machine.stays_up = self._runner.keeps_up(machine.plan, tick)
             followed = machine.followed
             target = None if followed is None else seen.motion(followed)
+            self._detours.look_ahead(tick, self._dt_s, machine, uav[index], target)
             row = machine.step(tick, uav[index], target)
             if machine.needs_landing_spot():
                 self._choose_landing_spot(tick, index, uav)
@@ -331,7 +336,7 @@ class ScenarioExecutor:
         s = self._setup
         if tick >= s.horizon_ticks:
             return 'horizon'
-        if s.stated_horizon or not s.machines:
+        if s.stated_horizon or not (s.machines or s.spec.events):
             return ''
         if not self._all_done():
             self._done_tick = None

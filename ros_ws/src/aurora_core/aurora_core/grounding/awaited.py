@@ -10,12 +10,22 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from math import sqrt
+from math import hypot, sqrt
 
 from aurora_core.grounding.places import arrivals, has_point
-from aurora_core.spec.events import DistanceTrigger, Event, UavAction, VisibilityTrigger
+from aurora_core.spec.events import (
+    DistanceTrigger,
+    Event,
+    UavAction,
+    VisibilityTrigger,
+    bodies_of_cause,
+)
+from aurora_core.spec.flight_order import left_by
 from aurora_core.spec.scenario import GroundAgent, ScenarioSpec, UavMission
-from aurora_core.spec.vocabulary import AgentType, MissionMode
+from aurora_core.spec.vocabulary import AgentType, MissionMode, Pattern
+
+# Out of reach of a route one starts so much farther off (m).
+_BEYOND_M = 15.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -45,6 +55,35 @@ def awaited_at(spec: ScenarioSpec) -> tuple[Awaited, ...]:
         if agent.type is not AgentType.RSU and not _has_place(spec, agent)
     }
     return tuple(found for found in _awaited(spec) if found.agent in free)
+
+
+def is_kept_away(spec: ScenarioSpec, patrol: UavMission) -> bool:
+    """Tell whether who ends a route by coming into view of it, or near, is far off before.
+
+    A route over a street goes where that body drives.
+    """
+    event = left_by(spec, patrol)
+    trigger = None if event is None else event.trigger
+    near = isinstance(trigger, DistanceTrigger) and trigger.on == 'distance_below'
+    seen = isinstance(trigger, VisibilityTrigger) and trigger.on == 'visible'
+    ours = event is not None and patrol.uav in bodies_of_cause(event)
+    return ours and (near or seen) and (patrol.target is None or has_point(patrol.target))
+
+
+def kept_away_m(spec: ScenarioSpec, patrol: UavMission, range_m: float) -> float:
+    """Return how far from the middle of a route is out of its reach (m).
+
+    Args:
+        spec: The request.
+        patrol: The route, which somebody ends by coming into view, or near.
+        range_m: Of sight.
+    """
+    event = left_by(spec, patrol)
+    trigger = None if event is None else event.trigger
+    reach_m = trigger.value_m.value if isinstance(trigger, DistanceTrigger) else range_m
+    sizes = [size.value / 2.0 for size in patrol.size_m or ()]
+    sizes += [] if patrol.radius_m is None else [patrol.radius_m.value]
+    return reach_m + hypot(*sizes) + _BEYOND_M
 
 
 def bound_to_places(spec: ScenarioSpec, agent: GroundAgent) -> bool:
@@ -88,10 +127,19 @@ def _near(
     mission = _waiting_there(spec, event, other)
     if mission is None or mission.target is None or value_m <= mission.altitude_m.value:
         return
-    aside_m = sqrt(value_m * value_m - mission.altitude_m.value**2)
+    aside_m = sqrt(value_m * value_m - mission.altitude_m.value**2) + _out_to_m(mission)
     yield Awaited(
         agent=agent, place=mission.target, event=event, within_m=aside_m, mission=mission
     )
+
+
+def _out_to_m(mission: UavMission) -> float:
+    """Return how far from its middle a route passes on every side (m), 0 of a hover."""
+    if mission.radius_m is not None and mission.pattern is Pattern.ORBIT:
+        return mission.radius_m.value
+    if mission.size_m is None or mission.pattern not in (Pattern.RECTANGLE, Pattern.LAWNMOWER):
+        return 0.0
+    return min(size.value for size in mission.size_m) / 2.0
 
 
 def _waiting_there(spec: ScenarioSpec, event: Event, uav: str) -> UavMission | None:

@@ -35,6 +35,7 @@ from aurora_core.grounding.planned_flight import (
     last_point,
     planned_height_m,
 )
+from aurora_core.grounding.premises import middle_of_route
 from aurora_core.grounding.routes_flown import RoutePlanner
 from aurora_core.grounding.sites import SeatedAgent, SeatedPerson, Site, samples_along
 from aurora_core.grounding.spots import SpotFinder
@@ -176,7 +177,7 @@ class FlightPlanner:
         others: Sequence[Point3],
     ) -> PlannedFlight | Rejected:
         """Plan a hover or a route over or round where its target is at t = 0."""
-        centre = self._centre(mission, site)
+        centre = self._centre(spec, mission, site)
         if centre is None:
             return Rejected(reason='target_place')
         if mission.start is not None:
@@ -455,11 +456,13 @@ class FlightPlanner:
         samples = samples_along(seat.path, seat.arc_m, way_m, self._settings.sample_spacing_m)
         return _at_height(samples[:, :2], height_m)
 
-    def _centre(self, mission: UavMission, site: Site) -> tuple[float, float, float, float] | None:
+    def _centre(
+        self, spec: ScenarioSpec, mission: UavMission, site: Site
+    ) -> tuple[float, float, float, float] | None:
         target = mission.target
         x, y, hx, hy = site.origin()
         if target is None:
-            return x, y, hx, hy
+            return middle_of_route(spec, mission, site, self._range)
         seat = site.seat(target)
         if seat is not None:
             return seat.path.position_at(seat.arc_m)

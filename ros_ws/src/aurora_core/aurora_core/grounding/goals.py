@@ -25,7 +25,7 @@ from aurora_core.knowledge.settings import GroundingSettings
 from aurora_core.spec.parameter import Bound, Parameter, Provenance
 from aurora_core.spec.reference import is_landmark
 from aurora_core.spec.scenario import GroundAgent, ScenarioSpec
-from aurora_core.spec.vocabulary import BehaviorKind, Relation
+from aurora_core.spec.vocabulary import BehaviorKind, MissionMode, Relation
 
 # Who stands somewhere all along is there from t = 0.
 _STAYS = (BehaviorKind.WAIT, BehaviorKind.PARK)
@@ -229,15 +229,35 @@ class GoalFinder:
 
     def stop_arc_m(self, spec: ScenarioSpec, site: Site, seat: SeatedAgent) -> float | None:
         """Return where on its way a vehicle stops (m), None when it does not by itself."""
-        if not stops(seat.agent):
-            return None
         x, y, _, _ = site.origin()
+        if not stops(seat.agent):
+            return self._met_arc_m(spec, (x, y), seat)
         for bound in self._bounds(spec, seat.agent):
             if bound.stops:
                 point = self._point(bound, (x, y))
                 near = self._arc_near(seat, point, bound)
                 return near or self._arc_near(seat, point, bound, wide=True)
         return self._open_arc(seat, seat.arc_m + STOP_AFTER_M)
+
+    def _met_arc_m(
+        self, spec: ScenarioSpec, anchor: tuple[float, float], seat: SeatedAgent
+    ) -> float | None:
+        """Return where a vehicle waits to be met by a UAV on its route (m), None for all others.
+
+        Of whom nothing else is said waits where its way is nearest to what the route is over.
+        """
+        for awaited in awaited_at(spec):
+            patrol = awaited.mission
+            if awaited.agent != seat.agent.id or seat.agent.behaviors or patrol is None:
+                continue
+            if patrol.mode is MissionMode.NAVIGATE and awaited.within_m is not None:
+                point = self._places.itself(awaited.place, anchor)
+                bound = _Bound(
+                    place=awaited.place, within_m=awaited.within_m, at_start=False, stated=True
+                )
+                arc_m = self._arc_near(seat, point, bound, wide=True)
+                return None if arc_m is None else self._open_arc(seat, arc_m)
+        return None
 
     def _bounds(self, spec: ScenarioSpec, agent: GroundAgent) -> Iterator[_Bound]:
         arrival_m = self._arrival_m

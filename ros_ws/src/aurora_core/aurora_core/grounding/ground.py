@@ -29,6 +29,7 @@ from aurora_core.grounding.pace import fastest_stated_mps, timed_way_m, watched_
 from aurora_core.grounding.persons import PersonPlacer
 from aurora_core.grounding.places import MapPlaces
 from aurora_core.grounding.planned_flight import PlannedFlight, Rejected, planned_height_m
+from aurora_core.grounding.premises import comes_about, heard, starts_out_of_reach
 from aurora_core.grounding.realised import realised_values
 from aurora_core.grounding.sites import Site, TriedSite, sites, tied_way_m
 from aurora_core.grounding.spots import SpotFinder
@@ -64,6 +65,8 @@ _PERFECT = 1.0 - 1e-9
 _BENT = 0.1
 # And where it does not lead to where an event waits for somebody.
 _ASTRAY = 0.1
+# And where two who are to come near each other are so from the start on, or never.
+_NEVER = 0.1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -213,6 +216,7 @@ class Grounder:
                 tried.append(TriedSite.of(site, why=peopled))
                 continue
             scored += 1
+            road *= 1.0 if comes_about(spec, peopled) else _NEVER
             option = self._option(spec, peopled, road, planner)
             if isinstance(option, Rejected):
                 rejected[option.reason] += 1
@@ -260,6 +264,9 @@ class Grounder:
         need_m = max(need_m, timed_way_m(spec, members, grounding))
         wanted = grounding.target_speed_mps
         ranked: list[tuple[float, Site]] = []
+        places = MapPlaces(self._map)
+        weather, time_of_day = spec.world.weather.value, spec.world.time_of_day.value
+        range_m = self._limits.sensing_range(weather, time_of_day)
 
         def found(goals: tuple[frozenset[str], ...]) -> Iterator[Site]:
             return sites(
@@ -284,6 +291,9 @@ class Grounder:
             if bends_between(spec, site, self._tolerances.placement_vehicle_m, split.before):
                 road *= _BENT
             if not self._goals.leads(spec, site, wide=True):
+                road *= _ASTRAY
+            road *= max(_NEVER, heard(spec, site, places, self._limits))
+            if not starts_out_of_reach(spec, site, places, range_m):
                 road *= _ASTRAY
             if stated > 0.0:
                 road *= 0.5 + 0.5 * self._room_for(stated, site)

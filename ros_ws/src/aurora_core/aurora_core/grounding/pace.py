@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from aurora_core.knowledge.limits import Limits
 from aurora_core.knowledge.settings import GroundingSettings, SpeedSettings
 from aurora_core.quantities.actions import FROM_MOTION
+from aurora_core.spec.flight_order import begun_by
 from aurora_core.spec.own_events import own_events
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import (
@@ -124,7 +125,16 @@ def convoy_pace_mps(spec: ScenarioSpec, limits: Limits, settings: GroundingSetti
             if mission.duration_s.value <= 0.0:
                 continue
             pace = min(pace, _OBSERVED_SHARE * range_m / mission.duration_s.value)
+        if target is not None and _is_taken_over(spec, mission):
+            pace = min(pace, settings.speeds.taken_over_mps)
     return pace
+
+
+def _is_taken_over(spec: ScenarioSpec, mission: UavMission) -> bool:
+    """Tell whether a UAV is set on a body that another one has tracked on its way until then."""
+    others = [m for m in spec.missions if m.target == mission.target and m.uav != mission.uav]
+    tracks = [m for m in (mission, *others) if m.mode is MissionMode.TRACK]
+    return mission in tracks and len(tracks) > 1 and begun_by(spec, mission) is not None
 
 
 def in_emergency(agent: GroundAgent) -> bool:

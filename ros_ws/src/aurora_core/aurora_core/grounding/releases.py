@@ -7,11 +7,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from aurora_core.grounding.awaited import awaited_at
+from aurora_core.grounding.awaited import awaited_at, is_kept_away
 from aurora_core.grounding.convoy import SceneSplit
 from aurora_core.grounding.pace import encounters, moves
 from aurora_core.outcomes.grounded import ReleaseOn
-from aurora_core.spec.events import actor_of, bodies_of_cause, sets_off
+from aurora_core.spec.events import bodies_of_cause, sets_off
 from aurora_core.spec.flight_order import begun_by, left_by
 from aurora_core.spec.own_events import YIELDS_WITHIN_M, let_cross
 from aurora_core.spec.scenario import (
@@ -27,6 +27,11 @@ from aurora_core.spec.scenario import (
     UavMission,
 )
 from aurora_core.spec.vocabulary import MissionMode
+
+# A UAV climbs so fast at least (m/s), and is then where it should be within so much time (s),
+# with what its target needs to be on the move.
+_CLIMBS_MPS = 2.5
+_THERE_S = 25.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -145,12 +150,13 @@ def group_releases(spec: ScenarioSpec, split: SceneSplit) -> Mapping[str, Releas
 def convoy_release(spec: ScenarioSpec, split: SceneSplit) -> Release:
     """Hold the convoy until the UAV that watches it is ready, or has finished with it."""
     members = {m.agent.id: m.agent for m in split.convoy}
-    on_time = any(
-        isinstance(e.trigger, TimeTrigger) and getattr(e.action, 'agent', None) in members
+    on_time = [
+        e.trigger.at_s.value
         for e in spec.events
-    )
-    if on_time:  # What happens at a stated time does not wait for a UAV.
-        return Release()
+        if isinstance(e.trigger, TimeTrigger) and getattr(e.action, 'agent', None) in members
+    ]
+    if on_time and min(on_time) < _watched_by_s(spec):
+        return Release()  # What happens at a stated time does not wait for a UAV.
     for mission in spec.missions:
         target = members.get(mission.target or '')
         if target is None or mission.mode is MissionMode.NAVIGATE:
@@ -161,6 +167,9 @@ def convoy_release(spec: ScenarioSpec, split: SceneSplit) -> Release:
                 if _waits_there(spec, mission):
                     return Release(on=ReleaseOn.CAPTURED, uav=mission.uav, mission=mission.id)
                 continue
+            if _breaks_off(spec, before, mission):
+                # Broken off before its first lap is over, a route would not show.
+                return Release(on=ReleaseOn.LAPPED, uav=before.uav, mission=before.id)
             # Whom a UAV has to come upon waits where it will be.
             watched = mission if _comes_upon(spec, mission) else before
             return Release(on=ReleaseOn.CAPTURED, uav=watched.uav, mission=watched.id)
@@ -188,12 +197,32 @@ def convoy_release(spec: ScenarioSpec, split: SceneSplit) -> Release:
     met = {name for m in encounters(spec) for name in (m.actor, m.other)} | arriving
     # Who is reported by a UAV waits until that is up and can see it.
     flying = {uav.id for uav in spec.uavs}
-    sent = [e for e in spec.events if isinstance(e.action, SendMessage)]
-    met |= {actor_of(e) or '' for e in sent if getattr(e.action, 'sender', '') in flying}
+    for event in spec.events:
+        if not isinstance(event.action, SendMessage) or event.action.sender not in flying:
+            continue
+        caused = bodies_of_cause(event)
+        if caused & set(members):
+            return _reporter_ready(spec, event.action.sender)
     for mission in spec.missions:
         if met & set(members):
             return Release(on=ReleaseOn.ASCENDED, uav=mission.uav)
     return Release()
+
+
+def _reporter_ready(spec: ScenarioSpec, uav: str) -> Release:
+    """Return the release by a UAV that is to report: once it stays, or tracks, or is up."""
+    first = next((m for m in spec.missions if m.uav == uav), None)
+    if first is None or begun_by(spec, first) is not None:
+        return Release()
+    if first.mode is MissionMode.NAVIGATE:
+        return Release(on=ReleaseOn.ASCENDED, uav=uav)
+    return Release(on=ReleaseOn.CAPTURED, uav=uav, mission=first.id)
+
+
+def _watched_by_s(spec: ScenarioSpec) -> float:
+    """Return by when, at the latest, every UAV that takes off at once is where it should be."""
+    heights = [m.altitude_m.value for m in spec.missions if begun_by(spec, m) is None]
+    return max(heights, default=0.0) / _CLIMBS_MPS + _THERE_S
 
 
 def _comes_upon(spec: ScenarioSpec, mission: UavMission) -> bool:
@@ -208,6 +237,14 @@ def _comes_upon(spec: ScenarioSpec, mission: UavMission) -> bool:
         and before is not None
         and before.mode is MissionMode.NAVIGATE
     )
+
+
+def _breaks_off(spec: ScenarioSpec, patrol: UavMission, mission: UavMission) -> bool:
+    """Tell whether a UAV leaves its route for a body that it sees or comes near."""
+    event = begun_by(spec, mission)
+    if patrol.mode is not MissionMode.NAVIGATE or not is_kept_away(spec, patrol):
+        return False
+    return event is not None and mission.target in bodies_of_cause(event)
 
 
 def _waits_there(spec: ScenarioSpec, mission: UavMission) -> bool:

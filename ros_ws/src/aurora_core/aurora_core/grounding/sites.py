@@ -174,12 +174,11 @@ class Site:
 
 def tied_way_m(spec: ScenarioSpec, settings: GroundingSettings) -> float:
     """Return how far a convoy gets while it is tracked or has to stay together (metres)."""
-    tracked = [
-        m.duration_s.value
-        for m in spec.missions
-        if m.mode is MissionMode.TRACK and m.duration_s is not None
-    ]
-    return (max([30.0, *tracked]) + 10.0) * settings.target_speed_mps
+    tracked: dict[str | None, float] = {}  # by who is tracked, one UAV after the other
+    for m in spec.missions:
+        if m.mode is MissionMode.TRACK and m.duration_s is not None:
+            tracked[m.target] = tracked.get(m.target, 0.0) + m.duration_s.value
+    return (max([30.0, *tracked.values()]) + 10.0) * settings.target_speed_mps
 
 
 def on_main_roads(lanes: Sequence[Lane]) -> list[Lane]:

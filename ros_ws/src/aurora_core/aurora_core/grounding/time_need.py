@@ -15,7 +15,9 @@ from aurora_core.knowledge.settings import FlightDefaults
 from aurora_core.spec.flight_order import begun_by
 from aurora_core.spec.own_events import own_events
 from aurora_core.spec.scenario import (
+    ArrivalTrigger,
     BatteryTrigger,
+    DistanceTrigger,
     Event,
     EventDoneTrigger,
     ScenarioSpec,
@@ -35,9 +37,12 @@ _SINK_SHARE = 0.32
 _CORNER_S = 8.0
 _TRANSIT_S = 40.0
 _EVENT_S = 45.0
+# Where nobody flies: so much longer for each event that a red light may hold up.
+_HELD_UP_S = 60.0
 _SLOWEST_MPS = 0.2
 # Between two places of a map, with its bends (m).
 _ACROSS_M = 2000.0
+_BY_TRAFFIC = (ArrivalTrigger, DistanceTrigger)
 
 
 def horizon_s(spec: ScenarioSpec, limits: Limits, flight: FlightDefaults | None = None) -> float:
@@ -75,7 +80,15 @@ def horizon_s(spec: ScenarioSpec, limits: Limits, flight: FlightDefaults | None 
     flown_s = sum(by_uav.values()) if waits else max(by_uav.values(), default=0.0)
     events = (*spec.events, *own_events(spec))
     need = flown_s + latest + sum(_event_s(spec, e, up_and_down) for e in events)
-    return float(min(limits.duration_max_s, max(limits.horizon_inferred_min_s, ceil(need))))
+    need = max(limits.horizon_inferred_min_s, ceil(need)) + patience_s(spec)
+    return float(min(limits.duration_max_s, need))
+
+
+def patience_s(spec: ScenarioSpec) -> float:
+    """Return how long before its inferred horizon a run without UAVs may end, once all is done."""
+    if spec.world.duration_s is not None or spec.missions:
+        return 0.0
+    return _HELD_UP_S * sum(isinstance(e.trigger, _BY_TRAFFIC) for e in spec.events)
 
 
 def _seconds_per_m(flight: FlightDefaults | None) -> float:

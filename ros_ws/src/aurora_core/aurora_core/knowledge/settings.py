@@ -45,6 +45,7 @@ class SpeedSettings(_Table):
     least_before_gain_mps: NotNegative = 3.0  # but not slower than that
     unsaid_mps: Positive = 7.0  # before one accelerates, nobody says to what or from what
     before_slowing_mps: NotNegative = 4.0  # above the speed that one is to slow down to
+    taken_over_mps: Positive = 7.0  # at most, of whom another UAV takes over
     emergency_factor: Positive = 1.2  # what an emergency run makes of speed limits
 
 

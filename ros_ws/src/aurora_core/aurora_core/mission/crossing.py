@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""The way to a mission over what stands in between: up, across, down."""
+"""The way to a mission over what stands in between: up, across, down, or by given points."""
 
 from __future__ import annotations
 
@@ -9,6 +9,8 @@ from aurora_core.mission.setpoint import PursuitReference
 
 Goal = tuple[tuple[float, float, float], tuple[float, float]]
 
+# A point of a way is flown by once the set-point is so near (m).
+_BY_M = 1.0
 # So near to its height it turns to the way across, so near above its goal it goes down (m).
 _UP_M = 0.5
 _ABOVE_M = 2.0
@@ -19,11 +21,15 @@ class Crossing:
 
     Args:
         over_m: Height of the way across; None: straight.
+
+    Attributes:
+        by: Points to fly by instead (x, y, z in m), as long as whoever looks ahead gives some.
     """
 
     def __init__(self, over_m: float | None) -> None:
         self._over_m = over_m
         self._from: tuple[float, float] | None = None
+        self.by: tuple[tuple[float, float, float], ...] = ()
 
     def goal(self, reference: PursuitReference, rest: tuple[float, float], goal: Goal) -> Goal:
         """Return where to go next, a point and its velocity, on the way to a goal.
@@ -33,6 +39,8 @@ class Crossing:
             rest: Where it would come to rest (x, y in m).
             goal: The point (x, y, z in m) to get to, and its velocity (m/s).
         """
+        if self.by:
+            return self._next_point(reference), (0.0, 0.0)
         if self._over_m is None:
             return goal
         (x, y, _), velocity = goal
@@ -44,3 +52,11 @@ class Crossing:
         if reference.z < self._over_m - _UP_M:
             return (*self._from, self._over_m), (0.0, 0.0)
         return (x, y, self._over_m), velocity
+
+    def _next_point(self, reference: PursuitReference) -> tuple[float, float, float]:
+        """Return the point of the given way that is next; the last one stays."""
+        x, y, z = self.by[0]
+        near = norm2(x - reference.x, y - reference.y) <= _BY_M and abs(z - reference.z) <= _BY_M
+        if near and len(self.by) > 1:
+            self.by = self.by[1:]
+        return self.by[0]

@@ -68,6 +68,7 @@ class MissionMachine:
     Attributes:
         stays_up: Something has to happen before it may land: its last mission goes on until then.
         done: It has landed, or held its place long enough where it is not to land.
+        way_there: To its mission.
     """
 
     def __init__(self, plan: UavPlan, settings: FlightSettings, dt_s: float) -> None:
@@ -97,7 +98,7 @@ class MissionMachine:
         self._held_ticks = 0
         self.stays_up = False
         self.done = False
-        self._way_there = Crossing(None)
+        self.way_there = Crossing(None)
 
     @property
     def plan(self) -> UavPlan:
@@ -135,6 +136,11 @@ class MissionMachine:
     def is_landing(self) -> bool:
         """Whether it is on its way home, or down again."""
         return self.phase == _LANDING
+
+    @property
+    def climbs_first(self) -> bool:
+        """Whether it climbs as told before its way home."""
+        return self._climb is not None
 
     @property
     def on_mission(self) -> bool:
@@ -294,7 +300,7 @@ class MissionMachine:
             if self.phase != _ASCENT:  # a climb that is asked for during the ascent still counts
                 self._level_m = None
             self._index, self._laps = phase - _MISSION, 0
-            self._way_there = Crossing(self._plan.missions[self._index].over_m)
+            self.way_there = Crossing(self._plan.missions[self._index].over_m)
         self.phase = phase
         self._route = None
 
@@ -338,9 +344,8 @@ class MissionMachine:
         if self._phase_over(mission, tick):
             return True
         if self.capture_tick is None:
-            goal, velocity = self._way_there.goal(
-                self._pursuit, self._rest_point()[:2], (goal, velocity)
-            )
+            rest = self._rest_point()[:2]
+            goal, velocity = self.way_there.goal(self._pursuit, rest, (goal, velocity))
         self._pursuit.step(goal, velocity, self._settings, self._dt)
         return False
 
@@ -414,7 +419,7 @@ class MissionMachine:
                 self._route = RouteReference(self._way, mission.speed_mps)
             else:
                 rest, still = self._rest_point()[:2], (0.0, 0.0)
-                goal, velocity = self._way_there.goal(self._pursuit, rest, (first, still))
+                goal, velocity = self.way_there.goal(self._pursuit, rest, (first, still))
                 self._pursuit.step(goal, velocity, self._settings, self._dt, mission.way_mps)
                 return False
         self._route.step(self._settings, self._dt)

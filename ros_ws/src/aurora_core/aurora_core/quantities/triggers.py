@@ -202,14 +202,9 @@ class EventTimes:
         return self.action_tick(event_id, trigger or 0)
 
     def _flown_tick(self, action: UavAction, begins: int | None) -> int | None:
-        """Return when a UAV has done what it is told to: it is up where it climbs to.
-
-        After its missions a climb is the beginning of its way home, which waits for nothing.
-        """
+        """Return when a UAV has done what it is told to: it is up where it climbs to."""
         flight = self.rules.flights.get(action.uav)
         if begins is None or action.altitude_m is None or flight is None:
-            return begins
-        if flight.landing_tick is not None and flight.landing_tick <= begins:
             return begins
         z_m = motion.altitude(self.view, self.view.body(action.uav))
         return first_tick(np.abs(z_m - action.altitude_m.value) <= CLIMBED_M, begins)

@@ -14,13 +14,16 @@ from aurora_core.spec.events import (
     Event,
     EventDoneTrigger,
     MissionDoneTrigger,
+    SendMessage,
     SpeedTrigger,
     Trigger,
     UavAction,
     VisibilityTrigger,
+    bodies_of_cause,
 )
 from aurora_core.spec.parameter import Parameter, Provenance
 from aurora_core.spec.scenario import ScenarioSpec, UavMission
+from aurora_core.spec.vocabulary import MissionMode
 
 
 def is_next_anyway(event: Event) -> bool:
@@ -132,9 +135,41 @@ def _waits_for_missions(spec: ScenarioSpec, event: Event, uav: str) -> bool:
 
 def lasts_until_event(spec: ScenarioSpec, mission: UavMission) -> bool:
     """Tell whether only an event ends a phase, or a patrol: nobody states how long it is."""
+    return _has_no_length(mission) and left_by(spec, mission) is not None
+
+
+def patrols_until_told(spec: ScenarioSpec, mission: UavMission) -> bool:
+    """Tell whether a route is flown again and again until its UAV has reported something."""
+    routed = mission.mode is MissionMode.NAVIGATE and mission_after(spec, mission) is None
+    return routed and _has_no_length(mission) and bool(awaits_reports(spec, mission.uav))
+
+
+def awaits_reports(spec: ScenarioSpec, uav: str) -> tuple[Event, ...]:
+    """Return the reports that a UAV is to send of what it watches before it lands.
+
+    "Patrols the market and tells the police when a truck comes near": nobody states how long that
+    takes, and a UAV that has landed sees nothing.
+    """
+    last = next((m for m in reversed(spec.missions) if m.uav == uav), None)
+    if last is None or not _has_no_length(last):
+        return ()
+    return tuple(
+        e
+        for e in spec.events
+        if isinstance(e.action, SendMessage)
+        and e.action.sender == uav
+        and isinstance(
+            e.trigger, DistanceTrigger | VisibilityTrigger | SpeedTrigger | ArrivalTrigger
+        )
+        # Getting far from a body may be by going home.
+        and not (e.trigger.on == 'distance_above' and uav in bodies_of_cause(e))
+    )
+
+
+def _has_no_length(mission: UavMission) -> bool:
+    """Tell whether nobody states how long a mission is."""
     duration = mission.duration_s
-    unstated = mission.turns is None and (duration is None or _is_default(duration))
-    return unstated and left_by(spec, mission) is not None
+    return mission.turns is None and (duration is None or _is_default(duration))
 
 
 def awaits_climbs(spec: ScenarioSpec, uav: str) -> tuple[Event, ...]:

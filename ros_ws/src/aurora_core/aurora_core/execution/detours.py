@@ -1,0 +1,199 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The way of a UAV to what moves: over what stands between, or round it where that is too high.
+
+Where a target will be when an event sets a UAV on it is not known before: the way there is looked
+at as it is flown.
+"""
+
+from __future__ import annotations
+
+from heapq import heappop, heappush
+from itertools import pairwise
+from math import ceil, floor
+
+import numpy as np
+import numpy.typing as npt
+
+from aurora_core.geometry.kernel import norm2
+from aurora_core.grounding.airspace import Airspace
+from aurora_core.mission.machine import MissionMachine, TargetMotion
+from aurora_core.spec.vocabulary import MissionMode
+from aurora_core.trace.layout import UavColumn
+
+FloatArray = npt.NDArray[np.float64]
+BoolArray = npt.NDArray[np.bool_]
+
+Point2 = tuple[float, float]
+Point3 = tuple[float, float, float]
+
+# The way is looked at so often, and a detour is planned again so often (s).
+_LOOKS_EVERY_S = 0.5
+_PLANS_EVERY_S = 2.0
+# A straight way with less than the least clearance and so much is left, and a detour keeps that
+# much more (m).
+_SPARE_M = 0.5
+_WIDE_M = 2.0
+# A metre up or down takes as long as so many across.
+_SLOWER = 4.0
+# Heights are tried in such steps (m).
+_HIGHER_M = 10.0
+# Ways round are looked for on a grid that is so fine, and so much wider than the way (m).
+_GRID_M = 15.0
+_BESIDE_M = 200.0
+_NEIGHBOURS = tuple((i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if (i, j) != (0, 0))
+
+
+class Detours:
+    """Plans the ways of UAVs to moving targets.
+
+    Args:
+        airspace: What stands in the way.
+        clearance_m: That every flight keeps.
+        top_m: No way is higher.
+    """
+
+    def __init__(self, airspace: Airspace, clearance_m: float, top_m: float) -> None:
+        self._air = airspace
+        self._clearance_m = clearance_m
+        self._top_m = top_m
+
+    def look_ahead(
+        self,
+        tick: int,
+        dt_s: float,
+        machine: MissionMachine,
+        state: FloatArray,
+        target: TargetMotion | None,
+    ) -> None:
+        """Let a UAV on its way to what it is to track fly over, or round, what is between.
+
+        Args:
+            tick: Of the state.
+            dt_s: Time step.
+            machine: Of the UAV.
+            state: (UAV_WIDTH,) row of the UAV.
+            target: Motion of the body that it follows.
+        """
+        mission = machine.mission
+        tracks = mission is not None and mission.mode is MissionMode.TRACK
+        if mission is None or target is None or not tracks or machine.captured:
+            return
+        if tick % round(_LOOKS_EVERY_S / dt_s):
+            return
+        x, y, z = state[UavColumn.X : UavColumn.Z + 1].tolist()
+        x_m, y_m = mission.offset_m
+        goal = (target.x_m + x_m, target.y_m + y_m, mission.altitude_m)
+        if self.is_straight((x, y, z), goal):
+            machine.way_there.by = ()
+        elif not machine.way_there.by or tick % round(_PLANS_EVERY_S / dt_s) == 0:
+            machine.way_there.by = self.way((x, y, z), goal)
+
+    def is_straight(self, here: Point3, goal: Point3) -> bool:
+        """Tell whether the straight way is free at both heights."""
+        return all(
+            self._free(((*here[:2], z), (*goal[:2], z)), self._clearance_m + _SPARE_M)
+            for z in sorted({here[2], goal[2]})
+        )
+
+    def way(self, here: Point3, goal: Point3) -> tuple[Point3, ...]:
+        """Return the points to fly by before the goal; none where no way is found."""
+        ways = (self._over(here, goal), self._round(here, goal))
+        found = [way for way in ways if way]
+        return min(found, key=lambda way: _length_m(here, (*way, goal)), default=())
+
+    def _free(self, way: tuple[Point3, ...], clearance_m: float) -> bool:
+        return self._air.way_is_free(way, clearance_m)
+
+    def _over(self, here: Point3, goal: Point3) -> tuple[Point3, ...]:
+        """Return the way up and across at the lowest height that is free."""
+        wide_m = self._clearance_m + _WIDE_M
+        height_m = max(here[2], goal[2]) + _HIGHER_M
+        while height_m <= self._top_m:
+            up, above = (*here[:2], height_m), (*goal[:2], height_m)
+            if self._free((here, up, above, goal), wide_m):
+                return up, above
+            height_m += _HIGHER_M
+        return ()
+
+    def _round(self, here: Point3, goal: Point3) -> tuple[Point3, ...]:
+        """Return the shortest way at the greater of both heights on a grid round the straight."""
+        z_m, wide_m = max(here[2], goal[2]), self._clearance_m + _WIDE_M
+        low = [floor((min(a, b) - _BESIDE_M) / _GRID_M) for a, b in zip(here, goal, strict=True)]
+        high = [ceil((max(a, b) + _BESIDE_M) / _GRID_M) for a, b in zip(here, goal, strict=True)]
+        xs, ys = (
+            np.arange(low[k], high[k] + 1, dtype=np.float64) * np.float64(_GRID_M) for k in (0, 1)
+        )
+        grid = np.stack([*np.meshgrid(xs, ys, indexing='ij'), np.full((len(xs), len(ys)), z_m)])
+        clear_m = self._air.obstacles.clearance_series(grid.reshape(3, -1).T)
+        # Between two neighbours that are so far from everything the way keeps its clearance.
+        free = clear_m.reshape(len(xs), len(ys)) >= wide_m + 0.75 * _GRID_M
+        first, last = _nearest(free, xs, ys, here[:2]), _nearest(free, xs, ys, goal[:2])
+        if first is None or last is None:
+            return ()
+        cells = _shortest(free, first, last)
+        points = [(float(xs[i]), float(ys[j]), z_m) for i, j in cells]
+        return self._short_cut((*here[:2], z_m), points, wide_m)
+
+    def _short_cut(
+        self, here: Point3, points: list[Point3], clearance_m: float
+    ) -> tuple[Point3, ...]:
+        """Leave out the points of a way that need not be flown by."""
+        found: list[Point3] = []
+        while points:
+            far = len(points) - 1
+            while far > 0 and not self._free((here, points[far]), clearance_m):
+                far //= 2
+            here = points[far]
+            found.append(here)
+            points = points[far + 1 :]
+        return tuple(found)
+
+
+def _length_m(here: Point3, way: tuple[Point3, ...]) -> float:
+    """Return how long a way is (m); up and down are slower than across."""
+    return sum(
+        norm2(b[0] - a[0], b[1] - a[1]) + _SLOWER * abs(b[2] - a[2])
+        for a, b in pairwise((here, *way))
+    )
+
+
+def _nearest(
+    free: BoolArray, xs: FloatArray, ys: FloatArray, point: Point2
+) -> tuple[int, int] | None:
+    """Return the free cell nearest to a point, None where there is none."""
+    rows, columns = np.nonzero(free)
+    if len(rows) == 0:
+        return None
+    away = (xs[rows] - point[0]) ** 2 + (ys[columns] - point[1]) ** 2
+    best = int(np.argmin(away))
+    return int(rows[best]), int(columns[best])
+
+
+def _shortest(
+    free: BoolArray, first: tuple[int, int], last: tuple[int, int]
+) -> list[tuple[int, int]]:
+    """Return the cells of the shortest way between two free cells, none where there is no way."""
+    queue = [(0.0, 0.0, first)]
+    before: dict[tuple[int, int], tuple[int, int]] = {}
+    cost = {first: 0.0}
+    while queue:
+        _, so_far, cell = heappop(queue)
+        if cell == last:
+            way = [cell]
+            while way[-1] != first:
+                way.append(before[way[-1]])
+            return way[::-1]
+        if so_far > cost[cell]:
+            continue
+        for i, j in _NEIGHBOURS:
+            onward = (cell[0] + i, cell[1] + j)
+            inside = 0 <= onward[0] < free.shape[0] and 0 <= onward[1] < free.shape[1]
+            if not inside or not free[onward]:
+                continue
+            length = so_far + norm2(float(i), float(j))
+            if length < cost.get(onward, float('inf')) - 1e-9:
+                cost[onward], before[onward] = length, cell
+                left = norm2(float(last[0] - onward[0]), float(last[1] - onward[1]))
+                heappush(queue, (length + left, length, onward))
+    return []

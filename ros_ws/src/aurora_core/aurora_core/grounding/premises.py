@@ -1,0 +1,127 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Whether what events wait for can come about on a site: not so at t = 0, and on the way later.
+
+"When the car is within 30 m of a pedestrian at the crosswalk": the crosswalk is ahead of the car,
+and farther than that.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from aurora_core.geometry.kernel import norm2
+from aurora_core.grounding.awaited import awaited_at, is_kept_away, kept_away_m
+from aurora_core.grounding.places import MapPlaces, has_point
+from aurora_core.grounding.sites import SeatedAgent, SeatedPerson, Site, samples_along
+from aurora_core.knowledge.limits import Limits
+from aurora_core.spec.scenario import DistanceTrigger, ScenarioSpec, SendMessage, UavMission
+
+Pose = tuple[float, float, float, float]
+
+# Two that are to come near each other start at least so much farther apart (m).
+_APART_M = 3.0
+# A vehicle gets to a person on the next stretch of its way: so long, in such steps (m).
+_WAY_M = 300.0
+_STEP_M = 4.0
+# Of the range of a link so much is counted on; beyond that of a hidden one it may be hidden.
+_RANGE_SHARE = 0.9
+_HIDDEN = 0.6
+
+
+def comes_about(spec: ScenarioSpec, site: Site) -> bool:
+    """Tell whether every two on a site that an event waits for can come near each other.
+
+    Args:
+        spec: The request.
+        site: Where its vehicles and persons stand.
+    """
+    return all(
+        _can_meet(one, other, event.trigger.value_m.value)
+        for event in spec.events
+        if isinstance(event.trigger, DistanceTrigger)
+        and event.trigger.on == 'distance_below'
+        and (one := site.seat(event.trigger.a)) is not None
+        and (other := site.seat(event.trigger.b)) is not None
+    )
+
+
+def starts_out_of_reach(spec: ScenarioSpec, site: Site, places: MapPlaces, range_m: float) -> bool:
+    """Tell whether who ends a route at a place by coming near, or into view, is not there yet.
+
+    Args:
+        spec: The request.
+        site: Where the vehicles stand.
+        places: Of the map.
+        range_m: Of sight.
+    """
+    for awaited in awaited_at(spec):
+        patrol, seat = awaited.mission, site.seat(awaited.agent)
+        if patrol is None or seat is None or not is_kept_away(spec, patrol):
+            continue
+        x, y, *_ = seat.path.position_at(seat.arc_m)
+        point_x, point_y = places.itself(awaited.place, site.origin()[:2])
+        if norm2(x - point_x, y - point_y) < kept_away_m(spec, patrol, range_m):
+            return False
+    return True
+
+
+def middle_of_route(spec: ScenarioSpec, mission: UavMission, site: Site, range_m: float) -> Pose:
+    """Return where a route is that is at no place (x, y in m, unit heading): where the scene is.
+
+    Who ends it by coming there, or into view, has the way there before it.
+
+    Args:
+        spec: The request.
+        mission: The route.
+        site: Where the vehicles stand.
+        range_m: Of sight.
+    """
+    if not site.seated or not is_kept_away(spec, mission):
+        return site.origin()
+    away_m = site.origin_arc_m + kept_away_m(spec, mission, range_m)
+    return site.origin_path.position_at(min(away_m, site.origin_path.length_m))
+
+
+def heard(spec: ScenarioSpec, site: Site, places: MapPlaces, limits: Limits) -> float:
+    """Return how well who is told something by a UAV at a place stands to it, in [0, 1].
+
+    Args:
+        spec: The request.
+        site: Where the vehicles stand.
+        places: Of the map.
+        limits: With the ranges of radio links.
+    """
+    share = 1.0
+    for event in spec.events:
+        action = event.action
+        if not isinstance(action, SendMessage):
+            continue
+        told = site.seat(action.receiver)
+        first = next((m for m in spec.missions if m.uav == action.sender), None)
+        if told is None or first is None or not has_point(first.target):
+            continue
+        x, y, *_ = told.path.position_at(told.arc_m)
+        point_x, point_y = places.itself(str(first.target), site.origin()[:2])
+        away_m = norm2(norm2(x - point_x, y - point_y), first.altitude_m.value)
+        if away_m > _RANGE_SHARE * limits.link_range_sight_m:
+            share = 0.0
+        elif away_m > _RANGE_SHARE * limits.link_range_blocked_m:
+            share = min(share, _HIDDEN)
+    return share
+
+
+def _can_meet(
+    one: SeatedAgent | SeatedPerson, other: SeatedAgent | SeatedPerson, within_m: float
+) -> bool:
+    """Tell whether two are apart at t = 0, and a vehicle's way leads to a person."""
+    x, y, *_ = one.path.position_at(one.arc_m)
+    other_x, other_y, *_ = other.path.position_at(other.arc_m)
+    if norm2(x - other_x, y - other_y) < within_m + _APART_M:
+        return False
+    for vehicle, person in ((one, other), (other, one)):
+        if isinstance(vehicle, SeatedAgent) and isinstance(person, SeatedPerson):
+            way = samples_along(vehicle.path, vehicle.arc_m, _WAY_M, _STEP_M)[:, :2]
+            away_m = np.linalg.norm(way - person.path.position_at(person.arc_m)[:2], axis=1)
+            return bool(away_m.min() < within_m)
+    return True
