@@ -18,6 +18,7 @@ from aurora_core.grounding.pace import (
     encounter_room_m,
     encounters,
     met_persons,
+    moves,
     own_speed_mps,
 )
 from aurora_core.grounding.places import POINTS, has_point
@@ -259,9 +260,11 @@ def split_scene(
             )
             groups.append(tuple(members))
             continue
-        front = max(place[0] for place in group.values())
-        rear = min(place[0] for place in offsets.values())
-        shift_m = rear - DETACHED_M - front
+        shift_m = _behind_m(group, offsets)
+        # Who is only told something stays where it is: it stands in nobody's way to a place.
+        awaited = any(bound_to_places(spec, by_id[i]) for i in group)
+        if awaited and not any(moves(spec, by_id[i]) for i in offsets):
+            shift_m = -_behind_m(offsets, group)
         offsets |= {i: (place[0] + shift_m, place[1]) for i, place in group.items()}
     places = offsets | {
         m.agent.id: (m.offset_m, m.lane_shift) for members in groups for m in members
@@ -286,6 +289,14 @@ def split_scene(
         unsupported=tuple(unsupported),
         before=before,
     )
+
+
+def _behind_m(
+    group: Mapping[str, tuple[float, int]], others: Mapping[str, tuple[float, int]]
+) -> float:
+    """Return by how much a group is moved to line up behind others (m, negative)."""
+    front = max(place[0] for place in group.values())
+    return min(place[0] for place in others.values()) - DETACHED_M - front
 
 
 def _is_before_place(placement: Placement) -> bool:
