@@ -5,18 +5,20 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
-from math import isfinite
+from math import hypot, isfinite
 
 from aurora_core.feasibility.bounds import exclusive
 from aurora_core.feasibility.geometry import check_geometry
 from aurora_core.feasibility.scene import check_scene
 from aurora_core.feasibility.sight import check_sight
 from aurora_core.feasibility.times import check_times
+from aurora_core.feasibility.zones import place_distances
 from aurora_core.knowledge.limits import EXACT, Limits, Tolerances, hover_drift_limit_m
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.uav_record import UavRecord
 from aurora_core.spec.parameter import Bound
-from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.spec.reference import LANDMARK
+from aurora_core.spec.scenario import ScenarioSpec, SendMessage
 from aurora_core.spec.stated import is_stated, least, most
 from aurora_core.spec.vocabulary import MissionMode, Pattern
 
@@ -59,10 +61,40 @@ def doubts(
     yield from (f'{sentence} Only inside the tolerances it can be.' for sentence in near)
     for closed in check_scene(spec, own=True):
         yield f'{closed.sentence} Some of them may be the same.'
+    yield from _far_hovers(spec, map_model, limits, tolerances)
     yield from _fast_targets(spec, limits, uav)
     yield from _short_legs(spec, tolerances, uav)
     if uav is not None:
         yield from _strong_wind(spec, limits, tolerances, uav)
+
+
+def _far_hovers(
+    spec: ScenarioSpec, map_model: MapModel, limits: Limits, tolerances: Tolerances
+) -> Iterator[str]:
+    """Messages between UAVs whose hovers are out of reach of each other; their ways may not be."""
+    marks = {f'{LANDMARK}{mark.name}': mark for mark in map_model.landmarks}
+    sent = [e.action for e in spec.events if isinstance(e.action, SendMessage)]
+    flown = {u.id: [m for m in spec.missions if m.uav == u.id] for u in spec.uavs}
+    links = {(link.sender, link.receiver): link.range_m for link in spec.links}
+    for ends in dict.fromkeys((a.sender, a.receiver) for a in sent):
+        one, other = (flown.get(name, []) for name in ends)
+        hovers = all(m.mode is MissionMode.HOVER and m.target in marks for m in (*one, *other))
+        if not (one and other and hovers):
+            continue
+        reach = links.get(ends)
+        reach_m = limits.link_range_sight_m if reach is None else reach.value
+        apart_m = min(
+            hypot(marks[a.target].x_m - marks[b.target].x_m,
+                  marks[a.target].y_m - marks[b.target].y_m)
+            - place_distances(a, limits, tolerances)[1] - place_distances(b, limits, tolerances)[1]
+            for a in one for b in other
+            if a.target is not None and b.target is not None
+        )  # fmt: skip
+        if apart_m > reach_m:
+            yield (
+                f'{ends[0]} and {ends[1]} hover at least {apart_m:.0f} m apart, and their link '
+                f'reaches {reach_m:g} m: only on its way one may be near the other.'
+            )
 
 
 def _fast_targets(spec: ScenarioSpec, limits: Limits, uav: UavRecord | None) -> Iterator[str]:

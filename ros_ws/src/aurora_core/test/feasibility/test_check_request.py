@@ -152,6 +152,19 @@ def test_a_clash_with_a_half_read_clause_is_no_proof() -> None:
     assert verdict.notes
 
 
+def test_hovers_out_of_reach_of_each_other_are_doubted() -> None:
+    """They may start beside each other, and one may send before it goes to its place."""
+    prompt = (
+        'A drone hovers over Meadow Park at 40 m, and a second drone hovers over {} at 40 m. '
+        'After 40 seconds the first drone sends a message to the second drone over a link with '
+        '100 m range.'
+    )
+    far, near = (_judged(prompt.format(place)) for place in ('Eastgate Stadium', 'Meadow Park'))
+    assert (far.result, far.certificates) == (Feasibility.UNKNOWN, ())
+    assert any('link reaches 100 m' in note for note in far.notes)
+    assert not any('their link' in note for note in near.notes)
+
+
 def test_a_number_in_words_that_were_not_read_proves_nothing() -> None:
     """A certificate that rests on one all the same is refuted."""
     prompt = 'A drone hovers over City Hall at 50 m. Another drone hovers 2 m above it.'

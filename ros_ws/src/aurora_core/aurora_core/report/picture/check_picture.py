@@ -4,8 +4,10 @@
 
 from __future__ import annotations
 
+import math
 import textwrap
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 from typing import Protocol
 
 import matplotlib as mpl
@@ -38,6 +40,8 @@ _INSET = (0.73, 0.07, 0.255, 0.24)
 _BAR = (0.80, 0.026, 0.17, 0.012)
 _MARGIN_M = 60.0
 _LEAST_M = 240.0
+# Names keep clear of ways that are told by points so far apart.
+_CLOSE_M = 2.0
 # So much of an agent's route is drawn: the rest is far from the scene.
 _ROUTE_M = 400.0
 _SCORES = LinearSegmentedColormap.from_list('scores', ['#c9b8e8', '#7a3fa0', '#2b0f57'])
@@ -93,8 +97,9 @@ def draw_check(
         ax.set_yticks([])
         ax.set_autoscale_on(False)
         scale = _AXES[2] * _SIZE_IN[0] * 72.0 / box.width
-        ways = [p for a in grounded.agents for p in _route(a)]
-        draw_ground(ax, ground_of_map(model), box, scale, np.array(ways).reshape(-1, 2))
+        lines = [*map(_route, grounded.agents), *map(flights.way, grounded.uavs)]
+        ways = np.array([p for line in lines for p in _between(line)]).reshape(-1, 2)
+        draw_ground(ax, ground_of_map(model), box, scale, ways)
         places = {f'{LANDMARK}{m.name}': (m.x_m, m.y_m) for m in model.landmarks}
         places |= {a.id: (a.x_m, a.y_m) for a in grounded.agents}
         places |= {u.id: flights.spot(u, u.missions[0]) for u in grounded.uavs if u.missions}
@@ -105,6 +110,8 @@ def draw_check(
         _flown(ax, grounded.uavs, flights)
         _sight(ax, grounded.uavs, places, flights)
         _links(ax, spec, places)
+        buildings = {f'{LANDMARK}{b.name}' for b in model.buildings}
+        _named(ax, {n: p for n, p in places.items() if n not in buildings}, grounded.uavs)
         draw_scale(ax, box)
         _words(figure, spec, grounded, tried, result)
         return figure
@@ -144,6 +151,14 @@ def _route(agent: GroundedAgent) -> list[Point]:
         left -= step
         points.append((float(x_m), float(y_m)))
     return points
+
+
+def _between(line: Sequence[Point]) -> Iterator[Point]:
+    """Yield points along a line, so close that no name fits between them."""
+    for (x_m, y_m), (to_x_m, to_y_m) in pairwise(line):
+        steps = max(1, round(math.hypot(to_x_m - x_m, to_y_m - y_m) / _CLOSE_M))
+        for k in range(steps + 1):
+            yield x_m + (to_x_m - x_m) * k / steps, y_m + (to_y_m - y_m) * k / steps
 
 
 class _Flights:
@@ -262,11 +277,16 @@ def _flown(ax: Axes, uavs: Sequence[UavPlan], flights: _Flights) -> None:
         way = flights.way(uav)
         ax.plot(*zip(*way, strict=True), color=colour, linewidth=1.8, linestyle='--', zorder=7.2)
         ax.plot(*way[0], '^', color=colour, markeredgecolor='white', markersize=8.0, zorder=7.3)
-        last = way[-1]
-        if len(way) > 1:
-            ax.plot(*last, 'o', color=colour, markeredgecolor='white', markersize=8.0, zorder=7.3)
-        heights = '/'.join(f'{m.altitude_m:.0f}' for m in uav.missions)
-        _label(ax, last, f'{uav.id} {heights} m', colour, 8.0)
+        told: dict[Point, list[str]] = {}
+        for mission in uav.missions:
+            told.setdefault(flights.spot(uav, mission), []).append(f'{mission.altitude_m:.0f}')
+        for spot, heights in told.items():
+            # A ring, so that who is below it can be seen.
+            ax.plot(
+                *spot, 'o', markerfacecolor='none', markeredgecolor=colour, markeredgewidth=2.2,
+                markersize=13.0, zorder=7.3,
+            )  # fmt: skip
+            _label(ax, spot, f'{uav.id} {"/".join(heights)} m', colour, 9.0)
 
 
 def _sight(ax: Axes, uavs: Sequence[UavPlan], places: dict[str, Point], flights: _Flights) -> None:
@@ -294,6 +314,13 @@ def _links(ax: Axes, spec: ScenarioSpec, places: dict[str, Point]) -> None:
             )  # fmt: skip
 
 
+def _named(ax: Axes, places: dict[str, Point], uavs: Sequence[UavPlan]) -> None:
+    """Name the landmarks that flights are at, where no building has the name already."""
+    targets = dict.fromkeys(m.target for u in uavs for m in u.missions if m.target in places)
+    for target in (t for t in targets if t is not None and t.startswith(LANDMARK)):
+        _label(ax, places[target], target.removeprefix(LANDMARK), style.FAINT, -11.0)
+
+
 def _label(ax: Axes, point: Point, text: str, colour: str, below_pt: float) -> None:
     ax.annotate(
         text, point, xytext=(0.0, below_pt), textcoords='offset points', ha='center',
@@ -309,10 +336,12 @@ def _words(
     tried: Sequence[Tried],
     result: str,
 ) -> None:
-    lines = textwrap.wrap(f'“{" ".join(spec.prompt.split())}”', 112)[:2]
+    words = f'“{" ".join(spec.prompt.split())}”'
+    lines = textwrap.wrap(words, 112, max_lines=2, placeholder=' …”')
     figure.text(0.012, 0.985, '\n'.join(lines), fontsize=12.5, weight='bold', va='top')
     fit = sum(t.joint is not None for t in tried)
-    place = f'{grounded.map_name}, seed {grounded.seed}: {len(tried)} anchors tried, {fit} fit'
+    anchors = f'{len(tried)} anchor{"" if len(tried) == 1 else "s"} tried, {fit} fit'
+    place = f'{grounded.map_name}, seed {grounded.seed}: {anchors}'
     figure.text(0.012, 0.925, f'{result}  {place}'.strip(), fontsize=9.5, color=style.FAINT)
     figure.legend(
         handles=list(_legend()), loc='lower left', bbox_to_anchor=(0.008, 0.004), ncols=4,
@@ -324,6 +353,9 @@ def _legend() -> Iterator[Line2D]:
     ink = style.INK
     yield Line2D([], [], color=ink, marker='s', label='ground agent and its route')
     yield Line2D([], [], color=ink, linestyle='--', marker='^', label='UAV from its start')
+    yield Line2D(
+        [], [], color=ink, marker='o', markerfacecolor='none', linestyle='', label='its missions'
+    )
     yield Line2D([], [], color=_SIGHT, linestyle=(0, (1, 1.6)), label='sight line at the start')
     yield Line2D([], [], color=_LINK, label='message link')
     yield Line2D([], [], color='#7a3fa0', marker='o', linestyle='', label='anchor, by score')
