@@ -44,7 +44,7 @@ def take_out(atoms: Sequence[Atom]) -> tuple[list[Atom], list[Aside]]:
         head = next((a for a in reversed(kept) if a.kind not in TRANSPARENT), None)
         if head is not None and head.is_actor and (_says_more(inner) or _speed_of(head, inner)):
             asides.append(Aside(atoms=inner, head=head))
-        else:  # a comma between two values cuts no clause
+        else:
             kept += [
                 replace(a, kind=AtomKind.FILL) if a.kind is AtomKind.COMMA else a for a in inner
             ]

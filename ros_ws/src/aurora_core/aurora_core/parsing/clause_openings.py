@@ -119,43 +119,5 @@ def end_causes(atoms: list[Atom]) -> list[Atom]:
                 if atom.kind in MARKERS and atom.kind is not AtomKind.RELATIVE:
                     break
                 run.append(atom)
-            cut = _behind_a_flight(run, ended[i].key)
-            cut = _missing_comma(run) if cut is None else cut
-            if cut is not None:
-                at = run[cut].start
-                ended.insert(i + 1 + cut, Atom(kind=AtomKind.COMMA, key=',', start=at, end=at))
         i += 1
     return ended
-
-
-def _behind_a_flight(atoms: Sequence[Atom], link: str) -> int | None:
-    """`after its patrol the drone lands`: return where the effect begins."""
-    for i in range(1, len(atoms)):
-        if atoms[i].is_actor and has_verb(atoms[i:]) and is_flight(atoms[:i], link):
-            return i
-    return None
-
-
-def _missing_comma(atoms: Sequence[Atom]) -> int | None:
-    """Return where the effect begins behind a cause that no comma ends."""
-    verbs = [i for i, a in enumerate(atoms) if a.kind is AtomKind.VERB]
-    if len(verbs) < 2:
-        return None
-    for i in range(verbs[0] + 1, len(atoms)):
-        before = atoms[i - 1]
-        if not atoms[i].is_actor:
-            continue
-        full = (
-            before.kind is AtomKind.MEASURE or before.is_place or before.kind is AtomKind.IN_VIEW
-        )
-        full = full or (before.is_actor and before.noun is not atoms[i].noun)
-        full = full or (i - 1 == verbs[0] and before.key in ALONE)
-        behind = [k for k in verbs if k > i]
-        if not full or not behind or any(a.kind is AtomKind.VERB for a in atoms[verbs[0] + 1 : i]):
-            continue
-        helped = any(a.kind is AtomKind.AUXILIARY for a in atoms[i:])
-        finite = any(atoms[k].form in (VerbForm.THIRD, VerbForm.BASE) for k in behind)
-        describes = any(a.kind is AtomKind.RELATIVE for a in atoms[:i])
-        if (finite or helped) and not describes:
-            return i
-    return None

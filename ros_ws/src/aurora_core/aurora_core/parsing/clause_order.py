@@ -78,19 +78,13 @@ def descriptions_first(pieces: list[Piece]) -> list[Piece]:
     moved = list(pieces)
     for k in range(1, len(moved) - 1):
         told, cause = moved[k], moved[k + 1]
-        described = told.link is Link.RELATIVE and (cause.head is not None or _is_state(told))
+        described = told.link is Link.RELATIVE and cause.head is not None
         if described and cause.link in (Link.WHEN, Link.AFTER, Link.UNTIL) and not cause.opens:
             if cause.head is None:  # `alerts the bus | waiting there | when …`
                 moved[k], moved[k + 1] = cause, told
             else:
                 moved[k - 1], moved[k] = moved[k], moved[k - 1]
     return moved
-
-
-def _is_state(piece: Piece) -> bool:
-    """`waiting at the crosswalk`: nothing that a cause behind it could start."""
-    verb = next((a for a in piece.atoms if a.kind is AtomKind.VERB), None)
-    return verb is not None and verb.key in ('wait', 'park') and verb.form is VerbForm.ING
 
 
 def attach_adjuncts(pieces: list[Piece]) -> list[Piece]:

@@ -7,7 +7,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
-from aurora_core.parsing.measures import LENGTH
 from aurora_core.parsing.morphology import VerbForm
 
 _SKIPPED = (AtomKind.FILL, AtomKind.NEGATION, AtomKind.AUXILIARY)
@@ -26,9 +25,6 @@ def settle_verbs(atoms: list[Atom]) -> list[Atom]:
             settled[i] = replace(atom, kind=AtomKind.AUXILIARY)
         if atom.kind is AtomKind.VERB and atom.key == 'finish' and _ground_act_follows(settled, i):
             settled[i] = replace(atom, kind=AtomKind.AUXILIARY)
-        if AtomKind.CAUSATIVE in kinds and _sends_off(settled, i):
-            settled[i] = replace(atom, kind=AtomKind.VERB, key='fly', form=VerbForm.BASE)
-            continue
         if AtomKind.CAUSATIVE in kinds:
             if _actor_then_verb(settled, i) and not _tells(settled, i):
                 settled[i] = _as(atom, AtomKind.CAUSATIVE)
@@ -81,24 +77,8 @@ def _on_the_ground(atoms: list[Atom], i: int) -> bool:
     before = next((a for a in reversed(atoms[:i]) if a.kind not in _BESIDE_SUBJECT), None)
     ground = (NounKind.AGENT, NounKind.VEHICLE, NounKind.EGO)
     if before is not None and before.is_actor and before.key in ('it', 'person'):
-        before = _subject_before(atoms, i) if _may_stand(atoms, i) else None
+        before = None
     return before is not None and before.noun is not None and before.noun.kind in ground
-
-
-def _subject_before(atoms: list[Atom], i: int) -> Atom | None:
-    """`a police car waits there. It stays there`: who is told of in the sentence before."""
-    stops = [k for k in range(i) if atoms[k].kind is AtomKind.STOP]
-    begin = stops[-2] if len(stops) > 1 else 0
-    actors = [a for a in atoms[begin : stops[-1]] if a.is_actor] if stops else []
-    return actors[0] if actors else None
-
-
-def _may_stand(atoms: list[Atom], i: int) -> bool:
-    """`stays there`, `holds its position`; who hovers or is over something is in the air."""
-    behind = atoms[i + 1] if i + 1 < len(atoms) else None
-    over = behind is not None and behind.key in ('over', 'at', LENGTH)
-    first = atoms[i].words.split()[:1]
-    return not over and first in (['stay'], ['stays'], ['remain'], ['remains'], ['holds'])
 
 
 _BESIDE_SUBJECT = (*_SKIPPED, AtomKind.RELATIVE)
@@ -132,26 +112,6 @@ def _lane_of_another(atoms: list[Atom], i: int) -> int | None:
         if not (behind.key == 'to' or behind.kind is AtomKind.FILL or (into and behind.is_actor)):
             return None
     return None
-
-
-def _sends_off(atoms: list[Atom], i: int) -> bool:
-    """`send a drone to the school`, `take a drone up over the park`: it flies there."""
-    before = next((a for a in reversed(atoms[:i]) if a.kind is not AtomKind.FILL), None)
-    if before is not None and (before.is_actor or before.kind is AtomKind.VERB):
-        return False
-    solid = [a for a in atoms[i + 1 :] if a.kind is not AtomKind.FILL][:3]
-    if len(solid) < 2 or solid[0].noun is None or solid[0].noun.kind is not NounKind.UAV:
-        return False
-    places = (AtomKind.PREPOSITION, AtomKind.RELATION, AtomKind.MEASURE, AtomKind.THING)
-    if solid[1].kind not in places or atoms[i].key not in _SENT:
-        return False
-    return len(solid) < 3 or solid[2].kind is not AtomKind.VERB
-
-
-_SENT = frozenset(
-    {'send', 'dispatch', 'take', 'bring', 'get', 'launch', 'direct', 'guide', 'steer', 'pilot'}
-    | {'deploy', 'put', 'use', 'order', 'command'}
-)
 
 
 # `starts tracking`, `keeps following`: the second verb is the predicate.

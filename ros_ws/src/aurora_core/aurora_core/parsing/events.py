@@ -40,8 +40,6 @@ def complete_event(
     told = [e for e in scene.events if e.trigger == trigger and e.action == action]
     if told and trigger is not None:  # `until the bus arrives …; once it has, it lands`
         event = told[0]
-    elif _waits_for(trigger, known):  # nothing causes itself
-        event = known[0]
     elif known and trigger is not None and isinstance(action, AgentAction | SendMessage):
         event = known[0]
         event.trigger = trigger
@@ -62,10 +60,6 @@ def _heard(scene: Scene, trigger: Trigger | None, action: EventAction) -> Trigge
     if not isinstance(told, SendMessage) or told.receiver not in acting:
         return trigger
     return MessageTrigger(on='message_received', by=told.receiver, sender=told.sender)
-
-
-def _waits_for(trigger: Trigger | None, events: Sequence[EventDraft]) -> bool:
-    return isinstance(trigger, EventDoneTrigger) and any(e.id == trigger.event for e in events)
 
 
 def same_cause(

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from itertools import pairwise
 
 from aurora_core.parsing.adjunct_reader import AdjunctReader, fits
@@ -406,9 +406,6 @@ class Frame:
             n.kind in _NEUTRAL_NOUNS or (n.kind is NounKind.PRONOUN and n.key == 'there')
             for n in adjunct.nouns
         )
-
-
-Construction = Callable[[Frame], bool]
 
 
 def _of_weather(atoms: Sequence[Atom], i: int) -> bool:

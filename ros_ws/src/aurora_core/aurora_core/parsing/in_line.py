@@ -22,17 +22,8 @@ def front_or_rear(noun: NounPhrase, known: Sequence[Entity]) -> Entity | None:
     if len(known) != 2 or any(e.is_uav for e in known) or not noun.labels & SIDES:
         return None
     front, rear = known
-    if _is_behind(front, rear):
-        front, rear = rear, front
-    elif not _is_behind(rear, front):
-        if front.group is None:
-            return None
-        if not front.placements:
-            front.placements.append(Placement(relation=Relation.AHEAD, of=rear.id))
+    if front.group is None:
+        return None
+    if not front.placements:
+        front.placements.append(Placement(relation=Relation.AHEAD, of=rear.id))
     return front if noun.labels & _FRONT else rear
-
-
-def _is_behind(one: Entity, other: Entity) -> bool:
-    """Return whether it was told that one is behind the other."""
-    behind = any(p.relation is Relation.BEHIND and p.of == other.id for p in one.placements)
-    return behind or any(p.relation is Relation.AHEAD and p.of == one.id for p in other.placements)

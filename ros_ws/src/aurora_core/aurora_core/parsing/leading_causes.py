@@ -4,9 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
-from aurora_core.parsing.atoms import AtomKind, NounKind, NounPhrase
+from aurora_core.parsing.atoms import AtomKind
 from aurora_core.parsing.cause_parts import again, delay_of
 from aurora_core.parsing.constructions.messages import TELLING
 from aurora_core.parsing.constructions.triggers import cause
@@ -36,7 +34,7 @@ def leading(story: Story, piece: Piece, following: Piece) -> None:
     gerund = gerund and not is_flight(piece.atoms, piece.link)
     if frame.key == 'finish' and not frame.subject_nouns:
         actors = Frame(following, story.scene, story.resolver).subject_nouns
-        frame.subject_nouns = () if _on_ground(actors) else actors
+        frame.subject_nouns = actors
         gerund = False
     known_event = _told_before(story, frame) if gerund else None
     if known_event is not None:
@@ -55,7 +53,7 @@ def leading(story: Story, piece: Piece, following: Piece) -> None:
         actors = Frame(following, story.scene, story.resolver).subject_nouns
         sent = frame.key in TELLING and bool(story.scene.events)
         known = frame.key in HAPPENS or sent or (_dated(piece) and frame.key not in PHASES)
-        if known or piece.link is Link.WHEN or _on_ground(actors):
+        if known or piece.link is Link.WHEN:
             frame.subject_nouns = actors
             gerund = False
     if gerund or piece.link is Link.UNTIL:
@@ -98,10 +96,6 @@ def leading(story: Story, piece: Piece, following: Piece) -> None:
 def _dated(piece: Piece) -> bool:
     """`5 s after braking, it …`: what the time counts from has happened."""
     return piece.atoms[0].measure is not None and piece.atoms[0].key == TIME
-
-
-def _on_ground(nouns: Sequence[NounPhrase]) -> bool:
-    return bool(nouns) and nouns[0].kind in (NounKind.AGENT, NounKind.VEHICLE, NounKind.EGO)
 
 
 def _told_before(story: Story, frame: Frame) -> EventDraft | None:

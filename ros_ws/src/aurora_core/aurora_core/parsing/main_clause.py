@@ -14,7 +14,7 @@ from aurora_core.parsing.constructions.ascent import ascent, landing
 from aurora_core.parsing.constructions.demands import demands, seen_for
 from aurora_core.parsing.constructions.flight_details import flight_details
 from aurora_core.parsing.constructions.flyers import asks_for_flight, keeps_it_up
-from aurora_core.parsing.constructions.identity import is_ego, is_of_type
+from aurora_core.parsing.constructions.identity import is_of_type
 from aurora_core.parsing.constructions.placing import placing
 from aurora_core.parsing.constructions.spacing import told_distance
 from aurora_core.parsing.constructions.states import predicate_adjectives
@@ -134,7 +134,7 @@ def _moves(frame: Frame) -> bool:
 
 def main_clause(frame: Frame) -> None:
     shared_words(frame)
-    if _absent(frame) or none_such(frame) or is_ego(frame):
+    if _absent(frame) or none_such(frame):
         return
     is_of_type(frame)
     _in_brackets(frame)

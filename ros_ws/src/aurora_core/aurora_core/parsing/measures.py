@@ -134,7 +134,7 @@ class MeasureReader:
     def _one_in(self, j: int) -> tuple[Measure, int] | None:
         """`one in five packets`, `one out of ten messages`: a share."""
         if self._word(j) == 'every':
-            return self._every(j)
+            return None
         if self._word(j) not in ('one', '1'):
             return None
         m = j + 2 if self._is_message(j + 1) else j + 1  # `one packet in ten`
@@ -151,14 +151,6 @@ class MeasureReader:
 
     def _is_message(self, j: int) -> bool:
         return self._lexicon.longest_of(self._words, j, (Tag.MESSAGE,)) is not None
-
-    def _every(self, j: int) -> tuple[Measure, int] | None:
-        """`every tenth packet`: a share."""
-        part = self._lexicon.fractions.get(self._word(j + 1))
-        if part is None or not self._is_message(j + 2):
-            return None
-        start, end = self._tokens[j].start, self._tokens[j + 1].end
-        return Measure(dimension=RATIO, value=1 / part, start=start, end=end), j + 2
 
     def is_part(self, j: int) -> bool:
         """Return whether an amount begins here: `a quarter of an hour`, `a full minute`."""

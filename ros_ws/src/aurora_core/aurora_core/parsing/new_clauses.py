@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind
 from aurora_core.parsing.gaps import opens_gap
-from aurora_core.parsing.measures import RATIO, SPEED
+from aurora_core.parsing.measures import SPEED
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.pieces import (
     MARKERS,
@@ -60,8 +60,6 @@ def opened_clause(
     if verb:
         return _opened_predicate(current, markers, ahead, solid)
     if opens_gap(current, ahead) or _is_share(ahead) or is_inverted(ahead):
-        return Piece(atoms=())
-    if _is_ratio_of_sight(ahead) and any(a.key == RATIO for a in current):
         return Piece(atoms=())
     actor_list = not has_verb(current) and _only_actors(current)
     comma = any(m.kind is AtomKind.COMMA for m in markers)
@@ -191,9 +189,3 @@ def _is_share(ahead: Sequence[Atom]) -> bool:
     told = any(a.measure is not None for a in ahead)
     named = first is not None and first.key in ('one', 'other', 'another')
     return member and told and (named or (first is not None and first.key.startswith('nth')))
-
-
-def _is_ratio_of_sight(ahead: Sequence[Atom]) -> bool:
-    """`tracked for 90 % of the time, visible for 75 %`: each share is a demand of its own."""
-    seen = any(a.kind is AtomKind.IN_VIEW for a in ahead)
-    return seen and any(a.key == RATIO for a in ahead)

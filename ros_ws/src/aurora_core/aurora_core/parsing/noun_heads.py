@@ -7,7 +7,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-from aurora_core.parsing.atoms import Determiner, NounKind, NounPhrase
+from aurora_core.parsing.atoms import NounKind
 from aurora_core.parsing.lexicon import Sense, Tag
 from aurora_core.parsing.noun_words import NOUN_KINDS, NounWords
 
@@ -42,9 +42,7 @@ class HeadReader:
         """Return the head that starts at word j, None if none does."""
         named = self._landmark(j)
         matches = self._said.matches(j)
-        if named is not None and not (
-            self._is_agent_beyond(matches, named[1] - j) or self._parks(j, named[1])
-        ):
+        if named is not None and (not self._is_agent_beyond(matches, named[1] - j)):
             name, stop = named
             return Head(NounKind.LANDMARK, name, name, False, stop)
         if not matches:
@@ -58,13 +56,6 @@ class HeadReader:
                     text = ' '.join(self._said.words[j : j + length])
                     return Head(kind, sense.key, text, sense.plural, j + length)
         return None
-
-    def _parks(self, j: int, stop: int) -> bool:
-        """`two trucks park at the roadside`: behind who acts, no short name of a landmark."""
-        verb = self._said.has(j, Tag.VERB)
-        acting = (Tag.AGENT, Tag.AUXILIARY, Tag.VEHICLE)
-        told = j and self._said.has(j - 1, *acting)
-        return stop == j + 1 and verb and bool(told)
 
     @staticmethod
     def _is_agent_beyond(matches: Sequence[tuple[int, tuple[Sense, ...]]], length: int) -> bool:
@@ -91,57 +82,12 @@ class HeadReader:
         articles = ('the', 'a', 'an', 'at', 'in', 'over')
         return after in articles or before not in ('at', 'to', 'zebra', 'pedestrian', 'on', 'near')
 
-    def agent_follows(self, j: int) -> bool:
-        """`ego bus`: the type is named behind the word `ego`; `ego-bus` are two."""
-        if self._said.words[j] != 'ego' or self._said.matches(j)[0][0] > 1:
-            return False
-        if j + 1 < len(self._said.tokens) and self._said.tokens[j + 1].glued:
-            return False
-        return self._said.has(j + 1, Tag.AGENT)
-
     def _landmark(self, j: int) -> tuple[str, int] | None:
         for length in range(min(self._longest_landmark, len(self._said.words) - j), 0, -1):
             name = self._landmarks.get(tuple(self._said.words[j : j + length]))
             if name is not None:
                 return name, j + length
         return None
-
-    def part_of_place(self, i: int) -> tuple[NounPhrase, int] | None:
-        """`the helipad of the hospital`, `the middle of the junction`: the place itself."""
-        j = i
-        while j < len(self._said.words) and self._said.words[j] in (
-            'the',
-            'a',
-            'its',
-            'main',
-            'very',
-        ):
-            j += 1
-        part = self._said.longest(j, Tag.PLACE_PART)
-        if part is None or (j == i and self._said.is_predicate(j)):
-            return None  # `a child stands at the crosswalk`
-        j += part[0]
-        if j >= len(self._said.words) or self._said.words[j] not in ('of', 'at', 'on', 'in'):
-            return None
-        j += 1
-        if j < len(self._said.words) and self._said.words[j] == 'the':
-            j += 1
-        whole = self.read(j) if j < len(self._said.words) else None
-        if whole is None or whole[0] not in (NounKind.LANDMARK, NounKind.PLACE):
-            return None
-        kind, key, text, _, stop = whole
-        start, end = self._said.tokens[i].start, self._said.tokens[stop - 1].end
-        return (
-            NounPhrase(
-                kind=kind,
-                key=key,
-                start=start,
-                end=end,
-                head_text=text,
-                determiner=Determiner.DEFINITE,
-            ),
-            stop,
-        )
 
     def behind_place(self, kind: NounKind, stop: int) -> int:
         """`the hospital's roof`, `the hospital helipad`: the part adds nothing."""

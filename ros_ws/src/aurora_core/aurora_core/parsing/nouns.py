@@ -46,11 +46,7 @@ class NounReader:
         """Return the noun phrase that starts at token i and the next index, None if none does."""
         if self._said.measures.is_part(i):
             return None
-        alone = (
-            self._heads.part_of_place(i)
-            or self._stand_ins.letter(i)
-            or self._stand_ins.ordinal_alone(i)
-        )
+        alone = self._stand_ins.letter(i) or self._stand_ins.ordinal_alone(i)
         if alone is not None:
             return alone
         if self._said.words[i] == 'that' and self._is_mine(i + 1):
@@ -63,7 +59,7 @@ class NounReader:
         loose: list[int] = []
         while j < len(self._said.words):
             head = self._heads.read(j)
-            if head is not None and not (head[0] is NounKind.EGO and self._heads.agent_follows(j)):
+            if head is not None:
                 kind, key, head_text, is_plural, stop = head
                 # `the aircraft are`: one word for one and for many
                 many = self._said.words[stop : stop + 1] in (['are'], ['were'], ['have'])
@@ -186,17 +182,13 @@ class NounReader:
         if determiner is not Determiner.BARE:
             return False
         if is_first and kind is NounKind.UNSUPPORTED:
-            return self._is_verb(i)  # `to train the crew`
+            return False  # `to train the crew`
         if is_first or not states:
             return False
         if kind in (NounKind.PLACE, NounKind.LANDMARK):
             return True  # `trucks parked roadside`
         allowed = _UAV_PARTICIPLES if kind is NounKind.UAV else _BARE_PARTICIPLES
         return not all(s in allowed or s == 'oncoming' for s in states)
-
-    def _is_verb(self, i: int) -> bool:
-        before = self._said.words[i - 1] if i else ''
-        return before in ('to', 'we', 'i', 'they', 'you', 'will', 'can', 'could', 'must', 'please')
 
     def _index(self, kind: NounKind, stop: int) -> tuple[int, int]:
         """`drone 2`, `uav1`: a whole number without a unit behind the head."""

@@ -22,14 +22,10 @@ _MOST_WORDS = 3
 def part_labels(tokens: Sequence[Token], lexicon: Lexicon) -> tuple[Token, ...]:
     """Return the tokens with one mark for each label of a part."""
     kept: list[Token] = []
-    counted = 0  # the last of `1. … 2. …`
     i = 0
     while i < len(tokens):
         opens = not kept or kept[-1].norm in _ENDS
         end = _label(tokens, i, lexicon) if opens else None
-        if end is None and _counts(tokens, i, counted, opens=opens or kept[-1].norm == ','):
-            counted = int(tokens[i].norm)
-            end = i + 2
         if end is None:
             kept.append(tokens[i])
             i += 1
@@ -38,15 +34,6 @@ def part_labels(tokens: Sequence[Token], lexicon: Lexicon) -> tuple[Token, ...]:
         kept.append(replace(tokens[i], kind=TokenKind.MARK, norm=';', end=last, value=None))
         i = end
     return tuple(kept)
-
-
-def _counts(tokens: Sequence[Token], i: int, counted: int, *, opens: bool) -> bool:
-    """`1. A drone …, 2. …`: no number of anything."""
-    behind = tokens[i + 1 : i + 3]
-    numbered = len(behind) == 2 and behind[0].norm == '.' and behind[0].glued
-    if tokens[i].norm != str(counted + 1) or not numbered or not opens:
-        return False
-    return behind[1].kind is TokenKind.WORD and not behind[1].glued
 
 
 def _label(tokens: Sequence[Token], i: int, lexicon: Lexicon) -> int | None:
@@ -79,18 +66,10 @@ def _name(tokens: Sequence[Token], i: int, lexicon: Lexicon) -> int:
         names = token.norm in lexicon.turns['numbered'] or (
             token.upper and token.norm not in lexicon.words
         )
-        names = names or _is_letter(tokens, i)
         if not names and not (i > begin and token.norm in _GLUE and token.glued):
             break
         i += 1
     return i
-
-
-def _is_letter(tokens: Sequence[Token], i: int) -> bool:
-    """`R4`; `D1`, `U2` are drones."""
-    behind = tokens[i + 1] if i + 1 < len(tokens) else None
-    numbered = behind is not None and behind.glued and behind.kind is TokenKind.NUMBER
-    return numbered and tokens[i].capital and tokens[i].norm not in ('d', 'u')
 
 
 def _number(tokens: Sequence[Token], i: int) -> int | None:

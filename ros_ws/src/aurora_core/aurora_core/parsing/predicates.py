@@ -22,8 +22,6 @@ def cut_at_verbs(piece: Piece) -> list[Piece]:
     begin = 0
     state = piece
     for previous, i in pairwise(verbs):
-        if _is_noun(atoms, begin, previous, i):
-            continue  # `tracking must be within tolerance`
         cut, upcoming = _cut_before(atoms, begin, previous, i)
         if cut <= begin:
             continue
@@ -117,15 +115,6 @@ def _described(atoms: tuple[Atom, ...], begin: int, previous: int) -> Atom | Non
         if atoms[k].kind is AtomKind.RELATIVE:
             return atoms[k - 1] if k > begin and atoms[k - 1].is_actor else None
     return None
-
-
-def _is_noun(atoms: Sequence[Atom], begin: int, previous: int, i: int) -> bool:
-    """Return whether a participle is the subject of the verb behind it."""
-    opens = all(a.kind in TRANSPARENT for a in atoms[begin:previous])
-    told = atoms[previous].form is VerbForm.ING and atoms[i].key in ('be', 'last')
-    finite = atoms[i].form in (VerbForm.BASE, VerbForm.THIRD)
-    between = atoms[previous + 1 : i]
-    return opens and told and finite and all(a.kind in TRANSPARENT for a in between)
 
 
 def _theme(atoms: tuple[Atom, ...], begin: int, subject: int) -> Atom | None:

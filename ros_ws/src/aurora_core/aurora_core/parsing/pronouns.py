@@ -49,7 +49,7 @@ class PronounResolver:
         if noun.key == 'one':
             return self._member(accept, first=True)
         if noun.key == 'other':
-            return self._member(accept, first=False) or self._left(accept, exclude)
+            return self._member(accept, first=False)
         if noun.key.startswith('nth'):
             return self._nth(noun, accept, exclude, int(noun.key[3:])) or self._ask(noun)
         if noun.key == 'target':
@@ -65,7 +65,7 @@ class PronounResolver:
             if everyone:
                 return everyone
         if noun.key == 'rest':
-            return self._rest(accept) or self._ask(noun)
+            return self._ask(noun)
         if noun.key == 'both':
             group = self._last_group(accept) or self._plural(accept, exclude, as_object)
             return group or self._ask(noun)
@@ -145,14 +145,6 @@ class PronounResolver:
         fitting = (tuple(e for e in group if accept(e)) for group in groups)
         return next((group for group in fitting if len(group) == number), ())
 
-    def _rest(self, accept: Fits) -> tuple[Entity, ...]:
-        """`the fire engine turns left and everyone else waits`: who was not spoken of last."""
-        told = next((c.subjects for c in reversed(self._scene.clauses[:-1]) if c.subjects), ())
-        flying = bool(told) and all(e.is_uav for e in told)
-        kin = self._scene.uavs if flying else self._scene.agents
-        others = [e for e in kin if e not in told and e.type is not AgentType.RSU]
-        return tuple(e for e in others if accept(e))
-
     def _last_group(self, accept: Fits) -> tuple[Entity, ...]:
         members = [e for e in self._scene.entities if e.group is not None and accept(e)]
         if members:
@@ -168,12 +160,6 @@ class PronounResolver:
         chosen.assigned = True
         return (chosen,)
 
-    def _left(self, accept: Fits, exclude: Sequence[Entity]) -> tuple[Entity, ...]:
-        """`it messages the other`, both having their tasks: of two, who is not acting."""
-        pair = self._last_group(accept)
-        rest = tuple(e for e in pair if e not in exclude)
-        return rest if len(pair) == 2 and len(rest) == 1 else ()
-
     def _nth(
         self, noun: NounPhrase, accept: Fits, exclude: Sequence[Entity], number: int
     ) -> tuple[Entity, ...]:
@@ -181,21 +167,10 @@ class PronounResolver:
         if noun.head_text in ('the former', 'the latter'):
             return self._of_two(accept, number) or self._singular(noun, accept, exclude, False)
         if len(members) < number:
-            return self._alike(accept, exclude, number)
+            return ()
         chosen = members[number - 1]
         chosen.index, chosen.assigned = number, True
         return (chosen,)
-
-    def _alike(self, accept: Fits, exclude: Sequence[Entity], number: int) -> tuple[Entity, ...]:
-        """`a bus waits, a second bus is behind the first`: of those of the kind that acts."""
-        acting = self._scene.clause.subjects[:1]
-        kin = [
-            e
-            for e in self._scene.entities
-            if acting and (e.is_uav, e.type) == (acting[0].is_uav, acting[0].type)
-        ]
-        chosen = kin[number - 1 : number] if len(kin) > 1 else []
-        return tuple(e for e in chosen if accept(e) and e not in (*exclude, *acting))
 
     def _of_two(self, accept: Fits, number: int) -> tuple[Entity, ...]:
         """`one drone circles, a second one hovers; the former …`: the last two told of."""

@@ -102,9 +102,6 @@ def _shared_speeds(scene: Scene) -> None:
     """`an ambulance on an emergency run drives at 15 m/s`: one act and its speed."""
     for entity in scene.entities:
         acts = entity.behaviors
-        fast = next((b for b in acts if b.kind in _HAS_A_SPEED and b.speed_mps), None)
-        if fast is not None:  # `races along … on an emergency run`: told twice
-            acts[:] = [b for b in acts if b is fast or not _is_less(b, fast)]
         plain = [b for b in acts if b.kind is BehaviorKind.DRIVE and b.speed_mps and not b.target]
         open_acts = [b for b in acts if b.kind in _HAS_A_SPEED and b.speed_mps is None]
         if len(plain) != 1 or len(open_acts) != 1 or len(acts) != len(plain) + len(open_acts):
@@ -118,12 +115,6 @@ def _shared_speeds(scene: Scene) -> None:
             span=one.span,
         )
         entity.behaviors[:] = [whole]
-
-
-def _is_less(one: Behavior, other: Behavior) -> bool:
-    """Return whether the other one says all that one says."""
-    same = one.kind is other.kind and one.target in (None, other.target)
-    return same and one.speed_mps is None and one.closing_from_m is None
 
 
 def _senders(scene: Scene) -> None:

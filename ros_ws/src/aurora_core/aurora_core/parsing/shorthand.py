@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from aurora_core.parsing.lexicon import Lexicon, Tag
+from aurora_core.parsing.lexicon import Lexicon
 from aurora_core.parsing.tokens import Token, TokenKind
 
 _CUT = len('it')
@@ -41,17 +41,9 @@ def _callsigns(tokens: Sequence[Token], lexicon: Lexicon) -> dict[int, str]:
     found = {
         i: lexicon.callsigns[token.norm]
         for i, token in enumerate(tokens)
-        if token.norm in lexicon.callsigns and (token.proper or _typed(tokens, i, lexicon))
+        if token.norm in lexicon.callsigns and token.proper
     }
-    typed = any(_typed(tokens, i, lexicon) for i in found)
-    return found if typed or len(set(found.values())) > 1 else {}
-
-
-def _typed(tokens: Sequence[Token], i: int, lexicon: Lexicon) -> bool:
-    before = [t.norm for t in tokens[max(0, i - 1) : i]]
-    return bool(before) and (
-        lexicon.longest_of(before, 0, (Tag.UAV, Tag.AGENT, Tag.VEHICLE)) is not None
-    )
+    return found if len(set(found.values())) > 1 else {}
 
 
 def _is_there(tokens: Sequence[Token], i: int, lexicon: Lexicon) -> bool:

@@ -8,7 +8,6 @@ from dataclasses import replace
 
 from aurora_core.parsing.atoms import Determiner, NounKind, NounPhrase
 from aurora_core.parsing.lexicon import Tag
-from aurora_core.parsing.measures import LENGTH
 from aurora_core.parsing.noun_words import NOUN_KINDS, NounWords
 from aurora_core.parsing.tokens import TokenKind
 
@@ -142,15 +141,8 @@ class StandInReader:
         several = any(
             a in self._said.words[:i] for a in ('two', '2', 'three', '3', 'both', 'four')
         )
-        placed = self._placed(i + 1) or self._placed_so_far(i + 1)
+        placed = self._placed(i + 1)
         return several and plain and before not in _BY_HEIGHT and placed
-
-    def _placed_so_far(self, i: int) -> bool:
-        """`two vans, one 20 m ahead of it`: a length and a relation."""
-        found = self._said.measures.read(i) if i < len(self._said.words) else None
-        if found is None or found[0].dimension != LENGTH:
-            return False
-        return self._said.has(found[1], Tag.RELATION)
 
     def _placed(self, i: int) -> bool:
         """Return whether a place or a number with a preposition follows."""
@@ -165,9 +157,8 @@ class StandInReader:
         kind, key = self._named_letters()[name]
         if (
             self._said.words[i] == 'a'
-            and not self._said.is_predicate(i + 1)
-            and not self._helps(i + 1)
-            and not self._ends(i + 1)
+            and (not self._said.is_predicate(i + 1))
+            and (not self._ends(i + 1))
         ):
             return None  # the article
         phrase, stop = self._phrase(i, i + 1, key, kind)
@@ -206,9 +197,6 @@ class StandInReader:
         if len(named) < 2 or not flying or named != [chr(ord('a') + n) for n in range(len(named))]:
             return {}
         return dict.fromkeys(named, (NounKind.UAV, 'drone'))
-
-    def _helps(self, j: int) -> bool:
-        return self._said.has(j, Tag.AUXILIARY)
 
     def _ends(self, j: int) -> bool:
         return j >= len(self._said.words) or self._said.words[j] in ('.', ',', ';', ')', '\n')

@@ -170,17 +170,8 @@ def tag(
     landmark_vocabulary = {word for words in landmarks for word in words}
     words: list[str] = []
     corrections: list[tuple[int, int, str]] = []
-    flown = any(
-        s.tag is Tag.UAV
-        for t in tokens
-        for _, senses in known.matches([t.norm], 0)
-        for s in senses
-    )
-    for i, token in enumerate(tokens):
+    for token in tokens:
         word = token.norm
-        if flown and _is_short_uav(tokens, i):
-            words.append('drone')  # `two drones: d1 hovers, d2 …`
-            continue
         if (
             token.kind is TokenKind.WORD
             and word not in known.words
@@ -207,15 +198,6 @@ def _is_name(tokens: Sequence[Token], words: Sequence[str], i: int, lexicon: Lex
     finite = acting is not None and acting[1].form in (VerbForm.THIRD, VerbForm.BASE)
     placed = lexicon.longest_of(words, i + 1, (Tag.PREPOSITION,)) is not None
     return others and (finite or placed)
-
-
-def _is_short_uav(tokens: Sequence[Token], i: int) -> bool:
-    """`d1`, `u2`: a letter with a small number glued to it, and no quantity `d1 = 30 m`."""
-    behind = tokens[i + 1 : i + 3]
-    if tokens[i].norm not in ('d', 'u', 'uv', 'dr') or not behind or not behind[0].glued:
-        return False
-    small = behind[0].kind is TokenKind.NUMBER and behind[0].value in range(1, 10)
-    return small and (len(behind) < 2 or behind[1].norm not in ('=', 'm', '%'))
 
 
 class _Tagger:
@@ -310,7 +292,7 @@ class _Tagger:
         matches = self._lexicon.matches(self._words, i)
         for length, senses in matches:
             stop = i + length
-            split = self._and_forth(stop) or self._tells_apart(stop) or self._exists(stop)
+            split = self._and_forth(stop) or self._exists(stop)
             if length > 1 and (self._noun_here(i, senses) or split):
                 continue  # `an orbit around …`
             if self._take(i, length, senses):
@@ -350,7 +332,7 @@ class _Tagger:
             return None
         length, senses = matches[0]
         stop = i + length
-        split = self._and_forth(stop) or self._tells_apart(stop) or self._exists(stop)
+        split = self._and_forth(stop) or self._exists(stop)
         if self._noun_here(i, senses) or split:
             return None  # `an orbit around …`
         if any(
@@ -385,15 +367,6 @@ class _Tagger:
     def _exists(self, stop: int) -> bool:
         """`once there are less than 20 m between them`: nobody is there."""
         return self._words[stop - 1] == 'there' and self._words[stop : stop + 1] in _ARE
-
-    def _tells_apart(self, stop: int) -> bool:
-        """`to the rear car`: the last word of the phrase belongs to the noun behind it."""
-        if stop < 2 or self._words[stop - 1] not in ('rear', 'front', 'back'):
-            return False
-        tags = (Tag.AGENT, Tag.UAV, Tag.VEHICLE)
-        return self._words[stop - 2] == 'the' and (
-            self._lexicon.longest_of(self._words, stop, tags) is not None
-        )
 
     def _noun_here(self, i: int, senses: tuple[Sense, ...]) -> bool:
         """Words that are a verb elsewhere stand behind an article; `that turns left` is one."""
@@ -463,12 +436,7 @@ class _Tagger:
             return last.kind is not AtomKind.THING or verb.form is not VerbForm.THIRD
         if last.kind is AtomKind.PREPOSITION and before != 'to':
             return verb.form is VerbForm.BASE
-        if last.kind in (AtomKind.FILL, AtomKind.STATE):
-            return before in self._lexicon.words and self._is_adjective(i - 1)
         return False
-
-    def _is_adjective(self, i: int) -> bool:
-        return self._lexicon.longest_of(self._words, i, (Tag.LABEL, Tag.STATE)) is not None
 
     def _add(self, kind: AtomKind, key: str, i: int, stop: int) -> None:
         self._atoms.append(

@@ -13,8 +13,8 @@ from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
 from aurora_core.parsing.atoms import ACTORS, AtomKind
 from aurora_core.parsing.criteria.parties import left_out_before
 from aurora_core.parsing.frames import Frame
-from aurora_core.parsing.measures import LENGTH, RATIO
-from aurora_core.parsing.scene import Entity, LinkDraft
+from aurora_core.parsing.measures import RATIO
+from aurora_core.parsing.scene import Entity
 from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.scenario import StatedCondition
 from aurora_core.spec.vocabulary import MissionMode
@@ -29,7 +29,7 @@ _STAYING = frozenset(
 
 def condition(frame: Frame) -> bool:
     """Read a clause that is nothing but a condition."""
-    readers = (_latency, _gap_limit, _limit, _apart, _in_view, _delivery)
+    readers = (_latency, _limit, _in_view, _delivery)
     # Without a predicate the place comes first: `a child on the sidewalk within 20 m of it`.
     return any(reader(frame) for reader in readers) or (bool(frame.key) and _near(frame))
 
@@ -110,36 +110,6 @@ def _reference(frame: Frame, adjunct: Adjunct) -> str | None:
     return found[0].id if found else None
 
 
-def _gap_limit(frame: Frame) -> bool:
-    """`the distance between them never exceeds 50 m`."""
-    upper = frame.key == 'exceed' and frame.negated
-    lower = frame.key == 'fall_below' and frame.negated
-    words = [
-        m
-        for m in frame.free(AdjunctKind.MARK, 'thing')
-        if m.value in ('gap', 'standoff', 'separation')
-    ]
-    length = frame.length('', 'below')
-    if upper == lower or not words or length is None or length.measure is None:
-        return False
-    phrases = frame.free(AdjunctKind.PHRASE, 'between', 'to', 'from', 'of')
-    nouns = [*words[0].nouns, *(n for p in phrases for n in p.nouns)]
-    frame.scene.clause.subjects = ()  # nobody acts: `them` may be anyone
-    ends = frame.objects([n for n in nouns if n.kind in ACTORS])
-    if len(ends) != 2 or not values.accepts('condition_distance', length.measure):
-        return False
-    for taken in (words[0], length, *phrases):
-        taken.used = True
-    add_condition(
-        frame,
-        'distance',
-        (ends[0].id, ends[1].id),
-        '<=' if upper else '>=',
-        values.explicit('condition_distance', length.measure),
-    )
-    return True
-
-
 def _latency(frame: Frame) -> bool:
     """`the latency must not exceed 300 ms`: asked of the messages, no property of the link."""
     must = any(a.kind is AtomKind.AUXILIARY and a.key in _MUST for a in frame.piece.atoms)
@@ -208,37 +178,6 @@ def _each(frame: Frame, quantity: str, op: Op, adjunct: Adjunct, name: str) -> b
     adjunct.used = True
     for entity in subjects:
         add_condition(frame, quantity, (entity.id,), op, values.explicit(name, adjunct.measure))
-    return True
-
-
-def _apart(frame: Frame) -> bool:
-    """`the drones stay at least 15 m apart`."""
-    if frame.key not in ('keep', 'be', 'fly') or frame.negated:
-        return False
-    subjects = frame.subjects()
-    if len(subjects) < 2 and frame.attribute('separation') is not None:
-        subjects = tuple(frame.scene.uavs)
-    if len(subjects) < 2:
-        return False
-    adjunct = frame.attribute('separation', 'gap', 'standoff') or frame.measure(
-        LENGTH, '', 'beyond', 'at'
-    )
-    if adjunct is None or adjunct.measure is None:
-        return False
-    if not values.accepts('condition_distance', adjunct.measure):
-        return False
-    text = frame.scene.prompt[frame.piece.start : frame.piece.end].lower()
-    if not any(w in text for w in ('apart', 'each other', 'separation', 'one another', 'between')):
-        return False
-    near = adjunct.prep == 'within' or adjunct.measure.bound is Bound.AT_MOST
-    adjunct.used = True
-    add_condition(
-        frame,
-        'separation',
-        tuple(e.id for e in subjects),
-        '<=' if near else '>=',
-        values.explicit('condition_distance', adjunct.measure),
-    )
     return True
 
 
@@ -314,7 +253,7 @@ def _delivery(frame: Frame) -> bool:
     if not owned or not told:
         return False
     if limit is None:
-        return _must_arrive(frame, owned[-1])
+        return False
     if limit.measure is None:
         return False
     if not values.accepts('condition_time', limit.measure):
@@ -339,20 +278,6 @@ def _delivery(frame: Frame) -> bool:
         '<' if _is_strict(frame, limit) else '<=',
         values.explicit('condition_time', limit.measure),
     )
-    return True
-
-
-def _must_arrive(frame: Frame, link: LinkDraft) -> bool:
-    """`this message must get through`: asked of every message of the link."""
-    must = any(a.kind is AtomKind.AUXILIARY and a.key in _MUST for a in frame.piece.atoms)
-    if not must or link.sender is None or link.receiver is None:
-        return False
-    for mark in frame.free(AdjunctKind.MARK, AtomKind.MESSAGE.value):
-        mark.used = True
-    for adjunct in frame.free(AdjunctKind.OBJECT) + frame.free(AdjunctKind.PHRASE, 'at', 'to'):
-        adjunct.used = bool(frame.objects([n for n in adjunct.nouns if n.kind in ACTORS]))
-    value = values.inferred('condition_ratio', 1.0)
-    add_condition(frame, 'delivered', (link.sender, link.receiver), '==', value)
     return True
 
 

@@ -66,12 +66,6 @@ def _named(frame: Frame) -> list[Entity]:
     return found
 
 
-def _places(frame: Frame) -> list[str]:
-    kinds = (NounKind.PLACE, NounKind.LANDMARK)
-    found = [frame.resolver.place(n) for n in frame.nouns() if n.kind in kinds]
-    return [place for place in found if place is not None]
-
-
 def _observer(frame: Frame) -> Entity | None:
     """Return the UAV that the clause names, else the only one."""
     flying = [e for e in _named(frame) if e.is_uav] or frame.scene.uavs
@@ -82,7 +76,7 @@ def _watched(frame: Frame, observer: Entity) -> str | None:
     """Return what the clause names besides the UAV, else what the UAV is about."""
     agents = [e.id for e in _named(frame) if not e.is_uav]
     targets = [m.target for m in frame.scene.missions_of(observer) if m.target is not None]
-    found = agents or _places(frame) or targets[-1:]
+    found = agents or targets[-1:]
     return found[0] if found else None
 
 

@@ -81,8 +81,6 @@ def behavior(frame: Frame) -> bool:
         return False
     if frame.key == 'start' and frame.free(AdjunctKind.PLACE):
         return False  # `starts 45 m behind the ego` is a place
-    if frame.key == 'come' and _gets_something(frame):
-        return False
     if frame.key == 'reach' and not any(n.kind in _GOALS for n in frame.nouns()):
         return False
     _commanded(frame)
@@ -110,7 +108,7 @@ def behavior(frame: Frame) -> bool:
     closing = _closing_distance(frame) if frame.key in ('tailgate', 'approach', 'come') else None
     if kind is BehaviorKind.OVERTAKE and not _overtakes(frame, target):
         kind = BehaviorKind.DRIVE  # `a bus goes past at 20 km/h`
-    placements = _placements(frame, subjects, target, closing) + _departure(frame)
+    placements = _placements(frame, subjects, target, closing)
     made = Behavior(
         kind=kind, target=target, speed_mps=speed, closing_from_m=closing, span=frame.span
     )
@@ -140,20 +138,6 @@ def _only_fast(frame: Frame, subjects: tuple[Entity, ...]) -> bool:
     return plain and not siren and not any(e.type in _EMERGENCY for e in subjects)
 
 
-def _departure(frame: Frame) -> tuple[Placement, ...]:
-    """`leaves the station`, `sets off from the market`: there it is at the start."""
-    found = frame.free(AdjunctKind.PHRASE, 'from')
-    if frame.key == 'start':
-        found += frame.free(AdjunctKind.OBJECT)
-    for adjunct in found:
-        place = place_of(frame, adjunct)
-        if place is not None:
-            adjunct.used = True
-            span = adjunct.span
-            return (Placement(relation=Relation.AT, of=place, span=span),)
-    return ()
-
-
 def _tracked_for(frame: Frame, subjects: tuple[Entity, ...]) -> None:
     """`a drone tracks a jogger. The jogger runs for 60 s`: so long it is tracked."""
     adjunct = frame.time('for')
@@ -180,13 +164,6 @@ def _goes_at(frame: Frame) -> bool:
 _COMMANDS = frozenset(
     {'drive', 'circulate', 'stop', 'brake', 'slow', 'park', 'walk', 'wait', 'start'}
 )
-
-
-def _gets_something(frame: Frame) -> bool:
-    """`the car must get it within 1 s`: a message, not somebody to drive up to."""
-    if frame.verb is None or not frame.free(AdjunctKind.OBJECT):
-        return False
-    return frame.scene.prompt[frame.verb.start : frame.verb.end].lower().startswith(('get', 'got'))
 
 
 def _commanded(frame: Frame) -> None:

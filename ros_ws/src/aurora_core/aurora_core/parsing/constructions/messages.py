@@ -47,9 +47,6 @@ def message(frame: Frame) -> SendMessage | None:
         return None
     senders = _teller(frame, senders)
     receivers = _receivers(frame, senders)
-    again = None if receivers else _told_again(frame, senders)
-    if again is not None:
-        return again
     receivers = receivers or _awaits(frame, senders)
     if not receivers:
         ego = frame.scene.ego
@@ -85,22 +82,6 @@ def _awaits(frame: Frame, senders: tuple[Entity, ...]) -> tuple[Entity, ...]:
             by = frame.scene.by_id(awaited.by)
             return () if by is None or by in senders else (by,)
     return ()
-
-
-def _told_again(frame: Frame, senders: tuple[Entity, ...]) -> SendMessage | None:
-    """`the drone warns the bus. The warning is sent when …`: the message that was told."""
-    mark = frame.has_mark(AtomKind.MESSAGE.value)
-    if not (frame.passive and mark):
-        return None
-    for event in reversed(frame.scene.events):
-        told = event.action
-        if isinstance(told, SendMessage) and told.sender in [e.id for e in senders]:
-            frame.mark(AtomKind.MESSAGE.value)
-            frame.scene.clause.objects = tuple(
-                e for e in (frame.scene.by_id(told.receiver),) if e is not None
-            )
-            return told
-    return None
 
 
 def _teller(frame: Frame, senders: tuple[Entity, ...]) -> tuple[Entity, ...]:

@@ -15,7 +15,6 @@ from aurora_core.parsing.constructions.transits import (
     arrive,
     goes_on_there,
     is_transit,
-    just_sent,
     told_again,
     watches_from,
 )
@@ -169,15 +168,6 @@ def _is_route(frame: Frame) -> bool:
 _VAGUE = frozenset({'job', 'phase', 'stage', 'part', 'segment'})
 
 
-def _over_streets(frame: Frame) -> bool:
-    """`flies over the streets`, `at 50 m over the streets`."""
-    return frame.has_mark(AtomKind.STREETS_FLAG.value) or any(
-        n.kind is NounKind.STREET and 'over' in (a.key, a.prep)
-        for a in frame.adjuncts
-        for n in a.nouns
-    )
-
-
 def _target(frame: Frame, flying: tuple[Entity, ...]) -> tuple[str | None, str]:
     """Return what the flight is about and the preposition in front of it."""
     if frame.key == 'wait':
@@ -251,7 +241,7 @@ def _is_place_again(frame: Frame, noun: NounPhrase, adjunct: Adjunct) -> bool:
     """`keeps the stadium in view, hovering over it`: with nobody else about, `it` is the place."""
     if noun.kind is not NounKind.PRONOUN or noun.key != 'it':
         return False
-    if frame.scene.agents and not just_sent(frame.scene):
+    if frame.scene.agents:
         return False
     about = adjunct.key in ('over', 'around', 'at') or (
         not adjunct.key and frame.key in ('orbit', 'observe', 'navigate')
@@ -274,7 +264,7 @@ def _mode(frame: Frame, target: str | None, prep: str) -> MissionMode | None:
         return MissionMode.TRACK if moving else MissionMode.HOVER
     if key in ('navigate', 'orbit', 'visit'):
         return MissionMode.NAVIGATE
-    if _is_route(frame) or (target is None and _over_streets(frame)):
+    if _is_route(frame):
         return MissionMode.NAVIGATE
     if target is None:
         return None

@@ -306,7 +306,7 @@ def _relation(
     owner: Entity | None = None,
 ) -> Placement | None:
     if adjunct.key == 'compass':
-        return _compass(frame, adjunct)
+        return None
     relation = Relation(adjunct.key)
     each = None if owner is not None else _each_other(frame, adjunct, subjects)
     if owner is None:
@@ -384,21 +384,3 @@ def _beside(frame: Frame, adjunct: Adjunct, owner: Entity) -> str | None:
 
 def _is_one(nouns: tuple[NounPhrase, ...]) -> bool:
     return len(nouns) == 1
-
-
-def _compass(frame: Frame, adjunct: Adjunct) -> Placement | None:
-    of = named_reference(frame, adjunct) if adjunct.nouns else None
-    if of is None:
-        return None
-    distance = values.default('placement_distance')
-    if adjunct.measure is not None:
-        if not values.accepts('placement_distance', adjunct.measure):
-            return None
-        distance = values.explicit('placement_distance', adjunct.measure)
-    return Placement(
-        relation=Relation.NEAR,
-        of=of,
-        distance_m=distance,
-        bearing_deg=values.stated('bearing', float(adjunct.value), adjunct.start, adjunct.end),
-        span=adjunct.span,
-    )

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
-from aurora_core.parsing.atoms import ACTORS, AtomKind, NounKind, NounPhrase
+from aurora_core.parsing.atoms import ACTORS, AtomKind, NounKind
 from aurora_core.parsing.constructions.ground import add_behavior, names_actor, speed_of
 from aurora_core.parsing.constructions.places import (
     add_placement,
@@ -32,9 +32,6 @@ def placing(frame: Frame) -> bool:
         if lead is not None:
             lead.used = True
             nouns = lead.nouns
-            there = frame.key in ('put', 'contain', 'exist', 'be', '')
-            if there and not frame.free(AdjunctKind.PLACE):
-                nouns += _listed(frame, lead)
     elif frame.key == 'contain':
         return _having(frame)
     if not nouns and frame.piece.head is not None and frame.piece.head.noun is not None:
@@ -73,18 +70,6 @@ def _on_one_road(frame: Frame, placements: tuple[Placement, ...]) -> None:
         other = frame.scene.by_id(placement.of or '')
         if roads and other is not None and placement.relation in _IN_LINE:
             add_placement(other, roads[0])
-
-
-def _listed(frame: Frame, lead: Adjunct) -> tuple[NounPhrase, ...]:
-    """`fill the scene with twelve cars, two trucks and a bus`: all of them."""
-    nouns: list[NounPhrase] = []
-    for adjunct in frame.free(AdjunctKind.OBJECT) + frame.free(AdjunctKind.PHRASE, 'with'):
-        if adjunct is not lead and all(
-            n.kind in (NounKind.AGENT, NounKind.VEHICLE, NounKind.EGO) for n in adjunct.nouns
-        ):
-            adjunct.used = True
-            nouns += adjunct.nouns
-    return tuple(nouns)
 
 
 def _populated(frame: Frame) -> Adjunct | None:

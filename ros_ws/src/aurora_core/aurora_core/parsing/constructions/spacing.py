@@ -12,7 +12,7 @@ from itertools import pairwise
 
 from aurora_core.parsing import values
 from aurora_core.parsing.adjuncts import IN_A_ROW, Adjunct, AdjunctKind
-from aurora_core.parsing.atoms import ACTORS, NounKind, NounPhrase
+from aurora_core.parsing.atoms import NounKind
 from aurora_core.parsing.constructions.places import DISTANT, add_placement, is_throughout
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.measures import LENGTH
@@ -22,7 +22,6 @@ from aurora_core.spec.scenario import Placement
 from aurora_core.spec.vocabulary import Relation
 
 _APART = ('separation', 'gap', 'standoff', 'away')
-_BETWEEN = ('between', 'from', 'to', 'of')
 # `keeps a distance of 12 m`, `leaves a gap of 12 m`, `has a distance of 12 m to it`.
 _HAVING = ('keep', 'start', 'contain')
 _COLUMN = re.compile(r'\b(?:queue|line|row|column|convoy|platoon|string|procession|file) of\b')
@@ -37,9 +36,6 @@ def column(frame: Frame, subjects: tuple[Entity, ...], *, kept: bool) -> None:
     if word is None and not _COLUMN.search(told):
         return
     distance = word.measure if word is not None else None
-    spacing = None if distance is not None else _spacing(frame)
-    if spacing is not None:
-        distance = spacing.measure
     if word is None and distance is None:
         return
     if distance is not None and not values.accepts('placement_distance', distance):
@@ -59,7 +55,7 @@ def column(frame: Frame, subjects: tuple[Entity, ...], *, kept: bool) -> None:
             span=frame.span,
         )
         add_placement(entity, placement)
-    for adjunct in (word, spacing):
+    for adjunct in (word, None):
         if adjunct is not None:
             adjunct.used = True
     _between_them(frame)
@@ -70,13 +66,6 @@ def _in_a_row(frame: Frame, adjunct: Adjunct) -> bool:
     return not adjunct.nouns and words.endswith(IN_A_ROW)
 
 
-def _spacing(frame: Frame) -> Adjunct | None:
-    found = frame.attribute(*_APART) or frame.length('', 'at', 'with', 'of')
-    if found is None or found.measure is None or found.nouns:
-        return None
-    return found if found.measure.bound is Bound.EXACTLY else None
-
-
 def _between_them(frame: Frame) -> None:
     """`12 m between each`: of whom the clause is."""
     for adjunct in frame.free(AdjunctKind.PHRASE, 'between'):
@@ -85,9 +74,8 @@ def _between_them(frame: Frame) -> None:
 
 def told_distance(frame: Frame) -> bool:
     """`the distance between them is 12 m`: how far whoever was placed is from the other."""
-    if frame.negated or frame.key not in ('be', 'exist', '', *_HAVING):
+    if frame.negated or frame.key not in _HAVING:
         return False
-    subjects = [n for n in frame.subject_nouns if n.key != 'there']
     value = frame.attribute(*_APART)
     words = next(
         (a for a in frame.free(AdjunctKind.MARK, 'thing') if a.value in _APART and a is not value),
@@ -98,32 +86,11 @@ def told_distance(frame: Frame) -> bool:
         value = frame.length('', 'of')
     if value is None or value.measure is None or value.measure.bound is not Bound.EXACTLY:
         return False
-    if value.key == LENGTH and words is None and not between:
-        return False
-    if frame.key in _HAVING:
-        return value.key != LENGTH and _is_kept(frame, value)
-    if subjects and (value.key not in ('away', 'standoff') or value.nouns):
-        return False
-    if subjects and (frame.key != 'be' or frame.free(AdjunctKind.PLACE)):
-        return False  # `the van behind it, at a distance of 15 m`
-    if not values.accepts('placement_distance', value.measure):
-        return False
-    distance = values.explicit('placement_distance', value.measure)
-    nouns = [*subjects, *value.nouns, *(words.nouns if words is not None else ())]
-    phrases = frame.free(AdjunctKind.PHRASE, *_BETWEEN)
-    for phrase in phrases:
-        nouns += phrase.nouns
-    ends = _ends(frame, nouns)
-    if ends is None or not _set(frame, ends, distance):
-        return False
-    for adjunct in (value, words, *phrases):
-        if adjunct is not None:
-            adjunct.used = True
-    return True
+    return value.key != LENGTH and _is_kept(frame, value)
 
 
 def _is_kept(frame: Frame, value: Adjunct) -> bool:
-    """`the car keeps a distance of 22 m to the truck`: behind it, where nothing else is told."""
+    """`the car keeps a distance of 22 m to the truck`: how far behind it."""
     assert value.measure is not None
     flying = any(n.kind is NounKind.UAV for n in frame.subject_nouns)
     if flying or value.prep not in ('', 'of', 'with'):
@@ -131,46 +98,20 @@ def _is_kept(frame: Frame, value: Adjunct) -> bool:
     if not values.accepts('placement_distance', value.measure):
         return False
     places = frame.free(AdjunctKind.PLACE)
-    side = next((a for a in places if _is_side(a)), None)
     who = frame.subjects()
-    if len(who) != 1 or who[0].is_uav or places != [a for a in (side,) if a is not None]:
+    if len(who) != 1 or who[0].is_uav or places:
         return False
     phrases = frame.free(AdjunctKind.PHRASE, 'to', 'from')
     others = frame.objects([*value.nouns, *(n for p in phrases for n in p.nouns)])
-    if len(others) > 1 or any(e.is_uav for e in others) or (side is not None and not others):
+    if len(others) > 1 or any(e.is_uav for e in others):
         return False
     distance = values.explicit('placement_distance', value.measure)
-    if others:
-        relation = Relation.AHEAD if side is not None and side.key == 'behind' else Relation.BEHIND
-        relation = Relation.NEAR if frame.key == 'contain' and side is None else relation
-        _beside_whom(frame, who[0], others[0], relation)
     if not fill_in(who + others, {e.id for e in who + others} if others else None, distance):
         return False
-    for adjunct in (value, side, *phrases):
-        if adjunct is not None:
-            adjunct.used = True
+    for adjunct in (value, *phrases):
+        adjunct.used = True
     frame.scene.became(who[0].id)
     return True
-
-
-def _is_side(adjunct: Adjunct) -> bool:
-    """`the bus in front`, `the van behind it`: a side and nothing more."""
-    bare = all(n.kind is NounKind.PRONOUN for n in adjunct.nouns) and adjunct.measure is None
-    return bare and adjunct.key in ('ahead', 'behind')
-
-
-def _beside_whom(frame: Frame, one: Entity, other: Entity, relation: Relation) -> None:
-    pairs = ((one, other), (other, one))
-    if not any(p.of == b.id and p.relation in DISTANT for a, b in pairs for p in a.placements):
-        kept = frame.key == 'keep'
-        made = Placement(
-            relation=relation,
-            of=other.id,
-            kept_in_motion=kept,
-            throughout=kept or is_throughout(frame),
-            span=frame.span,
-        )
-        one.placements.append(made)
 
 
 def fill_in(about: tuple[Entity, ...], ids: set[str] | None, distance: Parameter) -> bool:
@@ -182,40 +123,4 @@ def fill_in(about: tuple[Entity, ...], ids: set[str] | None, distance: Parameter
                 told = known.model_dump() | {'distance_m': distance}
                 entity.placements[i] = Placement.model_validate(told)
                 return True
-    return False
-
-
-def _ends(frame: Frame, nouns: list[NounPhrase]) -> tuple[Entity, ...] | None:
-    """Return whose distance it is; nobody when none is named, None when that is unknown."""
-    if any(n.kind not in ACTORS for n in nouns):
-        return None
-    if all(n.kind is NounKind.PRONOUN for n in nouns):
-        told = frame.resolver.actors(nouns[:1]) if len(nouns) == 1 and nouns[0].key == 'it' else ()
-        return () if all(not e.is_uav for e in told) else None
-    ends = frame.objects(nouns)
-    if len(ends) == 1:
-        ends = (*(e for e in frame.inherited() if e not in ends), *ends)[:2]
-    return None if len(ends) != 2 or any(e.is_uav for e in ends) else ends
-
-
-def _set(frame: Frame, ends: tuple[Entity, ...], distance: Parameter) -> bool:
-    """Give the distance to the one placement that it can belong to."""
-    beside = next((a for a in frame.free(AdjunctKind.PLACE) if a.key in ('ahead', 'behind')), None)
-    pronoun = beside is not None and all(n.kind is NounKind.PRONOUN for n in beside.nouns)
-    if ends and beside is not None and beside.measure is None and pronoun:
-        beside.used = True
-        first, second = ends  # `between the ego and the van ahead of it`
-        relation = Relation(beside.key)
-        made = Placement(relation=relation, of=first.id, distance_m=distance, span=frame.span)
-        add_placement(second, made)
-        frame.scene.became(second.id)
-        return True
-    ids = {e.id for e in ends} or None
-    for clause in reversed(frame.scene.clauses[:-1]):
-        for entity in (*clause.subjects, *clause.objects):
-            if fill_in((entity,), ids, distance):
-                frame.scene.became(entity.id)
-                return True
-        if not ids and clause.subjects:
-            return False
     return False

@@ -10,7 +10,7 @@ from aurora_core.parsing.atoms import AtomKind
 from aurora_core.parsing.constructions.flight_types import FlightValues
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.pieces import Link
-from aurora_core.parsing.scene import Entity, MissionDraft, Scene
+from aurora_core.parsing.scene import Entity, MissionDraft
 from aurora_core.spec.vocabulary import MissionMode, Pattern
 
 
@@ -42,13 +42,6 @@ def goes_on_there(
     if not last.on_the_way or mode is MissionMode.TRACK or target not in (None, last.target):
         return False
     return last.altitude is None or found.altitude is None
-
-
-def just_sent(scene: Scene) -> bool:
-    """Return whether the clause before sent a UAV to a place: `it` is the place, then."""
-    return any(
-        m.on_the_way and m.id in c.ids for m in scene.missions[-1:] for c in scene.clauses[-2:-1]
-    )
 
 
 def watches_from(frame: Frame, last: MissionDraft, mode: MissionMode, target: str | None) -> bool:

@@ -88,7 +88,7 @@ def _altitude(frame: Frame) -> AltitudeTrigger | None:
     if adjunct is None:
         adjunct = frame.length('', 'to', 'at', 'through')
     if adjunct is None or adjunct.measure is None:
-        return _up_there(frame)
+        return None
     if not values.accepts('altitude', adjunct.measure):
         return None
     uavs = frame.subjects(lambda e: e.is_uav)
@@ -100,20 +100,6 @@ def _altitude(frame: Frame) -> AltitudeTrigger | None:
         uav=uavs[0].id,
         value_m=values.explicit('altitude', adjunct.measure),
     )
-
-
-def _up_there(frame: Frame) -> AltitudeTrigger | None:
-    """`goes up to 45 m, and as soon as it is there, …`."""
-    text = frame.scene.prompt[frame.piece.start : frame.piece.end].lower()
-    if not text.rstrip().endswith(('there', 'that high', 'that height', 'that altitude')):
-        return None
-    uavs = frame.subjects(lambda e: e.is_uav)
-    height = frame.scene.pending_altitude.get(uavs[0].id) if len(uavs) == 1 else None
-    if height is None:
-        return None
-    for adjunct in frame.free(AdjunctKind.OBJECT):
-        adjunct.used = True
-    return AltitudeTrigger(on='altitude_reached', uav=uavs[0].id, value_m=height)
 
 
 def _speed(frame: Frame) -> SpeedTrigger | None:
@@ -180,16 +166,15 @@ def _message(frame: Frame) -> MessageTrigger | None:
             return MessageTrigger(on='message_received', by=by, sender=None)
     if frame.key == 'alert' and frame.passive:
         return _warned(frame)
-    has_it = frame.key in ('contain', 'come') and _gets_it(frame, told)
     arrived = frame.key in ARRIVES and frame.has_mark(AtomKind.MESSAGE.value)
-    if frame.key != 'receive' and not arrived and not has_it:
+    if frame.key != 'receive' and (not arrived):
         return None
     who = frame.subjects(anything)
     if frame.key in ARRIVES and not frame.subject_nouns and told:
         receiver = frame.scene.by_id(told[-1])  # `as soon as the message is there`
         who = (receiver,) if receiver is not None else who
     for adjunct in frame.free(AdjunctKind.OBJECT):
-        adjunct.used = has_it
+        adjunct.used = False
     for adjunct in frame.free(AdjunctKind.OBJECT) + frame.free(AdjunctKind.PHRASE, 'to'):
         found = frame.objects([n for n in adjunct.nouns if n.kind in ACTORS]) if arrived else ()
         if found and found[0].id in told:  # `once the message has reached the car`
@@ -202,9 +187,6 @@ def _message(frame: Frame) -> MessageTrigger | None:
     frame.mark(AtomKind.MESSAGE.value)
     phrase = frame.take(AdjunctKind.PHRASE, 'from', 'of')
     senders = frame.objects(phrase.nouns) if phrase is not None else ()
-    if refers and senders and who == senders:  # `when it has got the RSU's message`
-        heard = _told_by(frame, senders[0])
-        who = (heard,) if heard is not None else who
     if len(who) != 1 or who == senders:
         return None
     return MessageTrigger(
@@ -212,22 +194,7 @@ def _message(frame: Frame) -> MessageTrigger | None:
     )
 
 
-def _told_by(frame: Frame, sender: Entity) -> Entity | None:
-    """Return whom somebody told last."""
-    for event in reversed(frame.scene.events):
-        if isinstance(event.action, SendMessage) and event.action.sender == sender.id:
-            return frame.scene.by_id(event.action.receiver)
-    return None
-
-
 ARRIVES = ('reach', 'come', 'be', 'contain', 'keep')
-
-
-def _gets_it(frame: Frame, told: list[str]) -> bool:
-    """`once it has it`, `when the car has got that`: the message that was told before."""
-    objects = [n for a in frame.free(AdjunctKind.OBJECT) for n in a.nouns]
-    it = all(n.kind is NounKind.PRONOUN and n.key == 'it' for n in objects)
-    return bool(told) and bool(objects) and it
 
 
 def _warned(frame: Frame) -> MessageTrigger | None:

@@ -14,7 +14,7 @@ from typing import Literal
 
 from aurora_core.parsing import values
 from aurora_core.parsing.atom_runs import LOOSE
-from aurora_core.parsing.atoms import Atom, AtomKind, NounKind, NounPhrase
+from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
 from aurora_core.parsing.criteria.parties import Parties
 from aurora_core.parsing.criteria.slots import criterion
 from aurora_core.parsing.criteria.told import Told, told
@@ -37,7 +37,6 @@ _PLACES = (NounKind.PLACE, NounKind.LANDMARK)
 _PAUSES = (AtomKind.COMMA, AtomKind.CONJUNCTION, AtomKind.THEN)
 _COMMANDS = ('alert', 'send', 'report')
 _LETTER = re.compile(r'\b[A-Z]\d+\b')
-_FROM = re.compile(r"(?:\b(?:from|by|of) (?P<of>N\d+)|(?P<own>N\d+) (?:'s )?message\b)")
 
 
 def told_cause(frame: Frame) -> Trigger | None:
@@ -186,12 +185,9 @@ def _received(frame: Frame, line: Told) -> Trigger | None:
     """Of the messages that were told, the last one that fits whom the clause names."""
     sent = [e.action for e in frame.scene.events if isinstance(e.action, SendMessage)]
     named = [e.id for e in _parties(frame, line).actors()]
-    found = _FROM.search(line.text)
-    origin = (found['of'] or found['own']) if found is not None else None
-    sender = _entity(frame, line.nouns[origin]) if origin is not None else None
     for message in reversed(sent):
         fits = all(one in (message.sender, message.receiver) for one in named)
-        if fits and sender in (None, message.sender):
+        if fits and None in (None, message.sender):
             return MessageTrigger(
                 on='message_received', by=message.receiver, sender=message.sender
             )
@@ -233,11 +229,6 @@ def who_moves(frame: Frame, who: tuple[Entity, ...]) -> tuple[Entity, ...]:
 
 def _parties(frame: Frame, line: Told) -> Parties:
     return Parties(frame.scene, frame.resolver, tuple(line.nouns.values()))
-
-
-def _entity(frame: Frame, noun: NounPhrase) -> str | None:
-    found = frame.resolver.actors((noun,))
-    return found[0].id if len(found) == 1 else None
 
 
 def _refers(line: Told) -> bool:

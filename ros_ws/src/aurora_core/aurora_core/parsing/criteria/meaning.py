@@ -8,7 +8,7 @@ import re
 from collections.abc import Sequence
 
 from aurora_core.parsing import values
-from aurora_core.parsing.atoms import Determiner, NounKind, NounPhrase
+from aurora_core.parsing.atoms import NounKind
 from aurora_core.parsing.criteria.criterion import Criterion, Limit, Op
 from aurora_core.parsing.criteria.moments import Moment
 from aurora_core.parsing.criteria.parties import Parties, left_out_before
@@ -124,7 +124,7 @@ class Meaning:
 
     def _lengths(self) -> bool:
         told = self._told
-        if len(told.nouns) == 1 and ('pairs' in told.topics or self._is_kin(told.nouns[0])):
+        if len(told.nouns) == 1 and 'pairs' in told.topics:
             return self._apart(self._who.kin())
         if all(n.kind in (NounKind.UAV, NounKind.PRONOUN) for n in told.nouns):
             flown = self._of_flyers()
@@ -193,12 +193,6 @@ class Meaning:
             return False
         asked = criteria_words()['musts'].match(told.words.lstrip()) is not None
         return told.owned or (asked and left_out_before(self._scene.prompt, self._span.start))
-
-    def _is_kin(self, noun: NounPhrase) -> bool:
-        """`drone separation`, `distance between drones`: of all UAVs from each other."""
-        bare = noun.kind is NounKind.UAV and noun.determiner is Determiner.BARE and not noun.index
-        apart = 'distance' in self._told.topics and not self._told.owned
-        return bare and apart and len(self._scene.uavs) > 1
 
     def _between(self, named: list[Entity | str]) -> bool:
         """From the first to every other one."""
@@ -299,7 +293,7 @@ class Meaning:
             e if isinstance(e, str) else e.id for e in named if isinstance(e, str) or ground(e)
         ]
         if not self._told.nouns and re.search(r'\b(?:be|is|stay|remain)s?\b', self._told.words):
-            targets = self._going_on()
+            targets = []
         observers = self._observers([e for e in named if isinstance(e, Entity)], targets)
         found = False
         for observer in observers:
@@ -309,12 +303,6 @@ class Meaning:
                 found = True
         self._spoken(observers)
         return found
-
-    def _going_on(self) -> list[str]:
-        """`the bus drives at 8 m/s and must be visible …`: who acts in the same sentence."""
-        clauses = self._scene.clauses
-        before = [c for c in clauses[:-1] if c.sentence == clauses[-1].sentence and c.subjects]
-        return [e.id for e in before[-1].subjects if ground(e)] if before else []
 
     def _observers(self, named: list[Entity], targets: list[str]) -> list[Entity]:
         flying = [e for e in named if e.is_uav]

@@ -17,7 +17,6 @@ from aurora_core.spec.scenario import (
     Behavior,
     EventDoneTrigger,
     MessageTrigger,
-    MissionDoneTrigger,
     Order,
     SendMessage,
     TimeTrigger,
@@ -63,7 +62,7 @@ class Sequels:
             return self._phases(told)
         limit = self._limit(told)
         if told.first is not None and told.first.key == 'mission':
-            return self._after_phase(then, limit)
+            return False
         first = self._first(told.first, then)
         if first is None:
             return False
@@ -221,24 +220,6 @@ class Sequels:
         self._scene.clause.ids[made.id] = None
         then.trigger = EventDoneTrigger(on='event_done', event=made.id)
         return made
-
-    # --- phases -------------------------------------------------------------------------------
-
-    def _after_phase(self, then: EventDraft, limit: Parameter | None) -> bool:
-        flown = [m for m in self._scene.missions if m.id not in self._changed()]
-        if not flown:
-            return False
-        if then.trigger is None:
-            then.trigger = MissionDoneTrigger(on='mission_done', uav=flown[-1].uav.id)
-        elif not isinstance(then.trigger, MissionDoneTrigger):
-            return False
-        then.delay = limit or then.delay
-        self._scene.became(then.id)
-        return True
-
-    def _changed(self) -> set[str | None]:
-        actions = (e.action for e in self._scene.events)
-        return {a.mission for a in actions if isinstance(a, UavAction)}
 
     def _phases(self, told: Sequel) -> bool:
         """`the second hover must start within 60 s after the first`."""

@@ -100,15 +100,9 @@ def _first(atoms: Sequence[Atom], start: int, stop: int) -> tuple[int, Criterion
         first = criterion(atoms[start:pause])
         if first is None or rest == stop:
             continue
-        if criterion(atoms[rest:stop]) is not None or _acts(atoms[rest:stop]):
+        if criterion(atoms[rest:stop]) is not None:
             return pause, first
     return None
-
-
-def _acts(atoms: Sequence[Atom]) -> bool:
-    """`must not exceed 36 km/h | and has to be at the station`: another verb, somewhere else."""
-    verb = any(a.kind is AtomKind.VERB for a in atoms)
-    return atoms[0].kind is AtomKind.AUXILIARY and verb and any(a.is_place for a in atoms)
 
 
 def _joins(atoms: Sequence[Atom], start: int, stop: int) -> bool:

@@ -19,7 +19,6 @@ from aurora_core.parsing.criteria.slots import criterion
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.scene import Entity
 from aurora_core.spec.scenario import (
-    AltitudeTrigger,
     BatteryTrigger,
     SpeedTrigger,
     Trigger,
@@ -40,11 +39,9 @@ def threshold(frame: Frame) -> DistanceCause | Trigger | None:
     found: DistanceCause | Trigger | None = None
     if limit.dimension == 'V':
         found = _speed(who, limit)
-    elif limit.dimension == 'L' and _OF_HEIGHT.search(told.words):
-        found = _altitude(who, limit)
     elif limit.dimension == 'P' and 'battery' in told.topics:
         found = _battery(who, limit)
-    elif limit.dimension == 'L':
+    elif limit.dimension == 'L' and not _OF_HEIGHT.search(told.words):
         found = _distance(who, told, limit)
     if found is not None:
         frame.taken()
@@ -65,14 +62,6 @@ def _speed(who: Parties, limit: Limit) -> SpeedTrigger | None:
     on: Literal['speed_below', 'speed_above'] = 'speed_below' if _below(limit) else 'speed_above'
     value = values.explicit('trigger_speed', limit.measure)
     return SpeedTrigger(on=on, who=one[0].id, value_mps=value)
-
-
-def _altitude(who: Parties, limit: Limit) -> AltitudeTrigger | None:
-    flyers = who.flyers()
-    if len(flyers) != 1 or _below(limit) or not values.accepts('altitude', limit.measure):
-        return None
-    value = values.explicit('altitude', limit.measure)
-    return AltitudeTrigger(on='altitude_reached', uav=flyers[0].id, value_m=value)
 
 
 def _battery(who: Parties, limit: Limit) -> BatteryTrigger | None:

@@ -48,47 +48,6 @@ def _named(atoms: Sequence[Atom], i: int) -> bool:
     return i < len(atoms) and (atoms[i].is_actor or atoms[i].is_place)
 
 
-def _cleft(atoms: list[Atom], prompt: str) -> list[Atom]:
-    """`it is over the park that the drone hovers`: `the drone hovers over the park`."""
-    told = [i for i, a in enumerate(atoms) if a.kind is AtomKind.RELATIVE]
-    if not told:
-        return atoms
-    for that in told:
-        it = _opening_it(atoms, that, prompt)
-        if it is None:
-            continue
-        front = it
-        while front < that and not _is_be(atoms, front) and atoms[front].kind is not AtomKind.FILL:
-            front += 1
-        while front < that and (_is_be(atoms, front) or atoms[front].kind in LOOSE):
-            front += 1
-        focus, rest = atoms[front:that], atoms[that + 1 :]
-        first = skip(rest, 0, HELPERS)
-        if first >= len(rest) or not focus:
-            continue
-        if rest[first].kind is AtomKind.VERB:
-            return atoms[:it] + focus + rest
-        if rest[first].is_actor:
-            return atoms[:it] + _behind_verb(rest, focus)
-    return atoms
-
-
-def _opening_it(atoms: Sequence[Atom], that: int, prompt: str) -> int | None:
-    """Return where `it is` begins that `that` answers to, with one thing between them."""
-    for i in range(that - 1, -1, -1):
-        if atoms[i].kind in (AtomKind.VERB, AtomKind.SUBORDINATOR) and not _is_be(atoms, i):
-            return None
-        if text_of(atoms[i], prompt) != 'it':
-            continue
-        be = skip(atoms, i + 1)
-        copula = _is_be(atoms, be) or text_of(atoms[i + 1], prompt) in ('is', 'was')
-        between = [a for a in atoms[i + 1 : that] if a.kind not in HELPERS and a.key != 'be']
-        one = sum(a.noun is not None for a in between) == 1
-        plain = all(a.noun is not None or a.kind in _GOVERNING for a in between)
-        return i if copula and one and plain else None
-    return None
-
-
 def _behind_verb(rest: list[Atom], focus: list[Atom]) -> list[Atom]:
     """`the drone hovers over … for 20 s`: what stood in front goes where it belongs."""
     verb = next((i for i, a in enumerate(rest) if a.kind is AtomKind.VERB), None)
@@ -119,53 +78,6 @@ def _takes_noun(atoms: Sequence[Atom], i: int) -> bool:
         AtomKind.VERB,
         *_GOVERNING,
     )
-
-
-def _what(atoms: list[Atom], prompt: str) -> list[Atom]:
-    """`the park is what a drone hovers over`, `what it tracks is a bus`."""
-    for i, atom in enumerate(atoms):
-        if text_of(atom, prompt) not in ('what', 'where', 'whom', 'the place where'):
-            continue
-        behind = skip(atoms, i + 1)
-        if behind >= len(atoms) or not atoms[behind].is_actor:
-            continue
-        be = i - 1
-        while be >= 0 and atoms[be].kind in LOOSE and not _is_be(atoms, be):
-            be -= 1
-        focus = be - 1
-        copula = be >= 0 and (_is_be(atoms, be) or _was_be(atoms[be + 1 : i], prompt))
-        if copula and not _is_be(atoms, be):
-            focus = be
-        while focus >= 0 and atoms[focus].kind in LOOSE:
-            focus -= 1
-        if copula and focus >= 0 and _named(atoms, focus):
-            begin = focus
-            told = _located(atom, prompt, [atoms[begin]])
-            return atoms[:begin] + _behind_verb(atoms[i + 1 :], told)
-        k = next((k for k in range(behind + 1, len(atoms)) if _copula_at(atoms, k)), None)
-        if k is not None and any(a.kind is AtomKind.VERB for a in atoms[behind:k]):
-            named = skip(atoms, k + 1)
-            if _named(atoms, named):
-                told = _located(atom, prompt, [atoms[named]])
-                clause = _behind_verb(atoms[i + 1 : k], told)
-                return atoms[:i] + clause + atoms[named + 1 :]
-    return atoms
-
-
-def _copula_at(atoms: Sequence[Atom], k: int) -> bool:
-    named = skip(atoms, k + 1)
-    return _is_be(atoms, k) and named < len(atoms) and _named(atoms, named)
-
-
-def _was_be(atoms: Sequence[Atom], prompt: str) -> bool:
-    return any(text_of(a, prompt) in ('is', 'was', 'are', 'be') for a in atoms)
-
-
-def _located(word: Atom, prompt: str, focus: list[Atom]) -> list[Atom]:
-    """`where it hovers is the park`: at the park."""
-    if 'where' not in text_of(word, prompt):
-        return focus
-    return [replace(word, kind=AtomKind.PREPOSITION, key='at', noun=None), *focus]
 
 
 def _turned(atoms: list[Atom], prompt: str) -> list[Atom]:
@@ -362,8 +274,6 @@ def _by_role(atoms: list[Atom], prompt: str) -> list[Atom]:
 
 
 _TURNS: tuple[Callable[[list[Atom], str], list[Atom]], ...] = (
-    _cleft,
-    _what,
     _sent,
     _turned,
     _participle,

@@ -4,16 +4,13 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import replace
 
 from aurora_core.parsing.atom_runs import HELPERS, LOOSE, runs, skip
 from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind
-from aurora_core.parsing.lexicon import shipped_lexicon
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.phases import FLOWN, PHASES
-from aurora_core.parsing.pieces import flies
 from aurora_core.parsing.rewriting.nominal import act_nouns
 
 _FLIGHTS = PHASES | {'navigate', 'orbit'}
@@ -29,7 +26,7 @@ _BREAKS_OFF = frozenset({'break_off', 'stop', 'finish', 'keep'})
 def flights(atoms: Sequence[Atom]) -> list[Atom]:
     """Return the atoms with flights as such, and without the end that the next one implies."""
     ordered = [a for told, stop in runs(atoms, AtomKind.STOP) for a in _ordered(told, stop)]
-    named = _sized(_centred(_owned(_on_the_way(_tasks(ordered)))))
+    named = _centred(_owned(_on_the_way(ordered)))
     return _broken_off(_after_that(_patrols(named)))
 
 
@@ -49,29 +46,6 @@ def _ordered(atoms: list[Atom], stop: Atom | None) -> list[Atom]:
     then = replace(atoms[first], kind=AtomKind.THEN, key='then')
     later = [replace(atoms[verb], form=VerbForm.THIRD), *atoms[verb + 1 : pause]]
     return [*atoms[:first], *atoms[pause + 1 :], atoms[pause], then, *later, *end]
-
-
-def _tasks(atoms: list[Atom]) -> list[Atom]:
-    """`the task of drone B is a patrol`: drone B is to patrol."""
-    for i in range(len(atoms) - 2):
-        of = skip(atoms, i + 1)
-        who = skip(atoms, of + 1)
-        be = skip(atoms, who + 1, HELPERS)
-        is_verb = be < len(atoms) and atoms[be].kind is AtomKind.VERB and atoms[be].key == 'be'
-        flown = skip(atoms, be + 1) if is_verb else be
-        task = atoms[i].words in shipped_lexicon().turns['tasks'] and atoms[i].noun is None
-        if not task or flown >= len(atoms) or atoms[of].words != 'of' or not flies(atoms[who]):
-            continue
-        said = any(a.key in ('be', 'be to') for a in atoms[who + 1 : flown])
-        if is_verb:
-            atoms[be] = replace(atoms[be], key='fly')  # `is an orbit around the park`
-        noun = atoms[flown].noun
-        if said and noun is not None and noun.head_text == 'patrol':
-            atoms[flown] = replace(atoms[flown], kind=AtomKind.VERB, key='navigate', noun=None)
-        if said:
-            fill = replace(atoms[i], kind=AtomKind.FILL, key='task')
-            return [*atoms[:i], fill, *_tasks(atoms[who:])]
-    return atoms
 
 
 def _on_the_way(atoms: list[Atom]) -> list[Atom]:
@@ -147,26 +121,6 @@ def _stop_before(atoms: Sequence[Atom], i: int) -> int:
     return i - 1 if paused else len(atoms)
 
 
-def _sized(atoms: list[Atom]) -> list[Atom]:
-    """`a 40 m radius orbit around the park`: a noun, behind what it is wide."""
-    written: list[Atom] = []
-    for i, atom in enumerate(atoms):
-        behind = i > 1 and atoms[i - 1].kind is AtomKind.THING and atoms[i - 2].measure is not None
-        verb = atom.kind is AtomKind.VERB and atom.key == 'orbit' and atom.form is VerbForm.BASE
-        if not behind or not verb:
-            written.append(atom)
-            continue
-        noun, _, around = atom.words.partition(' ')
-        cut = atom.start + len(noun)
-        written.append(replace(atom, kind=AtomKind.PATTERN, words=noun, end=cut))
-        if around:
-            start = cut + 1
-            written.append(
-                Atom(kind=AtomKind.PREPOSITION, key='around', start=start, end=atom.end)
-            )
-    return written
-
-
 def _patrols(atoms: list[Atom]) -> list[Atom]:
     """`after the patrol`, `the patrol is finished`: what a UAV flies, not who drives."""
     if not any(a.noun is not None and a.noun.kind is NounKind.UAV for a in atoms):
@@ -206,7 +160,7 @@ def _broken_off(atoms: list[Atom]) -> list[Atom]:
     """`gives up the patrol and tracks it`, `the patrol is aborted and …`: the change says it."""
     i = 0
     while i < len(atoms):
-        stop = _given_up(atoms, i) or _is_given_up(atoms, i)
+        stop = _given_up(atoms, i)
         if stop is not None:
             said = replace(atoms[i], kind=AtomKind.FILL, end=atoms[stop - 1].end, noun=None)
             atoms[i:stop] = [said]
@@ -217,28 +171,13 @@ def _broken_off(atoms: list[Atom]) -> list[Atom]:
 def _given_up(atoms: Sequence[Atom], i: int) -> int | None:
     """Return where the next act begins behind `gives up the patrol and`."""
     if atoms[i].kind is AtomKind.NEGATION:
-        return _no_more(atoms, i)
+        return None
     leaves = atoms[i].key == 'start' and atoms[i].words.startswith(('leav', 'left'))
     if atoms[i].kind is not AtomKind.VERB or not (atoms[i].key in _BREAKS_OFF or leaves):
         return None
     given_up = atoms[i].key == 'break_off'
     stop = flight_end(atoms, i + 1, named=given_up or leaves) or (i + 1 if given_up else None)
     return _next_act(atoms, stop) if stop is not None else None
-
-
-def _no_more(atoms: Sequence[Atom], i: int) -> int | None:
-    """`no longer tracks the car but`, `does not follow it any more and`."""
-    verb = skip(atoms, i + 1, HELPERS)
-    if verb >= len(atoms) or atoms[verb].key not in _FLIGHTS:
-        return None
-    stop = skip(atoms, verb + 1)
-    if stop < len(atoms) and (atoms[stop].is_actor or atoms[stop].is_place):
-        stop += 1
-    said = ' '.join(a.words for a in atoms[i:])
-    return _next_act(atoms, skip(atoms, stop)) if _NO_LONGER.search(said) else None
-
-
-_NO_LONGER = re.compile(r'no longer|no more|any ?more|any longer')
 
 
 def _next_act(atoms: Sequence[Atom], stop: int) -> int | None:
@@ -250,19 +189,6 @@ def _next_act(atoms: Sequence[Atom], stop: int) -> int | None:
         behind = skip(atoms, behind + 1)
     acts = behind < len(atoms) and atoms[behind].kind in (AtomKind.VERB, AtomKind.AUXILIARY)
     return behind if acts else None
-
-
-def _is_given_up(atoms: Sequence[Atom], i: int) -> int | None:
-    """Return where the next sentence begins behind `the patrol is given up and`."""
-    stop = flight_end(atoms, i)
-    if stop is None or (i and atoms[i - 1].kind in (AtomKind.VERB, AtomKind.PREPOSITION)):
-        return None
-    verb = skip(atoms, stop, HELPERS)
-    if verb == stop or verb >= len(atoms) or atoms[verb].key != 'break_off':
-        return None
-    behind = skip(atoms, verb + 1, (*LOOSE, *_PAUSES, AtomKind.THEN))
-    paused = verb + 1 < len(atoms) and atoms[verb + 1].kind in _PAUSES
-    return behind if paused and behind < len(atoms) and atoms[behind].is_actor else None
 
 
 def flight_end(atoms: Sequence[Atom], i: int, *, named: bool = False) -> int | None:

@@ -11,7 +11,7 @@ import re
 from dataclasses import replace
 from itertools import pairwise
 
-from aurora_core.parsing.atom_runs import HELPERS, LOOSE, skip, text_of
+from aurora_core.parsing.atom_runs import LOOSE, skip
 from aurora_core.parsing.atoms import Atom, AtomKind
 from aurora_core.parsing.measures import LENGTH, SPEED
 from aurora_core.parsing.morphology import VerbForm
@@ -63,31 +63,6 @@ def verbless(atoms: list[Atom], prompt: str) -> list[Atom]:
         when = Atom(kind=AtomKind.SUBORDINATOR, key='when', start=at, end=at + 1)
         told[begin : i + 1] = [when, *clause, replace(told[i], kind=AtomKind.COMMA, key=',')]
         return verbless(told, prompt)
-    return told
-
-
-def supposed(atoms: list[Atom], prompt: str) -> list[Atom]:
-    """`were the van to brake, …`, `had the bus stopped, …`: when it does."""
-    told = list(atoms)
-    for i in range(len(told) - 2):
-        opens = i == 0 or told[i - 1].kind in _ENDS
-        words = text_of(told[i], prompt)
-        if not opens or words not in ('were', 'had') or not told[i + 1].is_actor:
-            continue
-        verb = skip(told, i + 2, (*HELPERS, AtomKind.NEGATION, AtomKind.PREPOSITION))
-        if verb >= len(told) or told[verb].kind is not AtomKind.VERB:
-            continue
-        would = words == 'were' and told[verb - 1].words == 'to'
-        done = words == 'had' and told[verb].form is VerbForm.PAST
-        pause = next((k for k in range(verb, len(told)) if told[k].kind in _ENDS), None)
-        if not (would or done) or pause is None or told[pause].kind is not AtomKind.COMMA:
-            continue
-        told[i] = replace(
-            told[i], kind=AtomKind.SUBORDINATOR, key='when', other_kinds=frozenset(), noun=None
-        )
-        if would:
-            told[verb - 1] = replace(told[verb - 1], kind=AtomKind.FILL)
-            told[verb] = replace(told[verb], form=VerbForm.THIRD)
     return told
 
 

@@ -7,7 +7,6 @@ Also what only says that a condition follows: `the run is successful if …`.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -22,7 +21,6 @@ from aurora_core.parsing.rewriting.nominal import act_nouns
 _STANDS = frozenset({'wait', 'be', 'hover', 'exist'})
 _MOVES = frozenset({'come', 'drive', 'approach', 'walk', 'follow', 'cross'})
 _DO = frozenset({'do', 'does', 'did'})
-_SUCCESS = re.compile(r'\b(?:success|succeed|pass|valid|accept|fulfil|satisf|good if|won\b)')
 _BEHIND_DO = 6
 # Between a colon and its number: `separation: never below 20 m`.
 _BEFORE_VALUE = (AtomKind.FILL, AtomKind.NEGATION, AtomKind.PREPOSITION, AtomKind.UNKNOWN)
@@ -31,7 +29,7 @@ _BEFORE_VALUE = (AtomKind.FILL, AtomKind.NEGATION, AtomKind.PREPOSITION, AtomKin
 def straighten(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
     """Return the atoms of statements in the order subject, predicate."""
     told = _sides(_phases(_named(_applied(list(atoms), prompt))))
-    return _presented(_asked(_criteria(told, prompt), prompt), prompt)
+    return _presented(_asked(told, prompt), prompt)
 
 
 def _named(atoms: list[Atom]) -> list[Atom]:
@@ -75,24 +73,6 @@ def _is_heading(atoms: Sequence[Atom]) -> bool:
     names = (AtomKind.THING, AtomKind.WORLD_NOUN, AtomKind.IN_VIEW, AtomKind.MESSAGE)
     verbless = not any(a.kind in (AtomKind.VERB, AtomKind.MEASURE) for a in atoms)
     return verbless and any(a.kind in names for a in atoms)
-
-
-def _criteria(atoms: list[Atom], prompt: str) -> list[Atom]:
-    """`the run counts as successful if …`: a requirement, and no cause."""
-    changed = list(atoms)
-    begin = 0
-    for i, atom in enumerate(atoms):
-        if atom.kind is AtomKind.STOP:
-            begin = i + 1
-        if atom.kind is not AtomKind.SUBORDINATOR or atom.key != 'when' or i == begin:
-            continue
-        told = atoms[begin:i]
-        about = any(a.kind is AtomKind.SCENARIO for a in told)
-        text = prompt[told[0].start : atom.start].lower()
-        if about and _SUCCESS.search(text) and not any(a.is_actor for a in told):
-            for k in range(begin, i + 1):
-                changed[k] = replace(atoms[k], kind=AtomKind.FILL, noun=None)
-    return changed
 
 
 def _asked(atoms: list[Atom], prompt: str) -> list[Atom]:

@@ -17,12 +17,11 @@ from aurora_core.parsing.measures import COUNT
 from aurora_core.parsing.morphology import VerbForm
 
 _GROUPS = (NounKind.UAV, NounKind.AGENT, NounKind.VEHICLE)
-_ENDS = (AtomKind.STOP, AtomKind.COMMA)
 
 
 def members(atoms: Sequence[Atom]) -> list[Atom]:
     """Return the atoms with every group named before its members, which are one each."""
-    return _named_first(_with_it(_of_front(_one_of(_listed(list(atoms))))))
+    return _named_first(_one_of(_listed(list(atoms))))
 
 
 def _listed(atoms: list[Atom]) -> list[Atom]:
@@ -94,7 +93,7 @@ def _one_of(atoms: list[Atom]) -> list[Atom]:
             continue
         noun = group.noun
         assert noun is not None
-        if noun.count > 1 and not _is_told(written, group):
+        if noun.count > 1:
             whole = replace(group, noun=replace(noun, determiner=Determiner.BARE))
             written[opened:opened] = [whole, stop_at(group)]
         one = replace(noun, start=atoms[i].start, determiner=Determiner.ONE, plural=False, count=1)
@@ -113,71 +112,6 @@ def _is_one(atoms: Sequence[Atom], i: int) -> bool:
 def _group(atoms: Sequence[Atom], i: int) -> Atom | None:
     noun = atoms[i].noun if i < len(atoms) else None
     return atoms[i] if noun is not None and noun.kind in _GROUPS and noun.plural else None
-
-
-def _is_told(atoms: Sequence[Atom], group: Atom) -> bool:
-    """Return whether a group of this kind was named before."""
-    nouns = [a.noun for a in atoms if a.noun is not None and a.key == group.key]
-    return any(noun.count > 1 or noun.plural for noun in nouns)
-
-
-def _of_front(atoms: list[Atom]) -> list[Atom]:
-    """`of our three drones, one tracks it`: there are three drones; one tracks it."""
-    written: list[Atom] = []
-    i = 0
-    while i < len(atoms):
-        opens = not written or written[-1].kind is AtomKind.STOP
-        k = skip(atoms, i, LOOSE)
-        of = opens and k < len(atoms) and atoms[k].words == 'of'
-        group = _group(atoms, skip(atoms, k + 1)) if of else None
-        at = atoms.index(group, k) if group is not None else len(atoms)
-        if group is not None and at + 1 < len(atoms) and atoms[at + 1].kind in _ENDS:
-            written += [group, stop_at(atoms[at + 1])]
-            i = at + 2
-            continue
-        written.append(atoms[i])
-        i += 1
-    return written
-
-
-def _with_it(atoms: list[Atom]) -> list[Atom]:
-    """`the van has a drone above it, which tracks it`: a drone is above the van and tracks it."""
-    for i in range(1, len(atoms) - 3):
-        has = atoms[i]
-        who = skip(atoms, i + 1)
-        near = skip(atoms, who + 1)
-        it = skip(atoms, near + 1)
-        if has.kind is not AtomKind.VERB or has.key != 'contain' or it >= len(atoms):
-            continue
-        first = i - 1
-        while first and atoms[first].kind in _USED:  # `the van we always use has …`
-            first -= 1
-        owner = atoms[first]
-        if not _on_ground(owner) or not _flies(atoms[who]) or atoms[it].key != 'it':
-            continue
-        if atoms[near].kind not in (AtomKind.PREPOSITION, AtomKind.RELATION):
-            continue
-        told = [atoms[who], replace(has, key='be'), atoms[near], owner]
-        rest = atoms[it + 1 :]
-        relative = next((k for k, a in enumerate(rest[:5]) if a.kind is AtomKind.RELATIVE), None)
-        if relative is not None and rest[relative - 1].kind is AtomKind.COMMA:
-            joined = replace(rest[relative], kind=AtomKind.CONJUNCTION, key='and')
-            rest = [*rest[: relative - 1], joined, *rest[relative + 1 :]]
-        return [*atoms[:first], *told, *_with_it(rest)]
-    return atoms
-
-
-_USED = (*LOOSE, AtomKind.UNKNOWN, AtomKind.CAUSATIVE, AtomKind.RELATIVE)
-
-
-def _on_ground(atom: Atom) -> bool:
-    kinds = (NounKind.AGENT, NounKind.VEHICLE, NounKind.EGO)
-    return atom.noun is not None and atom.noun.kind in kinds
-
-
-def _flies(atom: Atom) -> bool:
-    """A UAV, or a member of a group of them."""
-    return atom.noun is not None and (atom.noun.kind is NounKind.UAV or atom.key == 'one')
 
 
 def _named_first(atoms: list[Atom]) -> list[Atom]:

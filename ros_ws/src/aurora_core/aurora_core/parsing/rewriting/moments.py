@@ -26,7 +26,7 @@ _HAPPENS = frozenset({'happen', 'be', 'do so'})
 
 def dated(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
     """Return the atoms with every time in the clause of what happens then."""
-    told = _leaving(_clefts(before_that(_exact(atoms, prompt)), prompt))
+    told = _leaving(before_that(_exact(atoms, prompt)))
     told = _in_that_case(_that_happens(told, prompt), prompt)
     return _until_then(_headings(_into_it(_later(told))))
 
@@ -192,7 +192,7 @@ def _in_that_case(atoms: list[Atom], prompt: str) -> list[Atom]:
             if written[-1].kind is AtomKind.STOP:
                 written[-1] = replace(written[-1], kind=AtomKind.COMMA, key=',')
             written.append(then)
-        else:  # `tell the police when that happens`
+        else:
             begin = len(written)
             while begin and written[begin - 1].kind not in (AtomKind.STOP, AtomKind.COMMA):
                 begin -= 1
@@ -260,42 +260,3 @@ def _dating(atoms: Sequence[Atom], i: int, prompt: str) -> int | None:
     while k < len(atoms) and atoms[k].kind in (AtomKind.FROM_START, AtomKind.FILL, AtomKind.THEN):
         k += 1
     return begin if timed and _ends(atoms, k) else None
-
-
-def _clefts(atoms: list[Atom], prompt: str) -> list[Atom]:
-    """`it is at 20 s that the van brakes`, `it is the car that brakes`."""
-    written: list[Atom] = []
-    i = 0
-    while i < len(atoms):
-        if text_of(atoms[i], prompt) not in ('it', "it's"):
-            written.append(atoms[i])
-            i += 1
-            continue
-        opens = not written or written[-1].kind in _PAUSES
-        k = i + 1
-        while k < len(atoms) and atoms[k].kind in _SMALL:
-            k += 1
-        be = k < len(atoms) and atoms[k].kind is AtomKind.VERB and atoms[k].key == 'be'
-        begin = k + 1 if be else k
-        timed = begin < len(atoms) and atoms[begin].key == 'at' and _is_time(atoms, begin + 1)
-        who = begin
-        while not timed and who < len(atoms) and atoms[who].kind is AtomKind.FILL:
-            who += 1
-        that = begin + 2 if timed else who + 1
-        is_that = that < len(atoms) and text_of(atoms[that], prompt) in (
-            'that',
-            'who',
-            'which',
-        )
-        verbal = that + 1 < len(atoms) and atoms[that + 1].kind in (
-            AtomKind.VERB,
-            AtomKind.AUXILIARY,
-        )
-        named = not timed and who < len(atoms) and atoms[who].is_actor and verbal
-        if opens and is_that and (timed or named) and (be or k > i + 1):
-            written += atoms[begin:that]
-            i = that + 1
-            continue
-        written.append(atoms[i])
-        i += 1
-    return written

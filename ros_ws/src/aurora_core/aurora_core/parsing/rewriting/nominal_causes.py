@@ -19,7 +19,7 @@ from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.phases import PHASES
 from aurora_core.parsing.pieces import TRANSPARENT
 from aurora_core.parsing.rewriting.flight_nouns import flight_end
-from aurora_core.parsing.rewriting.in_place import interrupted, supposed, verbless
+from aurora_core.parsing.rewriting.in_place import interrupted, verbless
 from aurora_core.parsing.rewriting.message_causes import heard
 from aurora_core.spec.parameter import Bound
 
@@ -29,13 +29,12 @@ _OF_OBJECT = frozenset({'see', 'lose', 'receive', 'finish'})
 # What a participle in front of a sentence tells as its cause.
 _NOTICED = frozenset({'see', 'lose', 'receive', 'finish', 'reach'})
 _COMPLETES = 'complet'
-_TAKES_PLACE = ('happen', 'be', 'come', 'follow')
 _ENDS = (AtomKind.STOP, AtomKind.COMMA, AtomKind.THEN, AtomKind.CONJUNCTION)
 
 
 def verbal(atoms: list[Atom], prompt: str) -> list[Atom]:
     """Return the atoms with events that are told as nouns written out as clauses."""
-    atoms = interrupted(verbless(supposed(heard(atoms, prompt), prompt), prompt))
+    atoms = interrupted(verbless(heard(atoms, prompt), prompt))
     written = _participles(_nominal(_made_to(_done(atoms, prompt), prompt), prompt), prompt)
     return [
         replace(a, kind=AtomKind.UNKNOWN)
@@ -54,11 +53,6 @@ def _nominal(atoms: list[Atom], prompt: str) -> list[Atom]:
     i = 0
     while i < len(atoms):
         atom = atoms[i]
-        dated = _dated_event(written, atoms, i, prompt)
-        if dated is not None:
-            clause, i = dated
-            written += clause
-            continue
         lag = _within_of(written, atom)
         opens = (
             lag
@@ -140,23 +134,6 @@ def _is_small(atom: Atom) -> bool:
 
 def _is_done(atom: Atom, prompt: str) -> bool:
     return text_of(atom, prompt) in shipped_lexicon().turns['finished']
-
-
-def _dated_event(
-    written: Sequence[Atom], atoms: Sequence[Atom], i: int, prompt: str
-) -> tuple[list[Atom], int] | None:
-    """`the truck's braking takes place at 20 s`, `the bus's departure is at 8 s`."""
-    if written and written[-1].kind not in _ENDS:
-        return None
-    event = _event(atoms, i, prompt, because=False)
-    if event is None:
-        return None
-    clause, k = event
-    k = skip(atoms, k, TRANSPARENT)
-    if k >= len(atoms) or atoms[k].kind is not AtomKind.VERB or atoms[k].key not in _TAKES_PLACE:
-        return None
-    timed = any(a.measure is not None and a.key == TIME for a in atoms[k + 1 : k + 4])
-    return (clause, k + 1) if timed and any(a.is_actor for a in clause) else None
 
 
 def _acts_behind(atoms: Sequence[Atom], i: int) -> bool:
@@ -315,9 +292,8 @@ def _made_to(atoms: list[Atom], prompt: str) -> list[Atom]:
         relative = bool(solid) and all(
             a.kind is AtomKind.RELATIVE or a.key == 'that' for a in solid
         )
-        relative = relative or _refers(cause, prompt)
         ing = changed[i].form is VerbForm.ING or changed[i].verb_form is VerbForm.ING
-        if relative or (not solid and ing and begin) or _is_message(solid):
+        if relative or (not solid and ing and begin):
             then = replace(changed[i], kind=AtomKind.THEN, key='then', start=changed[i].start)
             changed[begin : verb + 1] = [then, *acts]
             i = begin
@@ -328,17 +304,6 @@ def _made_to(atoms: list[Atom], prompt: str) -> list[Atom]:
             changed[begin : verb + 1] = [*clause, comma, *acts]
         i += 1
     return changed
-
-
-def _refers(cause: Sequence[Atom], prompt: str) -> bool:
-    """`this makes the bus brake`: what was told before does."""
-    words = [text_of(a, prompt) for a in cause if a.kind is not AtomKind.CONJUNCTION]
-    return bool(words) and words[0] in shipped_lexicon().turns['referring'] and len(words) < 3
-
-
-def _is_message(solid: Sequence[Atom]) -> bool:
-    """`the warning makes the car brake`."""
-    return len(solid) == 1 and solid[0].kind is AtomKind.MESSAGE
 
 
 def _effect(atoms: Sequence[Atom], i: int) -> tuple[int, int] | None:

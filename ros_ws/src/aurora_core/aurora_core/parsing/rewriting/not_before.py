@@ -23,40 +23,12 @@ _CAUSES = ('when', 'after')
 _BEGINS = frozenset(
     {*REACTIONS, *FLOWN, 'drive', 'walk', 'land', 'ascend', 'send', 'alert', 'report'}
 )
-_EARLIER = ('before', 'earlier', 'sooner', 'before that', 'any earlier', 'any sooner', 'b4')
 _PAUSES = (AtomKind.COMMA, AtomKind.CONJUNCTION, AtomKind.RELATIVE)
 
 
 def not_before(atoms: Sequence[Atom]) -> list[Atom]:
     """Return the atoms with every denied beginning as one that waits for its cause."""
-    return by_sentence(atoms, lambda told: _added(_behind(_in_front(_stays(_repeated(told))))))
-
-
-def _repeated(atoms: list[Atom]) -> list[Atom]:
-    """`brakes when it has the message, never before`: says the same once more."""
-    kept: list[Atom] = []
-    for i, atom in enumerate(atoms):
-        ends = i + 1 == len(atoms) or atoms[i + 1].kind in _PAUSES
-        denied = bool(kept) and kept[-1].kind is AtomKind.NEGATION
-        if denied and ends and atom.words in _EARLIER:
-            kept[-1] = replace(kept[-1], kind=AtomKind.FILL)
-            atom = replace(atom, kind=AtomKind.FILL)
-        kept.append(atom)
-    return kept
-
-
-def _stays(atoms: list[Atom]) -> list[Atom]:
-    """`it waits unless it gets the message`: until it does."""
-    at = next((i for i, a in enumerate(atoms) if a.key == 'unless' and _waits(a)), None)
-    pause = [i for i, a in enumerate(atoms) if a.kind is AtomKind.COMMA]
-    if at is None or not _tells(atoms, at + 1):
-        return atoms
-    effect = atoms[:at] if at > skip(atoms, 0) else atoms[pause[0] :] if pause else []
-    verbs = [a for a in effect if a.kind is AtomKind.VERB]
-    denied = any(a.kind is AtomKind.NEGATION for a in effect)
-    if len(verbs) != 1 or verbs[0].key != 'wait' or denied:
-        return atoms
-    return [*atoms[:at], replace(atoms[at], key='until'), *atoms[at + 1 :]]
+    return by_sentence(atoms, lambda told: _behind(_in_front(told)))
 
 
 def _behind(atoms: list[Atom]) -> list[Atom]:
@@ -73,24 +45,6 @@ def _behind(atoms: list[Atom]) -> list[Atom]:
             when = replace(atom, kind=AtomKind.SUBORDINATOR, key='when')
             rest = [*atoms[begin : begin + no], *atoms[begin + no + 1 : at]]
             return [*atoms[:begin], *rest, when, *_behind(atoms[at + 1 :])]
-    return atoms
-
-
-def _added(atoms: list[Atom]) -> list[Atom]:
-    """`it tracks the bus, but not before drone A is done`: what waits is told in front."""
-    for at, atom in enumerate(atoms):
-        no = at - 1
-        while no > 0 and atoms[no].kind in LOOSE:
-            no -= 1
-        if no <= 0 or not _waits(atom) or atoms[no].kind is not AtomKind.NEGATION:
-            continue
-        begin = no
-        while begin and atoms[begin - 1].kind in (*_PAUSES, *LOOSE):
-            begin -= 1
-        ends = not any(a.kind is AtomKind.COMMA for a in atoms[at:])
-        if ends and has_verb(atoms[:begin]) and _tells(atoms, at + 1):
-            after = replace(atom, kind=AtomKind.SUBORDINATOR, key='after')
-            return [*atoms[:begin], after, *atoms[at + 1 :]]
     return atoms
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from aurora_core.parsing.atom_runs import HELPERS, by_sentence, skip
+from aurora_core.parsing.atom_runs import HELPERS, by_sentence
 from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind, NounPhrase
 from aurora_core.parsing.measures import COUNT, LENGTH, SPEED
 from aurora_core.parsing.morphology import VerbForm
@@ -79,7 +79,7 @@ def _drives(atoms: Sequence[Atom], verb: int) -> bool:
 
 def placing_words(atoms: Sequence[Atom]) -> list[Atom]:
     """Write out what is left unsaid of places."""
-    told = _late_distances(_sides_of(_neighbours(_themselves(atoms))))
+    told = list(_neighbours(_themselves(atoms)))
     return _back(_bare_places(_lane_numbers(_in_between(_headed(told)))))
 
 
@@ -96,55 +96,6 @@ def _themselves(atoms: Sequence[Atom]) -> list[Atom]:
         else:
             kept.append(atom)
     return kept
-
-
-def _late_distances(atoms: Sequence[Atom]) -> list[Atom]:
-    """`behind this car, 15 m, a van`: 15 m behind this car a van."""
-    told = list(atoms)
-    for i in range(len(told) - 3):
-        where, whom = told[i : i + 2]
-        far = skip(told, i + 2, (AtomKind.COMMA, *HELPERS))
-        new = skip(told, far + 1, (AtomKind.COMMA, *HELPERS))
-        if where.kind is not AtomKind.RELATION or not whom.is_actor or new >= len(told):
-            continue
-        length = told[far].key == LENGTH and told[far].measure is not None
-        before = told[i - 1] if i else None
-        noun = told[new].noun
-        named = told[new].is_actor and noun is not None
-        named = named and noun is not None and noun.determiner in (Determiner.INDEFINITE, _ONE)
-        if length and named and (before is None or before.measure is None):
-            told[i : new + 1] = [told[far], where, whom, told[new]]
-    return told
-
-
-_ONE = Determiner.ONE
-
-
-def _sides_of(atoms: Sequence[Atom]) -> list[Atom]:
-    """`on the ego's left`, `to the van's rear`: to the left of the ego."""
-    told = list(atoms)
-    for i in range(len(told) - 3):
-        prep, whose, mark, side = told[i : i + 4]
-        key = _SIDES.get(side.words)
-        if prep.kind is not AtomKind.PREPOSITION or not whose.is_actor or key is None:
-            continue
-        stop = i + 4
-        while stop < len(told) and told[stop].words in _SIDE_WORDS:
-            stop += 1
-        of_whom = whose.noun is not None and whose.noun.kind is not NounKind.PRONOUN
-        if mark.words not in _OWN or not of_whom or _goes_on(told[stop : stop + 1]):
-            continue
-        beside = replace(prep, kind=AtomKind.RELATION, key=key, words=f'to the {side.words} of')
-        filled = [replace(a, kind=AtomKind.FILL) for a in told[i + 2 : stop]]
-        told[i:stop] = [beside, whose, *filled]
-    return told
-
-
-def _goes_on(atoms: Sequence[Atom]) -> bool:
-    """Return whether the word is no noun yet: `on the ego's left lane`."""
-    return any(a.kind is AtomKind.UNKNOWN or a.noun is not None for a in atoms) and not any(
-        a.is_actor for a in atoms
-    )
 
 
 def _neighbours(atoms: Sequence[Atom]) -> list[Atom]:

@@ -17,10 +17,8 @@ from aurora_core.parsing.measures import LENGTH, TIME
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.pieces import MOST_ATOMS, TRANSPARENT
 from aurora_core.parsing.rewriting.alike import alike, as_fast
-from aurora_core.parsing.rewriting.answers import answers
 from aurora_core.parsing.rewriting.clefts import plain_order
 from aurora_core.parsing.rewriting.conjunctions import joined
-from aurora_core.parsing.rewriting.dwells import set_off
 from aurora_core.parsing.rewriting.enumerations import told_once
 from aurora_core.parsing.rewriting.flight_nouns import flights
 from aurora_core.parsing.rewriting.headings import headings
@@ -32,8 +30,8 @@ from aurora_core.parsing.rewriting.nominal import predicates
 from aurora_core.parsing.rewriting.nominal_causes import verbal
 from aurora_core.parsing.rewriting.not_before import not_before
 from aurora_core.parsing.rewriting.pairs import pairs
+from aurora_core.parsing.rewriting.particles import particles
 from aurora_core.parsing.rewriting.placing_words import placing_words, told_of_us
-from aurora_core.parsing.rewriting.prompted import prompted
 from aurora_core.parsing.rewriting.radio import radio
 from aurora_core.parsing.rewriting.roles import cast
 from aurora_core.parsing.rewriting.shared_out import shared_out, shares
@@ -74,14 +72,10 @@ def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
     below, titles = headings(atoms, prompt)
     told, background = unwrap(joined(_cast(below, prompt), prompt), prompt)
     told = alike(as_fast(in_turn(told, prompt), prompt), prompt)
-    told = set_off(shared_out(not_before(told), prompt), prompt)
-    told = answers(told, prompt)
-    told = dated(verbal(prompted(radio(told, prompt), prompt), prompt), prompt)
+    told = particles(shared_out(not_before(told), prompt), prompt)
+    told = dated(verbal(radio(told, prompt), prompt), prompt)
     told = value_statements(
-        predicates(
-            plain_order(_places(shares(_scenes(placing_words(told), prompt)), prompt), prompt),
-            prompt,
-        ),
+        predicates(plain_order(_places(shares(placing_words(told)), prompt), prompt), prompt),
         prompt,
     )
     kept, spans = _take_back(straighten(told, prompt))
@@ -205,22 +199,6 @@ def _is_same_road(atom: Atom, before: Atom | None, place: Atom, prompt: str) -> 
     return again and place.key == 'main_road' and before.key in ('over', 'along', 'around')
 
 
-def _scenes(atoms: list[Atom], prompt: str) -> list[Atom]:
-    """`we want a scene with a bus`: a bus."""
-    changed = list(atoms)
-    for i in range(1, len(changed) - 1):
-        head = changed[i - 1]
-        named = head.kind in (AtomKind.FRAME, AtomKind.SCENARIO)
-        scene = text_of(head, prompt).rpartition(' ')[2] in shipped_lexicon().turns['scenes']
-        begin = i
-        while begin and changed[begin - 1].kind in (*TRANSPARENT, AtomKind.SCENARIO):
-            begin -= 1
-        opens = begin == 0 or changed[begin - 1].kind is AtomKind.STOP
-        if changed[i].key == 'with' and named and scene and opens and changed[i + 1].is_actor:
-            changed[i] = replace(changed[i], kind=AtomKind.FILL)
-    return changed
-
-
 def _comma_at(atoms: Sequence[Atom], i: int) -> bool:
     return i < len(atoms) and atoms[i].kind is AtomKind.COMMA
 
@@ -287,25 +265,17 @@ def _labels(atoms: list[Atom]) -> list[Atom]:
             continue
         noun = solid[0].noun if len(solid) == 1 else None
         one = noun is not None and noun.count <= 1 and not noun.plural
-        told = one or (noun is not None and _commands(atoms, i))
-        if atom.key == ':' and told and solid[0].is_actor:
+        if atom.key == ':' and one and solid[0].is_actor:
             changed[i] = replace(atom, kind=AtomKind.FILL)
         solid = []
     return changed
 
 
-def _commands(atoms: Sequence[Atom], i: int) -> bool:
-    """`two drones: climb to 50 m`: what all of them are told to do."""
-    behind = next((a for a in atoms[i + 1 :] if a.kind is not AtomKind.FILL), None)
-    return behind is not None and behind.kind is AtomKind.VERB and behind.form is VerbForm.BASE
-
-
 def _small_words(atoms: list[Atom]) -> list[Atom]:
-    """`hears from it`, `20 m off the van`."""
+    """`hears from it`."""
     written: list[Atom] = []
     told = ''  # the last predicate of the sentence
-    for i, atom in enumerate(atoms):
-        behind = atoms[i + 1] if i + 1 < len(atoms) else None
+    for atom in atoms:
         if atom.kind is AtomKind.VERB:
             told = atom.key
         elif atom.kind is AtomKind.STOP:
@@ -320,17 +290,8 @@ def _small_words(atoms: list[Atom]) -> list[Atom]:
                 Atom(kind=AtomKind.NOUN, key='it', start=cut + 1, end=atom.end, noun=it),
             ]
             continue
-        length = written[-1] if written else None
-        away = atom.key == 'off' and length is not None and length.key == LENGTH
-        if away and behind is not None and _stands(atoms, i + 1):
-            atom = replace(atom, kind=AtomKind.PREPOSITION, key='from')
         written.append(atom)
     return written
-
-
-def _stands(atoms: Sequence[Atom], i: int) -> bool:
-    solid = next((a for a in atoms[i:] if a.kind is not AtomKind.FILL), None)
-    return solid is not None and (solid.is_actor or solid.is_place)
 
 
 def _climbs(atoms: list[Atom], prompt: str) -> list[Atom]:

@@ -19,8 +19,6 @@ from aurora_core.parsing.measures import COUNT, LENGTH, SPEED, TIME
 _SAYS_SO = 'respectively'
 _SEPARATORS = (AtomKind.COMMA, AtomKind.CONJUNCTION)
 _SHARED = (LENGTH, SPEED, TIME)
-_RANGES = ('between', 'from')
-_STAYING = ('hover', 'keep', 'wait', 'orbit')
 _OTHER_CLAUSE = (AtomKind.SUBORDINATOR, AtomKind.RELATIVE, AtomKind.THEN)
 # Written so that nothing of it can be read otherwise: `1,000` may be one or a thousand.
 # One word for the unit: `1 min 30 s` has two.
@@ -88,8 +86,6 @@ def _of_both(atoms: Sequence[Atom], i: int) -> bool:
 
 def _sentence(atoms: list[Atom], prompt: str) -> list[Atom]:
     told_so = any(a.key == _SAYS_SO for a in atoms)
-    if told_so:
-        atoms = _units_told(atoms, prompt)
     verb = next((i for i, a in enumerate(atoms) if a.kind is AtomKind.VERB), None)
     if verb is None or any(a.kind in _OTHER_CLAUSE for a in atoms):
         return atoms
@@ -101,18 +97,11 @@ def _sentence(atoms: list[Atom], prompt: str) -> list[Atom]:
     lists = [
         found
         for found in _lists(atoms, verb + 1, prompt)
-        if len(found.items) == len(who.items) and (told_so or _is_plain(found, atoms, verb))
+        if len(found.items) == len(who.items) and told_so
     ]
     if not lists:
         return atoms
     return _written(atoms, who, lists)
-
-
-def _is_plain(found: _List, atoms: Sequence[Atom], verb: int) -> bool:
-    """Return whether a list is shared out although nobody says `respectively`."""
-    if found.items[0].measure is not None:
-        return found.one_unit and atoms[found.begin - 1].key not in _RANGES
-    return atoms[verb].key in _STAYING and all(a.is_place for a in found.items)
 
 
 def _sharers(atoms: Sequence[Atom]) -> _List | None:
@@ -157,16 +146,6 @@ def _lists(atoms: Sequence[Atom], begin: int, prompt: str) -> list[_List]:
         found += [whole] if whole is not None else []
         i = made.stop
     return found
-
-
-def _units_told(atoms: list[Atom], prompt: str) -> list[Atom]:
-    """`at 100 and 150 ft respectively`: both in feet, whoever shares them."""
-    told = list(atoms)
-    for found in _lists(atoms, 0, prompt):
-        measures = [i for i in range(found.begin, found.stop) if atoms[i].measure is not None]
-        for i, item in zip(measures, found.items, strict=False):
-            told[i] = item
-    return told
 
 
 def _list_at(atoms: Sequence[Atom], i: int) -> _List | None:
@@ -235,13 +214,7 @@ def _written(atoms: Sequence[Atom], who: _List, lists: Sequence[_List]) -> list[
                 written.append(starts[i].items[number])
                 i = starts[i].stop
             else:
-                if atoms[i].key != _SAYS_SO and not _beside(atoms, i):
+                if atoms[i].key != _SAYS_SO:
                     written.append(atoms[i])
                 i += 1
     return written
-
-
-def _beside(atoms: Sequence[Atom], i: int) -> bool:
-    """The commas around `respectively` go with it."""
-    beside = (*atoms[max(0, i - 1) : i], *atoms[i + 1 : i + 2])
-    return atoms[i].kind is AtomKind.COMMA and any(a.key == _SAYS_SO for a in beside)

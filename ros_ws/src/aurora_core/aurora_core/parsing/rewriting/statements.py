@@ -13,10 +13,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from aurora_core.parsing.adjunct_reader import fits
-from aurora_core.parsing.atom_runs import HELPERS, LOOSE, skip, stop_at, text_of
+from aurora_core.parsing.atom_runs import HELPERS, skip, stop_at, text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
 from aurora_core.parsing.lexicon import shipped_lexicon
-from aurora_core.parsing.measures import COUNT, LENGTH, SPEED, TIME
+from aurora_core.parsing.measures import LENGTH, SPEED, TIME
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.rewriting.world_statements import horizon, traffic
 
@@ -35,21 +35,9 @@ _PAUSES = (AtomKind.STOP, AtomKind.COMMA, AtomKind.CONJUNCTION)
 def value_statements(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
     """Return the atoms with every stated value behind its name."""
     written = traffic(list(atoms), prompt)
-    for turn in (
-        _sufficient,
-        _repeated,
-        _between,
-        _delayed,
-        _counted,
-        _swapped,
-        _paired,
-        _owned,
-        _of_ground,
-        _lasting,
-        _doing,
-    ):
+    for turn in (_sufficient, _between, _delayed, _swapped, _of_ground, _lasting, _doing):
         written = turn(written, prompt)
-    return horizon(_so(_going(written, prompt), prompt))
+    return horizon(_so(written, prompt))
 
 
 def _sufficient(atoms: list[Atom], prompt: str) -> list[Atom]:
@@ -133,70 +121,6 @@ def _swapped(atoms: list[Atom], prompt: str) -> list[Atom]:
     return changed
 
 
-def _paired(atoms: list[Atom], prompt: str) -> list[Atom]:
-    """`its speed is 6 m/s and its altitude 45 m`: the verb is said once."""
-    changed: list[Atom] = []
-    copula: Atom | None = None
-    for i, atom in enumerate(atoms):
-        if atom.kind is AtomKind.STOP:
-            copula = None
-        if _is_be(atom) and copula is None:
-            before = [a for a in changed[-6:] if a.kind is AtomKind.THING]
-            copula = atom if before else None
-        value = _at(atoms, i + 1)
-        if copula is not None and _is_value(atom, value):
-            k = len(changed)
-            while k and (changed[k - 1].kind is AtomKind.FILL or changed[k - 1].key == 'it'):
-                k -= 1
-            if k and changed[k - 1].kind in _BREAKS and any(_is_be(a) for a in changed):
-                changed[k:] = [
-                    replace(a, kind=AtomKind.FILL, key='its', noun=None) for a in changed[k:]
-                ]
-                changed += [atom, _copula(copula)]
-                continue
-        changed.append(atom)
-    return changed
-
-
-def _owned(atoms: list[Atom], prompt: str) -> list[Atom]:
-    """`the car has a speed of 8 m/s`: `the speed of the car is 8 m/s`."""
-    changed = list(atoms)
-    for i in range(len(changed) - 4):
-        owner, has = changed[i], changed[i + 1]
-        ground = owner.noun is not None and owner.noun.kind in (*_GROUND, NounKind.PRONOUN)
-        if not ground or text_of(has, prompt) not in ('has', 'have', 'with', 'having'):
-            continue
-        if text_of(has, prompt) == 'with' and not _ends(changed, i + 2):
-            continue
-        name = skip(changed, i + 2)
-        told = _at(changed, name)
-        if told is None or told.key != 'speed' or told.kind is not AtomKind.THING:
-            continue
-        of = name + 1
-        if of < len(changed) and changed[of].key == 'of':
-            value = skip(changed, of + 1)
-            if _is_value(told, _at(changed, value)) and _ends(changed, value):
-                drive = Atom(
-                    kind=AtomKind.VERB,
-                    key='drive',
-                    start=has.start,
-                    end=has.end,
-                    form=VerbForm.THIRD,
-                )
-                changed[i + 1 : value] = [drive, replace(changed[of], key='at')]
-    return changed
-
-
-def _ends(atoms: Sequence[Atom], i: int) -> bool:
-    """Return whether the clause that holds the atom has no verb."""
-    for atom in atoms[i:]:
-        if atom.kind in (AtomKind.STOP, AtomKind.COMMA):
-            return True
-        if atom.kind is AtomKind.VERB:
-            return False
-    return True
-
-
 def _of_ground(atoms: list[Atom], prompt: str) -> list[Atom]:
     """`a truck, whose speed is 8 m/s, …`: a sentence of its own, behind this one."""
     written: list[Atom] = []
@@ -235,25 +159,6 @@ def _whose(atoms: Sequence[Atom], i: int, prompt: str) -> tuple[int, int] | None
     while value < len(atoms) and (atoms[value].kind in HELPERS or _is_be(atoms[value])):
         value += 1
     return (name, value) if _is_value(told, _at(atoms, value)) else None
-
-
-def _counted(atoms: list[Atom], prompt: str) -> list[Atom]:
-    """`the number of its retransmissions is 2`: the retransmissions are 2."""
-    written: list[Atom] = []
-    for i, atom in enumerate(atoms):
-        word = text_of(atom, prompt).split()[-1:]
-        of = _at(atoms, i + 1)
-        if word in (['number'], ['count'], ['amount']) and of is not None and of.key == 'of':
-            name = i + 2
-            while name < len(atoms) and text_of(atoms[name], prompt) in _OWNERS:
-                name += 1
-            told = _at(atoms, name)
-            if told is not None and told.key in ('retransmissions', 'waypoint'):
-                for k in range(i, name):
-                    written.append(replace(atoms[k], kind=AtomKind.FILL, noun=None))
-                return written + _counted(atoms[name:], prompt)
-        written.append(atom)
-    return written
 
 
 def _delayed(atoms: list[Atom], prompt: str) -> list[Atom]:
@@ -329,35 +234,6 @@ def _lasting(atoms: list[Atom], prompt: str) -> list[Atom]:
     return changed
 
 
-def _repeated(atoms: list[Atom], prompt: str) -> list[Atom]:
-    """`two thirds of a minute (forty seconds)`: the same once more."""
-    changed = list(atoms)
-    for i, atom in enumerate(atoms):
-        if atom.kind is not AtomKind.FILL or atom.key != '(':
-            continue
-        close = next((k for k in range(i + 1, len(atoms)) if atoms[k].key == ')'), None)
-        if close is None:
-            continue
-        inside = [a for a in atoms[i + 1 : close] if a.kind not in LOOSE]
-        values = [a.measure for a in inside if a.measure is not None]
-        before = [a.measure for a in atoms[max(0, i - 4) : i] if a.measure is not None]
-        if len(values) != 1 or not before:
-            continue
-        same = abs(before[-1].value - values[0].value) < 1e-6 * max(1.0, abs(values[0].value))
-        kind = before[-1].dimension == values[0].dimension or COUNT in (
-            before[-1].dimension,
-            values[0].dimension,
-        )
-        if same and kind and all(a.measure or a.kind is AtomKind.THING for a in inside):
-            first = next(k for k in range(i - 1, -1, -1) if atoms[k].measure is not None)
-            if before[-1].dimension == COUNT:
-                changed[first] = replace(atoms[first], kind=AtomKind.FILL, measure=None)
-                continue
-            for k in range(i, close + 1):
-                changed[k] = replace(atoms[k], kind=AtomKind.FILL, measure=None)
-    return changed
-
-
 def _doing(atoms: list[Atom], prompt: str) -> list[Atom]:
     """`doing 28 km/h, a car …`: it drives as fast as that."""
     changed = list(atoms)
@@ -370,17 +246,6 @@ def _doing(atoms: list[Atom], prompt: str) -> list[Atom]:
         if fast and ground and word in ('do', 'does', 'doing'):
             form = {'do': VerbForm.BASE, 'doing': VerbForm.ING}.get(word, VerbForm.THIRD)
             changed[i] = replace(changed[i], kind=AtomKind.VERB, key='drive', form=form)
-    return changed
-
-
-def _going(atoms: list[Atom], prompt: str) -> list[Atom]:
-    """`ten seconds in, a car starts`: after the start of the scenario."""
-    changed = list(atoms)
-    for i in range(1, len(changed)):
-        behind = _at(changed, i + 1)
-        alone = behind is None or behind.kind in (AtomKind.COMMA, AtomKind.STOP)
-        if text_of(changed[i], prompt) == 'in' and alone and changed[i - 1].key == TIME:
-            changed[i] = replace(changed[i], kind=AtomKind.FROM_START, key='into the run')
     return changed
 
 

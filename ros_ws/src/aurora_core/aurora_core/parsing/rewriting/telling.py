@@ -26,7 +26,7 @@ def messages_told(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
         if who >= len(told):
             break
         words = text_of(atom, prompt)
-        if words in ('call', 'called') and not _calls(told, i, prompt):
+        if words in ('call', 'called'):
             told[i] = replace(atom, kind=AtomKind.UNKNOWN)  # `a drone called Alpha`
         elif told[who].is_actor:
             behind = skip(told, who + 1, HELPERS)
@@ -71,14 +71,3 @@ def _gone(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
 def _alert(atom: Atom, words: str) -> Atom:
     form = VerbForm.ING if words.endswith('ing') else VerbForm.THIRD
     return replace(atom, kind=AtomKind.VERB, key='alert', form=form)
-
-
-def _calls(atoms: Sequence[Atom], i: int, prompt: str) -> bool:
-    """Return whether somebody is called, or was; `a car, which I'll call ours` is none."""
-    behind = skip(atoms, i + 1)
-    before = atoms[i - 1] if i else None
-    if before is not None and text_of(before, prompt).partition("'")[0] in ('i', 'we', 'you'):
-        return False
-    helped = before is not None and before.kind in (AtomKind.AUXILIARY, *LOOSE)
-    by = behind < len(atoms) and atoms[behind].key == 'by'
-    return (behind < len(atoms) and atoms[behind].is_actor) or helped or by
