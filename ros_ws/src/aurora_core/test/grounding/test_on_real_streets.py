@@ -10,6 +10,7 @@ import pytest
 
 from aurora_core.grounding.persons import walk_end_m
 from aurora_core.knowledge.map_model import MapModel
+from aurora_core.knowledge.walk_path import kerb_to_kerb
 from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.spec.scenario import ScenarioSpec
 
@@ -24,6 +25,16 @@ def test_a_walk_ends_on_its_sidewalk_however_short(goal_m: float, group: int) ->
     assert ends == sorted(ends, reverse=True)
     assert len(set(ends)) == group
     assert all(0.0 < end < goal_m for end in ends)
+
+
+def test_nobody_crosses_from_a_stub_of_a_sidewalk(map_of: Callable[[str], MapModel]) -> None:
+    """Who arrived on one of 20 cm was gone, and the run ended with an error."""
+    network = map_of('helsinki').network
+    walks = [kerb_to_kerb(network, crossing) for crossing in network.crossings]
+    ends = [network.lane(i) for w in walks if w is not None for i in (w.lane_id, w.goal_lane_id)]
+    assert min(lane.arc_length_m for lane in ends) >= 1.0
+    assert min(lane.arc_length_m for lane in network.sidewalks) < 1.0
+    assert len(ends) > 300
 
 
 @pytest.mark.parametrize(
