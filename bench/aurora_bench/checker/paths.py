@@ -114,8 +114,10 @@ def ahead_of(scene: Scene, a: str, b: str, ticks: Any) -> tuple[FloatArray, Floa
     back = own_a.own_m[index] - back_arc
     back_beyond = (back_arc <= 1e-6) | (back_arc >= own_a.arc_m[-1] - 1e-6)
     back_good = (np.abs(back_lateral) <= BESIDE_M) & ~(back_beyond & (np.abs(back) > 1e-6))
-    ahead = np.where(good, ahead, np.where(back_good, back, np.nan))
-    beside = np.where(good, lateral, np.where(back_good, -back_lateral, np.nan))
+    # Who is behind where a way begins is beside no part of it, however near: its own way tells.
+    told = good & ~(beyond & back_good & ~back_beyond)
+    ahead = np.where(told, ahead, np.where(back_good, back, np.nan))
+    beside = np.where(told, lateral, np.where(back_good, -back_lateral, np.nan))
     return ahead, beside
 
 

@@ -34,9 +34,11 @@ from aurora_core.grounding.parked import parked_pose
 from aurora_core.grounding.releases import Release, convoy_release, group_releases, own_release
 from aurora_core.grounding.routes import route_finder
 from aurora_core.grounding.sites import (
+    LIMIT_SLACK_MPS,
     SeatedAgent,
     Site,
     brisk_lanes,
+    limits_mps,
     line_from,
     on_main_roads,
     tied_way_m,
@@ -68,6 +70,9 @@ _PASSES_BY_MPS = 4.0
 
 # Routes tried for one on which no signal is in the way.
 _RUNS_TRIED = 60
+
+# Where a stated speed is looked for: on so much of the way (m).
+_SHOWN_WAY_M = 500.0
 
 
 class AgentPlacer:
@@ -264,6 +269,13 @@ class AgentPlacer:
         right = lane.right_lane_id
         return right is None or vclass not in self._map.network.lane(right).allows
 
+    def _beyond_limits(self, path: RoutePath, arc_m: float, speed_mps: float | None) -> float:
+        """Return the factor with which a stated speed is driven on a way that never allows it."""
+        if speed_mps is None:
+            return 0.0
+        limits = limits_mps(self._map.network, path, arc_m, _SHOWN_WAY_M)
+        return speed_mps / min(limits) if speed_mps > max(limits) + LIMIT_SLACK_MPS else 0.0
+
     def _grounded(
         self,
         agent: GroundAgent,
@@ -286,6 +298,7 @@ class AgentPlacer:
         first = lane.edge_id
         late = still or release.on is not ReleaseOn.START
         factor = max(style.get('speed_factor', 1.0), _urged(record, speed_mps))
+        factor = max(factor, self._beyond_limits(path, arc_m, speed_mps))
         edges = path.edge_ids[path.edge_ids.index(first) :]
         x, y, hx, hy = path.position_at(arc_m)
         if parked:

@@ -255,9 +255,28 @@ class Grounder:
     def _ranked_sites(
         self, spec: ScenarioSpec, split: SceneSplit, run_m: float
     ) -> list[tuple[float, Site]]:
+        """Return the sites by the score of their roads, on streets that allow a stated speed.
+
+        Where none of these has room, a vehicle drives faster than its street allows.
+        """
+        grounding = self._settings.grounding
+        stated = fastest_stated_mps(spec, (m.agent for m in split.convoy), grounding.speeds)
+        ranked = self._ranked_on(spec, split, run_m, stated, least_limit_mps=stated)
+        if not ranked and stated > 0.0:
+            ranked = self._ranked_on(spec, split, run_m, stated, least_limit_mps=0.0)
+        return ranked
+
+    def _ranked_on(
+        self,
+        spec: ScenarioSpec,
+        split: SceneSplit,
+        run_m: float,
+        stated: float,
+        *,
+        least_limit_mps: float,
+    ) -> list[tuple[float, Site]]:
         grounding = self._settings.grounding
         way_m = tied_way_m(spec, grounding)
-        stated = fastest_stated_mps(spec, (m.agent for m in split.convoy), grounding.speeds)
         changing = {m.agent.id for m in split.convoy if changes_lane(spec, m.agent)}
         need_m = way_m if len(split.convoy) > 1 else _LOOKED_S / 2.0 * stated
         members = [m.agent for m in split.convoy]
@@ -277,7 +296,7 @@ class Grounder:
                 run_m,
                 self._goals.spacing_m(spec, grounding.anchor_spacing_m),
                 split.before,
-                least_limit_mps=stated,
+                least_limit_mps=least_limit_mps,
                 several_lanes=bool(changing),
                 spawns=self._spawns,
                 goals=goals,

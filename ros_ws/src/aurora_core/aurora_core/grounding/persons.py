@@ -140,6 +140,15 @@ def can_stand(agent: GroundAgent, placement: Placement, spec: ScenarioSpec) -> b
     return relation in _AT and at_place
 
 
+def walk_end_m(goal_m: float, ahead: int, group: int) -> float:
+    """Return where somebody stops on a last sidewalk of a length (m), be it shorter than a step.
+
+    Of the `group` that stops there so many are `ahead`.
+    """
+    last_m = max(goal_m - _KERB_M, goal_m / 2.0)
+    return last_m - min(_NEXT_M, last_m / group) * ahead
+
+
 class PersonPlacer:
     """Places persons on one map.
 
@@ -250,9 +259,8 @@ class PersonPlacer:
             first_m = min(_BEYOND_M, goal_m / 2.0)
             next_m = min(_NEXT_M, (goal_m - _KERB_M - first_m) / len(group))
             return first_m + next_m * (len(group) - 1 - number)
-        next_m = min(_NEXT_M, (goal_m - _KERB_M) / len(group))
         ahead = sum(w.arc_m > seat.arc_m for w in group)
-        return goal_m - _KERB_M - next_m * ahead
+        return walk_end_m(goal_m, ahead, len(group))
 
     def _spot(
         self, spec: ScenarioSpec, agent: GroundAgent, site: Site, run_s: float, number: int

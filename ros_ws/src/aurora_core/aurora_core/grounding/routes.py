@@ -174,7 +174,7 @@ class RouteFinder:
             link.to_lane_id
             for link in links
             if link.direction != 't'
-            and self._network.lane(link.to_lane_id).edge_id in self._endless
+            and self._network.lane(link.to_lane_id).edge_id in self._through
         }
         return sorted(onward)
 

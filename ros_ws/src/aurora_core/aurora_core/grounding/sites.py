@@ -50,7 +50,7 @@ _END_GAP_M = 2.0
 _ABREAST_M = 30.0
 
 # A limit of 13.89 m/s is meant where 50 km/h are asked (m/s).
-_LIMIT_SLACK_MPS = 0.05
+LIMIT_SLACK_MPS = 0.05
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -142,12 +142,7 @@ class Site:
 
     def fastest_mps(self, network: RoadNetwork, way_m: float) -> float:
         """Return the highest speed limit on the first `way_m` of the origin's way."""
-        end_m = self.origin_arc_m + way_m
-        return max(
-            network.lane(s.lane_id).speed_limit_mps
-            for s in self.origin_path.segments
-            if s.end_m > self.origin_arc_m and s.start_m < end_m and not s.is_internal
-        )
+        return max(limits_mps(network, self.origin_path, self.origin_arc_m, way_m))
 
     def open_way_m(self, start_m: float, way_m: float, apart_m: float) -> float:
         """Return how much of the origin's way is farther than `apart_m` from every junction.
@@ -170,6 +165,17 @@ class Site:
         turning = cosine < settings.turn_cosine
         # A turn may spread over two samples: count where turning begins.
         return int(turning[0]) + int((turning[1:] & ~turning[:-1]).sum())
+
+
+def limits_mps(
+    network: RoadNetwork, path: RoutePath, start_m: float, way_m: float
+) -> tuple[float, ...]:
+    """Return the speed limits of the streets on a stretch of a path, from an arc length on."""
+    return tuple(
+        network.lane(s.lane_id).speed_limit_mps
+        for s in path.segments
+        if s.end_m > start_m and s.start_m < start_m + way_m and not s.is_internal
+    )
 
 
 def tied_way_m(spec: ScenarioSpec, settings: GroundingSettings) -> float:
@@ -296,7 +302,7 @@ def _stands(network: RoadNetwork, site: Site, spawns: SpawnTable | None) -> bool
 def brisk_lanes(lanes: list[Lane], stated_mps: float) -> tuple[list[Lane], float]:
     """Return the lanes that allow a stated speed, else the fastest ones, and their least limit."""
     fastest_mps = max((lane.speed_limit_mps for lane in lanes), default=0.0)
-    least_mps = max(0.0, min(stated_mps, fastest_mps) - _LIMIT_SLACK_MPS)
+    least_mps = max(0.0, min(stated_mps, fastest_mps) - LIMIT_SLACK_MPS)
     return [lane for lane in lanes if lane.speed_limit_mps >= least_mps], least_mps
 
 

@@ -180,7 +180,7 @@ class TrafficPlacer:
         lanes = [
             lane
             for lane in self._network.driving_lanes(self._record.vclass)
-            if self._finder.endless(lane.edge_id)
+            if self._finder.goes_through(lane.edge_id)
             and lane.edge_id not in streets
             and lane.length_m > 4.0 * margin_m
         ]

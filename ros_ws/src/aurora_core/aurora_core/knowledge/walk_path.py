@@ -15,6 +15,8 @@ from aurora_core.knowledge.net_types import Crossing, Lane, Point, Points
 from aurora_core.knowledge.road_network import RoadNetwork
 
 _SAME_POINT_M = 0.01
+# Nobody stands on a shorter sidewalk: netconvert leaves stubs of it between junctions (m).
+_STUB_M = 1.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -92,14 +94,16 @@ def walk_along(
 def kerb_to_kerb(network: RoadNetwork, crossing: Crossing) -> WalkPath | None:
     """Return the walk over a crossing, from the sidewalk that ends there to the one beyond.
 
-    None where the street has no sidewalk on one of its sides.
+    None where the street has no sidewalk on one of its sides, or only a stub of one.
     """
     edges = [network.edge(edge_id) for edge_id in crossing.edge_ids]
     before = [e for e in edges if e.to_junction == crossing.junction_id]
     beyond = [e for e in edges if e.from_junction == crossing.junction_id]
     if not before or not beyond:
         return None
-    return walk_along(network, (before[0].id, beyond[0].id), crossing)
+    found = walk_along(network, (before[0].id, beyond[0].id), crossing)
+    ends = () if found is None else (found.lane_id, found.goal_lane_id)
+    return found if all(network.lane(end).arc_length_m >= _STUB_M for end in ends) else None
 
 
 def _apart_m(a: Point, b: Point) -> float:

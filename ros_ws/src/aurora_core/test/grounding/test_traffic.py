@@ -52,6 +52,22 @@ def test_there_is_as_much_as_the_street_asks_for(
     assert all(dist((c.x_m, c.y_m), (bus.x_m, bus.y_m)) <= 300.0 for c in cars)
 
 
+def test_it_stays_on_a_map_whose_streets_end_at_its_border(
+    read_prompt: Read, ground: Ground, map_of: Maps, tolerances: Tolerances
+) -> None:
+    network = map_of('helsinki').network
+    agents = ground(read_prompt('A drone tracks a bus in heavy traffic.', 'helsinki'), 'helsinki')
+    cars = [a for a in agents.agents if a.role == 'background']
+    (bus,) = (a for a in agents.agents if a.role != 'background')
+    lanes = [
+        (network.edge(lane.edge_id).street_name, lane.polyline)
+        for lane in network.driving_lanes('passenger')
+    ]
+    length_m = street_length_m(lanes, (bus.x_m, bus.y_m), tolerances.traffic_radius_m)
+    due = tolerances.traffic_per_km['high'] * length_m / 1000.0
+    assert len(cars) >= tolerances.traffic_share[0] * due
+
+
 def test_it_keeps_off_the_actors_and_apart(traffic: Traffic) -> None:
     actors, cars = traffic('A van tailgates the ego car in heavy traffic; a drone tracks the van.')
     streets = {edge for a in actors for edge in a.edges[:8]}
@@ -62,13 +78,19 @@ def test_it_keeps_off_the_actors_and_apart(traffic: Traffic) -> None:
 
 
 def test_it_stands_where_its_lane_is_drawn(traffic: Traffic, map_of: Maps) -> None:
-    # With this seed one is at the end of a curve whose lane SUMO counts longer than it is.
-    _, cars = traffic('A drone tracks a bus for 90 s in heavy traffic.', seed=11)
-    lanes = {c.id: map_of('downtown').network.lane(c.lane_id) for c in cars}
-    assert any(lane.arc_length_m < lane.length_m - 1.0 for lane in lanes.values())
-    for car in cars:
-        x, y, _, _ = lanes[car.id].line.at(car.lane_position_m)
-        assert dist((x, y), (car.x_m, car.y_m)) < 1e-6
+    network = map_of('downtown').network
+    curved = 0
+    for seed in range(1, 40):
+        _, cars = traffic('A drone tracks a bus for 90 s in heavy traffic.', seed=seed)
+        for car in cars:
+            lane = network.lane(car.lane_id)
+            # SUMO counts the lane of a curve longer than it is.
+            curved += lane.arc_length_m < lane.length_m - 1.0
+            x, y, _, _ = lane.line.at(car.lane_position_m)
+            assert dist((x, y), (car.x_m, car.y_m)) < 1e-6
+        if curved:
+            break
+    assert curved
 
 
 def test_the_seed_draws_it_and_nothing_else(traffic: Traffic) -> None:
