@@ -24,6 +24,17 @@ from aurora_core.spec.scenario import (
 )
 from aurora_core.spec.vocabulary import AgentType
 
+# What a limit is on, in words; the others are on speeds.
+_WHAT = {
+    'agents_max': 'A number',
+    'duration_s': 'A scenario',
+    'link_loss': 'A loss',
+    'uav_altitude_m': 'An altitude',
+    'uav_endurance_s': 'A phase',
+    'uav_standoff_max_m': 'A standoff',
+    'uavs_max': 'A number',
+    'wind_max_mps': 'A wind',
+}
 # Realised values may exceed a limit by so much.
 _MARGIN = 1.01
 
@@ -269,8 +280,8 @@ def _broken(rule: _Rule) -> Iterator[Certificate]:
         span=parameter.span,
         rule=Rule.LIMIT,
         sentence=(
-            f'{rule.path} asks for {value:g}{unit}; '
-            f'it has to be {word} {limit:g}{unit} ({rule.limit_name}).'
+            f'{_WHAT.get(rule.limit_name, "A speed")} of {value:g}{unit} is asked for '
+            f'({rule.path}); it has to be {word} {limit:g}{unit} ({rule.limit_name}).'
         ),
     )
 

@@ -70,9 +70,18 @@ class Mends:
             changed = _changed(self._spec, path, value)
             return any(_key(c) == _key(proof) for c in self._checks[index](changed))
 
-        for nearest in _nearest(number.value, _step(path, number), holds):
-            left = self._all(_changed(self._spec, path, nearest))
-            if all(_key(c) in self._known and path not in paths_of(c) for c in left):
+        def any_holds(value: float) -> bool:
+            return any(path in paths_of(c) for c in self._left(path, value))
+
+        step = _step(path, number)
+        for nearest in _nearest(number.value, step, holds):
+            left = self._left(path, nearest)
+            if left and all(c.chain and path in paths_of(c) for c in left):
+                # A phase as long as the battery lasts has a climb before it.
+                values = _nearest(number.value, step, any_holds)
+                nearest, left = next(((v, self._left(path, v)) for v in values), (nearest, left))
+            # To be seen for none of the time is nothing to ask for.
+            if not left and (nearest != 0.0 or not path.startswith('conditions/')):
                 return Mend(
                     path=path,
                     requested=number.value,
@@ -81,6 +90,11 @@ class Mends:
                     span=number.span,
                 )
         return None
+
+    def _left(self, path: str, value: float) -> list[Certificate]:
+        """Return the proofs against another value: those that rest on it, and new ones."""
+        found = self._all(_changed(self._spec, path, value))
+        return [c for c in found if path in paths_of(c) or _key(c) not in self._known]
 
     def _all(self, spec: ScenarioSpec) -> list[Certificate]:
         found = (c for check in self._checks for c in check(spec))

@@ -92,12 +92,14 @@ def _holds(proof: Certificate, spec: dict[str, Any] | None, *, by_any: bool) -> 
     `by_any`: by these bounds on times or by any others.
     """
     derivation = _DERIVATIONS.get(proof.rule) if proof.rule is not None else None
-    if derivation is None or spec is None:
+    if spec is None or 'missions' not in spec:
         return finding(by_limit(proof, spec)).valid
     request = exact(Request(spec))
-    timed = derivation in (schedule.times, schedule.battery)
+    timed = proof.unit == 's' or derivation in (schedule.times, schedule.battery)
     if timed and by_any and schedule.excluded(request):
         return True
+    if derivation is None:
+        return finding(by_limit(proof, spec)).valid
     if proof.chain:
         proof = schedule.derived_anew(proof, request)
     return finding(derivation(proof, request)).valid

@@ -58,6 +58,20 @@ CASES = {
         request_of(TRACKED, links=[LINK], events=[SENT]),
         {'links/link1/range_m': 68.0, 'missions/m0/altitude_m': 42.0},
     ),
+    'phase': (
+        # It has to climb and to land as well.
+        request_of(hovering(40.0, duration_s=number(1800.0, 's'))),
+        {'missions/m0/duration_s': 1478.7},
+    ),
+    'phases': (
+        request_of(
+            [
+                *hovering(50.0, duration_s=number(840.0, 's')),
+                {**hovering(50.0, duration_s=number(720.0, 's'))[0], 'id': 'm1'},
+            ]
+        ),
+        {'missions/m0/duration_s': 753.4, 'missions/m1/duration_s': 633.4},
+    ),
     'battery': (
         request_of(hovering(118.0, duration_s=number(1490.0, 's'))),
         {'missions/m0/duration_s': 1437.1, 'missions/m0/altitude_m': 18.9},
