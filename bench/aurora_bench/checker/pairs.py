@@ -9,6 +9,7 @@ import numpy as np
 from aurora_bench.checker import limits
 from aurora_bench.checker.answers import Judged, does_not, graded
 from aurora_bench.checker.paths import ahead_of
+from aurora_bench.checker.phases import missions_end_s
 from aurora_bench.checker.recording import FloatArray
 from aurora_bench.checker.scene import Scene, longest_s, share
 
@@ -32,7 +33,10 @@ def gaps(scene: Scene, follower: str, leader: str) -> tuple[FloatArray, FloatArr
 
 
 def follow(scene: Scene, body: str, leader: str) -> Judged:
-    """Return whether a body follows another: the gap for 0.8 of the time after 10 s."""
+    """Return whether a body follows another: the gap for 0.8 of the time after 10 s.
+
+    Until the last mission ends: what is stated with motion need not hold while UAVs land.
+    """
     if not scene.is_body(leader):
         return does_not(f'{leader} is no body')
     ticks, gap, _ = gaps(scene, body, leader)
@@ -42,11 +46,12 @@ def follow(scene: Scene, body: str, leader: str) -> Judged:
     with np.errstate(invalid='ignore'):
         good = (gap >= least) & (gap <= limits.FOLLOW_GAP_M[1])
     times = scene.times[ticks]
-    late = times >= limits.FOLLOW_AFTER_S
+    asked = times < missions_end_s(scene)
+    late = asked & (times >= limits.FOLLOW_AFTER_S)
     moving = np.flatnonzero(speed > limits.STARTED_MPS)
     if not len(moving):
         return does_not(f'{body} does not move')
-    own = times >= float(times[moving[0]]) + limits.FOLLOW_AFTER_S
+    own = asked & (times >= float(times[moving[0]]) + limits.FOLLOW_AFTER_S)
     whole, since = share(good[late]), share(good[own])
     known = gap[late & np.isfinite(gap)]
     middle = float(np.median(known)) if len(known) else np.nan

@@ -43,6 +43,15 @@ def segments(scene: Scene, uav: str) -> tuple[Segment, ...]:
     return tuple(found)
 
 
+def missions_end_s(scene: Scene) -> float:
+    """Return when the last mission of any UAV ends: with the recording where none does."""
+    uavs = [name for name, body in scene.bodies.items() if body.is_uav]
+    last = [flown[-1] for uav in uavs if (flown := segments(scene, uav))]
+    if not last or not all(segment.closed for segment in last):
+        return scene.end_s
+    return float(max(scene.times[segment.end] for segment in last))
+
+
 def landing_tick(scene: Scene, uav: str) -> int | None:
     """Return the tick of the first command of the landing."""
     phase = scene.recording.phase[:, scene.bodies[uav].row]

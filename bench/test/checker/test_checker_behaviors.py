@@ -71,6 +71,17 @@ def test_following_keeps_a_gap(stage: Any, gap: float, outcome: str) -> None:
     assert stage.says(_does('follow', 'bus1')) == outcome
 
 
+@pytest.mark.parametrize(('ends_s', 'outcome'), [(30.0, 'holds'), (50.0, 'does_not')])
+def test_following_is_asked_until_the_last_mission_ends(
+    make_stage: Any, ends_s: float, outcome: str
+) -> None:
+    stage = make_stage(120.0)
+    stage.drive('bus1', 'bus', 4.0, x=0.0)
+    stage.ground('car1', 'car', -30.0 + 4.0 * np.minimum(stage.t, 32.0), -4.95)
+    stage.uav('drone', lambda t: (0.0, 30.0, 50.0), ends=(ends_s,))
+    assert stage.says(_does('follow', 'bus1')) == outcome
+
+
 @pytest.mark.parametrize(
     ('gap', 'seconds', 'outcome'),
     [(7.0, 30, 'holds'), (9.0, 30, 'does_not'), (7.0, 3, 'does_not')],

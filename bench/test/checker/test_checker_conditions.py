@@ -189,6 +189,16 @@ def test_landing_completion_and_drift(make_stage: Any) -> None:
     assert aloft.says(landed) == 'does_not'
 
 
+@pytest.mark.parametrize(('settles_s', 'outcome'), [(1.0, 'cannot_tell'), (8.0, 'does_not')])
+def test_a_stated_drift_begins_where_the_hover_is_inside_of_it(
+    stage: Any, settles_s: float, outcome: str
+) -> None:
+    # From 1.4 m away, inside of the default 2 m, to the hover point.
+    stage.uav('drone', lambda t: (210 + 1.4 * np.clip(1 - (t - 10) / settles_s, 0, 1), 30, 50))
+    hover = {'kind': 'mission', 'ref': 'm', 'uav': 'drone', 'mode': 'hover'}
+    assert stage.says(_of('hover_drift', 'drone', op='<=', value=1.0), hover) == outcome
+
+
 def test_battery_clearance_and_wind(stage: Any) -> None:
     stage.uav('drone', lambda t: (210, 30, 50))
     battery = _of('battery', 'drone', op='>=')

@@ -73,6 +73,10 @@ _NEAR = 'when the van comes within 30 m of the ego car'
         (f'A drone tracks a van and alerts the ego car at Harbor Market {_NEAR}.', 'at Harbor'),
         ('The drone warns first the ego and then the truck.', 'and then the truck'),
         ('A drone circles City Hall with a radius of less than 40 m.', 'less than 40 m'),
+        (
+            'A bus brakes when a pedestrian is nearer than 15 m, 5 s later it drives on.',
+            'drives',
+        ),
         ('The ego car slows to below 5 m/s after 20 s.', 'below 5 m/s'),
         ('The ego car accelerates to over 12 m/s after 20 s.', 'over 12 m/s'),
         ('In a scenario of under 80 s, a drone hovers at 30 m.', 'under 80 s'),
@@ -118,6 +122,7 @@ def test_what_no_element_says_is_admitted(prompt: str, quoted: str) -> None:
         'A car that starts 25 m behind a bus overtakes it.',
         'A pedestrian stands beside a roadside unit at Harbor Market.',
         'A roadside unit warns the drone, and the drone warns the ego.',
+        'A bus brakes when a pedestrian is nearer than 15 m; 5 s later the bus drives on.',
         'A drone flies a route of 4 waypoints at under 6 m/s over City Hall.',
         'A drone tracks the ego car from more than 30 m away.',
         'A truck is placed more than 40 m ahead of the ego car.',

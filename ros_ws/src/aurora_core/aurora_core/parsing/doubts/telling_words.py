@@ -34,7 +34,13 @@ from aurora_core.spec.scenario import (
     UavMission,
     VisibilityTrigger,
 )
-from aurora_core.spec.vocabulary import BehaviorKind, ClauseStatus, MissionMode, Pattern
+from aurora_core.spec.vocabulary import (
+    AgentType,
+    BehaviorKind,
+    ClauseStatus,
+    MissionMode,
+    Pattern,
+)
 
 _PAUSES = ' \t\n,;.:-('
 _COMPARING = frozenset({'above', 'below', 'beyond', 'under', 'within'})
@@ -239,6 +245,16 @@ def _exclusive(spec: ScenarioSpec, clause: Clause) -> bool:
     return bool(events) and all(bound)
 
 
+def _on_wheels(spec: ScenarioSpec, clause: Clause) -> bool:
+    """Nobody on foot is to do it: `it drives on` is not said of a person."""
+    walking = {a.id for a in spec.agents if a.type is AgentType.PEDESTRIAN}
+    return not any(
+        isinstance(e.action, AgentAction) and e.action.agent in walking
+        for e in spec.events
+        if e.id in clause.ids
+    )
+
+
 def _uav_event(spec: ScenarioSpec, clause: Clause) -> bool:
     return any(isinstance(e.action, UavAction) for e in spec.events)
 
@@ -361,6 +377,7 @@ _CARRIERS: dict[str, Callable[[ScenarioSpec, Clause], bool]] = {
     'tied': _tied,
     'exclusive': _exclusive,
     'phases': _phases,
+    'on_wheels': _on_wheels,
     'uav_event': _uav_event,
     'looks': _looks,
     'return_home': _return_home,
