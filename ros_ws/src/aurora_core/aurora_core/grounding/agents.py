@@ -428,6 +428,8 @@ class AgentPlacer:
         pairs, grounding = overtakings(spec), self._settings.grounding
         agents = {a.id: a for a in spec.agents}
         passed = [other for one, other in pairs if one == agent.id]
+        if passed and in_emergency(agent):
+            return {}  # which makes it faster than anybody else
         if passed:
             speeds = [own_speed_mps(agents[other]) or 0.0 for other in passed]
             brisk = max(speeds) + _PASSES_BY_MPS > grounding.target_speed_mps
