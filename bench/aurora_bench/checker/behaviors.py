@@ -138,6 +138,8 @@ def _stands(case: Case, kind: str, body: str, targets: list[str]) -> Judged:
     still = (scene.speed(body) < limits.STOPPED_MPS) & scene.present(body)
     first = runs_of(still)
     from_start = first[0][1] * scene.dt_s if first and first[0][0] == 0 else 0.0
+    if kind == 'park' and targets and _is_to_arrive(case, body, targets[0]):
+        return _parks_there(case, body, targets[0])
     if kind == 'park':
         why = f'{body} stands for the first {from_start:.1f} s of {scene.end_s:.1f} s'
         parts = [graded(bool(still.all()), from_start >= limits.STOPPED_S, why)]
@@ -152,6 +154,36 @@ def _stands(case: Case, kind: str, body: str, targets: list[str]) -> Judged:
     at = longest_s(still & _near(case, body, targets, AT_M[0]), scene.dt_s)
     far = longest_s(still & _near(case, body, targets, AT_M[1]), scene.dt_s)
     return graded(at >= edge, far >= edge, f'{why}, {at:.1f} s of it at {targets[0]}')
+
+
+def _is_to_arrive(case: Case, body: str, place: str) -> bool:
+    """Return whether it is annotated that a body goes to a place before it parks there."""
+    for other in case.annotation.flat():
+        trigger = other.get('trigger') or {}
+        arrives = trigger.get('on') == 'arrives' and body in case.bodies(trigger.get('who'))
+        goes = other.get('behavior') in ('drive', 'emergency_run')
+        if arrives and place in case.things(trigger.get('place')):
+            return True
+        if goes and body in case.bodies(other.get('agent')):
+            return True
+    return False
+
+
+def _parks_there(case: Case, body: str, place: str) -> Judged:
+    """Return whether a body comes to a place and stands there at the end of the run."""
+    scene = case.scene
+    moving = (scene.speed(body) >= limits.STOPPED_MPS) & scene.present(body)
+    last = int(np.flatnonzero(moving)[-1]) + 1 if moving.any() else 0
+    stood_s = (scene.recording.ticks - last) * scene.dt_s
+    edge_s = limits.STOPPED_S - 2.0 * scene.dt_s
+    why = f'{body} stands for the last {stood_s:.1f} s of {scene.end_s:.1f} s'
+    if not moving.any():
+        return does_not(f'{body} is to come to {place} and never moves')
+    near = _near(case, body, [place], AT_M[0])[-1]
+    nearly = _near(case, body, [place], AT_M[1])[-1]
+    parts = [decide(stood_s >= edge_s, why)]
+    parts.append(graded(bool(near), bool(nearly), f'{body} ends at {place}'))
+    return all_of(parts)
 
 
 def _crosses(case: Case, body: str, targets: list[str]) -> Judged:

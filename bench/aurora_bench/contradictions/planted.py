@@ -121,4 +121,5 @@ PLANTED: tuple[Planted, ...] = (
     _bug(
         'brakes 2 s before its delay is over', 'brake later', bugs.BRAKES_EARLY, 'r4', 'e2.within'
     ),
+    _bug('drives past where it is to park', 'parking', bugs.DRIVES_PAST, 'r2', 'truck1.park2'),
 )

@@ -233,4 +233,13 @@ REQUESTS: Mapping[str, Annotated] = {
         _mission('m1', 'hover', target='intersection', altitude_m=40),
         {'kind': 'count', 'type': 'car', 'value': 2, 'scope': 'scene'},
     ),
+    'parking': _annotated(
+        'parking',
+        'sequential',
+        'A truck drives to Harbor Market and parks there. The scenario lasts 140 s.',
+        _body('truck1', 'truck'),
+        {'kind': 'behavior', 'agent': 'truck1', 'behavior': 'park', 'target': 'Harbor Market'},
+        {'kind': 'behavior', 'agent': 'truck1', 'behavior': 'drive', 'target': 'Harbor Market'},
+        {'kind': 'world', 'field': 'duration_s', 'value': 140},
+    ),
 }

@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path as FilePath
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -255,6 +256,16 @@ def with_links(kind: type[MessageLink], **settings: str) -> Sabotage:
                 event = dict(state.event) | {'action': action}
                 state.event = Event.model_validate(event)
         return other
+
+    return sabotage
+
+
+def with_agents(**changes: Any) -> Sabotage:
+    """Return the sabotage that carries out other groundings of the vehicles and persons."""
+
+    def sabotage(executor: ScenarioExecutor) -> Stepper:
+        agents = tuple(a.model_copy(update=changes) for a in executor._setup.agents)
+        return ScenarioExecutor(replace(executor._setup, agents=agents))
 
     return sabotage
 

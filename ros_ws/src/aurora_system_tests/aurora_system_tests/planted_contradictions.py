@@ -32,6 +32,7 @@ from aurora_core.trace.layout import GroundCommandKind
 from aurora_system_tests.planted_bugs import (
     PLANTED,
     Sabotage,
+    with_agents,
     with_links,
     with_machines,
     with_runner,
@@ -196,3 +197,4 @@ FLIES_SLOWLY = _replanned(_slower)
 SMALL_PATTERN = _replanned(_smaller)
 TOO_NEAR = _replanned(_nearer)
 HOVERS_ASIDE = _replanned(_aside)
+DRIVES_PAST = with_agents(stop_lane_id='')

@@ -33,6 +33,7 @@ from aurora_core.judging.quantity import Quantity
 from aurora_core.knowledge.limits import Tolerances
 from aurora_core.outcomes.condition import Condition, Op, Window
 from aurora_core.spec.parameter import Provenance
+from aurora_core.spec.parking import parks_after
 from aurora_core.spec.scenario import Behavior, GroundAgent, Placement
 from aurora_core.spec.vocabulary import BehaviorKind, Place, Relation
 
@@ -372,6 +373,10 @@ def behavior_conditions(
                 )
                 continue
             name = behavior_id(agent, index)
+            goal = parks_after(inputs.spec, agent) if kind is _PARK else None
+            if goal is not None:
+                yield at_place.parks(inputs, agent, behavior, goal, name)
+                continue
             yield from _implied(inputs, agent, behavior, name)
             yield from _there(inputs, agent, behavior, name)
             yield from placement.closing(inputs, agent, behavior, name)

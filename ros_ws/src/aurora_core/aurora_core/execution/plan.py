@@ -200,7 +200,7 @@ def build_stepper(
             driving=settings.run.driving,
             horizon_ticks=round(schedule.horizon_s / dt_s),
             stated_horizon=schedule.stated_horizon,
-            earliest_end_ticks=round(_earliest_end_s(spec, schedule, limits) / dt_s),
+            earliest_end_ticks=round(_earliest_end_s(spec, grounded, schedule, limits) / dt_s),
             settle_ticks=round(settings.run.settle_s / dt_s),
             sight_period_ticks=max(1, round(settings.run.sight_period_s / dt_s)),
         )
@@ -210,10 +210,14 @@ def build_stepper(
     return FaultPort(executor, acting, roster, tuple(link.id for link in spec.links))
 
 
-def _earliest_end_s(spec: ScenarioSpec, schedule: Schedule, limits: Limits) -> float:
+def _earliest_end_s(
+    spec: ScenarioSpec, grounded: GroundedScenario, schedule: Schedule, limits: Limits
+) -> float:
     """Return when a run with an inferred horizon may end once all is done."""
     if spec.missions:
         return limits.horizon_inferred_min_s
+    if any(agent.stop_lane_id for agent in grounded.agents):
+        return schedule.horizon_s  # who stops at a place has to get there
     return max(limits.horizon_inferred_min_s, schedule.horizon_s - patience_s(spec))
 
 

@@ -53,6 +53,7 @@ from aurora_core.knowledge.route_path import RoutePath, arc_at
 from aurora_core.knowledge.settings import Settings
 from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
 from aurora_core.spec.own_events import let_cross, overtakings
+from aurora_core.spec.parking import parks_after
 from aurora_core.spec.scenario import (
     GroundAgent,
     ScenarioSpec,
@@ -127,7 +128,7 @@ class AgentPlacer:
             style = self._style(agent, factor, seats, meetings, gaps, in_line, is_front=is_front)
             style |= self._passing_style(spec, agent, factor, seats)
             parked = parks(spec, agent)
-            still = parked or stands(agent)
+            still = parked or (stands(agent) and parks_after(spec, agent) is None)
             placed.append(
                 self._grounded(
                     agent,

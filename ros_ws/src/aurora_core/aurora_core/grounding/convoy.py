@@ -35,6 +35,7 @@ from aurora_core.grounding.ties import (
 from aurora_core.knowledge.limits import EXACT, Tolerance
 from aurora_core.spec.own_events import let_cross
 from aurora_core.spec.parameter import Parameter, Provenance
+from aurora_core.spec.parking import parks_after
 from aurora_core.spec.scenario import (
     AgentAction,
     Behavior,
@@ -101,7 +102,8 @@ def parks(spec: ScenarioSpec, agent: GroundAgent) -> bool:
     moved = any(
         isinstance(e.action, AgentAction) and e.action.agent == agent.id for e in spec.events
     )
-    return told and not moved and not any(b.kind in _MOVES for b in agent.behaviors)
+    later = parks_after(spec, agent) is not None
+    return told and not moved and not later and not any(b.kind in _MOVES for b in agent.behaviors)
 
 
 def stands(agent: GroundAgent) -> bool:

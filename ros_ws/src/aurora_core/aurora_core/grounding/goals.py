@@ -23,6 +23,7 @@ from aurora_core.knowledge.limits import Tolerances
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.settings import GroundingSettings
 from aurora_core.spec.parameter import Bound, Parameter, Provenance
+from aurora_core.spec.parking import parks_after
 from aurora_core.spec.reference import is_landmark
 from aurora_core.spec.scenario import GroundAgent, ScenarioSpec
 from aurora_core.spec.vocabulary import BehaviorKind, MissionMode, Relation
@@ -230,7 +231,7 @@ class GoalFinder:
     def stop_arc_m(self, spec: ScenarioSpec, site: Site, seat: SeatedAgent) -> float | None:
         """Return where on its way a vehicle stops (m), None when it does not by itself."""
         x, y, _, _ = site.origin()
-        if not stops(seat.agent):
+        if not stops(seat.agent) and parks_after(spec, seat.agent) is None:
             return self._met_arc_m(spec, (x, y), seat)
         for bound in self._bounds(spec, seat.agent):
             if bound.stops:
@@ -274,13 +275,14 @@ class GoalFinder:
                 yield self._stated(of, distance, bearing, near_m, parked=parked)
         for behavior in agent.behaviors:
             if behavior.target is not None and has_point(behavior.target):
-                stays = behavior.kind in _STAYS
-                if stays or behavior.kind in _LEADS:
+                later = behavior.kind is BehaviorKind.PARK and parks_after(spec, agent) is not None
+                stays = behavior.kind in _STAYS and not later
+                if stays or later or behavior.kind in _LEADS:
                     yield _Bound(
                         place=behavior.target,
                         within_m=arrival_m,
                         at_start=stays,
-                        stops=behavior.kind is BehaviorKind.STOP,
+                        stops=later or behavior.kind is BehaviorKind.STOP,
                     )
         for trigger in arrivals(spec, agent):
             if has_point(trigger.place):

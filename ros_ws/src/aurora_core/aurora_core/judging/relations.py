@@ -102,10 +102,12 @@ def relation_slack(context: Context, condition: Condition, asked: Related) -> Fl
     dx = own[:, GroundColumn.X] - other[:, GroundColumn.X]
     dy = own[:, GroundColumn.Y] - other[:, GroundColumn.Y]
     along_m, left_m = dx * hx + dy * hy, dy * hx - dx * hy
+    # Who is right behind somebody is on neither side: one is beyond its flank.
+    flank_m = view.body(b).entry.width_m / 2.0
     if relation is Relation.LEFT:
-        return left_m
+        return left_m - flank_m
     if relation is Relation.RIGHT:
-        return -left_m
+        return -left_m - flank_m
     if relation is Relation.BESIDE:
         half = (view.body(a).entry.length_m + view.body(b).entry.length_m) / 2.0
         return half - np.abs(along_m)

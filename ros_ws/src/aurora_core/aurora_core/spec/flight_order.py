@@ -139,9 +139,10 @@ def lasts_until_event(spec: ScenarioSpec, mission: UavMission) -> bool:
 
 
 def patrols_until_told(spec: ScenarioSpec, mission: UavMission) -> bool:
-    """Tell whether a route is flown again and again until its UAV has reported something."""
+    """Tell whether a route is flown again until its UAV has reported what it came near or saw."""
     routed = mission.mode is MissionMode.NAVIGATE and mission_after(spec, mission) is None
-    return routed and _has_no_length(mission) and bool(awaits_reports(spec, mission.uav))
+    reports = (e for e in awaits_reports(spec, mission.uav) if mission.uav in bodies_of_cause(e))
+    return routed and _has_no_length(mission) and any(True for _ in reports)
 
 
 def awaits_reports(spec: ScenarioSpec, uav: str) -> tuple[Event, ...]:

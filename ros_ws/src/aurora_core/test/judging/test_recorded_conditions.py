@@ -39,8 +39,8 @@ def _recorded(quantity: str, aspect: str) -> dict[str, Any]:
 SINCE = {
     'angle_swept', 'climb_delay', 'at_place', 'distance_fraction', 'lane_kept_after',
     'battery', 'clearance', 'climb_after_phase', 'driver_waits', 'outage', 'phase_after_event',
-    'report_gap', 'report_latency', 'return_distance', 'side_fraction', 'traffic', 'wind_course',
-    'wind_from', 'wind_speed',
+    'report_gap', 'report_latency', 'return_distance', 'side_fraction', 'speed_once_there',
+    'traffic', 'wind_course', 'wind_from', 'wind_speed',
 }  # fmt: skip
 
 

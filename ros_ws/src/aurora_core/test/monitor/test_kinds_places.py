@@ -87,6 +87,33 @@ def _rows(
     )
 
 
+def _parks(*stretches: tuple[float, float]) -> Case:
+    """car1 is to drive to the tower and to park there; it drives so fast for so many seconds."""
+    speed = np.concatenate([np.full(round(s * 20.0), v) for v, s in stretches])
+    case = ground_case(Behavior(kind=BehaviorKind.PARK), speed[:401])
+    goes = (Behavior(kind=BehaviorKind.DRIVE), Behavior(kind=BehaviorKind.PARK, target=TOWER))
+    case.spec = spec(agents=(dict(case.spec.agents[0]) | {'behaviors': goes},))
+    case.world = replace(case.world, places=(NamedPlace(name=TOWER, x_m=100.0, y_m=2.0),))
+    return case
+
+
+# 0.1 m/s is at rest, for 2 s and from then on.
+_PARKED = (
+    Row(id='car1.park2', make=lambda: _parks((10.0, 10.0), (0.0, 11.0)), margin=0.1, what='stays'),
+    Row(
+        id='car1.park2',
+        make=lambda: _parks((10.0, 10.0), (0.0, 5.0), (4.0, 6.0)),
+        margin=0.1 - 4.0,
+        what='drives-on',
+    ),
+    Row(
+        id='car1.park2',
+        make=lambda: _parks((10.0, 5.0), (0.0, 16.0)),
+        reason=Reason.PREMISE_NEVER,
+        what='stops-before',
+    ),
+)
+
 R = Relation
 ROWS = (
     *_rows(R.AHEAD, 'car2', (20.0, 0.0, 20.0), (-20.0, 0.0, -20.0)),
@@ -111,8 +138,11 @@ ROWS = (
         margin=-3.3,
         what='adjacent-oncoming',
     ),
-    *_rows(R.LEFT, 'car2', (0.0, 5.0, 5.0), (0.0, -5.0, -5.0)),
-    *_rows(R.RIGHT, 'car2', (0.0, -5.0, 5.0), (0.0, 5.0, -5.0)),
+    # Beyond the flank of car2, which is 1.8 m wide.
+    *_rows(R.LEFT, 'car2', (0.0, 5.0, 4.1), (0.0, -5.0, -5.9)),
+    *_rows(R.RIGHT, 'car2', (0.0, -5.0, 4.1), (0.0, 5.0, -5.9)),
+    *_rows(R.RIGHT, 'car2', (-6.0, -1.0, 0.1), (-6.0, 0.0, -0.9), 'right-behind-it'),
+    *_PARKED,
     # Two cars of 4.5 m.
     *_rows(R.BESIDE, 'car2', (1.0, 4.0, 4.5 - 1.0), (6.0, 4.0, 4.5 - 6.0)),
     *_rows(R.NEAR, 'car2', (30.0, 0.0, 20.0), (60.0, 0.0, -10.0)),

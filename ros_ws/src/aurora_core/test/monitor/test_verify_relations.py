@@ -102,8 +102,9 @@ def _placed(tb: ModuleType, relation: Relation, x: float, y: float, **values: An
 @pytest.mark.parametrize(
     ('relation', 'x', 'y', 'margin'),
     [
-        (Relation.LEFT, 0.0, 4.0, 4.0),
-        (Relation.RIGHT, 0.0, 4.0, -4.0),
+        (Relation.LEFT, 0.0, 4.0, 3.1),  # beyond the flank of the other one, 1.8 m wide
+        (Relation.LEFT, -5.0, 0.5, -0.4),
+        (Relation.RIGHT, 0.0, 4.0, -4.9),
         (Relation.BESIDE, 1.5, 4.0, 3.0),
         (Relation.NEAR, 30.0, 40.0, 0.0),
         (Relation.SAME_LANE, 30.0, 0.5, 1.25),

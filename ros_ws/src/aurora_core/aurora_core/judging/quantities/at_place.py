@@ -13,15 +13,19 @@ from aurora_core.judging.build import Inputs, Source, Target, condition, number
 from aurora_core.judging.evaluation import (
     Context,
     Evaluation,
+    FloatArray,
     Later,
+    Measured,
     Missing,
     at_tick,
     ground_topics,
 )
 from aurora_core.judging.quantity import Quantity
+from aurora_core.judging.series import Series
 from aurora_core.outcomes.condition import Condition, Window
 from aurora_core.outcomes.verdict import Reason
 from aurora_core.quantities import motion
+from aurora_core.quantities.ticks import first_tick
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import Behavior, GroundAgent
 from aurora_core.spec.vocabulary import BehaviorKind
@@ -67,6 +71,54 @@ class AtPlace(Quantity):
         return at_tick(best, float(left_m[best]), evidence=topics, later=Later.RISES)
 
 
+class SpeedOnceThere(Series):
+    """Speed of an agent from when it has come to rest at a place, having moved, m/s.
+
+    Attributes:
+        near_m: How far from the place its front or rear may be.
+        still_mps: Slower than this it is at rest.
+        hold_s: Once it has been so for so long.
+        moving_mps: Speed that counts as moving.
+    """
+
+    name = QuantityName.SPEED
+    kind: Literal['speed_once_there'] = 'speed_once_there'
+    window: Window = Window.RUN
+    near_m: FiniteFloat
+    still_mps: FiniteFloat
+    hold_s: FiniteFloat
+    moving_mps: FiniteFloat
+
+    def values(self, context: Context, condition: Condition) -> FloatArray:
+        """Return the speed at every tick."""
+        return motion.speed(context.view, context.view.body(condition.of[0]))
+
+    def measure(self, context: Context, condition: Condition) -> Evaluation:
+        """Return the speed from then on; who does not come to rest there is not parked."""
+        ticks = self.ticks(context, condition)
+        if isinstance(ticks, Missing):
+            return ticks
+        view, (name, place) = context.view, condition.of
+        speed = self.values(context, condition)
+        reach_m = self.near_m + view.body(name).entry.length_m / 2.0
+        near = motion.horizontal_distance(view, name, place, on_road=True) <= reach_m
+        still = view.present(name) & near & (speed < self.still_mps)
+        rests = _lasting(still, round(self.hold_s / view.dt_s))
+        moved = first_tick(speed >= self.moving_mps)
+        there = None if moved is None else first_tick(rests, moved)
+        if there is None:
+            if not context.complete(condition):
+                return context.short(condition)
+            story = f'{name} never came to rest there'
+            return Missing(reason=Reason.PREMISE_NEVER, story=story)
+        later = ticks[ticks >= there]
+        return Measured(ticks=later, values=speed[later], evidence=self.topics(condition))
+
+    def topics(self, condition: Condition) -> tuple[str, ...]:
+        """Return the evidence: where the agent is."""
+        return ground_topics(condition)
+
+
 def _lasting(good: np.ndarray, ticks: int) -> np.ndarray:
     """Return which samples belong to a stretch of at least `ticks` steps that are good, (T,)."""
     edges = np.flatnonzero(np.diff(np.concatenate(([0], good.astype(np.int8), [0]))))
@@ -99,4 +151,30 @@ def implied(
         ),
         source=Source(ids=(agent.id,), spans=(behavior.span or agent.span,)),
         every_sample=False,
+    )
+
+
+def parks(
+    inputs: Inputs, agent: GroundAgent, behavior: Behavior, place: str, name: str
+) -> Condition:
+    """Return that an agent drives to a place and stays parked there."""
+    t = inputs.tolerances
+    return condition(
+        id=name,
+        sentence=(
+            f'{agent.id} comes to rest within {number(t.arrival_m)} m of {place}, having driven, '
+            f'and stays there: under {number(t.stop_speed_mps)} m/s from then on'
+        ),
+        signal=f'speed_once_there({agent.id},{place})',
+        of=(agent.id, place),
+        target=Target(op='<', threshold=t.stop_speed_mps, unit='m/s'),
+        arguments=SpeedOnceThere(
+            **inputs.common,
+            near_m=t.arrival_m,
+            still_mps=t.stop_speed_mps,
+            hold_s=t.stop_hold_s,
+            moving_mps=t.moving_speed_mps,
+        ),
+        source=Source(ids=(agent.id,), spans=(behavior.span or agent.span,)),
+        every_sample=True,
     )
