@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import combinations
 
-from aurora_core.feasibility.certificates import beyond, contradiction
+from aurora_core.feasibility.certificates import beyond, contradiction, told
 from aurora_core.feasibility.facts import limit_facts, says, tolerance_facts
 from aurora_core.feasibility.operands import AT_LEAST, AT_MOST, in_parts, upward, whole
 from aurora_core.knowledge.limits import Limits, Tolerances
@@ -79,7 +79,7 @@ def exclusive(spec: ScenarioSpec, *, split: bool) -> Iterator[Certificate]:
             Rule.BOUNDS,
             _REASONS.get(second.value.unit, 'spatial_contradiction'),
             f'conditions/{other.condition.id}',
-            f'{_told(first)} and {_told(second)} exclude each other: no value is both.',
+            f'{told(first)}, and {told(second)}: no value is both.',
             other.condition.span,
             (*_says(first), *_says(second)),
         )
@@ -118,14 +118,6 @@ def _same_quantity(spec: ScenarioSpec, one: StatedCondition, other: StatedCondit
     return aloft and below.isdisjoint(flying)
 
 
-def _told(condition: StatedCondition) -> str:
-    number, share = condition.value, condition.fraction
-    often = '' if share is None else f' for {100.0 * share.value:g} % of the time'
-    unit = '' if number.unit is Unit.ONE else f' {number.unit}'
-    of = ', '.join(condition.of)
-    return f'{condition.quantity} of {of} {condition.op} {number.value:g}{unit}{often}'
-
-
 def _says(condition: StatedCondition) -> tuple[Fact, ...]:
     base = f'conditions/{condition.id}'
     return (
@@ -160,8 +152,7 @@ def _moved(spec: ScenarioSpec, tolerances: Tolerances) -> Iterator[Certificate]:
                 Rule.STILL,
                 'spatial_contradiction',
                 f'conditions/{condition.id}',
-                f'{_told(condition)} all the time cannot be: {flown[0].uav} hovers, '
-                'so it stands still.',
+                f'{told(condition)}; {flown[0].uav} hovers, so it stands still.',
                 condition.span,
                 (
                     *_says(condition),
@@ -236,7 +227,7 @@ def _late(spec: ScenarioSpec) -> Iterator[Certificate]:
                     Rule.LATENCY,
                     'temporal_contradiction',
                     f'conditions/{condition.id}',
-                    f'{_told(condition)}, and the link has a latency of {least_s:g} s: no message '
+                    f'{told(condition)}, and the link has a latency of {least_s:g} s: no message '
                     'is there sooner.',
                     condition.span,
                     (*_says(condition), *says(path, latency)),

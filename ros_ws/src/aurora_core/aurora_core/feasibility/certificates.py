@@ -7,7 +7,18 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from aurora_core.outcomes.feasibility import Certificate, Fact, Rule, TimeBound
-from aurora_core.spec.parameter import Parameter, Span
+from aurora_core.spec.parameter import Parameter, Span, Unit
+from aurora_core.spec.quantity import OP_WORDS
+from aurora_core.spec.scenario import StatedCondition
+
+
+def told(condition: StatedCondition) -> str:
+    """Return what a condition asks for, in words."""
+    number, share = condition.value, condition.fraction
+    often = '' if share is None else f' for {100.0 * share.value:g} % of the time'
+    unit = '' if number.unit is Unit.ONE else f' {number.unit}'
+    what, of = condition.quantity.replace('_', ' '), ' and '.join(condition.of)
+    return f'the {what} of {of} has to be {OP_WORDS[condition.op]} {number.value:g}{unit}{often}'
 
 
 def contradiction(

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from aurora_core.feasibility.certificates import beyond, contradiction
+from aurora_core.feasibility.certificates import beyond, contradiction, told
 from aurora_core.feasibility.facts import limit_facts, says, tolerance_facts
 from aurora_core.feasibility.operands import AT_LEAST, whole
 from aurora_core.knowledge.limits import Limits, Tolerances
@@ -287,10 +287,8 @@ def _stated_distances(
             Rule.FLIGHT_BAND,
             'spatial_contradiction',
             f'conditions/{condition.id}',
-            f'{condition.quantity} of {", ".join(condition.of)} has to be '
-            f'{condition.op} {value:g} m; the flight of {mission.uav} as it is stated '
-            f'gives {"at least" if too_far else "at most"} '
-            f'{low if too_far else high:.1f} m.',
+            f'{told(condition)}; the flight of {mission.uav} as it is stated gives '
+            f'{"at least" if too_far else "at most"} {low if too_far else high:.1f} m.',
             condition.span,
             (
                 *says(f'conditions/{condition.id}/value', condition.value),

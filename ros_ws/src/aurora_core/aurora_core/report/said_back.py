@@ -44,7 +44,7 @@ from aurora_core.spec.prohibitions import (
     ForbiddenWorld,
     Prohibition,
 )
-from aurora_core.spec.quantity import QuantityName
+from aurora_core.spec.quantity import OP_WORDS, QuantityName
 from aurora_core.spec.reference import is_place
 from aurora_core.spec.requirements import Order, SceneCount, StatedCondition
 from aurora_core.spec.scenario import ScenarioSpec
@@ -92,7 +92,6 @@ _YES_OR_NO = frozenset(
         QuantityName.MISSION_COMPLETED.value,
     }
 )
-_OPS = {'<=': 'at most', '<': 'less than', '>=': 'at least', '>': 'more than', '==': 'exactly'}
 
 
 def _number(value: Parameter) -> str:
@@ -319,7 +318,7 @@ def _condition(stated: StatedCondition) -> str:
     unit = '' if stated.value.unit is Unit.ONE else f' {stated.value.unit.value}'
     text = f'{stated.quantity.replace("_", " ")} of {whom}'
     if stated.quantity not in _YES_OR_NO or not stated.value.value:
-        text += f': {_OPS[stated.op]} {stated.value.value:.6g}{unit}'
+        text += f': {OP_WORDS[stated.op]} {stated.value.value:.6g}{unit}'
     if stated.hold_s is not None:
         text += f', for {_number(stated.hold_s)} without a break'
     if stated.by_s is not None:

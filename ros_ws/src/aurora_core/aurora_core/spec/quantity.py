@@ -4,7 +4,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from enum import StrEnum
+from types import MappingProxyType
+
+# How a condition compares, in words.
+OP_WORDS: Mapping[str, str] = MappingProxyType(
+    {'<=': 'at most', '<': 'less than', '>=': 'at least', '>': 'more than', '==': 'exactly'}
+)
 
 
 class QuantityName(StrEnum):
