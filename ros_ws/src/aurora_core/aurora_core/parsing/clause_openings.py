@@ -38,39 +38,15 @@ def plain_prepositions(atoms: list[Atom]) -> list[Atom]:
         if atom.kind is not AtomKind.SUBORDINATOR:
             continue
         ahead = _until_marker(atoms, i + 1)
-        if atom.words == 'as' and _opens_sentence(atoms, i) and _at_once(ahead):
-            changed[i] = atom = replace(atom, key='when')
         first = first_solid(ahead)
         timed = first is not None and first.key == TIME and atom.key in _MAYBE_PREPOSITION
         if (has_verb(ahead) and not timed) or is_flight(ahead, atom.key):
-            continue
-        if atom.key == 'when' and _is_count(ahead) and not _opens_sentence(atoms, i):
-            changed[i] = replace(atom, kind=AtomKind.FILL)
             continue
         if atom.key in _MAYBE_PREPOSITION:
             changed[i] = replace(atom, kind=AtomKind.PREPOSITION)
         elif atom.key == 'while' and not any(a.is_actor for a in ahead):
             changed[i] = replace(atom, kind=AtomKind.FILL)
     return changed
-
-
-def _at_once(ahead: Sequence[Atom]) -> bool:
-    """`as the car arrives, …`: what is over in a moment is no background of the effect."""
-    verb = next((a for a in ahead if a.kind is AtomKind.VERB), None)
-    told = verb is not None and verb.key in MOMENTARY and verb.form is not VerbForm.ING
-    return told and any(a.is_actor for a in ahead)
-
-
-def _is_count(ahead: Sequence[Atom]) -> bool:
-    """`circles it once with a radius of 40 m`: how often, not when."""
-    first = first_solid(ahead)
-    preposition = first is not None and first.kind is AtomKind.PREPOSITION
-    return preposition and not any(a.is_actor for a in ahead)
-
-
-def _opens_sentence(atoms: Sequence[Atom], i: int) -> bool:
-    """Return whether only small words or a pause stand in front."""
-    return i == 0 or atoms[i - 1].kind in (AtomKind.COMMA, AtomKind.CONJUNCTION, AtomKind.THEN)
 
 
 def _inverted(atoms: Sequence[Atom], i: int) -> bool:

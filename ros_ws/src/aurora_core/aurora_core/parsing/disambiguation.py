@@ -37,10 +37,6 @@ def settle_verbs(atoms: list[Atom]) -> list[Atom]:
         down = atom.kind is AtomKind.VERB and atom.key in ('descend', 'ascend')
         if down and atom.words.split()[-1:] in (['down'], ['up']) and _on_the_ground(settled, i):
             settled[i : i + 1] = _along(settled[i])  # `a car goes down the main road`
-        to = _goes_off_to(settled, i) if atom.kind is AtomKind.VERB else None
-        if to is not None:
-            settled[i] = replace(settled[i], kind=AtomKind.AUXILIARY)
-            settled[to] = replace(settled[to], kind=AtomKind.FILL)
         stop = _lane_of_another(settled, i)
         if stop is not None:
             settled[i] = replace(settled[i], key='change_lane')
@@ -55,21 +51,6 @@ def _is_owned(atoms: list[Atom], i: int) -> bool:
     behind = next((a for a in atoms[i + 1 :] if a.kind is not AtomKind.FILL), None)
     owned = i > 1 and atoms[i - 1].words == "'s" and atoms[i - 2].is_actor
     return owned and (behind is None or not behind.is_actor)
-
-
-def _goes_off_to(atoms: list[Atom], i: int) -> int | None:
-    """`the second drone goes off to track it`: return the `to` of what it goes for."""
-    to = i + 1
-    while to < len(atoms) and atoms[to].kind is AtomKind.FILL:
-        to += 1
-    if atoms[i].key not in ('drive', 'start', 'fly') or to + 1 >= len(atoms):
-        return None
-    goal = atoms[to + 1]
-    flown = goal.kind is AtomKind.VERB and goal.key in _FLOWN and goal.form is VerbForm.BASE
-    return to if atoms[to].words == 'to' and flown and not _on_the_ground(atoms, i) else None
-
-
-_FLOWN = ('track', 'follow', 'hover', 'orbit', 'observe', 'navigate', 'land', 'trail')
 
 
 def _on_the_ground(atoms: list[Atom], i: int) -> bool:

@@ -52,13 +52,6 @@ def effect_of_held(story: Story, frame: Frame) -> None:
     if messages.is_command(frame) or _is_flight_command(frame):
         frame.heir = _told_to_fly(story, found) or frame.heir
     action = actions.action(frame)
-    for one in actions.together(frame) if action is None else ():
-        event = complete_event(story.scene, found, one, frame.span, (clause,))
-        if event is not None:
-            event.delay = delay
-            story.last = (event, sentence)
-        if one.do in ('brake', 'land', 'ascend') or event is not None:
-            action = one
     if action is not None and story.last is not None and story.last[0].action == action:
         messages.link_values(frame)
         demands(frame)

@@ -84,7 +84,6 @@ class Frame:
         self.passive = self._is_passive(before)
         self._reorder()
         self._later_verbs(after)
-        self._theme()
         self.avoid = self._itself()
 
     @property
@@ -212,24 +211,6 @@ class Frame:
             if inverted is not None:
                 self.subject_nouns = inverted.nouns
                 inverted.used = True
-
-    def _theme(self) -> None:
-        """`the van that the drone tracks`: the noun in front of `that` is the object."""
-        theme = self.piece.theme
-        if theme is None or theme.noun is None or self.key not in _TRANSITIVE:
-            return
-        if not self.free(AdjunctKind.OBJECT):
-            noun = theme.noun
-            self.adjuncts.insert(
-                0,
-                Adjunct(
-                    kind=AdjunctKind.OBJECT,
-                    key='',
-                    start=noun.start,
-                    end=noun.end,
-                    nouns=(noun,),
-                ),
-            )
 
     def _itself(self) -> tuple[Entity, ...]:
         """`until a bus comes, then it follows the bus`: nobody follows himself."""

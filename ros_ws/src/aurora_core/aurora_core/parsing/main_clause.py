@@ -9,14 +9,12 @@ from aurora_core.parsing.adjuncts import AdjunctKind
 from aurora_core.parsing.atoms import AtomKind, Determiner, NounKind, NounPhrase
 from aurora_core.parsing.constructions import actions, conditions, ground, messages, missions
 from aurora_core.parsing.constructions.absence import none_such
-from aurora_core.parsing.constructions.arrivals import arrival
 from aurora_core.parsing.constructions.ascent import ascent, landing
 from aurora_core.parsing.constructions.demands import demands, seen_for
 from aurora_core.parsing.constructions.flight_details import flight_details
-from aurora_core.parsing.constructions.flyers import asks_for_flight, keeps_it_up
+from aurora_core.parsing.constructions.flyers import asks_for_flight
 from aurora_core.parsing.constructions.identity import is_of_type
 from aurora_core.parsing.constructions.placing import placing
-from aurora_core.parsing.constructions.spacing import told_distance
 from aurora_core.parsing.constructions.states import predicate_adjectives
 from aurora_core.parsing.constructions.triggers import (
     time_adjunct,
@@ -143,7 +141,6 @@ def main_clause(frame: Frame) -> None:
         if construction(frame):
             break
     messages.link_values(frame)
-    conditions.distance_conditions(frame)
     demands(frame)
     flight_details(frame)
     _from_above(frame)
@@ -302,13 +299,11 @@ def _about_air(frame: Frame) -> bool:
 
 
 def _about_ground(frame: Frame) -> bool:
-    if told_distance(frame):
-        return True
     if conditions.condition(frame):
         if frame.key == 'be':
             placing(frame)  # `is on the sidewalk within 9 m of it`
         return True
-    return arrival(frame) or ground.behavior(frame) or placing(frame)
+    return ground.behavior(frame) or placing(frame)
 
 
 def _goes_on_flying(frame: Frame) -> bool:
@@ -340,11 +335,7 @@ def _flies(frame: Frame) -> bool:
         return True
     lead = next((a for a in frame.adjuncts if a.nouns and not a.key), None)
     placing = frame.key in ('be', 'put', 'exist', 'contain', 'keep', '')
-    if (
-        placing
-        and lead is not None
-        and (lead.nouns[0].kind is NounKind.UAV or keeps_it_up(frame, lead))
-    ):
+    if placing and lead is not None and (lead.nouns[0].kind is NounKind.UAV):
         return True
     if placing and not frame.subject_nouns and lead is not None:
         kept = frame.key == 'keep' and lead.nouns[0].key == 'it'  # `and keep it there`

@@ -10,13 +10,12 @@ from __future__ import annotations
 
 import re
 
-from aurora_core.parsing.constructions.triggers import Cause
 from aurora_core.parsing.events import complete_event
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.lexicon import shipped_lexicon
-from aurora_core.parsing.scene import ClauseDraft, EventDraft, MissionDraft, Scene
+from aurora_core.parsing.scene import EventDraft, MissionDraft, Scene
 from aurora_core.parsing.sequence import goes_on
-from aurora_core.parsing.story import LateStart, Story
+from aurora_core.parsing.story import Story
 from aurora_core.spec.scenario import EventDoneTrigger, UavAction
 from aurora_core.spec.vocabulary import ClauseStatus, MissionMode
 
@@ -42,19 +41,6 @@ def changes_mission(frame: Frame, flown: int, happened: int) -> None:
     change = UavAction(do='change_mission', uav=made[0].uav.id, mission=made[0].id)
     done = EventDoneTrigger(on='event_done', event=last.id)
     complete_event(scene, done, change, frame.span, ())
-
-
-def begins_late(
-    story: Story, frame: Frame, found: Cause | None, clauses: tuple[ClauseDraft, ...]
-) -> bool:
-    """`drone B must not begin its task before …`: its first phase waits, wherever it is told."""
-    flying = story.scene.clauses[-2].subjects
-    if frame.key != 'start' or found is None or len(flying) != 1 or not flying[0].is_uav:
-        return False
-    story.late[flying[0].id] = LateStart(cause=found, clauses=clauses)
-    story.scene.clause.subjects = flying  # `it` is who has to wait
-    starts_late(story, 0)
-    return True
 
 
 def starts_late(story: Story, flown: int) -> None:

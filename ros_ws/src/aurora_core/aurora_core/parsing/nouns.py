@@ -49,8 +49,6 @@ class NounReader:
         alone = self._stand_ins.letter(i) or self._stand_ins.ordinal_alone(i)
         if alone is not None:
             return alone
-        if self._said.words[i] == 'that' and self._is_mine(i + 1):
-            return None  # `the van that my car follows`
         j = i
         determiner = Determiner.BARE
         count, index, background = 0, 0, False
@@ -64,10 +62,6 @@ class NounReader:
                 # `the aircraft are`: one word for one and for many
                 many = self._said.words[stop : stop + 1] in (['are'], ['were'], ['have'])
                 is_plural = is_plural or (head_text.endswith('craft') and many)
-                if head_text == 'crossing' and self._agent_at(stop):
-                    states.append('cross')  # `a crossing pedestrian`
-                    j = stop
-                    continue
                 if kind is NounKind.SURROUNDINGS and self._heads.read(stop) is not None:
                     j = stop  # `the downtown streets`
                     continue
@@ -168,12 +162,6 @@ class NounReader:
             labels=labels,
         )
         return noun, stop
-
-    def _agent_at(self, j: int) -> bool:
-        return self._said.has(j, Tag.AGENT)
-
-    def _is_mine(self, j: int) -> bool:
-        return self._said.has(j, Tag.EGO_POSSESSIVE)
 
     def _refuses(
         self, kind: NounKind, states: list[str], determiner: Determiner, i: int, *, is_first: bool

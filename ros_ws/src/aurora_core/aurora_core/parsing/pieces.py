@@ -39,7 +39,6 @@ class Piece:
         sentence: Number of its sentence.
         opens: First clause of its sentence, or opened by `and when …`.
         lead: Where the subordinating word begins.
-        theme: The noun that a relative clause has as its object (`the van that the drone tracks`).
         paused: A comma stands in front.
         criterion: The success condition, or the order of events, that the whole clause states.
         whole: A cause that was read word by word: nothing of it is cut off.
@@ -52,7 +51,6 @@ class Piece:
     sentence: int = 0
     opens: bool = False
     lead: int | None = None
-    theme: Atom | None = None
     paused: bool = False
     criterion: Criterion | Sequel | None = None
     whole: bool = False

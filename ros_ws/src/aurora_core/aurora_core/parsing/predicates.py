@@ -25,11 +25,6 @@ def cut_at_verbs(piece: Piece) -> list[Piece]:
         cut, upcoming = _cut_before(atoms, begin, previous, i)
         if cut <= begin:
             continue
-        aside = _of_two(atoms, begin, cut) if upcoming.head is not None else None
-        if aside is not None:
-            told = replace(state, atoms=(*atoms[begin:aside], *atoms[cut:]))
-            described = Piece(atoms=atoms[aside:cut], link=Link.RELATIVE, head=atoms[aside - 1])
-            return [*pieces, *cut_at_verbs(told), described]
         if upcoming.link is Link.MAIN and upcoming.head is not None:
             # `a drone that tracks the van | alerts`: the first part only describes
             upcoming = replace(upcoming, link=state.link, opens=state.opens, then=state.then)
@@ -73,10 +68,10 @@ def _cut_before(atoms: tuple[Atom, ...], begin: int, previous: int, i: int) -> t
             return j, Piece(atoms=(), link=Link.PARTICIPLE)
         asked = j >= 2 and atoms[j - 2].kind is AtomKind.RELATIVE and _has_aux(atoms, j, i)
         if asked:  # `the van that my car is following`
-            return j - 1, Piece(atoms=(), theme=_theme(atoms, begin, j - 1))
+            return j - 1, Piece(atoms=())
         if verb.form is VerbForm.ING or (verb.form is VerbForm.PAST and not _has_aux(atoms, j, i)):
             return j, Piece(atoms=(), link=Link.RELATIVE, head=before)
-        return j - 1, Piece(atoms=(), theme=_theme(atoms, begin, j - 1))
+        return j - 1, Piece(atoms=())
     if verb.form is VerbForm.ING:
         return j, Piece(atoms=(), link=Link.PARTICIPLE)
     told = any(
@@ -98,15 +93,6 @@ def _cut_before(atoms: tuple[Atom, ...], begin: int, previous: int, i: int) -> t
     return j, Piece(atoms=())
 
 
-def _of_two(atoms: Sequence[Atom], begin: int, cut: int) -> int | None:
-    """`the distance between it and a boy | who crosses | falls below 15 m`: where `who` stands."""
-    for k in range(begin + 1, cut):
-        if atoms[k].kind is AtomKind.RELATIVE:
-            named = any(a.kind is AtomKind.THING for a in atoms[begin:k])
-            return k if named and atoms[k - 1].is_actor else None
-    return None
-
-
 def _described(atoms: tuple[Atom, ...], begin: int, previous: int) -> Atom | None:
     """Return the subject whose relative clause has the verb, None when the clause has none."""
     for k in range(begin, previous):
@@ -115,19 +101,6 @@ def _described(atoms: tuple[Atom, ...], begin: int, previous: int) -> Atom | Non
         if atoms[k].kind is AtomKind.RELATIVE:
             return atoms[k - 1] if k > begin and atoms[k - 1].is_actor else None
     return None
-
-
-def _theme(atoms: tuple[Atom, ...], begin: int, subject: int) -> Atom | None:
-    """`it is the van that the drone tracks`: what stands in front of `that`."""
-    if subject - 1 <= begin:
-        return None
-    if atoms[subject - 1].key == 'thing':  # `the bus is the thing the drone tracks`
-        told = (a for a in reversed(atoms[begin : subject - 1]) if a.is_actor or a.is_place)
-        return next(told, None)
-    if atoms[subject - 1].kind is not AtomKind.RELATIVE:
-        return None
-    before = atoms[subject - 2]
-    return before if before.is_actor or before.is_place else None
 
 
 # Participles that speak about the subject even right behind another noun.

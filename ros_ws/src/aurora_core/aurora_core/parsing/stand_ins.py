@@ -9,7 +9,6 @@ from dataclasses import replace
 from aurora_core.parsing.atoms import Determiner, NounKind, NounPhrase
 from aurora_core.parsing.lexicon import Tag
 from aurora_core.parsing.noun_words import NOUN_KINDS, NounWords
-from aurora_core.parsing.tokens import TokenKind
 
 # What `I` does when it means the ego vehicle.
 _EGO_ACTS = frozenset(
@@ -52,7 +51,7 @@ class StandInReader:
         """`it`, `I am`, `one near the park`: the phrase and the next index."""
         word = self._said.words[i]
         if word == '#':
-            return self._numbered(i)
+            return None
         moving = i + 1 if word in ("i'm", 'im', "we're") else i + 2
         told = word in ("i'm", 'im', "we're") or tuple(self._said.words[i : i + 2]) in _I_AM
         if told and self._acts(moving):  # `I am driving at 10 m/s`
@@ -61,7 +60,7 @@ class StandInReader:
             return None
         if word in ('one', 'other') and self._said.longest(i + 1, Tag.VERB):
             return self._phrase(i, i + 1, word)
-        if word == 'one' and (self._at_its_height(i) or self._shares(i)):
+        if word == 'one' and self._shares(i):
             return self._phrase(i, i + 1, word)
         more = self._one_more(i)
         if more:  # `one van near …, another at …`, `a drone hovers, a second tracks it`
@@ -86,7 +85,7 @@ class StandInReader:
         by_height = _BY_HEIGHT.intersection(self._said.words[i : i + length])
         if by_height and ' '.join(self._said.words[i + length : i + length + 1]) != 'at':
             return None  # `the lower one lands`: who that is, only their heights tell
-        if self._counts(i, i + length) and not self._stands_alone(i + length):
+        if self._counts(i, i + length):
             return None  # `all six waypoints`
         kind = NounKind.EGO if sense.tag is Tag.EGO_PRONOUN else NounKind.PRONOUN
         return self._phrase(i, i + length, sense.key, kind)
@@ -94,11 +93,6 @@ class StandInReader:
     def _counts(self, i: int, stop: int) -> bool:
         number = self._said.lexicon.number_words.get(self._said.words[stop - 1], 0)
         return i + 1 < stop and number > 2
-
-    def _stands_alone(self, i: int) -> bool:
-        """Return whether no noun follows: a predicate, a preposition, or the end."""
-        follows = (Tag.VERB, Tag.AUXILIARY, Tag.PREPOSITION, Tag.RELATION)
-        return self._ends(i) or self._said.has(i, *follows)
 
     def _one_more(self, i: int) -> int:
         """Return where `another`, `a second` ends that acts or has its place; 0 if it does not."""
@@ -114,25 +108,9 @@ class StandInReader:
         acts = self._said.longest(stop, Tag.VERB) is not None
         return stop if acts or self._placed(stop) else 0
 
-    def _numbered(self, i: int) -> tuple[NounPhrase, int] | None:
-        """`two drones: #1 hovers …, #2 tracks …`: told apart by number only."""
-        number = self._said.tokens[i + 1].norm if i + 1 < len(self._said.tokens) else ''
-        acts = self._said.longest(i + 2, Tag.VERB, Tag.AUXILIARY) is not None
-        told = number in ('1', '2', '3') and acts
-        return self._phrase(i, i + 2, f'nth{number}') if told else None
-
     def _acts(self, j: int) -> bool:
         found = self._said.longest(j, Tag.VERB)
         return found is not None and found[1].key in _EGO_ACTS
-
-    def _at_its_height(self, i: int) -> bool:
-        """`two drones, one at 40 m and one at 60 m`: `one` counts nothing."""
-        before = self._said.words[i - 1] if i else ''
-        if before not in (',', 'and', ':', ';') or i + 2 >= len(self._said.words):
-            return False
-        return (
-            self._said.words[i + 1] == 'at' and self._said.tokens[i + 2].kind is TokenKind.NUMBER
-        )
 
     def _shares(self, i: int) -> bool:
         """`two drones track it, one from 20 m`, `two vans, one near the park`."""
@@ -208,27 +186,11 @@ class StandInReader:
             return None
         if i and self._said.words[i - 1] in ('the', 'a', 'at'):
             return None
-        if self._at_its_height(i) and self._second_at_its_height():
-            return self._phrase(i, i + 1, f'nth{order.index(self._said.words[i]) + 1}')
         if self._said.longest(i + 1, Tag.VERB) is None:
             return None
-        if self._said.words[i] == 'first' and not self._second_acts():
+        if self._said.words[i] == 'first':
             return None
         return self._phrase(i, i + 1, f'nth{order.index(self._said.words[i]) + 1}')
-
-    def _second_at_its_height(self) -> bool:
-        """`first at 40 m, then at 60 m` are two phases of one UAV."""
-        return any(
-            w == 'second' and self._at_its_height(j) for j, w in enumerate(self._said.words)
-        )
-
-    def _second_acts(self) -> bool:
-        return any(
-            word == 'second'
-            and (j == 0 or self._said.tokens[j - 1].kind is not TokenKind.NUMBER)
-            and self._said.is_predicate(j + 1)
-            for j, word in enumerate(self._said.words)
-        )
 
     def _phrase(
         self, i: int, stop: int, key: str, kind: NounKind = NounKind.PRONOUN

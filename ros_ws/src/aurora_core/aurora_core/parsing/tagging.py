@@ -15,7 +15,6 @@ from aurora_core.parsing.lexicon import Lexicon, Sense, Tag, shipped_lexicon
 from aurora_core.parsing.measures import MeasureReader
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.nouns import NounReader
-from aurora_core.parsing.part_labels import part_labels
 from aurora_core.parsing.shorthand import written_out
 from aurora_core.parsing.spelling import Speller
 from aurora_core.parsing.tokens import Token, TokenKind
@@ -118,7 +117,6 @@ _BEFORE_NOUN = (
 )
 
 
-_ARE = (['is'], ['are'], ['was'], ['were'], ['remain'], ['remains'])
 # What opens the object of a command.
 _OPENS_OBJECT = frozenset({'the', 'my', 'our', 'ego', 'it'})
 
@@ -166,7 +164,7 @@ def tag(
 ) -> Tagged:
     """Return the atoms of a token list."""
     known = lexicon if lexicon is not None else shipped_lexicon()
-    tokens = written_out(part_labels(tokens, known), known)
+    tokens = written_out(tokens, known)
     landmark_vocabulary = {word for words in landmarks for word in words}
     words: list[str] = []
     corrections: list[tuple[int, int, str]] = []
@@ -229,24 +227,19 @@ class _Tagger:
 
     def _step(self, i: int) -> int:
         token = self._tokens[i]
-        if (
-            token.kind is TokenKind.MARK
-            and not self._numbers(i)
-            and token.norm
-            not in (
-                '%',
-                '°',
-                '@',
-                '~',
-                '&',
-                '<',
-                '>',
-                '≥',
-                '≤',
-                '+',
-            )
+        if token.kind is TokenKind.MARK and token.norm not in (
+            '%',
+            '°',
+            '@',
+            '~',
+            '&',
+            '<',
+            '>',
+            '≥',
+            '≤',
+            '+',
         ):
-            if token.norm in _STOPS or self._parts(i):
+            if token.norm in _STOPS:
                 self._add(AtomKind.STOP, token.norm, i, i + 1)
             elif token.norm == '→':
                 self._add(AtomKind.THEN, token.norm, i, i + 1)
@@ -292,7 +285,7 @@ class _Tagger:
         matches = self._lexicon.matches(self._words, i)
         for length, senses in matches:
             stop = i + length
-            split = self._and_forth(stop) or self._exists(stop)
+            split = self._and_forth(stop)
             if length > 1 and (self._noun_here(i, senses) or split):
                 continue  # `an orbit around …`
             if self._take(i, length, senses):
@@ -300,18 +293,6 @@ class _Tagger:
         unknown = AtomKind.FILL if token.norm in _HARMLESS else AtomKind.UNKNOWN
         self._add(unknown, self._words[i], i, i + 1)
         return i + 1
-
-    def _numbers(self, i: int) -> bool:
-        """`#1 hovers`."""
-        behind = self._tokens[i + 1].kind if i + 1 < len(self._tokens) else None
-        return self._tokens[i].norm == '#' and behind is TokenKind.NUMBER
-
-    def _parts(self, i: int) -> bool:
-        """`A hovers / B lands`: a stroke with blanks around it parts sentences."""
-        if self._tokens[i].norm != '/' or not 0 < i < len(self._tokens) - 1:
-            return False
-        before, here, behind = self._tokens[i - 1 : i + 2]
-        return before.end < here.start and here.end < behind.start
 
     def _prelude(self, i: int) -> int | None:
         """`what matters to us is that`: words around a request, where a clause may begin."""
@@ -332,7 +313,7 @@ class _Tagger:
             return None
         length, senses = matches[0]
         stop = i + length
-        split = self._and_forth(stop) or self._exists(stop)
+        split = self._and_forth(stop)
         if self._noun_here(i, senses) or split:
             return None  # `an orbit around …`
         if any(
@@ -363,10 +344,6 @@ class _Tagger:
             'and',
             'forth',
         )
-
-    def _exists(self, stop: int) -> bool:
-        """`once there are less than 20 m between them`: nobody is there."""
-        return self._words[stop - 1] == 'there' and self._words[stop : stop + 1] in _ARE
 
     def _noun_here(self, i: int, senses: tuple[Sense, ...]) -> bool:
         """Words that are a verb elsewhere stand behind an article; `that turns left` is one."""

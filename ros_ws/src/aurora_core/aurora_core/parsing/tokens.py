@@ -208,12 +208,6 @@ def _list_marks(tokens: list[Token]) -> list[Token]:
         depth += token.norm == '('
         closes = behind is not None and behind.norm == ')' and behind.glued
         short = len(token.norm) == 1 and token.kind in (TokenKind.WORD, TokenKind.NUMBER)
-        if token.norm == '(' and _numbers_a_step(tokens, i) and _ended(kept):
-            end = tokens[i + 2].end
-            kept.append(Token(kind=TokenKind.MARK, norm=';', start=token.start, end=end))
-            depth -= 1
-            i += 3
-            continue
         if closes and short and not depth and not token.glued and behind is not None:
             kept.append(Token(kind=TokenKind.MARK, norm=';', start=token.start, end=behind.end))
             i += 2
@@ -222,20 +216,6 @@ def _list_marks(tokens: list[Token]) -> list[Token]:
         kept.append(token)
         i += 1
     return kept
-
-
-def _numbers_a_step(tokens: list[Token], i: int) -> bool:
-    """`(b)`, `(2)`, `(iv)`: nothing else is in the brackets."""
-    if i + 2 >= len(tokens) or tokens[i + 2].norm != ')':
-        return False
-    inside = tokens[i + 1]
-    roman = inside.kind is TokenKind.WORD and set(inside.norm) <= set('ivx')
-    plain = len(inside.norm) <= 2 if inside.kind is TokenKind.NUMBER else len(inside.norm) == 1
-    return plain or roman
-
-
-def _ended(kept: list[Token]) -> bool:
-    return not kept or kept[-1].norm in ('.', ';', ':', '!', '?', '\n')
 
 
 def _drop_hyphens(tokens: list[Token]) -> list[Token]:

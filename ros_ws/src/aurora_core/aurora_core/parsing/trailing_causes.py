@@ -17,10 +17,8 @@ from aurora_core.parsing.effects import told_to
 from aurora_core.parsing.events import complete_event, settled
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.main_clause import main_clause, shared_words
-from aurora_core.parsing.mission_changes import begins_late
 from aurora_core.parsing.pieces import Link, Piece
-from aurora_core.parsing.pronouns import airborne
-from aurora_core.parsing.scene import ClauseDraft, EventDraft, MissionDraft, UntilDraft
+from aurora_core.parsing.scene import ClauseDraft, EventDraft, UntilDraft
 from aurora_core.parsing.sequence import onset_within
 from aurora_core.parsing.story import Story
 from aurora_core.spec.scenario import AgentAction, EventAction, SendMessage, UavAction
@@ -57,10 +55,6 @@ def effect_then_cause(story: Story, piece: Piece, because: Piece) -> None:
     delay = delay_of(second)
     late = action is None and frame.key == 'start'
     found = (cause(second) or again(story, second)) if action is not None or late else None
-    both = (effect_clause, story.scene.clause)
-    if late and begins_late(story, frame, found, both):
-        story.close(second)
-        return
     found = _about_the_told(story, second, found, action)
     if found is None or action is None:
         if action is not None:
@@ -129,28 +123,14 @@ def _shared_cause(story: Story, event: EventDraft, clause: ClauseDraft) -> None:
         clause.ids[before.id] = None
 
 
-def _goes_on(frame: Frame) -> list[MissionDraft]:
-    """`it does so until it sees a van`: the phase that was told before."""
-    if frame.key != 'keep' or any(a.measure is not None for a in frame.adjuncts):
-        return []
-    acting = frame.subjects(airborne)
-    if len(acting) != 1:
-        return []
-    frame.taken()
-    last = frame.scene.missions_of(acting[0])[-1:]
-    frame.scene.became(*(m.id for m in last))
-    return last
-
-
 def _until(story: Story, frame: Frame, because: Piece) -> None:
     """`tracks the bus until it stops`: the phase ends with the event."""
     scene = story.scene
     before = len(scene.missions)
     main_clause(frame)
-    going_on = _goes_on(frame) if len(scene.missions) == before else []
     story.close(frame)
     second = story.open(because)
-    made = scene.missions[before:] or going_on
+    made = scene.missions[before:]
     agents = [e for e in scene.clauses[-2].subjects if not e.is_uav]
     found = cause(second) if made or len(agents) == 1 else None
     if found is not None and made:

@@ -111,7 +111,6 @@ def test_what_no_element_says_is_admitted(prompt: str, quoted: str) -> None:
         'Two UAVs track a truck, one at 25 m and the other at 35 m.',
         'A bus, which a police car is following, drives at 10 m/s.',
         'Drone B hovers over City Hall at 55 m, drone A tracks a truck at 40 m.',
-        'The truck stops at 10 s, then the bus.',
         'A drone tracks a car. It stops at 9 s; 3 s after it has stopped the drone alerts it.',
         'A drone tracks a van after climbing to 40 m.',
         'A drone patrols along the main road and warns the ego car.',

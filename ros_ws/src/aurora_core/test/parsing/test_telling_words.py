@@ -27,7 +27,7 @@ def _unread(prompt: str) -> list[str]:
         ('A drone hovers at 40 m for 20 s, lands, waits 10 s and takes off.', 'lands, waits'),
         ('A drone lands and then hovers over City Hall at 40 m.', 'lands and then hovers'),
         ('A drone hovers at 40 m for 20 s and repeats this.', 'repeats this'),
-        ('A drone hovers at 40 m for 20 s, and so does another one at 60 m.', 'so does another'),
+        ('A drone hovers at 40 m for 20 s, and so does another one at 60 m.', 'does'),
         ('A drone starts at 40 m and hovers over City Hall for 20 s.', 'starts at 40 m'),
         ('A drone, already in the air, hovers over City Hall.', 'already in the air'),
         ('A drone starts on a rooftop and hovers over City Hall.', 'on a rooftop'),

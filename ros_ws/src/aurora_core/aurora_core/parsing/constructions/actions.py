@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from aurora_core.parsing import values
 from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
-from aurora_core.parsing.atoms import ACTORS, NounKind
+from aurora_core.parsing.atoms import ACTORS
 from aurora_core.parsing.constructions import missions
 from aurora_core.parsing.constructions.flight_values import take_flight_values
 from aurora_core.parsing.constructions.flyers import flyers, landed_by
@@ -62,37 +62,11 @@ def _sets_to_work(frame: Frame) -> UavAction | None:
     return UavAction(do='change_mission', uav=acting[0].id, mission=told[0].id)
 
 
-def together(frame: Frame) -> tuple[EventAction, ...]:
-    """`all of them land`, `the trucks stop`: one effect for each."""
-    if frame.negated:
-        return ()
-    found: tuple[EventAction, ...] = ()
-    if frame.key == 'land':
-        uavs = flyers(frame)
-        found = tuple(UavAction(do=landed_by(frame), uav=u.id) for u in uavs)
-        frame.scene.became(*(u.id for u in uavs))
-    elif frame.key in ('ascend', 'descend'):
-        uavs = flyers(frame)
-        values_found = take_flight_values(frame, MissionMode.HOVER, None)
-        height = values_found.altitude
-        if height is not None:
-            found = tuple(UavAction(do='ascend', uav=u.id, altitude_m=height) for u in uavs)
-            frame.scene.became(*(u.id for u in uavs))
-        else:
-            values_found.release()
-    elif frame.key in _AGENT_DO and frame.attribute('speed') is None:
-        do = _AGENT_DO[frame.key]
-        agents = frame.subjects(mobile)
-        found = tuple(AgentAction(do=do, agent=e.id) for e in agents)
-        frame.scene.became(*(e.id for e in agents))
-    return found if len(found) > 1 else ()
-
-
 def agent_action(frame: Frame, *, triggered: bool = False) -> AgentAction | None:
     """Read `brakes`, `stops`, `slows to 5 m/s`, `changes lanes`."""
     if frame.negated or frame.key not in _AGENT_DO:
         return None
-    if frame.key == 'ascend' and not _sets_off(frame):
+    if frame.key == 'ascend':
         return None
     if frame.key in _ONLY_TRIGGERED and not triggered:
         return None
@@ -140,13 +114,6 @@ _WITH_WHEELS = ('brake', 'accelerate', 'change_lane')
 
 def _on_wheels(entity: Entity) -> bool:
     return mobile(entity) and entity.type is not AgentType.PEDESTRIAN
-
-
-def _sets_off(frame: Frame) -> bool:
-    """`the motorcycle takes off`."""
-    nouns = frame.subject_nouns
-    named = bool(nouns) and nouns[0].kind in (NounKind.AGENT, NounKind.VEHICLE, NounKind.EGO)
-    return named and not any(a.measure is not None for a in frame.adjuncts)
 
 
 def _stopped_at(frame: Frame, entity: Entity) -> None:

@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-from aurora_core.parsing.adjuncts import AdjunctKind
 from aurora_core.parsing.atoms import AtomKind
 from aurora_core.parsing.constructions.flight_values import take_flight_values
 from aurora_core.parsing.constructions.flyers import flyers, landed_by
@@ -24,7 +23,7 @@ def ascent(frame: Frame) -> bool:
     if found.duration is not None or found.standoff is not None or found.ranges:
         found.release()
         return False
-    place = found.target or _above(frame)
+    place = found.target
     for uav in flying:
         if place is not None:
             frame.scene.pending_place[uav.id] = place
@@ -34,17 +33,6 @@ def ascent(frame: Frame) -> bool:
             frame.scene.pending_speed[uav.id] = found.speed
     frame.scene.became(*(u.id for u in flying))
     return True
-
-
-def _above(frame: Frame) -> str | None:
-    """`goes up to 40 m over the station and stays there`: the place of what follows."""
-    for adjunct in frame.free(AdjunctKind.PHRASE, 'over', 'at'):
-        for noun in adjunct.nouns:
-            place = frame.resolver.place(noun)
-            if place is not None:
-                adjunct.used = True
-                return place
-    return None
 
 
 def landing(frame: Frame) -> bool:

@@ -34,11 +34,6 @@ def condition(frame: Frame) -> bool:
     return any(reader(frame) for reader in readers) or (bool(frame.key) and _near(frame))
 
 
-def distance_conditions(frame: Frame) -> bool:
-    """Take `within 20 m of the bus` from a clause that says more."""
-    return frame.key in _STAYING and not frame.negated and _near(frame)
-
-
 def add_condition(
     frame: Frame,
     quantity: str,

@@ -118,8 +118,6 @@ def _separation(frame: Frame) -> None:
     adjunct = _length(frame)
     if adjunct is None or adjunct.measure is None or not _APART.search(_text(frame)):
         return
-    if _two_apart(frame, adjunct):
-        return
     named = [e for e in _named(frame) if e.is_uav]
     flying = named if len(named) > 1 else frame.scene.uavs
     they = all(n.kind is NounKind.PRONOUN for n in frame.subject_nouns)
@@ -141,27 +139,6 @@ def _separation(frame: Frame) -> None:
         '<=' if near and not frame.negated else '>=',
         values.explicit('condition_distance', adjunct.measure),
     )
-
-
-def _two_apart(frame: Frame, adjunct: Adjunct) -> bool:
-    """`the van and the bus are never nearer to one another than 8 m`: any two that act."""
-    measure = adjunct.measure
-    acting = frame.scene.clause.subjects or frame.subjects()
-    if measure is None or len(acting) != 2 or any(e.is_uav for e in acting):
-        return False
-    near = adjunct.prep in ('within', 'below') or measure.bound is Bound.AT_MOST
-    bounded = near or measure.bound is Bound.AT_LEAST or adjunct.prep == 'beyond'
-    if not bounded or not values.accepts('condition_distance', measure):
-        return False
-    adjunct.used = True
-    add_condition(
-        frame,
-        'distance',
-        (acting[0].id, acting[1].id),
-        '<=' if near and not frame.negated else '>=',
-        values.explicit('condition_distance', measure),
-    )
-    return True
 
 
 def _length(frame: Frame) -> Adjunct | None:
@@ -285,7 +262,7 @@ def _told_within(frame: Frame) -> None:
         return
     if frame.negated and not (denied and arrives):
         return
-    adjunct = frame.time('within') or (_late(frame) if arrives else None)
+    adjunct = frame.time('within')
     link = _link(frame)
     if adjunct is None or adjunct.measure is None or link is None:
         return
@@ -311,16 +288,6 @@ def _about_message(frame: Frame) -> bool:
     return (
         bool(told) and bool(nouns) and frame.key in ('receive', 'come', 'reach', 'last', 'contain')
     )
-
-
-def _late(frame: Frame) -> Adjunct | None:
-    """`may take no longer than 1.5 s`, `must not take more than 2 s`, `takes at most 1 s`."""
-    for adjunct in frame.free(AdjunctKind.MEASURE, TIME):
-        measure = adjunct.measure
-        most = measure is not None and measure.bound is Bound.AT_MOST
-        if most or (frame.negated and adjunct.prep in ('beyond', 'for', '')):
-            return adjunct
-    return None
 
 
 def _drift(frame: Frame) -> None:

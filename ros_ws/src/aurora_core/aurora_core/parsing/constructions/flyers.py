@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
+from aurora_core.parsing.adjuncts import AdjunctKind
 from aurora_core.parsing.atoms import AtomKind, Determiner, NounKind
 from aurora_core.parsing.frames import Frame
 from aurora_core.parsing.lexicon import shipped_lexicon
@@ -33,12 +33,7 @@ def flyers(frame: Frame) -> tuple[Entity, ...]:
         not nouns or (nouns[0].kind is NounKind.PRONOUN and nouns[0].key == 'there')
     ):
         launched = next(
-            (
-                a
-                for a in frame.free(AdjunctKind.OBJECT)
-                if a.nouns[0].kind is NounKind.UAV or keeps_it_up(frame, a)
-            ),
-            None,
+            (a for a in frame.free(AdjunctKind.OBJECT) if a.nouns[0].kind is NounKind.UAV), None
         )
         if launched is not None:
             launched.used = True
@@ -91,16 +86,6 @@ def _told_to_stay(frame: Frame) -> None:
             adjunct.used = True
             frame.subject_nouns = adjunct.nouns
             return
-
-
-def keeps_it_up(frame: Frame, adjunct: Adjunct) -> bool:
-    """`keep it 20 m off the van and 50 m up`: with heights and standoffs, `it` is the UAV."""
-    commanded = frame.verb is not None and frame.verb.form is VerbForm.BASE
-    if not commanded or frame.subject_nouns or frame.key not in ('keep', 'put', 'fly', 'be'):
-        return False
-    it = adjunct.nouns[0].kind is NounKind.PRONOUN and adjunct.nouns[0].key == 'it'
-    told = frame.attribute('altitude', 'away', 'standoff', 'gap') is not None
-    return it and told and len(frame.scene.uavs) == 1
 
 
 def asks_for_flight(frame: Frame) -> bool:

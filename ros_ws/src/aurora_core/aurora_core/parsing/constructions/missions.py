@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from aurora_core.parsing import values
 from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
-from aurora_core.parsing.atoms import ACTORS, AtomKind, NounKind, NounPhrase
+from aurora_core.parsing.atoms import ACTORS, AtomKind, NounKind
 from aurora_core.parsing.constructions.flight_types import FlightValues, state_ranges
 from aurora_core.parsing.constructions.flight_values import take_flight_values
 from aurora_core.parsing.constructions.flown_patterns import WAYPOINT_PREPS, flown_pattern
@@ -224,8 +224,6 @@ def _reference(frame: Frame, adjunct: Adjunct, flying: tuple[Entity, ...]) -> st
                 not adjunct.key and frame.key in ('orbit', 'navigate', 'visit')
             ):
                 frame.resolver.unknown_place(noun)
-        elif _is_place_again(frame, noun, adjunct):
-            chosen.append(next(c.places[0] for c in reversed(frame.scene.clauses) if c.places))
         elif noun.kind in ACTORS:
             pronoun = noun.kind is NounKind.PRONOUN and frame.key in _TRACKING
             seen = frame.objects((noun,), ground if pronoun else anything)
@@ -235,18 +233,6 @@ def _reference(frame: Frame, adjunct: Adjunct, flying: tuple[Entity, ...]) -> st
         frame.flag(adjunct.start, adjunct.end)
         frame.scene.clause.notes.append('a mission has one target; the first one was taken')
     return chosen[0] if chosen else None
-
-
-def _is_place_again(frame: Frame, noun: NounPhrase, adjunct: Adjunct) -> bool:
-    """`keeps the stadium in view, hovering over it`: with nobody else about, `it` is the place."""
-    if noun.kind is not NounKind.PRONOUN or noun.key != 'it':
-        return False
-    if frame.scene.agents:
-        return False
-    about = adjunct.key in ('over', 'around', 'at') or (
-        not adjunct.key and frame.key in ('orbit', 'observe', 'navigate')
-    )
-    return about and any(c.places for c in frame.scene.clauses)
 
 
 def _mode(frame: Frame, target: str | None, prep: str) -> MissionMode | None:

@@ -11,7 +11,6 @@ from aurora_core.parsing.adjuncts import MUTUAL, Adjunct, AdjunctKind
 from aurora_core.parsing.atoms import ACTORS, NounKind, NounPhrase
 from aurora_core.parsing.criteria.placed import Placed
 from aurora_core.parsing.frames import Frame
-from aurora_core.parsing.measures import LENGTH
 from aurora_core.parsing.pronouns import ground
 from aurora_core.parsing.resolver import Resolver
 from aurora_core.parsing.scene import Entity, Unanchored
@@ -119,7 +118,7 @@ def named_reference(frame: Frame, adjunct: Adjunct) -> str | None:
     egos = [e for e in found if e.role is Role.EGO]
     if len(found) > 1 and adjunct.key == Relation.ONCOMING:
         return (egos or found)[0].id  # they all go the same way
-    if len(found) > 1 and not _abreast(found):
+    if len(found) > 1:
         frame.flag(adjunct.start, adjunct.end)
     return found[0].id if found else None
 
@@ -131,13 +130,6 @@ def _fronted(frame: Frame, adjunct: Adjunct) -> bool:
         return False
     told = frame.scene.clauses[-2].span  # `in front of it is a bus; behind it a van`: of the same
     return 'it' not in re.findall('[a-z]+', frame.scene.prompt[told.start : told.end].lower())
-
-
-def _abreast(group: tuple[Entity, ...]) -> bool:
-    """Return whether what is ahead of one of them is ahead of all."""
-    ids = {e.id for e in group}
-    told = [p for e in group for p in e.placements if p.of in ids]
-    return len(told) == len(group) - 1 and all(p.relation is Relation.BESIDE for p in told)
 
 
 def place_of(frame: Frame, adjunct: Adjunct) -> str | None:
@@ -195,7 +187,6 @@ def placements_of(
                     span=adjunct.span,
                 )
             )
-    made += _far_from_place(frame)
     away = frame.attribute('away')
     if away is not None and away.nouns and away.measure is not None and away.prep in ('', 'at'):
         others = frame.objects(away.nouns, ground)
@@ -210,30 +201,6 @@ def placements_of(
                 )
             )
     return tuple(made)
-
-
-def _far_from_place(frame: Frame) -> tuple[Placement, ...]:
-    """`stands 30 m from the crosswalk`, `is 30 m away from it`."""
-    for adjunct in frame.free(AdjunctKind.PHRASE, 'from'):
-        before = frame.scene.prompt[: adjunct.start].rstrip().removesuffix('away').rstrip()
-        far = next((a for a in _lengths(frame) if a.end == len(before)), None)
-        if far is None or far.measure is None:
-            continue
-        place = place_of(frame, adjunct)
-        if place is not None and values.accepts('placement_distance', far.measure):
-            adjunct.used = far.used = True
-            distance = values.explicit('placement_distance', far.measure)
-            span = adjunct.span
-            made = Placement(relation=Relation.NEAR, of=place, distance_m=distance, span=span)
-            return (made,)
-    return ()
-
-
-def _lengths(frame: Frame) -> list[Adjunct]:
-    return [
-        *frame.free(AdjunctKind.MEASURE, LENGTH),
-        *frame.free(AdjunctKind.ATTRIBUTE, 'away', 'standoff'),
-    ]
 
 
 def _of_the_object(frame: Frame, adjunct: Adjunct) -> bool:

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
+from aurora_core.parsing.adjuncts import AdjunctKind
 from aurora_core.parsing.atoms import ACTORS, AtomKind, NounKind
 from aurora_core.parsing.constructions.ground import add_behavior, names_actor, speed_of
 from aurora_core.parsing.constructions.places import (
@@ -28,12 +28,11 @@ def placing(frame: Frame) -> bool:
     nouns = frame.subject_nouns
     if not nouns or all(n.kind is NounKind.PRONOUN and n.key == 'there' for n in nouns):
         lead = next((a for a in frame.free(AdjunctKind.OBJECT) if names_actor(a)), None)
-        lead = _populated(frame) or lead
         if lead is not None:
             lead.used = True
             nouns = lead.nouns
     elif frame.key == 'contain':
-        return _having(frame)
+        return False
     if not nouns and frame.piece.head is not None and frame.piece.head.noun is not None:
         nouns = (frame.piece.head.noun,)
     nouns = tuple(n for n in nouns if n.kind in ACTORS)
@@ -70,31 +69,3 @@ def _on_one_road(frame: Frame, placements: tuple[Placement, ...]) -> None:
         other = frame.scene.by_id(placement.of or '')
         if roads and other is not None and placement.relation in _IN_LINE:
             add_placement(other, roads[0])
-
-
-def _populated(frame: Frame) -> Adjunct | None:
-    """`a scenario with one parked van`, `fill the scene with twelve cars`."""
-    scene = frame.key in ('put', 'contain') or frame.has_mark(AtomKind.SCENARIO.value)
-    found = [a for a in frame.free(AdjunctKind.PHRASE, 'with') if names_actor(a)]
-    return found[0] if scene and found else None
-
-
-def _having(frame: Frame) -> bool:
-    """`the ego car has a bus ahead of it`: the owner is named, the object is placed."""
-    if any(n.kind is NounKind.UNKNOWN for n in frame.subject_nouns):
-        return False  # `the authority has granted us 120 m`
-    owners = frame.resolver.actors(frame.subject_nouns, accept=ground)
-    lead = next((a for a in frame.free(AdjunctKind.OBJECT) if names_actor(a)), None)
-    if not owners or lead is None:
-        return False
-    lead.used = True
-    subjects = frame.resolver.actors(lead.nouns, accept=ground)
-    if not subjects or any(e.is_uav for e in subjects):
-        return False
-    frame.scene.clause.subjects = subjects
-    frame.scene.clause.objects = owners
-    for placement in placements_of(frame, subjects, kept=False):
-        for entity in subjects:
-            add_placement(entity, placement)
-    frame.scene.became(*(e.id for e in subjects))
-    return True

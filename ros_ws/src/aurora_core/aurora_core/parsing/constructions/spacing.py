@@ -15,15 +15,11 @@ from aurora_core.parsing.adjuncts import IN_A_ROW, Adjunct, AdjunctKind
 from aurora_core.parsing.atoms import NounKind
 from aurora_core.parsing.constructions.places import DISTANT, add_placement, is_throughout
 from aurora_core.parsing.frames import Frame
-from aurora_core.parsing.measures import LENGTH
 from aurora_core.parsing.scene import Entity
-from aurora_core.spec.parameter import Bound, Parameter
+from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.scenario import Placement
 from aurora_core.spec.vocabulary import Relation
 
-_APART = ('separation', 'gap', 'standoff', 'away')
-# `keeps a distance of 12 m`, `leaves a gap of 12 m`, `has a distance of 12 m to it`.
-_HAVING = ('keep', 'start', 'contain')
 _COLUMN = re.compile(r'\b(?:queue|line|row|column|convoy|platoon|string|procession|file) of\b')
 
 
@@ -70,48 +66,6 @@ def _between_them(frame: Frame) -> None:
     """`12 m between each`: of whom the clause is."""
     for adjunct in frame.free(AdjunctKind.PHRASE, 'between'):
         adjunct.used = all(n.kind is NounKind.PRONOUN for n in adjunct.nouns)
-
-
-def told_distance(frame: Frame) -> bool:
-    """`the distance between them is 12 m`: how far whoever was placed is from the other."""
-    if frame.negated or frame.key not in _HAVING:
-        return False
-    value = frame.attribute(*_APART)
-    words = next(
-        (a for a in frame.free(AdjunctKind.MARK, 'thing') if a.value in _APART and a is not value),
-        None,
-    )
-    between = frame.free(AdjunctKind.PHRASE, 'between')
-    if value is None and (words is not None or between):
-        value = frame.length('', 'of')
-    if value is None or value.measure is None or value.measure.bound is not Bound.EXACTLY:
-        return False
-    return value.key != LENGTH and _is_kept(frame, value)
-
-
-def _is_kept(frame: Frame, value: Adjunct) -> bool:
-    """`the car keeps a distance of 22 m to the truck`: how far behind it."""
-    assert value.measure is not None
-    flying = any(n.kind is NounKind.UAV for n in frame.subject_nouns)
-    if flying or value.prep not in ('', 'of', 'with'):
-        return False
-    if not values.accepts('placement_distance', value.measure):
-        return False
-    places = frame.free(AdjunctKind.PLACE)
-    who = frame.subjects()
-    if len(who) != 1 or who[0].is_uav or places:
-        return False
-    phrases = frame.free(AdjunctKind.PHRASE, 'to', 'from')
-    others = frame.objects([*value.nouns, *(n for p in phrases for n in p.nouns)])
-    if len(others) > 1 or any(e.is_uav for e in others):
-        return False
-    distance = values.explicit('placement_distance', value.measure)
-    if not fill_in(who + others, {e.id for e in who + others} if others else None, distance):
-        return False
-    for adjunct in (value, *phrases):
-        adjunct.used = True
-    frame.scene.became(who[0].id)
-    return True
 
 
 def fill_in(about: tuple[Entity, ...], ids: set[str] | None, distance: Parameter) -> bool:

@@ -4,12 +4,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Sequence
 
 from aurora_core.parsing import values
 from aurora_core.parsing.criteria.moments import Moment, Sequel
 from aurora_core.parsing.reactions import REACTIONS, reaction
-from aurora_core.parsing.scene import Entity, EventDraft, MissionDraft, Scene
+from aurora_core.parsing.scene import Entity, EventDraft, Scene
 from aurora_core.spec.parameter import Bound, Parameter, Span
 from aurora_core.spec.scenario import (
     AgentAction,
@@ -59,7 +59,7 @@ class Sequels:
         """Return whether the order could be written into the scene."""
         then = self._then(told)
         if then is None:
-            return self._phases(told)
+            return False
         limit = self._limit(told)
         if told.first is not None and told.first.key == 'mission':
             return False
@@ -220,22 +220,3 @@ class Sequels:
         self._scene.clause.ids[made.id] = None
         then.trigger = EventDoneTrigger(on='event_done', event=made.id)
         return made
-
-    def _phases(self, told: Sequel) -> bool:
-        """`the second hover must start within 60 s after the first`."""
-        both = (told.first, told.then)
-        if any(m is not None and m.key != 'mission' for m in both) or both == (None, None):
-            return False
-        flown = list(self._pairs(lambda a, b: a.uav is b.uav))
-        if len(flown) != 1 or told.then is None:
-            return False
-        first, then = flown[0]
-        self._order(first.id, then.id, self._limit(told))
-        return True
-
-    def _pairs(
-        self, fits: Callable[[MissionDraft, MissionDraft], bool]
-    ) -> Iterator[tuple[MissionDraft, MissionDraft]]:
-        missions = self._scene.missions
-        for k, one in enumerate(missions):
-            yield from ((one, two) for two in missions[k + 1 :] if fits(one, two))

@@ -13,7 +13,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import lru_cache
 
-from aurora_core.parsing.atom_runs import HELPERS, LOOSE, by_sentence, skip, stop_at, text_of
+from aurora_core.parsing.atom_runs import HELPERS, by_sentence, skip, stop_at, text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
 from aurora_core.parsing.data_files import read_data
 from aurora_core.parsing.morphology import VerbForm
@@ -57,27 +57,12 @@ def _behind_verb(rest: list[Atom], focus: list[Atom]) -> list[Atom]:
     while at < len(rest) and rest[at].kind is AtomKind.FILL:
         at += 1
     governed = at < len(rest) and rest[at].kind in _GOVERNING
-    if governed and not _takes_noun(rest, at) and focus[0].noun is not None:
+    if governed and focus[0].noun is not None:
         return rest[: at + 1] + focus + rest[at + 1 :]
     for i in range(at, len(rest)):
-        if rest[i].kind in _GOVERNING and not _takes_noun(rest, i) and focus[0].noun is not None:
+        if rest[i].kind in _GOVERNING and focus[0].noun is not None:
             return rest[: i + 1] + focus + rest[i + 1 :]
     return rest[: verb + 1] + focus + rest[verb + 1 :]
-
-
-def _takes_noun(atoms: Sequence[Atom], i: int) -> bool:
-    behind = skip(atoms, i + 1)
-    if behind >= len(atoms):
-        return False
-    return atoms[behind].noun is not None or atoms[behind].kind in (
-        AtomKind.MEASURE,
-        AtomKind.THING,
-        AtomKind.PATTERN,
-        AtomKind.ROUTE,
-        AtomKind.WORLD,
-        AtomKind.VERB,
-        *_GOVERNING,
-    )
 
 
 def _turned(atoms: list[Atom], prompt: str) -> list[Atom]:
@@ -112,23 +97,12 @@ def _turned(atoms: list[Atom], prompt: str) -> list[Atom]:
         be = replace(atoms[k], kind=AtomKind.AUXILIARY, key='be')
         if lead.kind is AtomKind.IN_VIEW:
             be = replace(be, kind=AtomKind.VERB, form=VerbForm.THIRD)
-        turned = [*atoms[:first], *subject, be, *atoms[first:k]]
-        return turned + _rest_about(atoms[who], atoms[end:])
+        return [*atoms[:first], *subject, be, *atoms[first:k]]
     return atoms
 
 
 def _are_helpers(atoms: Sequence[Atom]) -> bool:
     return all(a.kind in HELPERS or a.key == 'be' for a in atoms)
-
-
-def _rest_about(subject: Atom, rest: list[Atom]) -> list[Atom]:
-    """`…, who is tracked for 40 s`: a sentence about the noun that was moved."""
-    i = 0
-    while i < len(rest) and rest[i].kind is AtomKind.COMMA:
-        i += 1
-    if i < len(rest) and rest[i].kind is AtomKind.RELATIVE:
-        return [stop_at(rest[i]), subject, *rest[i + 1 :]]
-    return rest
 
 
 def _participle(atoms: list[Atom], prompt: str) -> list[Atom]:
@@ -245,39 +219,10 @@ def _having(atoms: list[Atom], prompt: str) -> list[Atom]:
     return atoms
 
 
-@lru_cache(maxsize=1)
-def _agent_nouns() -> dict[str, str]:
-    listed = read_data('lexicon.yaml')['agent_nouns']
-    return {word: key for key, words in listed.items() for word in words}
-
-
-def _by_role(atoms: list[Atom], prompt: str) -> list[Atom]:
-    """`its tracker is a drone`, `the pursuer of the bus is a van`: who does it to whom."""
-    for i, atom in enumerate(atoms):
-        role = text_of(atom, prompt).rpartition(' ')[2]
-        if role not in _agent_nouns() or atom.kind is AtomKind.VERB:
-            continue
-        whom = atoms[i - 1] if i and atoms[i - 1].is_actor else None
-        begin = i - 1 if whom is not None else i
-        be = i + 1
-        if whom is None and be < len(atoms) and atoms[be].key == 'of' and _named(atoms, be + 1):
-            whom, be = atoms[be + 1], be + 2
-        be = skip(atoms, be, (AtomKind.COMMA, *LOOSE)) if not _is_be(atoms, be) else be
-        who = skip(atoms, be + 1, HELPERS)
-        if whom is None or not _is_be(atoms, be) or not _named(atoms, who):
-            continue
-        verb = replace(
-            atoms[be], kind=AtomKind.VERB, key=_agent_nouns()[role], form=VerbForm.THIRD
-        )
-        return [*atoms[:begin], atoms[who], verb, whom, *atoms[who + 1 :]]
-    return atoms
-
-
 _TURNS: tuple[Callable[[list[Atom], str], list[Atom]], ...] = (
     _sent,
     _turned,
     _participle,
     _having,
-    _by_role,
     _relative_object,
 )

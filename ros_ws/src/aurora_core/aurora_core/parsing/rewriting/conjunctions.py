@@ -20,7 +20,6 @@ from aurora_core.parsing.reactions import REACTIONS
 
 _PAUSES = (AtomKind.STOP, AtomKind.COMMA, AtomKind.CONJUNCTION, AtomKind.THEN, AtomKind.RELATIVE)
 _EFFECTS = frozenset({*REACTIONS, 'land', 'ascend', 'descend', 'alert', 'send', 'report'})
-_HELPS = ('has', 'have', 'had', 'is', 'was', 'are', 'did', 'does', 'will')
 # What happens at a moment; `because a boy stands there` is no event.
 _HAPPENS = frozenset(
     {
@@ -33,7 +32,7 @@ _HAPPENS = frozenset(
 
 def joined(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
     """Return the atoms with these causes behind `when`."""
-    told = _at_once(_otherwise(_because(list(atoms), prompt), prompt), prompt)
+    told = _because(list(atoms), prompt)
     return _alike(told)
 
 
@@ -78,65 +77,6 @@ def _is_event(atoms: Sequence[Atom], i: int) -> bool:
     first = skip(told, 0, TRANSPARENT)
     named = first < len(told) and (told[first].is_actor or told[first].kind is AtomKind.MESSAGE)
     return named and any(a.kind is AtomKind.VERB and a.key in _HAPPENS for a in told[first:])
-
-
-def _otherwise(atoms: list[Atom], prompt: str) -> list[Atom]:
-    """`it waits unless the drone warns it, in which case it sets off`."""
-    cases = shipped_lexicon().turns['in_that_case']
-    for i, atom in enumerate(atoms):
-        if atom.kind is not AtomKind.SUBORDINATOR or atom.key != 'unless' or not i:
-            continue
-        case = next(
-            (
-                k
-                for k in range(i + 1, len(atoms))
-                if atoms[k].kind is AtomKind.THEN and text_of(atoms[k], prompt) in cases
-            ),
-            None,
-        )
-        if case is None or sum(a.kind is AtomKind.STOP for a in atoms[i:case]) > 1:
-            continue
-        end = case
-        while atoms[end - 1].kind in _PAUSES:
-            end -= 1
-        stop = replace(atom, kind=AtomKind.STOP, key=';')
-        comma = replace(atoms[case], kind=AtomKind.COMMA, key=',')
-        begin = i - 1 if atoms[i - 1].kind is AtomKind.COMMA else i
-        behind = case + 1
-        while behind < len(atoms) and atoms[behind].kind is AtomKind.COMMA:
-            behind += 1
-        told = [stop, _when(atom), *atoms[i + 1 : end], comma]
-        return [*atoms[:begin], *told, *_otherwise(atoms[behind:], prompt)]
-    return atoms
-
-
-def _at_once(atoms: list[Atom], prompt: str) -> list[Atom]:
-    """`no sooner has the bus stopped than it lands`, `hardly has it landed when it starts`."""
-    scarcely = shipped_lexicon().turns['scarcely']
-    for i, atom in enumerate(atoms):
-        opens = i == 0 or atoms[i - 1].kind in _PAUSES
-        if not opens or text_of(atom, prompt) not in scarcely:
-            continue
-        who = i + 2
-        if who >= len(atoms) or text_of(atoms[i + 1], prompt) not in _HELPS:
-            continue
-        if not atoms[who].is_actor:
-            continue
-        than = next(
-            (
-                k
-                for k in range(who + 1, len(atoms))
-                if text_of(atoms[k], prompt) in ('than', 'when', 'before')
-                or atoms[k].kind is AtomKind.STOP
-            ),
-            None,
-        )
-        if than is None or atoms[than].kind is AtomKind.STOP:
-            continue
-        comma = replace(atoms[than], kind=AtomKind.COMMA, key=',')
-        cause = [_when(atom), *atoms[who:than], comma]
-        return [*atoms[:i], *cause, *_at_once(atoms[than + 1 :], prompt)]
-    return atoms
 
 
 def _alike(atoms: list[Atom]) -> list[Atom]:

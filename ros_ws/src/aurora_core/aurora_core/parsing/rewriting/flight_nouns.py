@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from aurora_core.parsing.atom_runs import HELPERS, LOOSE, runs, skip
-from aurora_core.parsing.atoms import Atom, AtomKind, Determiner, NounKind
+from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.phases import FLOWN, PHASES
 from aurora_core.parsing.rewriting.nominal import act_nouns
@@ -16,9 +16,6 @@ from aurora_core.parsing.rewriting.nominal import act_nouns
 _FLIGHTS = PHASES | {'navigate', 'orbit'}
 _NEXT = _FLIGHTS | {'land', 'ascend', 'descend'}
 _PAUSES = (AtomKind.COMMA, AtomKind.CONJUNCTION)
-# `patrol` is a police car only where it is watched or acts by itself.
-_WATCHES = FLOWN | {'see', 'overtake', 'approach', 'tailgate', 'trail', 'alert', 'send', 'lose'}
-_OF_A_FLIGHT = frozenset({'finish', 'be', 'last', 'start', 'stop', 'break_off', 'trace', 'take'})
 _ENDED = ('finish', 'trace')
 _BREAKS_OFF = frozenset({'break_off', 'stop', 'finish', 'keep'})
 
@@ -27,7 +24,7 @@ def flights(atoms: Sequence[Atom]) -> list[Atom]:
     """Return the atoms with flights as such, and without the end that the next one implies."""
     ordered = [a for told, stop in runs(atoms, AtomKind.STOP) for a in _ordered(told, stop)]
     named = _centred(_owned(_on_the_way(ordered)))
-    return _broken_off(_after_that(_patrols(named)))
+    return _broken_off(_after_that(named))
 
 
 def _ordered(atoms: list[Atom], stop: Atom | None) -> list[Atom]:
@@ -119,27 +116,6 @@ def _stop_before(atoms: Sequence[Atom], i: int) -> int:
         i -= 1
     paused = i and atoms[i - 1].kind in (AtomKind.STOP, *_PAUSES)
     return i - 1 if paused else len(atoms)
-
-
-def _patrols(atoms: list[Atom]) -> list[Atom]:
-    """`after the patrol`, `the patrol is finished`: what a UAV flies, not who drives."""
-    if not any(a.noun is not None and a.noun.kind is NounKind.UAV for a in atoms):
-        return atoms
-    for i, atom in enumerate(atoms):
-        noun = atom.noun
-        if noun is None or noun.head_text != 'patrol' or noun.plural or noun.count > 1:
-            continue
-        before = atoms[i - 1] if i else None
-        behind = skip(atoms, i + 1, HELPERS)
-        acts = behind < len(atoms) and atoms[behind].kind is AtomKind.VERB
-        watched = before is not None and (
-            before.key in _WATCHES or before.kind is AtomKind.RELATION
-        )
-        if watched or (acts and atoms[behind].key not in _OF_A_FLIGHT):
-            continue
-        if noun.determiner in (Determiner.DEFINITE, Determiner.BARE):
-            atoms[i] = replace(atom, kind=AtomKind.ROUTE, key='patrol', noun=None)
-    return atoms
 
 
 def _after_that(atoms: list[Atom]) -> list[Atom]:

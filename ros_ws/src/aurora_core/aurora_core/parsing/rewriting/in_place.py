@@ -15,7 +15,6 @@ from aurora_core.parsing.atom_runs import LOOSE, skip
 from aurora_core.parsing.atoms import Atom, AtomKind
 from aurora_core.parsing.measures import LENGTH, SPEED
 from aurora_core.parsing.morphology import VerbForm
-from aurora_core.parsing.phases import PHASES
 from aurora_core.parsing.pieces import TRANSPARENT
 
 _ENDS = (AtomKind.STOP, AtomKind.COMMA, AtomKind.THEN, AtomKind.CONJUNCTION)
@@ -68,7 +67,7 @@ def verbless(atoms: list[Atom], prompt: str) -> list[Atom]:
 
 def interrupted(atoms: list[Atom]) -> list[Atom]:
     """`the car, when it has the message, yields`: the cause first."""
-    told = _asides(list(atoms))
+    told = list(atoms)
     for i in range(1, len(told) - 2):
         opens = told[i].kind is AtomKind.COMMA and told[i - 1].is_actor
         if not opens or told[i + 1].kind is not AtomKind.SUBORDINATOR or told[i + 1].key != 'when':
@@ -85,29 +84,3 @@ def interrupted(atoms: list[Atom]) -> list[Atom]:
         if behind < len(told) and told[behind].kind is AtomKind.VERB:
             told[begin : stop + 1] = [*told[i + 1 : stop + 1], *told[begin:i]]
     return told
-
-
-def _asides(atoms: list[Atom]) -> list[Atom]:
-    """`when the drone, hovering over the park, sees it, …`: what it does is told before."""
-    for i in range(1, len(atoms) - 2):
-        who, verb = atoms[i - 1], atoms[i + 1]
-        flies = verb.kind is AtomKind.VERB and verb.form is VerbForm.ING and verb.key in PHASES
-        if atoms[i].kind is not AtomKind.COMMA or not who.is_actor or not flies:
-            continue
-        stop = next((k for k in range(i + 2, len(atoms)) if atoms[k].kind is AtomKind.COMMA), None)
-        if stop is None or any(a.kind is AtomKind.STOP for a in atoms[i:stop]):
-            continue
-        behind = skip(atoms, stop + 1, TRANSPARENT)
-        if behind >= len(atoms) or atoms[behind].kind is not AtomKind.VERB:
-            continue
-        if atoms[behind].form is VerbForm.ING:
-            continue
-        begin = i - 1
-        while begin and atoms[begin - 1].kind is not AtomKind.STOP:
-            begin -= 1
-        if not any(a.kind is AtomKind.SUBORDINATOR for a in atoms[begin : i - 1]):
-            continue
-        pause = replace(atoms[i], kind=AtomKind.STOP, key=';')
-        told = [who, replace(verb, form=VerbForm.THIRD), *atoms[i + 2 : stop], pause]
-        return _asides([*atoms[:begin], *told, *atoms[begin:i], *atoms[stop + 1 :]])
-    return atoms

@@ -28,7 +28,7 @@ def dated(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
     """Return the atoms with every time in the clause of what happens then."""
     told = _leaving(before_that(_exact(atoms, prompt)))
     told = _in_that_case(_that_happens(told, prompt), prompt)
-    return _until_then(_headings(_into_it(_later(told))))
+    return _into_it(_later(told))
 
 
 def _exact(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
@@ -106,59 +106,6 @@ def _later(atoms: list[Atom]) -> list[Atom]:
         if then and _is_time(changed, i - 1):
             changed[i] = replace(changed[i], kind=AtomKind.FILL)
     return changed
-
-
-def _headings(atoms: list[Atom]) -> list[Atom]:
-    """`20 s: the van brakes`, `t=20 van brakes`: the time of what follows."""
-    written: list[Atom] = []
-    i = 0
-    while i < len(atoms):
-        opens = not written or written[-1].kind in _PAUSES
-        named = atoms[i].kind is AtomKind.UNKNOWN and atoms[i].key in ('t', 'time')
-        k = i + 1 if named else i
-        while named and k < len(atoms) and atoms[k].kind is AtomKind.FILL:
-            k += 1
-        colon = k + 1 < len(atoms) and atoms[k + 1].key == ':'
-        after = k + 2 if colon else k + 1
-        while after < len(atoms) and atoms[after].kind is AtomKind.FILL:
-            after += 1
-        acts = after + 1 < len(atoms) and atoms[after].is_actor
-        if opens and (named or colon) and _is_time(atoms, k) and acts:
-            written += [_at(atoms[i]), atoms[k]]
-            i = k + 2 if colon else k + 1
-            continue
-        written.append(atoms[i])
-        i += 1
-    return written
-
-
-def _until_then(atoms: list[Atom]) -> list[Atom]:
-    """`drives at 10 m/s until 40 s, and then it brakes`: it brakes at 40 s."""
-    written: list[Atom] = []
-    i = 0
-    while i < len(atoms):
-        until = atoms[i].kind in (AtomKind.PREPOSITION, AtomKind.SUBORDINATOR)
-        if until and atoms[i].key == 'until' and _is_time(atoms, i + 1):
-            k = i + 2
-            while k < len(atoms) and atoms[k].kind in (
-                AtomKind.COMMA,
-                AtomKind.CONJUNCTION,
-                AtomKind.STOP,
-            ):
-                k += 1
-            if k < len(atoms) and k > i + 2 and atoms[k].kind is AtomKind.THEN:
-                joint = replace(atoms[i + 2], kind=AtomKind.CONJUNCTION, key='and')
-                written += [joint, _at(atoms[i]), atoms[i + 1]]
-                i = k + 1
-                continue
-            if k < len(atoms) and atoms[k].kind is AtomKind.THEN:
-                joint = replace(atoms[k], kind=AtomKind.CONJUNCTION, key='and')
-                written += [joint, _at(atoms[i]), atoms[i + 1]]
-                i = k + 1
-                continue
-        written.append(atoms[i])
-        i += 1
-    return written
 
 
 def _that_happens(atoms: list[Atom], prompt: str) -> list[Atom]:

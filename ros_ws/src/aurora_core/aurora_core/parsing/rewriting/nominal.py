@@ -19,7 +19,6 @@ from aurora_core.parsing.data_files import read_data
 from aurora_core.parsing.morphology import VerbForm
 
 _BREAKS = (AtomKind.COMMA, AtomKind.CONJUNCTION)
-_WITHOUT_OBJECT = frozenset({'land', 'hover', 'ascend', 'descend', 'start', 'stop', 'brake'})
 _WITH_OBJECT = frozenset({'track', 'follow', 'observe', 'orbit', 'navigate', 'overtake', 'cross'})
 
 
@@ -31,7 +30,7 @@ def predicates(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
 
     def told(sentence: list[Atom]) -> list[Atom]:
         acts = _message(sentence, prompt)
-        return _of_whom(_target(acts, prompt))
+        return _target(acts, prompt)
 
     return by_sentence(list(atoms), told)
 
@@ -95,21 +94,3 @@ def _target(atoms: list[Atom], prompt: str) -> list[Atom]:
         later = [stop, atoms[who], *more] if more else []
         return [*atoms[: act + 1], atoms[who], *before, *later]
     return atoms
-
-
-def _of_whom(atoms: list[Atom]) -> list[Atom]:
-    """`the landing of the drone`, `the tracking of a bus by a drone`."""
-    changed = list(atoms)
-    for i in range(len(changed) - 2):
-        act, of, noun = changed[i : i + 3]
-        if act.kind is not AtomKind.VERB or act.form is not VerbForm.ING or of.key != 'of':
-            continue
-        if of.kind is not AtomKind.PREPOSITION or not (noun.is_actor or noun.is_place):
-            continue
-        if act.key in _WITHOUT_OBJECT and noun.is_actor:
-            changed[i : i + 3] = [noun, replace(act, form=VerbForm.THIRD)]
-            return _of_whom(changed)
-        if act.key in _WITH_OBJECT:
-            changed[i + 1 : i + 3] = [noun]
-            return _of_whom(changed)
-    return changed

@@ -11,9 +11,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from aurora_core.parsing.atom_runs import LOOSE, skip, text_of
-from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
-from aurora_core.parsing.lexicon import shipped_lexicon
+from aurora_core.parsing.atom_runs import skip, text_of
+from aurora_core.parsing.atoms import Atom, AtomKind
 from aurora_core.parsing.measures import TIME
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.phases import PHASES
@@ -35,7 +34,7 @@ _ENDS = (AtomKind.STOP, AtomKind.COMMA, AtomKind.THEN, AtomKind.CONJUNCTION)
 def verbal(atoms: list[Atom], prompt: str) -> list[Atom]:
     """Return the atoms with events that are told as nouns written out as clauses."""
     atoms = interrupted(verbless(heard(atoms, prompt), prompt))
-    written = _participles(_nominal(_made_to(_done(atoms, prompt), prompt), prompt), prompt)
+    written = _participles(_nominal(_made_to(atoms, prompt), prompt), prompt)
     return [
         replace(a, kind=AtomKind.UNKNOWN)
         if a.kind in (AtomKind.HAPPENING, AtomKind.BECAUSE, AtomKind.CAUSING)
@@ -94,46 +93,6 @@ def _within_of(written: Sequence[Atom], atom: Atom) -> bool:
         return False
     timed = written[-1].measure is not None and written[-1].key == TIME
     return timed and written[-2].kind is AtomKind.PREPOSITION and written[-2].key == 'within'
-
-
-def _done(atoms: list[Atom], prompt: str) -> list[Atom]:
-    """`when done`, `once finished`, `with all of that done, …`: at the end of the flight."""
-    written: list[Atom] = []
-    i = 0
-    while i < len(atoms):
-        atom = atoms[i]
-        opens = not written or written[-1].kind in _ENDS
-        linked = atom.kind is AtomKind.SUBORDINATOR and atom.key in ('when', 'after', 'while')
-        absolute = opens and atom.kind is AtomKind.PREPOSITION and atom.key == 'with'
-        k = i + 1
-        while k < len(atoms) and not _is_done(atoms[k], prompt) and _is_small(atoms[k]):
-            k += 1
-        end = k + 1 >= len(atoms) or atoms[k + 1].kind in (*_ENDS, AtomKind.FRAME)
-        done = k < len(atoms) and _is_done(atoms[k], prompt) and (end or atoms[k + 1].is_actor)
-        if (linked or absolute) and done and k - i < 6:
-            written.append(
-                replace(atom, kind=AtomKind.SUBORDINATOR, key='when', other_kinds=frozenset())
-            )
-            written.append(
-                replace(atoms[k], kind=AtomKind.VERB, key='finish', form=VerbForm.ING, noun=None)
-            )
-            i = k + 1
-            continue
-        written.append(atom)
-        i += 1
-    return written
-
-
-def _is_small(atom: Atom) -> bool:
-    pronoun = (
-        atom.noun is not None and atom.noun.kind is NounKind.PRONOUN and atom.noun.key == 'it'
-    )
-    small = (*LOOSE, AtomKind.AUXILIARY, AtomKind.PREPOSITION, AtomKind.ROUTE, AtomKind.RELATIVE)
-    return atom.kind in small or pronoun or atom.key in ('all', 'everything')
-
-
-def _is_done(atom: Atom, prompt: str) -> bool:
-    return text_of(atom, prompt) in shipped_lexicon().turns['finished']
 
 
 def _acts_behind(atoms: Sequence[Atom], i: int) -> bool:
@@ -298,10 +257,6 @@ def _made_to(atoms: list[Atom], prompt: str) -> list[Atom]:
             changed[begin : verb + 1] = [then, *acts]
             i = begin
             continue
-        clause = told_event(cause, prompt)
-        if clause is not None:
-            comma = replace(changed[i], kind=AtomKind.COMMA, key=',')
-            changed[begin : verb + 1] = [*clause, comma, *acts]
         i += 1
     return changed
 
@@ -332,28 +287,3 @@ def _clause_start(atoms: Sequence[Atom], i: int) -> int:
     while k and atoms[k - 1].kind not in (AtomKind.STOP, AtomKind.COMMA, AtomKind.THEN):
         k -= 1
     return k
-
-
-def told_event(cause: Sequence[Atom], prompt: str) -> list[Atom] | None:
-    """`the arrival of the bus`, `a bus arriving at the park`: as a clause behind `when`."""
-    if not cause:
-        return None
-    when = Atom(
-        kind=AtomKind.SUBORDINATOR, key='when', start=cause[0].start, end=cause[0].start + 1
-    )
-    first = skip(cause, 0)
-    if first + 1 < len(cause) and cause[first].is_actor:
-        acts = cause[first + 1]
-        if acts.kind is AtomKind.VERB and acts.form is VerbForm.ING:
-            return [
-                when,
-                *cause[: first + 1],
-                replace(acts, form=VerbForm.THIRD),
-                *cause[first + 2 :],
-            ]
-    event = _event(cause, 0, prompt, because=False)
-    if event is None:  # `the drone's warning`
-        told = heard([replace(when, kind=AtomKind.BECAUSE), *cause], prompt)
-        return told if told[0].kind is AtomKind.SUBORDINATOR else None
-    clause, stop = event
-    return [when, *clause, *cause[stop:]]

@@ -8,11 +8,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from aurora_core.parsing.atom_runs import skip, text_of
-from aurora_core.parsing.atoms import Atom, AtomKind, NounKind, NounPhrase
+from aurora_core.parsing.atoms import Atom, AtomKind
 
 _APART = ('standoff', 'gap', 'separation', 'radio_range')
 _DASHES = ('-', '–', '/', '<->', '↔')
-_OPENS = (AtomKind.PREPOSITION, AtomKind.VERB, AtomKind.AUXILIARY, AtomKind.MEASURE)
 
 
 def pairs(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
@@ -28,8 +27,6 @@ def pairs(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
         one = one or (atom.kind is AtomKind.MEASURE and atom.words == 'one')
         if atom.kind is AtomKind.THING and atom.key in _APART:
             _join(told, i, prompt)
-        elif one and atom.kind is AtomKind.FILL and atom.words == 'other':
-            _other(told, i)
         i += 1
     return told
 
@@ -46,19 +43,3 @@ def _join(told: list[Atom], i: int, prompt: str) -> None:
     dash = told[first + 1]
     if text_of(dash, prompt) in _DASHES:
         told[first + 1] = replace(dash, kind=AtomKind.CONJUNCTION, key='and')
-
-
-def _other(told: list[Atom], i: int) -> None:
-    """`one at 20 m, other at 40 m`, `other one at 40 m`: the other of the two."""
-    last = i
-    behind = told[i + 1] if i + 1 < len(told) else None
-    if behind is not None and behind.noun is not None and behind.key == 'one':
-        last = i + 1
-        behind = told[i + 2] if i + 2 < len(told) else None
-    if behind is None or behind.kind not in _OPENS:
-        return
-    start, end = told[i].start, told[last].end
-    noun = NounPhrase(
-        kind=NounKind.PRONOUN, key='other', start=start, end=end, head_text='the other'
-    )
-    told[i : last + 1] = [Atom(kind=AtomKind.NOUN, key='other', start=start, end=end, noun=noun)]

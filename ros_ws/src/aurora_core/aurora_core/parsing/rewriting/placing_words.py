@@ -79,8 +79,8 @@ def _drives(atoms: Sequence[Atom], verb: int) -> bool:
 
 def placing_words(atoms: Sequence[Atom]) -> list[Atom]:
     """Write out what is left unsaid of places."""
-    told = list(_neighbours(_themselves(atoms)))
-    return _back(_bare_places(_lane_numbers(_in_between(_headed(told)))))
+    told = list(_themselves(atoms))
+    return _back(_bare_places(_lane_numbers(_in_between(list(told)))))
 
 
 def _themselves(atoms: Sequence[Atom]) -> list[Atom]:
@@ -96,52 +96,6 @@ def _themselves(atoms: Sequence[Atom]) -> list[Atom]:
         else:
             kept.append(atom)
     return kept
-
-
-def _neighbours(atoms: Sequence[Atom]) -> list[Atom]:
-    """`the ego's left-hand neighbour is a van`: the van is to the left of the ego."""
-    told = list(atoms)
-    for i in range(len(told) - 4):
-        whose, mark = told[i], told[i + 1]
-        if not whose.is_actor or mark.words not in _OWN or told[i + 2].words not in _SIDES:
-            continue
-        k = i + 3
-        while k < len(told) and told[k].words in _SIDE_WORDS:
-            k += 1
-        be, new = told[k + 1 : k + 2], told[k + 2 : k + 3]
-        named = k < len(told) and told[k].words in _NEIGHBOURS and bool(new) and new[0].is_actor
-        if not named or be[0].key != 'be':
-            continue
-        side = told[i + 2]
-        beside = replace(
-            side, kind=AtomKind.RELATION, key=_SIDES[side.words], words=f'to the {side.words} of'
-        )
-        told[i : k + 3] = [new[0], be[0], beside, whose]
-    return told
-
-
-_OWN = ("'s", "'", '’s')
-_SIDES = {'left': 'left', 'right': 'right', 'rear': 'behind', 'back': 'behind', 'front': 'ahead'}
-_SIDE_WORDS = ('hand', 'side', 'flank')
-_NEIGHBOURS = ('neighbour', 'neighbor')
-
-
-def _headed(atoms: Sequence[Atom]) -> list[Atom]:
-    """`25 m ahead: a bus`, `behind the ego: a van`: where, and then who."""
-    told = list(atoms)
-    begin = 0
-    for i, atom in enumerate(atoms[:-1]):
-        if atom.kind is not AtomKind.STOP:
-            continue
-        head = [a for a in atoms[begin:i] if a.kind is not AtomKind.FILL]
-        where = bool(head) and all(
-            a.kind is AtomKind.RELATION or a.noun is not None or a.key == LENGTH for a in head
-        )
-        where = where and any(a.kind is AtomKind.RELATION for a in head[:2])
-        if atom.key == ':' and where and atoms[i + 1].is_actor:
-            told[i] = replace(atom, kind=AtomKind.COMMA, key=',')
-        begin = i + 1
-    return told
 
 
 def _in_between(atoms: Sequence[Atom]) -> list[Atom]:
@@ -192,14 +146,14 @@ def _lane_numbers(atoms: Sequence[Atom]) -> list[Atom]:
 def _bare_places(atoms: Sequence[Atom]) -> list[Atom]:
     """`two trucks parked roadside`: at the roadside."""
     written: list[Atom] = []
-    for i, atom in enumerate(atoms):
+    for atom in atoms:
         before = written[-1] if written else None
         noun = atom.noun
         bare = noun is not None and noun.kind is NounKind.PLACE and atom.words == noun.head_text
         bare = bare and noun is not None and noun.determiner is Determiner.BARE
         stands = before is not None and before.key in _STANDING
         stands = stands and before is not None and before.kind is AtomKind.VERB
-        if bare and before is not None and (stands or _in_notes(atoms, i)):
+        if bare and before is not None and stands:
             key = 'on' if atom.key in _ROADS else 'at'
             written.append(
                 Atom(kind=AtomKind.PREPOSITION, key=key, start=before.end, end=atom.start)
@@ -208,25 +162,6 @@ def _bare_places(atoms: Sequence[Atom]) -> list[Atom]:
     return written
 
 
-def _in_notes(atoms: Sequence[Atom], i: int) -> bool:
-    """`ego: 10 m/s, main road`: an item of what is listed of one ground agent."""
-    first = i
-    while first and (atoms[first - 1].kind is not AtomKind.STOP or atoms[first - 1].key == ':'):
-        first -= 1
-    last = i + 1
-    if last < len(atoms) and atoms[last].kind not in (AtomKind.COMMA, AtomKind.STOP):
-        return False
-    if atoms[i - 1].kind is not AtomKind.COMMA and atoms[i - 1].key != ':':
-        return False
-    told = [a for a in atoms[first:i] if a.is_actor]
-    verbal = any(a.kind in (AtomKind.VERB, AtomKind.PREPOSITION) for a in atoms[first:i])
-    opens = bool(told) and all(
-        a.kind is AtomKind.FILL for a in atoms[first : atoms.index(told[0])]
-    )
-    return opens and not verbal and told[0].noun is not None and told[0].noun.kind in _GROUND
-
-
-_GROUND = (NounKind.AGENT, NounKind.VEHICLE, NounKind.EGO)
 _ROADS = ('main_road', 'sidewalk')
 
 

@@ -12,13 +12,11 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
-from itertools import pairwise
 
-from aurora_core.parsing.atom_runs import by_sentence, runs, text_of
+from aurora_core.parsing.atom_runs import by_sentence, runs
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
 from aurora_core.parsing.data_files import read_data
 from aurora_core.parsing.measures import COUNT, LENGTH, RATIO, TIME, Measure
-from aurora_core.parsing.morphology import VerbForm
 from aurora_core.spec.parameter import Bound
 
 _BREAKS = (AtomKind.STOP, AtomKind.COMMA, AtomKind.CONJUNCTION, AtomKind.THEN)
@@ -59,52 +57,12 @@ def _sentence(atoms: list[Atom], prompt: str) -> list[Atom]:
     text = prompt[atoms[0].start : atoms[-1].end].lower()
     if _words()['about'].search(text) is None:
         return atoms
-    atoms = _with_ends(atoms, prompt)
     written: list[Atom] = []
     for chunk, joint in runs(atoms, *_BREAKS):
         written += _chunk(chunk, prompt)
         if joint is not None:
             written.append(joint)
     return written
-
-
-def _with_ends(atoms: list[Atom], prompt: str) -> list[Atom]:
-    """`between A and B a message takes 0.4 s`: the latency between A and B is 0.4 s."""
-    written: list[Atom] = []
-    for part, joint in runs(atoms, AtomKind.COMMA, AtomKind.THEN):
-        told = _latency_between(part, prompt) if part else None
-        written += part if told is None else told
-        if joint is not None:  # `…, and one in ten is lost` is told apart
-            written.append(joint if told is None else replace(joint, kind=AtomKind.STOP, key=';'))
-    return written
-
-
-def _latency_between(atoms: list[Atom], prompt: str) -> list[Atom] | None:
-    text = prompt[atoms[0].start : atoms[-1].end].lower()
-    words = _words()
-    messages = [a for a in atoms if a.kind in (AtomKind.MESSAGE, AtomKind.LINK)]
-    times = [a for a in atoms if a.measure is not None]
-    verbs = [a for a in atoms if a.kind is AtomKind.VERB]
-    if len(times) != 1 or times[0].key != TIME or len(messages) != 1 or len(verbs) != 1:
-        return None
-    measure = times[0].measure
-    exact = measure is not None and measure.bound is Bound.EXACTLY
-    takes = verbs[0].key == 'last' or text_of(verbs[0], prompt) in ('needs', 'need', 'takes')
-    if not exact or not takes or words['demanded'].search(text):
-        return None
-    ends: list[Atom] = []
-    for before, atom in pairwise(atoms):
-        governed = before.kind is AtomKind.PREPOSITION and before.key in ('between', 'from', 'to')
-        joined = before.kind is AtomKind.CONJUNCTION and bool(ends) and ends[-1].is_actor
-        if atom.noun is not None and not (atom.is_actor and (governed or joined)):
-            return None
-        if atom.is_actor:
-            ends += [before, atom]
-    if len(ends) != 4:
-        return None
-    name = replace(messages[0], kind=AtomKind.THING, key='latency')
-    be = replace(verbs[0], key='be', form=VerbForm.THIRD)
-    return [name, *ends, be, times[0]]
 
 
 def _chunk(atoms: list[Atom], prompt: str) -> list[Atom]:

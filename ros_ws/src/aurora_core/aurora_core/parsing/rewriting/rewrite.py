@@ -11,18 +11,16 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from aurora_core.parsing.atom_runs import stop_at, text_of
-from aurora_core.parsing.atoms import Atom, AtomKind, NounKind, NounPhrase
+from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
 from aurora_core.parsing.lexicon import shipped_lexicon
 from aurora_core.parsing.measures import LENGTH, TIME
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.pieces import MOST_ATOMS, TRANSPARENT
-from aurora_core.parsing.rewriting.alike import alike, as_fast
 from aurora_core.parsing.rewriting.clefts import plain_order
 from aurora_core.parsing.rewriting.conjunctions import joined
 from aurora_core.parsing.rewriting.enumerations import told_once
+from aurora_core.parsing.rewriting.equal_speeds import as_fast
 from aurora_core.parsing.rewriting.flight_nouns import flights
-from aurora_core.parsing.rewriting.headings import headings
-from aurora_core.parsing.rewriting.in_turn import in_turn
 from aurora_core.parsing.rewriting.inversions import straighten
 from aurora_core.parsing.rewriting.members import members
 from aurora_core.parsing.rewriting.moments import dated
@@ -69,9 +67,8 @@ def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
     """Return the atoms with shorthand written out and retracted numbers left out."""
     if longest_sentence(atoms) > MOST_ATOMS:
         return Rewritten(atoms=tuple(atoms))
-    below, titles = headings(atoms, prompt)
-    told, background = unwrap(joined(_cast(below, prompt), prompt), prompt)
-    told = alike(as_fast(in_turn(told, prompt), prompt), prompt)
+    told, background = unwrap(joined(_cast(atoms, prompt), prompt), prompt)
+    told = as_fast(told, prompt)
     told = particles(shared_out(not_before(told), prompt), prompt)
     told = dated(verbal(radio(told, prompt), prompt), prompt)
     told = value_statements(
@@ -81,9 +78,9 @@ def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
     kept, spans = _take_back(straighten(told, prompt))
     told = in_front(_labels(_asides(_contrasts(kept))))
     return Rewritten(
-        atoms=tuple(_relatives(_climbs(_small_words(ways(told, prompt)), prompt))),
+        atoms=tuple(_relatives(_climbs(ways(told, prompt), prompt))),
         taken_back=tuple(spans),
-        background=(*titles, *background),
+        background=tuple(background),
     )
 
 
@@ -269,29 +266,6 @@ def _labels(atoms: list[Atom]) -> list[Atom]:
             changed[i] = replace(atom, kind=AtomKind.FILL)
         solid = []
     return changed
-
-
-def _small_words(atoms: list[Atom]) -> list[Atom]:
-    """`hears from it`."""
-    written: list[Atom] = []
-    told = ''  # the last predicate of the sentence
-    for atom in atoms:
-        if atom.kind is AtomKind.VERB:
-            told = atom.key
-        elif atom.kind is AtomKind.STOP:
-            told = ''
-        if atom.kind is AtomKind.FILL and atom.key == 'from it' and told == 'receive':
-            cut = atom.start + len('from')
-            it = NounPhrase(
-                kind=NounKind.PRONOUN, key='it', start=cut + 1, end=atom.end, head_text='it'
-            )
-            written += [
-                Atom(kind=AtomKind.PREPOSITION, key='from', start=atom.start, end=cut),
-                Atom(kind=AtomKind.NOUN, key='it', start=cut + 1, end=atom.end, noun=it),
-            ]
-            continue
-        written.append(atom)
-    return written
 
 
 def _climbs(atoms: list[Atom], prompt: str) -> list[Atom]:

@@ -18,7 +18,7 @@ _SERVES = frozenset({'be', 'serve', 'trace', 'act', 'form', 'wait'})
 
 def cast(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
     """Return the atoms with roles noted at the nouns that have them."""
-    told = _apposed(_own_types(_lets_pass(drivers(atoms, prompt))))
+    told = _apposed(_own_types(drivers(atoms, prompt)))
     return _targets(_background(told, prompt), prompt)
 
 
@@ -103,27 +103,6 @@ def _with_type(about: Atom, told: Atom) -> Atom | None:
         determiner=Determiner.INDEFINITE,
     )
     return replace(told, start=about.start, noun=whole)
-
-
-def _lets_pass(atoms: list[Atom]) -> list[Atom]:
-    """`lets a bus through`, `slows down to let a child cross`: it yields."""
-    for i in range(1, len(atoms) - 1):
-        before, let, other = atoms[i - 1], atoms[i], atoms[i + 1]
-        if let.key != 'let' or let.kind not in (AtomKind.CAUSATIVE, AtomKind.UNKNOWN):
-            continue
-        acts = before.is_actor or before.key == 'to' or before.kind is AtomKind.AUXILIARY
-        if not acts or not other.is_actor:
-            continue
-        behind = atoms[i + 2] if i + 2 < len(atoms) else None
-        if behind is None or behind.key not in _PASSING:
-            continue
-        form = VerbForm.BASE if before.key == 'to' else VerbForm.THIRD
-        atoms[i] = replace(let, kind=AtomKind.VERB, key='yield', form=form)
-        atoms[i + 2] = replace(behind, kind=AtomKind.FILL)
-    return atoms
-
-
-_PASSING = frozenset({'through', 'by', 'past', 'cross', 'overtake', 'drive', 'start', 'walk'})
 
 
 def _background(atoms: list[Atom], prompt: str) -> list[Atom]:

@@ -15,50 +15,25 @@ from dataclasses import replace
 from aurora_core.parsing.adjunct_reader import fits
 from aurora_core.parsing.atom_runs import HELPERS, skip, stop_at, text_of
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
-from aurora_core.parsing.lexicon import shipped_lexicon
 from aurora_core.parsing.measures import LENGTH, SPEED, TIME
 from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.rewriting.world_statements import horizon, traffic
 
 _BREAKS = (AtomKind.COMMA, AtomKind.CONJUNCTION)
 _GROUND = (NounKind.AGENT, NounKind.EGO, NounKind.VEHICLE)
-_OWNERS = ('its', 'their', 'his', 'her', 'whose', 'the', 'a', 'an')
 _SO = re.compile(
     r'(?:(?:which|that|this)(?: it| he| she| they)?(?: should| must| shall| will| has to)?'
     r' (?:do|does)'
     r'|(?:do|does|doing|done|did) (?:so|this|that)|this|that|all this|all of this|both)\b'
 )
 
-_PAUSES = (AtomKind.STOP, AtomKind.COMMA, AtomKind.CONJUNCTION)
-
 
 def value_statements(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
     """Return the atoms with every stated value behind its name."""
     written = traffic(list(atoms), prompt)
-    for turn in (_sufficient, _between, _delayed, _swapped, _of_ground, _lasting, _doing):
+    for turn in (_between, _of_ground, _lasting, _doing):
         written = turn(written, prompt)
     return horizon(_so(written, prompt))
-
-
-def _sufficient(atoms: list[Atom], prompt: str) -> list[Atom]:
-    """`forty seconds are enough`: the duration of what was told last."""
-    enough = shipped_lexicon().turns['enough']
-    written: list[Atom] = []
-    i = 0
-    while i < len(atoms):
-        atom, link, told = atoms[i], _at(atoms, i + 1), _at(atoms, i + 2)
-        ends = _at(atoms, i + 3)
-        opens = not written or written[-1].kind in _PAUSES
-        opens = opens and (ends is None or ends.kind in _PAUSES)
-        said = told is not None and _is_be(link) and text_of(told, prompt) in enough
-        if opens and atom.key == TIME and said and told is not None:
-            name = Atom(kind=AtomKind.THING, key='duration', start=told.start, end=told.end)
-            written += [name, _copula(told), atom]
-            i += 3
-            continue
-        written.append(atom)
-        i += 1
-    return written
 
 
 def _at(atoms: Sequence[Atom], i: int) -> Atom | None:
@@ -77,48 +52,6 @@ def _is_value(name: Atom | None, value: Atom | None) -> bool:
 
 def _copula(at: Atom) -> Atom:
     return Atom(kind=AtomKind.VERB, key='be', start=at.start, end=at.end, form=VerbForm.THIRD)
-
-
-def _swapped(atoms: list[Atom], prompt: str) -> list[Atom]:
-    """`45 m is its altitude and 6 m/s its speed`: the name first."""
-    changed = list(atoms)
-    copula: Atom | None = None
-    i = 0
-    while i < len(changed):
-        atom = changed[i]
-        if atom.kind is AtomKind.STOP:
-            copula = None
-        before = _at(changed, i - 1)
-        opens = before is None or before.kind in (AtomKind.STOP, *_BREAKS)
-        if atom.measure is None or not opens:
-            i += 1
-            continue
-        be = skip(changed, i + 1)
-        name = be
-        verb = changed[be] if be < len(changed) and _is_be(changed[be]) else None
-        if verb is not None or copula is not None:
-            name = be + 1 if verb is not None else be
-            while name < len(changed) and (
-                changed[name].kind in HELPERS or text_of(changed[name], prompt) in _OWNERS
-            ):
-                name += 1
-        told = _at(changed, name)
-        if (verb is not None or copula is not None) and _is_value(told, atom):
-            assert told is not None
-            copula = verb or copula
-            assert copula is not None
-            stop = name + 1
-            of = _at(changed, stop)
-            owner = _at(changed, stop + 1)
-            if of is not None and of.key == 'of' and owner is not None and owner.noun is not None:
-                stop += 2
-            words = [*changed[be:name], *changed[name:stop]]
-            words = [a for a in words if not _is_be(a)]
-            changed[i:stop] = [*words, _copula(copula), atom]
-            i += len(words) + 2
-            continue
-        i += 1
-    return changed
 
 
 def _of_ground(atoms: list[Atom], prompt: str) -> list[Atom]:
@@ -159,19 +92,6 @@ def _whose(atoms: Sequence[Atom], i: int, prompt: str) -> tuple[int, int] | None
     while value < len(atoms) and (atoms[value].kind in HELPERS or _is_be(atoms[value])):
         value += 1
     return (name, value) if _is_value(told, _at(atoms, value)) else None
-
-
-def _delayed(atoms: list[Atom], prompt: str) -> list[Atom]:
-    """`delays everything by 0.2 s`: a latency of 0.2 s."""
-    changed = list(atoms)
-    for i in range(len(changed) - 2):
-        if changed[i].key != 'latency' or changed[i].kind is not AtomKind.THING:
-            continue
-        for k in range(i + 1, min(i + 5, len(changed) - 1)):
-            if changed[k].key == 'by' and _is_value(changed[i], changed[k + 1]):
-                for m in range(i + 1, k + 1):
-                    changed[m] = replace(changed[m], kind=AtomKind.FILL, noun=None)
-    return changed
 
 
 def _between(atoms: list[Atom], prompt: str) -> list[Atom]:

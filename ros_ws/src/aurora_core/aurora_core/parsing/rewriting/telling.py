@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
-from aurora_core.parsing.atom_runs import HELPERS, LOOSE, skip, text_of
+from aurora_core.parsing.atom_runs import HELPERS, skip, text_of
 from aurora_core.parsing.atoms import Atom, AtomKind
 from aurora_core.parsing.lexicon import shipped_lexicon
 from aurora_core.parsing.morphology import VerbForm
@@ -18,7 +18,7 @@ from aurora_core.parsing.morphology import VerbForm
 
 def messages_told(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
     """Return the atoms with these messages as `alerts`, or as sent."""
-    told = _gone(atoms, prompt)
+    told = list(atoms)
     atoms = tuple(told)
     turns = shipped_lexicon().turns
     for i, atom in enumerate(atoms):
@@ -41,30 +41,6 @@ def messages_told(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
             to = told[who + 1 : who + 3]
             if len(to) == 2 and to[0].key == 'to' and to[1].is_actor:
                 told[i] = replace(_alert(atom, words), key='send')
-    return told
-
-
-def _gone(atoms: Sequence[Atom], prompt: str) -> list[Atom]:
-    """`a warning goes out to the ego`: it is sent to the ego."""
-    goes = shipped_lexicon().turns['goes']
-    told: list[Atom] = []
-    message = False
-    for i, atom in enumerate(atoms):
-        to = skip(atoms, i + 1, LOOSE)
-        sent = (
-            message
-            and atom.kind is AtomKind.VERB
-            and text_of(atom, prompt) in goes
-            and to + 1 < len(atoms)
-            and atoms[to].key == 'to'
-            and atoms[skip(atoms, to + 1) % len(atoms)].is_actor
-        )
-        if sent:
-            be = replace(atom, kind=AtomKind.AUXILIARY, key='be', form=VerbForm.THIRD)
-            told += [be, replace(atom, key='send', form=VerbForm.PAST)]
-        else:
-            told.append(atom)
-        message = atom.kind is AtomKind.MESSAGE or (message and atom.kind in HELPERS)
     return told
 
 
