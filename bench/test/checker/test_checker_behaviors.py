@@ -62,6 +62,27 @@ def test_a_stated_speed_holds_until_an_annotated_action(stage: Any) -> None:
 
 
 @pytest.mark.parametrize(
+    ('stops_s', 'on_s', 'outcome'),
+    [(26.25, 1e3, 'holds'), (26.25, 35.0, 'does_not'), (10.0, 1e3, 'does_not')],
+)
+def test_who_comes_to_park_stands_there_at_the_end(
+    stage: Any, stops_s: float, on_s: float, outcome: str
+) -> None:
+    def speed(t: Any) -> Any:
+        return np.where((t < stops_s) | (t > on_s), 8.0, 0.0)
+
+    stage.drive('car1', 'car', speed, y=10.0)
+    arrives = {
+        'kind': 'event',
+        'ref': 'e1',
+        'trigger': {'on': 'arrives', 'who': 'car1', 'place': 'City Hall'},
+    }
+    assert stage.says(_does('park', 'City Hall'), arrives) == outcome
+    # Nothing says that it comes there: then it is parked from the start.
+    assert stage.says(_does('park', 'City Hall')) == 'does_not'
+
+
+@pytest.mark.parametrize(
     ('gap', 'outcome'),
     [(20.0, 'holds'), (3.0, 'does_not'), (60.0, 'does_not'), (-30.0, 'does_not')],
 )
