@@ -155,7 +155,7 @@ def test_a_clash_with_a_half_read_clause_is_no_proof() -> None:
 def test_hovers_out_of_reach_of_each_other_are_doubted() -> None:
     """They may start beside each other, and one may send before it goes to its place."""
     prompt = (
-        'A drone hovers over Meadow Park at 40 m, and a second drone hovers over {} at 40 m. '
+        'The first drone hovers over Meadow Park at 40 m, the second drone over {} at 40 m. '
         'After 40 seconds the first drone sends a message to the second drone over a link with '
         '100 m range.'
     )
