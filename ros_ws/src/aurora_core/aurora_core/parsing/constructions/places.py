@@ -11,6 +11,7 @@ from aurora_core.parsing.adjuncts import MUTUAL, Adjunct, AdjunctKind
 from aurora_core.parsing.atoms import ACTORS, NounKind, NounPhrase
 from aurora_core.parsing.criteria.placed import Placed
 from aurora_core.parsing.frames import Frame
+from aurora_core.parsing.measures import LENGTH
 from aurora_core.parsing.pronouns import ground
 from aurora_core.parsing.resolver import Resolver
 from aurora_core.parsing.scene import Entity, Unanchored
@@ -187,6 +188,7 @@ def placements_of(
                     span=adjunct.span,
                 )
             )
+    made += _far_from_place(frame)
     away = frame.attribute('away')
     if away is not None and away.nouns and away.measure is not None and away.prep in ('', 'at'):
         others = frame.objects(away.nouns, ground)
@@ -201,6 +203,30 @@ def placements_of(
                 )
             )
     return tuple(made)
+
+
+def _far_from_place(frame: Frame) -> tuple[Placement, ...]:
+    """`stands 30 m from the crosswalk`, `is 30 m away from it`."""
+    for adjunct in frame.free(AdjunctKind.PHRASE, 'from'):
+        before = frame.scene.prompt[: adjunct.start].rstrip().removesuffix('away').rstrip()
+        far = next((a for a in _lengths(frame) if a.end == len(before)), None)
+        if far is None or far.measure is None:
+            continue
+        place = place_of(frame, adjunct)
+        if place is not None and values.accepts('placement_distance', far.measure):
+            adjunct.used = far.used = True
+            distance = values.explicit('placement_distance', far.measure)
+            span = adjunct.span
+            made = Placement(relation=Relation.NEAR, of=place, distance_m=distance, span=span)
+            return (made,)
+    return ()
+
+
+def _lengths(frame: Frame) -> list[Adjunct]:
+    return [
+        *frame.free(AdjunctKind.MEASURE, LENGTH),
+        *frame.free(AdjunctKind.ATTRIBUTE, 'away', 'standoff'),
+    ]
 
 
 def _of_the_object(frame: Frame, adjunct: Adjunct) -> bool:
@@ -273,7 +299,7 @@ def _relation(
     owner: Entity | None = None,
 ) -> Placement | None:
     if adjunct.key == 'compass':
-        return None
+        return _compass(frame, adjunct)
     relation = Relation(adjunct.key)
     each = None if owner is not None else _each_other(frame, adjunct, subjects)
     if owner is None:
@@ -351,3 +377,21 @@ def _beside(frame: Frame, adjunct: Adjunct, owner: Entity) -> str | None:
 
 def _is_one(nouns: tuple[NounPhrase, ...]) -> bool:
     return len(nouns) == 1
+
+
+def _compass(frame: Frame, adjunct: Adjunct) -> Placement | None:
+    of = named_reference(frame, adjunct) if adjunct.nouns else None
+    if of is None:
+        return None
+    distance = values.default('placement_distance')
+    if adjunct.measure is not None:
+        if not values.accepts('placement_distance', adjunct.measure):
+            return None
+        distance = values.explicit('placement_distance', adjunct.measure)
+    return Placement(
+        relation=Relation.NEAR,
+        of=of,
+        distance_m=distance,
+        bearing_deg=values.stated('bearing', float(adjunct.value), adjunct.start, adjunct.end),
+        span=adjunct.span,
+    )
