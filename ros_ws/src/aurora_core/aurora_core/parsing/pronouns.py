@@ -58,8 +58,8 @@ class PronounResolver:
             cast = [e for e in self._scene.entities if e.role is Role.TARGET]
             target = target or (cast[-1] if len(cast) == 1 else None)
             return (target,) if target is not None else self._ask(noun)
-        if noun.key == 'both' and _how_many(noun) > 2:
-            return self._ask(noun)
+        if noun.key == 'both' and (number := _how_many(noun)) > 2:
+            return self._so_many(number, accept) or self._ask(noun)
         if noun.key == 'both' and noun.head_text.startswith('all'):
             everyone = self._everyone(accept)
             if everyone:
@@ -136,6 +136,14 @@ class PronounResolver:
             if fitting:
                 return ()
         return ()
+
+    def _so_many(self, number: int, accept: Fits) -> tuple[Entity, ...]:
+        """`all three drive at 9 m/s`: who was told of last, or all there are, if that is three."""
+        told = [c.subjects for c in reversed(self._scene.clauses[:-1]) if c.subjects]
+        kin = (self._scene.agents, self._scene.uavs)
+        groups = [*told[:1], self._last_group(accept), *(tuple(k) for k in kin)]
+        fitting = (tuple(e for e in group if accept(e)) for group in groups)
+        return next((group for group in fitting if len(group) == number), ())
 
     def _last_group(self, accept: Fits) -> tuple[Entity, ...]:
         members = [e for e in self._scene.entities if e.group is not None and accept(e)]

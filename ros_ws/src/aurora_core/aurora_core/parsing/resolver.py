@@ -167,7 +167,9 @@ class Resolver:
             noun.key in ('one', 'other') or noun.key.startswith('nth')
         ):  # each mention picks a member once
             if not self.known(noun):
-                picked = self._pronouns.resolve(noun, accept, exclude, as_object)
+                picked = self._next_in_line(noun) or self._pronouns.resolve(
+                    noun, accept, exclude, as_object
+                )
                 if not picked and noun.head_text.startswith('the other'):
                     picked = self._beside_one(noun)
                 self._read[noun.start, noun.end] = picked
@@ -207,6 +209,20 @@ class Resolver:
             if words[0] in ('one', '1') and alone == 1
             else ()
         )
+
+    def _next_in_line(self, noun: NounPhrase) -> tuple[Entity, ...]:
+        """`the first UAV hovers, the second one lands; the second one …`: counted as they come."""
+        if not noun.key.startswith('nth') or noun.head_text in ('the former', 'the latter'):
+            return ()
+        number = int(noun.key[3:])
+        numbered = [e for e in self._scene.entities if e.index and e.group is None]
+        again = [e for e in numbered if e.index == number]
+        before = [e for e in numbered if e.index == number - 1]
+        if again or not before:
+            return tuple(again[-1:])
+        made = self._like(before[-1], Span(start=noun.start, end=noun.end))
+        made[0].index = number
+        return made
 
     def _one_more(self, noun: NounPhrase) -> tuple[Entity, ...]:
         """`one drone …, another one …`: of the kind that acted last."""
@@ -288,7 +304,7 @@ class Resolver:
                 chosen = members[noun.index - 1]
                 chosen.index, chosen.assigned = noun.index, True
                 return (chosen,)
-            return self._new(noun)
+            return self._counted(noun, known) or self._new(noun)
         if noun.determiner in (Determiner.INDEFINITE, Determiner.ANOTHER):
             return self._new(noun)
         if noun.determiner is Determiner.ONE:
@@ -310,6 +326,19 @@ class Resolver:
         if not known:
             return self._shorter(noun, exclude) or self._new(noun)
         return self._again(noun, known, exclude)
+
+    @staticmethod
+    def _counted(noun: NounPhrase, known: list[Entity]) -> tuple[Entity, ...]:
+        """`one drone …, a second one …; the first drone`: in the order in which they came."""
+        if noun.determiner is not Determiner.DEFINITE or noun.plural or len(known) < noun.index:
+            return ()
+        if len(known) < 2 or any(e.group is not None for e in known):
+            return ()
+        chosen = known[noun.index - 1]
+        if chosen.index:
+            return ()
+        chosen.index = noun.index
+        return (chosen,)
 
     def _shorter(self, noun: NounPhrase, exclude: Sequence[Entity]) -> tuple[Entity, ...]:
         """`that car`, after a police car and no other: the word without its first half."""
