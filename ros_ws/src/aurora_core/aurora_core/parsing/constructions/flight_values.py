@@ -96,6 +96,8 @@ def _standoff(
             continue
         if _of_the_target(frame, place):
             continue
+        if place.key in _SIDES and mode not in (MissionMode.TRACK, None):
+            continue  # who hovers over it keeps to no side of it
         parameter = stated_value('standoff', place.measure)
         if parameter is None:
             continue
