@@ -134,14 +134,6 @@ def _orbit_too_wide(draw: random.Random) -> _Drawn:
     return _Drawn('A drone orbits the City Hall.', values, RADIUS, draw.uniform(25.0, 45.0))
 
 
-def _gap_beyond_its_bound(draw: random.Random) -> _Drawn:
-    within_m = draw.randint(35, 50)
-    who, whom = draw.choice(_FOLLOWERS), draw.choice(_LEADERS)
-    prompt = f'A {who} follows a {whom} and stays within {within_m} meters of it.'
-    values = {GAP: draw.uniform(within_m + 25.0, 160.0)}
-    return _Drawn(prompt, values, GAP, draw.uniform(12.0, 20.0))
-
-
 def _places(draw: random.Random) -> tuple[float, ...]:
     return tuple(draw.random() for _ in range(2))
 
@@ -192,7 +184,6 @@ KINDS: Mapping[str, Callable[[random.Random], _Drawn]] = {
     'hover above the distance it has to keep': _hover_above_its_bound,
     'altitude that loses sight': _too_high_to_see,
     'orbit too wide for its time': _orbit_too_wide,
-    'start gap beyond the distance to keep': _gap_beyond_its_bound,
     'street whose signals split a pair': _pair_split,
     'street without the turn': _no_turn_there,
     'street that leaves the tracker behind': _road_too_fast,

@@ -159,7 +159,7 @@ def test_ctrl_c_ends_a_sweep_and_a_cancel_only_its_run(
 def test_the_check_of_the_page(tmp_path: Path) -> None:
     shown = python('-c', NOTEBOOK, cwd=tmp_path)
     assert shown.startswith('infeasible - ')
-    assert 'Nearest: 120.0 m' in shown
+    assert 'It could be: 120 m' in shown
 
 
 def test_the_sweep_of_the_page(tmp_path: Path) -> None:

@@ -10,7 +10,7 @@ Several who follow one vehicle in line keep close, so that the last one still fo
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from aurora_core.grounding.sites import SeatedAgent
@@ -18,6 +18,10 @@ from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.spec.vocabulary import BehaviorKind, Relation
+
+# Room inside a bound on the distance of two, and the least gap (m).
+_ROOM_M = 2.0
+_LEAST_M = 1.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -62,19 +66,33 @@ def kept_gaps(
             own, other = seats.get(agent.id), seats.get(behavior.target or '')
             if behavior.kind is BehaviorKind.FOLLOW and own is not None and other is not None:
                 line = _in_line(own, other, seats, types)
-                close = _is_close(spec, agent.id, other.member.agent.id) and not line
-                found += [_kept_gap(own, other, types)] if close else line
+                within_m = _within_m(spec, agent.id, other.member.agent.id)
+                found += (
+                    line if line or within_m is None else [_close(own, other, types, within_m)]
+                )
     return tuple(dict.fromkeys(found))
 
 
-def _is_close(spec: ScenarioSpec, follower: str, leader: str) -> bool:
-    """Tell whether a follower is never to be farther away than a stated distance."""
-    return any(
-        c.quantity in (QuantityName.DISTANCE, QuantityName.HORIZONTAL_DISTANCE)
+def _within_m(spec: ScenarioSpec, follower: str, leader: str) -> float | None:
+    """Return how far away a follower is to be at most, None where nothing is stated."""
+    stated = [
+        c.value.value
+        for c in spec.conditions
+        if c.quantity in (QuantityName.DISTANCE, QuantityName.HORIZONTAL_DISTANCE)
         and set(c.of) == {follower, leader}
         and c.op in ('<=', '<')
-        for c in spec.conditions
-    )
+    ]
+    return min(stated, default=None)
+
+
+def _close(
+    own: SeatedAgent, other: SeatedAgent, types: Mapping[str, AgentTypeRecord], within_m: float
+) -> KeptGap:
+    """Return a gap that keeps a follower inside a bound, wherever it starts."""
+    gap = _kept_gap(own, other, types)
+    away_m = other.arc_m - own.arc_m
+    closer_m = max(0.0, away_m - (within_m - _ROOM_M))
+    return replace(gap, gap_m=max(_LEAST_M, gap.gap_m - closer_m))
 
 
 def _in_line(
