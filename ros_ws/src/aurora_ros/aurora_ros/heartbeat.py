@@ -50,10 +50,12 @@ class HeartbeatPublisher:
             self._thread.start()
 
     def busy(self, run_number: int) -> None:
-        """Say that a run has begun."""
+        """Say that a run has begun, at once: whoever is called next knows of which run it is."""
         self._message.state = Heartbeat.BUSY
         self._message.run_number = run_number
         self._message.detail = ''
+        if self._thread.is_alive():
+            self._say()
 
     def at(self, tick: int) -> None:
         """Say which tick was handled last."""
@@ -82,12 +84,16 @@ class HeartbeatPublisher:
             self._thread.join(timeout=PERIOD_S)
 
     def _run(self) -> None:
-        while not self._stop.is_set():
-            try:
-                self._publisher.publish(self._message)
-            except (InvalidHandle, rclpy_implementation.RCLError):
-                return  # the node is being shut down under us
+        while not self._stop.is_set() and self._say():
             self._stop.wait(PERIOD_S)
+
+    def _say(self) -> bool:
+        """Publish; return whether that is still possible."""
+        try:
+            self._publisher.publish(self._message)
+        except (InvalidHandle, rclpy_implementation.RCLError):
+            return False  # the node is being shut down under us
+        return True
 
 
 @dataclass(slots=True)

@@ -67,15 +67,14 @@ def running_graph(
     Args:
         folder: For run folders, logs and ready files.
         names: Nodes to start.
-        more_arguments: Gives command lines by node name, for a ROS domain.
+        more_arguments: Gives words of command lines by node name, for a ROS domain.
     """
     runs = folder / 'runs'
     with ExitStack() as stack:
         domain = stack.enter_context(own_domain())
-        arguments = {
-            'orchestrator': ['--ros-args', '-p', f'runs_directory:={runs}'],
-            **more_arguments(domain),
-        }
+        own = {'orchestrator': ['--ros-args', '-p', f'runs_directory:={runs}']}
+        more = more_arguments(domain)
+        arguments = {name: [*own.get(name, ()), *more.get(name, ())] for name in MODULES}
         play = stack.enter_context(partner(domain))
 
         def start(name: str) -> NodeProcess:
