@@ -12,6 +12,8 @@ import pytest
 from aurora_core.grounding.convoy import DETACHED_M, SceneSplit, split_scene
 from aurora_core.grounding.ties import BeforePlace
 from aurora_core.knowledge.limits import Tolerances
+from aurora_core.outcomes.parse import ParseContext
+from aurora_core.parsing.parser import parse_offline
 from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.scenario import (
     Behavior,
@@ -351,3 +353,14 @@ def test_a_vehicle_beside_which_a_person_is_met_is_on_the_way_there(parameter: M
     near = DistanceTrigger(on='distance_below', a='ego', b='ped', value_m=parameter(25.0))
     split = split_scene(_spec(EGO, _agent('van'), person, events=(Event(id='e1', trigger=near),)))
     assert _places(split)['van'][0] == 25.0 + 15.0
+
+
+def test_who_only_waits_for_word_stands_behind_who_is_awaited() -> None:
+    prompt = (
+        'A drone hovers over City Hall at 60 m and alerts the ego car when a police car comes '
+        'within 80 m of City Hall.'
+    )
+    spec = parse_offline(prompt, ParseContext(landmark_names=('City Hall',))).spec
+    assert spec is not None
+    along_m = {member.agent.id: member.offset_m for member in split_scene(spec).convoy}
+    assert along_m['police1'] > along_m['ego']
