@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import re
 import threading
 import time
 from collections.abc import Mapping
@@ -14,6 +15,7 @@ from rclpy.clock import Clock
 from rclpy.clock_type import ClockType
 
 from aurora_core.errors import AuroraError, BagError
+from aurora_core.report.visible import visible
 from aurora_core.trace.bag_writer import BagSummary, BagWriter
 from aurora_core.trace.definitions import message_definitions
 from aurora_msgs.msg import Ack, Fault
@@ -29,6 +31,7 @@ from aurora_ros.node import AuroraNode
 from aurora_ros.parameters import declare, require_positive
 
 _OWNER = 'executor'  # of the run that is recorded
+_BAG_NAME = re.compile(r'bag(\.[0-9]{1,4})?', re.ASCII)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -89,8 +92,9 @@ class RecorderNode(AuroraNode):
         self._refuse_while_recording()
         if self._close() is not None:
             self.get_logger().warning('an earlier recording was still open: closed')
+        directory = _bag_directory(request.directory)
         self._await_matched(set(request.topics))
-        writer = BagWriter(Path(request.directory), self._definitions)
+        writer = BagWriter(directory, self._definitions)
         recording = Recording(writer, run_id=request.run_id, run_number=request.run_number)
         with self._lock:
             self._writer, self._recording = writer, recording
@@ -207,6 +211,21 @@ class RecorderNode(AuroraNode):
         if writer is None or writer.closed:  # after a full disk it has given up by itself
             return None
         return writer.close()
+
+
+def _bag_directory(named: str) -> Path:
+    """Return the folder of a bag: whoever is in the domain can call, so no other is made.
+
+    Raises:
+        BagError: It is none of a run.
+    """
+    path = Path(named)
+    if not path.is_absolute() or '..' in path.parts or not _BAG_NAME.fullmatch(path.name):
+        raise BagError(
+            f'expected an absolute path that ends in bag.<number>, found {visible(named)!r}',
+            hint=f'only {_OWNER} calls {on.RECORDER_START.name}, once in a run',
+        )
+    return path
 
 
 def main() -> int:

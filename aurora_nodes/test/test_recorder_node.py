@@ -171,10 +171,21 @@ def test_a_lost_sample_ends_the_run_by_a_fault_and_keeps_the_bag(
 
 
 def test_a_folder_that_exists_is_refused_with_a_code(graph: Graph, tmp_path: Path) -> None:
+    (tmp_path / 'bag').mkdir()
     with pytest.raises(BagError, match='cannot create the bag') as caught:
-        graph.start(tmp_path)
+        graph.start(tmp_path / 'bag')
     assert caught.value.code == BagError.default_code
-    graph.start(tmp_path / 'bag')
+    graph.start(tmp_path / 'bag.0')
+
+
+def test_a_call_makes_no_folder_but_that_of_a_bag(graph: Graph, tmp_path: Path) -> None:
+    for named in ('autostart', 'run/../bag.0', 'bag.0/x', 'bag.\u0661', 'bag.0\n'):
+        with pytest.raises(BagError, match='expected an absolute path'):
+            graph.start(tmp_path / named)
+    with pytest.raises(BagError, match='expected an absolute path'):
+        graph.start(Path('bag.0'))
+    assert not list(tmp_path.glob('*bag*'))
+    assert not (tmp_path / 'autostart').exists()
 
 
 def test_who_starts_another_recording_during_a_run_is_refused(

@@ -14,9 +14,9 @@ import os
 import threading
 from types import ModuleType
 from typing import Any
-from urllib.parse import parse_qsl, unquote, urlsplit
 
 from aurora_core.ports.language_model import FailureKind, ModelFailure, ModelReply, ModelRequest
+from aurora_llm.secrets import redacted
 from aurora_llm.settings import ModelEntry, ModelSettings
 
 _MOST_MESSAGE = 300
@@ -169,19 +169,4 @@ def _retry_after(err: Exception) -> float:
 
 def _redacted(text: str, entry: ModelEntry) -> str:
     """Take out keys: what comes from a server goes into the run folder."""
-    for value in _secrets(entry.api_base or ''):
-        text = text.replace(value, '[key]')
-    for name, value in os.environ.items():
-        if name.endswith(('_KEY', '_TOKEN', '_SECRET')) and len(value) >= 8:
-            text = text.replace(value, '[key]')
-    return text
-
-
-def _secrets(address: str) -> list[str]:
-    """Return user, password and the values of the query of an address, the longest first."""
-    parts = urlsplit(address)
-    user = parts.netloc.rpartition('@')[0]
-    found = [user, *user.partition(':')[::2], parts.query, parts.fragment]
-    found += [value for _, value in parse_qsl(parts.query)]
-    found += [unquote(value) for value in found]
-    return sorted({value for value in found if len(value) >= 4}, key=lambda v: (-len(v), v))
+    return redacted(text, (entry.api_base or '', entry.model), os.environ)

@@ -110,5 +110,24 @@ def load_model_settings(path: Path | None = None) -> ModelSettings:
     file = path if path is not None else config_path('models.yaml')
     try:
         return ModelSettings.model_validate(yaml.safe_load(read_text(file, CONFIG_BYTES)))
-    except (OSError, yaml.YAMLError, ValidationError) as err:
-        raise ConfigError(f'{file} cannot be used: {err}', hint='see docs/models.md') from err
+    except (OSError, UnicodeDecodeError) as err:
+        problem = str(err)
+    except yaml.YAMLError as err:
+        problem = _of_yaml(err)
+    except ValidationError as err:
+        problem = _of_form(err)
+    # Raised outside: no trace back to an error that quotes the file, which may hold secrets.
+    raise ConfigError(f'{file} cannot be used: {problem}', hint='see docs/models.md')
+
+
+def _of_yaml(err: yaml.YAMLError) -> str:
+    """Say where it is no YAML, without the line itself."""
+    mark = getattr(err, 'problem_mark', None)
+    where = f' in line {mark.line + 1}, column {mark.column + 1}' if mark is not None else ''
+    return f'it is no YAML{where}'
+
+
+def _of_form(err: ValidationError) -> str:
+    """Say which values do not fit and why, without the values."""
+    found = err.errors(include_url=False, include_context=False, include_input=False)
+    return '; '.join(f'{".".join(map(str, e["loc"])) or "all of it"}: {e["msg"]}' for e in found)

@@ -94,11 +94,13 @@ def _open_socket(host: str, port: int) -> socket.socket:
 
 
 class _Stop:
-    """Set by SIGINT and SIGTERM."""
+    """Set by SIGINT, SIGTERM, and SIGHUP where it is not ignored (`nohup`)."""
 
     def __init__(self) -> None:
         self.asked = False
-        for number in (signal.SIGINT, signal.SIGTERM):
+        for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+            if number == signal.SIGHUP and signal.getsignal(number) is signal.SIG_IGN:
+                continue
             signal.signal(number, self._ask)
 
     def _ask(self, number: int, frame: FrameType | None) -> None:
@@ -133,7 +135,7 @@ def _serve(sock: socket.socket, server: SimServer, stop: _Stop) -> None:
 
 
 def main(argv: list[str] | None = None) -> int:
-    """Serve until SIGINT or SIGTERM; return the exit code."""
+    """Serve until a signal asks to stop; return the exit code."""
     options = _arguments(sys.argv[1:] if argv is None else argv)
     stop = _Stop()
     try:

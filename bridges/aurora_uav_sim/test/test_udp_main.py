@@ -46,7 +46,7 @@ def port_of(process: subprocess.Popen[str]) -> int:
     return int(line.rsplit(':', 1)[1])
 
 
-@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
 def test_serves_and_stops_cleanly(tmp_path: Path, number: signal.Signals) -> None:
     ready = tmp_path / 'ready'
     with simulator('--port', '0', '--count', '2', '--ros-args', '-r', 'x:=y', ready=ready) as sim:

@@ -40,7 +40,8 @@ STOP_LIMIT_S = 2.5
 # After this time a node that was told to end is ended, wherever it hangs.
 _END_LIMIT_S = 8.0
 _HUNG = 1  # exit code then: it did not end well
-_SIGNALS = (signal.SIGINT, signal.SIGTERM)
+# A terminal that is closed sends SIGHUP; `nohup` has it ignored, and it stays so.
+_SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 _POLL_S = 0.02
 
 
@@ -59,7 +60,7 @@ def run_node(
     background: bool = False,
     arguments: Sequence[str] | None = None,
 ) -> int:
-    """Create a node, serve until SIGINT or SIGTERM, clean up.
+    """Create a node, serve until SIGINT, SIGTERM or SIGHUP, clean up.
 
     rclpy's own signal handlers end the context at once, and then nothing can be published or
     asked any more. So signals are taken by a thread, and the context ends last.
@@ -132,6 +133,8 @@ class _Stop:
         self._reader, self._writer = socket.socketpair()
         self._writer.setblocking(False)
         for number in _SIGNALS:
+            if number == signal.SIGHUP and signal.getsignal(number) is signal.SIG_IGN:
+                continue
             signal.signal(number, lambda _number, _frame: None)
         signal.set_wakeup_fd(self._writer.fileno())
         threading.Thread(target=self._wait, name='signals', daemon=True).start()

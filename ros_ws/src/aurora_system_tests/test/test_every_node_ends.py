@@ -21,7 +21,10 @@ from aurora_system_tests.graph import ROS_NODES
 pytestmark = pytest.mark.ros
 
 
-@pytest.fixture(scope='module', params=[signal.SIGINT, signal.SIGTERM], ids=lambda s: s.name)
+SIGNALS = [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]
+
+
+@pytest.fixture(scope='module', params=SIGNALS, ids=lambda s: s.name)
 def alone(
     request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
 ) -> Iterator[tuple[signal.Signals, dict[str, NodeProcess]]]:
