@@ -159,6 +159,8 @@ class RosStages:
         if agsg.schedule is None:
             raise ExecutionError('the graph has no schedule', hint='ground the scenario first')
         horizon_s = agsg.schedule.horizon_s
+        # Who serves a later stage is looked for again: before anything is flown.
+        self._caller.await_alone(self._limits.twin_limit_s, control.cancelled)
         result = self._caller.action(
             on.EXECUTE,
             ExecuteScenario.Goal(

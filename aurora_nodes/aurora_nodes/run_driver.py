@@ -157,6 +157,8 @@ class RunDriver:
             self._start_recording(order, run)
             recording = True
             self._publish_documents(order, run)
+            # Who was there before may have become known only now; nothing is flown yet.
+            self._await_alone(cancelled)
             self._path.arm(run)
             self._call(on.SYNC_START, StartSync.Request(run_number=run_number))
             self._await_end(run, cancelled)

@@ -12,18 +12,26 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
+from aurora_bench.campaign.code import code_digest
+from aurora_bench.campaign.journal import Journal, JournalError, JournalHead, journal_path
 from aurora_bench.interrupt import stop_on_sigterm
 from aurora_bench.machine import machine_facts
-from aurora_bench.mutation.campaign import Campaign, Outcome, recordings
+from aurora_bench.mutation.campaign import Campaign, Outcome, recording
 from aurora_bench.mutation.prompts import FAILING, SOUND
 from aurora_bench.progress import Progress
 from aurora_bench.results import Goal, Table, told_goals, write_results
+from aurora_core.report.versions import product_versions
+from aurora_system_tests.planted_bugs import PLANTED
 
 BREAKING_LEAST = 500
 CAUGHT_LEAST = 0.99
 HARMLESS_LEAST = 300
 FALSE_ALARMS_MOST = 0.01
 BAGS_LEAST = 60
+USAGE = 64
+INTERRUPTED = 130
+# All that an outcome depends on.
+_OPTIONS = ('seed', 'seeds', 'bag_every', 'noisy')
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -37,27 +45,33 @@ def main(arguments: Sequence[str] | None = None) -> int:
         '--bag-every', type=int, default=25, help='one of so many goes through a bag as well'
     )
     parser.add_argument('--noisy', type=int, default=4, help='runs with noise for each recording')
+    parser.add_argument(
+        '--resume',
+        type=Path,
+        default=None,
+        metavar='PLACE',
+        help='go on with the journal in this folder or file; begun where there is none',
+    )
     options = parser.parse_args(arguments)
     machine = machine_facts()
-    progress = Progress('mutation', (len(SOUND) + len(FAILING)) * options.seeds)
-    with tempfile.TemporaryDirectory(prefix='aurora_mutation_') as name:
-        campaign = Campaign(Path(name).resolve(), options.seed, progress)
-        for base in recordings(campaign.folder / 'runs', options.seeds, progress):
-            before = len(campaign.outcomes)
-            if base.seed == 1 and base.name in SOUND:
-                campaign.alter(base, options.bag_every)
-            campaign.leave(base, options.noisy if base.seed == 1 else 2)
-            judged = len(campaign.outcomes) - before
-            progress.step(f'{base.name}, seed {base.seed}, {base.status}: {judged} judged')
-        planted = list(campaign.plant())
-    goals = _goals(campaign.outcomes, planted)
+    try:
+        with _journal(options) as journal:
+            outcomes, planted = _judged(options, journal)
+            journal.end()
+    except JournalError as err:
+        sys.stderr.write(f'{err}\n')
+        return USAGE
+    except KeyboardInterrupt:
+        sys.stderr.write('cancelled; --resume goes on with what the journal holds\n')
+        return INTERRUPTED
+    goals = _goals(outcomes, planted)
     write_results(
         options.results,
         'mutation',
-        _results(options, campaign.outcomes, planted),
+        _results(options, outcomes, planted),
         title='Altered runs and executors with planted bugs',
         goals=goals,
-        tables=_tables(campaign.outcomes, planted),
+        tables=_tables(outcomes, planted),
         notes=(
             'What an alteration breaks is known from what was done, by code of the campaign; the '
             'verifier has to name it: a condition, a finding, or the reason why there is no '
@@ -66,6 +80,69 @@ def main(arguments: Sequence[str] | None = None) -> int:
         machine=machine,
     )
     return told_goals(goals)
+
+
+def _journal(options: argparse.Namespace) -> Journal:
+    head = JournalHead(
+        campaign='mutation',
+        files={},
+        options={
+            **{name: str(getattr(options, name)) for name in _OPTIONS},
+            **product_versions(),
+            'code': code_digest(),
+        },
+    )
+    path = journal_path(options.resume or options.results, 'mutation')
+    return Journal(path, head, resume=options.resume is not None)
+
+
+def _judged(options: argparse.Namespace, journal: Journal) -> tuple[list[Outcome], list[Outcome]]:
+    """Return all outcomes of the runs, and of the executors with a planted bug.
+
+    A run with all its alterations is one entry of the journal, and so is an executor.
+    """
+    progress = Progress('mutation', (len(SOUND) + len(FAILING)) * options.seeds + len(PLANTED))
+    outcomes: list[Outcome] = []
+    planted: list[Outcome] = []
+    with tempfile.TemporaryDirectory(prefix='aurora_mutation_') as name:
+        folder = Path(name).resolve()
+        for seed in range(1, options.seeds + 1):
+            for prompt in (*SOUND, *FAILING):
+                key = f'run:{prompt}:{seed}'
+                if key not in journal.finished:
+                    found = _of_run(options, folder, prompt, seed, progress)
+                    journal.add(key, {'outcomes': [asdict(o) for o in found]})
+                    outcomes += found
+                else:
+                    outcomes += _known(journal, key)
+                progress.step(f'{prompt}, seed {seed}')
+        for bug in PLANTED:
+            key = f'planted:{bug.name}'
+            if key not in journal.finished:
+                planted.append(Campaign(folder, options.seed, progress).plant(bug))
+                journal.add(key, {'outcomes': [asdict(planted[-1])]})
+            else:
+                planted += _known(journal, key)
+            progress.step(f'{bug.name}: {planted[-1].status}, {planted[-1].problem}')
+    return outcomes, planted
+
+
+def _known(journal: Journal, key: str) -> list[Outcome]:
+    return [Outcome(**fields) for fields in journal.finished[key]['outcomes']]
+
+
+def _of_run(
+    options: argparse.Namespace, folder: Path, prompt: str, seed: int, progress: Progress
+) -> list[Outcome]:
+    """Record one prompt and judge what is done to its run; nothing where that says nothing."""
+    campaign = Campaign(folder, options.seed, progress)
+    base = recording(folder / 'runs', prompt, seed, progress)
+    if base is None:
+        return []
+    if seed == 1 and prompt in SOUND:
+        campaign.alter(base, options.bag_every)
+    campaign.leave(base, options.noisy if seed == 1 else 2)
+    return campaign.outcomes
 
 
 def _goals(outcomes: Sequence[Outcome], planted: Sequence[Outcome]) -> list[Goal]:

@@ -30,7 +30,7 @@ from aurora_core.errors import AuroraError
 from aurora_core.pipeline.verification import verify_stage
 from aurora_core.trace.definitions import message_definitions
 from aurora_system_tests.local_runs import names_of, run_prompt
-from aurora_system_tests.planted_bugs import BY_RECOMPUTATION, PLANTED, SabotagedStages
+from aurora_system_tests.planted_bugs import BY_RECOMPUTATION, Planted, SabotagedStages
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -94,26 +94,24 @@ class Campaign:
         for one, bag in self._other_bags(base):
             self._add(one, judge_bag(bag), stamped=True, bag=True)
 
-    def plant(self) -> Iterator[Outcome]:
-        """Run every executor with a planted bug."""
-        for planted in PLANTED:
-            stages = SabotagedStages(planted.sabotage)
-            report, bag = run_prompt(planted.name, planted.prompt, 1, self.folder, stages)
-            names = names_of(verify_stage(installed(), bag, recompute=False))
-            good = report.status in ('violated', 'inconclusive') and bool(names & planted.names)
-            self.progress.note(f'{planted.name}: {report.status}, {_named(names)}')
-            yield Outcome(
-                kind='planted bug',
-                name=planted.name,
-                base=planted.prompt,
-                harmless=False,
-                stamped=True,
-                bag=True,
-                good=good,
-                status=report.status,
-                problem=_named(names & planted.names if good else names),
-                recomputed=bool(names_of(verify_stage(installed(), bag)) & BY_RECOMPUTATION),
-            )
+    def plant(self, planted: Planted) -> Outcome:
+        """Run an executor with a planted bug."""
+        stages = SabotagedStages(planted.sabotage)
+        report, bag = run_prompt(planted.name, planted.prompt, 1, self.folder, stages)
+        names = names_of(verify_stage(installed(), bag, recompute=False))
+        good = report.status in ('violated', 'inconclusive') and bool(names & planted.names)
+        return Outcome(
+            kind='planted bug',
+            name=planted.name,
+            base=planted.prompt,
+            harmless=False,
+            stamped=True,
+            bag=True,
+            good=good,
+            status=report.status,
+            problem=_named(names & planted.names if good else names),
+            recomputed=bool(names_of(verify_stage(installed(), bag)) & BY_RECOMPUTATION),
+        )
 
     def _other_bags(self, base: Recording) -> Iterator[tuple[Mutant, Path]]:
         """The same messages in other bags."""
@@ -171,19 +169,17 @@ def _named(names: frozenset[str]) -> str:
     return ', '.join(sorted(names)[:6]) or 'nothing named'
 
 
-def recordings(folder: Path, seeds: int, progress: Progress) -> Iterator[Recording]:
-    """Record every prompt; with the first seed first.
+def recording(folder: Path, name: str, seed: int, progress: Progress) -> Recording | None:
+    """Record a prompt; None where its run says nothing with this seed.
 
     Raises:
-        AuroraError: A prompt ended otherwise than the campaign needs: nothing could be said of it.
+        AuroraError: With the first seed it ended otherwise than the campaign needs.
     """
-    for seed in range(1, seeds + 1):
-        for name, prompt in {**SOUND, **FAILING}.items():
-            made = record(name, prompt, seed, folder)
-            wanted = 'verified' if name in SOUND else 'violated'
-            if seed == 1 and made.status != wanted:
-                raise AuroraError(f'{name} ended {made.status}, the campaign needs {wanted}')
-            if made.status not in ('verified', 'violated'):
-                progress.note(f'{name}, seed {seed}: {made.status}, left out')
-                continue
-            yield made
+    made = record(name, {**SOUND, **FAILING}[name], seed, folder)
+    wanted = 'verified' if name in SOUND else 'violated'
+    if seed == 1 and made.status != wanted:
+        raise AuroraError(f'{name} ended {made.status}, the campaign needs {wanted}')
+    if made.status not in ('verified', 'violated'):
+        progress.note(f'{name}, seed {seed}: {made.status}, left out')
+        return None
+    return made

@@ -29,7 +29,6 @@ from aurora_core.quantities.actions import (
 )
 from aurora_core.quantities.lane_changes import (
     LANE_CHANGE_S,
-    can_change,
     change_begins,
     change_is_over,
 )
@@ -155,19 +154,14 @@ class EventTimes:
     def possible_tick(self, event_id: str, start: int) -> int | None:
         """Return the first tick from `start` on at which an action is possible.
 
-        Who changes lane has to be on a street with another lane. What comes near itself, or into
-        its sight, a UAV reports once it is up, or has captured what it tracks: it may be so
-        before. All else is possible anywhere. None where it never is.
+        What comes near itself, or into its sight, a UAV reports once it is up, or has captured
+        what it tracks: it may be so before. All else is possible anywhere: a street without
+        another lane to change to excuses nobody. None where it never is.
         """
-        event, rules = self.event(event_id), self.rules.actions
-        if event is not None and _is_near_the_sender(event):
-            return self._reports_from(event, start)
-        if event is None or rules is None or not isinstance(event.action, AgentAction):
+        event = self.event(event_id)
+        if event is None or not _is_near_the_sender(event):
             return start
-        if event.action.do != 'change_lane':
-            return start
-        rows = self.view.rows(self.view.body(event.action.agent))
-        return first_tick(can_change(self.view.world, rows, rules.start_mps), start)
+        return self._reports_from(event, start)
 
     def _reports_from(self, event: Event, start: int) -> int | None:
         assert isinstance(event.action, SendMessage)

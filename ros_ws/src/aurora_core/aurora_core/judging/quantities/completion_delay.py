@@ -45,7 +45,7 @@ class CompletionDelay(OfEvent):
     """Time from when an action is due to its completion, beyond what it needs, seconds.
 
     It needs the change of speed divided by what the agent can do; a change of lane has its time,
-    from when there is another lane. An action without a trigger is never late: it has to be
+    wherever it is. An action without a trigger is never late: it has to be
     complete at some time.
 
     Attributes:
@@ -71,11 +71,7 @@ class CompletionDelay(OfEvent):
         gone = context.gone(condition, np.array([due], dtype=np.intp))
         if gone is not None:
             return gone
-        possible = times.possible_tick(self.event, due)
-        if possible is None:
-            return never_happened(context, condition, f'{self.event} was possible nowhere')
         before_mps, needed_s = self._needed(context, condition, action, due)
-        needed_s += context.time_s(possible - due)
         topics = ground_topics(condition)
         begin = f'{self.event} was due at {context.time_s(due):.2f} s with {before_mps:.2f} m/s'
         done = times.completion_tick(self.event)
@@ -215,7 +211,7 @@ def implied(
     allowed_s = inputs.tolerances.action_done_s
     allow = f'{number(least)} m/s^2 allow'
     if action.do == 'change_lane':
-        allow = f'{number(LANE_CHANGE_S)} s after it had one to change to'
+        allow = f'the {number(LANE_CHANGE_S)} s of a change of lane'
     return condition(
         id=f'{event.id}.completed',
         sentence=f'{action.agent} {done} at most {number(allowed_s)} s later than {allow}',

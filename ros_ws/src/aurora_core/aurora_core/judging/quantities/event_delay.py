@@ -24,7 +24,7 @@ from aurora_core.outcomes.condition import Condition
 from aurora_core.quantities import free_road
 from aurora_core.quantities.ticks import first_tick, whole_ticks
 from aurora_core.spec.quantity import QuantityName
-from aurora_core.spec.scenario import AgentAction, Event, EventDoneTrigger, Order
+from aurora_core.spec.scenario import Event, EventDoneTrigger, Order
 from aurora_core.spec.stated import is_stated
 
 
@@ -167,11 +167,9 @@ def within(
     inputs: Inputs, event: Event, latest_s: float, after_s: float, source: Source
 ) -> Condition:
     """Return that an event is carried out soon enough after its trigger."""
-    changes = isinstance(event.action, AgentAction) and event.action.do == 'change_lane'
-    where = ', apart from the time without another lane to change to' if changes else ''
     return condition(
         id=f'{event.id}.within',
-        sentence=f'{event.id} happens within {number(latest_s)} s of its trigger{where}',
+        sentence=f'{event.id} happens within {number(latest_s)} s of its trigger',
         of=(event.id,),
         target=Target(op='<=', threshold=latest_s, unit='s'),
         arguments=EventDelay(**inputs.of_event(event.id), after_s=after_s),

@@ -82,10 +82,8 @@ class LaneKeptAfter(OfEvent):
         action = agent_action(context, condition, self.event)
         times = context.events
         due = 0 if self.untold(context) else times.due_tick(self.event)
-        possible = None if due is None else times.possible_tick(self.event, due)
-        if due is None or possible is None:
-            what = 'due' if due is None else 'possible'
-            return never_happened(context, condition, f'{self.event} was never {what}')
+        if due is None:
+            return never_happened(context, condition, f'{self.event} was never due')
         view = context.view
         body = view.body(action.agent)
         lanes = lane_of(view, body)
@@ -93,7 +91,7 @@ class LaneKeptAfter(OfEvent):
         begins = times.action_tick(self.event, due)
         if begins is None:
             story = f'{body.body_id} kept to its lane'
-            return at_tick(possible, 0.0, story, topics, later=Later.RISES, provisional=True)
+            return at_tick(due, 0.0, story, topics, later=Later.RISES, provisional=True)
         changes = lane_change_ticks(view, lanes)
         tick = next(t for t in changes if t >= begins)
         back = next((t for t in changes if t > tick), view.ticks - 1)
