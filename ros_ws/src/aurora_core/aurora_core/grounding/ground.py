@@ -8,7 +8,7 @@ Source: paper, "Joint road-airspace grounding", eq. (2).
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from aurora_core.grounding.agents import AgentPlacer
@@ -30,6 +30,7 @@ from aurora_core.grounding.persons import PersonPlacer
 from aurora_core.grounding.places import MapPlaces
 from aurora_core.grounding.planned_flight import PlannedFlight, Rejected, planned_height_m
 from aurora_core.grounding.premises import comes_about, heard, starts_out_of_reach
+from aurora_core.grounding.radio import link_score
 from aurora_core.grounding.realised import realised_values
 from aurora_core.grounding.sites import Site, TriedSite, sites, tied_way_m
 from aurora_core.grounding.spots import SpotFinder
@@ -359,11 +360,11 @@ class Grounder:
         road: float,
         planner: FlightPlanner,
     ) -> _Option | Rejected:
-        flights: list[PlannedFlight] = []
+        flown_by: dict[str, list[PlannedFlight]] = {}
         uavs: list[UavPlan] = []
         hovering: list[Column] = []
         for number, uav in enumerate(spec.uavs):
-            own: list[PlannedFlight] = []
+            own = flown_by[uav.id] = []
             for mission in spec.missions:
                 if mission.uav != uav.id:
                     continue
@@ -391,12 +392,11 @@ class Grounder:
             if isinstance(plan, Rejected):
                 return plan
             uavs.append(plan)
-            flights += own
             hovering += columns(spec, uav.id, (f.plan.hover_point for f in own))
         return _Option(
             site=site,
             uavs=planner.uncrossed(uavs, site),
-            score=self._score(road, flights, spec),
+            score=self._score(road, flown_by, spec, site),
         )
 
     def _lead_m(self, spec: ScenarioSpec, uav: str) -> float:
@@ -412,12 +412,19 @@ class Grounder:
         speed = watched_speed_mps(spec, first, self._limits, self._settings.grounding)
         return speed * sum(before)
 
-    def _score(self, road: float, flights: list[PlannedFlight], spec: ScenarioSpec) -> AnchorScore:
+    def _score(
+        self,
+        road: float,
+        flown_by: Mapping[str, Sequence[PlannedFlight]],
+        spec: ScenarioSpec,
+        site: Site,
+    ) -> AnchorScore:
+        flights = [flight for own in flown_by.values() for flight in own]
         planned = self._settings.grounding.clearance_m
         spare = min((f.clearance_m - planned for f in flights), default=_GOOD_CLEARANCE_M)
         air = max(0.0, min(1.0, spare / _GOOD_CLEARANCE_M))
         sense = min((f.seen for f in flights), default=1.0)
-        comm = sense if spec.links else 1.0
+        comm = link_score(spec, site, flown_by, self._air, self._types, self._limits)
         w = self._settings.grounding.weights
         total = w.road + w.air + w.sense + w.comm
         joint = (w.road * road + w.air * air + w.sense * sense + w.comm * comm) / total

@@ -35,7 +35,7 @@ class ReleaseOn(StrEnum):
 class AnchorScore(Document):
     """Terms of the joint anchor score, each in [0, 1].
 
-    Source: paper, eq. (2).
+    Source: paper, joint anchor score.
     """
 
     road: FiniteFloat
