@@ -9,4 +9,4 @@ root="$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd -P)"
 "$root/tools/setup.sh"
 cd "$root"
 # From standard input: a prompt may begin with a dash.
-printf '%s' "${PROMPT:?make demo needs a prompt}" | tools/in_env.sh aurora run --engine ros -
+printf '%s' "${PROMPT:?make demo needs a prompt}" | tools/in_env.sh aurora run --engine ros --picture -

@@ -25,8 +25,8 @@ NOTES = (
     'of them; each ratio is that of one round, and its median is shown. CPU is user and system '
     'time of the process, which other work on the machine changes little; wall is the clock.',
     'Warm: one process runs the prompt again and again, each time with a run folder, bag, '
-    'verdict and report; the first run is left out. Picture and page are made when the verdict '
-    'has been told, so they stand apart (cold, `aurora run` is timed to its end with them). '
+    'verdict and report; the first run is left out. The page is made when the verdict '
+    'has been told, so it stands apart (cold, `aurora run` is timed to its end with it). '
     'The tick loop is what lies between the first and the last tick that the run reports: without '
     'loading the simulators, closing the bag, hashing it. The ratio is that of each run to its '
     'own loop.',
@@ -156,7 +156,7 @@ def _stage_table(
     parts = [*before, *((name, [run.stages[name] for run in runs]) for name in names)]
     total, page = [run.total for run in runs], [run.page for run in runs]
     rows = []
-    for name, samples in [*parts, ('run to its verdict', total), ('picture and page', page)]:
+    for name, samples in [*parts, ('run to its verdict', total), ('page', page)]:
         cpu_s, wall_s = median(s.cpu_s for s in samples), median(s.wall_s for s in samples)
         told = 'execute without the loop' if name == 'execute' else name
         rows.append((told, cpu_s, wall_s, cpu_s / loop_s))

@@ -31,7 +31,7 @@ class WarmRun(Document):
         status: Of its report.
         motion_sha256: Its motion hash.
         total: From the request to the verdict, with every stage's document written.
-        page: Picture and page, which are made when the verdict has been told.
+        page: The page, which is made when the verdict has been told.
         stages: Each stage; `execute` without the tick loop, which is one by itself.
         ticks: Of the loop.
     """

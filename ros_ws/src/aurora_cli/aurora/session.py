@@ -121,7 +121,7 @@ class Session:
     ) -> Run:
         """Take a prompt through the whole chain. Other arguments: see `parse`.
 
-        The run folder is the one that `aurora run` leaves, but for picture and page, which
+        The run folder is the one that `aurora run` leaves, but for the page, which
         `Run.write_page` adds.
 
         Args:

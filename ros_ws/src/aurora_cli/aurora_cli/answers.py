@@ -77,15 +77,19 @@ class Run:
         """Whether `report.html` lies in the run folder."""
         return (self.folder / REPORT_HTML).exists()
 
-    def write_page(self) -> None:
-        """Write picture and `report.html`, which take about as long as the flight.
+    def write_page(self, *, picture: bool = False) -> None:
+        """Write `report.html`.
+
+        Args:
+            picture: Draw `picture.png`, too, which takes longer than a short flight, and show it
+                on the page.
 
         Raises:
             ReportError: The folder cannot be written.
             KeyboardInterrupt: The page was written without a picture.
         """
         folder = RunFolder(self.folder.parent, self.folder.name)
-        write_page(self.report, folder, self.content, self.context)
+        write_page(self.report, folder, self.content, self.context, picture=picture)
 
 
 def check_facts(request: RunRequest) -> RunFacts:
@@ -116,7 +120,7 @@ def run_request(
     control: RunControl,
     tell: Callable[[str], None] = lambda _: None,
 ) -> Run:
-    """Run a request with its engine; without picture and page, unless the graph made them.
+    """Run a request with its engine; without the page, unless the graph made it.
 
     Args:
         request: Prompt and options.
@@ -136,7 +140,7 @@ def run_request(
 
 
 def run_stages(request: RunRequest, stages: LocalStages, root: Path, control: RunControl) -> Run:
-    """Run a request with stages of this process; without picture and page.
+    """Run a request with stages of this process; without the page.
 
     Args:
         request: Prompt and options.

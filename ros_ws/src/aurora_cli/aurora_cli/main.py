@@ -129,6 +129,9 @@ def run_prompt(
             metavar='N', help='Run N seeds from --seed on: how often is it verified, by how much?'
         ),
     ] = None,
+    picture: Annotated[
+        bool, typer.Option('--picture', help='Draw picture.png, too; aurora open does so later.')
+    ] = False,
     quiet: Quiet = False,
     as_json: Json = False,
 ) -> None:
@@ -152,10 +155,14 @@ def run_prompt(
             faults=tuple(fault or ()),
         )
         if seeds is not None:
+            if picture:
+                raise UsageProblem('--picture is for one run; aurora open RUN draws any of them')
             from aurora_cli.commands.seeds import seeds_command
 
             return seeds_command(prompt, prompt_file, options, seeds, quiet=quiet, as_json=as_json)
-        return run_command(prompt, prompt_file, options, quiet=quiet, as_json=as_json)
+        return run_command(
+            prompt, prompt_file, options, picture=picture, quiet=quiet, as_json=as_json
+        )
 
     finish(command, as_json=as_json)
 
@@ -260,7 +267,12 @@ def recover_recording(
 @app.command('picture')
 def draw_run(
     run_or_bag: RunOrBag,
-    output: Annotated[Path, typer.Option('-o', '--output', help='PNG or SVG file to write.')],
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            '-o', '--output', help='PNG or SVG file; default: picture.png in the run folder.'
+        ),
+    ] = None,
     iteration: Iteration = None,
     as_json: Json = False,
 ) -> None:

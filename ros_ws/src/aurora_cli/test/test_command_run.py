@@ -39,16 +39,19 @@ def test_the_run_folder_holds_every_stage(finished: SimpleNamespace) -> None:
     assert names >= stages | {'manifest.json', 'prompt.txt', 'report.json', 'report.html'}
     assert not [name for name in names if name.startswith('.')]
     assert json.loads((finished.folder / 'report.json').read_text()) == finished.report
-    assert (finished.folder / 'picture.png').read_bytes().startswith(b'\x89PNG')
+    # Nobody has looked yet.
+    assert 'picture.png' not in names
 
 
 def test_a_fault_at_run_time_ends_violated_with_the_right_condition(
     tmp_path: Path, shell: SimpleNamespace
 ) -> None:
     fault = '{"kind": "target_removed", "subject": "ego", "at_s": 3.0}'
-    done = shell.aurora('run', shell.prompt, '--json', '--fault', fault, cwd=tmp_path)
+    done = shell.aurora('run', shell.prompt, '--json', '--picture', '--fault', fault, cwd=tmp_path)
     report = json.loads(done.stdout)
     assert (done.returncode, report['status']) == (1, 'violated')
+    picture = tmp_path / 'runs' / report['run_id'] / 'picture.png'
+    assert picture.read_bytes().startswith(b'\x89PNG')
     failed = {row['id']: row for row in report['conditions'] if not row['satisfied']}
     assert 'safety.presence' in failed
     assert failed['safety.presence']['worst_time_s'] == pytest.approx(3.05, abs=0.06)

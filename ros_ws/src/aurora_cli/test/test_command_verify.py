@@ -82,6 +82,7 @@ def test_a_run_without_a_bag_is_a_usage_error(here: Path, call: Call) -> None:
 
 
 def test_a_run_can_be_drawn_again(copy: Path, here: Path, call: Call) -> None:
+    assert call('picture', str(copy)).code == 0
     assert call('picture', str(copy), '-o', 'again.png').code == 0
     assert (here / 'again.png').read_bytes() == (copy / 'picture.png').read_bytes()
     done = call('picture', str(copy / 'bag.0'), '-o', 'p.svg', '--json')
@@ -92,6 +93,7 @@ def test_a_run_can_be_drawn_again(copy: Path, here: Path, call: Call) -> None:
 def test_a_bag_without_its_run_is_drawn_with_a_recomputed_verdict(
     copy: Path, here: Path, call: Call
 ) -> None:
+    assert call('picture', str(copy)).code == 0
     (copy / 'bag.0').rename(here / 'alone')
     assert call('picture', 'alone', '-o', 'p.png').code == 0
     assert (here / 'p.png').read_bytes() == (copy / 'picture.png').read_bytes()
@@ -103,6 +105,14 @@ def test_a_picture_goes_only_where_it_can(
 ) -> None:
     assert call('picture', str(copy), '-o', name).code == code
     assert sorted(path.name for path in here.iterdir()) == ['runs']
+
+
+def test_a_bag_without_a_report_of_its_own_needs_a_name_for_its_picture(
+    copy: Path, here: Path, call: Call
+) -> None:
+    assert call('picture', str(copy), '--iteration', '0').code == 64
+    (copy / 'bag.0').rename(here / 'alone')
+    assert call('picture', 'alone').code == 64
 
 
 def test_each_condition_with_samples_is_drawn(copy: Path, here: Path, call: Call) -> None:

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import base64
 import gc
 import json
 import os
@@ -74,10 +75,10 @@ def test_a_run_answers_as_the_command_does(
     assert done.trace is not None
     assert done.content.trace.ticks == done.trace.ticks
     assert not done.has_page
-    done.write_page()
-    assert (done.folder / 'picture.png').read_bytes() == (
-        finished.folder / 'picture.png'
-    ).read_bytes()
+    done.write_page(picture=True)
+    drawn = (done.folder / 'picture.png').read_bytes()
+    assert drawn.startswith(b'\x89PNG')
+    assert base64.b64encode(drawn).decode() in (done.folder / 'report.html').read_text()
     assert (
         aurora.verify(done.folder).verdict.results
         == aurora.verify(finished.folder).verdict.results

@@ -139,9 +139,17 @@ def test_open_finds_the_last_run_and_makes_its_page(
     done = call('open')
     assert (done.code, done.out) == (0, f'{(copy / "report.html").as_uri()}\n')
     assert (copy / 'report.html').read_text().startswith('<!')
+    assert (copy / 'picture.png').read_bytes().startswith(b'\x89PNG')
     shown = json.loads(call('open', finished.folder.name, '--json').out)
     assert shown['run'] == finished.folder.name
     assert call('open', 'nothing').code == 64
+    # Of a run whose bag is gone there is nothing to draw: its page stays.
+    (copy / 'picture.png').unlink()
+    shutil.rmtree(copy / 'bag.0')
+    before = (copy / 'report.html').read_bytes()
+    assert call('open').code == 0
+    assert (copy / 'report.html').read_bytes() == before
+    assert not (copy / 'picture.png').exists()
 
 
 def test_open_starts_a_browser_where_there_is_a_screen(
@@ -150,8 +158,10 @@ def test_open_starts_a_browser_where_there_is_a_screen(
     opened: list[str] = []
     monkeypatch.setenv('DISPLAY', ':0')
     monkeypatch.setattr('webbrowser.open', opened.append)
-    assert call('open', str(finished.folder)).code == 0
-    assert opened == [(finished.folder / 'report.html').as_uri()]
+    copy = here / 'copy'
+    shutil.copytree(finished.folder, copy)
+    assert call('open', str(copy)).code == 0
+    assert opened == [(copy / 'report.html').as_uri()]
 
 
 def test_a_run_without_a_report_cannot_be_opened(here: Path, call: Call) -> None:

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import base64
 import io
 import json
 import re
@@ -267,8 +268,16 @@ def test_a_page_that_tells_otherwise_is_found(run: Path, call: Call) -> None:
     assert (found.code, found.integrity) == (4, 'altered')
     assert 'report.html is not the page' in found.first
     page.write_text(shown)
+    # Who looks has the picture drawn, and the page made again with it.
+    assert call('open', str(run), '--json').code == 0
+    drawn = (run / 'picture.png').read_bytes()
+    assert base64.b64encode(drawn).decode() in page.read_text()
+    assert said(call, str(run)).code == 0
     (run / 'picture.png').write_bytes(b'\x89PNG of another run')
     assert 'report.html is not the page' in said(call, str(run)).first
+    # A picture beside the page that the run left changes nothing.
+    page.write_text(shown)
+    assert said(call, str(run)).code == 0
     # What nobody was shown tells nothing wrong; what cannot be compared may.
     page.unlink()
     assert said(call, str(run)).code == 0

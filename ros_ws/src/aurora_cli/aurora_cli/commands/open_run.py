@@ -10,15 +10,15 @@ from pathlib import Path
 
 from aurora_cli.output import UsageProblem, answer_console, print_json, quiet_stdout, say
 from aurora_core.errors import ReportError
-from aurora_core.report.outputs import write_page
+from aurora_core.report.outputs import add_picture, write_page
 from aurora_core.report.run_documents import Unreadable, read_document
-from aurora_core.report.run_folder import REPORT, REPORT_HTML, RunFolder, is_run_id
+from aurora_core.report.run_folder import PICTURE, REPORT, REPORT_HTML, RunFolder, is_run_id
 from aurora_core.report.run_report import RunReport
 from aurora_core.report.terminal import line
 
 
 def open_command(run: str | None, root: Path, *, as_json: bool) -> int:
-    """Show `report.html` of a run, made first where it is not there; return the exit code.
+    """Show `report.html` of a run with its picture, made first where they are not there.
 
     Without a screen its address is printed alone.
 
@@ -28,15 +28,9 @@ def open_command(run: str | None, root: Path, *, as_json: bool) -> int:
     """
     folder = _folder(run, root)
     page = folder / REPORT_HTML
-    if not page.exists():
-        report = read_document(folder / REPORT, RunReport)
-        if isinstance(report, Unreadable):
-            raise ReportError(
-                f'{folder.name} has no report: {report.why}',
-                hint='aurora doctor --fix closes a run that was cut short',
-            )
+    if not (page.exists() and (folder / PICTURE).exists()):
         with quiet_stdout():
-            write_page(report, RunFolder(folder.parent, folder.name))
+            _make(folder)
     address = page.absolute().as_uri()
     if as_json:
         print_json({'run': folder.name, 'page': str(page), 'url': address})
@@ -48,6 +42,32 @@ def open_command(run: str | None, root: Path, *, as_json: bool) -> int:
         if not opened:
             say('aurora: no browser was found; open the address above in one')
     return 0
+
+
+def _make(folder: Path) -> None:
+    """Make the page with its picture, or draw the picture into the page that is there.
+
+    Raises:
+        AuroraError: There is no page, and none can be made.
+    """
+    report = read_document(folder / REPORT, RunReport)
+    has_page = (folder / REPORT_HTML).exists()
+    try:
+        if isinstance(report, Unreadable):
+            raise ReportError(
+                f'{folder.name} has no report: {report.why}',
+                hint='aurora doctor --fix closes a run that was cut short',
+            )
+        run = RunFolder(folder.parent, folder.name)
+        if has_page:
+            add_picture(report, run)
+        else:
+            write_page(report, run, picture=True)
+    except ReportError as err:
+        # A run that may not be written to, or under another name: its page is shown as it is.
+        if not has_page:
+            raise
+        say(f'aurora: no picture was drawn: {err.message}')
 
 
 def _has_screen() -> bool:

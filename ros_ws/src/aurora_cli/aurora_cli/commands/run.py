@@ -34,6 +34,7 @@ def run_command(
     prompt_file: Path | None,
     options: RunOptions,
     *,
+    picture: bool,
     quiet: bool,
     as_json: bool,
 ) -> int:
@@ -61,19 +62,20 @@ def run_command(
         say(f'aurora: run folder {done.folder}')
     else:
         print_report(done.report, answer_console(), done.folder, brief=quiet)
-    # The verdict first: drawing the picture takes as long as the flight.
-    if not done.has_page and not _page_written(done):
+    # The verdict first: nobody waits for page and picture to hear it.
+    if (picture or not done.has_page) and not _page_written(done, picture=picture):
         return BROKEN
     return int(exit_code(done.status))
 
 
-def _page_written(done: Run) -> bool:
-    """Write picture and page of a run that has been told; Ctrl-C spares the picture."""
+def _page_written(done: Run, *, picture: bool) -> bool:
+    """Write the page of a run that has been told, and its picture; Ctrl-C spares the picture."""
     try:
         with quiet_stdout():
-            done.write_page()
+            done.write_page(picture=picture)
     except KeyboardInterrupt:
-        say(f'aurora: no picture was drawn; aurora picture {done.folder} -o FILE does it')
+        if picture:
+            say(f'aurora: no picture was drawn; aurora picture {done.folder} does it')
     except AuroraError as err:
         print_error(err, as_json=False)
         return False

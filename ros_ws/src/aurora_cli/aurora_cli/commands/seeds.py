@@ -47,7 +47,7 @@ def seeds_command(
     """Run a prompt with `count` seeds from `options.seed` on, and return the exit code.
 
     Quiet: no progress and no table, the share that is verified alone.
-    No picture and no page is made: `aurora open RUN` makes those of a run.
+    No page is made: `aurora open RUN` makes that of a run.
 
     Raises:
         UsageProblem: Options, prompt source or the number of seeds are wrong.

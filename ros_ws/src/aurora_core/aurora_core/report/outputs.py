@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""Write what a run leaves for people: report.json first, then picture and page."""
+"""Write what a run leaves for people: report.json first, then the page; a picture when asked."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from aurora_core.trace.definitions import message_definitions
 
 
 def write_outputs(report: RunReport, folder: RunFolder) -> None:
-    """Write `report.json`, the picture of the run (when there is a bag) and `report.html`.
+    """Write `report.json` and `report.html`.
 
     Raises:
         ReportError: The folder cannot be written.
@@ -41,20 +41,23 @@ def write_page(
     folder: RunFolder,
     content: BagContent | None = None,
     context: Context | None = None,
+    *,
+    picture: bool = False,
 ) -> None:
-    """Write the picture of the run (when there is a bag) and `report.html`.
+    """Write `report.html`, and before it the picture of the run where one is wanted.
 
     Args:
         report: Of the run.
         folder: Of the run.
         content: Its bag, when somebody has read it already.
         context: In which that bag was judged, when somebody has.
+        picture: Draw `picture.png`, too, and show it on the page; nothing where there is no bag.
 
     Raises:
         ReportError: The folder cannot be written.
         KeyboardInterrupt: The page was written without a picture, as it takes the most time.
     """
-    picture, shown = None, None
+    drawn, shown = None, None
     try:
         content, agsg = _recorded(report, folder, content)
         if content is not None:
@@ -62,10 +65,22 @@ def write_page(
             from aurora_core.report.page.recorded import recorded
 
             shown = recorded(report, content, agsg, context)
-            picture = _picture(report, content, agsg)
-            folder.write_bytes(PICTURE, picture)
+            if picture:
+                drawn = _picture(report, content, agsg)
+                folder.write_bytes(PICTURE, drawn)
     finally:
-        folder.write_text(REPORT_HTML, report_html(report, picture, shown))
+        folder.write_text(REPORT_HTML, report_html(report, drawn, shown))
+
+
+def add_picture(report: RunReport, folder: RunFolder) -> None:
+    """Write the picture and the page with it; what is there stays where no bag can be read.
+
+    Raises:
+        ReportError: The folder cannot be written.
+    """
+    content, _ = _recorded(report, folder, None)
+    if content is not None:
+        write_page(report, folder, content, picture=True)
 
 
 def _recorded(
@@ -85,7 +100,7 @@ def _recorded(
 
 def _picture(report: RunReport, content: BagContent, agsg: Agsg | None) -> bytes:
     """Return the picture as PNG."""
-    # Imported here: a run that is refused needs no drawing library.
+    # Imported here: the drawing library takes longer to load than most runs do.
     from aurora_core.report.picture.draw import draw_picture, png_bytes
 
     spec = agsg.spec if agsg is not None else None
