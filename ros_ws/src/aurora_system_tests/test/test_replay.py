@@ -244,8 +244,10 @@ def test_a_replay_is_refused_while_a_run_goes_on(scene: Scene) -> None:
     try:
         publisher.publish(SyncStatus(run_number=5, state=SyncStatus.RUNNING))
         code, output, errors = replay(scene, scene.run)
-        assert (code, output) == (4, '')
-        assert 'a run is going on in this ROS_DOMAIN_ID' in errors
+        assert (code, output) == (4, ''), errors
+        # Where discovery is slow it is heard of only when the replay has begun.
+        told = ('a run is going on in this ROS_DOMAIN_ID', 'gave way to a run that began')
+        assert any(words in errors for words in told), errors
         publisher.publish(SyncStatus(run_number=5, state=SyncStatus.IDLE))
         assert wait_until(lambda: scene.statuses[-1].state == SyncStatus.IDLE, 10.0)
     finally:
