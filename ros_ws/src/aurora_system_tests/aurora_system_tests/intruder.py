@@ -9,13 +9,16 @@ should, or what is of no run.
 from __future__ import annotations
 
 import argparse
+import signal
 import sys
+import threading
 from typing import Any
 
 import rclpy
 from rclpy.duration import Duration
 from rclpy.node import Node
 from rclpy.publisher import Publisher
+from rclpy.signals import SignalHandlerOptions
 from rosgraph_msgs.msg import Clock
 
 from aurora_ros import interfaces as on
@@ -31,6 +34,7 @@ NAME = 'intruder'
 # Of the run in which it writes.
 TICK = 200
 _FIRST_NUMBER = {'command': 1, 'state': 0}
+_LOOK_S = 0.1
 _OFF_M = 3.0
 _OFF_NS = 7  # of the clock: no tick of any run
 
@@ -95,12 +99,15 @@ def main(arguments: list[str] | None = None) -> int:
     parser.add_argument('--early', action='store_true', help='be there before the run')
     parser.add_argument('--passing', action='store_true', help='come, write, and go again')
     options = parser.parse_args(sys.argv[1:] if arguments is None else arguments)
-    rclpy.init()
+    ended = threading.Event()
+    signal.signal(signal.SIGTERM, lambda _signal, _frame: ended.set())
+    # Signals stay with us: whoever goes properly leaves no lease behind.
+    rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
     node = Intruder(options.kind, early=options.early, passing=options.passing)
     sys.stdout.write('ready\n')
     sys.stdout.flush()
-    while not node.done:
-        rclpy.spin_once(node)
+    while not (node.done or ended.is_set()):
+        rclpy.spin_once(node, timeout_sec=_LOOK_S)
     node.destroy_node()
     rclpy.shutdown()
     return 0

@@ -70,7 +70,7 @@ def intruder(
     finally:
         process.terminate()
         try:
-            process.communicate(timeout=20.0)
+            process.communicate(timeout=LIMIT_S)
         finally:
             process.kill()  # whoever missed the signal would write into the next test's domain
 

@@ -364,21 +364,21 @@ COMPLETED = (
     # Who stands when it is told to stop has nothing to do.
     Row(id='e1.within', make=_stands, margin=1.0, what='stands'),
 )
-# 2 s are asked on the other lane, where there is one.
+# 2 s are asked on the other lane.
 LANE = (
     Row(id='e1.within', make=lambda: _slides(310), margin=1.0 - 0.55, what='slides'),
     Row(id='e1.within', make=lambda: _slides(320), margin=1.0 - 1.05, what='slides'),
-    # It stands for 3 s when it is due: these do not count.
-    Row(id='e1.within', make=_waits, margin=1.0 - 0.25, what='waits'),
-    Row(id='e1.time', make=_waits, margin=0.25, what='waits'),
+    # That it stands when it is due, or has no other lane, excuses nobody.
+    Row(id='e1.within', make=_waits, margin=1.0 - 3.25, what='waits'),
+    Row(id='e1.time', make=_waits, margin=0.5 - 3.25, what='waits'),
     Row(id='e1.completed', make=lambda: _slides(310), margin=2.0 - 0.2, what='slides'),
     Row(id='e1.lane', make=lambda: _changes_lane(310, AT_S), margin=4.5 - 2.0),
     Row(id='e1.lane', make=lambda: _changes_lane(310, AT_S, back=330), margin=1.0 - 2.0),
     Row(id='e1.lane', make=lambda: _changes_lane(T, AT_S), margin=0.0 - 2.0, what='never'),
     Row(id='e1.lane', make=lambda: _changes_lane(310, 99.0), reason=NEVER),
     *(
-        Row(id=name, make=lambda: _changes_lane(310, AT_S, lanes=1), reason=NEVER, what='one-lane')
-        for name in ('e1.lane', 'e1.within', 'e1.completed')
+        Row(id=name, make=lambda: _changes_lane(T, AT_S, lanes=1), margin=margin, what='one-lane')
+        for name, margin in (('e1.lane', -2.0), ('e1.within', 1.0 - 2.05), ('e1.completed', -0.05))
     ),
 )
 # It has to stand until 15 s, or from when it has stopped until it is to start again.
