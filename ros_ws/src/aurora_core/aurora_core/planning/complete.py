@@ -14,7 +14,7 @@ from aurora_core.parsing import values
 from aurora_core.planning.bounds import bent
 from aurora_core.planning.ids import free_ids
 from aurora_core.planning.orders import waiting
-from aurora_core.spec.events import Event, MessageTrigger, actor_of
+from aurora_core.spec.events import Event, MessageTrigger, actor_of, least_due_s
 from aurora_core.spec.own_events import overtakings
 from aurora_core.spec.parameter import Parameter, Provenance
 from aurora_core.spec.quantity import QuantityName
@@ -251,7 +251,8 @@ def lasting(spec: ScenarioSpec) -> ScenarioSpec:
     """Return the specification with default durations lengthened, inside their domains.
 
     "Keeps it in view for 60 s" cannot come true in a phase of 30 s, nor can a stretch without a
-    break that is longer than its phase. Stated durations stay.
+    break that is longer than its phase; who is to send a message 63 s after t = 0 does not land
+    before. Stated durations stay.
 
     Args:
         spec: The request; it is not changed.
@@ -267,6 +268,12 @@ def lasting(spec: ScenarioSpec) -> ScenarioSpec:
         for mission in (m for m in spec.missions if m.uav in (link.sender, link.receiver)):
             if link.outage is not None:
                 need[mission.id] = max(need.get(mission.id, 0.0), spare * link.outage[1])
+    for event in spec.events:
+        if isinstance(event.action, SendMessage):
+            own = [m for m in spec.missions if m.uav == event.action.sender]
+            for mission in own[-1:]:
+                due_s = least_due_s(spec.events, event.id)
+                need[mission.id] = max(need.get(mission.id, 0.0), spare * due_s)
     if not need:
         return spec
     missions = tuple(_at_least(m, need.get(m.id, 0.0)) for m in spec.missions)

@@ -192,6 +192,26 @@ def sets_off(events: tuple[Event, ...], agent: str) -> Event | None:
     return None if after_stop else first
 
 
+def least_due_s(events: tuple[Event, ...], event_id: str) -> float:
+    """Return the first scenario time (s) at which an event can act by the times stated.
+
+    0 where its chain begins with what has no stated time.
+    """
+    by_id = {event.id: event for event in events}
+    due_s, seen = 0.0, set[str]()
+    event = by_id.get(event_id)
+    while event is not None and event.id not in seen:
+        seen.add(event.id)
+        due_s += event.waits_s
+        trigger, event = event.trigger, None
+        if isinstance(trigger, TimeTrigger):
+            due_s += trigger.at_s.value
+        elif isinstance(trigger, EventDoneTrigger):
+            due_s += 0.0 if trigger.after_s is None else trigger.after_s.value
+            event = by_id.get(trigger.event)
+    return due_s
+
+
 def bodies_of(event: Event) -> frozenset[str]:
     """Return every agent and UAV that an event's trigger and action refer to by id."""
     names = ('a', 'b', 'uav', 'observer', 'target', 'who', 'by', 'sender', 'receiver', 'agent')

@@ -11,8 +11,20 @@ import pytest
 
 from aurora_core.planning.complete import lasting
 from aurora_core.spec.parameter import Parameter
-from aurora_core.spec.scenario import ScenarioSpec, StatedCondition, Uav, UavMission, World
-from aurora_core.spec.vocabulary import MissionMode
+from aurora_core.spec.scenario import (
+    AgentAction,
+    Event,
+    EventDoneTrigger,
+    GroundAgent,
+    ScenarioSpec,
+    SendMessage,
+    StatedCondition,
+    TimeTrigger,
+    Uav,
+    UavMission,
+    World,
+)
+from aurora_core.spec.vocabulary import AgentType, MissionMode
 
 Make = Callable[..., Parameter]
 HALL, PARK = 'landmark:City Hall', 'landmark:Meadow Park'
@@ -85,3 +97,27 @@ def test_no_phase_gets_longer_than_its_domain(parameter: Make) -> None:
     high = spec.missions[0].duration_s
     assert high is not None
     assert _lengths(spec)[0] == high.high
+
+
+def test_who_is_to_send_at_a_stated_time_has_not_landed_by_then(parameter: Make) -> None:
+    spec = _spec(parameter, quantity='altitude', of=('uav1',), value=parameter(45.0))
+    ego = GroundAgent(id='ego', type=AgentType.CAR)
+    spec = spec.model_copy(update={'agents': (ego,)})
+    stop = Event(
+        id='e1',
+        trigger=TimeTrigger(on='time', at_s=parameter(60.0, 's')),
+        action=AgentAction(do='stop', agent='ego'),
+    )
+    told = Event(
+        id='e2',
+        trigger=EventDoneTrigger(on='event_done', event='e1', after_s=parameter(3.0, 's')),
+        action=SendMessage(do='send_message', sender='uav1', receiver='ego'),
+        delay_s=parameter(1.0, 's'),
+    )
+    assert _lengths(spec.model_copy(update={'events': (stop,)})) == [30.0, 30.0]
+    # A quarter more than 64 s, in the last phase.
+    assert _lengths(spec.model_copy(update={'events': (stop, told)})) == [30.0, 80.0]
+    # Who wait for each other have no time.
+    after_told = EventDoneTrigger(on='event_done', event='e2')
+    loop = (stop.model_copy(update={'trigger': after_told}), told)
+    assert _lengths(spec.model_copy(update={'events': loop})) == [30.0, 30.0]
