@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import shlex
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
@@ -66,7 +67,7 @@ _NEXT = {
     Status.VIOLATED: 'aurora open {run} shows when and where, aurora repair {run} tries otherwise',
     Status.INCOMPLETE: 'say the quoted words otherwise; aurora examples shows what is understood',
     Status.INCONCLUSIVE: 'aurora doctor, and aurora verify {run} once more',
-    Status.INFEASIBLE: 'ask for what is feasible; the proof: aurora certificate check runs/{run}',
+    Status.INFEASIBLE: 'ask for what is feasible; the proof: aurora certificate check {run}',
     Status.NOT_UNDERSTOOD: 'aurora examples shows what can be said, aurora new asks for pieces',
     Status.ERROR: 'aurora doctor',
 }
@@ -99,7 +100,7 @@ def print_report(
         headline(console, report.status.value, _COLOURS[report.status], report.summary)
     step = _NEXT.get(report.status)
     if step and folder is not None:
-        line(console, f'next     {step.format(run=folder.name)}')
+        line(console, f'next     {step.format(run=shlex.quote(str(folder)))}')
 
 
 def _print_all(report: RunReport, console: Console) -> None:

@@ -56,7 +56,7 @@ def test_the_verdict_stands_first_and_last_and_alone_when_asked(make: SimpleName
     first, *_, again, step = _text(console).splitlines()
     assert first == again
     assert first.startswith('VIOLATED  ')
-    assert step.split()[:4] == ['next', 'aurora', 'open', 'x']
+    assert step.split()[:4] == ['next', 'aurora', 'open', '/runs/x']
 
     console = _plain()
     print_report(report, console, Path('/runs/x'), brief=True)
