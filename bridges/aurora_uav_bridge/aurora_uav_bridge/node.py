@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from aurora_core.errors import AirSimulatorError
+from aurora_core.errors import AirSimulatorError, ConfigError
 from aurora_core.trace.layout import UAV_COMMAND_WIDTH
 from aurora_msgs.msg import UavCommand, UavState
 from aurora_msgs.srv import LoadUav
@@ -18,8 +18,9 @@ from aurora_ros.main import run_node
 from aurora_ros.parameters import declare, require_positive
 from aurora_uav_bridge.mavlink_client import MavlinkClient
 from aurora_uav_bridge.presence import Presence
-from aurora_uav_bridge.transports import UdpTransport
+from aurora_uav_bridge.transports import SignedTransport, Transport, UdpTransport
 from aurora_uav_sim.protocol import mavlink_port
+from aurora_uav_sim.signing import KEY_FILE_VARIABLE, KeyFileError, signer_from
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,6 +50,10 @@ class UavBridgeNode(LockstepBridge):
         self.wants_autostart = self._settings.autostart
         self._client: MavlinkClient | None = None
         self._presence: Presence | None = None
+        try:
+            self._signer = signer_from()
+        except KeyFileError as err:
+            raise ConfigError(str(err), hint=f'unset {KEY_FILE_VARIABLE}, or mend it') from err
 
     def check_presence(self) -> None:
         """Answer a roll call for the simulator too; in a run each tick asks it anyway.
@@ -95,12 +100,13 @@ class UavBridgeNode(LockstepBridge):
         if client is not None:
             client.close()
 
-    def _transport(self) -> UdpTransport:
+    def _transport(self) -> Transport:
         settings = self._settings
         port = settings.port or mavlink_port(
             self.context.get_domain_id(), settings.first_system_id
         )
-        return UdpTransport(port, settings.host)
+        plain = UdpTransport(port, settings.host)
+        return plain if self._signer is None else SignedTransport(plain, self._signer)
 
     @property
     def _loaded(self) -> MavlinkClient:

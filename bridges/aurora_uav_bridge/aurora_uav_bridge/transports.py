@@ -12,6 +12,8 @@ from collections.abc import Hashable
 from math import nan
 from typing import Protocol
 
+from aurora_uav_sim.signing import Signer
+
 _RECEIVE_BUFFER_BYTES = 1 << 20
 
 
@@ -142,3 +144,38 @@ class LoopbackTransport:
     def close(self) -> None:
         """Forget what was not read."""
         self._inbox.clear()
+
+
+class SignedTransport:
+    """Another transport, with signatures on what is sent and needed on what is taken.
+
+    Args:
+        inner: The transport; closed by `close`.
+        signer: Has the key; shared by all transports of this process.
+    """
+
+    def __init__(self, inner: Transport, signer: Signer) -> None:
+        self._inner = inner
+        self._signer = signer
+
+    @property
+    def peer(self) -> str:
+        """Name of the simulator for messages."""
+        return f'{self._inner.peer} (signed)'
+
+    def send(self, datagram: bytes) -> None:
+        """Sign every frame and send."""
+        self._inner.send(self._signer.sign(datagram))
+
+    def receive(self, timeout_s: float) -> bytes | None:
+        """Return what is signed of the next datagram, maybe nothing; None when none came."""
+        datagram = self._inner.receive(timeout_s)
+        return None if datagram is None else self._signer.signed_part(datagram)
+
+    def steady_time_s(self) -> float:
+        """Return the time of the inner transport."""
+        return self._inner.steady_time_s()
+
+    def close(self) -> None:
+        """Close the inner transport; safe to call twice."""
+        self._inner.close()

@@ -8,19 +8,28 @@ alone and with 20 % duplication, 20 % reordering and 5 % truncation.
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 import time
 from collections.abc import Callable
 from contextlib import ExitStack
+from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 
 from aurora_core.ports.simulators import AirLoad, UavHome
 from aurora_core.trace.layout import UAV_COMMAND_WIDTH, UavColumn, UavCommandColumn, UavMode
 from aurora_uav_bridge.mavlink_client import MavlinkClient
-from aurora_uav_bridge.transports import LoopbackTransport, Transport, UdpTransport
+from aurora_uav_bridge.transports import (
+    LoopbackTransport,
+    SignedTransport,
+    Transport,
+    UdpTransport,
+)
 from aurora_uav_sim.mavlink_server import SimServer
+from aurora_uav_sim.signing import KEY_BYTES, KEY_FILE_VARIABLE, signer_from
 
 DT_S = 0.05
 TICKS = 1200
@@ -77,6 +86,21 @@ def over_udp(count: int, *bad: str) -> tuple[np.ndarray, bytes]:
         return fly(UdpTransport(port), count)
 
 
+def signed_over_udp(count: int) -> tuple[np.ndarray, bytes]:
+    """Fly against a simulator process with a key that both have."""
+    with ExitStack() as stack:
+        folder = Path(stack.enter_context(TemporaryDirectory()))
+        key = folder / 'key'
+        key.write_bytes(os.urandom(KEY_BYTES))
+        key.chmod(0o600)
+        os.environ[KEY_FILE_VARIABLE] = str(key)
+        stack.callback(os.environ.pop, KEY_FILE_VARIABLE)
+        port = started(stack, 'aurora_uav_sim.udp_main', '--port', '0')
+        signer = signer_from()
+        assert signer is not None
+        return fly(SignedTransport(UdpTransport(port), signer), count)
+
+
 def started(stack: ExitStack, module: str, *arguments: str) -> int:
     """Start a program that prints its port at the end of its first line; return the port."""
     process = subprocess.Popen(
@@ -97,6 +121,7 @@ def main() -> None:
     ways: dict[str, Callable[[], tuple[np.ndarray, bytes]]] = {
         'in memory': lambda: fly(LoopbackTransport(SimServer()), count),
         'UDP': lambda: over_udp(count),
+        'UDP, signed': lambda: signed_over_udp(count),
         'UDP, harmless proxy': lambda: over_udp(count, '--loss=0'),
         'UDP, 20 % loss': lambda: over_udp(count, '--loss=0.2'),
         'UDP, all faults': lambda: over_udp(

@@ -35,11 +35,14 @@ from aurora_uav_bridge.mavlink_client import MavlinkClient, random_nonce
 from aurora_uav_bridge.testing.lossy_transport import LossyTransport
 from aurora_uav_bridge.transports import (
     LoopbackTransport,
+    SignedTransport,
     Transport,
     UdpTransport,
 )
 from aurora_uav_sim.mavlink_server import SimServer
 from aurora_uav_sim.protocol import OWNER_SILENCE_S
+from aurora_uav_sim.signed_server import SignedServer
+from aurora_uav_sim.signing import Signer
 
 DT_S = 0.05
 NEVER = 10**9
@@ -135,6 +138,23 @@ def test_flies_a_whole_mission(transport: Transport) -> None:
     assert reported == [
         UavMode.IDLE, UavMode.TAKEOFF, UavMode.HOLD, UavMode.OFFBOARD, UavMode.LAND, UavMode.IDLE,
     ]  # fmt: skip
+
+
+def test_signatures_change_no_bit_of_a_flight() -> None:
+    key = bytes(range(32))
+    inner = LoopbackTransport(SignedServer(SimServer(), Signer(key)))
+    signed = fly(MavlinkClient(SignedTransport(inner, Signer(key))), load_of(2, 3, 2.0), 200)
+    assert np.array_equal(signed, fly(loopback(), load_of(2, 3, 2.0), 200))
+
+
+@pytest.mark.parametrize('keys', [(bytes(32), None), (None, bytes(32)), (b'1' * 32, bytes(32))])
+def test_ends_with_different_keys_do_not_fly(keys: tuple[bytes | None, bytes | None]) -> None:
+    ours, theirs = keys
+    server = SimServer()
+    inner = LoopbackTransport(SignedServer(server, Signer(theirs)) if theirs else server)
+    client = MavlinkClient(SignedTransport(inner, Signer(ours)) if ours else inner, timeout_s=0.5)
+    with pytest.raises((SimulatorSilentError, CommandRefusedError)):
+        client.load(load_of())
 
 
 def test_memory_and_udp_give_the_same_bits(udp_port: int) -> None:

@@ -4,7 +4,8 @@
 
 Stand-alone, `poll` lets time pass and streams telemetry, and any ground station may command. In
 a lockstep session (`protocol`) only its owner commands and only its steps move time; everyone
-else may look. A session cannot be taken away while its owner speaks.
+else may look. A session cannot be taken away while its owner speaks. Who is not trusted
+(`signing`) may look at all times and command at none.
 """
 
 from __future__ import annotations
@@ -56,6 +57,7 @@ _SESSION_SILENCE_S = 60.0
 _MAX_CATCH_UP_S = 0.25
 # Old nonces, to tell a late duplicate of an old session from a new one.
 _REMEMBERED_NONCES = 64
+_UNSIGNED = Answer(Result.DENIED, 'Not signed with the key')
 
 
 class SimServer:
@@ -88,6 +90,7 @@ class SimServer:
         self._reader = SetPointReader()
         self._wall_s: float | None = None
         self._lag_s = 0.0
+        self._trusted = True  # the datagram under way
 
     @property
     def vehicles(self) -> dict[int, Vehicle]:
@@ -103,17 +106,19 @@ class SimServer:
 
     # Datagrams --------------------------------------------------------------------------------
 
-    def handle(self, datagram: bytes, source: Hashable) -> list[bytes]:
+    def handle(self, datagram: bytes, source: Hashable, *, trusted: bool = True) -> list[bytes]:
         """Act on a datagram.
 
         Args:
             datagram: Any bytes; what is no intact frame is skipped.
             source: Where it came from.
+            trusted: Whether its sender may command.
 
         Returns:
             Datagrams to send back to `source`.
         """
         out: list[bytes] = []
+        self._trusted = trusted
         for frame in split(datagram):
             link = self._links.get(source)
             if link is None:
@@ -121,7 +126,7 @@ class SimServer:
             link.heard = True
             session = self._session
             sender = (frame.system_id, frame.component_id)
-            if session is not None and session.owned_by(source, sender):
+            if session is not None and self._owns(session, source, sender):
                 if not session.newer.accept(frame):
                     # A new client may count from 0 again on the same port.
                     if frame.message_id == _COMMAND_LONG_ID and _is_lockstep(frame):
@@ -138,7 +143,7 @@ class SimServer:
                         continue
             self._message(frame, source, link, out)
             opened = self._session
-            if opened is not None and opened is not session and opened.owned_by(source, sender):
+            if opened is not None and opened is not session and self._owns(opened, source, sender):
                 # What its owner sent before, for an older session, must not act in this one.
                 opened.newer.accept(frame)
         return _datagrams(out)
@@ -183,10 +188,12 @@ class SimServer:
             read = request_of_long if kind == 'COMMAND_LONG' else request_of_int
             self._command(read(m, sender), m.target_system, m.target_component, source, link, out)
         elif kind == 'SET_POSITION_TARGET_LOCAL_NED':
-            if self._session is None:
+            if self._session is None and self._trusted:
                 self._stream_set_point(frame.payload)
         else:
-            may_change = self._session is None or self._session.owned_by(source, sender)
+            may_change = self._trusted and (
+                self._session is None or self._session.owned_by(source, sender)
+            )
             out.extend(self._services.answer(m, kind, sender, self.vehicles, link, may_change))
 
     def _stream_set_point(self, payload: bytes) -> None:
@@ -229,7 +236,7 @@ class SimServer:
             answers = [(vehicle, denial) for vehicle in self._addressed(0, 0)[:1]]
         else:
             session = self._session
-            owned = session is not None and session.owned_by(source, request.sender)
+            owned = session is not None and self._owns(session, source, request.sender)
             number = session.nonce if session is not None and owned else 0
             answers = [
                 (vehicle, self._vehicle_command(vehicle, request, source, link, out))
@@ -256,6 +263,8 @@ class SimServer:
         asked = self._services.request(vehicle, request, link, out)
         if asked is not None:
             return asked
+        if not self._trusted:
+            return _UNSIGNED
         session = self._session
         if session is not None:
             if not session.owned_by(source, request.sender):
@@ -272,6 +281,8 @@ class SimServer:
 
     def _lockstep(self, request: Request, source: Hashable) -> Answer:
         """Open or close a session."""
+        if not self._trusted:
+            return _UNSIGNED
         nonce = whole(request.p2)
         if nonce is None or not 1 <= nonce <= MAX_NONCE:
             return Answer(Result.DENIED, 'Lockstep denied: nonce')
@@ -291,7 +302,7 @@ class SimServer:
             return ACCEPTED if same else Answer(Result.DENIED, 'Nonce is taken')
         if nonce in self._nonces:
             return Answer(Result.DENIED, 'Lockstep denied: old session')
-        owned = session is not None and session.owned_by(source, request.sender)
+        owned = session is not None and self._owns(session, source, request.sender)
         if session is not None and not owned and self._owner_speaks(session):
             return Answer(Result.TEMPORARILY_REJECTED, f'Held by {_address(session.source)}')
         wanted = read_session(request)
@@ -317,6 +328,10 @@ class SimServer:
             return True
         heard_s = max(link.heard_s, self._session_heard_s)
         return (self._wall_s or 0.0) - heard_s <= self._owner_silence_s
+
+    def _owns(self, session: Session, source: Hashable, sender: tuple[int, int]) -> bool:
+        """Return whether the datagram under way is from the session's owner."""
+        return self._trusted and session.owned_by(source, sender)
 
     def _leave(self) -> None:
         self._session = None

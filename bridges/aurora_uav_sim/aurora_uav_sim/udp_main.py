@@ -25,6 +25,8 @@ from aurora_uav_sim.protocol import (
     OWNER_SILENCE_S,
     mavlink_port,
 )
+from aurora_uav_sim.signed_server import SignedServer
+from aurora_uav_sim.signing import KeyFileError, signer_from
 
 LOOPBACK = '127.0.0.1'
 # How often time passes, s of steady time.
@@ -116,7 +118,7 @@ def _send(sock: socket.socket, datagram: bytes, destination: Hashable) -> None:
         return
 
 
-def _serve(sock: socket.socket, server: SimServer, stop: _Stop) -> None:
+def _serve(sock: socket.socket, server: SimServer | SignedServer, stop: _Stop) -> None:
     next_poll_s = time.monotonic()
     while not stop.asked:
         try:
@@ -137,6 +139,11 @@ def _serve(sock: socket.socket, server: SimServer, stop: _Stop) -> None:
 def main(argv: list[str] | None = None) -> int:
     """Serve until a signal asks to stop; return the exit code."""
     options = _arguments(sys.argv[1:] if argv is None else argv)
+    try:
+        signer = signer_from()
+    except KeyFileError as error:
+        sys.stderr.write(f'uav_sim: {error}\n')
+        return 1
     stop = _Stop()
     try:
         sock = _open_socket(options.host, options.port)
@@ -164,7 +171,7 @@ def main(argv: list[str] | None = None) -> int:
         ready = os.environ.get('AURORA_READY_FILE')
         if ready:
             Path(ready).write_text(f'{port}\n', encoding='ascii')
-        _serve(sock, server, stop)
+        _serve(sock, server if signer is None else SignedServer(server, signer), stop)
     return 0
 
 

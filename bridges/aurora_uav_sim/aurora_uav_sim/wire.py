@@ -37,6 +37,11 @@ _CRC_EXTRA: dict[int, bytes] = {
 }
 
 
+def crc_extra(message_id: int) -> bytes:
+    """Return the byte that a message of the dialect adds to its checksum."""
+    return _CRC_EXTRA[message_id]
+
+
 def slow_crc16(data: bytes) -> int:
     """Return CRC-16/MCRF4XX of `data` by pymavlink's own Python code."""
     return int(mavlink.x25crc(data).crc)

@@ -8,7 +8,7 @@
 #   NAME.ready   while it serves
 #   NAME.silent  put there by the orchestrator: a run found it silent although its process lives
 #   NAME.failed  put there by `up`: it will not be started again
-# and up.pid, lock (held by the `up` that supervises), busy (see supervising.bash), log/.
+# and mavlink.key (the key of this graph, see make_key), up.pid, lock (held by the `up` that supervises), busy (see supervising.bash), log/.
 
 # Package and executable, in the order of starting: what others wait for comes first.
 AURORA_NODES=(
@@ -28,8 +28,17 @@ AURORA_NAMES=("${AURORA_NODES[@]#* }")
 
 run_dir="${AURORA_RUN_DIR:-${HOME:-/tmp}/.ros/aurora}/domain-${ROS_DOMAIN_ID:-0}"
 log_dir="${ROS_LOG_DIR:-$run_dir/log}"
+key_file="$run_dir/mavlink.key"
 boot=''
 read -r boot < /proc/sys/kernel/random/boot_id
+
+# Makes the key with which uav_bridge and uav_sim sign MAVLink, new for each graph and for this user
+# alone. An AURORA_MAVLINK_KEY_FILE of the user's stays; an empty one turns signing off.
+make_key() {
+  export AURORA_MAVLINK_KEY_FILE="${AURORA_MAVLINK_KEY_FILE-$key_file}"
+  [ "$AURORA_MAVLINK_KEY_FILE" = "$key_file" ] || return 0
+  rm -f "$key_file" && (umask 077 && head -c 32 /dev/urandom > "$key_file")
+}
 
 fail() { echo "$program: error: $*" >&2; exit 1; }
 

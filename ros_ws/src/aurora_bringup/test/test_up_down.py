@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import os
 import signal
+import stat
 import subprocess
 import sys
 import time
@@ -172,6 +173,35 @@ def test_up_starts_every_node_and_down_stops_them_in_order(graph: Graph) -> None
     assert order[3:5] == ['sync', 'recorder']
     assert sorted(down.stdout.split()[::2]) == sorted(NODES)
     assert list(graph.run_dir.glob('*.pid')) == []
+
+
+TELLS_KEY = 'echo "$AURORA_MAVLINK_KEY_FILE" > "$ORDER.key"\n' + GOOD
+
+
+def test_each_graph_has_a_key_of_its_own_that_only_its_user_reads(graph: Graph) -> None:
+    graph.set_node('uav_sim', TELLS_KEY)
+    file = graph.run_dir / 'mavlink.key'
+    keys = set()
+    for _ in range(2):
+        assert graph.call('up', '--detach').returncode == 0
+        assert (graph.folder / 'order.key').read_text().strip() == str(file)
+        assert stat.S_IMODE(file.stat().st_mode) == 0o600
+        keys.add(file.read_bytes())
+        graph.call('down')
+        assert not file.exists()
+    assert {len(key) for key in keys} == {32}
+    assert len(keys) == 2
+
+
+@pytest.mark.parametrize('named', ['', '/somewhere/key'])
+def test_a_key_of_the_user_is_passed_on_and_an_empty_one_means_none(
+    graph: Graph, named: str
+) -> None:
+    graph.set_node('uav_sim', TELLS_KEY)
+    graph.environment['AURORA_MAVLINK_KEY_FILE'] = named
+    assert graph.call('up', '--detach').returncode == 0
+    assert (graph.folder / 'order.key').read_text().strip() == named
+    assert not (graph.run_dir / 'mavlink.key').exists()
 
 
 def test_down_with_nothing_running_says_so_and_succeeds(graph: Graph) -> None:
