@@ -73,17 +73,23 @@ def landing_spot(
     ) or [home]
     # Straight to the spot, or on until it has braked and back: it flies in between.
     beyond = (*machine.stop_point(uav[index]), z)
-    free = []
-    for spot in spots:
+
+    def is_clear(spot: Point2) -> bool:
         end = (spot[0], spot[1], z)
         ways = ((end, (x, y, z), beyond, end), _turning(machine, uav[index], spot, z))
-        if all(airspace.way_clearance_m(way) >= clearance_m for way in ways):
-            if not _crowded(index, spot, machines, uav):
-                return spot, z
-            free.append(spot)
-    if patient and free:
-        return None
-    return (free[0], z) if free else (spots[0], max(z, plan.safe_altitude_m))
+        return all(airspace.way_is_free(way, clearance_m) for way in ways)
+
+    # It is asked again in every tick while it waits: buildings, which take longest, come last.
+    crowded = []
+    for spot in spots:
+        if _crowded(index, spot, machines, uav):
+            crowded.append(spot)
+        elif is_clear(spot):
+            return spot, z
+    free = next(filter(is_clear, crowded), None)
+    if free is None:
+        return spots[0], max(z, plan.safe_altitude_m)
+    return None if patient else (free, z)
 
 
 def _turning(

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from aurora_core.judging.evaluation import Context
 from aurora_core.outcomes.verdict import Finding
-from aurora_core.quantities.lanes import NO_LANE, lane_of, lanes_of_rows, length_shares
+from aurora_core.quantities.lanes import NO_LANE, lanes_of_rows, length_shares
 from aurora_core.quantities.motion import jump_speeds
 from aurora_core.quantities.ticks import whole_ticks
 from aurora_core.quantities.view import Body
@@ -23,9 +23,8 @@ FloatArray = npt.NDArray[np.float64]
 
 # Way and speed are compared over this time: a lane change or a landing disturbs single ticks.
 _WINDOW_S = 1.0
-# What way and speed of a vehicle may differ by in it: so many metres, and a share of the way. In a
-# turn the centre of the box and its front, whose speed it is, go different ways besides: by half
-# its length per radian.
+# What way and speed of a vehicle may differ by in it: so many metres, and a share of the way. The
+# way is that of its front, whose speed it is: in a turn the centre of the box goes another one.
 _VEHICLE_M = 1.0
 _OF_WAY = 0.15
 # Inside a junction the lanes of a turn count the same length: who drives outside of their middle
@@ -78,7 +77,7 @@ class _Pace:
     Attributes:
         way_m: By its positions, (T - 1,).
         told_m: By its speeds.
-        off_m: Difference of the two, (T - 1, 1) along its heading or (T - 1, 3).
+        off_m: Difference of the two, (T - 1, 1) of its front or (T - 1, 3).
         slack_m: What their sum may be off at any time.
         slack_each_m: And for what it does from tick to tick.
     """
@@ -99,33 +98,26 @@ def _sums(values: FloatArray, window: int) -> FloatArray:
 
 def _vehicle(context: Context, body: Body, shares: FloatArray) -> _Pace:
     rows = context.view.rows(body)
-    step = np.diff(rows[:, GroundColumn.X : GroundColumn.Y + 1], axis=0)
     heading = rows[:, GroundColumn.HEADING_X : GroundColumn.HEADING_Y + 1]
-    way = (step * heading[:-1]).sum(axis=1)
-    told = rows[1:, GroundColumn.SPEED] * context.view.dt_s
-    told = told * _shares_under(context, rows, body.entry.length_m, shares)
-    turned = np.linalg.norm(np.diff(heading, axis=0), axis=1)
-    in_junction = lane_of(context.view, body)[:-1] == NO_LANE
-    aside_m = np.where(in_junction, _ASIDE_M, 0.0)
-    return _Pace(
-        way_m=way,
-        told_m=told,
-        off_m=(way - told)[:, None],
-        slack_m=_VEHICLE_M,
-        slack_each_m=_OF_WAY * np.abs(told) + (body.entry.length_m / 2.0 + aside_m) * turned,
-    )
-
-
-def _shares_under(
-    context: Context, rows: FloatArray, length_m: float, shares: FloatArray
-) -> FloatArray:
-    """Return how long the lane under the front of a vehicle is beside its edge, (T - 1,)."""
     front = rows.copy()
-    heading = rows[:, GroundColumn.HEADING_X : GroundColumn.HEADING_Y + 1]
-    front[:, GroundColumn.X : GroundColumn.Y + 1] += length_m / 2.0 * heading
-    share = shares[lanes_of_rows(context.view.world, front)]
-    middle: FloatArray = (share[1:] + share[:-1]) / 2.0
-    return middle
+    front[:, GroundColumn.X : GroundColumn.Y + 1] += body.entry.length_m / 2.0 * heading
+    lanes = lanes_of_rows(context.view.world, front)
+    step = np.diff(front[:, GroundColumn.X : GroundColumn.Y + 1], axis=0)
+    # Ahead, without what it moves aside in its lane; in a turn the front goes aside as well.
+    least = (step * heading[:-1]).sum(axis=1)
+    back = (lanes[:-1] != NO_LANE) & (least < 0.0)
+    most = np.where(back, least, np.linalg.norm(step, axis=1))
+    share = shares[lanes]
+    told = rows[1:, GroundColumn.SPEED] * context.view.dt_s * (share[1:] + share[:-1]) / 2.0
+    turned = np.linalg.norm(np.diff(heading, axis=0), axis=1)
+    aside_m = np.where(lanes[:-1] == NO_LANE, _ASIDE_M, 0.0)
+    return _Pace(
+        way_m=most,
+        told_m=told,
+        off_m=(np.clip(told, least, most) - told)[:, None],
+        slack_m=_VEHICLE_M,
+        slack_each_m=_OF_WAY * np.abs(told) + aside_m * turned,
+    )
 
 
 def _uav(context: Context, body: Body) -> _Pace:

@@ -83,3 +83,29 @@ def test_on_a_lane_longer_than_it_is_counted_a_vehicle_gets_on_faster(
     case.world = replace(case.world, lanes=lanes)
     told = [f.subject for f in tb.judge(case).cross_check if f.kind == 'motion']
     assert told == found
+
+
+@pytest.mark.parametrize(('share', 'found'), [(1.0, []), (4.0, ['van1'])])
+def test_in_a_turn_on_the_spot_the_way_is_that_of_the_front(
+    tb: ModuleType, share: float, found: list[str]
+) -> None:
+    case = tb.tailgate_case()
+    van = case.run.agents[1]
+    begin, ticks, radius_m = 700, 40, 2.0
+    length_m = case.run.trace().roster.agents[1].length_m
+    # Its rear stands while its front goes half a circle round a point beside it.
+    angle = np.clip((np.arange(case.run.ticks) - begin) / ticks, 0.0, 1.0) * np.pi
+    rear_x = float(van.x[begin]) - length_m / 2.0
+    front = rear_x + length_m + radius_m * np.sin(angle), radius_m * (1.0 - np.cos(angle))
+    reach = np.hypot(front[0] - rear_x, front[1])
+    van.heading = ((front[0] - rear_x) / reach, front[1] / reach)
+    turns = np.arange(case.run.ticks) >= begin
+    y_m = float(van.y[begin])
+    van.x = np.where(turns, front[0] - length_m / 2.0 * van.heading[0], van.x)
+    van.y = np.where(turns, y_m + front[1] - length_m / 2.0 * van.heading[1], y_m)
+    turning = turns & (np.arange(case.run.ticks) <= begin + ticks)
+    van.speed = np.where(turning, share * np.pi * radius_m / (ticks * 0.05), van.speed)
+    van.speed[begin + ticks + 1 :] = 0.0
+    case.world = replace(case.world, lanes=())
+    told = [f.subject for f in tb.judge(case).cross_check if f.kind == 'motion']
+    assert told == found
