@@ -136,12 +136,13 @@ class OncomingPlacer:
             return None
         try:
             path = self._network.route_path(edges, record.vclass, start_lane_id=lane.id)
-        except MapError:
+            arc_m = path.arc_of(lane.id, position_m)
+        except MapError:  # no way from this lane, or the way leaves it before
             return None
         return SeatedAgent(
             member=ConvoyMember(agent=agent, offset_m=0.0, lane_shift=0),
             path=path,
-            arc_m=path.arc_of(lane.id, position_m),
+            arc_m=arc_m,
             lane_id=lane.id,
             lane_position_m=position_m,
         )

@@ -12,22 +12,27 @@ import pytest
 from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.spec.scenario import ScenarioSpec
 
+TOWARDS = 'comes towards my car in the oncoming lane'
+
 
 @pytest.mark.parametrize(
-    ('prompt', 'away_m'),
+    ('map_name', 'prompt', 'away_m'),
     [
-        ('An oncoming van is 80 m away from the ego car.', None),
-        ('A motorcycle comes towards my car in the oncoming lane, 80 metres away.', 80.0),
-        ('A drone tracks an oncoming truck; the ego car drives.', None),
+        ('downtown', 'An oncoming van is 80 m away from the ego car.', None),
+        ('downtown', f'A motorcycle {TOWARDS}, 80 metres away.', 80.0),
+        ('downtown', 'A drone tracks an oncoming truck; the ego car drives.', None),
+        # There its way leaves the lane on which it would stand at the first places tried.
+        ('junction', f'A motorcycle {TOWARDS}, 80 metres away.', 80.0),
     ],
 )
 def test_it_faces_the_other_one(
     read_prompt: Callable[..., ScenarioSpec],
     ground: Callable[..., GroundedScenario],
+    map_name: str,
     prompt: str,
     away_m: float | None,
 ) -> None:
-    found = ground(read_prompt(prompt, 'downtown'), 'downtown')
+    found = ground(read_prompt(prompt, map_name), map_name)
     assert isinstance(found, GroundedScenario), found
     assert found.unsupported == ()
     ego = next(a for a in found.agents if a.role == 'ego')
