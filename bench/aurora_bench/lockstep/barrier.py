@@ -40,14 +40,19 @@ def measure_barrier(ticks: int, domain: int) -> float:
     """
     environment = {**os.environ, 'ROS_DOMAIN_ID': str(domain)}
     command = [sys.executable, '-m', 'aurora_bench.lockstep.barrier']
-    workers = [subprocess.Popen([*command, role, str(ticks)], env=environment) for role in WORKERS]
+    workers = [
+        subprocess.Popen(
+            [*command, role, str(ticks)], env=environment, stdin=subprocess.PIPE, text=True
+        )
+        for role in WORKERS
+    ]
     try:
         done = subprocess.run(
             [*command, SYNC, str(ticks)], env=environment, capture_output=True, text=True,
             check=False,
         )  # fmt: skip
         for worker in workers:
-            worker.wait(_MATCH_LIMIT_S)
+            worker.communicate(timeout=_MATCH_LIMIT_S)  # closes its input
     except subprocess.TimeoutExpired as err:
         raise ResultsError(f'a worker of the bare barrier did not end: {err}') from err
     finally:
@@ -137,8 +142,8 @@ def _work(member: _Member, role: str, last: int) -> None:
             tick = int(data[0])
             state = array('d', [float(tick)] + [0.5] * (STATE_DOUBLES - 1))
             states.publish(member.type(data=state))
-    # The last answer is not lost with this process: it ends when sync has.
-    _await(lambda: 1 - states.get_subscription_count(), 1)
+    # The last answer is not lost with this process: it ends when its parent says that sync has.
+    sys.stdin.read()
 
 
 def _synchronise(member: _Member, last: int) -> float:
