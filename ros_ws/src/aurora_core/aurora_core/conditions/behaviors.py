@@ -8,7 +8,6 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from aurora_core.grounding.convoy import parks
 from aurora_core.grounding.places import has_point
 from aurora_core.judging.build import Inputs, Source, Target, Underivable, condition, number
 from aurora_core.judging.quantities import at_place, free_speed, placement, relation_fraction
@@ -33,7 +32,7 @@ from aurora_core.judging.quantity import Quantity
 from aurora_core.knowledge.limits import Tolerances
 from aurora_core.outcomes.condition import Condition, Op, Window
 from aurora_core.spec.parameter import Provenance
-from aurora_core.spec.parking import parks_after
+from aurora_core.spec.parking import parks, parks_after
 from aurora_core.spec.scenario import Behavior, GroundAgent, Placement
 from aurora_core.spec.vocabulary import BehaviorKind, Place, Relation
 

@@ -12,7 +12,7 @@ from math import inf
 import numpy as np
 
 from aurora_core.errors import MapError
-from aurora_core.grounding.convoy import SceneSplit, parks, stands
+from aurora_core.grounding.convoy import SceneSplit
 from aurora_core.grounding.entries import entry_speeds_mps
 from aurora_core.grounding.free_room import FreeRoom
 from aurora_core.grounding.free_run import free_run_m, needed_run_m
@@ -53,7 +53,7 @@ from aurora_core.knowledge.route_path import RoutePath, arc_at
 from aurora_core.knowledge.settings import Settings
 from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
 from aurora_core.spec.own_events import let_cross, overtakings
-from aurora_core.spec.parking import parks_after
+from aurora_core.spec.parking import parks, parks_after, stands
 from aurora_core.spec.scenario import (
     GroundAgent,
     ScenarioSpec,

@@ -8,7 +8,7 @@ reference point from the convoy's origin (positive: ahead) and a lane shift (pos
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from aurora_core.grounding.awaited import bound_to_places
@@ -35,9 +35,8 @@ from aurora_core.grounding.ties import (
 from aurora_core.knowledge.limits import EXACT, Tolerance
 from aurora_core.spec.own_events import let_cross
 from aurora_core.spec.parameter import Parameter, Provenance
-from aurora_core.spec.parking import parks_after
+from aurora_core.spec.parking import stands
 from aurora_core.spec.scenario import (
-    AgentAction,
     Behavior,
     GroundAgent,
     Placement,
@@ -90,27 +89,6 @@ SIDES = frozenset({Relation.LEFT, Relation.RIGHT})
 _CHASES = frozenset(
     {BehaviorKind.FOLLOW, BehaviorKind.TAILGATE, BehaviorKind.APPROACH, BehaviorKind.OVERTAKE}
 )
-
-_STILL = frozenset({BehaviorKind.WAIT, BehaviorKind.PARK})
-_MOVES = frozenset(BehaviorKind) - _STILL
-
-
-def parks(spec: ScenarioSpec, agent: GroundAgent) -> bool:
-    """Tell whether a vehicle stands beside the traffic for the whole run."""
-    told = any(b.kind is BehaviorKind.PARK for b in agent.behaviors)
-    told = told or any(p.relation is Relation.PARKED_AT for p in agent.placements)
-    moved = any(
-        isinstance(e.action, AgentAction) and e.action.agent == agent.id for e in spec.events
-    )
-    later = parks_after(spec, agent) is not None
-    return told and not moved and not later and not any(b.kind in _MOVES for b in agent.behaviors)
-
-
-def stands(agent: GroundAgent) -> bool:
-    """Tell whether an agent is to stand all along, unless an event sets it off."""
-    return any(b.kind in _STILL for b in agent.behaviors) and not any(
-        b.kind in _MOVES for b in agent.behaviors
-    )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -263,9 +241,11 @@ def split_scene(
             groups.append(tuple(members))
             continue
         shift_m = _behind_m(group, offsets)
-        # Who is only told something stays where it is: it stands in nobody's way to a place.
+        # Nobody drives who stands in somebody's way: who is only told something stays where it
+        # is, and who stands all along is behind those who do not.
         awaited = any(bound_to_places(spec, by_id[i]) for i in group)
-        if awaited and not any(moves(spec, by_id[i]) for i in offsets):
+        idle = awaited and not any(moves(spec, by_id[i]) for i in offsets)
+        if not _stand(group, by_id) and (idle or _stand(offsets, by_id)):
             shift_m = -_behind_m(offsets, group)
         offsets |= {i: (place[0] + shift_m, place[1]) for i, place in group.items()}
     places = offsets | {
@@ -299,6 +279,10 @@ def _behind_m(
     """Return by how much a group is moved to line up behind others (m, negative)."""
     front = max(place[0] for place in group.values())
     return min(place[0] for place in others.values()) - DETACHED_M - front
+
+
+def _stand(ids: Iterable[str], by_id: Mapping[str, GroundAgent]) -> bool:
+    return all(stands(by_id[i]) for i in ids)
 
 
 def _is_before_place(placement: Placement) -> bool:

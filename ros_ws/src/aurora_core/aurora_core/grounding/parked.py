@@ -6,12 +6,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 
-from aurora_core.grounding.convoy import parks
 from aurora_core.grounding.sites import SeatedAgent, SeatedPerson
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.net_types import Lane
 from aurora_core.knowledge.road_network import RoadNetwork
 from aurora_core.ports.simulators import kerb_offset_m
+from aurora_core.spec.parking import parks
 from aurora_core.spec.scenario import ScenarioSpec
 
 # The way of a person is looked at in such steps (m).

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.awaited import awaited_at
-from aurora_core.grounding.convoy import DEFAULT_GAP_M, stands
+from aurora_core.grounding.convoy import DEFAULT_GAP_M
 from aurora_core.grounding.nearby import ON_SIDEWALKS, by_vehicles, in_order
 from aurora_core.grounding.pace import (
     encounter_room_m,
@@ -40,6 +40,7 @@ from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
 from aurora_core.spec.events import sets_off
 from aurora_core.spec.own_events import let_cross
 from aurora_core.spec.parameter import Provenance
+from aurora_core.spec.parking import stands
 from aurora_core.spec.reference import is_landmark
 from aurora_core.spec.scenario import (
     AgentAction,

@@ -78,7 +78,7 @@ def on_no_street(spec: ScenarioSpec, split: SceneSplit, goals: GoalFinder, sites
             'one; in one lane, ahead or behind, they would fit'
         )
     for name in alone:
-        others = tuple(m for m in convoy if m.agent.id != name)
+        others = _from_the_first([m for m in convoy if m.agent.id != name])
         if others and fits(others):
             rest, places = _listed([m.agent.id for m in others]), goals.places_of(spec, name)
             if not places:
@@ -96,6 +96,11 @@ def on_no_street(spec: ScenarioSpec, split: SceneSplit, goals: GoalFinder, sites
         'street, and none has all the places that they are to be at; fewer places, or shorter '
         'distances, would fit'
     )
+
+
+def _from_the_first(members: list[ConvoyMember]) -> tuple[ConvoyMember, ...]:
+    """Return members with their offsets from the first of them, who is the origin now."""
+    return tuple(replace(m, offset_m=m.offset_m - members[0].offset_m) for m in members)
 
 
 def _lost(spec: ScenarioSpec, name: str, goals: GoalFinder) -> str:

@@ -1,14 +1,17 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""Who drives to a place and parks there, and does not stand there from the start."""
+"""Who stands: for the whole run, or once it has driven to a place to park there."""
 
 from __future__ import annotations
 
 from aurora_core.spec.events import ArrivalTrigger
-from aurora_core.spec.scenario import GroundAgent, ScenarioSpec
-from aurora_core.spec.vocabulary import AgentType, BehaviorKind
+from aurora_core.spec.scenario import AgentAction, GroundAgent, ScenarioSpec
+from aurora_core.spec.vocabulary import AgentType, BehaviorKind, Relation
 
 _GOES_THERE = frozenset({BehaviorKind.DRIVE, BehaviorKind.EMERGENCY_RUN})
+
+_STILL = frozenset({BehaviorKind.WAIT, BehaviorKind.PARK})
+_MOVES = frozenset(BehaviorKind) - _STILL
 
 
 def parks_after(spec: ScenarioSpec, agent: GroundAgent) -> str | None:
@@ -24,3 +27,21 @@ def parks_after(spec: ScenarioSpec, agent: GroundAgent) -> str | None:
     )
     goes = any(b.kind in _GOES_THERE for b in agent.behaviors)
     return place if awaited or goes else None
+
+
+def parks(spec: ScenarioSpec, agent: GroundAgent) -> bool:
+    """Tell whether a vehicle stands beside the traffic for the whole run."""
+    told = any(b.kind is BehaviorKind.PARK for b in agent.behaviors)
+    told = told or any(p.relation is Relation.PARKED_AT for p in agent.placements)
+    moved = any(
+        isinstance(e.action, AgentAction) and e.action.agent == agent.id for e in spec.events
+    )
+    later = parks_after(spec, agent) is not None
+    return told and not moved and not later and not any(b.kind in _MOVES for b in agent.behaviors)
+
+
+def stands(agent: GroundAgent) -> bool:
+    """Tell whether an agent is to stand all along, unless an event sets it off."""
+    return any(b.kind in _STILL for b in agent.behaviors) and not any(
+        b.kind in _MOVES for b in agent.behaviors
+    )

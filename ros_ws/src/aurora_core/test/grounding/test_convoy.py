@@ -290,6 +290,17 @@ def test_a_watched_vehicle_is_on_the_road_with_the_ego(parameter: Make) -> None:
     assert [a.id for a in split.free] == ['x']
 
 
+def test_who_stands_all_along_is_in_nobody_s_way(parameter: Make) -> None:
+    waiting = _agent('ego', does=(BehaviorKind.WAIT, 'ego'))
+    split = split_scene(_spec(waiting, _agent('m'), **_tracking(parameter, 'm')))
+    assert _places(split) == {'ego': (0.0, 0), 'm': (DETACHED_M, 0)}
+    police = _agent(
+        'police', (Relation.AT, 'landmark:City Hall', None), does=(BehaviorKind.WAIT, 'police')
+    )
+    split = split_scene(_spec(_agent('m'), police, **_tracking(parameter, 'm')))
+    assert _places(split) == {'m': (0.0, 0), 'police': (-DETACHED_M, 0)}
+
+
 def test_a_second_group_lines_up_behind_the_first(parameter: Make) -> None:
     split = split_scene(
         _spec(

@@ -377,6 +377,11 @@ def test_what_has_no_place_fails_with_its_reason(
             'drives to Mercy Hospital.',
             ('truck1', 'ego', 'would'),
         ),
+        # Left alone, the van would start before the beginning of its street.
+        (
+            'The ego is at City Hall. A van is 1500 m ahead of the ego at Union Station.',
+            ('ego at City Hall', 'van1', 'would'),
+        ),
     ],
 )
 def test_vehicles_without_a_street_are_named_with_what_would_fit(

@@ -8,9 +8,8 @@ from collections.abc import Callable
 
 import pytest
 
-from aurora_core.grounding.convoy import parks
 from aurora_core.outcomes.grounded import GroundedScenario, ReleaseOn
-from aurora_core.spec.parking import parks_after
+from aurora_core.spec.parking import parks, parks_after
 from aurora_core.spec.scenario import ScenarioSpec
 
 Read = Callable[..., ScenarioSpec]
