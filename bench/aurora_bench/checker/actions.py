@@ -162,7 +162,7 @@ def _stop(case: Case, agent: str, window: Window) -> Acted:
     ]
     if window.free:
         # Standing from the start is no stop; coming to rest is.
-        later = [a for a, _ in stops if a > 0]
+        later = [a for a, _ in stops if a > _ticks(case, window)[0]]
         if later:
             time = float(scene.times[later[0]])
             return Acted(holds(f'{agent} stops at {time:.2f} s'), time, time + limits.STOPPED_S)
@@ -243,16 +243,15 @@ def _slow(case: Case, agent: str, window: Window, value: float | None) -> Acted:
             return Acted(holds(f'{agent} goes at {speed[at]:.2f} m/s already'), time, time)
         what = f'slow to {value:g} m/s'
     elif window.free:
-        shows = _slowing(case, agent)
-        onset = np.flatnonzero(shows)
-        if not len(onset):
+        first, _ = _ticks(case, window)
+        if _onset(case, _slowing(case, agent), window) is None:
             return Acted(does_not(f'{agent} never slows down'))
-        before = np.maximum.accumulate(speed)
-        half = np.flatnonzero(speed <= before / 2.0 + 1e-9)
+        before = np.maximum.accumulate(speed[first:])
+        half = np.flatnonzero(speed[first:] <= before / 2.0 + 1e-9)
         half = half[before[half] > 1.0]
         if not len(half):
             return Acted(does_not(f'{agent} never slows to half of its speed'))
-        time = float(scene.times[half[0]])
+        time = float(scene.times[first + half[0]])
         return Acted(holds(f'{agent} at half of its speed at {time:.2f} s'), time, time)
     else:
         # Within a step of the trigger either speed is the one that it had then.
@@ -300,6 +299,13 @@ def _brake(case: Case, agent: str, window: Window, value: float | None) -> Acted
     for a, b in runs_of(_slowing(case, agent)):
         if _hardest(case, agent, a, b) >= least and _comes_early(case, agent, window, a):
             return Acted(does_not(f'{agent} brakes at {scene.times[a]:.2f} s, too early'))
+    if window.free:
+        # Nobody says when: it is the first that is a braking, not what traffic asks for.
+        first, _ = _ticks(case, window)
+        hard = np.zeros_like(slowing)
+        for a, b in runs_of(slowing):
+            hard[a:b] = a >= first and _hardest(case, agent, a, b) >= least
+        slowing = hard if hard.any() else slowing
     onset = _onset(case, slowing, window)
     if onset is None:
         return _never(case, window, f'{agent} does not begin to brake')

@@ -26,6 +26,8 @@ from aurora_bench.checker.triggers import Fired, Instant, fired
 # Triggers of a state count from their first time; of happenings any one may be meant.
 HAPPENINGS = ('message_received', 'mission_done', 'event_done', 'arrives')
 MOST_INSTANTS = 40
+# What a driver also does for traffic or a signal.
+TRAFFIC_ASKS = ('brake', 'stop', 'slow', 'yield', 'accelerate')
 OWN_FLIGHT = ('ascend', 'change_mission', 'land')
 STATES = (
     'distance_below',
@@ -73,7 +75,11 @@ def _happened(case: Case, requirement: Requirement) -> Happened:
     if not trigger:
         if not action:
             return Happened(cannot_tell('an event without trigger and action'))
-        acted = _act(case, requirement, action, Window(0.0, case.scene.end_s, free=True))
+        begin = 0.0
+        if action.get('do') in TRAFFIC_ASKS:
+            # "Braking for traffic or a signal is no action": what comes before its turn is none.
+            begin, _ = _ready_s(case, requirement, action)
+        acted = _act(case, requirement, action, Window(begin, case.scene.end_s, free=True))
         return _became(acted.judged, acted)
     when = fired(case, trigger, lambda event: _done(case, event))
     if when.unclear:

@@ -29,15 +29,18 @@ from aurora_core.quantities.instant import Point3
 from aurora_core.spec.events import actor_of
 from aurora_core.spec.flight_order import counts_from_capture, is_next_anyway
 from aurora_core.spec.own_events import let_pass, own_events
+from aurora_core.spec.parking import stands
 from aurora_core.spec.scenario import (
     AgentAction,
     Event,
+    EventDoneTrigger,
+    MessageTrigger,
     ScenarioSpec,
     SendMessage,
     UavAction,
     bodies_of,
 )
-from aurora_core.spec.vocabulary import MissionMode
+from aurora_core.spec.vocabulary import AgentType, MissionMode
 from aurora_core.trace.commands import GroundCommand
 from aurora_core.trace.layout import GroundCommandKind
 from aurora_core.trace.records import ScenarioEventKind
@@ -56,6 +59,9 @@ _SHOWS_MPS = 2.5
 
 # Speed below which braking is over before it shows (m/s).
 _BRAKES_FROM_MPS = 1.0
+
+# Speed from which somebody is on the way who is to slow down or stop later (m/s).
+_UNDER_WAY_MPS = 2.0
 
 
 def _shows_after(event: Event) -> int:
@@ -144,6 +150,7 @@ class EventRunner:
             e.id: {o.first for o in spec.orders if o.then == e.id and o.first in ids}
             for e in events
         }
+        self._slowed_later = _slowed_later(spec)
         self._touchdown_m = battery.touchdown_m
         self._progress = Progress(arrival_m=arrival_m, endurance_s=battery.endurance_s)
         self._messages = 0
@@ -316,6 +323,9 @@ class EventRunner:
         flying = [m for m in machines if not m.waits_on_ground]
         if any(m.first_capture_tick is None or m.is_on_first_lap for m in flying):
             return False
+        later = [seen.speed_mps(agent) for agent in sorted(self._slowed_later.get(event.id, ()))]
+        if any(speed_mps is not None and speed_mps < _UNDER_WAY_MPS for speed_mps in later):
+            return False
         if not isinstance(event.action, AgentAction) or event.action.do not in FROM_MOTION:
             return True
         speed_mps = seen.speed_mps(event.action.agent)
@@ -406,6 +416,44 @@ class EventRunner:
             harder = GroundCommandKind.SET_DECELERATION
             commands.insert(0, GroundCommand(agent=row, kind=harder, value=BRAKING_MPS2))
         return commands
+
+
+def _slowed_later(spec: ScenarioSpec) -> dict[str, frozenset[str]]:
+    """Return by event without a cause which vehicles what follows it slows down or stops.
+
+    It waits until they drive, or nothing would be seen of that. Whom an event sets off is left
+    out: it may be this one that does so.
+    """
+    vehicles = {a.id for a in spec.agents if a.type is not AgentType.PEDESTRIAN and not stands(a)}
+    started = {
+        e.action.agent
+        for e in spec.events
+        if isinstance(e.action, AgentAction) and e.action.do == 'start'
+    }
+    found = {}
+    for first in spec.events:
+        chain = [first] if first.trigger is None else []
+        for event in chain:
+            chain += [e for e in spec.events if e not in chain and _follows(e, event)]
+        found[first.id] = frozenset(
+            e.action.agent
+            for e in chain[1:]
+            if isinstance(e.action, AgentAction) and e.action.do in FROM_MOTION
+        ) & (vehicles - started)
+    return found
+
+
+def _follows(event: Event, before: Event) -> bool:
+    """Tell whether an event is the end of another one, or the receipt of its message."""
+    trigger, sent = event.trigger, before.action
+    if isinstance(trigger, EventDoneTrigger):
+        return trigger.event == before.id
+    return (
+        isinstance(trigger, MessageTrigger)
+        and isinstance(sent, SendMessage)
+        and trigger.by == sent.receiver
+        and trigger.sender in (None, sent.sender)
+    )
 
 
 def _has_crossed(state: _EventState, person: str, seen: Observation) -> bool:
