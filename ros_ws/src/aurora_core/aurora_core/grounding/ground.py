@@ -16,6 +16,7 @@ from aurora_core.grounding.airspace import Airspace
 from aurora_core.grounding.allowed import allowed_sites
 from aurora_core.grounding.apart import homes_m, layer_m, spacing_m
 from aurora_core.grounding.bends import bends_between
+from aurora_core.grounding.catching_up import shows_before
 from aurora_core.grounding.columns import Column, climbs_to_m, columns, nearest_points
 from aurora_core.grounding.convoy import ConvoyMember, SceneSplit, split_scene
 from aurora_core.grounding.flights import FlightPlanner
@@ -32,7 +33,7 @@ from aurora_core.grounding.planned_flight import PlannedFlight, Rejected, planne
 from aurora_core.grounding.premises import comes_about, heard, starts_out_of_reach
 from aurora_core.grounding.radio import link_score
 from aurora_core.grounding.realised import realised_values
-from aurora_core.grounding.sites import Site, TriedSite, sites, tied_way_m
+from aurora_core.grounding.sites import Site, TriedSite, open_way_m, sites, tied_way_m
 from aurora_core.grounding.spots import SpotFinder
 from aurora_core.grounding.time_need import horizon_s
 from aurora_core.grounding.traffic import TrafficPlacer
@@ -317,6 +318,7 @@ class Grounder:
                 road *= _ASTRAY
             if stated > 0.0:
                 road *= 0.5 + 0.5 * self._room_for(stated, site)
+                road *= max(_NEVER, shows_before(spec, site, self._tolerances))
             for seat in site.seated:
                 if seat.agent.id in changing:
                     road *= share_with_another_lane(
@@ -350,7 +352,9 @@ class Grounder:
         t = self._tolerances
         settle_m = speed_mps * speed_mps / (2.0 * t.route_acceleration_mps2)
         way_m = _SHOWN_S * speed_mps
-        open_m = site.open_way_m(settle_m, _LOOKED_S * speed_mps, t.free_road_m)
+        low_m = site.origin_arc_m + settle_m
+        high_m = low_m + _LOOKED_S * speed_mps
+        open_m = open_way_m(site.origin_path, low_m, high_m, t.free_road_m)
         return min(1.0, open_m / way_m)
 
     def _option(

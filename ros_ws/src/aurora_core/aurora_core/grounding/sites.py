@@ -144,20 +144,6 @@ class Site:
         """Return the highest speed limit on the first `way_m` of the origin's way."""
         return max(limits_mps(network, self.origin_path, self.origin_arc_m, way_m))
 
-    def open_way_m(self, start_m: float, way_m: float, apart_m: float) -> float:
-        """Return how much of the origin's way is farther than `apart_m` from every junction.
-
-        Args:
-            start_m: Where the stretch begins, from the origin on.
-            way_m: Its length.
-            apart_m: Distance from the ends of streets, metres.
-        """
-        low, high = self.origin_arc_m + start_m, self.origin_arc_m + start_m + way_m
-        streets = (s for s in self.origin_path.segments if not s.is_internal)
-        return sum(
-            max(0.0, min(high, s.end_m - apart_m) - max(low, s.start_m + apart_m)) for s in streets
-        )
-
     def turns(self, way_m: float, settings: GroundingSettings) -> int:
         """Count the turns on the first `way_m` of the origin's way."""
         samples = samples_along(self.origin_path, self.origin_arc_m, way_m, settings.turn_sample_m)
@@ -165,6 +151,21 @@ class Site:
         turning = cosine < settings.turn_cosine
         # A turn may spread over two samples: count where turning begins.
         return int(turning[0]) + int((turning[1:] & ~turning[:-1]).sum())
+
+
+def open_way_m(path: RoutePath, low_m: float, high_m: float, apart_m: float) -> float:
+    """Return how much of a stretch of a path is farther than `apart_m` from every junction.
+
+    Args:
+        path: The path.
+        low_m: Where the stretch begins, arc length.
+        high_m: Where it ends.
+        apart_m: Distance from the ends of streets, metres.
+    """
+    streets = (s for s in path.segments if not s.is_internal)
+    return sum(
+        max(0.0, min(high_m, s.end_m - apart_m) - max(low_m, s.start_m + apart_m)) for s in streets
+    )
 
 
 def limits_mps(

@@ -18,6 +18,19 @@ from aurora_core.quantities.view import Body, RunView, Series
 
 BoolArray = npt.NDArray[np.bool_]
 
+# Who has caught up is nearer than so many times the gap that counts as tailgating.
+_CLOSED = 2.0
+
+
+def caught_up_m(speed_mps: float, tailgate_gap_s: float) -> float:
+    """Return how near to a slower one somebody has caught up with it, metres.
+
+    Args:
+        speed_mps: Of who comes up behind.
+        tailgate_gap_s: Time gap that counts as tailgating.
+    """
+    return _CLOSED * tailgate_gap_s * speed_mps
+
 
 def free_of_junctions(view: RunView, body: Body, within_m: float) -> BoolArray:
     """Return where no junction, that is no end of a lane, is nearer than `within_m`, (T,)."""

@@ -115,6 +115,28 @@ def test_a_stated_speed_stays_when_somebody_is_to_come_up_from_behind(
     assert able['truck1'] > able['ego']
 
 
+def test_who_catches_up_has_open_road_before_it_has(
+    grounded: Callable[[str], GroundedScenario], map_of: Callable[[str], MapModel]
+) -> None:
+    found = grounded(
+        'The ego car drives at 5 m/s. A van drives at 10 m/s, 45 m behind the ego. '
+        'A drone hovers over the ego.'
+    )
+    ego, van = found.agents
+    # It reaches its speed on 25 m, and is 20 m behind, bumper to bumper, after about 50 m more.
+    way = Polyline(van.route_xy_m)
+    network = map_of('downtown').network
+    drawn = (lane.polyline for lane in network.driving_lanes('passenger'))
+    ends = [np.array(points[k]) for points in drawn for k in (0, -1)]
+    open_m = [
+        s
+        for s in range(25, 50)
+        if min(np.hypot(*(np.array(way.at(float(s))[:2]) - end)) for end in ends) > 50.0
+    ]
+    assert (ego.drive_speed_mps, van.drive_speed_mps) == (5.0, 10.0)
+    assert len(open_m) >= 15
+
+
 def test_a_leader_drives_as_fast_as_its_follower_is_asked_to(
     grounded: Callable[[str], GroundedScenario],
 ) -> None:

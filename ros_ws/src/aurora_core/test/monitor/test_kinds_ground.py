@@ -136,6 +136,19 @@ def _follower(own: float, *, third: float | None = None) -> Case:
     return ground_case(behavior, _steady(own), **others)
 
 
+def _chaser(ticks: int) -> Case:
+    """car1 is to drive 10 m/s 49.9 m behind one of 5 m/s; after so many ticks it drives 5 m/s."""
+    fast, slow = (number(v, Unit.METRE_PER_SECOND, explicit=True) for v in (10.0, 5.0))
+    drive = Behavior(kind=B.DRIVE, speed_mps=fast)
+    case = ground_case(drive, _then(10.0, 5.0, ticks), car2=(54.4, _steady(5.0)))
+    behind = Placement(relation=Relation.BEHIND, of='car2')
+    rear, front = (dict(one) for one in case.spec.agents)
+    rear |= {'placements': (behind,)}
+    front |= {'behaviors': (Behavior(kind=B.DRIVE, speed_mps=slow),)}
+    case.spec = spec(agents=(rear, front))
+    return case
+
+
 def _walker(speed: FloatArray) -> Case:
     """A person is asked to walk with 1.5 m/s."""
     asked = number(1.5, Unit.METRE_PER_SECOND, explicit=True)
@@ -210,6 +223,14 @@ BEHAVIOURS = (
     ),
     Row(id='car1.drive.speed', make=lambda: _cruise(STILL), reason=EMPTY, what='stands'),
     Row(id='car1.drive.speed', make=lambda: gone(_cruise(_steady(8.0)), 0, 300), reason=GONE),
+    # Within 20 m behind the slower one it has caught up; before that nothing excuses it.
+    Row(id='car1.drive.speed', make=lambda: _chaser(121), margin=1.0 - 0.8, what='caught up'),
+    Row(
+        id='car1.drive.speed',
+        make=lambda: _chaser(60),
+        margin=59 / 400 - 0.8,
+        what='falls short',
+    ),
     # Whom it follows does not keep it from its speed, a third car 49.9 m ahead does.
     Row(id='car1.follow.speed', make=lambda: _follower(7.5), margin=1.0 - 0.8),
     Row(id='car1.follow.speed', make=lambda: _follower(6.5), margin=0.0 - 0.8),

@@ -9,6 +9,7 @@ from typing import Literal
 
 from pydantic import FiniteFloat
 
+from aurora_core.document import omitted
 from aurora_core.judging.build import (
     Inputs,
     Source,
@@ -29,7 +30,7 @@ from aurora_core.judging.shares import share_of
 from aurora_core.outcomes.condition import Condition, Window
 from aurora_core.outcomes.verdict import Reason
 from aurora_core.quantities import free_road, motion
-from aurora_core.spec.parameter import Parameter
+from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import AgentAction, Behavior, GroundAgent
 from aurora_core.spec.vocabulary import AgentType, Relation
@@ -119,12 +120,16 @@ class FreeSpeed(_KeptSpeed):
         settle_m: Way that it needs to reach its speed.
         free_m: No leader and no junction within this distance.
         lane_offset_m: How far off its way a leader may be.
+        slower: Leaders who are to drive slower, by the request itself: it catches up with them.
+        closed_m: Nearer than this behind one of them it has caught up.
     """
 
     kind: Literal['free_speed'] = 'free_speed'
     settle_m: FiniteFloat
     free_m: FiniteFloat
     lane_offset_m: FiniteFloat
+    slower: tuple[str, ...] = omitted(())
+    closed_m: FiniteFloat = omitted(0.0)
 
     def free(
         self, context: Context, condition: Condition, values: FloatArray
@@ -140,7 +145,12 @@ class FreeSpeed(_KeptSpeed):
         alone = free & free_road.free_of_leaders(
             view, body, self.free_m, self.lane_offset_m, besides
         )
+        if self.slower:
+            rest = tuple(a.body_id for a in view.agents if a.body_id not in self.slower)
+            alone &= free_road.free_of_leaders(view, body, self.closed_m, self.lane_offset_m, rest)
         never = 'drove free of junctions'
+        if self.slower:
+            return alone, f'{never} before it had caught up', True
         # Where somebody is ahead all the way, that is no excuse.
         return (alone, never, True) if alone.any() else (free, never, False)
 
@@ -159,6 +169,22 @@ def _followed(inputs: Inputs, agent: GroundAgent, behavior: Behavior) -> tuple[s
     return tuple(dict.fromkeys(known))
 
 
+def _slower(inputs: Inputs, followed: tuple[str, ...], speed: Parameter) -> tuple[str, ...]:
+    """Return whose own stated speeds are all below a stated speed that is no upper bound."""
+    told = {
+        name: [b.speed_mps for b in agent.behaviors if b.speed_mps is not None]
+        for name in followed
+        if (agent := inputs.agent(name)) is not None
+    }
+    return tuple(
+        name
+        for name, speeds in told.items()
+        if speeds
+        and speed.bound is not Bound.AT_MOST
+        and all(s.value < speed.value and s.bound is not Bound.AT_LEAST for s in speeds)
+    )
+
+
 def _as_fast(other: GroundAgent, behavior: Behavior) -> bool:
     wanted = behavior.speed_mps
     told = [b.speed_mps.value for b in other.behaviors if b.speed_mps is not None]
@@ -173,9 +199,11 @@ def implied(
     walks = agent.type is AgentType.PEDESTRIAN
     # Whom it follows is no leader that keeps it from its speed: both are asked together.
     of = (agent.id,) if walks else (agent.id, *_followed(inputs, agent, behavior))
+    slower = _slower(inputs, of[1:], speed)
     slack = t.route_speed_mps.of(speed.value, approximate=speed.approximate)
     where = f'with no {"other " if len(of) > 1 else ""}leader or junction within'
     rest = 'while it walks' if walks else f'{where} {number(t.free_road_m)} m'
+    rest += f', until it has caught up with {" and ".join(slower)}' if slower else ''
     told = any(
         isinstance(e.action, AgentAction) and e.action.agent in of and e.action.do in _OTHER_SPEED
         for e in inputs.spec.events
@@ -202,6 +230,8 @@ def implied(
             settle_m=speed.value * speed.value / (2.0 * t.route_acceleration_mps2),
             free_m=t.free_road_m,
             lane_offset_m=t.lane_offset_m,
+            slower=slower,
+            closed_m=free_road.caught_up_m(speed.value, t.tailgate_time_gap_s) if slower else 0.0,
         ),
         source=Source(ids=(agent.id,), spans=(speed.span,), provenance=speed.provenance),
         every_sample=False,
