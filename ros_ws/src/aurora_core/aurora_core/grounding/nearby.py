@@ -8,8 +8,9 @@ from collections.abc import Iterator, Mapping
 
 from aurora_core.grounding.awaited import bound_to_places
 from aurora_core.grounding.pace import partings
+from aurora_core.spec.events import VisibilityTrigger
 from aurora_core.spec.scenario import GroundAgent, Link, Placement, ScenarioSpec, SendMessage
-from aurora_core.spec.vocabulary import AgentType, Relation, Role
+from aurora_core.spec.vocabulary import AgentType, MissionMode, Relation, Role
 
 # Who stands on sidewalks: persons, and roadside units, which never go.
 ON_SIDEWALKS = (AgentType.PEDESTRIAN, AgentType.RSU)
@@ -25,21 +26,39 @@ BY_PERSONS: dict[Relation, Relation] = {
 
 
 def begins_near(spec: ScenarioSpec) -> Mapping[str, str]:
-    """Return who begins near whom: who is to get away from it, or tells it something by radio."""
-    parting = [sorted(pair) for pair in partings(spec)]
+    """Return who begins near whom, the one in front by the one behind it.
+
+    It is to get away from it, tells it something by radio, or is seen by who tracks it.
+    """
+    watched = {m.target for m in spec.missions}
+    egos = {a.id for a in spec.agents if a.role is Role.EGO}
+    # Of two that part the ego is in front, and who is watched, and so drives slowly, behind.
+    parting = [
+        sorted(sorted(pair)[::-1], key=lambda name: (name not in watched, name in egos))
+        for pair in partings(spec)
+    ]
     told: list[SendMessage | Link] = list(spec.links)
     told += [e.action for e in spec.events if isinstance(e.action, SendMessage)]
-    pairs = [(pair[-1], pair[0]) for pair in parting] + [(t.sender, t.receiver) for t in told]
-    egos = {a.id for a in spec.agents if a.role is Role.EGO}
+    pairs = [(t.sender, t.receiver) for t in told]
+    pairs = [*_seen_on_the_way(spec), *(pair[::-1] if pair[0] in egos else pair for pair in pairs)]
     near: dict[str, str] = {}
     by_id = {a.id: a for a in spec.agents}
-    for one, other in pairs:
-        if any(name in by_id and bound_to_places(spec, by_id[name]) for name in (one, other)):
+    for behind, front in [*((pair[0], pair[-1]) for pair in parting), *pairs]:
+        if any(name in by_id and bound_to_places(spec, by_id[name]) for name in (behind, front)):
             continue
-        behind, front = (other, one) if one in egos else (one, other)
         if behind != front and near.get(behind) != front:
             near.setdefault(front, behind)
     return near
+
+
+def _seen_on_the_way(spec: ScenarioSpec) -> Iterator[tuple[str, str]]:
+    """Yield who has to come into view of a UAV that tracks a vehicle, and that vehicle."""
+    for event in spec.events:
+        trigger = event.trigger
+        if isinstance(trigger, VisibilityTrigger) and trigger.on == 'visible':
+            first = next((m for m in spec.missions if m.uav == trigger.observer), None)
+            if first is not None and first.mode is MissionMode.TRACK and first.target is not None:
+                yield trigger.target, first.target
 
 
 def in_order(persons: tuple[GroundAgent, ...]) -> list[GroundAgent]:

@@ -35,6 +35,25 @@ def test_who_tells_another_one_something_begins_near_it(read_prompt: Read, groun
     assert hypot(van.x_m - truck.x_m, van.y_m - truck.y_m) < 50.0
 
 
+def test_who_is_seen_on_the_way_is_on_it(read_prompt: Read, ground: Ground) -> None:
+    spec = read_prompt(
+        'A UAV tracks the ego car. As soon as it sees a motorcycle, it alerts the ego car.'
+    )
+    assert begins_near(spec) == {'ego': 'motorcycle1'}
+    first, second = ground(spec).agents
+    assert hypot(first.x_m - second.x_m, first.y_m - second.y_m) < 50.0
+
+
+@pytest.mark.parametrize('tracked', ['ego car', 'truck'])
+def test_of_two_that_part_who_is_watched_stays_behind(tracked: str, read_prompt: Read) -> None:
+    spec = read_prompt(
+        f'A UAV tracks the {tracked}. When the truck is more than 80 m away from the ego car, '
+        'the UAV lands.'
+    )
+    behind = {'ego car': 'ego', 'truck': 'truck1'}[tracked]
+    assert list(begins_near(spec).values()) == [behind]
+
+
 @pytest.mark.parametrize(('relation', 'sign'), [('ahead', 1.0), ('behind', -1.0)])
 def test_a_vehicle_is_placed_by_a_person(
     relation: str, sign: float, read_prompt: Read, ground: Ground
