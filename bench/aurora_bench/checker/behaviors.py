@@ -26,6 +26,7 @@ from aurora_bench.checker.numbers import wanted
 from aurora_bench.checker.pairs import approach, follow, overtake, tailgate
 from aurora_bench.checker.paths import way
 from aurora_bench.checker.placements import AT_M, at_place
+from aurora_bench.checker.phases import missions_end_s
 from aurora_bench.checker.recording import BoolArray
 from aurora_bench.checker.roads import crossings_of, lane_changes
 from aurora_bench.checker.scene import longest_s, runs_of, share
@@ -244,6 +245,8 @@ def driven_speed(case: Case, requirement: Requirement, body: str) -> Judged:
     steady = (speed > limits.STARTED_MPS) & scene.present(body)
     steady &= np.abs(scene.acceleration(body)) < 0.3
     steady[_changed(case, body) :] = False
+    # As with all that is stated with motion: it need not hold while UAVs land.
+    steady[scene.tick(missions_end_s(scene)) :] = False
     free = steady & ~_held_up(case, body)
     top = float(speed.max())
     if free.sum() * scene.dt_s >= 1.0:

@@ -17,6 +17,8 @@ from aurora_bench.checker.scene import Scene
 BESIDE_M = 8.0
 # A body counts as on its way only so far ahead or behind: streets meet themselves again.
 WINDOW_M = 400.0
+# A lap that is 500 m farther along the way counts as one metre farther off.
+LAP_SHARE = 1.0 / 500.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,8 +87,9 @@ def project(found: Way, xy: FloatArray, around_m: FloatArray) -> tuple[FloatArra
         foot = a[None] + t[..., None] * along[None]
         gap = np.linalg.norm(xy[rows, None] - foot, axis=2)
         arc = found.arc_m[:-1][None] + t * length[None]
-        gap = np.where(np.abs(arc - around_m[rows, None]) <= WINDOW_M, gap, np.inf)
-        best = gap.argmin(axis=1)
+        away = np.abs(arc - around_m[rows, None])
+        # Of several laps over the same ground it is the nearest one along the way.
+        best = np.where(away <= WINDOW_M, gap + LAP_SHARE * away, np.inf).argmin(axis=1)
         pick = np.arange(len(best))
         side = along[best, 0] * delta[pick, best, 1] - along[best, 1] * delta[pick, best, 0]
         arcs[rows] = arc[pick, best]

@@ -24,6 +24,9 @@ _FINDERS = 32
 # Cosine of 75 degrees: a turn that is asked for has at least 60, and lanes are not exact.
 _SHARP_COSINE = 0.26
 
+# Nobody comes back to a street sooner who can turn off before (m): no roundabout is that long.
+_ROUND_M = 300.0
+
 _ORDER = {'s': 0, 'R': 1, 'L': 2, 'r': 3, 'l': 4, 't': 9}
 
 
@@ -215,9 +218,14 @@ class RouteFinder:
         route = [start_edge]
         edge, lengths_m = start_edge, self._lengths_m
         length = lengths_m[edge]
+        begins_m = {edge: 0.0}
         while length < length_m:
-            edge = choose(self._liked(edge))
+            options = self._liked(edge)
+            # Straight on in a roundabout is round and round.
+            new = [e for e in options if length - begins_m.get(e, -_ROUND_M) >= _ROUND_M]
+            edge = choose(new or options)
             route.append(edge)
+            begins_m[edge] = length
             length += lengths_m[edge]
         return tuple(route)
 

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from itertools import pairwise
+from itertools import groupby, pairwise
 from math import atan2, degrees
 
 import pytest
@@ -117,7 +117,7 @@ def test_straight_on_is_preferred_and_turning_round_is_the_last_resort(
         if not finder.endless(edge):
             continue
         route = finder.straight_route(edge, 1000.0)
-        for a, b in pairwise(route):
+        for k, (a, b) in enumerate(pairwise(route)):
             onward = {
                 link.direction
                 for lane_id in network.edge(a).lane_ids
@@ -130,10 +130,39 @@ def test_straight_on_is_preferred_and_turning_round_is_the_last_resort(
                 for link in network.connections_from(lane_id)
                 if network.lane(link.to_lane_id).edge_id == b
             }
-            if 's' in onward:
+            straight = {
+                network.lane(link.to_lane_id).edge_id
+                for lane_id in network.edge(a).lane_ids
+                for link in network.connections_from(lane_id)
+                if link.direction == 's'
+            }
+            # Nobody drives round and round in a roundabout.
+            if 's' in onward and not straight & set(route[: k + 1]):
                 assert 's' in taken, (a, b)
             if onward - {'t'}:
                 assert taken != {'t'}, (a, b)
+
+
+def test_nobody_drives_round_and_round_in_a_roundabout(
+    map_of: Callable[[str], MapModel],
+) -> None:
+    network = map_of('downtown').network
+    finder = RouteFinder(network, 'passenger')
+    circle = {
+        e for e in _edges(map_of('downtown'), 'passenger') if e.startswith('founders_circle')
+    }
+    assert len(circle) == 4
+    into = [
+        e
+        for e in _edges(map_of('downtown'), 'passenger')
+        if _directions(network, e).keys() & circle
+    ]
+    for edge in (e for e in into if finder.endless(e)):
+        route = finder.straight_route(edge, 3000.0)
+        stays = max(
+            len(list(run)) for inside, run in groupby(route, circle.__contains__) if inside
+        )
+        assert stays <= 4, route
 
 
 def test_a_leading_route_comes_through_its_places_in_their_order(
