@@ -26,6 +26,14 @@ import aurora
             'finished crossing.',
             'e2.not_before',
         ),
+        # A message at the end of the missions is sent when they are over, not a tick before.
+        (
+            'A drone tracks the van for 10 s. When the drone has finished, it sends a message to '
+            'the police car.',
+            'e1.not_before',
+        ),
+        # The ambulance drives before it is told something upon which it slows down.
+        ('The truck sends a message to the ambulance. Then the ambulance slows down.', 'e2.within'),
     ],
 )
 def test_a_wait_is_carried_out(here: Path, prompt: str, condition: str) -> None:

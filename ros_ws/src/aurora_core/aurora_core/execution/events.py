@@ -21,7 +21,7 @@ from aurora_core.quantities.actions import (
     CROSSED_M,
     FROM_MOTION,
     ActionRules,
-    ends_with_mps,
+    commanded_mps,
     is_complete,
     takes_time,
 )
@@ -61,7 +61,7 @@ _SHOWS_MPS = 2.5
 _BRAKES_FROM_MPS = 1.0
 
 # Speed from which somebody is on the way who is to slow down or stop later (m/s).
-_UNDER_WAY_MPS = 2.0
+_UNDER_WAY_MPS = 3.0
 
 
 def _shows_after(event: Event) -> int:
@@ -151,6 +151,7 @@ class EventRunner:
             for e in events
         }
         self._slowed_later = _slowed_later(spec)
+        self._over_from: dict[str, int] = {}
         self._touchdown_m = battery.touchdown_m
         self._progress = Progress(arrival_m=arrival_m, endurance_s=battery.endurance_s)
         self._messages = 0
@@ -203,7 +204,8 @@ class EventRunner:
                 self._progress.looking.discard(machine.plan.id)
             elif machine.ascended_tick is not None:
                 self._progress.looking.add(machine.plan.id)
-            if machine.missions_done:
+            if machine.missions_done and self._over_from.setdefault(machine.plan.id, tick) < tick:
+                # The record shows it with the next command.
                 self._progress.missions_done.add(machine.plan.id)
             if seen.airborne(machine.plan.id, self._touchdown_m):
                 flown = self._progress.airborne_ticks
@@ -317,7 +319,7 @@ class EventRunner:
             return False
         if isinstance(event.action, UavAction) and event.action.lands:
             # Nobody says when: a UAV lands after its missions.
-            return event.action.uav in self._progress.missions_done
+            return event.action.uav in self._over_from
         # Nobody says when: once the UAVs watch, have flown the route that this may end, and once
         # who is to brake or stop is on the move and has driven.
         flying = [m for m in machines if not m.waits_on_ground]
@@ -408,7 +410,7 @@ class EventRunner:
         if action.do == 'change_lane':
             goal = self._lanes.goal(row, seen)
             return [] if goal is None else self._lanes.commands(row, goal)
-        goal_mps = ends_with_mps(action, now_mps, self._rules)
+        goal_mps = commanded_mps(action, now_mps, self._rules)
         if goal_mps is None:
             return []
         commands = [GroundCommand(agent=row, kind=GroundCommandKind.SET_SPEED, value=goal_mps)]

@@ -34,6 +34,9 @@ FROM_MOTION = frozenset({'brake', 'stop', 'yield', 'slow', 'change_lane'})
 # What a driver may lack of the half, or of the gain, that an action without a number asks for (m/s).
 _NEARLY_MPS = 0.05
 
+# So much more of a change without a number is commanded than asked.
+_INSIDE_SHARE = 0.1
+
 # A person that left the carriageway nearer to where it stepped onto it has crossed nothing: on the
 # way to the crossing people brush the kerb (m).
 CROSSED_M = 2.0
@@ -141,11 +144,23 @@ def speed_goal(action: AgentAction, before_mps: float, rules: ActionRules) -> Sp
 
 
 def ends_with_mps(action: AgentAction, before_mps: float, rules: ActionRules) -> float | None:
-    """Return the speed that is commanded for an action, None when it is left to the driver."""
+    """Return the speed that an action is to end with, None when it is left to the driver."""
     if action.do in ('stop', 'yield') or (action.do == 'brake' and action.value_mps is None):
         return 0.0
     goal = speed_goal(action, before_mps, rules)
     return None if goal is None else goal.value_mps
+
+
+def commanded_mps(action: AgentAction, now_mps: float, rules: ActionRules) -> float | None:
+    """Return the speed that is commanded for an action, None when it is left to the driver.
+
+    Half of a speed, and a gain, are of what it was when the action was due, a tick or two ago:
+    what is commanded is a little more than that.
+    """
+    goal_mps = ends_with_mps(action, now_mps, rules)
+    if goal_mps is None or action.value_mps is not None or action.do not in ('slow', 'accelerate'):
+        return goal_mps
+    return goal_mps + _INSIDE_SHARE * (goal_mps - now_mps)
 
 
 def holds_already(action: AgentAction, speed_mps: float, rules: ActionRules) -> bool:

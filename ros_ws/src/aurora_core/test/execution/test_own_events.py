@@ -37,7 +37,7 @@ def test_who_slows_down_gets_to_half_its_speed(stage: Build) -> None:
     scene = _scene(stage, Behavior(kind=BehaviorKind.SLOW))
     for speed in (0.0, 4.9, 6.0, 6.0):
         scene.put('ego', 0.0, speed=speed).step()
-    assert _told(scene) == [(2, SPEED, 3.0)]
+    assert _told(scene) == [(2, SPEED, 2.7)]
 
 
 @pytest.mark.parametrize(('goal', 'tick'), [(2.0, 1), (5.0, 2), (9.0, 3)])

@@ -343,10 +343,10 @@ def _completed(make: Callable[[], Case], took_s: float, change_mps: float, what:
 # With 5 m/s^2 from 15 s on; the run ends at 20 s.
 COMPLETED = (
     _completed(lambda: _to('stop', 0.0), 2.0, 10.0, 'stop'),
-    # Within 1 m/s of 4 m/s; half of 10 m/s; 4 m/s more.
+    # Within 1 m/s of 4 m/s; to half of 10 m/s; 4 m/s more.
     _completed(lambda: _to('slow', 4.0, 4.0), 1.0, 6.0, 'slow-to'),
-    _completed(lambda: _to('slow', 5.0), 0.8, 5.0, 'slow-half'),
-    _completed(lambda: _to('accelerate', 14.0), 0.55, 4.0, 'gain'),
+    _completed(lambda: _to('slow', 5.0), 1.0, 5.0, 'slow-half'),
+    _completed(lambda: _to('accelerate', 14.0), 0.8, 4.0, 'gain'),
     _completed(lambda: _to('brake', 5.0, 5.0), 0.8, 5.0, 'brake-to'),
     _completed(lambda: _to('slow', 9.5, 8.0), 5.05, 2.0, 'slow-never'),
     # 3 s are needed to change lane.
@@ -410,7 +410,7 @@ DELAYED = (
         Row(id='e1.waits', make=_waiting(do, 400), margin=0.05, what=do)
         for do in ('stop', 'slow', 'brake')
     ),
-    # It stands after 2 s, drives half as fast after 0.8 s (less 1 m/s), brakes at once.
+    # It stands after 2 s, drives half as fast after 1 s, brakes at once.
     *(
         Row(
             id='e1.waits',
@@ -419,7 +419,7 @@ DELAYED = (
             within=0.06,
             what=f'{do}-at-once',
         )
-        for do, took_s in (('stop', 2.0), ('slow', 0.8), ('brake', 0.0))
+        for do, took_s in (('stop', 2.0), ('slow', 0.95), ('brake', 0.0))
     ),
     # It slows down for the junction, and what it did before it was told is no action.
     Row(
