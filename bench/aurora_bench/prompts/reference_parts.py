@@ -168,7 +168,8 @@ def mission(
     if mode != 'navigate':
         return {'duration_s': default('duration_s'), **found}
     goes = r.start is not None or r.end is not None
-    pattern = str(r.pattern) if r.pattern is not None else 'waypoints' if goes else 'rectangle'
+    points = goes or (r.waypoint_count is not None and r.size_m is None)
+    pattern = str(r.pattern) if r.pattern is not None else 'waypoints' if points else 'rectangle'
     found = {'speed_mps': default('speed_mps'), **found, 'pattern': pattern}
     if r.start is not None:
         return found | {'start': names.one(r.start)}

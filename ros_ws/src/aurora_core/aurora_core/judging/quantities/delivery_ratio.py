@@ -8,6 +8,7 @@ from typing import Literal
 
 from pydantic import FiniteFloat
 
+from aurora_core.document import omitted
 from aurora_core.judging.build import Inputs, Source, Target, condition, number
 from aurora_core.judging.evaluation import Context, Evaluation, Missing, at_tick
 from aurora_core.judging.happening import never_happened
@@ -15,6 +16,7 @@ from aurora_core.judging.messages import link_model, messages_of_link
 from aurora_core.judging.quantity import OfLink
 from aurora_core.outcomes.condition import Condition
 from aurora_core.quantities.ledger import Attempt, binomial_interval
+from aurora_core.spec.parameter import Provenance
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import Link
 from aurora_core.trace.records import LossReason
@@ -39,10 +41,15 @@ class DeliveryRatio(OfLink):
 
 
 class FirstAttempts(OfLink):
-    """How far the share of passed first attempts is inside what chance allows."""
+    """How far the share of passed first attempts is inside what chance allows.
+
+    Attributes:
+        loss: Stated loss probability; None: that of the link as recorded.
+    """
 
     name = QuantityName.DELIVERY_RATIO
     kind: Literal['first_attempts'] = 'first_attempts'
+    loss: FiniteFloat | None = omitted(None)
 
     def measure(self, context: Context, condition: Condition) -> Evaluation:
         """Return that distance from the nearer end of the 99 % interval."""
@@ -50,7 +57,7 @@ class FirstAttempts(OfLink):
         if isinstance(sent, Missing):
             return sent
         tried = [attempt for message in sent for attempt in message.attempts[:1]]
-        return _chance(context, condition, self.link, tried, 'messages')
+        return _chance(context, condition, self, tried, 'messages')
 
 
 class AllAttempts(OfLink):
@@ -70,22 +77,27 @@ class AllAttempts(OfLink):
         if isinstance(sent, Missing):
             return sent
         tried = [attempt for message in sent for attempt in message.attempts]
-        return _chance(context, condition, self.link, tried, 'attempts')
+        return _chance(context, condition, self, tried, 'attempts')
 
 
 def _chance(
-    context: Context, condition: Condition, link_id: str, attempts: list[Attempt], what: str
+    context: Context,
+    condition: Condition,
+    asked: FirstAttempts | AllAttempts,
+    attempts: list[Attempt],
+    what: str,
 ) -> Evaluation:
     """Return how far the share of what passed is inside its 99 % interval.
 
     What was sent out of range is lost for certain and says nothing about chance.
     """
-    model = link_model(context, condition, link_id)
+    model = link_model(context, condition, asked.link)
+    loss = model.loss if asked.loss is None else asked.loss
     tried = [attempt for attempt in attempts if attempt.reason is not LossReason.RANGE]
     if not tried:
         return never_happened(context, condition, f'nothing was sent in range on {model.link_id}')
     passed = sum(attempt.passed for attempt in tried)
-    low, high = binomial_interval(len(tried), 1.0 - model.loss)
+    low, high = binomial_interval(len(tried), 1.0 - loss)
     slack = min(passed - low, high - passed) / len(tried)
     story = (
         f'{passed} of {len(tried)} {what} passed {model.link_id}, chance allows {low} to {high}'
@@ -104,7 +116,11 @@ def of_messages(inputs: Inputs, link: Link) -> Condition:
         signal=f'delivery_ratio_slack({link.id})',
         of=(link.sender, link.receiver),
         target=Target(op='>=', threshold=0.0, unit='1'),
-        arguments=FirstAttempts(**inputs.common, link=link.id),
+        arguments=FirstAttempts(
+            **inputs.common,
+            link=link.id,
+            loss=link.loss.value if link.loss.provenance is Provenance.EXPLICIT else None,
+        ),
         source=Source(
             ids=(link.id,),
             spans=(link.retransmissions.span, link.loss.span),
