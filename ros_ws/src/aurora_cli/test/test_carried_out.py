@@ -41,3 +41,18 @@ def test_a_wait_is_carried_out(here: Path, prompt: str, condition: str) -> None:
         done = session.run(prompt)
     assert done.status == 'verified', done.conditions
     assert condition in {c.id for c in done.conditions}
+
+
+@pytest.mark.parametrize(
+    ('prompt', 'condition'),
+    [
+        # A bus is slow: it comes nearer to who drives slower, from where there is room for it.
+        ('A bus approaches the ego car.', 'bus1.approach'),
+        ('Two motorcycles come from the opposite side of the ego car.', 'motorcycle2.placed'),
+    ],
+)
+def test_who_comes_near_does_so(here: Path, prompt: str, condition: str) -> None:
+    with aurora.Session(out='runs') as session:
+        done = session.run(prompt)
+    assert done.status == 'verified', done.conditions
+    assert condition in {c.id for c in done.conditions}

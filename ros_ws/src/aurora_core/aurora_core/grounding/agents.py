@@ -22,6 +22,7 @@ from aurora_core.grounding.lane_changers import ORDERED_CHANGES, changes_lane
 from aurora_core.grounding.pace import (
     PACED,
     Encounter,
+    approaches,
     convoy_pace_mps,
     encounters,
     fastest_stated_mps,
@@ -424,7 +425,7 @@ class AgentPlacer:
     ) -> dict[str, float]:
         """Return what lets those who overtake be faster than those who are overtaken.
 
-        So it is with those who are to get away from each other.
+        So it is with those who approach somebody, and who are to get away from each other.
         """
         pairs, grounding = overtakings(spec), self._settings.grounding
         agents = {a.id: a for a in spec.agents}
@@ -445,6 +446,7 @@ class AgentPlacer:
             ]
         lasts = (_last(pair, seats) for pair in partings(spec))
         slow += [name for name in lasts if name is not None]
+        slow += [other for _, other in approaches(spec)]
         slowed = agent.id in slow and own_speed_mps(agent) is None
         return {'speed_factor': factor * grounding.chased_speed_factor} if slowed else {}
 

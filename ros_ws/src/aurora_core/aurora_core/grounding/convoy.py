@@ -15,6 +15,7 @@ from aurora_core.grounding.awaited import bound_to_places
 from aurora_core.grounding.nearby import BY_PERSONS, begins_near
 from aurora_core.grounding.pace import (
     Encounter,
+    approaches,
     encounter_room_m,
     encounters,
     met_persons,
@@ -109,6 +110,7 @@ class _Distances:
         meetings: Encounters still to come.
         speeds_mps: Stated ones of agents.
         near: Those near whom another one begins, who that is by its id.
+        approaches: Pairs of which one approaches the other.
         persons: Ids.
     """
 
@@ -116,6 +118,7 @@ class _Distances:
     meetings: tuple[Encounter, ...]
     speeds_mps: Mapping[str, float]
     near: Mapping[str, str]
+    approaches: frozenset[frozenset[str]]
     persons: frozenset[str]
 
     def placed(self, agent: str, other: str | None, placement: Placement) -> float:
@@ -139,6 +142,8 @@ class _Distances:
             for m in self.meetings
             if {m.actor, m.other} == {agent, other}
         ]
+        # Who approaches has to have room to come nearer.
+        room += [DETACHED_M] if {agent, other} in self.approaches else []
         return max([DEFAULT_GAP_M if stated is None else stated.value, *room])
 
 
@@ -190,6 +195,7 @@ def split_scene(
         meetings=encounters(spec),
         speeds_mps=speeds,
         near=begins_near(spec),
+        approaches=frozenset(map(frozenset, approaches(spec))),
         persons=frozenset(a.id for a in persons),
     )
     passing = passing_pairs(spec)

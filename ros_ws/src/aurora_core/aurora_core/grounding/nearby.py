@@ -34,7 +34,7 @@ def begins_near(spec: ScenarioSpec) -> Mapping[str, str]:
     egos = {a.id for a in spec.agents if a.role is Role.EGO}
     # Of two that part the ego is in front, and who is watched, and so drives slowly, behind.
     parting = [
-        sorted(sorted(pair)[::-1], key=lambda name: (name not in watched, name in egos))
+        sorted(sorted(pair, reverse=True), key=lambda name: (name not in watched, name in egos))
         for pair in partings(spec)
     ]
     told: list[SendMessage | Link] = list(spec.links)

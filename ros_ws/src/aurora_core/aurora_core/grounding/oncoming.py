@@ -26,6 +26,10 @@ _MEETING_M = (60.0, 80.0, 45.0, 35.0, 25.0)
 # Cosine of two headings that are opposite to each other.
 _OPPOSITE = -0.9
 
+# Of a group one comes so far after the other, at most so many (m).
+_BETWEEN_M = 15.0
+_MOST_ROWS = 6
+
 # Room in front of and behind its bumpers on its street (m).
 _ROOM_M = 1.0
 
@@ -78,8 +82,27 @@ class OncomingPlacer:
         given = stated is not None and stated.provenance is Provenance.EXPLICIT
         tried = (stated.inside(self._inside_m),) if given and stated is not None else _MEETING_M
         straight = ahead is None
-        seats = (self._at(agent, met, away_m, run_m, straight=straight) for away_m in tried)
-        return next((seat for seat in seats if seat is not None), None)
+        # The second of a group comes after the first one.
+        rows = ((away_m + _BETWEEN_M * row, row) for row in range(_MOST_ROWS) for away_m in tried)
+        seats = (
+            self._at(agent, met, away_m, run_m, straight=straight)
+            for away_m, row in rows
+            if row == 0 or agent.group is not None
+        )
+        free = (seat for seat in seats if seat is not None and self._is_free(seat, site))
+        return next(free, None)
+
+    def _is_free(self, seat: SeatedAgent, site: Site) -> bool:
+        """Tell whether nobody stands where somebody is to be placed."""
+        return all(
+            abs(other.lane_position_m - seat.lane_position_m)
+            > (self._length_m(other) + self._length_m(seat)) / 2.0 + _ROOM_M
+            for other in (*site.seated, *site.others)
+            if other.lane_id == seat.lane_id
+        )
+
+    def _length_m(self, seat: SeatedAgent) -> float:
+        return self._types[seat.agent.type.value].length_m
 
     def _at(
         self, agent: GroundAgent, met: SeatedAgent, away_m: float, run_m: float, *, straight: bool

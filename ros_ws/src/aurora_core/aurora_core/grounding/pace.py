@@ -100,6 +100,17 @@ def partings(spec: ScenarioSpec) -> tuple[frozenset[str], ...]:
     )
 
 
+def approaches(spec: ScenarioSpec) -> tuple[tuple[str, str], ...]:
+    """Return which vehicle approaches which other one."""
+    vehicles = {a.id: a for a in spec.agents if a.type is not AgentType.PEDESTRIAN}
+    return tuple(
+        (agent.id, b.target)
+        for agent in vehicles.values()
+        for b in agent.behaviors
+        if b.kind is BehaviorKind.APPROACH and b.target in vehicles and b.target != agent.id
+    )
+
+
 def moves(spec: ScenarioSpec, agent: GroundAgent) -> bool:
     """Whether the prompt says or implies that an agent moves while it is observed."""
     tied = any(

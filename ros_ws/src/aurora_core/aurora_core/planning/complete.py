@@ -21,6 +21,7 @@ from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import (
     AgentAction,
     GroundAgent,
+    Placement,
     ScenarioSpec,
     SendMessage,
     StatedCondition,
@@ -28,11 +29,14 @@ from aurora_core.spec.scenario import (
     UavMission,
 )
 from aurora_core.spec.scene import Link, World
-from aurora_core.spec.vocabulary import AgentType, BehaviorKind, MissionMode
+from aurora_core.spec.vocabulary import AgentType, BehaviorKind, MissionMode, Relation, Role
 
 # Sight is lost now and then: this much longer than the time of sight that is asked. A scenario of
 # stated length has no such room.
 SPARE = 1.25
+
+# Who drives on the road.
+_DRIVEN = frozenset(AgentType) - {AgentType.PEDESTRIAN, AgentType.RSU}
 
 _WITH_SIREN = (AgentType.AMBULANCE, AgentType.FIRETRUCK, AgentType.POLICE)
 
@@ -40,13 +44,15 @@ _WITH_SIREN = (AgentType.AMBULANCE, AgentType.FIRETRUCK, AgentType.POLICE)
 def complete(spec: ScenarioSpec, limits: Limits) -> ScenarioSpec:
     """Return a request with missions for all UAVs, triggers for orders, durations and altitudes.
 
-    Who yields gets somebody to yield to, and who is overtaken is ahead until then only.
+    Who yields gets somebody to yield to, who is oncoming somebody to meet, and who is overtaken is
+    ahead until then only.
 
     Args:
         spec: The request, whoever read it; it is not changed.
         limits: Limits in force.
     """
-    spec = waiting(hovering(reporting(telling(yielding(passed(blowing(spec, limits)))))))
+    spec = meeting(passed(blowing(spec, limits)))
+    spec = waiting(hovering(reporting(telling(yielding(spec)))))
     return layered(bent(lasting(spec), limits), limits)
 
 
@@ -91,6 +97,39 @@ def passed(spec: ScenarioSpec) -> ScenarioSpec:
     if agents == spec.agents:
         return spec
     return ScenarioSpec.model_validate({**dict(spec), 'agents': agents})
+
+
+def meeting(spec: ScenarioSpec) -> ScenarioSpec:
+    """Return the specification with somebody to meet for who is oncoming to nobody named.
+
+    That is the ego, else whoever a UAV watches, else the first vehicle.
+
+    Args:
+        spec: The request, whoever read it; returned as it is when nothing was added.
+    """
+    watched = {mission.target for mission in spec.missions}
+
+    def met(agent: GroundAgent) -> GroundAgent:
+        others = [
+            a for a in spec.agents if a.type in _DRIVEN and not any(map(_meets, a.placements))
+        ]
+        others.sort(key=lambda a: (a.role is not Role.EGO, a.id not in watched))
+        if not others:
+            return agent
+        placements = tuple(
+            p.model_copy(update={'of': others[0].id}) if _meets(p) and p.of is None else p
+            for p in agent.placements
+        )
+        return agent.model_copy(update={'placements': placements})
+
+    agents = tuple(map(met, spec.agents))
+    if agents == spec.agents:
+        return spec
+    return ScenarioSpec.model_validate({**dict(spec), 'agents': agents})
+
+
+def _meets(placement: Placement) -> bool:
+    return placement.relation is Relation.ONCOMING
 
 
 def yielding(spec: ScenarioSpec) -> ScenarioSpec:

@@ -31,7 +31,7 @@ _HOLDS_ALREADY = frozenset({'stop', 'slow'})
 # What only somebody on the move can do.
 FROM_MOTION = frozenset({'brake', 'stop', 'yield', 'slow', 'change_lane'})
 
-# What a driver may lack of the half, or of the gain, that an action without a number asks for (m/s).
+# What may lack of the half, or of the gain, that an action without a number asks for (m/s).
 _NEARLY_MPS = 0.05
 
 # So much more of a change without a number is commanded than asked.

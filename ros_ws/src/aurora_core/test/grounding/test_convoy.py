@@ -198,11 +198,17 @@ def test_placements_that_contradict_each_other_are_named(parameter: Make) -> Non
 
 
 @pytest.mark.parametrize(
-    'kind', [BehaviorKind.FOLLOW, BehaviorKind.TAILGATE, BehaviorKind.APPROACH]
+    ('kind', 'gap_m'),
+    [
+        (BehaviorKind.FOLLOW, 20.0),
+        (BehaviorKind.TAILGATE, 20.0),
+        # It has to come nearer by 10 m at least.
+        (BehaviorKind.APPROACH, 40.0),
+    ],
 )
-def test_who_chases_starts_behind(kind: BehaviorKind) -> None:
+def test_who_chases_starts_behind(kind: BehaviorKind, gap_m: float) -> None:
     split = split_scene(_spec(_agent('a', does=(kind, 'ego')), EGO))
-    assert _places(split)['a'] == (-20.0, 0)
+    assert _places(split)['a'] == (-gap_m, 0)
 
 
 def test_a_stated_closing_distance_is_kept(parameter: Make) -> None:

@@ -10,8 +10,10 @@ from aurora_core.knowledge.config_files import config_path
 from aurora_core.knowledge.limits import load_limits
 from aurora_core.parsing.parser import ParseContext, parse_offline
 from aurora_core.planning.bounds import bent
-from aurora_core.planning.complete import passed, yielding
+from aurora_core.planning.complete import meeting, passed, yielding
 from aurora_core.spec.parameter import Provenance
+from aurora_core.spec.scenario import Placement
+from aurora_core.spec.vocabulary import Relation
 
 CONTEXT = ParseContext(landmark_names=())
 LIMITS = load_limits(config_path('limits.json'))
@@ -37,6 +39,25 @@ def test_who_yields_yields_to_somebody(prompt: str, whom: str | None) -> None:
     ego = next(agent for agent in done.agents if agent.id == 'ego')
     (behavior,) = ego.behaviors
     assert (behavior.target, behavior.target_inferred) == (whom, whom is not None)
+
+
+@pytest.mark.parametrize(
+    ('prompt', 'whom'),
+    [
+        ('A van drives. A truck drives. The ego car drives.', 'ego'),
+        ('A bus drives. A truck drives. A drone tracks the truck.', 'truck1'),
+    ],
+)
+def test_who_is_oncoming_to_nobody_named_meets_somebody(prompt: str, whom: str) -> None:
+    read = parse_offline(prompt, CONTEXT).spec
+    assert read is not None
+    first, *others = read.agents
+    oncoming = first.model_copy(
+        update={'placements': (Placement(relation=Relation.ONCOMING, of=None),)}
+    )
+    done = meeting(read.model_copy(update={'agents': (oncoming, *others)}))
+    assert [p.of for p in done.agents[0].placements] == [whom]
+    assert done.agents[1:] == tuple(others)
 
 
 def test_who_is_told_to_whom_keeps_it() -> None:
