@@ -25,8 +25,8 @@ from aurora_bench.checker.events import happened
 from aurora_bench.checker.numbers import wanted
 from aurora_bench.checker.pairs import approach, follow, overtake, tailgate
 from aurora_bench.checker.paths import way
-from aurora_bench.checker.placements import AT_M, at_place
 from aurora_bench.checker.phases import missions_end_s
+from aurora_bench.checker.placements import AT_M, at_place
 from aurora_bench.checker.recording import BoolArray
 from aurora_bench.checker.roads import crossings_of, lane_changes
 from aurora_bench.checker.scene import longest_s, runs_of, share

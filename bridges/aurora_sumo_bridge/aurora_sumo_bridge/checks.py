@@ -115,6 +115,7 @@ def check_agent_numbers(agent: GroundAgentLoad) -> None:
         ('lane_change_mode', agent.lane_change_mode, _MODE),
         ('acceleration_mps2', agent.acceleration_mps2, _ACCELERATION),
     ]
+    fields += [('way_xy_m', value, _ANY) for point in agent.way_xy_m for value in point]
     for label, value, allowed in fields:
         fault = allowed.fault(value) if value is not None else ''
         if fault:

@@ -32,6 +32,8 @@ class Driver:
     def __init__(self, agent: GroundAgentLoad) -> None:
         self._vehicle = agent.agent_id
         self._held = False
+        self._wanted_mps = _RELEASED
+        self._looks_out = False
         self._speed_factor = agent.speed_factor
         self._mode = (
             DEFAULT_LANE_CHANGE_MODE if agent.lane_change_mode is None else agent.lane_change_mode
@@ -51,13 +53,30 @@ class Driver:
         """Keep this speed, as far as the traffic ahead allows."""
         self._held = speed_mps == 0.0
         self._apply_mode()
-        libsumo.vehicle.setSpeed(self._vehicle, speed_mps)
+        self._want(speed_mps)
 
     def release_speed(self) -> None:
         """Give the speed back to the car-following model."""
         self._held = False
         self._apply_mode()
-        libsumo.vehicle.setSpeed(self._vehicle, _RELEASED)
+        self._want(_RELEASED)
+
+    def look_out(self, speed_mps: float, cap_mps: float | None) -> None:
+        """Brake for somebody on the road, and keep so slow until nobody is there.
+
+        Args:
+            speed_mps: Of the vehicle.
+            cap_mps: It may be no faster; None where nobody is on the road.
+        """
+        looks_out = cap_mps is not None and (self._looks_out or cap_mps < speed_mps)
+        if looks_out and cap_mps is not None:
+            slow_mps = min(speed_mps, cap_mps)
+            if self._wanted_mps != _RELEASED:
+                slow_mps = min(slow_mps, self._wanted_mps)
+            libsumo.vehicle.setSpeed(self._vehicle, slow_mps)
+        elif self._looks_out:
+            libsumo.vehicle.setSpeed(self._vehicle, self._wanted_mps)
+        self._looks_out = looks_out
 
     def set_speed_factor(self, factor: float) -> None:
         """Drive at this multiple of the speed limit when free."""
@@ -83,6 +102,10 @@ class Driver:
         """Set the mode for whenever the vehicle is not held."""
         self._mode = mode
         self._apply_mode()
+
+    def _want(self, speed_mps: float) -> None:
+        self._wanted_mps = speed_mps
+        libsumo.vehicle.setSpeed(self._vehicle, speed_mps)
 
     def _apply_mode(self) -> None:
         mode = NO_LANE_CHANGE_MODE if self._held else self._mode

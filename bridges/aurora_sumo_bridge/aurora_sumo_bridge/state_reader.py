@@ -198,7 +198,9 @@ class StateReader:
         x_m, y_m = libsumo.person.getPosition(person)
         heading_x, heading_y = sumo_angle_to_heading(libsumo.person.getAngle(person))
         before_mps = self._values[self._rows[index]][GroundColumn.SPEED]
-        speed_mps = libsumo.person.getSpeed(person)
+        free = None if body.walker is None else body.walker.free
+        # SUMO says 0 of somebody whom it is told where to be.
+        speed_mps = libsumo.person.getSpeed(person) if free is None else free.speed_mps
         # SUMO has no acceleration of persons.
         acceleration_mps2 = (speed_mps - before_mps) / self._dt_s
         return (x_m, y_m, heading_x, heading_y, speed_mps, acceleration_mps2, 1.0)

@@ -20,6 +20,7 @@ from aurora_sumo_bridge.commands import apply_command
 from aurora_sumo_bridge.network import Network
 from aurora_sumo_bridge.placement import Body, check_places, place_all
 from aurora_sumo_bridge.state_reader import StateReader
+from aurora_sumo_bridge.street_watch import StreetWatch
 from aurora_sumo_bridge.sumo_process import SumoProcess
 
 
@@ -36,6 +37,14 @@ class _Run:
         )
         self.parked: tuple[tuple[int, Body], ...] = tuple(
             (index, body) for index, body in enumerate(self.bodies) if body.parked is not None
+        )
+        self.watch = StreetWatch(
+            (
+                (row, body.agent_id, body.driver, body.length_m, body.width_m)
+                for row, body in enumerate(self.bodies)
+                if body.driver is not None
+            ),
+            (b.walker.free for b in self.bodies if b.walker is not None and b.walker.free),
         )
         self.reader = StateReader(self.bodies, load.dt_s)
         self.tick = 0
@@ -164,6 +173,10 @@ def _step(run: _Run) -> None:
     for index, body in run.parked:
         if body.parked is not None and run.reader.is_present(index):
             body.parked.hold()
+    for index, body in run.walkers:
+        if body.walker is not None and run.reader.is_present(index):
+            body.walker.step_freely()
+    run.watch.step(run.reader.is_present)
     libsumo.simulationStep()
     for index, body in run.walkers:
         if body.walker is not None and run.reader.is_present(index):

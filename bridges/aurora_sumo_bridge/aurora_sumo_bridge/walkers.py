@@ -14,6 +14,7 @@ import libsumo
 from aurora_core.geometry.frames import sumo_angle_to_heading
 from aurora_core.ports.simulators import GroundAgentLoad
 from aurora_sumo_bridge.checks import unplaceable
+from aurora_sumo_bridge.free_walk import FreeWalk
 from aurora_sumo_bridge.network import PEDESTRIAN, Network
 from aurora_sumo_bridge.polyline import Point
 
@@ -66,6 +67,12 @@ class Walker:
         self._type_mps = 0.0
         self._usual_mps = 0.0
         self._wanted_mps = agent.speed_mps
+        self.free: FreeWalk | None = None
+        if agent.way_xy_m:
+            try:
+                self.free = FreeWalk(agent.agent_id, agent.way_xy_m, dt_s)
+            except ValueError as err:
+                raise unplaceable(agent, f'way_xy_m: {err}') from err
         # From here on lane positions are SUMO's; arc lengths stay outside.
         self._position_m = network.sumo_position_m(self.lane_id, agent.lane_position_m)
         self._edges, self._arrival_m, self._standing = self._goal()
@@ -100,10 +107,12 @@ class Walker:
         self._type_mps = float(libsumo.person.getMaxSpeed(agent.agent_id))
         self._usual_mps = agent.speed_factor * self._type_mps
         self.set_speed(agent.speed_mps if agent.speed_mps > 0.0 else self._usual_mps)
-        return angle_deg
+        return angle_deg if self.free is None else self.free.angle_deg
 
     def asked_point(self) -> Point:
-        """Return the asked spot: the middle of the sidewalk (ENU, m)."""
+        """Return the asked spot: the middle of the sidewalk, or of a free way the beginning."""
+        if self.free is not None:
+            return self.free.start
         line, left_m = self._network.shape(self.lane_id), self._agent.lateral_m
         (x, y), (tx, ty) = line.at(self._agent.lane_position_m)
         return x - left_m * ty, y + left_m * tx
@@ -152,8 +161,8 @@ class Walker:
         """
         agent_id = self._agent.agent_id
         fault = self._network.check_walkable(edges)
-        if fault:
-            return fault
+        if fault or self.free is not None:
+            return fault or 'it has a way of its own over the street'
         here = str(libsumo.person.getRoadID(agent_id))
         if here != edges[0]:
             return f"the walk must begin on the walker's edge '{here}', not on '{edges[0]}'"
@@ -176,6 +185,11 @@ class Walker:
         self._edges, self._arrival_m, self._standing = edges, arrival_m, False
         self._apply_speed()
         return ''
+
+    def step_freely(self) -> None:
+        """Go on over the street where the person has a free way."""
+        if self.free is not None:
+            self.free.step(self._wanted_mps)
 
     def hold_on_arrival(self) -> None:
         """Stop a walker that would reach its goal, and so vanish, in the next step."""
@@ -218,7 +232,7 @@ class Walker:
             )
         arrival_m = network.sumo_position_m(goal_lane, arrival_arc_m)
         at_goal = single and abs(arrival_m - self._position_m) <= self._reach_m()
-        if not agent.parked and not at_goal:
+        if not agent.parked and not at_goal and not agent.way_xy_m:
             return agent.edges, arrival_m, False
         # A walk that is never walked: without a stage SUMO would take the person away.
         here_m = network.arc_length_m(self.lane_id)

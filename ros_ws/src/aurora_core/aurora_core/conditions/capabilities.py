@@ -13,8 +13,7 @@ from collections.abc import Mapping
 from aurora_core.conditions.behaviors import behavior_id
 from aurora_core.conditions.placements import placement_id
 from aurora_core.grounding.convoy import can_be_placed
-from aurora_core.grounding.nearby import ON_SIDEWALKS
-from aurora_core.grounding.persons import can_stand
+from aurora_core.grounding.nearby import ON_SIDEWALKS, can_stand
 from aurora_core.outcomes.condition import Condition
 from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.spec.flight_order import begun_by

@@ -388,6 +388,7 @@ def _agent_load(agent: GroundedAgent) -> GroundAgentLoad:
         acceleration_mps2=agent.gentle_mps2,
         runs_red=agent.runs_red,
         lateral_m=agent.lateral_m,
+        way_xy_m=agent.way_xy_m,
     )
 
 

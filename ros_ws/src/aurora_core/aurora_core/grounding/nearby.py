@@ -9,8 +9,9 @@ from collections.abc import Iterator, Mapping
 from aurora_core.grounding.awaited import bound_to_places
 from aurora_core.grounding.pace import partings
 from aurora_core.spec.events import VisibilityTrigger
+from aurora_core.spec.reference import is_landmark
 from aurora_core.spec.scenario import GroundAgent, Link, Placement, ScenarioSpec, SendMessage
-from aurora_core.spec.vocabulary import AgentType, MissionMode, Relation, Role
+from aurora_core.spec.vocabulary import AgentType, MissionMode, Place, Relation, Role
 
 # Who stands on sidewalks: persons, and roadside units, which never go.
 ON_SIDEWALKS = (AgentType.PEDESTRIAN, AgentType.RSU)
@@ -23,6 +24,20 @@ BY_PERSONS: dict[Relation, Relation] = {
     Relation.BESIDE: Relation.BESIDE,
     Relation.NEAR: Relation.NEAR,
 }
+
+# Along or against the route of a vehicle, by relation.
+ALONG = {
+    Relation.AHEAD: 1.0,
+    Relation.BEFORE: -1.0,
+    Relation.BEHIND: -1.0,
+    Relation.BESIDE: 0.0,
+    Relation.NEAR: 0.0,
+    Relation.RIGHT: 0.0,
+    Relation.LEFT: 0.0,
+}
+# Whoever stands beside a vehicle stands where the sidewalk is: a distance cannot be chosen.
+_NO_DISTANCE = (Relation.BESIDE, Relation.RIGHT, Relation.LEFT)
+_AT = (Relation.AT, Relation.NEAR, Relation.ON)
 
 
 def begins_near(spec: ScenarioSpec) -> Mapping[str, str]:
@@ -59,6 +74,23 @@ def _seen_on_the_way(spec: ScenarioSpec) -> Iterator[tuple[str, str]]:
             first = next((m for m in spec.missions if m.uav == trigger.observer), None)
             if first is not None and first.mode is MissionMode.TRACK and first.target is not None:
                 yield trigger.target, first.target
+
+
+def can_stand(agent: GroundAgent, placement: Placement, spec: ScenarioSpec) -> bool:
+    """Tell whether a person can be placed so."""
+    others = {a.id for a in spec.agents if a.id != agent.id}
+    of, relation = placement.of, placement.relation
+    if of in others:
+        persons = {a.id for a in spec.agents if a.type in ON_SIDEWALKS}
+        if of in persons and relation is Relation.RIGHT:
+            return False  # SUMO has no room there
+        stated = placement.distance_m is not None and relation in _NO_DISTANCE
+        return relation in ALONG and not stated and placement.bearing_deg is None
+    if placement.distance_m is not None and relation is not Relation.NEAR:
+        return False
+    grounds = (Place.CROSSWALK, Place.SIDEWALK, Place.ROADSIDE, Place.INTERSECTION)
+    at_place = of in grounds or is_landmark(of)
+    return relation in _AT and at_place
 
 
 def in_order(persons: tuple[GroundAgent, ...]) -> list[GroundAgent]:

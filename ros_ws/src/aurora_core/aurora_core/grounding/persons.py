@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.awaited import awaited_at
 from aurora_core.grounding.convoy import DEFAULT_GAP_M
-from aurora_core.grounding.nearby import ON_SIDEWALKS, by_vehicles, in_order
+from aurora_core.grounding.nearby import ALONG, by_vehicles, in_order
 from aurora_core.grounding.pace import (
     encounter_room_m,
     met_persons,
@@ -31,6 +31,7 @@ from aurora_core.grounding.sites import (
     Site,
     line_from,
 )
+from aurora_core.grounding.stepping_out import FarKerb, steps_out
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.map_records import WalkTable
@@ -39,13 +40,11 @@ from aurora_core.knowledge.walk_path import WalkPath, kerb_to_kerb, sidewalk_of,
 from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
 from aurora_core.spec.events import sets_off
 from aurora_core.spec.own_events import let_cross
-from aurora_core.spec.parameter import Provenance
+from aurora_core.spec.parameter import Parameter, Provenance
 from aurora_core.spec.parking import stands
-from aurora_core.spec.reference import is_landmark
 from aurora_core.spec.scenario import (
     AgentAction,
     GroundAgent,
-    Placement,
     ScenarioSpec,
 )
 from aurora_core.spec.vocabulary import BehaviorKind, Place, Relation
@@ -84,25 +83,10 @@ _ON_WAY_M = 10.0
 # Of a place, the sidewalk is at most so far away (m).
 _BESIDE_PLACE_M = 50.0
 
-# Along or against the route of a vehicle, by relation.
-_ALONG = {
-    Relation.AHEAD: 1.0,
-    Relation.BEFORE: -1.0,
-    Relation.BEHIND: -1.0,
-    Relation.BESIDE: 0.0,
-    Relation.NEAR: 0.0,
-    Relation.RIGHT: 0.0,
-    Relation.LEFT: 0.0,
-}
-# Whoever stands beside a vehicle stands where the sidewalk is: a distance cannot be chosen.
-_NO_DISTANCE = (Relation.BESIDE, Relation.RIGHT, Relation.LEFT)
-
 # Who crosses the street in front of a vehicle.
 _BEFORE_IT = (Relation.AHEAD, Relation.BEFORE)
 # Who is to cross walks no farther than this to the crosswalk (m): it has to be seen to.
 _TO_CROSSWALK_M = 20.0
-
-_AT = (Relation.AT, Relation.NEAR, Relation.ON)
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,23 +106,6 @@ def crosses(spec: ScenarioSpec, agent: GroundAgent) -> bool:
         isinstance(e.action, AgentAction) and e.action.agent == agent.id and e.action.do == 'cross'
         for e in spec.events
     )
-
-
-def can_stand(agent: GroundAgent, placement: Placement, spec: ScenarioSpec) -> bool:
-    """Tell whether a person can be placed so."""
-    others = {a.id for a in spec.agents if a.id != agent.id}
-    of, relation = placement.of, placement.relation
-    if of in others:
-        persons = {a.id for a in spec.agents if a.type in ON_SIDEWALKS}
-        if of in persons and relation is Relation.RIGHT:
-            return False  # SUMO has no room there
-        stated = placement.distance_m is not None and relation in _NO_DISTANCE
-        return relation in _ALONG and not stated and placement.bearing_deg is None
-    if placement.distance_m is not None and relation is not Relation.NEAR:
-        return False
-    grounds = (Place.CROSSWALK, Place.SIDEWALK, Place.ROADSIDE, Place.INTERSECTION)
-    at_place = of in grounds or is_landmark(of)
-    return relation in _AT and at_place
 
 
 def walk_end_m(goal_m: float, ahead: int, group: int) -> float:
@@ -173,6 +140,7 @@ class PersonPlacer:
         self._types = types
         self._style = style
         self._finder = route_finder(map_model.network, ANY_CLASS)
+        self._kerbs = FarKerb(map_model.network)
 
     def seated(
         self, spec: ScenarioSpec, persons: tuple[GroundAgent, ...], site: Site, run_s: float
@@ -217,7 +185,8 @@ class PersonPlacer:
             record = self._types[agent.type.value]
             x, y, hx, hy = path.position_at(seat.arc_m)
             x, y = x - seat.lateral_m * hy, y + seat.lateral_m * hx
-            stays = not _goes(spec, agent)
+            free = path.begins_m is not None
+            stays = free or not _goes(spec, agent)
             release = person_release(spec, agent)
             arrival = self._arrival_m(spec, site, seat)
             if any(b.kind is BehaviorKind.STOP for b in agent.behaviors):
@@ -233,14 +202,15 @@ class PersonPlacer:
                 edges=path.edge_ids[:1] if stays else path.edge_ids,
                 route_xy_m=line_from(path, seat.arc_m),
                 lane_id=path.lane_id,
-                lane_position_m=seat.arc_m,
+                lane_position_m=(path.begins_m or 0.0) + seat.arc_m,
                 x_m=x,
                 y_m=y,
                 heading_x=hx,
                 heading_y=hy,
                 arrival_position_m=None if stays else arrival,
                 lateral_m=seat.lateral_m,
-                release=ReleaseOn.NEVER if stays else release.on,
+                way_xy_m=line_from(path, seat.arc_m) if free else (),
+                release=ReleaseOn.NEVER if stays and not free else release.on,
                 release_uav=release.uav,
                 release_mission=release.mission,
                 release_agent=release.agent,
@@ -268,6 +238,9 @@ class PersonPlacer:
     ) -> _Spot | str:
         """Return where a person stands and walks, or what is missing there."""
         placed = self._beside_vehicle(spec, agent, site, number)
+        if isinstance(placed, _Spot) and crosses(spec, agent) and steps_out(spec, agent):
+            way = self._kerbs.way(placed.path, placed.arc_m)
+            return 'far_kerb' if way is None else _Spot(way, 0.0)
         if crosses(spec, agent):
             # Without a stated distance the crosswalk says how far ahead of the vehicle that is.
             stated = any(
@@ -329,15 +302,15 @@ class PersonPlacer:
         """Return the spot that a placement to a vehicle gives, None where there is no such."""
         for placement in (*agent.placements, *by_vehicles(spec, agent)):
             seat = site.seat(placement.of or '')
-            if seat is None or placement.relation not in _ALONG:
+            if seat is None or placement.relation not in ALONG:
                 continue
             stated = placement.distance_m
             told = stated is not None and stated.provenance is Provenance.EXPLICIT
             if told and stated is not None and placement.relation is Relation.NEAR:
                 aimed_m = max(0.0, stated.inside(self._style.inside_bound_m))
                 return self._so_near(seat, aimed_m) or 'sidewalk'
-            sign = _ALONG[placement.relation]
-            away_m = sign * (self._near_m(seat) if stated is None else stated.value)
+            sign = ALONG[placement.relation]
+            away_m = sign * (stated.value if told and stated else self._near_m(seat, stated))
             if isinstance(seat, SeatedPerson) and sign == 0.0:
                 return self._abreast_of(seat, placement.relation)
             left = placement.relation is Relation.LEFT
@@ -362,15 +335,17 @@ class PersonPlacer:
             lateral_m = seat.lateral_m - side_m
         return _Spot(seat.path, seat.arc_m, lateral_m)
 
-    def _near_m(self, seat: SeatedAgent | SeatedPerson) -> float:
+    def _near_m(self, seat: SeatedAgent | SeatedPerson, free: Parameter | None) -> float:
         """Return how far from another agent somebody is of whom nobody says it (m).
+
+        `free` is what stands for it where nothing is known better.
 
         Who stands behind a vehicle that stands is right behind it.
         """
         if not stands(seat.agent) and not any(
             p.relation is Relation.PARKED_AT for p in seat.agent.placements
         ):
-            return DEFAULT_GAP_M
+            return DEFAULT_GAP_M if free is None else free.value
         return self._types[seat.agent.type.value].length_m / 2.0 + _STANDS_BEHIND_M
 
     def _so_near(self, seat: SeatedAgent | SeatedPerson, stated_m: float) -> _Spot | None:

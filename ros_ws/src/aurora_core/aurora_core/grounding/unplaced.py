@@ -27,6 +27,8 @@ _LACKS = {
     'others stand it has none, bends, or is too short; another distance would fit',
     'crosswalk': 'no crosswalk without a traffic light is where {who} crosses: 20 to 120 m ahead '
     'of the vehicles, on their street; without the place or the distance one would fit',
+    'far_kerb': 'where {who} is to step out there is no sidewalk on the other side of the street; '
+    'beside another vehicle, or at another place, there would be one',
     'sidewalk': 'where {who} is to stand or walk there is no sidewalk; beside another vehicle, or '
     'at another distance, there would be one',
     'clearance': 'the UAV would pass too near to buildings on its way; a greater altitude would '
@@ -48,7 +50,8 @@ def lacked(reason: str, split: SceneSplit) -> str:
         reason: What it is called in a failure.
         split: Who was to be placed.
     """
-    about = {'oncoming': split.oncoming, 'crosswalk': split.persons, 'sidewalk': split.persons}
+    about = {'oncoming': split.oncoming}
+    about |= dict.fromkeys(('crosswalk', 'far_kerb', 'sidewalk'), split.persons)
     who = _listed([agent.id for agent in about.get(reason, ())])
     return _LACKS.get(reason, reason.replace('_', ' ')).format(who=who or 'somebody')
 

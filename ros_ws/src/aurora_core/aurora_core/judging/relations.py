@@ -69,10 +69,11 @@ class Related(Protocol):
 def relation_slack(context: Context, condition: Condition, asked: Related) -> FloatArray:
     """Return by how much a relation of two agents holds, (T,) metres; negative where it does not.
 
-    Ahead, behind: along the route of the one that follows, on that route. Same lane: what is left
-    of the lane to the offset. Left, right, beside: in the frame of the other one's heading.
-    Oncoming: minus the cosine of the headings. Near, at: what is left of the distance. Adjacent
-    lane: what is left of the lane next to the route of the other one, in its direction. For
+    Ahead, behind: along the route of the one that follows, on that route; of a person and a
+    vehicle, along that of the vehicle. Same lane: what is left of the lane to the offset. Left,
+    right, beside: in the frame of the other one's heading. Oncoming: minus the cosine of the
+    headings. Near, at: what is left of the distance. Adjacent lane: what is left of the lane next
+    to the route of the other one, in its direction. For
     places see `_place_slack`.
     """
     view = context.view
@@ -81,10 +82,9 @@ def relation_slack(context: Context, condition: Condition, asked: Related) -> Fl
     if not view.has(b):
         return _place_slack(context, condition, asked)
     if relation in (Relation.AHEAD, Relation.BEHIND, Relation.BEFORE):
-        follower, leader = (b, a) if relation is Relation.AHEAD else (a, b)
-        along = context.along(follower, leader)
-        left = asked.offset_m - along.offset_m
-        return np.where(left >= 0.0, along.lead_m, np.minimum(along.lead_m, left))
+        lead_m, offset_m = lead_of(context, a, b, ahead=relation is Relation.AHEAD)
+        left = asked.offset_m - offset_m
+        return np.where(left >= 0.0, lead_m, np.minimum(lead_m, left))
     if relation is Relation.SAME_LANE:
         return asked.offset_m - context.along(b, a).offset_m
     if relation in (Relation.NEAR, Relation.AT):
@@ -112,6 +112,19 @@ def relation_slack(context: Context, condition: Condition, asked: Related) -> Fl
         half = (view.body(a).entry.length_m + view.body(b).entry.length_m) / 2.0
         return half - np.abs(along_m)
     raise VerificationError(f'condition {condition.id}: no signal for relation {relation}')
+
+
+def lead_of(context: Context, a: str, b: str, *, ahead: bool) -> tuple[FloatArray, FloatArray]:
+    """Return how far `a` is ahead of `b`, or behind it, and how far off the route, (T,) metres.
+
+    A person's own way may lead over the street: then it says nothing of ahead and behind.
+    """
+    walks = {name: context.view.body(name).entry.is_person for name in (a, b)}
+    if ahead or (walks[a] and not walks[b]):
+        along = context.along(b, a)
+        return (along.lead_m if ahead else -along.lead_m), along.offset_m
+    along = context.along(a, b)
+    return along.lead_m, along.offset_m
 
 
 def _place_slack(context: Context, condition: Condition, asked: Related) -> FloatArray:

@@ -30,6 +30,8 @@ class WalkPath:
         polyline: Points in ENU map metres.
         line: The same, measured.
         crossing_id: The crossing between the first and the second edge, if there is one.
+        begins_m: Of a way over the street away from crossings: where on the first sidewalk it
+            begins. None of walks along sidewalks, which begin at the start of theirs.
     """
 
     edge_ids: tuple[str, ...]
@@ -38,6 +40,7 @@ class WalkPath:
     polyline: Points
     line: Polyline = field(compare=False, repr=False)
     crossing_id: str | None = None
+    begins_m: float | None = None
 
     @property
     def length_m(self) -> float:

@@ -67,6 +67,7 @@ class GroundedAgent(Document):
         stop_position_m: Arc length there of its reference point.
         runs_red: It drives on at a red light where nobody is in its way.
         lateral_m: Persons: so far left of the middle of the sidewalk.
+        way_xy_m: Persons: their way over the street where no crosswalk is, ENU map frame.
         gentle_mps2: It accelerates no harder, so that who keeps a distance behind it can (None:
             as its type does).
     """
@@ -104,6 +105,7 @@ class GroundedAgent(Document):
     gentle_mps2: FiniteFloat | None = omitted(None)
     runs_red: bool = omitted(False)
     lateral_m: FiniteFloat = omitted(0.0)
+    way_xy_m: tuple[tuple[FiniteFloat, FiniteFloat], ...] = omitted(())
     release_agent: str = omitted('')
     release_within_m: FiniteFloat = omitted(0.0)
 

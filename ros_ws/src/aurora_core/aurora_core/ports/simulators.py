@@ -53,6 +53,8 @@ class GroundAgentLoad:
             may drive on that lane, in the middle of `lane_id` elsewhere (parking lane, sidewalk).
         runs_red: Drives on at a red light where nobody is in its way.
         lateral_m: Persons: so far left of the middle of the sidewalk.
+        way_xy_m: Persons: from their place they walk along this line (x, y in m, ENU map frame)
+            over the street, where no crosswalk is, and stand at its end; vehicles let them pass.
     """
 
     agent_id: str
@@ -71,6 +73,7 @@ class GroundAgentLoad:
     parked: bool = False
     runs_red: bool = False
     lateral_m: float = 0.0
+    way_xy_m: tuple[tuple[float, float], ...] = ()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -10,6 +10,7 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
+from aurora_core.knowledge.world import SurfaceKind
 from aurora_core.quantities import motion
 from aurora_core.quantities.kernels import distance_2d
 from aurora_core.quantities.routes import along_route
@@ -17,6 +18,9 @@ from aurora_core.quantities.ticks import first_tick
 from aurora_core.quantities.view import Body, RunView, Series
 
 BoolArray = npt.NDArray[np.bool_]
+
+# A person on the road is in the way this far off the route of a vehicle, on its street (m).
+_STREET_M = 12.0
 
 # Who has caught up is nearer than so many times the gap that counts as tailgating.
 _CLOSED = 2.0
@@ -50,21 +54,29 @@ def free_of_junctions(view: RunView, body: Body, within_m: float) -> BoolArray:
 def free_of_leaders(
     view: RunView, body: Body, within_m: float, offset_m: float, besides: tuple[str, ...] = ()
 ) -> BoolArray:
-    """Return where no vehicle is ahead on the route with a gap of at most `within_m`, (T,).
+    """Return where nobody is ahead on the route with a gap of at most `within_m`, (T,).
+
+    That is a vehicle in the way, or a person anywhere on the carriageway.
 
     Args:
         view: The run.
         body: The driver.
         within_m: Bumper to bumper.
         offset_m: How far from the route a vehicle may be to be in the way.
-        besides: Vehicles that are in nobody's way.
+        besides: Who is in nobody's way.
     """
     free = np.ones(view.ticks, dtype=np.bool_)
     for other in view.agents:
-        if other.body_id in (body.body_id, *besides) or other.entry.is_person:
+        if other.body_id in (body.body_id, *besides):
             continue
         along = along_route(view, body, other)
-        leads = (along.lead_m > 0.0) & (along.gap_m <= within_m) & (along.offset_m <= offset_m)
+        leads = (along.lead_m > 0.0) & (along.gap_m <= within_m)
+        if other.entry.is_person:
+            driving = view.geometry.surfaces(SurfaceKind.DRIVING)
+            leads &= along.offset_m <= _STREET_M
+            leads[leads] = driving.contains(view.reference(other.body_id)[leads, :2])
+        else:
+            leads &= along.offset_m <= offset_m
         free &= ~(leads & view.present(other.body_id))
     return free
 

@@ -95,3 +95,37 @@ def test_a_stated_distance_is_kept_along_the_street(grounded: Ground) -> None:
 def test_when_a_person_goes(grounded: Ground, prompt: str, release: ReleaseOn) -> None:
     (person,) = _persons(grounded(prompt)[0])
     assert person.release is release
+
+
+@pytest.mark.parametrize('of', ['van', 'truck'])
+def test_who_steps_out_from_behind_a_parked_vehicle_crosses_right_there(
+    grounded: Ground, of: str
+) -> None:
+    found, the_map = grounded(
+        f'The ego car drives at 6 m/s. A {of} is parked at the roadside. A pedestrian stands '
+        f'behind the {of}. When the ego comes within 30 m of the pedestrian, the pedestrian '
+        'crosses the street. A drone hovers over the ego.'
+    )
+    parked, person = found.agents[1:]
+    way = shapely.LineString(person.way_xy_m)
+    assert way.coords[0] == (person.x_m, person.y_m)
+    assert person.route_xy_m == person.way_xy_m
+    assert person.release is ReleaseOn.EVENT
+    # Right behind it, and from one sidewalk to the other over the whole carriageway.
+    hx, hy = parked.heading_x, parked.heading_y
+    behind_m = hx * (parked.x_m - person.x_m) + hy * (parked.y_m - person.y_m)
+    assert parked.length_m / 2.0 + 1.0 < behind_m < parked.length_m / 2.0 + 3.0
+    box = shapely.LineString(
+        [(parked.x_m + k * hx, parked.y_m + k * hy) for k in (-behind_m + 1.0, 0.0)]
+    ).buffer(parked.width_m / 2.0, cap_style='flat')
+    assert not way.intersects(box)
+    road = the_map.network.carriageway
+    assert way.intersection(road).length > 6.0
+    assert not any(road.contains(shapely.Point(end)) for end in way.coords)
+
+
+def test_who_crosses_by_a_car_that_drives_takes_the_crosswalk(grounded: Ground) -> None:
+    found, _ = grounded(
+        'The ego car drives. A pedestrian waits ahead of it and crosses when it comes near.'
+    )
+    assert all(person.way_xy_m == () and len(person.edges) == 2 for person in _persons(found))

@@ -9,10 +9,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from kind_rows import Row, cut, done_at, gone
-from trace_builder import FloatArray, number
+from trace_builder import FloatArray, box_ring, number
 from trace_cases import Case, convoy_case, ground_case, ramp, spec, tailgate_case
 
-from aurora_core.knowledge.world import CentreLine
+from aurora_core.knowledge.world import CentreLine, Surface, SurfaceKind
 from aurora_core.outcomes.verdict import Reason
 from aurora_core.spec.parameter import Bound, Unit
 from aurora_core.spec.scenario import Behavior, Placement
@@ -114,6 +114,20 @@ def _cruise(speed: FloatArray, *, leader: float | None = None, lane: float | Non
     return case
 
 
+def _before_a_person(y: float) -> Case:
+    """After 10 s it slows to 5 m/s; 49 m ahead somebody stands, on the road where y is 2 m."""
+    case = _cruise(_then(8.0, 5.0), leader=131.0)
+    person = case.run.agents[1]
+    person.type, person.speed = 'pedestrian', STILL
+    person.x[:], person.y[:] = 131.0, y
+    agents = (case.spec.agents[0], dict(case.spec.agents[1]) | {'type': 'pedestrian'})
+    case.spec = spec(agents=agents)
+    ring = np.array(box_ring(-10.0, -5.0, 200.0, 5.0))
+    road = Surface(surface_id='road', kind=SurfaceKind.DRIVING, ring=ring)
+    case.world = replace(case.world, surfaces=(road,))
+    return case
+
+
 def _told_otherwise(at_s: float) -> Case:
     """From 8 m/s it slows to 5 m/s in the middle of the run; an event says so at some time."""
     case = _cruise(_then(8.0, 5.0))
@@ -193,6 +207,19 @@ BEHAVIOURS = (
         make=lambda: _cruise(_steady(8.0), leader=55.0),
         margin=1.0 - 0.8,
         what='leader',
+    ),
+    # Somebody on the road has to be let pass, somebody beside it has not.
+    Row(
+        id='car1.drive.speed',
+        make=lambda: _before_a_person(2.0),
+        margin=1.0 - 0.8,
+        what='person',
+    ),
+    Row(
+        id='car1.drive.speed',
+        make=lambda: _before_a_person(7.0),
+        margin=199 / 400 - 0.8,
+        what='person',
     ),
     # What it was told to change at 10 s does not count against it; told at 19 s, it does.
     Row(id='car1.drive.speed', make=lambda: _told_otherwise(10.0), margin=1.0 - 0.8, what='told'),

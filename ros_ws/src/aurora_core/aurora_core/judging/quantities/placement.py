@@ -33,6 +33,7 @@ from aurora_core.judging.relations import (
     RELATION_WORDS,
     bearing_error,
     before_place,
+    lead_of,
     relation_slack,
 )
 from aurora_core.judging.until import existing_until
@@ -194,10 +195,8 @@ def placed_distance_m(context: Context, condition: Condition, relation: Relation
     a, b = condition.of
     if relation is Relation.BEFORE and not view.has(b):
         return np.full(view.ticks, before_place(context, condition)[0])
-    if relation is Relation.AHEAD:
-        return context.along(b, a).lead_m
-    if relation in (Relation.BEHIND, Relation.BEFORE):
-        return context.along(a, b).lead_m
+    if relation in _ALONG:
+        return lead_of(context, a, b, ahead=relation is Relation.AHEAD)[0]
     if relation is Relation.SAME_LANE:
         return np.abs(context.along(b, a).lead_m)
     return motion.horizontal_distance(view, a, b)
