@@ -302,10 +302,10 @@ def _brake(case: Case, agent: str, window: Window, value: float | None) -> Acted
     if window.free:
         # Nobody says when: it is the first that is a braking, not what traffic asks for.
         first, _ = _ticks(case, window)
-        hard = np.zeros_like(slowing)
+        firm = np.zeros_like(slowing)
         for a, b in runs_of(slowing):
-            hard[a:b] = a >= first and _hardest(case, agent, a, b) >= least
-        slowing = hard if hard.any() else slowing
+            firm[a:b] = a >= first and _hardest(case, agent, a, b) >= least
+        slowing = firm if firm.any() else slowing
     onset = _onset(case, slowing, window)
     if onset is None:
         return _never(case, window, f'{agent} does not begin to brake')
