@@ -33,7 +33,10 @@ import aurora
             'e1.not_before',
         ),
         # The ambulance drives before it is told something upon which it slows down.
-        ('The truck sends a message to the ambulance. Then the ambulance slows down.', 'e2.within'),
+        (
+            'The truck sends a message to the ambulance. Then the ambulance slows down.',
+            'e2.within',
+        ),
     ],
 )
 def test_a_wait_is_carried_out(here: Path, prompt: str, condition: str) -> None:
