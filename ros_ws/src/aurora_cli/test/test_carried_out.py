@@ -51,10 +51,12 @@ def test_a_wait_is_carried_out(here: Path, prompt: str, condition: str) -> None:
     [
         # A bus is slow: it comes nearer to who drives slower, from where there is room for it.
         ('A bus approaches the ego car.', 'bus1.approach'),
+        # It brakes by itself, and not only where a red light or a corner makes it.
+        ('A truck brakes hard while a drone tracks the truck.', 'truck1.brake'),
         ('Two motorcycles come from the opposite side of the ego car.', 'motorcycle2.placed'),
     ],
 )
-def test_who_comes_near_does_so(here: Path, prompt: str, condition: str) -> None:
+def test_what_is_said_of_somebody_is_done(here: Path, prompt: str, condition: str) -> None:
     with aurora.Session(out='runs') as session:
         done = session.run(prompt)
     assert done.status == 'verified', done.conditions

@@ -135,8 +135,8 @@ def _meets(placement: Placement) -> bool:
 def yielding(spec: ScenarioSpec) -> ScenarioSpec:
     """Return the specification with somebody to yield to for who yields to nobody named.
 
-    That is the person who crosses, else the vehicle with a siren, else who does something about
-    the agent itself; where there are several of a kind it stays open.
+    Those are the persons who cross, else the vehicle with a siren, else who does something about
+    the agent itself; where there are several of those it stays open.
 
     Args:
         spec: The request, whoever read it; returned as it is when nothing was added.
@@ -160,13 +160,17 @@ def _yielding(spec: ScenarioSpec, agent: GroundAgent) -> GroundAgent:
         [a for a in others if any(b.target == agent.id for b in a.behaviors)],
     )
     found = next((kind for kind in kinds if kind), [])
-    if len(found) != 1:
+    on_foot = all(a.type is AgentType.PEDESTRIAN for a in found)
+    if not found or (len(found) > 1 and not on_foot):
         return agent
     behaviors = tuple(
-        b.model_copy(update={'target': found[0].id, 'target_inferred': True})
-        if b.kind is BehaviorKind.YIELD and b.target is None
-        else b
+        each
         for b in agent.behaviors
+        for each in (
+            [b.model_copy(update={'target': a.id, 'target_inferred': True}) for a in found]
+            if b.kind is BehaviorKind.YIELD and b.target is None
+            else [b]
+        )
     )
     return agent.model_copy(update={'behaviors': behaviors})
 

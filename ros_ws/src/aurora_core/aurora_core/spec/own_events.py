@@ -12,7 +12,9 @@ from aurora_core.spec.scenario import Behavior, GroundAgent, ScenarioSpec
 from aurora_core.spec.vocabulary import AgentType, BehaviorKind
 
 # Behaviours that are carried out as the action of the same name.
-ONCE = frozenset({BehaviorKind.SLOW, BehaviorKind.YIELD, BehaviorKind.CHANGE_LANE})
+ONCE = frozenset(
+    {BehaviorKind.BRAKE, BehaviorKind.SLOW, BehaviorKind.YIELD, BehaviorKind.CHANGE_LANE}
+)
 
 # One yields to somebody who is this near (m).
 YIELDS_WITHIN_M = 30.0
@@ -34,7 +36,8 @@ def is_once(spec: ScenarioSpec, agent: GroundAgent, behavior: Behavior) -> bool:
         return agent.type not in _ON_FOOT and behavior.target in others
     if behavior.kind is BehaviorKind.CHANGE_LANE:
         return keeps_to_lanes(agent)
-    return behavior.kind is BehaviorKind.SLOW and agent.type not in _ON_FOOT
+    slows = behavior.kind in (BehaviorKind.BRAKE, BehaviorKind.SLOW)
+    return slows and agent.type not in _ON_FOOT
 
 
 def own_events(spec: ScenarioSpec) -> tuple[Event, ...]:

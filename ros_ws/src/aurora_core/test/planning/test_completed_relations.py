@@ -26,9 +26,9 @@ LIMITS = load_limits(config_path('limits.json'))
         ('A pedestrian crosses when the ego is 40 m away. The ego yields.', 'pedestrian1'),
         ('An ambulance approaches the ego car from behind. The ego car yields.', 'ambulance1'),
         ('A van approaches the ego car from behind. The ego car yields.', 'van1'),
-        # A person goes before a siren, and of two persons neither is chosen.
+        # A person goes before a siren, and of two vehicles neither is chosen.
         ('An ambulance waits. A pedestrian crosses. The ego car yields.', 'pedestrian1'),
-        ('Two pedestrians cross the street. The ego car yields.', None),
+        ('A van tailgates the ego car. A bus follows the ego car. The ego car yields.', None),
         ('A bus drives. The ego car yields.', None),
     ],
 )
@@ -58,6 +58,15 @@ def test_who_is_oncoming_to_nobody_named_meets_somebody(prompt: str, whom: str) 
     done = meeting(read.model_copy(update={'agents': (oncoming, *others)}))
     assert [p.of for p in done.agents[0].placements] == [whom]
     assert done.agents[1:] == tuple(others)
+
+
+def test_of_several_persons_who_cross_one_yields_to_all() -> None:
+    read = parse_offline('Two pedestrians cross the street. The ego car yields.', CONTEXT).spec
+    assert read is not None
+    ego = next(agent for agent in yielding(read).agents if agent.id == 'ego')
+    persons = [a.id for a in read.agents if a.id != 'ego']
+    assert [b.target for b in ego.behaviors] == persons
+    assert len(persons) == 2
 
 
 def test_who_is_told_to_whom_keeps_it() -> None:
