@@ -53,6 +53,8 @@ def test_a_wait_is_carried_out(here: Path, prompt: str, condition: str) -> None:
         ('A bus approaches the ego car.', 'bus1.approach'),
         # It brakes by itself, and not only where a red light or a corner makes it.
         ('A truck brakes hard while a drone tracks the truck.', 'truck1.brake'),
+        # No faster than the drone can fly, where nobody says how fast.
+        ('A drone tracks a police car on an emergency run for 20 s.', 'police1.emergency_run'),
         ('Two motorcycles come from the opposite side of the ego car.', 'motorcycle2.placed'),
     ],
 )

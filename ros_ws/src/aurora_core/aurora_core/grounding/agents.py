@@ -30,6 +30,7 @@ from aurora_core.grounding.pace import (
     own_speed_mps,
     partings,
     stated_speed_mps,
+    tracked,
 )
 from aurora_core.grounding.parked import parked_pose
 from aurora_core.grounding.releases import Release, convoy_release, group_releases, own_release
@@ -55,10 +56,7 @@ from aurora_core.knowledge.settings import Settings
 from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
 from aurora_core.spec.own_events import let_cross, overtakings
 from aurora_core.spec.parking import parks, parks_after, stands
-from aurora_core.spec.scenario import (
-    GroundAgent,
-    ScenarioSpec,
-)
+from aurora_core.spec.scenario import GroundAgent, ScenarioSpec
 from aurora_core.spec.vocabulary import BehaviorKind, MissionMode, Place
 
 # Speed limit of the slowest streets (m/s).
@@ -119,6 +117,9 @@ class AgentPlacer:
             spec, seats, self._types, self._map.network, self._settings.grounding.speeds
         )
         parting = any(changes_lane(spec, s.agent) for s in site.seated)
+        followed = tracked(spec)
+        way_m = tied_way_m(spec, self._settings.grounding)
+        fastest_mps = site.fastest_mps(self._map.network, way_m)
         placed = []
         for agent in spec.agents:
             seat = seats.get(agent.id)
@@ -126,7 +127,10 @@ class AgentPlacer:
                 continue
             # Who is slower would be passed once one of them has another lane.
             is_front = seat.arc_m >= front_m or parting
-            style = self._style(agent, factor, seats, meetings, gaps, in_line, is_front=is_front)
+            on_mps = fastest_mps if agent.id in followed else None
+            style = self._style(
+                agent, factor, seats, meetings, gaps, in_line, on_mps, is_front=is_front
+            )
             style |= self._passing_style(spec, agent, factor, seats)
             parked = parks(spec, agent)
             still = parked or (stands(agent) and parks_after(spec, agent) is None)
@@ -150,9 +154,18 @@ class AgentPlacer:
     def _stated_mps(self, spec: ScenarioSpec, agent: GroundAgent) -> float | None:
         return stated_speed_mps(spec, agent, self._settings.grounding.speeds)
 
-    def _emergency_style(self, agent: GroundAgent) -> dict[str, float]:
-        """Return what an emergency run makes of limits: enough for a stated speed anywhere."""
-        least, stated = self._settings.grounding.speeds.emergency_factor, own_speed_mps(agent)
+    def _emergency_style(
+        self, agent: GroundAgent, watched_on_mps: float | None = None
+    ) -> dict[str, float]:
+        """Return what an emergency run makes of limits: enough for a stated speed anywhere.
+
+        Where a UAV is to keep up with it, it is no faster than it has to be on streets that allow
+        `watched_on_mps`.
+        """
+        speeds, stated = self._settings.grounding.speeds, own_speed_mps(agent)
+        least = speeds.emergency_factor
+        if watched_on_mps is not None and stated is None:
+            return {'speed_factor': min(least, 1.0 + speeds.emergency_over_mps / watched_on_mps)}
         return {'speed_factor': least if stated is None else max(least, stated / _SLOWEST_MPS)}
 
     def free(
@@ -377,6 +390,7 @@ class AgentPlacer:
         meetings: tuple[Encounter, ...],
         gaps: tuple[KeptGap, ...],
         in_line: frozenset[str],
+        watched_on_mps: float | None,
         *,
         is_front: bool,
     ) -> dict[str, float]:
@@ -402,7 +416,7 @@ class AgentPlacer:
                 'min_gap_m': run.tailgate_min_gap_m,
             }
         if in_emergency(agent):
-            return self._emergency_style(agent)
+            return self._emergency_style(agent, watched_on_mps)
         behind = self._settings.grounding.convoy_speed_factor_behind
         style = {'speed_factor': factor if is_front else factor * behind}
         if agent.id in in_line:

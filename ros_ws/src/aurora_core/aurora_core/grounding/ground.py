@@ -26,7 +26,12 @@ from aurora_core.grounding.keep_out import kept_out
 from aurora_core.grounding.lane_changers import changes_lane, share_with_another_lane
 from aurora_core.grounding.laps import Laps
 from aurora_core.grounding.oncoming import OncomingPlacer
-from aurora_core.grounding.pace import fastest_stated_mps, timed_way_m, watched_speed_mps
+from aurora_core.grounding.pace import (
+    fastest_stated_mps,
+    outruns,
+    timed_way_m,
+    watched_speed_mps,
+)
 from aurora_core.grounding.persons import PersonPlacer
 from aurora_core.grounding.places import MapPlaces
 from aurora_core.grounding.planned_flight import PlannedFlight, Rejected, planned_height_m
@@ -306,12 +311,15 @@ class Grounder:
 
         for site in self._fitting(spec, members, found):
             free = min(1.0, site.free_run_m / need_m) if need_m > 0.0 else 1.0
-            brisk = min(1.0, site.fastest_mps(self._map.network, way_m) / wanted)
+            limit_mps = site.fastest_mps(self._map.network, way_m)
+            brisk = min(1.0, limit_mps / wanted)
             straight = max(0.0, 1.0 - site.turns(way_m, grounding) / grounding.turns_bad)
             road = 0.4 * free + 0.2 * float(site.steady) + 0.2 * brisk + 0.2 * straight
             if bends_between(spec, site, self._tolerances.placement_vehicle_m, split.before):
                 road *= _BENT
             if not self._goals.leads(spec, site, wide=True):
+                road *= _ASTRAY
+            if outruns(spec, limit_mps, grounding.speeds):
                 road *= _ASTRAY
             road *= max(_NEVER, heard(spec, site, places, self._limits))
             if not starts_out_of_reach(spec, site, places, range_m):

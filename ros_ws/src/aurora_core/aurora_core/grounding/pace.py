@@ -230,7 +230,22 @@ def _capped_mps(spec: ScenarioSpec, agent: GroundAgent, speeds: SpeedSettings) -
         and one.by_s is None
         and (agent.id in one.of or agent.group in one.of)
     ]
-    return max(0.0, min(caps) - speeds.below_cap_mps) if caps else None
+    if not caps:
+        return None
+    most_mps = max(0.0, min(caps) - speeds.below_cap_mps)
+    return min(most_mps, speeds.trackable_mps) if agent.id in tracked(spec) else most_mps
+
+
+def tracked(spec: ScenarioSpec) -> frozenset[str | None]:
+    """Return whom a UAV has to keep up with."""
+    return frozenset(m.target for m in spec.missions if m.mode is MissionMode.TRACK)
+
+
+def outruns(spec: ScenarioSpec, limit_mps: float, speeds: SpeedSettings) -> bool:
+    """Tell whether an emergency run is too fast, where so much is allowed, for who tracks it."""
+    return limit_mps + speeds.emergency_over_mps > speeds.trackable_mps and any(
+        in_emergency(a) and own_speed_mps(a) is None and a.id in tracked(spec) for a in spec.agents
+    )
 
 
 def fastest_stated_mps(

@@ -47,6 +47,8 @@ class SpeedSettings(_Table):
     before_slowing_mps: NotNegative = 4.0  # above the speed that one is to slow down to
     taken_over_mps: Positive = 7.0  # at most, of whom another UAV takes over
     emergency_factor: Positive = 1.2  # what an emergency run makes of speed limits
+    emergency_over_mps: Positive = 1.5  # above the limit, of one that a UAV tracks
+    trackable_mps: Positive = 15.5  # at most, of whom a UAV tracks and no speed is stated
 
 
 class PersonSettings(_Table):
