@@ -136,7 +136,10 @@ class ContainedProgram:
         except (ValueError, RecursionError):
             self._stop(End.PROTOCOL)
             return None
-        return request if isinstance(request, dict) else self._stop(End.PROTOCOL)
+        if not isinstance(request, dict):
+            self._stop(End.PROTOCOL)
+            return None
+        return request
 
     def stop(self) -> None:
         """End it for a reason of ours."""

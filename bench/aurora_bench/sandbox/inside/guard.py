@@ -85,7 +85,8 @@ def _forbid() -> None:
 def main() -> None:
     cpu_s, memory_bytes, output_bytes = (int(a) for a in sys.argv[1:4])
     sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-    import aurora_scene
+    # It takes the pipes before the program can write to them; by name, it is no package here.
+    aurora_scene = importlib.import_module('aurora_scene')
 
     text = json.loads(aurora_scene.first_line())['program']
     try:
