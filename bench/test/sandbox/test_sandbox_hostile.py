@@ -32,7 +32,9 @@ def test_hostile_program_is_contained(hostile: Hostile, tmp_path: Path) -> None:
     canary.write_text(SECRET)
     # Who sleeps is ended soon; everybody else may be slow on a loaded machine.
     wall_s = 1.0 if hostile.ends == {End.WALL} else 120.0
-    limits = ProgramLimits(cpu_s=1, wall_s=wall_s, requests=20_000)
+    # Filling memory takes time, too: that is not to run out first.
+    cpu_s = 30 if hostile.ends == {End.MEMORY} else 1
+    limits = ProgramLimits(cpu_s=cpu_s, wall_s=wall_s, requests=20_000)
     with ContainedProgram(hostile.text.format(canary=str(canary)), limits) as program:
         ended = program.ended()
     assert ended.end in hostile.ends, ended
