@@ -17,6 +17,8 @@ from aurora_bench.checker.scene import Scene
 BESIDE_M = 8.0
 # A body counts as on its way only so far ahead or behind: streets meet themselves again.
 WINDOW_M = 400.0
+# Who has driven no farther than this stands for good.
+STANDS_M = 1.0
 # A lap that is 500 m farther along the way counts as one metre farther off.
 LAP_SHARE = 1.0 / 500.0
 
@@ -70,11 +72,14 @@ def _way(scene: Scene, body_id: str) -> Way:
     return Way(whole, arc, own_on_kept + np.maximum(own - own[kept[-1]], 0.0))
 
 
-def project(found: Way, xy: FloatArray, around_m: FloatArray) -> tuple[FloatArray, FloatArray]:
+def project(
+    found: Way, xy: FloatArray, around_m: FloatArray, heading: FloatArray | None = None
+) -> tuple[FloatArray, FloatArray]:
     """Return (n,) arc lengths and signed lateral offsets (left positive) of points on a way.
 
     Args:
         around_m: (n,) arc length near which to look.
+        heading: (n, 2) of who is there: where the way goes against it is the other carriageway.
     """
     a, b = found.xy_m[:-1], found.xy_m[1:]
     along = b - a
@@ -88,6 +93,9 @@ def project(found: Way, xy: FloatArray, around_m: FloatArray) -> tuple[FloatArra
         gap = np.linalg.norm(xy[rows, None] - foot, axis=2)
         arc = found.arc_m[:-1][None] + t * length[None]
         away = np.abs(arc - around_m[rows, None])
+        if heading is not None:
+            against = heading[rows] @ along.T < 0.0
+            away = np.where(against & ~against.all(axis=1, keepdims=True), np.inf, away)
         # Of several laps over the same ground it is the nearest one along the way.
         best = np.where(away <= WINDOW_M, gap + LAP_SHARE * away, np.inf).argmin(axis=1)
         pick = np.arange(len(best))
@@ -108,12 +116,15 @@ def ahead_of(scene: Scene, a: str, b: str, ticks: Any) -> tuple[FloatArray, Floa
     """
     index = np.asarray(ticks, dtype=np.int64)
     own_b, own_a = way(scene, b), way(scene, a)
-    arc, lateral = project(own_b, scene.xy(a)[index], own_b.own_m[index])
+    # Who walks may do so along the street in any direction.
+    driven = not scene.is_person(a) and not scene.is_person(b)
+    heads = (scene.heading(a)[index], scene.heading(b)[index]) if driven else (None, None)
+    arc, lateral = project(own_b, scene.xy(a)[index], own_b.own_m[index], heads[0])
     ahead = arc - own_b.own_m[index]
     # The very ends of a way stand for everything beyond them.
     beyond = (arc <= 1e-6) | (arc >= own_b.arc_m[-1] - 1e-6)
     good = (np.abs(lateral) <= BESIDE_M) & ~(beyond & (np.abs(ahead) > 1e-6))
-    back_arc, back_lateral = project(own_a, scene.xy(b)[index], own_a.own_m[index])
+    back_arc, back_lateral = project(own_a, scene.xy(b)[index], own_a.own_m[index], heads[1])
     back = own_a.own_m[index] - back_arc
     back_beyond = (back_arc <= 1e-6) | (back_arc >= own_a.arc_m[-1] - 1e-6)
     back_good = (np.abs(back_lateral) <= BESIDE_M) & ~(back_beyond & (np.abs(back) > 1e-6))
@@ -121,6 +132,11 @@ def ahead_of(scene: Scene, a: str, b: str, ticks: Any) -> tuple[FloatArray, Floa
     told = good & ~(beyond & back_good & ~back_beyond)
     ahead = np.where(told, ahead, np.where(back_good, back, np.nan))
     beside = np.where(told, lateral, np.where(back_good, -back_lateral, np.nan))
+    if scene.is_person(a) and own_b.own_m[-1] <= STANDS_M:
+        # The way of a person may lead across, and nobody drove behind who stands: its heading tells.
+        forward, left = (values[index] for values in frame(scene, a, b))
+        near = np.abs(left) <= BESIDE_M
+        return np.where(near, forward, np.nan), np.where(near, left, np.nan)
     return ahead, beside
 
 

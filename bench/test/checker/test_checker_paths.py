@@ -24,6 +24,7 @@ def _scene(**begins: float) -> Any:
         bodies={name: SimpleNamespace(route_xy_m=plan) for name, plan in plans.items()},
         xy=places.__getitem__,
         heading=lambda _: np.tile((1.0, 0.0), (5, 1)),
+        is_person=lambda _: False,
     )
 
 

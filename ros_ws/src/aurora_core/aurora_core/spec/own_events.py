@@ -37,7 +37,16 @@ def is_once(spec: ScenarioSpec, agent: GroundAgent, behavior: Behavior) -> bool:
     if behavior.kind is BehaviorKind.CHANGE_LANE:
         return keeps_to_lanes(agent)
     slows = behavior.kind in (BehaviorKind.BRAKE, BehaviorKind.SLOW)
-    return slows and agent.type not in _ON_FOOT
+    return slows and agent.type not in _ON_FOOT and not _is_pushed(spec, agent, behavior)
+
+
+def _is_pushed(spec: ScenarioSpec, agent: GroundAgent, behavior: Behavior) -> bool:
+    """Tell whether one who brakes has somebody close behind, who could not stop in time."""
+    return behavior.kind is BehaviorKind.BRAKE and any(
+        b.kind is BehaviorKind.TAILGATE and b.target == agent.id
+        for other in spec.agents
+        for b in other.behaviors
+    )
 
 
 def own_events(spec: ScenarioSpec) -> tuple[Event, ...]:
