@@ -11,6 +11,8 @@ from enum import Enum, IntEnum
 from math import sqrt
 from typing import NamedTuple
 
+from aurora_core.geometry.frames import quaternion_to_yaw_enu
+from aurora_uav_sim.arithmetic import sin_cos
 from aurora_uav_sim.compiled import Controller, Multirotor, SetPoint
 from aurora_uav_sim.control import MOTORS_OFF, Motors
 from aurora_uav_sim.parameters import installed_model
@@ -40,7 +42,10 @@ class FlightMode(Enum):
 
     HOLD = (4, 3)
     TAKEOFF = (4, 2)
+    MISSION = (4, 4)
+    RETURN = (4, 5)
     LAND = (4, 6)
+    POSITION = (3, 0)
     OFFBOARD = (6, 0)
 
     @property
@@ -53,6 +58,8 @@ class FlightMode(Enum):
 # Plain names: before Python 3.12 a member is slow to look up, and each physics step asks.
 _HOLD, _TAKEOFF = FlightMode.HOLD, FlightMode.TAKEOFF
 _LAND, _OFFBOARD = FlightMode.LAND, FlightMode.OFFBOARD
+# In these somebody moves the set-point (`pilot`), from the ground as well.
+_GUIDED = frozenset({FlightMode.MISSION, FlightMode.RETURN, FlightMode.POSITION})
 
 
 class Result(IntEnum):
@@ -100,6 +107,8 @@ class Autopilot:
         armed: Motors may turn.
         landed: On the ground, as the landing detector sees it.
         time_s: Simulated time since the last reset.
+        offboard_lost: Offboard mode ended because its set-points stopped; whoever acts on it
+            clears it.
     """
 
     def __init__(self) -> None:
@@ -124,6 +133,7 @@ class Autopilot:
         self._keep_heading()
         self._target: Target | None = None
         self._target_time_s = 0.0
+        self.offboard_lost = False
         self._contact_s = 0.0
         self._idle_s = 0.0
         self._flown = False
@@ -136,13 +146,9 @@ class Autopilot:
         """Arm, if the vehicle stands upright and its mode can start from the ground."""
         if self.armed:
             return ACCEPTED
-        body = self.body
-        if not self.landed:
-            return Answer(Result.TEMPORARILY_REJECTED, 'Arming denied: not landed')
-        if 1.0 - 2.0 * (body.qx * body.qx + body.qy * body.qy) < _UPRIGHT:
-            return Answer(Result.TEMPORARILY_REJECTED, 'Arming denied: not level')
-        if self.mode is _OFFBOARD and not self.offboard_alive:
-            return Answer(Result.TEMPORARILY_REJECTED, 'Arming denied: no offboard set-points')
+        reason = self.arming_reason()
+        if reason:
+            return Answer(Result.TEMPORARILY_REJECTED, f'Arming denied: {reason}')
         self.armed = True
         self._flown = False
         self._idle_s = 0.0
@@ -151,6 +157,17 @@ class Autopilot:
         if self.mode is _TAKEOFF:
             self._begin_takeoff()
         return ACCEPTED
+
+    def arming_reason(self) -> str:
+        """Return why the vehicle cannot be armed now, '' when it can."""
+        body = self.body
+        if not self.landed:
+            return 'not landed'
+        if 1.0 - 2.0 * (body.qx * body.qx + body.qy * body.qy) < _UPRIGHT:
+            return 'not level'
+        if self.mode is _OFFBOARD and not self.offboard_alive:
+            return 'no offboard set-points'
+        return ''
 
     def disarm(self, *, force: bool = False) -> Answer:
         """Disarm; in the air only by force."""
@@ -171,12 +188,18 @@ class Autopilot:
         self._begin_takeoff()
         return ACCEPTED
 
-    def land(self) -> Answer:
-        """Descend here and disarm after touchdown; nothing to do on the ground."""
+    def land(self, xy: tuple[float, float] | None = None) -> Answer:
+        """Descend and disarm after touchdown; nothing to do on the ground.
+
+        Args:
+            xy: Where, around the local origin, ENU, m; None: here.
+        """
         if not self.armed or self.mode is _LAND:
             return ACCEPTED
         self.mode = _LAND
         self._stop_here()
+        if xy is not None:
+            self._set_point.x, self._set_point.y = xy
         self._ramp_mps = -self.body.vz
         self._set_point.follow_z = False
         return ACCEPTED
@@ -215,6 +238,22 @@ class Autopilot:
         if not self.armed or self.landed:
             return Answer(Result.TEMPORARILY_REJECTED, 'Reposition denied: not flying')
         self.mode = _HOLD
+        self.aim(xy, z, sin_cos_yaw, speed_mps)
+        return ACCEPTED
+
+    def enter(self, mode: FlightMode) -> None:
+        """Brake and stay in a mode whose set-points come from outside (`aim`, `steer`)."""
+        self.mode = mode
+        self._stop_here()
+
+    def aim(
+        self,
+        xy: tuple[float, float] | None,
+        z: float | None,
+        sin_cos_yaw: tuple[float, float] | None,
+        speed_mps: float | None,
+    ) -> None:
+        """Move the set-point to a point, in any mode; arguments as for `reposition`."""
         self._stop_here()
         s = self._set_point
         if xy is not None:
@@ -224,8 +263,52 @@ class Autopilot:
         if sin_cos_yaw is not None:
             s.sin_yaw, s.cos_yaw = sin_cos_yaw
         if speed_mps is not None:
-            s.speed_limit = min(speed_mps, self._limits.horizontal_speed_limit_mps)
-        return ACCEPTED
+            self.limit_speed(speed_mps)
+
+    def limit_speed(self, speed_mps: float) -> None:
+        """Fly no faster than this, horizontally, on the way to the set-point."""
+        limit = self._limits.horizontal_speed_limit_mps
+        self._set_point.speed_limit = min(speed_mps, limit)
+
+    def body_velocity(
+        self, forward_mps: float, right_mps: float, yaw_rate_radps: float
+    ) -> tuple[tuple[float, float], tuple[float, float] | None]:
+        """Turn a velocity seen from the vehicle into the map's.
+
+        Args:
+            forward_mps: Horizontal speed ahead.
+            right_mps: And to the right.
+            yaw_rate_radps: Clockwise seen from above.
+
+        Returns:
+            Velocity, ENU, m/s; sine and cosine of the heading to ask for, None to keep it: it
+            runs ahead of the vehicle's by what makes the controller turn at that rate.
+        """
+        body = self.body
+        sine, cosine = sin_cos(quaternion_to_yaw_enu(body.qw, body.qx, body.qy, body.qz))
+        vxy = (
+            forward_mps * cosine + right_mps * sine,
+            forward_mps * sine - right_mps * cosine,
+        )
+        if yaw_rate_radps == 0.0:
+            return vxy, None
+        ahead_s, ahead_c = sin_cos(-yaw_rate_radps / self._limits.yaw_gain_hz)
+        return vxy, (sine * ahead_c + cosine * ahead_s, cosine * ahead_c - sine * ahead_s)
+
+    def steer(
+        self,
+        vxy: tuple[float, float],
+        vz: float,
+        sin_cos_yaw: tuple[float, float] | None,
+    ) -> None:
+        """Fly with a velocity (ENU, m/s) and heading (None: the one that was asked for)."""
+        s = self._set_point
+        s.follow_xy = s.follow_z = False
+        s.vx, s.vy = vxy
+        s.vz = vz
+        s.ax = s.ay = s.az = 0.0
+        if sin_cos_yaw is not None:
+            s.sin_yaw, s.cos_yaw = sin_cos_yaw
 
     def set_target(self, target: Target) -> None:
         """Take a streamed set-point; it acts in offboard mode."""
@@ -281,6 +364,7 @@ class Autopilot:
         if mode is _OFFBOARD:
             if not self.offboard_alive:
                 self.hold()
+                self.offboard_lost = True
         elif mode is _TAKEOFF:
             self._climb(h)
         elif mode is _LAND:
@@ -295,7 +379,7 @@ class Autopilot:
     def _wants_up(self) -> bool:
         if self.mode is _TAKEOFF:
             return True
-        if self.mode is not _OFFBOARD:
+        if self.mode is not _OFFBOARD and self.mode not in _GUIDED:
             return False
         s = self._set_point
         return s.z > self.body.z + _LIFT_M if s.follow_z else s.vz > _LIFT_M

@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from math import isfinite
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from pymavlink.dialects.v20 import common as mavlink
 
@@ -14,12 +14,15 @@ from aurora_core.geometry.frames import compass_deg_to_yaw_enu, yaw_ned_to_enu
 from aurora_uav_sim.arithmetic import sin_cos
 from aurora_uav_sim.autopilot import ACCEPTED, Answer, FlightMode, Result
 from aurora_uav_sim.protocol import FORCE_ARM_MAGIC
-from aurora_uav_sim.vehicle import Vehicle
+
+if TYPE_CHECKING:
+    from aurora_uav_sim.vehicle import Vehicle
 
 _INT32_MAX = 2**31 - 1
 # Goals further than this from the local origin are refused.
 MAX_REACH_M = 20_000.0
 MAX_HEIGHT_M = 10_000.0
+MAX_SPEED_MPS = 100.0
 # Source: MAVLink common.xml, MAV_DO_REPOSITION_FLAGS_CHANGE_MODE.
 _CHANGE_MODE = 1
 
@@ -82,7 +85,7 @@ def is_place(latitude_deg: float, longitude_deg: float) -> bool:
 def _arm_disarm(vehicle: Vehicle, request: Request) -> Answer:
     force = request.p2 == FORCE_ARM_MAGIC
     if request.p1 == 1.0:
-        return vehicle.autopilot.arm()
+        return vehicle.pilot.arm()
     if request.p1 == 0.0:
         return vehicle.autopilot.disarm(force=force)
     return Answer(Result.DENIED, 'Arm or disarm expected')
@@ -118,6 +121,12 @@ def _set_mode(vehicle: Vehicle, request: Request) -> Answer:
         return autopilot.hold()
     if (main, sub) == FlightMode.LAND.value:
         return autopilot.land()
+    if main == FlightMode.POSITION.value[0]:
+        return vehicle.pilot.position()
+    if (main, sub) == FlightMode.MISSION.value:
+        return vehicle.pilot.fly_mission()
+    if (main, sub) == FlightMode.RETURN.value:
+        return vehicle.pilot.return_home()
     if (main, sub) == FlightMode.TAKEOFF.value:
         return autopilot.takeoff(vehicle.home[2] + autopilot.settings.takeoff_altitude_m)
     return Answer(Result.UNSUPPORTED, f'Mode {main}/{sub} does not exist here')
@@ -189,7 +198,48 @@ def _reboot(vehicle: Vehicle, request: Request) -> Answer:
     return ACCEPTED
 
 
-Handler = Callable[[Vehicle, Request], Answer]
+def _return(vehicle: Vehicle, request: Request) -> Answer:
+    del request
+    return vehicle.pilot.return_home()
+
+
+def _start_mission(vehicle: Vehicle, request: Request) -> Answer:
+    first = whole(request.p1)
+    if first:
+        answer = vehicle.pilot.select_item(first)
+        if answer.result is not Result.ACCEPTED:
+            return answer
+    return vehicle.pilot.fly_mission()
+
+
+def _select_item(vehicle: Vehicle, request: Request) -> Answer:
+    at = whole(request.p1)
+    if at is None:
+        return Answer(Result.DENIED, 'Mission item expected')
+    return vehicle.pilot.select_item(at)
+
+
+def _pause(vehicle: Vehicle, request: Request) -> Answer:
+    if request.p1 == 0.0:
+        return vehicle.autopilot.hold()
+    return vehicle.pilot.fly_mission()
+
+
+def _change_speed(vehicle: Vehicle, request: Request) -> Answer:
+    if request.p1 not in (0.0, 1.0) or not 0.0 < request.p2 <= MAX_SPEED_MPS:
+        return Answer(Result.DENIED, 'Speed denied: horizontal, above 0')
+    vehicle.autopilot.limit_speed(request.p2)
+    return ACCEPTED
+
+
+def _check_arming(vehicle: Vehicle, request: Request) -> Answer:
+    del request
+    for reason in vehicle.pilot.arming_reasons():
+        vehicle.pilot.say(f'Arming check: {reason}', mavlink.MAV_SEVERITY_WARNING)
+    return ACCEPTED
+
+
+Handler = Callable[['Vehicle', Request], Answer]
 
 # Everything that changes the vehicle. What is not here, and is not a request for a message, is
 # answered UNSUPPORTED.
@@ -201,4 +251,10 @@ HANDLERS: dict[int, Handler] = {
     int(mavlink.MAV_CMD_DO_REPOSITION): _reposition,
     int(mavlink.MAV_CMD_DO_SET_HOME): _set_home,
     int(mavlink.MAV_CMD_PREFLIGHT_REBOOT_SHUTDOWN): _reboot,
+    int(mavlink.MAV_CMD_NAV_RETURN_TO_LAUNCH): _return,
+    int(mavlink.MAV_CMD_MISSION_START): _start_mission,
+    int(mavlink.MAV_CMD_DO_SET_MISSION_CURRENT): _select_item,
+    int(mavlink.MAV_CMD_DO_PAUSE_CONTINUE): _pause,
+    int(mavlink.MAV_CMD_DO_CHANGE_SPEED): _change_speed,
+    int(mavlink.MAV_CMD_RUN_PREARM_CHECKS): _check_arming,
 }

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from aurora_uav_sim.plan_transfer import Uploads, ask_again
 from aurora_uav_sim.protocol import AUTOPILOT_COMPONENT
 from aurora_uav_sim.telemetry import STREAMS
 from aurora_uav_sim.vehicle import Vehicle
@@ -21,9 +22,12 @@ class Link:
         heard: A frame came since the last poll.
         heard_s: Steady time of the last poll that found it so.
         sequences: Frame counters by system id.
+        uploads: Plans on their way, by system id.
     """
 
-    __slots__ = ('_due_s', '_intervals_s', 'heard', 'heard_s', 'permanent', 'sequences')
+    __slots__ = (
+        '_due_s', '_intervals_s', 'heard', 'heard_s', 'permanent', 'sequences', 'uploads',
+    )  # fmt: skip
 
     def __init__(self, *, permanent: bool) -> None:
         self.permanent = permanent
@@ -31,6 +35,7 @@ class Link:
         self.heard_s = 0.0
         self.sequences: dict[int, Sequence] = {}
         self._intervals_s: dict[tuple[int, int], float] = {}
+        self.uploads: Uploads = {}
         self._due_s: dict[tuple[int, int], float] = {}
 
     def sequence(self, system_id: int) -> Sequence:
@@ -54,9 +59,13 @@ class Link:
             self._intervals_s[key] = max(interval_s, MIN_INTERVAL_S) if interval_s > 0.0 else 0.0
 
     def due(self, vehicle: Vehicle, wall_time_s: float) -> list[bytes]:
-        """Return the frames of a vehicle that are due now."""
-        frames: list[bytes] = []
+        """Return the frames of a vehicle that are due now, what its pilot has to say first."""
         system_id = vehicle.system_id
+        sequence = self.sequence(system_id)
+        frames = [sequence.encode(message) for message in vehicle.pilot.outbox]
+        again = ask_again(vehicle, self.uploads, wall_time_s)
+        if again is not None:
+            frames.append(sequence.encode(again))
         for message_id, (builder, _) in STREAMS.items():
             key = (system_id, message_id)
             due_s = self._due_s.get(key, wall_time_s)
@@ -70,5 +79,5 @@ class Link:
             self._due_s[key] = (
                 following_s if following_s > wall_time_s else wall_time_s + interval_s
             )
-            frames.append(self.sequence(system_id).encode(builder(vehicle)))
+            frames.append(sequence.encode(builder(vehicle)))
         return frames

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Hashable, Iterable
+from typing import Any
 
 from pymavlink.dialects.v20 import common as mavlink
 
@@ -27,6 +28,7 @@ from aurora_uav_sim.link import Link
 from aurora_uav_sim.lockstep import Session
 from aurora_uav_sim.lockstep_commands import PREPARATIONS, prepare, read_session
 from aurora_uav_sim.parameters import MAX_SUBSTEP_S
+from aurora_uav_sim.pilot import sticks_of
 from aurora_uav_sim.protocol import (
     CMD_LOCKSTEP,
     CMD_STEP,
@@ -34,7 +36,7 @@ from aurora_uav_sim.protocol import (
     OWNER_SILENCE_S,
 )
 from aurora_uav_sim.services import Services
-from aurora_uav_sim.set_point import SetPointReader
+from aurora_uav_sim.set_point import SetPointReader, read_streamed
 from aurora_uav_sim.vehicle import Vehicle
 from aurora_uav_sim.wire import (
     COMMAND_ACK,
@@ -47,6 +49,11 @@ from aurora_uav_sim.wire import (
 
 _SET_POINT_ID = SET_POINT.message_id
 _COMMAND_LONG_ID = COMMAND_LONG.message_id
+
+# What moves a vehicle by being streamed.
+_FLOWN_BY = frozenset(
+    {'MANUAL_CONTROL', 'SET_POSITION_TARGET_GLOBAL_INT', 'SET_POSITION_TARGET_LOCAL_NED'}
+)
 
 MAX_LINKS = 32
 # A peer that says nothing for so long gets no more telemetry. Heartbeats come every second.
@@ -89,6 +96,7 @@ class SimServer:
         self._services = Services()
         self._reader = SetPointReader()
         self._wall_s: float | None = None
+        self._station_heard_s: float | None = None
         self._lag_s = 0.0
         self._trusted = True  # the datagram under way
 
@@ -184,25 +192,30 @@ class SimServer:
             return
         kind = m.get_type()
         sender = (frame.system_id, frame.component_id)
+        if kind == 'HEARTBEAT' and m.autopilot == mavlink.MAV_AUTOPILOT_INVALID:
+            self._station_heard_s = self._wall_s or 0.0
         if kind in ('COMMAND_LONG', 'COMMAND_INT'):
             read = request_of_long if kind == 'COMMAND_LONG' else request_of_int
             self._command(read(m, sender), m.target_system, m.target_component, source, link, out)
-        elif kind == 'SET_POSITION_TARGET_LOCAL_NED':
+        elif kind in _FLOWN_BY:
             if self._session is None and self._trusted:
-                self._stream_set_point(frame.payload)
+                self._fly_by(m, kind)
         else:
             may_change = self._trusted and (
                 self._session is None or self._session.owned_by(source, sender)
             )
             out.extend(self._services.answer(m, kind, sender, self.vehicles, link, may_change))
 
-    def _stream_set_point(self, payload: bytes) -> None:
-        fields = SET_POINT.unpack(payload)
-        target = self._reader.read(fields)
-        if target is None:
+    def _fly_by(self, m: Any, kind: str) -> None:
+        """Take a streamed set-point or the sticks, outside a session."""
+        if kind == 'MANUAL_CONTROL':
+            for vehicle in self._addressed(m.target, 0):
+                vehicle.pilot.take_sticks(*sticks_of(m))
             return
-        for vehicle in self._addressed(fields[13], fields[14]):
-            vehicle.autopilot.set_target(target)
+        for vehicle in self._addressed(m.target_system, m.target_component):
+            target = read_streamed(self._reader, m, kind, vehicle)
+            if target is not None:
+                vehicle.autopilot.set_target(target)
 
     def _addressed(self, system_id: int, component_id: int) -> list[Vehicle]:
         """Return the vehicles that a message is for (0 means all)."""
@@ -314,7 +327,7 @@ class SimServer:
             if system_id not in self._vehicles:
                 self._vehicles[system_id] = Vehicle(system_id, system_id - 1)
             vehicle = self._vehicles[system_id]
-            vehicle.place_default()
+            vehicle.place_default(lockstep=True)
             fleet.append(vehicle)
         self._session = Session(nonce, source, request.sender, tick_us, fleet)
         self._nonces.append(nonce)
@@ -362,14 +375,21 @@ class SimServer:
             for vehicle in vehicles.values():
                 frames.extend(link.due(vehicle, wall_time_s))
             out.extend((destination, datagram) for datagram in _datagrams(frames))
+        for vehicle in vehicles.values():
+            vehicle.pilot.outbox.clear()
         return out
 
     def _run(self, elapsed_s: float) -> None:
         self._lag_s = min(self._lag_s + elapsed_s, _MAX_CATCH_UP_S)
         steps = int(self._lag_s / MAX_SUBSTEP_S)
         self._lag_s -= steps * MAX_SUBSTEP_S
+        silent_s = None
+        if self._station_heard_s is not None and self._wall_s is not None:
+            silent_s = self._wall_s - self._station_heard_s
         for vehicle in self.vehicles.values():
             vehicle.run(steps, MAX_SUBSTEP_S)
+            vehicle.pilot.link_silent_s = silent_s
+            vehicle.pilot.step(steps * MAX_SUBSTEP_S)
 
     def _forget(self, wall_time_s: float) -> None:
         """Drop silent peers and a session without an owner."""

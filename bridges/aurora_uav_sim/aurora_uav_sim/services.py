@@ -1,14 +1,16 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""MAVLink services that do not fly: parameters, time, pings, messages on request, no missions."""
+"""MAVLink services that do not fly: parameters, plans, time, pings, messages on request."""
 
 from __future__ import annotations
 
+import struct
 from collections.abc import Callable
 from typing import Any
 
 from pymavlink.dialects.v20 import common as mavlink
 
+from aurora_uav_sim import plan_transfer
 from aurora_uav_sim.autopilot import ACCEPTED, Answer, Result
 from aurora_uav_sim.commands import Request, whole
 from aurora_uav_sim.link import Link
@@ -29,8 +31,24 @@ _GET_INTERVAL = int(mavlink.MAV_CMD_GET_MESSAGE_INTERVAL)
 _VERSION_ID = int(mavlink.MAVLINK_MSG_ID_AUTOPILOT_VERSION)
 _AUTOPILOT = int(mavlink.MAV_COMP_ID_AUTOPILOT1)
 
+# By whether a parameter is whole.
+_TYPES = {False: int(mavlink.MAV_PARAM_TYPE_REAL32), True: int(mavlink.MAV_PARAM_TYPE_INT32)}
+
 Sender = tuple[int, int]
 Answerer = Callable[[Any, Sender, Vehicle, Sequence, bool], list[bytes]]
+
+
+def _bytewise(value: int) -> float:
+    """Return the float32 whose bytes are those of an int32. Source: MAVLink, PX4 encoding."""
+    (packed,) = struct.unpack('<f', struct.pack('<i', value))
+    return float(packed)
+
+
+def _value_of(m: Any) -> float:
+    if m.param_type == mavlink.MAV_PARAM_TYPE_REAL32:
+        return float(m.param_value)
+    (number,) = struct.unpack('<i', struct.pack('<f', m.param_value))
+    return float(number)
 
 
 class Services:
@@ -43,8 +61,6 @@ class Services:
             'PARAM_SET': self._set,
             'TIMESYNC': self._timesync,
             'PING': self._ping,
-            'MISSION_REQUEST_LIST': self._no_mission,
-            'MISSION_COUNT': self._refuse_mission,
         }
 
     def answer(
@@ -67,7 +83,7 @@ class Services:
             may_change: The sender may change settings.
         """
         answerer = self._answerers.get(kind)
-        if answerer is None:
+        if answerer is None and kind not in plan_transfer.KINDS:
             return []
         # TIMESYNC and PING without a target are for everyone.
         system_id = getattr(m, 'target_system', 0)
@@ -81,7 +97,11 @@ class Services:
         out: list[bytes] = []
         for vehicle in addressed:
             sequence = link.sequence(vehicle.system_id)
-            out.extend(answerer(m, sender, vehicle, sequence, may_change))
+            if answerer is not None:
+                out.extend(answerer(m, sender, vehicle, sequence, may_change))
+                continue
+            answers = plan_transfer.answer(m, kind, sender, vehicle, link.uploads, may_change)
+            out.extend(sequence.encode(message) for message in answers)
         return out
 
     def request(
@@ -129,10 +149,11 @@ class Services:
 
     def _value(self, vehicle: Vehicle, index: int, sequence: Sequence) -> bytes:
         row = PARAMETERS[index]
+        value = get_parameter(vehicle.autopilot.settings, row)
         message = mavlink.MAVLink_param_value_message(
             row.name.encode('ascii'),
-            get_parameter(vehicle.autopilot.settings, row),
-            mavlink.MAV_PARAM_TYPE_REAL32,
+            _bytewise(int(value)) if row.whole else value,
+            _TYPES[row.whole],
             len(PARAMETERS),
             index,
         )
@@ -167,8 +188,8 @@ class Services:
         refusal: list[bytes] = []
         taken = (
             may_change
-            and m.param_type == mavlink.MAV_PARAM_TYPE_REAL32
-            and set_parameter(vehicle.autopilot.settings, PARAMETERS[index], m.param_value)
+            and m.param_type == _TYPES[PARAMETERS[index].whole]
+            and set_parameter(vehicle.autopilot.settings, PARAMETERS[index], _value_of(m))
         )
         if not taken:
             refusal = [self.text(sequence, f'{PARAMETERS[index].name} not set')]
@@ -192,18 +213,3 @@ class Services:
         if m.target_system != 0:
             return []
         return [sequence.encode(mavlink.MAVLink_ping_message(m.time_usec, m.seq, *sender))]
-
-    def _no_mission(
-        self, m: Any, sender: Sender, vehicle: Vehicle, sequence: Sequence, may_change: bool
-    ) -> list[bytes]:
-        del vehicle, may_change
-        return [sequence.encode(mavlink.MAVLink_mission_count_message(*sender, 0, m.mission_type))]
-
-    def _refuse_mission(
-        self, m: Any, sender: Sender, vehicle: Vehicle, sequence: Sequence, may_change: bool
-    ) -> list[bytes]:
-        del vehicle, may_change
-        message = mavlink.MAVLink_mission_ack_message(
-            *sender, mavlink.MAV_MISSION_UNSUPPORTED, m.mission_type
-        )
-        return [sequence.encode(message)]

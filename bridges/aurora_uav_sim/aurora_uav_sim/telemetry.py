@@ -21,18 +21,22 @@ from aurora_core.geometry.frames import (
 )
 from aurora_core.trace.layout import UavMode
 from aurora_uav_sim.autopilot import Autopilot, FlightMode
+from aurora_uav_sim.battery import Charge
+from aurora_uav_sim.fence import Breach
 from aurora_uav_sim.vehicle import Vehicle
 
 # Custom mode enabled, automatic, guided, stabilised. Source: PX4 `HEARTBEAT.hpp`.
 _BASE_MODE = 0x1D
-# What a vehicle of perfect knowledge has: gyro, accelerometer, magnetometer, barometer, GPS, and
-# arming checks passed.
+# What a vehicle of perfect knowledge has: gyro, accelerometer, magnetometer, barometer, GPS, a
+# battery, a fence.
 _SENSORS = (
     mavlink.MAV_SYS_STATUS_SENSOR_3D_GYRO
     | mavlink.MAV_SYS_STATUS_SENSOR_3D_ACCEL
     | mavlink.MAV_SYS_STATUS_SENSOR_3D_MAG
     | mavlink.MAV_SYS_STATUS_SENSOR_ABSOLUTE_PRESSURE
     | mavlink.MAV_SYS_STATUS_SENSOR_GPS
+    | mavlink.MAV_SYS_STATUS_SENSOR_BATTERY
+    | mavlink.MAV_SYS_STATUS_GEOFENCE
     | mavlink.MAV_SYS_STATUS_PREARM_CHECK
 )
 _CAPABILITIES = (
@@ -40,6 +44,9 @@ _CAPABILITIES = (
     | mavlink.MAV_PROTOCOL_CAPABILITY_COMMAND_INT
     | mavlink.MAV_PROTOCOL_CAPABILITY_PARAM_ENCODE_BYTEWISE
     | mavlink.MAV_PROTOCOL_CAPABILITY_SET_POSITION_TARGET_LOCAL_NED
+    | mavlink.MAV_PROTOCOL_CAPABILITY_SET_POSITION_TARGET_GLOBAL_INT
+    | mavlink.MAV_PROTOCOL_CAPABILITY_MISSION_INT
+    | mavlink.MAV_PROTOCOL_CAPABILITY_MISSION_FENCE
     | mavlink.MAV_PROTOCOL_CAPABILITY_MAVLINK2
 )
 # The PX4 release whose behaviour is followed: 1.14.0, release.
@@ -55,6 +62,7 @@ def uav_mode(autopilot: Autopilot) -> UavMode:
         return UavMode.IDLE if autopilot.landed else UavMode.HOLD
     if autopilot.mode is FlightMode.TAKEOFF:
         return UavMode.TAKEOFF
+    # Mission, return and position do not exist in lockstep, whose trace these words are for.
     return UavMode.LAND if autopilot.mode is FlightMode.LAND else UavMode.OFFBOARD
 
 
@@ -81,10 +89,103 @@ def heartbeat(vehicle: Vehicle) -> Any:
 
 
 def sys_status(vehicle: Vehicle) -> Any:
-    """SYS_STATUS; the battery is not modelled and says so."""
-    del vehicle
+    """SYS_STATUS; healthy is what has nothing against arming or flying on."""
+    pilot = vehicle.pilot
+    ill = 0
+    if not vehicle.autopilot.armed and pilot.arming_reasons():
+        ill |= mavlink.MAV_SYS_STATUS_PREARM_CHECK
+    if pilot.battery.charge >= Charge.CRITICAL:
+        ill |= mavlink.MAV_SYS_STATUS_SENSOR_BATTERY
+    if pilot.breach is not Breach.NONE:
+        ill |= mavlink.MAV_SYS_STATUS_GEOFENCE
     return mavlink.MAVLink_sys_status_message(
-        _SENSORS, _SENSORS, _SENSORS, 0, 0xFFFF, -1, -1, 0, 0, 0, 0, 0, 0
+        _SENSORS, _SENSORS, _SENSORS & ~ill, 0, round(pilot.battery.voltage_v * 1000.0),
+        _current_ca(vehicle), _percent(vehicle), 0, 0, 0, 0, 0, 0,
+    )  # fmt: skip
+
+
+def _current_ca(vehicle: Vehicle) -> int:
+    """Return the current in hundredths of an ampere; the field ends at 327 A."""
+    if vehicle.autopilot.landed:
+        return 0
+    return min(round(vehicle.pilot.battery.flight_current_a * 100.0), 32767)
+
+
+def _percent(vehicle: Vehicle) -> int:
+    return round(vehicle.pilot.battery.share * 100.0)
+
+
+def battery_status(vehicle: Vehicle) -> Any:
+    """BATTERY_STATUS."""
+    battery, settings = vehicle.pilot.battery, vehicle.autopilot.settings
+    cells = round(settings.battery_cells)
+    cell_mv = round(battery.voltage_v / cells * 1000.0)
+    voltages = [cell_mv] * min(cells, 10) + [0xFFFF] * max(10 - cells, 0)
+    used = 1.0 - battery.share
+    return mavlink.MAVLink_battery_status_message(
+        0,
+        mavlink.MAV_BATTERY_FUNCTION_ALL,
+        mavlink.MAV_BATTERY_TYPE_LIPO,
+        32767,
+        voltages,
+        _current_ca(vehicle),
+        round(used * battery.capacity_ah * 1000.0),
+        -1,
+        _percent(vehicle),
+        round(battery.left_s),
+        battery.charge,
+        # Cells beyond the tenth; 0: there is none.
+        [cell_mv] * min(max(cells - 10, 0), 4) + [0] * min(max(14 - cells, 0), 4),
+    )
+
+
+def mission_current(vehicle: Vehicle) -> Any:
+    """MISSION_CURRENT."""
+    return vehicle.pilot.mission_current()
+
+
+def fence_status(vehicle: Vehicle) -> Any:
+    """FENCE_STATUS."""
+    pilot = vehicle.pilot
+    return mavlink.MAVLink_fence_status_message(
+        int(pilot.breach is not Breach.NONE), pilot.breaches, pilot.breach, pilot.breach_ms
+    )
+
+
+def wind_cov(vehicle: Vehicle) -> Any:
+    """WIND_COV; the estimate is the truth."""
+    autopilot = vehicle.autopilot
+    wind = autopilot.wind
+    return mavlink.MAVLink_wind_cov_message(
+        int(autopilot.time_s * 1e6 + 0.5), *enu_to_ned(wind.x, wind.y, wind.z),
+        0.0, 0.0, vehicle.altitude_m + autopilot.body.z, 0.0, 0.0,
+    )  # fmt: skip
+
+
+def altitude(vehicle: Vehicle) -> Any:
+    """ALTITUDE; the ground is flat."""
+    z = vehicle.autopilot.body.z
+    above_sea_m = vehicle.altitude_m + z
+    return mavlink.MAVLink_altitude_message(
+        int(vehicle.autopilot.time_s * 1e6 + 0.5), above_sea_m, above_sea_m, z,
+        z - vehicle.home[2], vehicle.altitude_m, z,
+    )  # fmt: skip
+
+
+def vfr_hud(vehicle: Vehicle) -> Any:
+    """VFR_HUD."""
+    autopilot = vehicle.autopilot
+    body, wind = autopilot.body, autopilot.wind
+    ux, uy, uz = body.vx - wind.x, body.vy - wind.y, body.vz - wind.z
+    heading_deg = yaw_enu_to_compass_deg(quaternion_to_yaw_enu(body.qw, body.qx, body.qy, body.qz))
+    full_n = 4.0 * body.parameters.motor_max_thrust_n
+    return mavlink.MAVLink_vfr_hud_message(
+        sqrt(ux * ux + uy * uy + uz * uz),
+        sqrt(body.vx * body.vx + body.vy * body.vy),
+        round(heading_deg) % 360,
+        round(100.0 * (body.f0 + body.f1 + body.f2 + body.f3) / full_n),
+        vehicle.altitude_m + body.z,
+        body.vz,
     )
 
 
@@ -224,6 +325,12 @@ STREAMS: dict[int, tuple[Builder, float]] = {
     int(mavlink.MAVLINK_MSG_ID_ATTITUDE_QUATERNION): (attitude_quaternion, 0.1),
     int(mavlink.MAVLINK_MSG_ID_ATTITUDE): (attitude, 0.1),
     int(mavlink.MAVLINK_MSG_ID_GPS_RAW_INT): (gps_raw, 0.1),
+    int(mavlink.MAVLINK_MSG_ID_ALTITUDE): (altitude, 0.2),
+    int(mavlink.MAVLINK_MSG_ID_BATTERY_STATUS): (battery_status, 0.5),
+    int(mavlink.MAVLINK_MSG_ID_FENCE_STATUS): (fence_status, 1.0),
+    int(mavlink.MAVLINK_MSG_ID_MISSION_CURRENT): (mission_current, 1.0),
+    int(mavlink.MAVLINK_MSG_ID_VFR_HUD): (vfr_hud, 0.2),
+    int(mavlink.MAVLINK_MSG_ID_WIND_COV): (wind_cov, 1.0),
 }
 
 # Also on request.

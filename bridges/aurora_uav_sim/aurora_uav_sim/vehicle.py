@@ -7,6 +7,7 @@ from __future__ import annotations
 from aurora_core.geometry.frames import enu_to_geodetic, geodetic_to_enu
 from aurora_uav_sim.arithmetic import sin_cos
 from aurora_uav_sim.autopilot import ACCEPTED, Answer, Autopilot, Result
+from aurora_uav_sim.pilot import Pilot
 
 # Where a stand-alone simulator starts. Source: PX4 SITL's default home (Zurich Irchel Park).
 DEFAULT_LATITUDE_DEG = 47.397742
@@ -22,6 +23,7 @@ class Vehicle:
     Attributes:
         system_id: MAVLink system id.
         autopilot: Everything that moves.
+        pilot: Missions, return and failsafes; at rest in lockstep.
         latitude_deg: Of the local origin (longitude_deg, altitude_m above sea level).
         home: Home position around the local origin, ENU, m.
     """
@@ -30,10 +32,16 @@ class Vehicle:
         self.system_id = system_id
         self.autopilot = Autopilot()
         self._seat = seat
+        self.home: tuple[float, float, float] = (0.0, 0.0, 0.0)
+        self.pilot = Pilot(self)
         self.place_default()
 
-    def place_default(self) -> None:
-        """Stand at the vehicle's seat of the stand-alone row, in calm air."""
+    def place_default(self, *, lockstep: bool = False) -> None:
+        """Stand at the vehicle's seat of the stand-alone row, in calm air, without a plan.
+
+        Args:
+            lockstep: Somebody else flies: the pilot rests.
+        """
         self.latitude_deg, self.longitude_deg = enu_to_geodetic(
             SPACING_M * self._seat, 0.0, DEFAULT_LATITUDE_DEG, DEFAULT_LONGITUDE_DEG
         )
@@ -41,6 +49,8 @@ class Vehicle:
         self._yaw_enu_rad = 0.0
         self.autopilot.wind.set(0.0, 0.0, 0.0, 0.0)
         self.restart()
+        self.pilot.clear()
+        self.pilot.active = not lockstep
 
     def spawn(
         self, latitude_deg: float, longitude_deg: float, altitude_m: float, yaw_enu_rad: float
@@ -53,13 +63,15 @@ class Vehicle:
 
     def restart(self) -> None:
         """Stand at the local origin as after power-on; place, yaw and wind are kept."""
-        self.home: tuple[float, float, float] = (0.0, 0.0, 0.0)
+        self.home = (0.0, 0.0, 0.0)
         self.autopilot.reset(*sin_cos(0.5 * self._yaw_enu_rad))
+        self.pilot.restart()
 
     def set_home_here(self) -> Answer:
         """Make the present position the home."""
         body = self.autopilot.body
         self.home = (body.x, body.y, body.z)
+        self.pilot.home_is_set = True
         return ACCEPTED
 
     def set_home(self, latitude_deg: float, longitude_deg: float, altitude_m: float) -> Answer:
@@ -68,6 +80,7 @@ class Vehicle:
         if x * x + y * y > 1e10:
             return Answer(Result.DENIED, 'Home denied: over 100 km away')
         self.home = (x, y, altitude_m - self.altitude_m)
+        self.pilot.home_is_set = True
         return ACCEPTED
 
     def to_local(self, latitude_deg: float, longitude_deg: float) -> tuple[float, float]:

@@ -20,6 +20,7 @@ ACCEPTED, REJECTED, DENIED, UNSUPPORTED = 0, 1, 2, 3
 ARM, TAKEOFF, LAND = 400, 22, 21
 SET_MODE, REPOSITION, SET_HOME, REBOOT = 176, 192, 179, 246
 REQUEST_MESSAGE, SET_INTERVAL, GET_INTERVAL = 512, 511, 510
+RALLY = int(mavlink.MAV_MISSION_TYPE_RALLY)
 NAN = math.nan
 HEARTBEAT = mavlink.MAVLink_heartbeat_message(6, 8, 0, 0, 4, 3)
 
@@ -135,8 +136,9 @@ def test_messages_on_request(station: Any) -> None:
     assert 'AUTOPILOT_VERSION' in names(version)
     capabilities = next(m for m in version if m.get_type() == 'AUTOPILOT_VERSION').capabilities
     assert capabilities & mavlink.MAV_PROTOCOL_CAPABILITY_MAVLINK2
-    # No mission, no fence: it must not claim them.
-    assert not capabilities & mavlink.MAV_PROTOCOL_CAPABILITY_MISSION_INT
+    assert capabilities & mavlink.MAV_PROTOCOL_CAPABILITY_MISSION_INT
+    # No rally points: it must not claim them.
+    assert not capabilities & mavlink.MAV_PROTOCOL_CAPABILITY_MISSION_RALLY
 
 
 def test_every_unknown_command_is_answered_unsupported(station: Any) -> None:
@@ -166,9 +168,10 @@ def test_nonsense_parameters_never_raise_and_never_fly(station: Any, bad: float)
 def test_modes(server: SimServer, station: Any) -> None:
     climb(server, station)
     autopilot = server.vehicles[1].autopilot
-    # Return and mission do not exist here.
-    assert station.result(SET_MODE, 1, 4, 5) == UNSUPPORTED
-    assert station.result(SET_MODE, 1, 4, 4) == UNSUPPORTED
+    # No mission was uploaded.
+    assert station.result(SET_MODE, 1, 4, 4) == REJECTED
+    # Nor does it follow anybody.
+    assert station.result(SET_MODE, 1, 4, 8) == UNSUPPORTED
     assert station.result(SET_MODE, 1, 1, 0) == UNSUPPORTED
     assert station.result(SET_MODE, 0, 4, 3) == UNSUPPORTED
     assert station.result(SET_MODE, 1, 6, 0) == REJECTED
@@ -288,6 +291,8 @@ def test_time_ping_and_missions(station: Any) -> None:
     (count,) = station.send(mavlink.MAVLink_mission_request_list_message(1, 1))
     assert (count.get_type(), count.count) == ('MISSION_COUNT', 0)
     (refusal,) = station.send(mavlink.MAVLink_mission_count_message(1, 1, 65535))
+    assert (refusal.get_type(), refusal.type) == ('MISSION_ACK', mavlink.MAV_MISSION_NO_SPACE)
+    (refusal,) = station.send(mavlink.MAVLink_mission_count_message(1, 1, 1, RALLY))
     assert (refusal.get_type(), refusal.type) == ('MISSION_ACK', mavlink.MAV_MISSION_UNSUPPORTED)
 
 
