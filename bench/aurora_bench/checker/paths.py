@@ -133,7 +133,7 @@ def ahead_of(scene: Scene, a: str, b: str, ticks: Any) -> tuple[FloatArray, Floa
     ahead = np.where(told, ahead, np.where(back_good, back, np.nan))
     beside = np.where(told, lateral, np.where(back_good, -back_lateral, np.nan))
     if scene.is_person(a) and own_b.own_m[-1] <= STANDS_M:
-        # The way of a person may lead across, and nobody drove behind who stands: its heading tells.
+        # A person's way may lead across, and nobody drove behind who stands: its heading tells.
         forward, left = (values[index] for values in frame(scene, a, b))
         near = np.abs(left) <= BESIDE_M
         return np.where(near, forward, np.nan), np.where(near, left, np.nan)
