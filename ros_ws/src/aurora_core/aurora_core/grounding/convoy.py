@@ -68,8 +68,7 @@ DETACHED_M = 40.0
 # What is said of a second one who is to stand before such a place.
 BEFORE = 'placement before a place'
 
-# Share of a bound on the way that is left for corners and stops; nobody comes closer for it than
-# this (m): two buses still have room.
+# Share of a bound on the way that is left for corners and stops, but for two buses' room (m).
 _KEPT_ROOM = 0.25
 _ROOMY_FROM_M = 14.0
 
@@ -111,6 +110,7 @@ class _Distances:
         speeds_mps: Stated ones of agents.
         near: Those near whom another one begins, who that is by its id.
         approaches: Pairs of which one approaches the other.
+        oncoming: Ids of those in the other direction.
         persons: Ids.
     """
 
@@ -119,7 +119,14 @@ class _Distances:
     speeds_mps: Mapping[str, float]
     near: Mapping[str, str]
     approaches: frozenset[frozenset[str]]
+    oncoming: frozenset[str]
     persons: frozenset[str]
+
+    def places_other(self, placement: Placement) -> bool:
+        """Tell whether it is the other one who is placed by it."""
+        if placement.relation is Relation.ONCOMING:
+            return placement.of in self.oncoming
+        return placement.of in self.persons and placement.relation in BY_PERSONS
 
     def placed(self, agent: str, other: str | None, placement: Placement) -> float:
         """Return the distance that a placement asks for, metres.
@@ -183,7 +190,11 @@ def split_scene(
     """
     driving = [a for a in spec.agents if a.type not in (AgentType.PEDESTRIAN, AgentType.RSU)]
     ids = {a.id for a in driving}
-    oncoming = tuple(a for a in driving if (p := oncoming_to(a)) is not None and p.of in ids)
+    meets = {a.id: p.of for a in driving if (p := oncoming_to(a)) is not None and p.of in ids}
+    # Where all are so to each other the first one is met, or who is watched.
+    watched = {m.target for m in spec.missions}
+    met = sorted(meets, key=lambda i: i not in watched)[:1] if meets.keys() == ids else []
+    oncoming = tuple(a for a in driving if a.id in meets and a.id not in met)
     vehicles = [a for a in driving if a not in oncoming]
     # A roadside unit stands on the sidewalk as a person does who waits.
     persons = tuple(a for a in spec.agents if a.type in (AgentType.PEDESTRIAN, AgentType.RSU))
@@ -196,6 +207,7 @@ def split_scene(
         speeds_mps=speeds,
         near=begins_near(spec),
         approaches=frozenset(map(frozenset, approaches(spec))),
+        oncoming=frozenset(a.id for a in oncoming),
         persons=frozenset(a.id for a in persons),
     )
     passing = passing_pairs(spec)
@@ -214,15 +226,11 @@ def split_scene(
         _, others = _before_place(vehicles, {}, distances)
         unsupported += [f'{i}: {BEFORE}' for i in others]
         return SceneSplit(
-            convoy=(),
-            free=tuple(vehicles),
-            persons=persons,
-            oncoming=oncoming,
+            convoy=(), free=tuple(vehicles), persons=persons, oncoming=oncoming,
             unsupported=tuple(unsupported),
-        )
+        )  # fmt: skip
     offsets = _solve(origin, ties)
-    # Everybody who is watched or related to somebody else has to be on the same road, or no UAV
-    # could be planned for it: further groups line up behind.
+    # Who is watched or related to somebody else has to be on the same road: groups line up behind.
     targets = {m.target for m in spec.missions}
     targets |= {a.id for a in vehicles if bound_to_places(spec, a)}
     targets |= {vehicle for vehicle, _ in let_cross(spec)}
@@ -348,7 +356,7 @@ def _ties(
             others.setdefault(str(placement.of), []).append(placement)
         elif _is_before_place(placement) or _is_at_place(placement):
             continue  # nobody else's place follows from it
-        elif placement.of in distances.persons and placement.relation in BY_PERSONS:
+        elif distances.places_other(placement):
             continue
         elif placement.relation not in _ON or placement.of not in _ROADS:
             where = f' {placement.of}' if placement.of is not None else ''

@@ -102,7 +102,8 @@ def passed(spec: ScenarioSpec) -> ScenarioSpec:
 def meeting(spec: ScenarioSpec) -> ScenarioSpec:
     """Return the specification with somebody to meet for who is oncoming to nobody named.
 
-    That is the ego, else whoever a UAV watches, else the first vehicle.
+    That is the ego, else whoever a UAV watches, else the first vehicle; where all are oncoming,
+    they are so to each other.
 
     Args:
         spec: The request, whoever read it; returned as it is when nothing was added.
@@ -110,9 +111,8 @@ def meeting(spec: ScenarioSpec) -> ScenarioSpec:
     watched = {mission.target for mission in spec.missions}
 
     def met(agent: GroundAgent) -> GroundAgent:
-        others = [
-            a for a in spec.agents if a.type in _DRIVEN and not any(map(_meets, a.placements))
-        ]
+        driven = [a for a in spec.agents if a.type in _DRIVEN and a.id != agent.id]
+        others = [a for a in driven if not any(map(_meets, a.placements))] or driven
         others.sort(key=lambda a: (a.role is not Role.EGO, a.id not in watched))
         if not others:
             return agent

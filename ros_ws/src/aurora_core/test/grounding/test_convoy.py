@@ -246,6 +246,17 @@ def test_a_second_placement_that_cannot_be_realised_is_named_too(parameter: Make
     assert split.unsupported == ('a: placement at sidewalk',)
 
 
+def test_of_those_who_meet_each_other_the_first_is_met() -> None:
+    split = split_scene(
+        _spec(
+            _agent('a', (Relation.ONCOMING, 'b', None)),
+            _agent('b', (Relation.ONCOMING, 'a', None)),
+        )
+    )
+    assert ([m.agent.id for m in split.convoy], [a.id for a in split.oncoming]) == (['a'], ['b'])
+    assert split.unsupported == ()
+
+
 def test_on_the_road_needs_nothing() -> None:
     assert split_scene(_spec(_agent('a', (Relation.ON, 'main_road', None)))).unsupported == ()
 
