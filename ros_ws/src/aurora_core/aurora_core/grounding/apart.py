@@ -73,3 +73,26 @@ def ring_m(spec: ScenarioSpec, mission: UavMission, limits: Limits) -> float:
     if count < 2 or not asked_m:
         return 0.0
     return spacing_m(spec, limits) / (2.0 * sin(pi / count))
+
+
+def over_one_point(spec: ScenarioSpec, mission: UavMission, limits: Limits) -> tuple[int, int]:
+    """Return which one of how many UAVs this is that hover over one target at about one height.
+
+    One of one where nothing is asked of their distance: any place beside the others does then.
+    """
+    if mission.mode is not MissionMode.HOVER or mission.target is None or not asked_apart_m(spec):
+        return 0, 1
+    apart_m = layer_m(spec, limits)
+    same = [
+        m.uav
+        for m in spec.missions
+        if (m.mode, m.target) == (mission.mode, mission.target)
+        and abs(m.altitude_m.value - mission.altitude_m.value) < apart_m
+    ]
+    uavs = list(dict.fromkeys(same))
+    return uavs.index(mission.uav), len(uavs)
+
+
+def tight_m(spec: ScenarioSpec, limits: Limits) -> float:
+    """Return the distance of UAVs over one point, where there is room for no more than that."""
+    return max(2.0 * limits.separation_min_m, asked_apart_m(spec) + _ROOM_M)

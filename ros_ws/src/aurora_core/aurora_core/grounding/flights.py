@@ -10,12 +10,12 @@ from math import cos, pi, sin
 import numpy as np
 import numpy.typing as npt
 
-from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.grounding.apart import sharing
 from aurora_core.grounding.beside import turned_along, with_turns
 from aurora_core.grounding.crossings import crossed
 from aurora_core.grounding.laps import Laps
+from aurora_core.grounding.neighbours import NOBODY, Neighbours
 from aurora_core.grounding.offsets import Spread, from_afar, is_lost, loses_sight, offsets
 from aurora_core.grounding.pace import moves
 from aurora_core.grounding.places import (
@@ -58,8 +58,8 @@ _SIGHT_HEIGHT_PLACE_M = 1.0
 # Where sight is to be lost now and then, more of the phase than has to be is seen.
 _SPARE = 0.08
 
-# Neighbours on a ring are as far apart as they have to be, to rounding.
-_ROUNDING_M = 1e-6
+# A hover point stays so much inside the tolerance of its place (m).
+_DRIFTS_M = 0.1
 
 # So many ways to free spots are tried from the middle of a building.
 _WAYS_OUT = 6
@@ -82,7 +82,6 @@ class FlightPlanner:
         sensing_range_m: Of the weather and time of day.
         hover_capture_m: How near each UAV comes to its point before it hovers.
         apart_m: Distance of UAVs at one height.
-        layer_m: Difference of heights at which they may be over each other.
         homes_m: Least distance of their starts, where the usual one does not do.
         laps: Plans how often a route is flown.
     """
@@ -100,7 +99,6 @@ class FlightPlanner:
         sensing_range_m: float,
         hover_capture_m: Mapping[str, float],
         apart_m: float,
-        layer_m: float,
         homes_m: float,
         laps: Laps,
     ) -> None:
@@ -112,7 +110,7 @@ class FlightPlanner:
         self._settings = settings
         self._range = sensing_range_m
         self._hover_capture_m = hover_capture_m
-        self._apart_m, self._layer_m = apart_m, layer_m
+        self._apart_m = apart_m
         self._starts = Starts(
             spots=spots,
             airspace=airspace,
@@ -138,7 +136,7 @@ class FlightPlanner:
         mission: UavMission,
         site: Site,
         speed_mps: float,
-        others: Sequence[Point3] = (),
+        others: Neighbours = NOBODY,
     ) -> PlannedFlight | Rejected:
         """Plan one mission at a site.
 
@@ -147,7 +145,7 @@ class FlightPlanner:
             mission: What to plan.
             site: Where.
             speed_mps: Speed that the target will drive.
-            others: Where other UAVs hover.
+            others: Where other UAVs are.
         """
         mission = self._inside(mission)
         if mission.mode is MissionMode.TRACK:
@@ -174,7 +172,7 @@ class FlightPlanner:
         mission: UavMission,
         site: Site,
         speed_mps: float,
-        others: Sequence[Point3],
+        others: Neighbours,
     ) -> PlannedFlight | Rejected:
         """Plan a hover or a route over or round where its target is at t = 0."""
         centre = self._centre(spec, mission, site)
@@ -184,7 +182,8 @@ class FlightPlanner:
             here = self._places.itself(mission.start, site.origin()[:2])
             return self._routes.between(mission, here, centre[:2])
         if mission.mode is MissionMode.NAVIGATE:
-            return self._routes.plan(mission, centre, beside=self._air.is_inside(*centre[:2]))
+            beside = self._air.is_inside(*centre[:2])
+            return self._routes.plan(mission, centre, others, beside=beside)
         targets = self._watched(spec, mission, site, centre, speed_mps)
         return self._hover(mission, centre, targets, others)
 
@@ -340,26 +339,25 @@ class FlightPlanner:
         self,
         mission: UavMission,
         centre: tuple[float, float, float, float],
-        others: Sequence[Point3],
+        others: Neighbours,
     ) -> Iterator[tuple[float, float]]:
         """Yield the offsets of a hover point: beside the centre where somebody hovers over it."""
+        own, count = others.share
+        radius_m = 0.5 * others.apart_m / sin(pi / count) if count > 1 else 0.0
+        if 0.0 < radius_m <= self._tolerances.pattern_centre_m - _DRIFTS_M:
+            # All of them round it, for none is right over it then.
+            angle = 2.0 * pi * own / count
+            yield radius_m * cos(angle), radius_m * sin(angle)
         yield from offsets(mission, np.array(centre), self._spread)
         stands_off = mission.standoff_m is not None and mission.standoff_m.value > 0.0
         middle = (centre[0], centre[1], self._planned_height_m(mission))
-        if stands_off or self._apart(middle, others):
+        if stands_off or others.leave(middle):
             return
         for ring in (1, 2):
             radius_m, count = ring * self._apart_m, 6 * ring
             for k in range(count):
                 angle = 2.0 * pi * k / count
                 yield radius_m * cos(angle), radius_m * sin(angle)
-
-    def _apart(self, point: Point3, others: Sequence[Point3]) -> bool:
-        return all(
-            _distance(point, other) >= self._apart_m - _ROUNDING_M
-            or abs(point[2] - other[2]) >= self._layer_m - _ROUNDING_M
-            for other in others
-        )
 
     def _is_shut_in(self, point: Point3) -> bool:
         """Tell whether the air over a courtyard is left by no level way, as in a stadium."""
@@ -412,14 +410,14 @@ class FlightPlanner:
         mission: UavMission,
         centre: tuple[float, float, float, float],
         targets: FloatArray,
-        others: Sequence[Point3],
+        others: Neighbours,
     ) -> PlannedFlight | Rejected:
         reason, air = 'clearance', self._air
         if is_landmark(mission.target):
             air = air.looking_at(*centre[:2])
         for offset in self._hover_places(mission, centre, others):
             point = (centre[0] + offset[0], centre[1] + offset[1], self._planned_height_m(mission))
-            if not self._apart(point, others):
+            if not others.leave(point):
                 reason = 'separation'
                 continue
             clearance = self._air.points_clearance_m(np.array([point]))
@@ -494,7 +492,3 @@ class FlightPlanner:
 def _at_height(points: FloatArray, height_m: float) -> FloatArray:
     """Return points (K, 3) of places (K, 2), all at one height."""
     return np.column_stack((points, np.full(len(points), height_m)))
-
-
-def _distance(a: Point3, b: Point3) -> float:
-    return norm2(norm2(a[0] - b[0], a[1] - b[1]), a[2] - b[2])

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from aurora_core.grounding.agents import AgentPlacer
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.grounding.allowed import allowed_sites
-from aurora_core.grounding.apart import homes_m, layer_m, spacing_m
+from aurora_core.grounding.apart import homes_m, layer_m, over_one_point, spacing_m, tight_m
 from aurora_core.grounding.bends import bends_between
 from aurora_core.grounding.catching_up import shows_before
 from aurora_core.grounding.columns import Column, climbs_to_m, columns, nearest_points
@@ -25,6 +25,7 @@ from aurora_core.grounding.groups import GroupPlacer
 from aurora_core.grounding.keep_out import kept_out
 from aurora_core.grounding.lane_changers import changes_lane, share_with_another_lane
 from aurora_core.grounding.laps import Laps
+from aurora_core.grounding.neighbours import Neighbours
 from aurora_core.grounding.oncoming import OncomingPlacer
 from aurora_core.grounding.pace import (
     fastest_stated_mps,
@@ -50,7 +51,7 @@ from aurora_core.knowledge.limits import Limits, Tolerances, hover_capture_m
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.map_records import SpawnTable, WalkTable
 from aurora_core.knowledge.settings import Settings
-from aurora_core.mission.plan import UavPlan
+from aurora_core.mission.plan import MissionPlan, UavPlan
 from aurora_core.outcomes.grounded import AnchorScore, GroundedScenario
 from aurora_core.outcomes.grounding import GroundingFailure
 from aurora_core.outcomes.repair import RepairPlan
@@ -176,7 +177,6 @@ class Grounder:
                 for uav in spec.uavs
             },
             apart_m=spacing_m(spec, self._limits),
-            layer_m=layer_m(spec, self._limits),
             homes_m=homes_m(spec, self._limits),
             laps=Laps(self._settings),
         )
@@ -375,6 +375,7 @@ class Grounder:
         flown_by: dict[str, list[PlannedFlight]] = {}
         uavs: list[UavPlan] = []
         hovering: list[Column] = []
+        routes: list[MissionPlan] = []
         for number, uav in enumerate(spec.uavs):
             own = flown_by[uav.id] = []
             for mission in spec.missions:
@@ -383,7 +384,15 @@ class Grounder:
                 speed = watched_speed_mps(spec, mission, self._limits, self._settings.grounding)
                 height_m = planned_height_m(mission, self._limits, self._tolerances)
                 top_m = climbs_to_m(spec, uav.id, height_m)
-                others = nearest_points(hovering, height_m, top_m)
+                share = over_one_point(spec, mission, self._limits)
+                apart_m = (tight_m if share[1] > 1 else spacing_m)(spec, self._limits)
+                others = Neighbours(
+                    points=nearest_points(hovering, height_m, top_m),
+                    routes=() if own else tuple(routes),
+                    apart_m=apart_m,
+                    layer_m=layer_m(spec, self._limits),
+                    share=share,
+                )
                 flight = planner.plan_mission(spec, mission, site, speed, others)
                 if isinstance(flight, Rejected):
                     return flight
@@ -405,6 +414,7 @@ class Grounder:
                 return plan
             uavs.append(plan)
             hovering += columns(spec, uav.id, (f.plan.hover_point for f in own))
+            routes += [own[0].plan] if own[0].plan.waypoints else []
         return _Option(
             site=site,
             uavs=planner.uncrossed(uavs, site),

@@ -70,6 +70,14 @@ def place_pattern(
     return tuple((centre[0] + x * hx - y * hy, centre[1] + x * hy + y * hx) for x, y in points)
 
 
+def begun_at(points: tuple[Point2, ...], share: float) -> tuple[Point2, ...]:
+    """Return a closed pattern begun at the corner that is nearest to a share of its corners."""
+    corners = points[:-1]
+    first = round(share * len(corners)) % len(corners)
+    turned = corners[first:] + corners[:first]
+    return (*turned, turned[0])
+
+
 def _ring(radius_m: float, count: int, *, closed: bool) -> tuple[Point2, ...]:
     ring = [
         (radius_m * cos(2.0 * pi * k / count), radius_m * sin(2.0 * pi * k / count))

@@ -5,14 +5,16 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Iterator
 from dataclasses import replace
-from math import pi, sin
+from math import inf, pi, sin
 
 import shapely
 
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.grounding.laps import REPEATED, Laps
-from aurora_core.grounding.patterns import pattern_points, place_pattern
+from aurora_core.grounding.neighbours import NOBODY, Neighbours
+from aurora_core.grounding.patterns import begun_at, pattern_points, place_pattern
 from aurora_core.grounding.planned_flight import (
     PlannedFlight,
     Rejected,
@@ -35,6 +37,16 @@ SPARE_SHARE = 0.05
 
 # Radii of an orbit round a building whose radius nobody states, times the usual one.
 _WIDER = (1.5, 2.0, 3.0, 4.0)
+
+# Patterns that end where they begin may begin anywhere on them: at so many of their shares.
+_CLOSED = (Pattern.ORBIT, Pattern.RECTANGLE)
+_BEGINNINGS = 12
+# Beside others so many places are tried, half their distance apart, and the centre stays so much
+# inside its tolerance (m).
+_BESIDE = 24
+_INSIDE_M = 1.0
+# And so far along the street, for those that are to be over it (m).
+_FARTHER_M = tuple(50.0 * k for k in range(1, 13))
 
 # Radius of an orbit and of a ring of waypoints (m).
 _RADIUS_M = 30.0
@@ -77,25 +89,76 @@ class RoutePlanner:
         self,
         mission: UavMission,
         centre: tuple[float, float, float, float],
+        others: Neighbours = NOBODY,
         *,
         beside: bool = False,
     ) -> PlannedFlight | Rejected:
-        """Return the plan of a route.
+        """Return the plan of a route that keeps off the other UAVs where there is one.
 
         Args:
             mission: What to fly.
             centre: Of its pattern (x, y in m, ENU), and the direction of its first leg (unit).
+            others: Where other UAVs are.
             beside: The centre is in a building: an orbit is as wide as it has to be.
         """
+        best = self._wide_enough(mission, centre, 0.0, beside=beside)
+        if isinstance(best, Rejected):
+            return best
+        gap_m = others.gap_m(best.plan)
+        # Where nothing is far enough, the farthest: how near they come is for the run to show.
+        for middle, turned in self._elsewhere(mission, centre, others):
+            if gap_m >= others.apart_m:
+                break
+            found = self._wide_enough(mission, middle, turned, beside=beside)
+            if not isinstance(found, Rejected) and others.gap_m(found.plan) > gap_m:
+                best, gap_m = found, others.gap_m(found.plan)
+        return best
+
+    def _elsewhere(
+        self, mission: UavMission, centre: tuple[float, float, float, float], others: Neighbours
+    ) -> Iterator[tuple[tuple[float, float, float, float], float]]:
+        """Yield other centres of a pattern, and at which share of it its flight begins.
+
+        Round something it stays there, so that one begins elsewhere; nowhere in particular it has
+        room beside the others.
+        """
+        x, y, hx, hy = centre
+        shares = (k / _BEGINNINGS for k in range(1, _BEGINNINGS))
+        turned = [share for share in shares if mission.pattern in _CLOSED]
+        # Half round first: that is the farthest from one who began at the usual point.
+        turned.sort(key=lambda share: (abs(share - 0.5), share))
+        if mission.target is not None:
+            yield from ((centre, share) for share in turned)
+        most_m = inf if mission.target is None else self._tolerances.pattern_centre_m - _INSIDE_M
+        for k in range(1, _BESIDE + 1):
+            for aside_m in (k * others.apart_m / 2.0, -k * others.apart_m / 2.0):
+                if abs(aside_m) <= most_m:
+                    yield (x - aside_m * hy, y + aside_m * hx, hx, hy), 0.0
+        if mission.target is None:
+            yield from ((centre, share) for share in turned)
+            for away_m in _FARTHER_M:
+                for along_m in (away_m, -away_m):
+                    yield (x + along_m * hx, y + along_m * hy, hx, hy), 0.0
+
+    def _wide_enough(
+        self,
+        mission: UavMission,
+        centre: tuple[float, float, float, float],
+        turned: float,
+        *,
+        beside: bool,
+    ) -> PlannedFlight | Rejected:
+        """Plan a pattern, an orbit round a building as wide as it has to be."""
         radius = mission.radius_m
-        plain = self._around(mission, centre)
+        plain = self._around(mission, centre, turned)
         if not beside or mission.pattern is not Pattern.ORBIT or not isinstance(plain, Rejected):
             return plain
         if radius is None or radius.provenance is Provenance.EXPLICIT:
             return plain
         for factor in _WIDER:
             wider = radius.model_copy(update={'value': factor * radius.value})
-            found = self._around(mission.model_copy(update={'radius_m': wider}), centre)
+            asked = mission.model_copy(update={'radius_m': wider})
+            found = self._around(asked, centre, turned)
             if not isinstance(found, Rejected):
                 return found
         return plain
@@ -125,9 +188,9 @@ class RoutePlanner:
         return PlannedFlight(plan=plan, clearance_m=clearance, seen=1.0, over_street=over)
 
     def _around(
-        self, mission: UavMission, centre: tuple[float, float, float, float]
+        self, mission: UavMission, centre: tuple[float, float, float, float], turned: float
     ) -> PlannedFlight | Rejected:
-        """Plan a pattern round a point."""
+        """Plan a pattern round a point, begun at a share of it."""
         assert mission.pattern is not None
         assert mission.speed_mps is not None
         count = 4 if mission.waypoint_count is None else round(mission.waypoint_count.value)
@@ -141,6 +204,7 @@ class RoutePlanner:
         )
         if points is None or mission.speed_mps.value <= 0.0:
             return Rejected(reason='pattern')
+        points = begun_at(points, turned) if turned else points
         hx, hy = centre[2], centre[3]
         shifts = self._settings.pattern_shifts_m
         height_m = planned_height_m(mission, self._limits, self._tolerances)

@@ -37,6 +37,7 @@ _LACKS = {
     'greater altitude, would',
     'sight': 'the UAV would not see what it is to watch; a greater altitude or a smaller '
     'distance would fit',
+    'separation': 'the UAVs would come too near to each other; other altitudes would fit',
     'start_spot': 'there is no free spot from which a UAV can start',
     'way_between_missions': 'no way of the UAV from one mission to the next is free of buildings; '
     'a greater altitude would fit',
