@@ -16,7 +16,6 @@ from aurora_core.grounding.airspace import Airspace
 from aurora_core.grounding.allowed import allowed_sites
 from aurora_core.grounding.apart import homes_m, layer_m, over_one_point, spacing_m, tight_m
 from aurora_core.grounding.bends import bends_between
-from aurora_core.grounding.catching_up import shows_before
 from aurora_core.grounding.columns import Column, climbs_to_m, columns, nearest_points
 from aurora_core.grounding.convoy import ConvoyMember, SceneSplit, split_scene
 from aurora_core.grounding.flights import FlightPlanner
@@ -39,7 +38,8 @@ from aurora_core.grounding.planned_flight import PlannedFlight, Rejected, planne
 from aurora_core.grounding.premises import comes_about, heard, starts_out_of_reach
 from aurora_core.grounding.radio import link_score
 from aurora_core.grounding.realised import realised_values
-from aurora_core.grounding.sites import Site, TriedSite, open_way_m, sites, tied_way_m
+from aurora_core.grounding.shown_speed import LOOKED_S, room_for, shows_before
+from aurora_core.grounding.sites import Site, TriedSite, sites, tied_way_m
 from aurora_core.grounding.spots import SpotFinder
 from aurora_core.grounding.time_need import horizon_s
 from aurora_core.grounding.traffic import TrafficPlacer
@@ -63,9 +63,6 @@ from aurora_core.spec.vocabulary import MissionMode
 # Clearance that earns the full air score (m above the planned clearance).
 _GOOD_CLEARANCE_M = 15.0
 
-# A stated speed shows well when it is held for so long (s), within so much time (s).
-_SHOWN_S = 8.0
-_LOOKED_S = 40.0
 
 # A score that no later site can beat by more than rounding.
 _PERFECT = 1.0 - 1e-9
@@ -285,7 +282,7 @@ class Grounder:
         grounding = self._settings.grounding
         way_m = tied_way_m(spec, grounding)
         changing = {m.agent.id for m in split.convoy if changes_lane(spec, m.agent)}
-        need_m = way_m if len(split.convoy) > 1 else _LOOKED_S / 2.0 * stated
+        need_m = way_m if len(split.convoy) > 1 else LOOKED_S / 2.0 * stated
         members = [m.agent for m in split.convoy]
         need_m = max(need_m, timed_way_m(spec, members, grounding))
         wanted = grounding.target_speed_mps
@@ -325,7 +322,7 @@ class Grounder:
             if not starts_out_of_reach(spec, site, places, range_m):
                 road *= _ASTRAY
             if stated > 0.0:
-                road *= 0.5 + 0.5 * self._room_for(stated, site)
+                road *= 0.5 + 0.5 * room_for(stated, site, self._tolerances)
                 road *= max(_NEVER, shows_before(spec, site, self._tolerances))
             for seat in site.seated:
                 if seat.agent.id in changing:
@@ -354,16 +351,6 @@ class Grounder:
             for site in found(goals):
                 if self._goals.fits(spec, site, wide=True):
                     yield site
-
-    def _room_for(self, speed_mps: float, site: Site) -> float:
-        """Return whether a stated speed can show near a site, in [0, 1]: far from junctions."""
-        t = self._tolerances
-        settle_m = speed_mps * speed_mps / (2.0 * t.route_acceleration_mps2)
-        way_m = _SHOWN_S * speed_mps
-        low_m = site.origin_arc_m + settle_m
-        high_m = low_m + _LOOKED_S * speed_mps
-        open_m = open_way_m(site.origin_path, low_m, high_m, t.free_road_m)
-        return min(1.0, open_m / way_m)
 
     def _option(
         self,

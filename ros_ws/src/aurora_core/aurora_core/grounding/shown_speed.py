@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""Whether who catches up with a slower one can show its stated speed before it has."""
+"""Whether a stated speed can show: far from junctions, and before one has caught up."""
 
 from __future__ import annotations
 
@@ -12,8 +12,27 @@ from aurora_core.knowledge.limits import Tolerances
 from aurora_core.quantities.free_road import caught_up_m
 from aurora_core.spec.scenario import ScenarioSpec
 
+# A stated speed shows well when it is held for so long (s), within so much time (s).
+_SHOWS_WELL_S = 8.0
+LOOKED_S = 40.0
+
 # A stated speed has shown when it was held for so long (s).
 _SHOWN_S = 2.0
+
+
+def room_for(speed_mps: float, site: Site, tolerances: Tolerances) -> float:
+    """Return whether a stated speed can show near a site, in [0, 1]: far from junctions.
+
+    Args:
+        speed_mps: The speed.
+        site: Where its vehicles stand.
+        tolerances: In force.
+    """
+    settle_m = speed_mps * speed_mps / (2.0 * tolerances.route_acceleration_mps2)
+    low_m = site.origin_arc_m + settle_m
+    high_m = low_m + LOOKED_S * speed_mps
+    open_m = open_way_m(site.origin_path, low_m, high_m, tolerances.free_road_m)
+    return min(1.0, open_m / (_SHOWS_WELL_S * speed_mps))
 
 
 def shows_before(spec: ScenarioSpec, site: Site, tolerances: Tolerances) -> float:
