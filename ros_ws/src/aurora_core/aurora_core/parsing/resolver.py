@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 from aurora_core.outcomes.parse import Refusal, RefusalKind
@@ -16,6 +17,7 @@ from aurora_core.parsing.scene import Entity, Scene
 from aurora_core.spec.parameter import Span
 from aurora_core.spec.vocabulary import AgentType, Role
 
+_MEMBER = re.compile(r'\s+of\b')
 _VEHICLES = frozenset(set(AgentType) - {AgentType.PEDESTRIAN, AgentType.RSU})
 MOST_AGENTS = 200
 
@@ -114,7 +116,14 @@ class Resolver:
         )
 
     def unknown_actor(self, noun: NounPhrase) -> None:
-        """Refuse a name that stands where an actor belongs and is none that can be simulated."""
+        """Refuse a name that stands where an actor belongs and is none that can be simulated.
+
+        `the faster of two cars` names a member and no type: it is asked which.
+        """
+        if _MEMBER.match(self._scene.prompt, noun.end):
+            question = f'Which one do you mean by {self._quote(noun)}?'
+            self._scene.questions.append(question)
+            return
         self._refuse(
             noun, RefusalKind.UNSUPPORTED, 'agent types', tuple(t.value for t in AgentType)
         )

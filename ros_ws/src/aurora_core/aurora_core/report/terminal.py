@@ -29,6 +29,7 @@ from aurora_core.report.status import Status
 from aurora_core.report.summary import margin_value
 from aurora_core.report.verify_report import VerifyOutcome, VerifyReport
 from aurora_core.report.visible import one_line
+from aurora_core.report.wordings import wordings
 from aurora_core.temporal.words import named
 
 _COLOURS = {
@@ -251,6 +252,8 @@ def print_clauses(clauses: Sequence[ClauseReport], console: Console) -> None:
         console,
         bad=[k for k, c in enumerate(clauses) if c.status.is_open],
     )
+    for one in wordings(clauses):
+        line(console, f'to "{one.text}": {one.so}' + (f'; like: {one.say}' if one.say else ''))
 
 
 def print_elements(elements: Sequence[ElementReport], console: Console) -> None:

@@ -83,6 +83,19 @@ def _unread(prompt: str) -> list[str]:
         ('A drone hovers over City Hall; a van stops there after 20 s.', 'stops there'),
         ('A van drives until it is told to stop.', 'until it is told to'),
         ('A pedestrian might cross.', 'might'),
+        ('A drone hovers over City Hall at 40 m; it may climb to 60 m.', 'it may'),
+        ('The drone could follow the bus, but it must follow the van.', 'the drone could'),
+        ('It is possible that a pedestrian crosses.', 'it is possible'),
+        ('Ideally the drone tracks the bus from 20 m away.', 'ideally'),
+        ('The drone keeps 20 m from the car that it tracks at 40 m.', 'that it tracks'),
+        ('Two drones at 30 m and 50 m respectively track a bus and a van.', 'respectively'),
+        ('Let four drones hover in a line at 50 m.', 'hover in a line'),
+        ('A drone inspects the facade of City Hall between 10 and 40 m.', 'facade'),
+        (
+            'The drone should see a pedestrian who is crossing. Then it should tell the car to'
+            ' stop.',
+            'it should tell',
+        ),
         ('A van stops at the second intersection.', 'second intersection'),
         ('A drone tracks a van. The other van stops.', 'other van'),
         ('A van brakes as a pedestrian crosses.', 'as a pedestrian'),
@@ -117,7 +130,22 @@ def test_admitted(prompt: str, quoted: str) -> None:
         'Two vans circulate. The second van stops after 20 s.',
         'A van drives along as a drone tracks it.',
         'The bus brakes after 20 s; afterwards the drone lands. The drone hovers over City Hall.',
+        'A drone hovers over City Hall; it may drift 2 m at most.',
+        'A drone tracks a bus. I wonder whether the drone could stay 20 m away from it.',
+        'A bus drives along. The drone that tracks it flies at 40 m.',
     ],
 )
 def test_what_something_carries_is_read(prompt: str) -> None:
     assert _unread(prompt) == []
+
+
+def test_up_to_behind_a_climb_is_where_it_ends() -> None:
+    outcome = parse_offline('The drone should go up to 40 m. It tracks a bus.', CONTEXT)
+    assert outcome.spec is not None
+    assert [m.altitude_m.value for m in outcome.spec.missions] == [40]
+    assert outcome.spec.conditions == ()
+
+
+def test_who_names_a_member_is_asked_and_not_refused() -> None:
+    outcome = parse_offline('The faster of two cars stops after 20 s.', CONTEXT)
+    assert outcome.refusals == ()

@@ -22,6 +22,8 @@ from aurora_core.parsing.reactions import REACTIONS
 _FLIPS = ('<', '>')
 _FLIPPED: dict[Op, Op] = {'<': '>=', '<=': '>=', '>': '<=', '>=': '<', '==': '=='}
 _CLOCK = r'(?:(?:the|a|time|t|=|second|mark|at|first|that|point|moment|s|about|of) )*'
+# `should go up to 40 m` is a climb to it and no bound.
+_RISES = re.compile(r'\b(?:ascend|climb|fly|go|lift|move|rise)(?:e?s)?\s+$')
 _BARE = re.compile(r'\b[A-Z]\d+\b')
 _OWNED = whole(r'(?:its|their|his|her)')
 # At most a fifth out of sight is at least four fifths in sight.
@@ -410,6 +412,8 @@ class _Reading:
         for name, op, flips in ops:
             for match in words[name].finditer(before):
                 if name == 'at_most' and match.group() == 'to':
+                    continue
+                if match.group() == 'up to' and _RISES.search(before[: match.start()]):
                     continue
                 if not self._governs(match.group(), before[match.end() :]):
                     continue

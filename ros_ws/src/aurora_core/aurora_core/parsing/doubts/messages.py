@@ -5,11 +5,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from itertools import takewhile
+from itertools import pairwise, takewhile
 
 from aurora_core.parsing.atoms import Atom, AtomKind
 from aurora_core.parsing.doubts.bodies import taking_part, unnamed
-from aurora_core.parsing.doubts.clauses import BREAKS, TOLD, clause_of, events_in, sentences
+from aurora_core.parsing.doubts.clauses import BREAKS, TOLD, clause_of, events_in, over, sentences
 from aurora_core.spec.parameter import Span
 from aurora_core.spec.scenario import (
     GroundAgent,
@@ -47,6 +47,20 @@ def other_receivers(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]
                 told_to = frozenset(a.receiver for a in told if isinstance(a, SendMessage))
                 if told_to and unnamed(spec, [atom], told_to):
                     yield clause.span
+
+
+def told_by_a_person(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`it sees a child. Then it tells the car`: a pronoun for things that became a person."""
+    persons = {a.id for a in spec.agents if a.type is AgentType.PEDESTRIAN}
+    for sentence in sentences(atoms):
+        for word, verb in pairwise(a for a in sentence if a.kind is not AtomKind.AUXILIARY):
+            it = word.noun is not None and word.noun.key == 'it'
+            if not it or verb.kind is not AtomKind.VERB or verb.key not in TOLD:
+                continue
+            clause = clause_of(spec, verb)
+            told = [] if clause is None else [e.action for e in events_in(spec, clause)]
+            if any(isinstance(a, SendMessage) and a.sender in persons for a in told):
+                yield over(word, verb)
 
 
 def open_moments(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:

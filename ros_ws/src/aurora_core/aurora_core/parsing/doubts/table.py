@@ -36,6 +36,7 @@ from aurora_core.parsing.doubts.messages import (
     open_moments,
     other_receivers,
     places_of_deeds,
+    told_by_a_person,
 )
 from aurora_core.parsing.doubts.roles import misanchored, misplaced
 from aurora_core.parsing.doubts.telling_words import comparisons, untold
@@ -68,6 +69,7 @@ _CHECKS: tuple[_Check, ...] = (
     folded_climbs,
     heights_over_fliers,
     other_receivers,
+    told_by_a_person,
     open_moments,
     places_of_deeds,
     contents,

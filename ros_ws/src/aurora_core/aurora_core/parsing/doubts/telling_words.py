@@ -315,6 +315,19 @@ def _earlier(spec: ScenarioSpec, clause: Clause) -> bool:
     return any(_alike(m, n) for m in told for n in spec.missions[: spec.missions.index(m)])
 
 
+def _first_phase(spec: ScenarioSpec, clause: Clause) -> bool:
+    """No further phase of a UAV: `keeps 20 m from the car that it tracks` tells of one."""
+    told = [m for m in spec.missions if m.id in clause.ids]
+    return not any(m.uav == n.uav for m in told for n in spec.missions[: spec.missions.index(m)])
+
+
+def _differing(spec: ScenarioSpec, clause: Clause) -> bool:
+    """No stated number of the clause that two elements share: each has its own."""
+    elements = (*spec.missions, *spec.agents, *spec.events)
+    told = [p.span for e in elements for p in parameters(e) if p.span is not None]
+    return not any(told.count(span) > 1 and meet(span, clause.span) for span in told)
+
+
 def _alike(one: UavMission, other: UavMission) -> bool:
     return (one.uav, one.mode, one.target) == (other.uav, other.mode, other.target)
 
@@ -398,6 +411,8 @@ _CARRIERS: dict[str, Callable[[ScenarioSpec, Clause], bool]] = {
     'length': _length,
     'time_of_day': _time_of_day,
     'event': _event,
+    'first_phase': _first_phase,
+    'differing': _differing,
     'sequence': _sequence,
     'alone': _alone,
     'earlier': _earlier,
