@@ -86,6 +86,7 @@ def _unread(prompt: str) -> list[str]:
         ('A drone hovers over City Hall at 40 m; it may climb to 60 m.', 'it may'),
         ('The drone could follow the bus, but it must follow the van.', 'the drone could'),
         ('It is possible that a pedestrian crosses.', 'it is possible'),
+        ('A bus drives at 9 m/s. A taxi is just as fast.', 'just as fast'),
         ('Ideally the drone tracks the bus from 20 m away.', 'ideally'),
         ('The drone keeps 20 m from the car that it tracks at 40 m.', 'that it tracks'),
         ('Two drones at 30 m and 50 m respectively track a bus and a van.', 'respectively'),

@@ -322,10 +322,11 @@ def _first_phase(spec: ScenarioSpec, clause: Clause) -> bool:
 
 
 def _differing(spec: ScenarioSpec, clause: Clause) -> bool:
-    """No stated number of the clause that two elements share: each has its own."""
+    """`at 30 m and 50 m respectively`: no two numbers of a unit that two elements share."""
     elements = (*spec.missions, *spec.agents, *spec.events)
-    told = [p.span for e in elements for p in parameters(e) if p.span is not None]
-    return not any(told.count(span) > 1 and meet(span, clause.span) for span in told)
+    told = [(p.unit, p.span) for e in elements for p in parameters(e) if p.span is not None]
+    shared = [unit for unit, _ in {one for one in told if told.count(one) > 1}]
+    return len(shared) == len(set(shared))
 
 
 def _alike(one: UavMission, other: UavMission) -> bool:

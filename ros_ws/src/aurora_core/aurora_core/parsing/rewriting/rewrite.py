@@ -19,7 +19,6 @@ from aurora_core.parsing.pieces import MOST_ATOMS, TRANSPARENT
 from aurora_core.parsing.rewriting.clefts import plain_order
 from aurora_core.parsing.rewriting.conjunctions import joined
 from aurora_core.parsing.rewriting.enumerations import told_once
-from aurora_core.parsing.rewriting.equal_speeds import as_fast
 from aurora_core.parsing.rewriting.flight_nouns import flights
 from aurora_core.parsing.rewriting.inversions import straighten
 from aurora_core.parsing.rewriting.members import members
@@ -28,7 +27,6 @@ from aurora_core.parsing.rewriting.nominal import predicates
 from aurora_core.parsing.rewriting.nominal_causes import verbal
 from aurora_core.parsing.rewriting.not_before import not_before
 from aurora_core.parsing.rewriting.pairs import pairs
-from aurora_core.parsing.rewriting.particles import particles
 from aurora_core.parsing.rewriting.placing_words import placing_words, told_of_us
 from aurora_core.parsing.rewriting.radio import radio
 from aurora_core.parsing.rewriting.roles import cast
@@ -68,8 +66,7 @@ def rewrite(atoms: Sequence[Atom], prompt: str) -> Rewritten:
     if longest_sentence(atoms) > MOST_ATOMS:
         return Rewritten(atoms=tuple(atoms))
     told, background = unwrap(joined(_cast(atoms, prompt), prompt), prompt)
-    told = as_fast(told, prompt)
-    told = particles(shared_out(not_before(told), prompt), prompt)
+    told = shared_out(not_before(told), prompt)
     told = dated(verbal(radio(told, prompt), prompt), prompt)
     told = value_statements(
         predicates(plain_order(_places(shares(placing_words(told)), prompt), prompt), prompt),
