@@ -270,18 +270,40 @@ def draw_run(
     output: Annotated[
         Path | None,
         typer.Option(
-            '-o', '--output', help='PNG or SVG file; default: picture.png in the run folder.'
+            '-o',
+            '--output',
+            metavar='FILE',
+            help='PNG or SVG, for a paper PDF, too; default: in the run folder.',
         ),
     ] = None,
     iteration: Iteration = None,
+    style: Annotated[
+        str, typer.Option('--style', help='screen, or paper: vector, no title, small.')
+    ] = 'screen',
+    columns: Annotated[
+        int, typer.Option('--columns', min=1, max=2, help='Width of a figure for a paper.')
+    ] = 1,
+    video: Annotated[
+        bool, typer.Option('--video', help='An animated GIF of the map instead.')
+    ] = False,
     as_json: Json = False,
 ) -> None:
     """Draw a recorded run: map, trajectories, events, distances over time."""
 
     def command() -> int:
-        from aurora_cli.commands.picture import picture_command
+        from aurora_cli.commands.picture import PictureOptions, PictureStyle, picture_command
 
-        return picture_command(run_or_bag, output, iteration, as_json=as_json)
+        if style not in set(PictureStyle):
+            choices = ', '.join(PictureStyle)
+            raise UsageProblem(f'--style takes one of {choices}, found {style}')
+        options = PictureOptions(
+            output=output,
+            iteration=iteration,
+            style=PictureStyle(style),
+            columns=columns,
+            video=video,
+        )
+        return picture_command(run_or_bag, options, as_json=as_json)
 
     finish(command, as_json=as_json)
 

@@ -99,6 +99,25 @@ def test_a_bag_without_its_run_is_drawn_with_a_recomputed_verdict(
     assert (here / 'p.png').read_bytes() == (copy / 'picture.png').read_bytes()
 
 
+def test_a_figure_for_a_paper_comes_with_the_words_for_its_caption(
+    copy: Path, here: Path, call: Call
+) -> None:
+    done = call('picture', str(copy), '--style', 'paper', '--json')
+    answer = json.loads(done.out)
+    assert Path(answer['picture']) == copy / 'figure.pdf'
+    assert (copy / 'figure.pdf').read_bytes().startswith(b'%PDF')
+    assert answer['caption'][0].startswith('1  ')
+    assert call('picture', str(copy), '--style', 'paper', '-o', 'p.svg').code == 0
+    assert b'<svg' in (here / 'p.svg').read_bytes()
+    assert call('picture', str(copy), '--style', 'poster').code == 64
+
+
+def test_a_video_moves(copy: Path, here: Path, call: Call) -> None:
+    assert call('picture', str(copy), '--video', '-o', 'v.gif').code == 0
+    assert (here / 'v.gif').read_bytes().startswith(b'GIF89a')
+    assert call('picture', str(copy), '--video', '-o', 'v.mp4').code == 64
+
+
 @pytest.mark.parametrize(('name', 'code'), [('p.gif', 64), ('none/p.png', 4)])
 def test_a_picture_goes_only_where_it_can(
     copy: Path, here: Path, call: Call, name: str, code: int

@@ -134,8 +134,13 @@ def mission_end_tick(tracks: tuple[Track, ...]) -> int:
     return max(ends, default=max(ticks - 1, 0))
 
 
-def region_of(tracks: tuple[Track, ...]) -> Box:
-    """Return the region of action: every flight, and the agents near it while missions last."""
+def region_of(tracks: tuple[Track, ...], least_side_m: float = _LEAST_SIDE_M) -> Box:
+    """Return the region of action: every flight, and the agents near it while missions last.
+
+    Args:
+        tracks: All bodies.
+        least_side_m: Neither side is shorter.
+    """
     end = mission_end_tick(tracks)
     flights = [_finite(track.position_m[:, :2]) for track in tracks if track.is_uav]
     ground = [
@@ -151,8 +156,8 @@ def region_of(tracks: tuple[Track, ...]) -> Box:
     else:
         parts = ground or [_finite(track.position_m[:, :2]) for track in tracks]
     region = _around(parts, _MARGIN_M)
-    grow_x = max(0.0, (_LEAST_SIDE_M - region.width) / 2)
-    grow_y = max(0.0, (_LEAST_SIDE_M - region.height) / 2)
+    grow_x = max(0.0, (least_side_m - region.width) / 2)
+    grow_y = max(0.0, (least_side_m - region.height) / 2)
     return Box(
         west=region.west - grow_x,
         south=region.south - grow_y,

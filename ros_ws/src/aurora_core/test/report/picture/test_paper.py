@@ -1,0 +1,95 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+from __future__ import annotations
+
+from types import SimpleNamespace
+
+import pytest
+from matplotlib.colors import to_hex
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.text import Text
+
+from aurora_core.report.build import build_report
+from aurora_core.report.picture.paper import (
+    WIDTHS_IN,
+    draw_paper,
+    looks_of,
+    moment_lines,
+    numbers,
+    paper_bytes,
+    piles,
+)
+from aurora_core.report.scene.caption import Caption
+from aurora_core.report.scene.tracks import tracks_of
+
+
+def _caption(make: SimpleNamespace) -> Caption:
+    return Caption.of_report(build_report(make.facts()))
+
+
+def _draw(make: SimpleNamespace, columns: int = 1) -> Figure:
+    return draw_paper(
+        make.trace(), make.world(), _caption(make), spec=make.spec(), columns=columns
+    )
+
+
+def _texts(figure: Figure) -> list[str]:
+    found = figure.findobj(Text)
+    return [item.get_text() for item in found if isinstance(item, Text)]
+
+
+@pytest.mark.parametrize('suffix', ['.pdf', '.svg'])
+def test_the_same_run_gives_the_same_bytes(make: SimpleNamespace, suffix: str) -> None:
+    first = paper_bytes(_draw(make), suffix)
+    assert first == paper_bytes(_draw(make), suffix)
+    assert b'CreationDate' not in first
+    assert b'<dc:date>' not in first
+    # A vector: no pixels inside.
+    assert b'/Subtype /Image' not in first
+    assert b'<image' not in first
+
+
+@pytest.mark.parametrize('columns', [1, 2])
+def test_it_is_as_wide_as_the_columns_and_has_no_title(
+    make: SimpleNamespace, columns: int
+) -> None:
+    figure = _draw(make, columns)
+    assert figure.get_size_inches()[0] == pytest.approx(WIDTHS_IN[columns])
+    text = '\n'.join(_texts(figure))
+    assert make.prompt not in text
+    assert 'VERIFIED' not in text
+    for word in ('altitude [m]', 'simulated time [s]', 'uav1', 'motorcycle1', 'N'):
+        assert word in text
+
+
+def test_every_body_has_a_look_of_its_own(make: SimpleNamespace) -> None:
+    looks = looks_of(tracks_of(make.trace()))
+    assert len(set(looks.values())) == len(looks)
+    ours = {colour for colour, _ in looks.values()}
+    lines = [line for line in _draw(make).findobj(Line2D) if isinstance(line, Line2D)]
+    drawn = {to_hex(line.get_color()) for line in lines if len(line.get_xdata()) > 100}
+    assert ours <= drawn
+
+
+def test_the_numbers_are_those_of_the_lines(make: SimpleNamespace) -> None:
+    lines = moment_lines(make.trace(), make.world(), _caption(make), make.spec())
+    last = lines[-1].split()[0]
+    shown = [n for text in _texts(_draw(make)) for n in text.replace('–', ',').split(',')]
+    assert last in shown
+    assert '1' in shown
+    assert any('uav1' in line for line in lines)
+
+
+def test_markers_do_not_pile_up() -> None:
+    near = [(0.0, 0.0), (5.0, 5.0), (100.0, 0.0), (3.0, -4.0), (100.0, 30.0)]
+    assert piles(near, 10.0) == [[0, 1, 3], [2], [4]]
+    assert piles([], 10.0) == []
+
+
+@pytest.mark.parametrize(
+    ('members', 'text'),
+    [([4], '4'), ([1, 2], '1,2'), ([1, 2, 3, 5], '1–3,5'), ([2, 9, 10, 11], '2,9–11')],
+)
+def test_numbers_are_short(members: list[int], text: str) -> None:
+    assert numbers(members) == text
