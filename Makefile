@@ -9,7 +9,7 @@ PROMPT ?= A van tailgates the ego car closely, closing from 45 meters; a trackin
 export PROMPT
 
 .DEFAULT_GOAL := help
-.PHONY: help setup demo up down test lint typecheck lock maps clean
+.PHONY: help setup demo up down test lint typecheck site lock maps clean
 
 help: ## this list
 	@sed -nE 's/^([a-z%-]+):.*## (.*)/make \1\t\2/p' Makefile | expand -t 18
@@ -37,6 +37,11 @@ lint: ## ruff (lint and format), the import rules, and widths and word lists
 typecheck: ## mypy --strict over sources and tests
 	@tools/setup.sh --dev --no-build
 	@_ROS_WHEELS_BOOTSTRAP_COMPLETE=1 .venv/bin/python tools/typecheck.py
+
+site: ## the documentation as a site in site/ (no network)
+	@tools/setup.sh --dev --no-build
+	@NO_MKDOCS_2_WARNING=1 .venv/bin/python -m mkdocs build --strict
+	@echo "site: open site/index.html"
 
 bench-%: ## one benchmark or campaign: lockstep, latency, faults, bags, graphs, endurance, replay, stl, stn, maps, matrix, encounters, online, mutation, contradictions, judged, fidelity, realise, outcome, feasibility, repair, fuzz, retrieval (results in docs/bench)
 	@tools/setup.sh --dev
