@@ -264,6 +264,26 @@ def recover_recording(
     finish(command, as_json=as_json)
 
 
+@bag.command('standard')
+def standard_bag(
+    run_or_bag: RunOrBag,
+    out: Annotated[
+        Path | None,
+        typer.Option('-o', '--out', metavar='FOLDER', help='Default: <bag>.standard.'),
+    ] = None,
+    iteration: Iteration = None,
+    as_json: Json = False,
+) -> None:
+    """Write a run as a bag of standard topics, for Foxglove, RViz and other tools."""
+
+    def command() -> int:
+        from aurora_cli.commands.standard_bag import standard_command
+
+        return standard_command(run_or_bag, out, iteration, as_json=as_json)
+
+    finish(command, as_json=as_json)
+
+
 @app.command('picture')
 def draw_run(
     run_or_bag: RunOrBag,

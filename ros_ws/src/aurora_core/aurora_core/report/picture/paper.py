@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Iterable
+from typing import Literal
 
 import matplotlib as mpl
 import numpy as np
@@ -160,7 +161,7 @@ def _moments(
     return moments_of(trace, tracks, spec, caption.failures, altitudes)
 
 
-Look = tuple[str, str]
+Look = tuple[str, Literal['-', '--', ':']]
 
 
 def shown(tracks: tuple[Track, ...]) -> list[Track]:
@@ -172,7 +173,7 @@ def shown(tracks: tuple[Track, ...]) -> list[Track]:
 
 def looks_of(tracks: tuple[Track, ...]) -> dict[str, Look]:
     """Return colour and line style by body; no two are alike."""
-    styles = ('-', '--', ':')
+    styles: tuple[Literal['-', '--', ':'], ...] = ('-', '--', ':')
     return {
         track.name: (
             _COLOURS[k % len(_COLOURS)], styles[min(k // len(_COLOURS), len(styles) - 1)]

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import io
+from typing import Any
 
 import matplotlib as mpl
 import numpy as np
@@ -46,7 +47,7 @@ def gif_bytes(trace: Trace, world: WorldModel) -> bytes:
         box = box.with_aspect(min(max(box.width / box.height, _ASPECTS[0]), _ASPECTS[1]))
         size = (_WIDTH_IN, _WIDTH_IN * box.height / box.width)
         figure = Figure(figsize=size, dpi=_DPI, facecolor=style.GROUND)
-        canvas = FigureCanvasAgg(figure)
+        canvas: Any = FigureCanvasAgg(figure)
         ax = figure.add_axes((0.0, 0.0, 1.0, 1.0))
         ax.set_xlim(box.west, box.east)
         ax.set_ylim(box.south, box.north)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -14,7 +15,7 @@ from aurora_core.report.picture.video import gif_bytes
 
 def test_the_bodies_move_and_the_time_is_right(make: SimpleNamespace) -> None:
     trace = make.trace()
-    film = Image.open(io.BytesIO(gif_bytes(trace, make.world())))
+    film: Any = Image.open(io.BytesIO(gif_bytes(trace, make.world())))
     assert film.n_frames > 10
     frames = []
     shown_s = 0.0
