@@ -4,14 +4,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from math import hypot
 from pathlib import Path
 
 from pydantic import FiniteFloat
 
 from aurora_core.document import Document
-from aurora_core.outcomes.grounded import GroundedScenario
+from aurora_core.outcomes.grounded import GroundedAgent, GroundedScenario
 from aurora_core.trace.bag_reader import read_bag
 from aurora_core.trace.definitions import message_definitions
 
@@ -36,16 +36,22 @@ class ReadBack(Document):
     off: tuple[str, ...] = ()
 
 
-def read_back(bag: Path, grounded: GroundedScenario) -> ReadBack:
-    """Compare the first recorded states of a run with its grounding."""
+def distances(
+    bag: Path, grounded: GroundedScenario
+) -> Iterator[tuple[GroundedAgent, float]]:
+    """Yield how far (m) each agent of a grounding is from its place in the first state."""
     trace = read_bag(bag, message_definitions()).trace
     rows = {agent.body_id: row for row, agent in enumerate(trace.roster.agents)}
-    off, worst, count = [], [0.0, 0.0], [0, 0]
     for agent in grounded.agents:
-        if agent.id not in rows:
-            continue
-        state = trace.ground[0, rows[agent.id]]
-        apart_m = hypot(float(state[0]) - agent.x_m, float(state[1]) - agent.y_m)
+        if agent.id in rows:
+            state = trace.ground[0, rows[agent.id]]
+            yield agent, hypot(float(state[0]) - agent.x_m, float(state[1]) - agent.y_m)
+
+
+def read_back(bag: Path, grounded: GroundedScenario) -> ReadBack:
+    """Compare the first recorded states of a run with its grounding."""
+    off, worst, count = [], [0.0, 0.0], [0, 0]
+    for agent, apart_m in distances(bag, grounded):
         kind = int(agent.is_person)
         count[kind] += 1
         worst[kind] = max(worst[kind], apart_m)

@@ -25,6 +25,7 @@ from aurora_bench.rulers.watched import WatchedStages
 from aurora_cli.clock import MonotonicClock
 from aurora_cli.installed import installed
 from aurora_core.errors import AuroraError
+from aurora_core.outcomes.feasibility import CheckStage
 from aurora_core.pipeline.run import run
 from aurora_core.pipeline.stages import RunControl, RunRequest
 from aurora_core.report.outputs import write_report
@@ -99,13 +100,13 @@ class RunWork(ABC):
     def judge(self, trial: Trial, place: Path) -> JudgedTrial:
         """Run a trial into a folder and judge it."""
 
-    def ran(self, request: RunRequest, place: Path, stages: WatchedStages) -> _Ran:
+    def ran(self, request: RunRequest, place: Path, stages: WatchedStages) -> Ran:
         """Run a request into a folder and remember how long its stages took."""
         report, folder = run_into(place, request, stages)
         self._seconds.update(report.timing)
-        return _Ran(report, stages, folder.path)
+        return Ran(report, stages, folder.path)
 
-    def verified(self, trial: Trial, ran: _Ran) -> JudgedTrial:
+    def verified(self, trial: Trial, ran: Ran) -> JudgedTrial:
         """Judge a run that had to be verified."""
         report = ran.report
         said: tuple[Said, ...] = ()
@@ -129,7 +130,7 @@ class RunWork(ABC):
             repaired=_repaired(report),
         )
 
-    def _checked(self, trial: Trial, ran: _Ran) -> tuple[tuple[Said, ...], Found | None]:
+    def _checked(self, trial: Trial, ran: Ran) -> tuple[tuple[Said, ...], Found | None]:
         """Let the checker contradict a verified run; one that breaks has confirmed nothing."""
         assert self.check is not None
         assert ran.report.trace is not None
@@ -146,7 +147,15 @@ class RunWork(ABC):
 
 
 @dataclass(frozen=True)
-class _Ran:
+class Ran:
+    """A run that is over, while its folder is still there.
+
+    Attributes:
+        report: What it says of itself.
+        stages: The engine that it ran in.
+        folder: Its run folder.
+    """
+
     report: RunReport
     stages: WatchedStages
     folder: Path
@@ -187,10 +196,12 @@ class OutcomeWork(RunWork):
     Attributes:
         model: Who reads, as in `aurora run`.
         transcripts: Recorded replies in place of the models.
+        without: Levels of the check that are left out.
     """
 
     model: str = 'offline'
     transcripts: Path | None = None
+    without: frozenset[CheckStage] = frozenset()
 
     def judge(self, trial: Trial, place: Path) -> JudgedTrial:
         """Run the prompt."""
@@ -203,7 +214,7 @@ class OutcomeWork(RunWork):
             history_frozen=True,
             repair=self.repair,
         )
-        ran = self.ran(request, place, WatchedStages())
+        ran = self.ran(request, place, WatchedStages(without=self.without))
         if trial.prompt.feasibility != 'infeasible':
             return self.verified(trial, ran)
         found = refusal_cause(trial.prompt, ran.report)
@@ -216,7 +227,7 @@ class OutcomeWork(RunWork):
         )
 
 
-def _placed(ran: _Ran) -> ReadBack | None:
+def _placed(ran: Ran) -> ReadBack | None:
     outcome, trace = ran.stages.grounding, ran.report.trace
     agsg = None if outcome is None else outcome.agsg
     # What repair grounded again is not what was remembered.

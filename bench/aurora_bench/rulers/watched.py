@@ -7,6 +7,7 @@ from __future__ import annotations
 from aurora_cli.installed import installed
 from aurora_cli.local_engine import LocalStages
 from aurora_core.outcomes.agsg import Agsg
+from aurora_core.outcomes.feasibility import CheckStage
 from aurora_core.outcomes.grounding import GroundingOutcome
 from aurora_core.outcomes.parse import ParseOutcome
 from aurora_core.outcomes.repair import RepairPlan
@@ -19,24 +20,31 @@ class WatchedStages(LocalStages):
     """The local engine; with a specification nothing of a parser is in it.
 
     Attributes:
+        outcome: What the prompt was read as; None before.
         grounding: What grounding said; None before.
     """
 
-    def __init__(self, spec: ScenarioSpec | None = None) -> None:
+    def __init__(
+        self, spec: ScenarioSpec | None = None, without: frozenset[CheckStage] = frozenset()
+    ) -> None:
         """Take what is run.
 
         Args:
             spec: Stands in place of what the prompt would be read as; None: it is read.
+            without: Levels of the check that are left out.
         """
-        super().__init__(installed())
+        super().__init__(installed(), without)
         self._spec = spec
+        self.outcome: ParseOutcome | None = None
         self.grounding: GroundingOutcome | None = None
 
     def parse(self, request: RunRequest) -> ParseOutcome:
         """Return the specification, or read the prompt."""
         if self._spec is None:
-            return super().parse(request)
-        return understood(self.known, ParseOutcome(spec=self._spec))
+            self.outcome = super().parse(request)
+        else:
+            self.outcome = understood(self.known, ParseOutcome(spec=self._spec))
+        return self.outcome
 
     def ground(
         self, agsg: Agsg, request: RunRequest, plan: RepairPlan | None = None
