@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from io import BytesIO
 from pathlib import Path
 from typing import Any
@@ -31,7 +32,11 @@ _SETTINGS: Any = {
     'axes.axisbelow': True,
     'legend.frameon': False,
 }
-_METADATA: dict[str, dict[str, Any]] = {'svg': {'Date': None}, 'png': {'Software': None}}
+_METADATA: dict[str, dict[str, Any]] = {
+    'svg': {'Date': None},
+    'png': {'Software': None},
+    'pdf': {'CreationDate': None},
+}
 
 
 def new_figure(
@@ -67,11 +72,24 @@ def save_figure(figure: Figure, folder: Path, name: str) -> tuple[Path, Path]:
     Raises:
         ResultsError: A file cannot be written.
     """
+    png, svg = save_as(figure, folder, name, ('png', 'svg'))
+    return png, svg
+
+
+def save_as(figure: Figure, folder: Path, name: str, kinds: Sequence[str]) -> tuple[Path, ...]:
+    """Write a figure in some of the forms `pdf`, `png` and `svg`, each whole.
+
+    Returns:
+        Their paths, in the order of the forms.
+
+    Raises:
+        ResultsError: A file cannot be written.
+    """
     paths = []
-    for kind in ('png', 'svg'):
+    for kind in kinds:
         buffer = BytesIO()
         with mpl.rc_context(_SETTINGS):
             figure.savefig(buffer, format=kind, dpi=_DPI, metadata=_METADATA[kind])
         paths.append(folder / f'{name}.{kind}')
         write_whole(paths[-1], buffer.getvalue())
-    return paths[0], paths[1]
+    return tuple(paths)

@@ -18,10 +18,10 @@ from aurora_bench.campaign.files import PromptFile
 from aurora_bench.campaign.journal import Journal, JournalHead
 from aurora_bench.campaign.pool import Lost, Work
 from aurora_bench.ladder.plan import Plan, Task, files_of, read_plan, tasks_of
+from aurora_bench.ladder.pooled import Answers, on_pool
 from aurora_bench.ladder.record import LadderRun, lost_run
 from aurora_bench.ladder.results import Campaign, plan_values, write_campaign
 from aurora_bench.ladder.runs import LadderWork
-from aurora_bench.ladder.workers import on_dask, on_pool
 from aurora_bench.machine import machine_facts
 from aurora_bench.progress import Progress
 from aurora_core.document import canonical_json
@@ -126,12 +126,22 @@ def _all(
         if task.key in done:
             progress.step('from the journal')
     left = [t for t in tasks if t.key not in done]
-    if options.dask is not None:
-        answers = on_dask(
-            work, left, address=options.dask, jobs=options.jobs, limit_s=plan.limit_s
-        )
+    limit_s = plan.limit_s
+    answers: Answers[LadderRun]
+    if options.dask is None:
+        answers = on_pool(work, left, jobs=options.jobs, limit_s=limit_s, note=progress.note)
     else:
-        answers = on_pool(work, left, jobs=options.jobs, limit_s=plan.limit_s, note=progress.note)
+        # Imported here: it takes a second that a campaign on the pool does not need.
+        from aurora_bench.ladder.dask_workers import on_dask
+
+        answers = on_dask(
+            work,
+            left,
+            address=options.dask,
+            jobs=options.jobs,
+            limit_s=limit_s,
+            note=progress.note,
+        )
     begun_s = time.monotonic()
     with closing(answers):
         for number, (index, answer) in enumerate(answers, start=1):

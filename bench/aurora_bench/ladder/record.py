@@ -116,6 +116,11 @@ class LadderRun(Document):
         return self.final is VerdictStatus.VIOLATED
 
     @property
+    def undecided(self) -> bool:
+        """Whether it completed and its trace lacks what is needed to decide."""
+        return self.final is VerdictStatus.INCONCLUSIVE
+
+    @property
     def contradicted(self) -> bool:
         """Whether the checker shows that an annotated requirement does not hold."""
         return any(s.outcome == 'does_not' for s in self.said)

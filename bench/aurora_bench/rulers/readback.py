@@ -36,9 +36,7 @@ class ReadBack(Document):
     off: tuple[str, ...] = ()
 
 
-def distances(
-    bag: Path, grounded: GroundedScenario
-) -> Iterator[tuple[GroundedAgent, float]]:
+def distances(bag: Path, grounded: GroundedScenario) -> Iterator[tuple[GroundedAgent, float]]:
     """Yield how far (m) each agent of a grounding is from its place in the first state."""
     trace = read_bag(bag, message_definitions()).trace
     rows = {agent.body_id: row for row, agent in enumerate(trace.roster.agents)}

@@ -423,6 +423,12 @@ for _package, _help in (
     bench.command(_package, help=_help, context_settings=Anything, add_help_option=False)(
         _measurement(_package)
     )
+app.command(
+    'campaign',
+    help='Run configurations over prompts and seeds, resumed where left; report their tables.',
+    context_settings=Anything,
+    add_help_option=False,
+)(_measurement('ladder'))
 
 
 def main() -> NoReturn:

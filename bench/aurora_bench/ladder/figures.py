@@ -1,0 +1,246 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""The figures of the paper that runs of one campaign can give, each with its caption."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from statistics import median
+from typing import NamedTuple
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from aurora_bench.ladder.metrics import (
+    NOTHING,
+    REPAIRED,
+    TRIED,
+    anchors_by_outcome,
+    by_category,
+    groups,
+    repair_outcomes,
+    share,
+)
+from aurora_bench.ladder.paper import TABLE
+from aurora_bench.ladder.plan import Configuration
+from aurora_bench.ladder.record import Ending, LadderRun
+from aurora_bench.ladder.tables import ANCHOR_TERMS, once
+from aurora_bench.plotting import COLOURS, new_figure, save_as
+from aurora_core.report.share import Share
+
+Runs = Sequence[LadderRun]
+_FONT = 7.5
+_WIDTH_IN = 7.2
+_PAPER = '#999999'
+_HUES = dict(zip(Configuration, (COLOURS[7], COLOURS[0], COLOURS[1]), strict=True))
+_STAGES = ('parse', 'check', 'ground', 'execute', 'verify', 'repair')
+
+
+class Drawn(NamedTuple):
+    """A figure that was written.
+
+    Attributes:
+        name: Of its files.
+        caption: One paragraph.
+        paths: PDF, SVG and PNG.
+    """
+
+    name: str
+    caption: str
+    paths: tuple[Path, ...]
+
+
+def draw_all(runs: Runs, folder: Path) -> tuple[Drawn, ...]:
+    """Write every figure.
+
+    Args:
+        runs: Of a campaign.
+        folder: Where to.
+
+    Raises:
+        ResultsError: A file cannot be written.
+    """
+    figures: Mapping[str, tuple[Callable[[Runs], Figure], str]] = {
+        'ladder': (
+            _ladder,
+            'Verified passes by configuration, with 95 % Wilson intervals; grey: the five models '
+            'of the paper, in other simulators. Completion of B1 to B3 is not drawn: they were '
+            'not run.',
+        ),
+        'overview': (
+            _overview,
+            '(a) What became of runs that did not hold at first, under AURORA. (b) Completion and '
+            'passes of the first realisation by category. (c) Passes that repair adds.',
+        ),
+        'grounding': (
+            _grounding,
+            '(a) Distance between grounded and recorded place at t = 0, all bodies. (b) The '
+            'same by agent type (median and greatest). (c) Medians of the anchor score and its '
+            'terms by outcome. (d) to (f) Least margin of conditions on capture, tracking and '
+            'altitude of a mission, one point a run, with the median; it holds from zero on.',
+        ),
+        'cost': (
+            _cost,
+            '(a) Wall seconds by stage (median, quartiles) of AURORA. (b) Whole runs under AURORA '
+            'by the number of co-simulations. Sums over a run; a busy machine shows.',
+        ),
+    }
+    found = []
+    for name, (draw, caption) in figures.items():
+        paths = save_as(draw(runs), folder, name, ('pdf', 'svg', 'png'))
+        found.append(Drawn(name, caption, paths))
+    return tuple(found)
+
+
+def _ladder(runs: Runs) -> Figure:
+    figure, (ax,) = new_figure(_WIDTH_IN / 2, 2.4, font_size=_FONT)
+    found = groups(runs)
+    configurations = [c for c in Configuration if any(c is k[1] for k in found)]
+    readers = list(dict.fromkeys(r.reader for r in runs))
+    width = 0.8 / len(readers)
+    for n, reader in enumerate(readers):
+        shares = [share(found.get((reader, c), ()), lambda r: r.passed) for c in configurations]
+        places = [k - 0.4 + width * (n + 0.5) for k in range(len(configurations))]
+        _bars(ax, places, shares, width, COLOURS[n % len(COLOURS)], reader)
+    for k, configuration in enumerate(configurations):
+        values = [row[2] for row in TABLE[configuration.value] if row[2] is not None]
+        ax.scatter(
+            [k] * len(values), values, s=14, marker='D', color=_PAPER, zorder=3,
+            label="the paper's models" if k == 0 else None,
+        )  # fmt: skip
+    ax.set_xticks(range(len(configurations)), [c.value for c in configurations])
+    ax.set_ylim(0.0, 1.0)
+    ax.set_ylabel('share of runs that pass')
+    ax.legend(loc='upper left', fontsize=_FONT - 1)
+    return figure
+
+
+def _overview(runs: Runs) -> Figure:
+    figure, (left, middle, right) = new_figure(_WIDTH_IN, 2.8, panels=3, font_size=_FONT)
+    repaired = [r for r in runs if r.configuration is Configuration.AURORA]
+    counts = repair_outcomes(repaired)
+    words = (REPAIRED, TRIED, NOTHING)
+    left.barh(range(3), [counts[w] for w in words], color=COLOURS[:3])
+    left.set_yticks(
+        range(3), [w.replace(', ', ',\n').replace(' simulated', '\nsimulated') for w in words]
+    )
+    left.invert_yaxis()
+    left.set_xlabel('runs')
+    left.set_title('(a)', loc='left')
+    parts = by_category(repaired)
+    names = list(parts)
+    rows = range(len(names))
+    completed = [share(parts[n], lambda r: r.ending is Ending.COMPLETED).value for n in names]
+    first = [share(parts[n], _passed_at_first).value for n in names]
+    middle.barh([k - 0.2 for k in rows], completed, 0.4, color=COLOURS[5], label='completed')
+    middle.barh([k + 0.2 for k in rows], first, 0.4, color=COLOURS[0], label='passes at first')
+    last = [share(parts[n], lambda r: r.passed).value for n in names]
+    right.barh(rows, first, 0.6, color=COLOURS[0], label='at first')
+    gained = [max(0.0, b - a) for a, b in zip(first, last, strict=True)]
+    right.barh(rows, gained, 0.6, left=first, color=COLOURS[2], label='by repair')
+    for ax, title in ((middle, '(b)'), (right, '(c)')):
+        ax.set_yticks(rows, [f'{n.replace("_", " ")} ({len(parts[n])})' for n in names])
+        ax.invert_yaxis()
+        ax.set_xlim(0.0, 1.0)
+        ax.set_xlabel('share of runs')
+        ax.set_title(title, loc='left')
+        ax.legend(loc='lower center', bbox_to_anchor=(0.5, 1.0), ncols=2, fontsize=_FONT - 1)
+    return figure
+
+
+def _grounding(runs: Runs) -> Figure:
+    figure, axes = new_figure(_WIDTH_IN, 4.2, panels=3, rows=2, font_size=_FONT)
+    by_type: dict[str, list[float]] = {}
+    for run in once(runs):
+        for name, values in run.placed_m.items():
+            by_type.setdefault(name, []).extend(values)
+    every = sorted(v for values in by_type.values() for v in values)
+    axes[0].plot(every, [(k + 1) / len(every) for k in range(len(every))], color=COLOURS[0])
+    axes[0].set_xlabel('distance at t = 0 [m]')
+    axes[0].set_ylabel('share of bodies')
+    names = sorted(by_type)
+    rows = range(len(names))
+    axes[1].barh(rows, [max(by_type[n]) for n in names], 0.6, color=COLOURS[5], label='greatest')
+    axes[1].barh(rows, [median(by_type[n]) for n in names], 0.6, color=COLOURS[0], label='median')
+    axes[1].set_yticks(rows, [f'{n} ({len(by_type[n])})' for n in names])
+    axes[1].set_xlabel('distance at t = 0 [m]')
+    axes[1].legend(fontsize=_FONT - 1)
+    _anchors(axes[2], runs)
+    for ax, name in zip(axes[3:], ('capture', 'tracked', 'altitude'), strict=True):
+        _margins(ax, runs, name)
+    for ax, letter in zip(axes, 'abcdef', strict=True):
+        ax.set_title(f'({letter})', loc='left')
+    return figure
+
+
+def _anchors(ax: Axes, runs: Runs) -> None:
+    outcomes = anchors_by_outcome([r for r in runs if r.configuration is Configuration.B4])
+    for n, (word, some) in enumerate(outcomes.items()):
+        scores = [r.anchor for r in some if r.anchor is not None]
+        if scores:
+            values = [median(getattr(s, name) for s in scores) for name in ANCHOR_TERMS]
+            places = [k - 0.2 + 0.4 * n for k in range(len(values))]
+            ax.bar(places, values, 0.4, color=COLOURS[n], label=f'{word} ({len(scores)})')
+    ax.set_xticks(range(len(ANCHOR_TERMS)), ANCHOR_TERMS)
+    ax.set_ylim(0.0, 1.3)
+    ax.set_ylabel('median score')
+    ax.legend(fontsize=_FONT - 1, loc='upper left')
+
+
+def _margins(ax: Axes, runs: Runs, name: str) -> None:
+    found = groups(runs)
+    ticks = []
+    for k, ((_, configuration), part) in enumerate(found.items()):
+        values = sorted(r.margins[name] for r in part if name in r.margins)
+        spread = [k + 0.5 * (i / max(1, len(values) - 1) - 0.5) for i in range(len(values))]
+        ax.scatter(spread, values, s=6, color=_HUES[configuration])
+        if values:
+            ax.plot([k - 0.35, k + 0.35], [median(values)] * 2, color='black', linewidth=1.0)
+        ticks.append(f'{configuration.value}\n({len(values)})')
+    ax.axhline(0.0, color='black', linewidth=0.6)
+    ax.set_xticks(range(len(ticks)), ticks)
+    ax.set_ylabel(f'margin of {name}')
+
+
+def _cost(runs: Runs) -> Figure:
+    figure, (left, right) = new_figure(_WIDTH_IN, 2.4, panels=2, font_size=_FONT)
+    some = [r for r in runs if r.configuration is Configuration.AURORA]
+    stages = [[r.seconds[s] for r in some if s in r.seconds] for s in _STAGES]
+    shown = [(s, values) for s, values in zip(_STAGES, stages, strict=True) if values]
+    left.boxplot(
+        [values for _, values in shown], tick_labels=[s for s, _ in shown], showfliers=False
+    )
+    left.set_yscale('log')
+    left.set_ylabel('wall time [s]')
+    left.set_title('(a)', loc='left')
+    for run in some:
+        if run.simulations and 'all' in run.seconds:
+            hue = COLOURS[0] if run.passed else COLOURS[1]
+            right.scatter([run.simulations], [run.seconds['all']], s=9, color=hue)
+    right.scatter([], [], s=9, color=COLOURS[0], label='passes')
+    right.scatter([], [], s=9, color=COLOURS[1], label='does not')
+    right.set_xlabel('co-simulations of a run')
+    right.set_ylabel('wall time of the run [s]')
+    right.set_title('(b)', loc='left')
+    right.legend(fontsize=_FONT - 1)
+    return figure
+
+
+def _bars(
+    ax: Axes,
+    places: Sequence[float],
+    shares: Sequence[Share],
+    width: float,
+    hue: str,
+    label: str,
+) -> None:
+    values = [s.value for s in shares]
+    low = [s.value - s.interval[0] for s in shares]
+    high = [s.interval[1] - s.value for s in shares]
+    ax.bar(places, values, width, color=hue, label=label)
+    ax.errorbar(places, values, yerr=(low, high), fmt='none', ecolor='black', capsize=2)
+
+
+def _passed_at_first(run: LadderRun) -> bool:
+    return run.first is not None and run.first.value == 'verified'

@@ -1,0 +1,150 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""A campaign gives the same table whoever dies on the way."""
+
+from __future__ import annotations
+
+import importlib
+import json
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+import duckdb
+import pytest
+
+from aurora_bench.ladder.__main__ import main
+from aurora_bench.ladder.command import run_campaign
+from aurora_bench.ladder.plan import PlanError
+
+HERE = Path(__file__).parent
+ONE = 'configurations: [B4]\n'
+PROMPTS = ('one', 'two fails', 'three', 'four', 'five')
+
+
+def plan_file(folder: Path, prompts: tuple[str, ...] = PROMPTS, more: str = ONE) -> Path:
+    """Write a campaign of some prompts into a folder and return its file."""
+    folder.mkdir(exist_ok=True)
+    lines = [
+        json.dumps(
+            {
+                'id': f'hover-{900 + k}', 'category': 'hover', 'prompt': text,
+                'feasibility': 'feasible', 'paraphrase_group': None, 'end_to_end': True,
+                'requirements': [{'id': 'r1', 'kind': 'uav', 'ref': 'uav1'}],
+            }
+        )
+        for k, text in enumerate(prompts)
+    ]  # fmt: skip
+    (folder / 'own.jsonl').write_text('\n'.join(lines) + '\n')
+    path = folder / 'plan.yaml'
+    path.write_text(f'name: small\nprompts: [own.jsonl]\n{more}')
+    return path
+
+
+@pytest.fixture(autouse=True)
+def _importable(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let workers import the cheap work."""
+    monkeypatch.syspath_prepend(str(HERE))
+
+
+def run(file: Path, out: Path, **options: Any) -> int:
+    """Run a campaign of cheap work."""
+    make = importlib.import_module('ladder_work').cheap
+    given = {'jobs': 2, 'dask': None, **options}
+    return run_campaign(SimpleNamespace(file=file, out=out, **given), make)  # type: ignore[arg-type]
+
+
+def table(out: Path) -> tuple[bytes, bytes]:
+    """Return what was found, as bytes."""
+    return (out / 'runs.json').read_bytes(), (out / 'runs.parquet').read_bytes()
+
+
+def test_a_killed_runner_goes_on_to_the_same_table(tmp_path: Path) -> None:
+    file = plan_file(tmp_path / 'in')
+    assert run(file, tmp_path / 'whole') == 0
+    code = (
+        'import sys, time; from types import SimpleNamespace as N; from pathlib import Path\n'
+        f'sys.path.insert(0, {str(HERE)!r})\n'
+        'from aurora_bench.ladder.command import run_campaign; from ladder_work import cheap\n'
+        'import aurora_bench.ladder.command as c\n'
+        'add = c.Journal.add\n'
+        # The third run is never written: it waits there to be killed.
+        'n = []\n'
+        'c.Journal.add = lambda *a: (n.append(1), time.sleep(600 if len(n) > 2 else 0), add(*a))\n'
+        f'run_campaign(N(file=Path({str(file)!r}), out=Path({str(tmp_path / "cut")!r}), jobs=1,'
+        ' dask=None), cheap)\n'
+    )
+    script = tmp_path / 'runner.py'
+    script.write_text("if __name__ == '__main__':\n    exec(" + repr(code) + ')\n')
+    runner = subprocess.Popen([sys.executable, str(script)], stderr=subprocess.DEVNULL)
+    journal = tmp_path / 'cut' / 'small.journal.jsonl'
+    while not journal.exists() or journal.read_bytes().count(b'\n') < 3:
+        assert runner.poll() is None
+        time.sleep(0.05)
+    runner.send_signal(signal.SIGKILL)
+    runner.wait()
+    assert not (tmp_path / 'cut' / 'runs.json').exists()
+    with journal.open('ab') as stream:
+        stream.write(b'{"key": "half a li')
+    assert run(file, tmp_path / 'cut', jobs=1) == 0
+    assert table(tmp_path / 'cut') == table(tmp_path / 'whole')
+
+
+@pytest.mark.parametrize('dask', [None, 'local'])
+def test_a_killed_worker_costs_nothing(
+    tmp_path: Path, dask: str | None, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Its run is tried again; one that kills twice is named, and the others are there."""
+    file = plan_file(tmp_path / 'in', ('one', 'dies once', 'three', 'dies always', 'five'))
+    assert run(file, tmp_path / 'out', dask=dask) == 1
+    assert '5 runs  quarantined 1' in capsys.readouterr().out
+    found = json.loads((tmp_path / 'out' / 'runs.json').read_text())
+    assert [k.split(':')[1] for k in found['quarantined']] == ['hover-903']
+    endings = [r['ending'] for r in found['runs']]
+    assert endings == ['completed', 'completed', 'completed', 'failed', 'completed']
+
+
+def test_the_parquet_file_holds_every_run(tmp_path: Path) -> None:
+    file = plan_file(tmp_path / 'in', more='seeds: [1, 2]\n')
+    assert run(file, tmp_path / 'out') == 0
+    rows = duckdb.sql(
+        "SELECT configuration, count(*), sum(CAST(final = 'verified' AS INT)), min(margin) "
+        f"FROM '{tmp_path / 'out' / 'runs.parquet'}' GROUP BY ALL ORDER BY 1"
+    ).fetchall()
+    assert rows == [('AURORA', 10, 8, 1.1), ('B4', 10, 8, 1.1), ('B5', 10, 8, 1.1)]
+
+
+def test_another_campaign_is_not_mixed_in(tmp_path: Path) -> None:
+    assert run(plan_file(tmp_path / 'in'), tmp_path / 'out') == 0
+    other = plan_file(tmp_path / 'in', more=f'{ONE}repair: 3\n')
+    with pytest.raises(Exception, match='of another campaign: its options'):
+        run(other, tmp_path / 'out')
+
+
+@pytest.mark.parametrize(
+    ('more', 'told'),
+    [
+        ('colour: red\n', 'colour: Extra inputs'),
+        ('configurations: [B4, B4]\n', 'configurations: at least one, and each once'),
+        ('configurations: [B6]\n', 'configurations.0'),
+        ('map: atlantis\n', "there is no map 'atlantis'"),
+        ('seed: [\n', 'is no YAML'),
+    ],
+)
+def test_a_wrong_plan_is_refused_in_one_line(
+    tmp_path: Path, more: str, told: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = plan_file(tmp_path / 'in', more=more)
+    assert main(['run', str(file), '--out', str(tmp_path / 'out')]) == 64
+    assert told in capsys.readouterr().err
+
+
+def test_a_report_needs_a_campaign(tmp_path: Path) -> None:
+    from aurora_bench.ladder.results import read_campaign
+
+    with pytest.raises(PlanError, match='holds no finished campaign'):
+        read_campaign(tmp_path)
