@@ -185,7 +185,8 @@ def _anchors(ax: Axes, runs: Runs) -> None:
     ax.set_xticks(range(len(ANCHOR_TERMS)), ANCHOR_TERMS)
     ax.set_ylim(0.0, 1.3)
     ax.set_ylabel('median score')
-    ax.legend(fontsize=_FONT - 1, loc='upper left')
+    if ax.containers:
+        ax.legend(fontsize=_FONT - 1, loc='upper left')
 
 
 def _margins(ax: Axes, runs: Runs, name: str) -> None:
@@ -208,10 +209,11 @@ def _cost(runs: Runs) -> Figure:
     some = [r for r in runs if r.configuration is Configuration.AURORA]
     stages = [[r.seconds[s] for r in some if s in r.seconds] for s in _STAGES]
     shown = [(s, values) for s, values in zip(_STAGES, stages, strict=True) if values]
-    left.boxplot(
-        [values for _, values in shown], tick_labels=[s for s, _ in shown], showfliers=False
-    )
-    left.set_yscale('log')
+    if shown:
+        left.boxplot(
+            [values for _, values in shown], tick_labels=[s for s, _ in shown], showfliers=False
+        )
+        left.set_yscale('log')
     left.set_ylabel('wall time [s]')
     left.set_title('(a)', loc='left')
     for run in some:

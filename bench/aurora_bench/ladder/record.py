@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from enum import StrEnum
+from typing import Any
 
 from pydantic import FiniteFloat
 
@@ -138,7 +139,7 @@ def lost_run(task: Task, why: str) -> LadderRun:
     )
 
 
-def identity(task: Task) -> dict[str, object]:
+def identity(task: Task) -> dict[str, Any]:
     """Return the fields that say which run it is."""
     trial = task.trial
     return {

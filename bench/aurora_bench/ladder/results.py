@@ -14,7 +14,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from pydantic import ValidationError
+from pydantic import FiniteFloat, ValidationError
 
 from aurora_bench.ladder.plan import Plan, PlanError
 from aurora_bench.ladder.record import LadderRun
@@ -141,18 +141,13 @@ def write_parquet(path: Path, runs: Sequence[LadderRun]) -> None:
         temporary.unlink(missing_ok=True)
 
 
-_KINDS = {bool: 'BOOLEAN', int: 'BIGINT'}
-_NUMBERS = ('margin', 'simulated_s')
-
-
 def _columns() -> tuple[tuple[str, str], ...]:
-    found = []
-    for name, info in LadderRun.model_fields.items():
-        if name == 'seconds':
-            continue
-        kind = _KINDS.get(info.annotation, 'DOUBLE' if name in _NUMBERS else 'VARCHAR')  # type: ignore[call-overload]
-        found.append((name, kind))
-    return tuple(found)
+    kinds: Mapping[object, str] = {bool: 'BOOLEAN', int: 'BIGINT', FiniteFloat | None: 'DOUBLE'}
+    return tuple(
+        (name, kinds.get(info.annotation, 'VARCHAR'))
+        for name, info in LadderRun.model_fields.items()
+        if name != 'seconds'
+    )
 
 
 def _flat(run: LadderRun) -> list[Any]:

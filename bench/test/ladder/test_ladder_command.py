@@ -111,10 +111,12 @@ def test_a_killed_worker_costs_nothing(
 def test_the_parquet_file_holds_every_run(tmp_path: Path) -> None:
     file = plan_file(tmp_path / 'in', more='seeds: [1, 2]\n')
     assert run(file, tmp_path / 'out') == 0
-    rows = duckdb.sql(
+    found = duckdb.sql(
         "SELECT configuration, count(*), sum(CAST(final = 'verified' AS INT)), min(margin) "
         f"FROM '{tmp_path / 'out' / 'runs.parquet'}' GROUP BY ALL ORDER BY 1"
-    ).fetchall()
+    )
+    assert found is not None
+    rows = found.fetchall()
     assert rows == [('AURORA', 10, 8, 1.1), ('B4', 10, 8, 1.1), ('B5', 10, 8, 1.1)]
 
 
