@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from statistics import median
+from statistics import fmean, median
 from typing import NamedTuple
 
 from matplotlib.axes import Axes
@@ -76,9 +76,10 @@ def draw_all(runs: Runs, folder: Path) -> tuple[Drawn, ...]:
         'grounding': (
             _grounding,
             '(a) Distance between grounded and recorded place at t = 0, all bodies. (b) The '
-            'same by agent type (median and greatest). (c) Medians of the anchor score and its '
-            'terms by outcome. (d) to (f) Least margin of conditions on capture, tracking and '
-            'altitude of a mission, one point a run, with the median; it holds from zero on.',
+            'same by agent type (median and greatest). (c) Means of the anchor score and its terms '
+            'by outcome under B4. (d) to (f) Least margin of conditions on capture [s], tracking '
+            '(share) and waypoints (number), one point a run, with the median; it holds from zero '
+            'on.',
         ),
         'cost': (
             _cost,
@@ -145,7 +146,7 @@ def _overview(runs: Runs) -> Figure:
         ax.set_xlim(0.0, 1.0)
         ax.set_xlabel('share of runs')
         ax.set_title(title, loc='left')
-        ax.legend(loc='lower center', bbox_to_anchor=(0.5, 1.0), ncols=2, fontsize=_FONT - 1)
+        ax.legend(loc='upper center', bbox_to_anchor=(0.4, -0.2), ncols=2, fontsize=_FONT - 1)
     return figure
 
 
@@ -167,7 +168,7 @@ def _grounding(runs: Runs) -> Figure:
     axes[1].set_xlabel('distance at t = 0 [m]')
     axes[1].legend(fontsize=_FONT - 1)
     _anchors(axes[2], runs)
-    for ax, name in zip(axes[3:], ('capture', 'tracked', 'altitude'), strict=True):
+    for ax, name in zip(axes[3:], ('capture', 'tracked', 'waypoints'), strict=True):
         _margins(ax, runs, name)
     for ax, letter in zip(axes, 'abcdef', strict=True):
         ax.set_title(f'({letter})', loc='left')
@@ -179,12 +180,12 @@ def _anchors(ax: Axes, runs: Runs) -> None:
     for n, (word, some) in enumerate(outcomes.items()):
         scores = [r.anchor for r in some if r.anchor is not None]
         if scores:
-            values = [median(getattr(s, name) for s in scores) for name in ANCHOR_TERMS]
+            values = [fmean(getattr(s, name) for s in scores) for name in ANCHOR_TERMS]
             places = [k - 0.2 + 0.4 * n for k in range(len(values))]
             ax.bar(places, values, 0.4, color=COLOURS[n], label=f'{word} ({len(scores)})')
     ax.set_xticks(range(len(ANCHOR_TERMS)), ANCHOR_TERMS)
-    ax.set_ylim(0.0, 1.3)
-    ax.set_ylabel('median score')
+    ax.set_ylim(0.0, 1.5)
+    ax.set_ylabel('mean score')
     if ax.containers:
         ax.legend(fontsize=_FONT - 1, loc='upper left')
 

@@ -9,7 +9,7 @@ import io
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
-from statistics import median
+from statistics import fmean, median
 
 from aurora_bench.ladder.metrics import (
     METRICS,
@@ -233,7 +233,7 @@ def placement_table(runs: Runs) -> Table:
 
 
 def anchor_table(runs: Runs) -> Table:
-    """Return medians of the terms of the anchor score by outcome."""
+    """Return means of the terms of the anchor score by outcome."""
     rows: list[Sequence[Cell]] = []
     for (reader, configuration), part in groups(runs).items():
         for word, some in anchors_by_outcome(part).items():
@@ -243,13 +243,13 @@ def anchor_table(runs: Runs) -> Table:
             rows.append(
                 (
                     reader, configuration.value, word, len(some),
-                    *(median(getattr(v, name) for v in values) for name in ANCHOR_TERMS),
+                    *(fmean(getattr(v, name) for v in values) for name in ANCHOR_TERMS),
                 )
             )  # fmt: skip
     return Table(
         headings=('reader', 'configuration', 'outcome', 'runs', *ANCHOR_TERMS),
         rows=rows,
-        caption='Joint anchor score and its terms, medians',
+        caption='Joint anchor score and its terms, means',
     )
 
 
