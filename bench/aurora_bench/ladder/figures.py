@@ -77,9 +77,9 @@ def draw_all(runs: Runs, folder: Path) -> tuple[Drawn, ...]:
             _grounding,
             '(a) Distance between grounded and recorded place at t = 0, all bodies. (b) The '
             'same by agent type (median and greatest). (c) Means of the anchor score and its '
-            'terms by outcome under B4. (d) to (f) Least margin of conditions on capture [s], tracking '
-            '(share) and waypoints (number), one point a run, with the median; it holds from zero '
-            'on.',
+            'terms by outcome under B4. (d) to (f) Least margin of conditions on capture [s], '
+            'tracking (share) and waypoints (number), one point a run, with the median; it holds '
+            'from zero on.',
         ),
         'cost': (
             _cost,
