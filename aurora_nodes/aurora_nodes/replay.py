@@ -22,7 +22,9 @@ from typing import NoReturn
 
 import rclpy
 from pydantic import ValidationError
+from rclpy.exceptions import InvalidHandle
 from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.signals import SignalHandlerOptions
 from rclpy.utilities import remove_ros_args, try_shutdown
 from rich.console import Console
@@ -193,6 +195,9 @@ def _spin(executor: SingleThreadedExecutor) -> None:
         executor.spin()
     except ExternalShutdownException:
         return
+    except (InvalidHandle, rclpy_implementation.RCLError):
+        if rclpy.ok():
+            raise  # else it was shut down while it waited
 
 
 def _interrupt(_number: int, _frame: FrameType | None) -> NoReturn:
