@@ -79,7 +79,8 @@ def project(
 
     Args:
         around_m: (n,) arc length near which to look.
-        heading: (n, 2) of who is there: where the way goes against it is the other carriageway.
+        heading: (n, 2) of who is there: where the way goes against it is the other carriageway;
+            zero where that does not count.
     """
     a, b = found.xy_m[:-1], found.xy_m[1:]
     along = b - a
@@ -118,7 +119,10 @@ def ahead_of(scene: Scene, a: str, b: str, ticks: Any) -> tuple[FloatArray, Floa
     own_b, own_a = way(scene, b), way(scene, a)
     # Who walks may do so along the street in any direction.
     driven = not scene.is_person(a) and not scene.is_person(b)
-    heads = (scene.heading(a)[index], scene.heading(b)[index]) if driven else (None, None)
+    one, other = scene.heading(a)[index], scene.heading(b)[index]
+    # Of two that meet one is ahead on the way of the other, against which it drives.
+    alike = np.einsum('ij,ij->i', one, other)[:, None] > 0.0
+    heads = (one * alike, other * alike) if driven else (None, None)
     arc, lateral = project(own_b, scene.xy(a)[index], own_b.own_m[index], heads[0])
     ahead = arc - own_b.own_m[index]
     # The very ends of a way stand for everything beyond them.
