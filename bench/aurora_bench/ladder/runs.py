@@ -99,8 +99,9 @@ class _Watched(OutcomeWork):
         assert trace is not None
         try:
             return asked_of(self.check, ran.folder / trace.bag, document)
-        except Exception:  # noqa: BLE001  (who cannot tell has contradicted nothing)
-            return ()
+        except Exception as err:  # noqa: BLE001  (a checker that breaks must not end the campaign)
+            why = f'{type(err).__name__}: {err}'
+            return (Said(requirement='', kind='checker', outcome='cannot_tell', why=why),)
 
 
 def facts_of(ran: Ran, prompt: AnnotatedPrompt) -> dict[str, Any]:
