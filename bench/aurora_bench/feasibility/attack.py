@@ -25,13 +25,13 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from aurora_bench.campaign.code import code_digest
-from aurora_bench.campaign.journal import Journal, JournalHead, journal_path
 from aurora_bench.feasibility.attempt import ENDS, REALISED, SEEDS, Attempts
 from aurora_bench.feasibility.families import Case, family_cases
 from aurora_bench.feasibility.judge import judged
 from aurora_bench.progress import Progress
 from aurora_bench.results import Table, markdown_table, write_results
+from aurora_bench.resumable.code import code_digest
+from aurora_bench.resumable.journal import Journal, JournalHead, journal_path
 from aurora_bench.rulers.checking import independent_checker
 from aurora_cli.installed import installed
 from aurora_cli.local_engine import LocalStages

@@ -10,10 +10,6 @@ from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
 
-from aurora_bench.campaign.code import code_digest
-from aurora_bench.campaign.files import PromptFile, file_line, read_files
-from aurora_bench.campaign.journal import Journal, JournalError, JournalHead, journal_path
-from aurora_bench.campaign.pool import PoolError
 from aurora_bench.fidelity.asking import AskWork, Question, Told, ask, question
 from aurora_bench.fidelity.summary import Judged, as_json, judge, last_line, tables
 from aurora_bench.fidelity.timing import seconds_per_prompt, timing_table
@@ -22,6 +18,10 @@ from aurora_bench.machine import Machine, machine_facts
 from aurora_bench.progress import Progress
 from aurora_bench.prompts.shipped import first_files
 from aurora_bench.results import ResultsError, markdown_table, write_results
+from aurora_bench.resumable.code import code_digest
+from aurora_bench.resumable.files import PromptFile, file_line, read_files
+from aurora_bench.resumable.journal import Journal, JournalError, JournalHead, journal_path
+from aurora_bench.resumable.pool import PoolError
 from aurora_bench.seeds import seeds_option
 from aurora_core.errors import ConfigError
 from aurora_core.report.run_folder import json_text

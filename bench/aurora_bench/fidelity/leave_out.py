@@ -20,11 +20,11 @@ from pathlib import Path
 from types import FunctionType, ModuleType
 from typing import Any
 
-from aurora_bench.campaign.files import read_files
 from aurora_bench.fidelity.answer import Answer, offline_answer
 from aurora_bench.fidelity.summary import judge
 from aurora_bench.prompts.format import AnnotatedPrompt
 from aurora_bench.prompts.shipped import tune_files
+from aurora_bench.resumable.files import read_files
 from aurora_cli.installed import installed
 from aurora_core import parsing
 from aurora_core.outcomes.parse import ParseContext

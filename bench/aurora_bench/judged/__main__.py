@@ -16,7 +16,6 @@ from collections.abc import Sequence
 from contextlib import closing
 from pathlib import Path
 
-from aurora_bench.campaign.pool import Lost, run_tasks
 from aurora_bench.interrupt import stop_on_sigterm
 from aurora_bench.judged.sweep import Asked, Found, Sweep
 from aurora_bench.machine import machine_facts
@@ -24,6 +23,7 @@ from aurora_bench.progress import Progress
 from aurora_bench.prompts.reading import read_prompts
 from aurora_bench.prompts.shipped import first_files
 from aurora_bench.results import ResultsError, Table, markdown_table, write_results
+from aurora_bench.resumable.pool import Lost, run_tasks
 
 # Searching a place for a crowd takes long on a slow machine.
 _LIMIT_S = 600.0

@@ -17,14 +17,14 @@ from pathlib import Path
 
 from pydantic import ValidationError
 
-from aurora_bench.campaign.code import code_digest
-from aurora_bench.campaign.journal import Journal, JournalHead, journal_path
 from aurora_bench.interrupt import stop_on_sigterm
 from aurora_bench.machine import machine_facts
 from aurora_bench.matrix import air, ground
 from aurora_bench.matrix.cells import Cell
 from aurora_bench.progress import Progress
 from aurora_bench.results import Goal, Table, goal_table, markdown_table, write_results
+from aurora_bench.resumable.code import code_digest
+from aurora_bench.resumable.journal import Journal, JournalHead, journal_path
 from aurora_bench.rulers.readback import read_back_line
 from aurora_bench.rulers.runs import RealiseWork
 from aurora_bench.rulers.trial import JudgedTrial, Trial, judged_trials

@@ -12,14 +12,14 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
-from aurora_bench.campaign.code import code_digest
-from aurora_bench.campaign.journal import Journal, JournalError, JournalHead, journal_path
 from aurora_bench.interrupt import stop_on_sigterm
 from aurora_bench.machine import machine_facts
 from aurora_bench.mutation.campaign import Campaign, Outcome, recording
 from aurora_bench.mutation.prompts import FAILING, SOUND
 from aurora_bench.progress import Progress
 from aurora_bench.results import Goal, Table, told_goals, write_results
+from aurora_bench.resumable.code import code_digest
+from aurora_bench.resumable.journal import Journal, JournalError, JournalHead, journal_path
 from aurora_core.report.versions import product_versions
 from aurora_system_tests.planted_bugs import PLANTED
 

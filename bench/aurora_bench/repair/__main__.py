@@ -11,13 +11,13 @@ from contextlib import closing
 from pathlib import Path
 from statistics import median
 
-from aurora_bench.campaign.pool import Lost, run_tasks
 from aurora_bench.interrupt import stop_on_sigterm
 from aurora_bench.machine import machine_facts
 from aurora_bench.progress import Progress
 from aurora_bench.repair.campaign import Episode, RepairWork
 from aurora_bench.repair.faults import KINDS, Fault, faults
 from aurora_bench.results import Goal, Table, markdown_table, write_results
+from aurora_bench.resumable.pool import Lost, run_tasks
 from aurora_core.report.share import Share
 
 _TITLE = 'Faults with known causes that repair finds and mends'

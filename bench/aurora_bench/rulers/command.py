@@ -13,16 +13,16 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from aurora_bench.campaign.code import code_digest
-from aurora_bench.campaign.files import PromptFile, file_line, read_files, verdict_line
-from aurora_bench.campaign.journal import Journal, JournalError, JournalHead, journal_path
-from aurora_bench.campaign.pool import PoolError, Work
 from aurora_bench.interrupt import stop_on_sigterm
 from aurora_bench.machine import Machine, machine_facts
 from aurora_bench.progress import Progress
 from aurora_bench.prompts.format import AnnotatedPrompt, beyond
 from aurora_bench.prompts.shipped import first_files
 from aurora_bench.results import ResultsError, markdown_table, write_results
+from aurora_bench.resumable.code import code_digest
+from aurora_bench.resumable.files import PromptFile, file_line, read_files, verdict_line
+from aurora_bench.resumable.journal import Journal, JournalError, JournalHead, journal_path
+from aurora_bench.resumable.pool import PoolError, Work
 from aurora_bench.rulers.anywhere import place_names, places_of_maps
 from aurora_bench.rulers.readback import read_back_line
 from aurora_bench.rulers.summary import (
@@ -35,7 +35,7 @@ from aurora_bench.rulers.summary import (
     total_tables,
     unchecked_share,
 )
-from aurora_bench.rulers.trial import JudgedTrial, Trial, judged_trials
+from aurora_bench.rulers.trial import JudgedTrial, Trial, judged_trials, trials_of
 from aurora_bench.seeds import seeds_option
 from aurora_core.errors import AuroraError, ConfigError, MapError
 from aurora_core.knowledge.map_folders import list_maps
@@ -202,16 +202,8 @@ def _trials(
             and ruler.takes(prompt)
             and named.isdisjoint(place_names(document.get('requirements')))
         ]
-        for prompt, document in pairs[: options.first]:
-            for seed in options.seeds:
-                yield Trial(
-                    key=f'{file.sha256[:16]}:{prompt.id}:{seed}',
-                    file=file.name,
-                    seed=seed,
-                    prompt=prompt,
-                    document=document,
-                    folder=f'{Path(file.name).stem}/{prompt.id}-{seed}',
-                )
+        name = Path(file.name).stem
+        yield from trials_of(file, pairs[: options.first], options.seeds, name)
 
 
 def _journal(

@@ -4,15 +4,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator, Mapping, Sequence
+from collections.abc import Generator, Iterator, Mapping, Sequence
 from contextlib import closing
 from enum import StrEnum
 from typing import Any
 
 from pydantic import FiniteFloat
 
-from aurora_bench.campaign.pool import Lost, Work, run_tasks
 from aurora_bench.prompts.format import AnnotatedPrompt, Category, Feasibility
+from aurora_bench.resumable.files import PromptFile
+from aurora_bench.resumable.pool import Lost, Work, run_tasks
 from aurora_bench.rulers.checking import Said
 from aurora_bench.rulers.readback import ReadBack
 from aurora_core.document import Document
@@ -49,6 +50,32 @@ class Trial(Document):
     prompt: AnnotatedPrompt
     document: Mapping[str, Any]
     folder: str
+
+
+def trials_of(
+    file: PromptFile,
+    pairs: Sequence[tuple[AnnotatedPrompt, Mapping[str, Any]]],
+    seeds: Sequence[int],
+    folder: str,
+) -> Iterator[Trial]:
+    """Yield prompts of a file with every seed.
+
+    Args:
+        file: Where they stand.
+        pairs: Each with its line in the file.
+        seeds: Of the runs.
+        folder: Runs go below it.
+    """
+    for prompt, document in pairs:
+        for seed in seeds:
+            yield Trial(
+                key=f'{file.sha256[:16]}:{prompt.id}:{seed}',
+                file=file.name,
+                seed=seed,
+                prompt=prompt,
+                document=document,
+                folder=f'{folder}/{prompt.id}-{seed}',
+            )
 
 
 class JudgedTrial(Document):

@@ -428,7 +428,7 @@ app.command(
     help='Run configurations over prompts and seeds, resumed where left; report their tables.',
     context_settings=Anything,
     add_help_option=False,
-)(_measurement('ladder'))
+)(_measurement('campaign'))
 
 
 def main() -> NoReturn:

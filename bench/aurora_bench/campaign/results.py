@@ -16,8 +16,8 @@ from typing import Any
 
 from pydantic import FiniteFloat, ValidationError
 
-from aurora_bench.ladder.plan import Plan, PlanError
-from aurora_bench.ladder.record import LadderRun
+from aurora_bench.campaign.plan import Plan, PlanError
+from aurora_bench.campaign.record import CampaignRun
 from aurora_bench.machine import Machine
 from aurora_bench.results import ResultsError, write_whole
 from aurora_core.document import Document
@@ -48,7 +48,7 @@ class Campaign(Document):
     versions: Mapping[str, str]
     transcripts: Mapping[str, str] = {}
     quarantined: Mapping[str, str] = {}
-    runs: tuple[LadderRun, ...]
+    runs: tuple[CampaignRun, ...]
 
 
 class Spent(Document):
@@ -74,7 +74,7 @@ def plan_values(plan: Plan) -> dict[str, Any]:
 
 
 def write_campaign(
-    folder: Path, campaign: Campaign, runs: Sequence[LadderRun], machine: Machine
+    folder: Path, campaign: Campaign, runs: Sequence[CampaignRun], machine: Machine
 ) -> str:
     """Write all files of a campaign and return the digest (sha256, hex) of what was found.
 
@@ -114,7 +114,7 @@ def read_campaign(folder: Path) -> tuple[Campaign, Spent]:
     return campaign.model_copy(update={'runs': timed}), spent
 
 
-def write_parquet(path: Path, runs: Sequence[LadderRun]) -> None:
+def write_parquet(path: Path, runs: Sequence[CampaignRun]) -> None:
     """Write runs as a Parquet file, one row each; lists and maps are JSON text.
 
     Raises:
@@ -145,12 +145,12 @@ def _columns() -> tuple[tuple[str, str], ...]:
     kinds: Mapping[object, str] = {bool: 'BOOLEAN', int: 'BIGINT', FiniteFloat | None: 'DOUBLE'}
     return tuple(
         (name, kinds.get(info.annotation, 'VARCHAR'))
-        for name, info in LadderRun.model_fields.items()
+        for name, info in CampaignRun.model_fields.items()
         if name != 'seconds'
     )
 
 
-def _flat(run: LadderRun) -> list[Any]:
+def _flat(run: CampaignRun) -> list[Any]:
     values = run.model_dump(mode='json')
     return [
         json.dumps(values[name], sort_keys=True)

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from aurora_bench.campaign.journal import Journal, JournalError, JournalHead, journal_path
+from aurora_bench.resumable.journal import Journal, JournalError, JournalHead, journal_path
 
 
 def head(**changes: Any) -> JournalHead:

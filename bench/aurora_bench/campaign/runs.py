@@ -9,11 +9,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from aurora_bench.campaign.plan import Plan, Task
+from aurora_bench.campaign.record import CampaignRun, Ending, Tried, identity
 from aurora_bench.fidelity.answer import Answer
 from aurora_bench.fidelity.score import score
 from aurora_bench.fidelity.summary import field_share, requirement_share
-from aurora_bench.ladder.plan import Plan, Task
-from aurora_bench.ladder.record import Ending, LadderRun, Tried, identity
 from aurora_bench.prompts.format import AnnotatedPrompt
 from aurora_bench.rulers.checking import Said, asked_of
 from aurora_bench.rulers.readback import distances
@@ -31,7 +31,7 @@ from aurora_core.report.status import Status
 
 
 @dataclass(kw_only=True)
-class LadderWork:
+class CampaignWork:
     """Runs tasks of a plan; sent to every worker.
 
     Attributes:
@@ -46,7 +46,7 @@ class LadderWork:
         """Load what every run needs."""
         _Watched(folder=self.folder, map_name=self.plan.map).prepare()
 
-    def __call__(self, task: Task) -> LadderRun:
+    def __call__(self, task: Task) -> CampaignRun:
         """Run one task; its folder goes, whatever happens."""
         work = _Watched(
             folder=self.folder / task.reader.name / task.configuration.value,
@@ -67,7 +67,7 @@ class LadderWork:
             'seconds': judged.seconds,
             **work.facts,
         }
-        return LadderRun(**values)
+        return CampaignRun(**values)
 
 
 @dataclass(kw_only=True)

@@ -17,9 +17,9 @@ from typing import Any
 import duckdb
 import pytest
 
-from aurora_bench.ladder.__main__ import main
-from aurora_bench.ladder.command import run_campaign
-from aurora_bench.ladder.plan import PlanError
+from aurora_bench.campaign.__main__ import main
+from aurora_bench.campaign.command import run_campaign
+from aurora_bench.campaign.plan import PlanError
 
 HERE = Path(__file__).parent
 ONE = 'configurations: [B4]\n'
@@ -53,7 +53,7 @@ def _importable(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def run(file: Path, out: Path, **options: Any) -> int:
     """Run a campaign of cheap work."""
-    make = importlib.import_module('ladder_work').cheap
+    make = importlib.import_module('campaign_work').cheap
     given = {'jobs': 2, 'dask': None, **options}
     return run_campaign(SimpleNamespace(file=file, out=out, **given), make)  # type: ignore[arg-type]
 
@@ -69,8 +69,8 @@ def test_a_killed_runner_goes_on_to_the_same_table(tmp_path: Path) -> None:
     code = (
         'import sys, time; from types import SimpleNamespace as N; from pathlib import Path\n'
         f'sys.path.insert(0, {str(HERE)!r})\n'
-        'from aurora_bench.ladder.command import run_campaign; from ladder_work import cheap\n'
-        'import aurora_bench.ladder.command as c\n'
+        'from aurora_bench.campaign.command import run_campaign; from campaign_work import cheap\n'
+        'import aurora_bench.campaign.command as c\n'
         'add = c.Journal.add\n'
         # The third run is never written: it waits there to be killed.
         'n = []\n'
@@ -146,7 +146,7 @@ def test_a_wrong_plan_is_refused_in_one_line(
 
 
 def test_a_report_needs_a_campaign(tmp_path: Path) -> None:
-    from aurora_bench.ladder.results import read_campaign
+    from aurora_bench.campaign.results import read_campaign
 
     with pytest.raises(PlanError, match='holds no finished campaign'):
         read_campaign(tmp_path)

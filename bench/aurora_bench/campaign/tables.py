@@ -11,7 +11,7 @@ from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from statistics import fmean, median
 
-from aurora_bench.ladder.metrics import (
+from aurora_bench.campaign.metrics import (
     METRICS,
     anchors_by_outcome,
     by_category,
@@ -23,13 +23,13 @@ from aurora_bench.ladder.metrics import (
     repair_outcomes,
     share,
 )
-from aurora_bench.ladder.paper import MODELS, TABLE
-from aurora_bench.ladder.plan import Configuration
-from aurora_bench.ladder.record import LadderRun
+from aurora_bench.campaign.paper import MODELS, TABLE
+from aurora_bench.campaign.plan import Configuration
+from aurora_bench.campaign.record import CampaignRun
 from aurora_bench.results import Cell, Table, cell_text
 from aurora_core.report.share import Share
 
-Runs = Sequence[LadderRun]
+Runs = Sequence[CampaignRun]
 _STAGES = (
     'parse',
     'check',
@@ -330,9 +330,9 @@ def seed_table(runs: Runs) -> Table:
     )  # fmt: skip
 
 
-def once(runs: Runs) -> list[LadderRun]:
+def once(runs: Runs) -> list[CampaignRun]:
     """Return one run of each reader, prompt and seed that has placements."""
-    found: dict[tuple[str, str, str, int], LadderRun] = {}
+    found: dict[tuple[str, str, str, int], CampaignRun] = {}
     for run in runs:
         if run.placed_m:
             found.setdefault((run.reader, run.file, run.id, run.seed), run)

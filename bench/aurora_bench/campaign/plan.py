@@ -12,10 +12,10 @@ from typing import Annotated, Any
 import yaml
 from pydantic import Field, FiniteFloat, ValidationError, model_validator
 
-from aurora_bench.campaign.files import PromptFile, read_files
 from aurora_bench.prompts.shipped import FIRST, prompt_file
 from aurora_bench.results import ResultsError
-from aurora_bench.rulers.trial import Trial
+from aurora_bench.resumable.files import PromptFile, read_files
+from aurora_bench.rulers.trial import Trial, trials_of
 from aurora_core.document import Document
 from aurora_core.errors import AuroraError
 from aurora_core.files import DOCUMENT_BYTES, read_bytes
@@ -192,16 +192,7 @@ def _trials(plan: Plan, files: Sequence[PromptFile]) -> Iterator[Trial]:
             for p, d in zip(file.prompts, file.documents, strict=True)
             if p.end_to_end or not plan.end_to_end
         ]
-        for prompt, document in pairs[: plan.first]:
-            for seed in plan.seeds:
-                yield Trial(
-                    key=f'{file.sha256[:16]}:{prompt.id}:{seed}',
-                    file=file.name,
-                    seed=seed,
-                    prompt=prompt,
-                    document=document,
-                    folder=f'{file.sha256[:8]}/{prompt.id}-{seed}',
-                )
+        yield from trials_of(file, pairs[: plan.first], plan.seeds, file.sha256[:8])
 
 
 def _paths(name: str) -> Iterator[Path]:

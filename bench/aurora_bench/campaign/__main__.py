@@ -9,9 +9,9 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from aurora_bench.campaign.journal import JournalError
+from aurora_bench.campaign.plan import PlanError
 from aurora_bench.interrupt import stop_on_sigterm
-from aurora_bench.ladder.plan import PlanError
+from aurora_bench.resumable.journal import JournalError
 from aurora_core.errors import AuroraError, ConfigError
 
 _USAGE, _BROKEN, _INTERRUPTED = 64, 4, 130
@@ -28,12 +28,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
     options = _parser().parse_args(arguments)
     try:
         if options.command == 'run':
-            from aurora_bench.ladder.command import run_campaign
+            from aurora_bench.campaign.command import run_campaign
 
             if options.jobs < 1:
                 raise ConfigError(f'--jobs needs at least 1 worker, found {options.jobs}')
             return run_campaign(options)
-        from aurora_bench.ladder.report import write_report
+        from aurora_bench.campaign.report import write_report
 
         written = write_report(options.folder, options.out or options.folder, name=options.name)
     except KeyboardInterrupt:

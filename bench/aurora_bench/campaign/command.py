@@ -13,28 +13,28 @@ from contextlib import closing
 from datetime import timedelta
 from pathlib import Path
 
-from aurora_bench.campaign.code import code_digest, files_digest
-from aurora_bench.campaign.files import PromptFile
-from aurora_bench.campaign.journal import Journal, JournalHead
-from aurora_bench.campaign.pool import Lost, Work
-from aurora_bench.ladder.plan import Plan, Task, files_of, read_plan, tasks_of
-from aurora_bench.ladder.pooled import Answers, on_pool
-from aurora_bench.ladder.record import LadderRun, lost_run
-from aurora_bench.ladder.results import Campaign, plan_values, write_campaign
-from aurora_bench.ladder.runs import LadderWork
+from aurora_bench.campaign.plan import Plan, Task, files_of, read_plan, tasks_of
+from aurora_bench.campaign.pooled import Answers, on_pool
+from aurora_bench.campaign.record import CampaignRun, lost_run
+from aurora_bench.campaign.results import Campaign, plan_values, write_campaign
+from aurora_bench.campaign.runs import CampaignWork
 from aurora_bench.machine import machine_facts
 from aurora_bench.progress import Progress
+from aurora_bench.resumable.code import code_digest, files_digest
+from aurora_bench.resumable.files import PromptFile
+from aurora_bench.resumable.journal import Journal, JournalHead
+from aurora_bench.resumable.pool import Lost, Work
 from aurora_core.document import canonical_json
 from aurora_core.report.versions import product_versions
 
-MakeWork = Callable[[Plan, Path], Work[Task, LadderRun]]
+MakeWork = Callable[[Plan, Path], Work[Task, CampaignRun]]
 
 
-def _ladder_work(plan: Plan, folder: Path) -> LadderWork:
-    return LadderWork(plan=plan, folder=folder)
+def _campaign_work(plan: Plan, folder: Path) -> CampaignWork:
+    return CampaignWork(plan=plan, folder=folder)
 
 
-def run_campaign(options: argparse.Namespace, make_work: MakeWork = _ladder_work) -> int:
+def run_campaign(options: argparse.Namespace, make_work: MakeWork = _campaign_work) -> int:
     """Run a plan to its end and write its files.
 
     Args:
@@ -108,16 +108,16 @@ def _empty(plan: Plan, files: Sequence[PromptFile]) -> Campaign:
 
 
 def _all(
-    work: Work[Task, LadderRun],
+    work: Work[Task, CampaignRun],
     tasks: Sequence[Task],
     plan: Plan,
     journal: Journal,
     options: argparse.Namespace,
     progress: Progress,
-) -> tuple[tuple[LadderRun, ...], dict[str, str]]:
+) -> tuple[tuple[CampaignRun, ...], dict[str, str]]:
     """Return every run in the order of the plan, and why some are lost, by key."""
     done = {
-        t.key: LadderRun.model_validate(journal.finished[t.key])
+        t.key: CampaignRun.model_validate(journal.finished[t.key])
         for t in tasks
         if t.key in journal.finished
     }
@@ -127,12 +127,12 @@ def _all(
             progress.step('from the journal')
     left = [t for t in tasks if t.key not in done]
     limit_s = plan.limit_s
-    answers: Answers[LadderRun]
+    answers: Answers[CampaignRun]
     if options.dask is None:
         answers = on_pool(work, left, jobs=options.jobs, limit_s=limit_s, note=progress.note)
     else:
         # Imported here: it takes a second that a campaign on the pool does not need.
-        from aurora_bench.ladder.dask_workers import on_dask
+        from aurora_bench.campaign.dask_workers import on_dask
 
         answers = on_dask(
             work,

@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from aurora_bench.campaign.pool import Lost, PoolError, run_tasks
+from aurora_bench.resumable.pool import Lost, PoolError, run_tasks
 
 LIMIT_S = 60.0
 

@@ -10,7 +10,7 @@ from typing import Any
 
 from pydantic import FiniteFloat
 
-from aurora_bench.ladder.plan import Configuration, Task
+from aurora_bench.campaign.plan import Configuration, Task
 from aurora_bench.prompts.format import Category, Feasibility
 from aurora_bench.rulers.checking import Said
 from aurora_bench.rulers.trial import Cause
@@ -43,7 +43,7 @@ class Tried(Document):
     of_conditions: int
 
 
-class LadderRun(Document):
+class CampaignRun(Document):
     """One run; equal for equal requests but for the seconds.
 
     Attributes:
@@ -132,9 +132,9 @@ class LadderRun(Document):
         return self.status == 'verified' and self.contradicted
 
 
-def lost_run(task: Task, why: str) -> LadderRun:
+def lost_run(task: Task, why: str) -> CampaignRun:
     """Return the record of a task whose worker gave none."""
-    return LadderRun(
+    return CampaignRun(
         **identity(task), status='lost', ending=Ending.FAILED, why=why, cause=Cause.ERROR
     )
 

@@ -9,13 +9,13 @@ from typing import Any
 
 import pytest
 
-from aurora_bench.ladder.metrics import METRICS, fidelity, paired, share
-from aurora_bench.ladder.plan import Configuration, Plan, Reader, Task
-from aurora_bench.ladder.record import Ending, LadderRun
-from aurora_bench.ladder.report import write_report
-from aurora_bench.ladder.results import Campaign, write_campaign
-from aurora_bench.ladder.runs import LadderWork
-from aurora_bench.ladder.tables import all_tables, as_csv, as_latex
+from aurora_bench.campaign.metrics import METRICS, fidelity, paired, share
+from aurora_bench.campaign.plan import Configuration, Plan, Reader, Task
+from aurora_bench.campaign.record import CampaignRun, Ending
+from aurora_bench.campaign.report import write_report
+from aurora_bench.campaign.results import Campaign, write_campaign
+from aurora_bench.campaign.runs import CampaignWork
+from aurora_bench.campaign.tables import all_tables, as_csv, as_latex
 from aurora_bench.machine import machine_facts
 from aurora_bench.prompts.format import AnnotatedPrompt
 from aurora_bench.results import Table
@@ -29,7 +29,7 @@ AGAINST = Said(requirement='r1', kind='uav', outcome='does_not', why='none')
 HOLDS = Said(requirement='r1', kind='uav', outcome='holds', why='one')
 
 
-def record(number: int, configuration: Configuration, **more: Any) -> LadderRun:
+def record(number: int, configuration: Configuration, **more: Any) -> CampaignRun:
     """Return a record; requirements: 4, of which as many hold as the number says."""
     values: dict[str, Any] = {
         'key': f'{number}:{configuration.value}', 'configuration': configuration,
@@ -37,7 +37,7 @@ def record(number: int, configuration: Configuration, **more: Any) -> LadderRun:
         'feasibility': 'feasible', 'seed': 1, 'status': 'violated',
         'ending': Ending.COMPLETED, 'met': number, 'requirements': 4,
     }  # fmt: skip
-    return LadderRun(**{**values, **more})
+    return CampaignRun(**{**values, **more})
 
 
 B4 = (
@@ -145,7 +145,7 @@ def test_who_leaves_the_check_out_refuses_nothing(
         document=document, folder='own',
     )  # fmt: skip
     plan = Plan(name='any', prompts=('own.jsonl',))
-    work = LadderWork(plan=plan, folder=tmp_path)
+    work = CampaignWork(plan=plan, folder=tmp_path)
     work.prepare()
     task = Task(key='k', configuration=configuration, reader=Reader(name='offline'), trial=trial)
     run = work(task)

@@ -14,8 +14,8 @@ from typing import Any, TypeVar
 import dask
 from distributed import Client, LocalCluster, as_completed
 
-from aurora_bench.campaign.pool import Lost, PoolError, Work
-from aurora_bench.ladder.pooled import Answers, Note
+from aurora_bench.campaign.pooled import Answers, Note
+from aurora_bench.resumable.pool import Lost, PoolError, Work
 
 LOCAL = 'local'
 T = TypeVar('T')

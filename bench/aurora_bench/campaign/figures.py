@@ -12,7 +12,7 @@ from typing import NamedTuple
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from aurora_bench.ladder.metrics import (
+from aurora_bench.campaign.metrics import (
     NOTHING,
     REPAIRED,
     TRIED,
@@ -22,14 +22,14 @@ from aurora_bench.ladder.metrics import (
     repair_outcomes,
     share,
 )
-from aurora_bench.ladder.paper import TABLE
-from aurora_bench.ladder.plan import Configuration
-from aurora_bench.ladder.record import Ending, LadderRun
-from aurora_bench.ladder.tables import ANCHOR_TERMS, once
+from aurora_bench.campaign.paper import TABLE
+from aurora_bench.campaign.plan import Configuration
+from aurora_bench.campaign.record import CampaignRun, Ending
+from aurora_bench.campaign.tables import ANCHOR_TERMS, once
 from aurora_bench.plotting import COLOURS, new_figure, save_as
 from aurora_core.report.share import Share
 
-Runs = Sequence[LadderRun]
+Runs = Sequence[CampaignRun]
 _FONT = 7.5
 _WIDTH_IN = 7.2
 _PAPER = '#999999'
@@ -245,5 +245,5 @@ def _bars(
     ax.errorbar(places, values, yerr=(low, high), fmt='none', ecolor='black', capsize=2)
 
 
-def _passed_at_first(run: LadderRun) -> bool:
+def _passed_at_first(run: CampaignRun) -> bool:
     return run.first is not None and run.first.value == 'verified'

@@ -9,12 +9,12 @@ from typing import NamedTuple
 
 from scipy.stats import binomtest
 
-from aurora_bench.ladder.plan import Configuration
-from aurora_bench.ladder.record import Ending, LadderRun
+from aurora_bench.campaign.plan import Configuration
+from aurora_bench.campaign.record import CampaignRun, Ending
 from aurora_core.outcomes.verdict import VerdictStatus
 from aurora_core.report.share import Share
 
-Runs = Sequence[LadderRun]
+Runs = Sequence[CampaignRun]
 
 
 class Metric(NamedTuple):
@@ -28,7 +28,7 @@ class Metric(NamedTuple):
 
     name: str
     about: str
-    of: Callable[[LadderRun], bool]
+    of: Callable[[CampaignRun], bool]
 
 
 # C, RF, P and SF as the paper defines them, of all runs. C + RF + declined = 1, and
@@ -45,7 +45,7 @@ METRICS = (
 )
 
 
-def share(runs: Iterable[LadderRun], of: Callable[[LadderRun], bool]) -> Share:
+def share(runs: Iterable[CampaignRun], of: Callable[[CampaignRun], bool]) -> Share:
     """Return for how many runs something is so."""
     found = [of(run) for run in runs]
     return Share(met=sum(found), total=len(found))
@@ -61,9 +61,9 @@ def field_fidelity(runs: Runs) -> Share:
     return Share(met=sum(r.fields_met for r in runs), total=sum(r.fields for r in runs))
 
 
-def groups(runs: Runs) -> dict[tuple[str, Configuration], list[LadderRun]]:
+def groups(runs: Runs) -> dict[tuple[str, Configuration], list[CampaignRun]]:
     """Return the runs by reader and configuration, in their order."""
-    found: dict[tuple[str, Configuration], list[LadderRun]] = {}
+    found: dict[tuple[str, Configuration], list[CampaignRun]] = {}
     for run in runs:
         found.setdefault((run.reader, run.configuration), []).append(run)
     return found
@@ -85,7 +85,7 @@ class Paired(NamedTuple):
     p: float
 
 
-def paired(before: Runs, after: Runs, of: Callable[[LadderRun], bool]) -> Paired:
+def paired(before: Runs, after: Runs, of: Callable[[CampaignRun], bool]) -> Paired:
     """Return the exact McNemar test of two configurations.
 
     Source: Q. McNemar, "Note on the sampling error of the difference between correlated
@@ -102,13 +102,13 @@ def paired(before: Runs, after: Runs, of: Callable[[LadderRun], bool]) -> Paired
     return Paired(pairs=len(both), gained=gained, lost=lost, p=p)
 
 
-def _pair(run: LadderRun) -> tuple[str, str, str, int]:
+def _pair(run: CampaignRun) -> tuple[str, str, str, int]:
     return run.reader, run.file, run.id, run.seed
 
 
-def by_category(runs: Runs) -> dict[str, list[LadderRun]]:
+def by_category(runs: Runs) -> dict[str, list[CampaignRun]]:
     """Return the runs by category, by name."""
-    found: dict[str, list[LadderRun]] = {}
+    found: dict[str, list[CampaignRun]] = {}
     for run in runs:
         found.setdefault(run.category, []).append(run)
     return dict(sorted(found.items()))
@@ -116,7 +116,7 @@ def by_category(runs: Runs) -> dict[str, list[LadderRun]]:
 
 def per_prompt(runs: Runs) -> dict[str, Share]:
     """Return the pass probability of every prompt over its seeds."""
-    found: dict[str, list[LadderRun]] = {}
+    found: dict[str, list[CampaignRun]] = {}
     for run in runs:
         found.setdefault(f'{run.file}:{run.id}', []).append(run)
     return {key: share(part, lambda r: r.passed) for key, part in found.items()}
@@ -141,7 +141,7 @@ def repair_outcomes(runs: Runs) -> dict[str, int]:
     return counts
 
 
-def anchors_by_outcome(runs: Runs) -> Mapping[str, list[LadderRun]]:
+def anchors_by_outcome(runs: Runs) -> Mapping[str, list[CampaignRun]]:
     """Return completed runs that have an anchor score by whether they passed."""
     scored = [r for r in runs if r.anchor is not None]
     return {

@@ -6,10 +6,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from aurora_bench.ladder.figures import draw_all
-from aurora_bench.ladder.paper import DIFFERS
-from aurora_bench.ladder.results import Campaign, read_campaign
-from aurora_bench.ladder.tables import all_tables, as_csv, as_latex
+from aurora_bench.campaign.figures import draw_all
+from aurora_bench.campaign.paper import DIFFERS
+from aurora_bench.campaign.results import Campaign, read_campaign
+from aurora_bench.campaign.tables import all_tables, as_csv, as_latex
 from aurora_bench.results import machine_line, markdown_table, write_whole
 
 

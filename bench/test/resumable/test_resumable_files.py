@@ -12,9 +12,9 @@ from typing import Any
 
 import pytest
 
-from aurora_bench.campaign.code import code_digest, files_digest
-from aurora_bench.campaign.files import file_line, read_files, verdict_line
 from aurora_bench.results import ResultsError
+from aurora_bench.resumable.code import code_digest, files_digest
+from aurora_bench.resumable.files import file_line, read_files, verdict_line
 from aurora_core.report.share import Share
 
 

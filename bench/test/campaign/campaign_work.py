@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from aurora_bench.ladder.plan import Plan, Task
-from aurora_bench.ladder.record import Ending, LadderRun, identity
+from aurora_bench.campaign.plan import Plan, Task
+from aurora_bench.campaign.record import CampaignRun, Ending, identity
 from aurora_core.outcomes.verdict import VerdictStatus
 
 
@@ -28,7 +28,7 @@ class CheapWork:
     def prepare(self) -> None:
         """Nothing is loaded."""
 
-    def __call__(self, task: Task) -> LadderRun:
+    def __call__(self, task: Task) -> CampaignRun:
         """Return a run that passes unless the prompt says otherwise."""
         text = task.trial.prompt.prompt
         mark = self.marks / task.key.replace(':', '_')
@@ -45,7 +45,7 @@ class CheapWork:
             'margin': 0.1 + task.trial.seed,
             'seconds': {'all': float(os.getpid())},
         }
-        return LadderRun(**values)
+        return CampaignRun(**values)
 
 
 def cheap(plan: Plan, _folder: Path) -> CheapWork:
