@@ -90,12 +90,7 @@ def draw_check(
         ax = figure.add_axes(_AXES)
         flights = _Flights(grounded)
         box = _box(grounded, model, flights)
-        ax.set_xlim(box.west, box.east)
-        ax.set_ylim(box.south, box.north)
         ax.set_aspect('equal')
-        ax.set_xticks([])
-        ax.set_yticks([])
-        ax.set_autoscale_on(False)
         scale = _AXES[2] * _SIZE_IN[0] * 72.0 / box.width
         lines = [*map(_route, grounded.agents), *map(flights.way, grounded.uavs)]
         ways = np.array([p for line in lines for p in _between(line)]).reshape(-1, 2)

@@ -41,6 +41,7 @@ from aurora_core.report.scene.tracks import (
     mission_end_tick,
     region_of,
     tracks_of,
+    ways_of,
 )
 from aurora_core.spec.scenario import DistanceTrigger, ScenarioSpec
 from aurora_core.trace.records import LinkEventKind, ScenarioEventKind
@@ -142,13 +143,7 @@ def _map(
     height_pt = _MAP[3] * _SIZE_IN[1] * 72.0
     box = region_of(tracks).with_aspect(width_pt / height_pt)
     scale = width_pt / box.width
-    ax.set_xlim(box.west, box.east)
-    ax.set_ylim(box.south, box.north)
-    ax.set_xticks([])
-    ax.set_yticks([])
-    ax.set_autoscale_on(False)
-    ways = np.concatenate([*(t.position_m[::20, :2] for t in tracks), np.empty((0, 2))])
-    draw_ground(ax, world, box, scale, ways[np.isfinite(ways).all(axis=1)])
+    draw_ground(ax, world, box, scale, ways_of(tracks))
     layer = PathLayer(ax, box, scale, trace.roster.dt_s, Placer(width=width_pt, height=height_pt))
     layer.reserve(tracks)
     heights = [float(np.nanmax(t.position_m[:, 2])) for t in tracks if _flies(t)]

@@ -67,7 +67,7 @@ def draw_ground(
     ways: FloatArray,
     named_elsewhere: frozenset[str] = frozenset(),
 ) -> None:
-    """Draw the map inside a box.
+    """Draw the map inside a box, which the axes show from now on, without ticks.
 
     Args:
         ax: Axes in ENU metres.
@@ -77,6 +77,11 @@ def draw_ground(
         ways: (K, 2) points of trajectories; street names stay off them.
         named_elsewhere: Buildings that get no label here.
     """
+    ax.set_xlim(box.west, box.east)
+    ax.set_ylim(box.south, box.north)
+    ax.set_xticks([])
+    ax.set_yticks([])
+    ax.set_autoscale_on(False)
     ax.set_facecolor(style.GROUND)
     _surfaces(ax, world)
     _crossings(ax, world, box, points_per_m)

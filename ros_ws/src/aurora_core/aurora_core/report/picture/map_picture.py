@@ -96,12 +96,7 @@ def draw_map(model: MapModel) -> Figure:
         FigureCanvasAgg(figure)
         top = 1.0 - _TITLE_IN / height_in
         ax = figure.add_axes((0.01, 0.01, 0.98, top - 0.01))
-        ax.set_xlim(box.west, box.east)
-        ax.set_ylim(box.south, box.north)
         ax.set_aspect('equal')
-        ax.set_xticks([])
-        ax.set_yticks([])
-        ax.set_autoscale_on(False)
         scale = 0.98 * _WIDTH_IN * 72.0 / box.width
         marks = frozenset(mark.name for mark in model.landmarks)
         draw_ground(ax, ground_of_map(model), box, scale, np.empty((0, 2)), marks)

@@ -27,7 +27,7 @@ from aurora_core.report.picture.strip import speeds_of
 from aurora_core.report.scene import style
 from aurora_core.report.scene.caption import Caption
 from aurora_core.report.scene.story import Moment, moments_of, realised_altitudes
-from aurora_core.report.scene.tracks import Box, Track, region_of, tracks_of
+from aurora_core.report.scene.tracks import Box, Track, region_of, tracks_of, ways_of
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.trace.trace import Trace
 
@@ -199,13 +199,7 @@ def _map(
     box: Box,
     points_per_m: float,
 ) -> None:
-    ax.set_xlim(box.west, box.east)
-    ax.set_ylim(box.south, box.north)
-    ax.set_xticks([])
-    ax.set_yticks([])
-    ax.set_autoscale_on(False)
-    ways = np.concatenate([*(t.position_m[::20, :2] for t in tracks), np.empty((0, 2))])
-    draw_ground(ax, world, box, points_per_m, ways[np.isfinite(ways).all(axis=1)])
+    draw_ground(ax, world, box, points_per_m, ways_of(tracks))
     # Names and signs of the ground are sized for a picture four times as wide.
     for text in ax.texts:
         text.set_fontsize(min(float(text.get_fontsize()), 5.0))

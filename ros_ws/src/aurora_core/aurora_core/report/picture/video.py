@@ -8,7 +8,6 @@ import io
 from typing import Any
 
 import matplotlib as mpl
-import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
@@ -19,7 +18,7 @@ from aurora_core.knowledge.world import WorldModel
 from aurora_core.report.picture.ground import draw_ground
 from aurora_core.report.picture.paper import looks_of, shown
 from aurora_core.report.scene import style
-from aurora_core.report.scene.tracks import Track, region_of, tracks_of
+from aurora_core.report.scene.tracks import Track, region_of, tracks_of, ways_of
 from aurora_core.trace.trace import Trace
 
 _WIDTH_IN, _DPI = 8.0, 100
@@ -49,12 +48,9 @@ def gif_bytes(trace: Trace, world: WorldModel) -> bytes:
         figure = Figure(figsize=size, dpi=_DPI, facecolor=style.GROUND)
         canvas: Any = FigureCanvasAgg(figure)
         ax = figure.add_axes((0.0, 0.0, 1.0, 1.0))
-        ax.set_xlim(box.west, box.east)
-        ax.set_ylim(box.south, box.north)
         ax.set_axis_off()
-        ways = np.concatenate([*(t.position_m[::20, :2] for t in tracks), np.empty((0, 2))])
         scale = _WIDTH_IN * 72.0 / box.width
-        draw_ground(ax, world, box, scale, ways[np.isfinite(ways).all(axis=1)])
+        draw_ground(ax, world, box, scale, ways_of(tracks))
         canvas.draw()
         ground = canvas.copy_from_bbox(figure.bbox)
         movers = _Movers(ax, tracks, max(1, round(_TRAIL_S / dt_s)))

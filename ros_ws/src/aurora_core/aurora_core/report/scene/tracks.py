@@ -134,6 +134,13 @@ def mission_end_tick(tracks: tuple[Track, ...]) -> int:
     return max(ends, default=max(ticks - 1, 0))
 
 
+def ways_of(tracks: tuple[Track, ...]) -> FloatArray:
+    """Return points of all tracks (K, 2), every 20th of each (m, ENU)."""
+    points = np.concatenate([*(t.position_m[::20, :2] for t in tracks), np.empty((0, 2))])
+    known: FloatArray = points[np.isfinite(points).all(axis=1)]
+    return known
+
+
 def region_of(tracks: tuple[Track, ...], least_side_m: float = _LEAST_SIDE_M) -> Box:
     """Return the region of action: every flight, and the agents near it while missions last.
 
