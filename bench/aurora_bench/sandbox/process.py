@@ -56,6 +56,11 @@ class Ended(Document):
     told: str = ''
 
 
+# Whoever was killed after so much of its processor time was killed for that. The kernel counts its
+# limit by ticks, which on a loaded machine run ahead of the time that it reports.
+_SPENT_SHARE = 0.5
+
+
 class ContainedProgram:
     """A running program; leave it by `with`, whatever happens.
 
@@ -199,7 +204,7 @@ class ContainedProgram:
             self._end = End.FINISHED
         elif code == NO_MEMORY:
             self._end = End.MEMORY
-        elif code == -signal.SIGKILL and used_s >= 0.9 * self._limits.cpu_s:
+        elif code == -signal.SIGKILL and used_s >= _SPENT_SHARE * self._limits.cpu_s:
             self._end = End.CPU
         else:
             self._end = End.KILLED if code < 0 else End.RAISED
