@@ -55,6 +55,12 @@ def _parts(xy: FloatArray) -> Iterator[FloatArray]:
             yield xy[turns[first] : turns[len(turns) - 1 - last] + 1]
 
 
+def _ring(path: FloatArray) -> FloatArray:
+    """Return a path from where it passes its end: a way in may run on as the first side."""
+    begin = path[: len(path) // 2 + 1]
+    return path[int(np.argmin(np.linalg.norm(begin - path[-1], axis=1))) :]
+
+
 def _box(path: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray, float, float] | None:
     """Return centre, unit vectors and sides (long one first) of the least box round a path."""
     box = shapely.minimum_rotated_rectangle(shapely.MultiPoint(path))
@@ -79,7 +85,7 @@ def rectangle(xy: FloatArray, size_m: Sequence[float]) -> tuple[Judged, FloatArr
     long, short = max(size_m), min(size_m)
     line = shapely.LineString(xy) if len(xy) > 1 else shapely.Point(xy[0])
     least, centre, sides = np.inf, None, (0.0, 0.0)
-    for path in _parts(xy):
+    for path in (part for whole in _parts(xy) for part in (whole, _ring(whole))):
         found = _box(path)
         if found is None:
             continue

@@ -105,11 +105,16 @@ def _seen(flight: Flight, start: int) -> Judged:
 # ---- hover
 
 
+def _stays(flight: Flight) -> tuple[slice, BoolArray]:
+    """Return the second half of a flight, and where it stands: a long way there takes the first."""
+    ticks = slice((flight.ticks.start + flight.ticks.stop) // 2, flight.ticks.stop)
+    return ticks, flight.scene.speed(flight.uav)[ticks] < limits.STARTED_MPS
+
+
 def _hover_point(flight: Flight) -> FloatArray:
-    """Return where a UAV stays in the end: a long way there may take most of its flight."""
-    half = (flight.ticks.start + flight.ticks.stop) // 2
-    xy = flight.scene.xy(flight.uav)[half : flight.ticks.stop]
-    still = flight.scene.speed(flight.uav)[half : flight.ticks.stop] < limits.STARTED_MPS
+    """Return where a UAV stays in the end."""
+    ticks, still = _stays(flight)
+    xy = flight.scene.xy(flight.uav)[ticks]
     return np.asarray(np.median(xy[still] if still.any() else xy, axis=0))
 
 
@@ -151,8 +156,14 @@ def _hover(flight: Flight, requirement: Mapping[str, Any]) -> Judged:
     limit = limits.HOVER_DRIFT_WIND_M if scene.windy else limits.HOVER_DRIFT_CALM_M
     away = np.linalg.norm(scene.xy(flight.uav)[late : flight.ticks.stop] - point, axis=1)
     drift = float(away.max()) if len(away) else 0.0
+    # Whoever is called away on its last metres has never shown its point: the median is none.
+    shown = bool(_stays(flight)[1].any())
     parts = [
-        graded(drift <= limit, drift <= limit + HOVER_DOUBT_M, f'drift {drift:.2f} m'),
+        graded(
+            shown and drift <= limit,
+            not shown or drift <= limit + HOVER_DOUBT_M,
+            f'drift {drift:.2f} m',
+        ),
         altitude(flight, requirement, late),
         _duration(flight, requirement, early, late),
     ]

@@ -137,6 +137,11 @@ def test_a_hover_is_where_it_ends_however_long_the_way_there(
     assert stage.says({**HOVER, 'duration_s': 15}) == outcome
 
 
+def test_a_hover_that_is_ended_on_its_last_metres_has_shown_no_point(stage: Any) -> None:
+    stage.uav('drone', lambda t: (210.0 - 2.0 * np.clip(24.0 - t, 0.0, 12.0), 30, 50), ends=(24.0,))
+    assert stage.says({k: v for k, v in HOVER.items() if k != 'duration_s'}) == 'cannot_tell'
+
+
 def test_altitude_of_a_range_is_judged_by_the_range(stage: Any) -> None:
     stage.uav('drone', lambda t: (210, 30, 43))
     asked = {**HOVER, 'id': 'm', 'altitude_m': 40}
@@ -241,6 +246,12 @@ def test_a_rectangle_has_its_size(stage: Any, size: list[int], outcome: str) -> 
     round_trip = [(0, -30), (0, 0), (120, 0), (120, 80), (0, 80), (0, 0)]
     _flies(stage, round_trip)
     assert stage.says({**RECTANGLE, 'size_m': size}) == outcome
+
+
+@pytest.mark.parametrize(('depth', 'outcome'), [(80, 'holds'), (110, 'does_not')])
+def test_a_way_in_may_run_on_as_the_first_side(stage: Any, depth: int, outcome: str) -> None:
+    _flies(stage, [(0, -30), (0, 80), (120, 80), (120, 0), (0, 0)])
+    assert stage.says({**RECTANGLE, 'size_m': [120, depth]}) == outcome
 
 
 def test_a_rectangle_left_open_does_not_hold(stage: Any) -> None:
