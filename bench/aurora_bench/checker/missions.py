@@ -106,7 +106,7 @@ def _seen(flight: Flight, start: int) -> Judged:
 
 
 def _stays(flight: Flight) -> tuple[slice, BoolArray]:
-    """Return the second half of a flight, and where it stands: a long way there takes the first."""
+    """Return the second half of a flight (the first may be a way), and where it stands still."""
     ticks = slice((flight.ticks.start + flight.ticks.stop) // 2, flight.ticks.stop)
     return ticks, flight.scene.speed(flight.uav)[ticks] < limits.STARTED_MPS
 

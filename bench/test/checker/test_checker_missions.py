@@ -138,7 +138,9 @@ def test_a_hover_is_where_it_ends_however_long_the_way_there(
 
 
 def test_a_hover_that_is_ended_on_its_last_metres_has_shown_no_point(stage: Any) -> None:
-    stage.uav('drone', lambda t: (210.0 - 2.0 * np.clip(24.0 - t, 0.0, 12.0), 30, 50), ends=(24.0,))
+    stage.uav(
+        'drone', lambda t: (210.0 - 2.0 * np.clip(24.0 - t, 0.0, 12.0), 30, 50), ends=(24.0,)
+    )
     assert stage.says({k: v for k, v in HOVER.items() if k != 'duration_s'}) == 'cannot_tell'
 
 
