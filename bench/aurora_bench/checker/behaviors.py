@@ -34,6 +34,9 @@ from aurora_bench.checker.scene import longest_s, runs_of, share
 MOVED_M = 10.0
 TURN_DEG = (60.0, 45.0)
 TURN_WITHIN_M = 45.0
+# A bend is too tight where a speed would push passengers sideways like this.
+LATERAL_MPS2 = 4.0
+BEND_OVER_M = 10.0
 
 
 def behavior(case: Case, requirement: Requirement) -> Judged:
@@ -257,10 +260,32 @@ def driven_speed(case: Case, requirement: Requirement, body: str) -> Judged:
         enough = ratio >= limits.SPEED_SHARE
         if asked.slack > 0.0 and not asked.counts(middle):
             return does_not(why)
-        return graded(enough, reached and ratio >= 0.5, why)
+        # The contract does not say whether a bend that nobody takes so fast, such as the loop at
+        # the end of a street, is a junction.
+        straight = free & ~_in_tight_bend(case, body, asked.low)
+        told = max(ratio, share(good[straight]))
+        return graded(enough, reached and told >= 0.5, why)
     reached_s = longest_s(good & steady, scene.dt_s)
     why = f'{body} is never free; at {asked.text()} m/s for {reached_s:.1f} s, fastest {top:.2f}'
     return graded(reached_s >= 5.0, True, why)
+
+
+def _in_tight_bend(case: Case, body: str, speed_mps: float) -> BoolArray:
+    """Return (ticks,) whether a bend too tight for a speed is within 50 m of way."""
+    scene = case.scene
+    heading, speed = scene.heading(body), scene.speed(body)
+    sine = heading[:-1, 0] * heading[1:, 1] - heading[:-1, 1] * heading[1:, 0]
+    turned = np.append(np.abs(np.arcsin(np.clip(sine, -1.0, 1.0))), 0.0)
+    arc = np.concatenate([[0.0], np.cumsum(speed[:-1])]) * scene.dt_s
+    # Over a length of way, so that a heading that jumps from one edge to the next is no bend.
+    begin = np.searchsorted(arc, arc - BEND_OVER_M / 2.0)
+    end = np.searchsorted(arc, arc + BEND_OVER_M / 2.0, side='right') - 1
+    total = np.concatenate([[0.0], np.cumsum(turned)])
+    curvature = (total[end] - total[begin]) / BEND_OVER_M
+    tight = np.concatenate([[0], np.cumsum(speed_mps**2 * curvature > LATERAL_MPS2)])
+    first = np.searchsorted(arc, arc - limits.FREE_AHEAD_M)
+    last = np.searchsorted(arc, arc + limits.FREE_AHEAD_M, side='right')
+    return np.asarray(tight[last] > tight[first])
 
 
 def _changed(case: Case, body: str) -> int:
