@@ -16,6 +16,7 @@ import itertools
 import sys
 from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import get_args
 
 from pydantic import ValidationError
 
@@ -43,6 +44,7 @@ from aurora_bench.prompts.reference_parts import (
 )
 from aurora_bench.prompts.reference_sayable import check_sayable
 from aurora_bench.prompts.reference_spans import StatedSpans
+from aurora_core.spec.events import AgentDo
 from aurora_core.spec.parameter import unit_of
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.spec.vocabulary import AgentType
@@ -249,6 +251,8 @@ class _Builder:
         elif r.kind == 'mission':
             found |= {'uav': self._names.uav(r.uav), 'mode': r.mode}
             found['target'] = self._names.one(r.target)
+        elif r.kind == 'event' and r.action is not None and r.action.do in get_args(AgentDo):
+            found |= event(r, self._names, numbers)
         elif not isinstance(r, AgentRequirement | UavRequirement):
             raise NotExpressibleError(f'{r.id} forbids a {r.kind}')
         if not isinstance(r, AgentRequirement | UavRequirement):

@@ -21,7 +21,7 @@ from aurora_cli.installed import installed
 from aurora_core.agsg.build import build_agsg
 from aurora_core.outcomes.feasibility import Feasibility
 from aurora_core.pipeline.functions import check_stage
-from aurora_core.spec.prohibitions import ForbiddenAgent, ForbiddenBehavior
+from aurora_core.spec.prohibitions import ForbiddenAgent, ForbiddenBehavior, ForbiddenEvent
 from aurora_core.spec.scenario import ScenarioSpec, UavAction
 
 Doc = dict[str, Any]
@@ -81,12 +81,17 @@ def test_what_must_not_be_becomes_a_prohibition() -> None:
             CAR,
             {'id': 'r5', 'kind': 'agent', 'ref': 'none', 'type': 'pedestrian', 'count': 0},
             {'id': 'r6', 'kind': 'behavior', 'agent': 'car1', 'behavior': 'stop', 'negate': True},
+            {
+                'id': 'r7', 'kind': 'event', 'ref': 'e1', 'negate': True,
+                'action': {'do': 'brake', 'agent': 'car1'},
+            },
         )
-    )
+    )  # fmt: skip
     assert [a.id for a in spec.agents] == ['car1']
     assert spec.agents[0].behaviors == ()
     kinds = {type(p) for p in spec.prohibitions}
-    assert kinds == {ForbiddenAgent, ForbiddenBehavior}
+    assert kinds == {ForbiddenAgent, ForbiddenBehavior, ForbiddenEvent}
+    assert spec.events == ()
 
 
 def test_a_change_of_mission_flies_a_mission_of_its_own() -> None:

@@ -81,6 +81,7 @@ _QUANTITIES = {
         QuantityName.JUMP,
         QuantityName.CLIMB_RATE,
         QuantityName.ROUTE_SPEED,
+        QuantityName.UNDONE,
     ),
 }
 _FAMILY_OF_QUANTITY: Mapping[str, EdgeType] = MappingProxyType(

@@ -13,6 +13,7 @@ from aurora_core.conditions.events import event_conditions
 from aurora_core.conditions.missions import mission_conditions
 from aurora_core.conditions.orders import order_conditions
 from aurora_core.conditions.placements import placement_conditions
+from aurora_core.conditions.prohibited import prohibition_conditions
 from aurora_core.conditions.safety import safety_conditions
 from aurora_core.conditions.scene import scene_conditions
 from aurora_core.conditions.stated import stated_conditions
@@ -31,7 +32,7 @@ class Derivation:
 
     Attributes:
         conditions: In a fixed order: stated, missions, placements, behaviours, events,
-            orders, scene, safety.
+            orders, scene, prohibitions, safety.
         underivable: Elements that no condition can express yet; their clauses are `incomplete`.
     """
 
@@ -89,6 +90,7 @@ def _all(inputs: Inputs) -> Iterator[Condition | Underivable]:
         event_conditions(inputs),
         order_conditions(inputs),
         scene_conditions(inputs),
+        prohibition_conditions(inputs),
         safety_conditions(inputs),
         unsaid(inputs),
     )

@@ -12,7 +12,6 @@ from aurora_core.judging.quantities import count, run_duration, traffic, wind, w
 from aurora_core.judging.quantities.world_setting import Setting
 from aurora_core.outcomes.condition import Condition
 from aurora_core.spec.parameter import Provenance, Span
-from aurora_core.spec.prohibitions import ForbiddenAgent
 from aurora_core.spec.requirements import UAV_TYPE
 from aurora_core.spec.scenario import GroundAgent
 from aurora_core.spec.scene import World
@@ -26,9 +25,6 @@ def scene_conditions(inputs: Inputs) -> Iterator[Condition]:
     yield from _numbers(inputs)
     for asked in inputs.spec.counts:
         yield count.stated(inputs, asked)
-    for prohibition in inputs.spec.prohibitions:
-        if isinstance(prohibition, ForbiddenAgent):
-            yield count.absent(inputs, prohibition)
 
 
 def _world(inputs: Inputs) -> Iterator[Condition]:

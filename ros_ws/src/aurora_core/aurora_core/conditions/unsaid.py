@@ -7,7 +7,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from aurora_core.judging.build import Inputs, Underivable
-from aurora_core.spec.prohibitions import ForbiddenAgent
 from aurora_core.spec.vocabulary import LinkOcclusion
 
 
@@ -25,8 +24,3 @@ def unsaid(inputs: Inputs) -> Iterator[Underivable]:
         if link.occlusion is not LinkOcclusion.SHORTENS:
             what = f'a link with occlusion {link.occlusion.value}'
             yield Underivable(element=link.id, what=what, span=link.span)
-    for prohibition in spec.prohibitions:
-        if isinstance(prohibition, ForbiddenAgent):
-            continue  # it has a condition of its own
-        what = f'a forbidden {prohibition.forbids}'
-        yield Underivable(element=prohibition.id, what=what, span=prohibition.span)

@@ -12,8 +12,8 @@ from collections.abc import Iterator
 
 from aurora_core.feasibility.operands import members_fit
 from aurora_core.outcomes.feasibility import StaticFinding
-from aurora_core.spec.events import MessageTrigger, MissionDoneTrigger, SendMessage
-from aurora_core.spec.prohibitions import ForbiddenAgent
+from aurora_core.spec.events import AgentAction, MessageTrigger, MissionDoneTrigger, SendMessage
+from aurora_core.spec.prohibitions import ForbiddenAgent, ForbiddenBehavior
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.reference import is_place
 from aurora_core.spec.scenario import ScenarioSpec
@@ -132,8 +132,10 @@ def _missions(spec: ScenarioSpec) -> Iterator[StaticFinding]:
 
 
 def _scene(spec: ScenarioSpec) -> Iterator[StaticFinding]:
-    """What must not appear, and is there."""
+    """What must not appear, and is there; what must not be done, and is asked for."""
     for part in spec.prohibitions:
+        if isinstance(part, ForbiddenBehavior):
+            yield from _done(spec, part)
         if not isinstance(part, ForbiddenAgent):
             continue
         there = [u.id for u in spec.uavs] if part.type == 'uav' else []
@@ -145,3 +147,27 @@ def _scene(spec: ScenarioSpec) -> Iterator[StaticFinding]:
                 mend='leave out one of the two',
                 span=part.span,
             )
+
+
+def _done(spec: ScenarioSpec, part: ForbiddenBehavior) -> Iterator[StaticFinding]:
+    """What somebody is to do, and must not do."""
+    kind = part.kind
+    does = [
+        f'behaves so ({agent.id})'
+        for agent in spec.agents
+        for behavior in agent.behaviors
+        if agent.id == part.agent and behavior.kind is kind and behavior.target == part.target
+    ]
+    does += [
+        f'does so in {event.id}'
+        for event in spec.events
+        if isinstance(event.action, AgentAction)
+        and (event.action.agent, event.action.do) == (part.agent, kind.value)
+    ]
+    if does:
+        yield StaticFinding(
+            field=f'prohibitions/{part.id}',
+            relation=f'{part.agent} must not {kind.value.replace("_", " ")}, and {does[0]}',
+            mend='leave out one of the two',
+            span=part.span,
+        )

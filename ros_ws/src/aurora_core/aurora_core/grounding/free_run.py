@@ -4,8 +4,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from math import inf
+
 from aurora_core.knowledge.route_path import RoutePath
 from aurora_core.quantities.actions import FROM_MOTION
+from aurora_core.spec.prohibitions import keeps_on
 from aurora_core.spec.scenario import AgentAction, GroundAgent, ScenarioSpec, TimeTrigger
 
 # Time that what is done on the move takes to show (s).
@@ -35,4 +39,11 @@ def needed_run_m(spec: ScenarioSpec, agent: GroundAgent, pace_mps: float) -> flo
         and e.action.agent == agent.id
         and e.action.do in FROM_MOTION
     ]
+    if never_stops(spec, (agent,)):
+        return inf
     return pace_mps * (max(times_s) + _SHOWS_S) if times_s else 0.0
+
+
+def never_stops(spec: ScenarioSpec, agents: Iterable[GroundAgent]) -> bool:
+    """Tell whether one of some vehicles must not stop or brake: it is on its way all the time."""
+    return any(keeps_on(part, agent.id) for part in spec.prohibitions for agent in agents)

@@ -19,6 +19,7 @@ from aurora_core.grounding.bends import bends_between
 from aurora_core.grounding.columns import Column, climbs_to_m, columns, nearest_points
 from aurora_core.grounding.convoy import ConvoyMember, SceneSplit, split_scene
 from aurora_core.grounding.flights import FlightPlanner
+from aurora_core.grounding.free_run import never_stops
 from aurora_core.grounding.goals import GoalFinder
 from aurora_core.grounding.groups import GroupPlacer
 from aurora_core.grounding.keep_out import kept_out
@@ -284,7 +285,8 @@ class Grounder:
         changing = {m.agent.id for m in split.convoy if changes_lane(spec, m.agent)}
         need_m = way_m if len(split.convoy) > 1 else LOOKED_S / 2.0 * stated
         members = [m.agent for m in split.convoy]
-        need_m = max(need_m, timed_way_m(spec, members, grounding))
+        goes_on = never_stops(spec, members)
+        need_m = run_m if goes_on else max(need_m, timed_way_m(spec, members, grounding))
         wanted = grounding.target_speed_mps
         ranked: list[tuple[float, Site]] = []
         places = MapPlaces(self._map)
@@ -312,6 +314,7 @@ class Grounder:
             brisk = min(1.0, limit_mps / wanted)
             straight = max(0.0, 1.0 - site.turns(way_m, grounding) / grounding.turns_bad)
             road = 0.4 * free + 0.2 * float(site.steady) + 0.2 * brisk + 0.2 * straight
+            road *= max(_NEVER, free * straight) if goes_on else 1.0
             if bends_between(spec, site, self._tolerances.placement_vehicle_m, split.before):
                 road *= _BENT
             if not self._goals.leads(spec, site, wide=True):

@@ -53,6 +53,7 @@ def build(scene: Scene) -> ScenarioSpec:
         conditions=tuple(scene.conditions),
         orders=tuple(scene.orders),
         counts=tuple(scene.counts),
+        prohibitions=tuple(scene.prohibitions),
         clauses=scene.finished_clauses(),
     )
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from aurora_core.outcomes.parse import ParseContext, Refusal
 from aurora_core.parsing.atoms import NounPhrase
 from aurora_core.spec.parameter import Parameter, Span
+from aurora_core.spec.prohibitions import Prohibition
 from aurora_core.spec.scenario import (
     Behavior,
     Clause,
@@ -206,6 +207,7 @@ class Scene:
         self.conditions: list[StatedCondition] = []
         self.orders: list[Order] = []
         self.counts: list[SceneCount] = []
+        self.prohibitions: list[Prohibition] = []
         self.clauses: list[ClauseDraft] = []
         self.questions: list[str] = []
         self.doubts: list[Doubt] = []

@@ -33,3 +33,16 @@ def last_tick(mask: BoolArray, start: int = 0, stop: int | None = None) -> int |
     part = mask[start:stop][::-1]
     index = int(np.argmax(part)) if len(part) else 0
     return start + len(part) - 1 - index if len(part) and bool(part[index]) else None
+
+
+def longest_stretch(mask: BoolArray) -> tuple[int, int] | None:
+    """Return the longest stretch [start, stop) in which the mask is true, None if it never is.
+
+    Of equal ones it is the first.
+    """
+    edges = np.flatnonzero(np.diff(mask.astype(np.int8), prepend=0, append=0))
+    if len(edges) == 0:
+        return None
+    starts, stops = edges[::2], edges[1::2]
+    longest = int(np.argmax(stops - starts))
+    return int(starts[longest]), int(stops[longest])

@@ -12,13 +12,14 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
-from aurora_core.spec.events import Event
+from aurora_core.spec.events import AgentAction, Event
 from aurora_core.spec.parameter import Element, Span
 from aurora_core.spec.reference import Id, PlaceRef
 from aurora_core.spec.requirements import Order, StatedCondition
 from aurora_core.spec.scene import Behavior, Placement
 from aurora_core.spec.vocabulary import (
     AgentType,
+    BehaviorKind,
     MissionMode,
     TimeOfDay,
     TrafficDensity,
@@ -121,3 +122,14 @@ Prohibition = Annotated[
     | ForbiddenCondition,
     Field(discriminator='forbids'),
 ]
+
+
+def keeps_on(prohibition: Prohibition, agent: str) -> bool:
+    """Tell whether a prohibition is that an agent must not stop or brake."""
+    match prohibition:
+        case ForbiddenBehavior(agent=who, kind=BehaviorKind.STOP | BehaviorKind.BRAKE):
+            return who == agent
+        case ForbiddenEvent(trigger=None, action=AgentAction(agent=who, do='stop' | 'brake')):
+            return who == agent
+        case _:
+            return False

@@ -76,3 +76,4 @@ class QuantityName(StrEnum):
     BATTERY = 'battery'
     CLEARANCE = 'clearance'
     REPORT_GAP = 'report_gap'
+    UNDONE = 'undone'

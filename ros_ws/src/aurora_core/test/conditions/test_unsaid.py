@@ -25,7 +25,6 @@ def test_every_such_element_is_named(tb: ModuleType) -> None:
         'world': dict(case.spec.world) | {'seed': 7},
         'missions': (route,),
         'links': (dict(link) | {'occlusion': 'blocks'},),
-        'prohibitions': ({'id': 'p1', 'forbids': 'world', 'weather': 'rain'},),
     }
     inputs = Inputs(
         spec=tb.spec(**dict(case.spec) | changes),
@@ -37,7 +36,6 @@ def test_every_such_element_is_named(tb: ModuleType) -> None:
         ('world', 'the seed 7 of the request: give it to the run'),
         (mission.id, 'a dwell time at waypoints'),
         (link.id, 'a link with occlusion blocks'),
-        ('p1', 'a forbidden world'),
     }
 
 

@@ -38,6 +38,9 @@ def waiting(by: str) -> dict[str, Any]:
 
 SENDS = {'id': 'e2', 'action': message('car1', 'bus1')}
 ORDER = {'id': 'o1', 'first': 'm1', 'then': 'm0'}
+NO_BRAKING = {'forbids': 'behavior', 'id': 'no1', 'agent': 'car1', 'kind': 'brake'}
+BRAKES = {'id': 'e1', 'action': {'do': 'brake', 'agent': 'car1'}}
+
 CASES: dict[str, tuple[ScenarioSpec, ScenarioSpec, str]] = {
     'operands': (
         request([asked('c1', 'altitude', ['car1'], '>', 9.0, 'm')]),
@@ -72,6 +75,11 @@ CASES: dict[str, tuple[ScenarioSpec, ScenarioSpec, str]] = {
     'forbidden': (
         request([], prohibitions=[{'forbids': 'agent', 'id': 'no1', 'type': 'bus'}]),
         request([], prohibitions=[{'forbids': 'agent', 'id': 'no1', 'type': 'truck'}]),
+        'prohibitions/no1',
+    ),
+    'done': (
+        request([], prohibitions=[NO_BRAKING], events=[BRAKES]),
+        request([], prohibitions=[{**NO_BRAKING, 'kind': 'stop'}], events=[BRAKES]),
         'prohibitions/no1',
     ),
 }

@@ -60,6 +60,13 @@ def _in(weather: str, time_of_day: str) -> Case:
     return case
 
 
+def _not_in(setting: str, forbidden: str) -> Case:
+    """It rains at dusk."""
+    case = _drive(prohibitions=({'forbids': 'world', 'id': 'no1', setting: forbidden},))
+    case.world = replace(case.world, weather='rain', time_of_day='dusk')
+    return case
+
+
 def _on_map(name: str) -> Case:
     case = _drive(world={'map_name': 'junction'})
     case.world = replace(case.world, map_name=name)
@@ -208,6 +215,10 @@ ROWS = (
     Row(id='world.weather', make=lambda: _in('rain', 'night'), margin=0.0),
     Row(id='world.weather', make=lambda: _in('clear', 'night'), margin=-1.0),
     Row(id='world.weather', make=lambda: cut(_in('rain', 'night'), 200), reason=SHORT),
+    Row(id='no1.holds', make=lambda: _not_in('weather', 'snow'), margin=0.0),
+    Row(id='no1.holds', make=lambda: _not_in('weather', 'rain'), margin=-1.0),
+    Row(id='no1.holds', what='hour', make=lambda: _not_in('time_of_day', 'noon'), margin=0.0),
+    Row(id='no1.holds', what='hour', make=lambda: _not_in('time_of_day', 'dusk'), margin=-1.0),
     Row(id='world.time_of_day', make=lambda: _in('rain', 'night'), margin=0.0),
     Row(id='world.time_of_day', make=lambda: _in('rain', 'noon'), margin=-1.0),
     Row(id='world.time_of_day', make=lambda: cut(_in('rain', 'night'), 200), reason=SHORT),

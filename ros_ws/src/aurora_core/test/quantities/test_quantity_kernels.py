@@ -16,7 +16,7 @@ from aurora_core.quantities.angle import bearing_error_deg, compass_bearing_deg
 from aurora_core.quantities.instant_sight import InstantSight
 from aurora_core.quantities.phases import tracked
 from aurora_core.quantities.sight import radio_sight_series, sight_series
-from aurora_core.quantities.ticks import first_tick, last_tick, whole_ticks
+from aurora_core.quantities.ticks import first_tick, last_tick, longest_stretch, whole_ticks
 from aurora_core.quantities.view import RunView
 from aurora_core.spec.parameter import Bound
 from aurora_core.trace.layout import UavColumn
@@ -150,3 +150,6 @@ def test_searches_in_time() -> None:
     assert last_tick(mask) == 3
     assert last_tick(mask, 0, 3) == 1
     assert last_tick(mask[:1]) is None
+    assert longest_stretch(mask) == (1, 2), 'of equal ones the first'
+    assert longest_stretch(np.array([True, False, True, True])) == (2, 4)
+    assert longest_stretch(mask[:1]) is None

@@ -35,7 +35,7 @@ from aurora_core.judging.until import moving_until
 from aurora_core.outcomes.condition import Condition, Window
 from aurora_core.outcomes.verdict import Reason
 from aurora_core.quantities import motion
-from aurora_core.quantities.ticks import first_tick
+from aurora_core.quantities.ticks import first_tick, longest_stretch
 from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import GroundAgent
@@ -150,6 +150,39 @@ class GreatestDeceleration(Quantity):
         hardest = int(np.argmax(loss))
         topics = tuple(f'state[{name}]' for name in condition.of)
         return at_tick(hardest, float(loss[hardest]), evidence=topics, later=Later.RISES)
+
+
+class LongestStandstill(Quantity):
+    """Longest time for which a body stood in one stretch after it had moved, s.
+
+    Attributes:
+        still_mps: Speed below which it stands.
+        moving_mps: Speed that counts as moving; who never moves has not come to a stop.
+    """
+
+    name = QuantityName.SPEED
+    kind: Literal['longest_standstill'] = 'longest_standstill'
+    window: Window = Window.RUN
+    still_mps: FiniteFloat
+    moving_mps: FiniteFloat
+
+    def measure(self, context: Context, condition: Condition) -> Evaluation:
+        """Return the time from the first motion on."""
+        end = moving_until(context, condition, self.moving_mps)
+        if isinstance(end, Missing):
+            return end
+        values = motion.speed(context.view, context.view.body(condition.of[0]))[:end]
+        moved = first_tick(values >= self.moving_mps)
+        assert moved is not None
+        still = values < self.still_mps
+        still[:moved] = False
+        stood = longest_stretch(still)
+        topics = ground_topics(condition)
+        if stood is None:
+            return at_tick(end - 1, 0.0, evidence=topics, later=Later.RISES)
+        first, last = stood
+        stood_s = context.time_s(last - first)
+        return at_tick(first, stood_s, evidence=topics, later=Later.RISES)
 
 
 class GreatestDrop(Quantity):

@@ -12,9 +12,11 @@ from aurora_core.judging.build import Inputs, Source, Target, condition
 from aurora_core.judging.evaluation import Context, Evaluation, Measured, Missing
 from aurora_core.judging.quantity import Quantity
 from aurora_core.outcomes.condition import Condition, Window
-from aurora_core.spec.parameter import Span
+from aurora_core.spec.parameter import Provenance, Span
+from aurora_core.spec.prohibitions import ForbiddenWorld
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.reference import ENVIRONMENT_ID
+from aurora_core.spec.vocabulary import TimeOfDay, Weather
 
 Setting = Literal['weather', 'time_of_day', 'map_name']
 
@@ -58,4 +60,31 @@ def implied(inputs: Inputs, setting: Setting, asked: str, span: Span | None) -> 
         target=Target(op='>=', threshold=1.0, unit='1'),
         arguments=WorldSetting(**inputs.common, setting=setting, asked=(asked,)),
         source=Source(ids=(ENVIRONMENT_ID,), spans=(span,)),
+    )
+
+
+def absent(inputs: Inputs, forbidden: ForbiddenWorld) -> Condition | None:
+    """Return that the run has another weather or time of day, None for what is no setting."""
+    setting: Setting
+    if forbidden.weather is not None:
+        setting, asked, others = 'weather', forbidden.weather.value, tuple(Weather)
+    elif forbidden.time_of_day is not None:
+        setting, asked, others = 'time_of_day', forbidden.time_of_day.value, tuple(TimeOfDay)
+    else:
+        return None
+    return condition(
+        id=f'{forbidden.id}.holds',
+        sentence=f'the {setting.replace("_", " ")} of the run is not {asked.replace("_", " ")}',
+        signal=f'{setting}_is_not_{asked}',
+        of=(),
+        target=Target(op='>=', threshold=1.0, unit='1'),
+        arguments=WorldSetting(
+            **inputs.common, setting=setting, asked=tuple(o.value for o in others if o != asked)
+        ),
+        source=Source(
+            ids=(forbidden.id,),
+            spans=(forbidden.span,),
+            provenance=Provenance.EXPLICIT,
+            implied=False,
+        ),
     )

@@ -83,10 +83,15 @@ def check_clauses(
     ]
 
 
+_LISTS = (
+    'agents', 'uavs', 'missions', 'links', 'events', 'conditions', 'counts', 'forbidden',
+)  # fmt: skip
+
+
 def _elements(reading: Reading) -> dict[str, str]:
     """Return the kind of every element by its id."""
     found = {WORLD: WORLD}
-    for kind in ('agents', 'uavs', 'missions', 'links', 'events', 'conditions', 'counts'):
+    for kind in _LISTS:
         found |= {element.id: kind for element in getattr(reading, kind)}
     return found
 
@@ -114,7 +119,7 @@ def _check_clause(
             )
         refuses = any(a.kind is AtomKind.NEGATION for a in within)
         stays_up = any(a.kind is AtomKind.IN_FLIGHT or a.key == 'land' for a in within)
-        if refuses and not stays_up and not kinds & {'conditions', 'counts', 'links'}:
+        if refuses and not stays_up and not kinds & {'conditions', 'counts', 'forbidden', 'links'}:
             complaints.append(
                 f'clause {words!r} denies something: it needs a condition, or is not_encoded'
             )

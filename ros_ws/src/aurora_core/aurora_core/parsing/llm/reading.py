@@ -221,6 +221,16 @@ class CountReading(Document):
     quote: Quote
 
 
+class ForbiddenReading(Document):
+    """Something that a ground agent must never do: `the van must not change lanes`."""
+
+    id: Name
+    agent: Name
+    kind: BehaviorKind
+    target: Reference | None = None
+    quote: Quote
+
+
 class ClauseReading(Document):
     """A piece of the prompt and the ids that it became (`world` for weather and time)."""
 
@@ -248,6 +258,7 @@ class Reading(Document):
     events: tuple[EventReading, ...] = ()
     conditions: tuple[ConditionReading, ...] = ()
     counts: tuple[CountReading, ...] = ()
+    forbidden: tuple[ForbiddenReading, ...] = ()
     clauses: tuple[ClauseReading, ...] = ()
     missing: tuple[MissingReading, ...] = ()
     question: Annotated[str, StringConstraints(max_length=1000)] | None = None

@@ -21,6 +21,7 @@ from aurora_core.parsing.llm.reading import (
     AgentReading,
     BehaviorReading,
     CountReading,
+    ForbiddenReading,
     Reading,
     UavReading,
     WorldReading,
@@ -28,6 +29,7 @@ from aurora_core.parsing.llm.reading import (
 from aurora_core.parsing.scene import Entity
 from aurora_core.parsing.values import default
 from aurora_core.spec.parameter import Span
+from aurora_core.spec.prohibitions import ForbiddenBehavior
 from aurora_core.spec.scenario import Behavior, Placement, SceneCount
 from aurora_core.spec.vocabulary import (
     AgentType,
@@ -61,6 +63,7 @@ def build_scene(reading: Reading, parts: Parts, anchors: Anchors) -> None:
     parts.name_all('e', [e.id for e in reading.events])
     parts.name_all('c', [c.id for c in reading.conditions])
     parts.name_all('count', [c.id for c in reading.counts])
+    parts.name_all('no', [f.id for f in reading.forbidden])
     for agent in reading.agents:
         _add_agent(agent, parts)
     for mission in reading.missions:
@@ -73,6 +76,8 @@ def build_scene(reading: Reading, parts: Parts, anchors: Anchors) -> None:
         add_condition(condition, parts)
     for count in reading.counts:
         _add_count(count, parts)
+    for forbidden in reading.forbidden:
+        _add_forbidden(forbidden, parts)
 
 
 def _add_count(count: CountReading, parts: Parts) -> None:
@@ -82,6 +87,20 @@ def _add_count(count: CountReading, parts: Parts) -> None:
         parts.scene.counts.append(
             SceneCount(id=parts.ref(count.id), kind=count.kind, value=value, span=span)
         )
+
+
+def _add_forbidden(said: ForbiddenReading, parts: Parts) -> None:
+    agent = parts.actor(said.agent, f'{said.id}.agent', flies=False)
+    if agent is not None:
+        made = ForbiddenBehavior(
+            forbids='behavior',
+            id=parts.ref(said.id),
+            agent=agent.id,
+            kind=said.kind,
+            target=parts.ref_or_none(said.target),
+            span=parts.span(said.quote, said.id),
+        )
+        parts.scene.prohibitions.append(made)
 
 
 def _add_world(said: WorldReading, parts: Parts) -> None:

@@ -7,6 +7,7 @@ from __future__ import annotations
 from typing import Any
 
 from aurora_core.spec.parameter import Parameter, Provenance, Span
+from aurora_core.spec.prohibitions import ForbiddenBehavior
 from aurora_core.spec.scenario import ScenarioSpec, Trigger
 from aurora_core.spec.vocabulary import ClauseStatus
 
@@ -154,6 +155,17 @@ def honest_reading(spec: ScenarioSpec) -> dict[str, Any]:
                 'quote': quote(c.span),
             }
             for c in spec.counts
+        ],
+        'forbidden': [
+            {
+                'id': f.id,
+                'agent': f.agent,
+                'kind': f.kind.value,
+                'target': f.target,
+                'quote': quote(f.span),
+            }
+            for f in spec.prohibitions
+            if isinstance(f, ForbiddenBehavior)
         ],
         'clauses': [
             {
