@@ -63,18 +63,3 @@ def test_what_is_said_of_somebody_is_done(here: Path, prompt: str, condition: st
         done = session.run(prompt)
     assert done.status == 'verified', done.conditions
     assert condition in {c.id for c in done.conditions}
-
-
-@pytest.mark.parametrize(
-    ('prompt', 'condition'),
-    [
-        # It starts where no red light holds it.
-        ('The bus never stops and never changes lane.', 'no1.holds'),
-        ('The ego car follows the bus without overtaking it.', 'no1.holds'),
-    ],
-)
-def test_what_is_forbidden_is_not_done(here: Path, prompt: str, condition: str) -> None:
-    with aurora.Session(out='runs') as session:
-        done = session.run(prompt)
-    assert done.status == 'verified', done.conditions
-    assert condition in {c.id for c in done.conditions}

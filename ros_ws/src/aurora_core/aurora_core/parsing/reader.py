@@ -8,7 +8,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from aurora_core.parsing.atoms import AtomKind, NounKind, needs_nothing
-from aurora_core.parsing.constructions.ground import forbidden
 from aurora_core.parsing.constructions.places import place_party
 from aurora_core.parsing.constructions.states import adjectives
 from aurora_core.parsing.criteria.criterion import Criterion
@@ -238,10 +237,7 @@ class Reader:
             told = who_was_told(frame)
             if told and len(self._story.scene.events) > before and _acts_on(ahead):
                 self._story.last = (self._story.scene.events[-1], piece.sentence)
-            alone = not told and not after_told(frame, self._story.before)
-            if alone and (ahead is None or ahead.link is Link.MAIN):
-                alone = not forbidden(frame)
-            if alone:
+            if not told and not after_told(frame, self._story.before):
                 main_clause(frame)
             note_fronted_time(self._story, frame, before)
             in_sequence(frame, before)

@@ -13,7 +13,6 @@ import yaml
 from aurora_core.outcomes.parse import ParseContext, ParseOutcome
 from aurora_core.parsing.parser import parse_offline
 from aurora_core.spec.parameter import Bound, Parameter, Provenance
-from aurora_core.spec.prohibitions import ForbiddenBehavior
 from aurora_core.spec.scenario import GroundAgent, ScenarioSpec, UavMission
 from aurora_core.spec.vocabulary import ClauseStatus
 
@@ -142,9 +141,6 @@ def scene_lines(spec: ScenarioSpec) -> list[str]:
         ):
             line += f' {word} {_p(value)}' if value is not None else ''
         lines.append(line)
-    for part in spec.prohibitions:
-        assert isinstance(part, ForbiddenBehavior)
-        lines.append(f'never: {part.agent} {part.kind.value}({part.target or ""})')
     return lines
 
 

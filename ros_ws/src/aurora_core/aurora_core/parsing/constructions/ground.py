@@ -4,8 +4,6 @@
 
 from __future__ import annotations
 
-import re
-
 from aurora_core.parsing import values
 from aurora_core.parsing.adjuncts import Adjunct, AdjunctKind
 from aurora_core.parsing.atoms import ACTORS, AtomKind, NounKind, NounPhrase
@@ -23,7 +21,6 @@ from aurora_core.parsing.morphology import VerbForm
 from aurora_core.parsing.pronouns import ground
 from aurora_core.parsing.scene import Entity
 from aurora_core.spec.parameter import Parameter
-from aurora_core.spec.prohibitions import ForbiddenBehavior
 from aurora_core.spec.scenario import Behavior, Placement
 from aurora_core.spec.vocabulary import AgentType, BehaviorKind, MissionMode, Relation
 
@@ -71,14 +68,6 @@ _MOVING = frozenset(
 
 _EMERGENCY = (AgentType.POLICE, AgentType.AMBULANCE, AgentType.FIRETRUCK)
 _GOALS = (NounKind.PLACE, NounKind.LANDMARK, NounKind.MISSING_LANDMARK)
-
-
-# Who need not, or cannot, is forbidden nothing.
-_NO_NEED = re.compile(r"\b(?:need|ha(?:s|ve)|can|could|cannot|can't|couldn't|able)\b")
-# `merely because`, `unless`: no word goes on to say when.
-_ENDS = re.compile(r'\s*(?:$|[.,;:!)\n]|and\b|but\b)')
-# Behind what must not be done there is at most one of whom, or which, it is.
-_TO_WHOM = re.compile(r'\s+(?:it|him|her|them|the \w+(?: \w+)?)[\s.,;]*')
 
 
 def is_behavior(key: str) -> bool:
@@ -131,40 +120,6 @@ def behavior(frame: Frame) -> bool:
         own = tuple(p for p in placements if p.of != entity.id)
         add_behavior(entity, made, own)
     frame.scene.became(*(e.id for e in subjects))
-    return True
-
-
-def forbidden(frame: Frame) -> bool:
-    """`the van never stops`: what ground agents must not do; no word may say when or how."""
-    if not frame.negated or frame.verb is None or frame.key not in set(BehaviorKind):
-        return False
-    said = frame.scene.prompt[frame.piece.start : frame.piece.end].lower()
-    rest = said[frame.verb.end - frame.piece.start :]
-    if _NO_NEED.search(said) or _ENDS.match(frame.scene.prompt, frame.piece.end) is None:
-        return False
-    if rest.strip() and _TO_WHOM.fullmatch(rest) is None:
-        return False
-    # `follows the bus without overtaking it`: the bus overtakes nobody.
-    led = said.startswith('without')
-    subjects = frame.inherited(ground) if led else frame.subjects(ground)
-    if not subjects or any(e.is_uav for e in subjects):
-        return False
-    target = _target(frame, subjects) if frame.key in _TARGETED else None
-    for adjunct in frame.free(AdjunctKind.OBJECT):
-        adjunct.used = all(n.kind is NounKind.STREET for n in adjunct.nouns)
-    if not all(a.used for a in frame.adjuncts):
-        return False
-    for entity in subjects:
-        made = ForbiddenBehavior(
-            forbids='behavior',
-            id=frame.scene.new_id('no'),
-            agent=entity.id,
-            kind=BehaviorKind(frame.key),
-            target=target,
-            span=frame.span,
-        )
-        frame.scene.prohibitions.append(made)
-        frame.scene.became(made.id)
     return True
 
 
