@@ -13,7 +13,7 @@ from aurora_core.compiled import Compiled
 from aurora_core.errors import ConfigError
 
 # All files but those of language models, which are read when one is asked.
-NAMES = ('lexicon.yaml', 'criteria.yaml', 'defaults.yaml')
+NAMES = ('lexicon.yaml', 'criteria.yaml', 'defaults.yaml', 'asks_nothing.yaml')
 
 
 def data_path(name: str) -> Path:

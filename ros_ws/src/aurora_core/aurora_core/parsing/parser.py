@@ -15,8 +15,9 @@ specification). One reading of them is an `attempt`; what it left unread gets a
 
 Nothing is dropped in silence. A construction marks every adjunct that it understood as used; what
 stays unused in an encoded clause becomes a clause of its own with the status `not_encoded`;
-`coverage` then looks for numbers and actors that went nowhere, `doubts` for words that ask for
-something nothing carries.
+`asks_nothing` sets aside what of that is a purpose, a title, thanks or filler; `coverage` then
+looks for numbers and actors that went nowhere, `doubts` for words that ask for something nothing
+carries.
 
 To add a word, write it in the list of its meaning in `lexicon.yaml`; forms and one-letter slips
 follow by themselves. To add a default, `defaults.yaml`. To add a construction, write a function
@@ -33,6 +34,7 @@ from pydantic import ValidationError
 
 from aurora_core.errors import SpecError
 from aurora_core.outcomes.parse import ParseContext, ParseOutcome, Refusal, RefusalKind
+from aurora_core.parsing.asks_nothing import set_aside
 from aurora_core.parsing.assemble import build
 from aurora_core.parsing.atoms import Atom, AtomKind, NounKind
 from aurora_core.parsing.attempt import attempt
@@ -93,13 +95,14 @@ def parse_offline(prompt: str, context: ParseContext) -> ParseOutcome:
         question = ' '.join(dict.fromkeys(scene.questions))
         return ParseOutcome(question=question, clauses=scene.finished_clauses())
     close_scene(scene, read.told.atoms, read.resolver)
+    aside = set_aside(scene.clauses, prompt)
     spec = _build(scene)
     lost = unaccounted(
         spec,
         read.told.atoms,
         read.resolver,
         no_uavs=scene.no_uavs,
-        understood=scene.understood,
+        understood=(*scene.understood, *aside),
     )
     lost += in_no_clause(tagged.atoms, scene.finished_clauses())
     lost += doubtful(spec, tagged.atoms)
