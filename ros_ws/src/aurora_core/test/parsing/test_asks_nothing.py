@@ -23,7 +23,7 @@ def _texts(prompt: str, status: ClauseStatus) -> list[str]:
         ('A drone hovers at 30 m for 20 s. Cheers, Fiona', 'Cheers, Fiona', 'greets'),
         ('Acceptance criteria: the drone hovers at 30 m.', 'Acceptance', 'title'),
         ('Check the link budget. A drone hovers at 30 m.', 'Check the link budget', 'for'),
-        ('A drone hovers at 30 m. Nobody cares where the car goes.', 'Nobody cares', 'remark'),
+        ('A drone hovers at 30 m. If it makes a difference.', 'If it makes', 'remark'),
     ],
 )
 def test_what_asks_for_nothing_leaves_a_request_complete(
@@ -42,7 +42,7 @@ def test_what_asks_for_nothing_leaves_a_request_complete(
         'A drone hovers at 30 m for 20 s. Tilt the gimbal.',
         'A drone hovers at 30 m for 20 s. Cheers, and tilt the gimbal.',
         'Check the link budget of 3 dB. A drone hovers at 30 m.',
-        'A drone hovers at 30 m. Nobody cares where the car goes after 10 s.',
+        'A drone hovers at 30 m. If it makes a difference of 2 m.',
     ],
 )
 def test_one_word_more_leaves_it_unread(prompt: str) -> None:
