@@ -50,7 +50,11 @@ def main() -> int:
 
     rclpy.init()
     node = Node('bare', namespace='/bare')
-    Path(os.environ['AURORA_READY_FILE']).write_text(f'{os.getpid()}\n', encoding='ascii')
+    ready = Path(os.environ['AURORA_READY_FILE'])
+    # Whole at once: a reader never sees it empty.
+    temporary = ready.with_suffix('.part')
+    temporary.write_text(f'{os.getpid()}\n', encoding='ascii')
+    temporary.replace(ready)
     signal.pause()
     node.destroy_node()
     return 0

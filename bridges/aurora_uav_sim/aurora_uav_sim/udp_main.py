@@ -170,7 +170,10 @@ def main(argv: list[str] | None = None) -> int:
         sys.stdout.flush()
         ready = os.environ.get('AURORA_READY_FILE')
         if ready:
-            Path(ready).write_text(f'{port}\n', encoding='ascii')
+            # Whole at once: a reader never sees it empty.
+            temporary = Path(f'{ready}.{os.getpid()}')
+            temporary.write_text(f'{port}\n', encoding='ascii')
+            temporary.replace(ready)
         _serve(sock, server if signer is None else SignedServer(server, signer), stop)
     return 0
 

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import json
 import os
-import signal
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
@@ -81,15 +80,3 @@ def finished(tmp_path_factory: pytest.TempPathFactory) -> SimpleNamespace:
     report = json.loads(done.stdout)
     folder = home / 'runs' / report['run_id']
     return SimpleNamespace(home=home, folder=folder, report=report, process=done)
-
-
-@pytest.fixture(autouse=True)
-def _signals_as_in_a_terminal() -> Iterator[None]:
-    """Heed SIGINT and SIGHUP, also where the tests run behind nohup or in the background."""
-    before = {
-        signal.SIGINT: signal.signal(signal.SIGINT, signal.default_int_handler),
-        signal.SIGHUP: signal.signal(signal.SIGHUP, signal.SIG_DFL),
-    }
-    yield
-    for number, handler in before.items():
-        signal.signal(number, handler)

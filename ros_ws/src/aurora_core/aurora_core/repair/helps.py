@@ -151,6 +151,7 @@ HELPS: Mapping[str, tuple[Help, ...]] = MappingProxyType(
         Q.CROSSING: _DRIVEN,
         Q.LANE_CHANGE: _DRIVEN,
         Q.YIELDING: _DRIVEN,
+        Q.UNDONE: _DRIVEN,
         Q.PRESENCE: _DRIVEN,
         Q.JUMP: _DRIVEN,
         Q.COUNT: _DRIVEN,
