@@ -282,10 +282,17 @@ def _track_one(flight: Flight, requirement: Mapping[str, Any], target: str) -> J
     start = flight.segment.start + int(hits[0])
     window = slice(start, flight.ticks.stop)
     fraction = share(good[window])
-    seen = share(visible(scene, flight.uav, target)[window])
+    sight = visible(scene, flight.uav, target)
+    seen = share(sight[window])
+    # An event that ends the window, by lost sight perhaps, need not end the mission.
+    whole = share(sight[start : flight.segment.end])
     parts = [
         decide(fraction >= limits.TRACKED_SHARE, f'{target} tracked {fraction:.1%} at {word}'),
-        decide(seen >= limits.VISIBLE_SHARE, f'{target} visible {seen:.1%}'),
+        graded(
+            seen >= limits.VISIBLE_SHARE,
+            whole >= limits.VISIBLE_SHARE,
+            f'{target} visible {seen:.1%}',
+        ),
         altitude(flight, requirement, start),
         _duration(flight, requirement, start, start),
         _middle_standoff(flight, requirement, away[window]),

@@ -208,6 +208,21 @@ def test_tracking_may_be_lost_for_a_fifth_of_the_time(
     assert stage.says(TRACK) == outcome
 
 
+@pytest.mark.parametrize(
+    ('hidden_until', 'outcome'), [(112.0, 'holds'), (160.0, 'cannot_tell'), (320.0, 'does_not')]
+)
+def test_sight_lost_before_an_event_may_come_back_after_it(
+    stage: Any, hidden_until: float, outcome: str
+) -> None:
+    wall = Prism(name='', polygon=box(104, 10, hidden_until, 14), top_m=90.0)
+    stage.world = dataclasses.replace(stage.world, buildings=(wall,))
+    stage.drive('car1', 'car', 8.0)
+    stage.uav('drone', lambda t: (8.0 * t, 28.35, 40.0 + np.clip(3.0 * (t - 20.3), 0.0, 20.0)))
+    climb = {'do': 'ascend', 'uav': 'drone', 'altitude_m': 60}
+    event = {'kind': 'event', 'ref': 'e1', 'trigger': {'on': 'time', 'at_s': 20}, 'action': climb}
+    assert stage.says(TRACK, event) == outcome
+
+
 def test_tracking_behind_is_not_ahead(stage: Any) -> None:
     _tracking(stage, 30.0)
     assert stage.says({**TRACK, 'side': 'behind'}) == 'holds'
