@@ -209,7 +209,8 @@ def _behavior(behavior: Behavior) -> str:
     whom = ''
     if behavior.target is not None:
         somewhere = is_place(behavior.target) and behavior.kind is not BehaviorKind.APPROACH
-        at = ' at' if somewhere and not does.endswith(' to') else ''
+        goes = behavior.kind is BehaviorKind.DRIVE and behavior.target.startswith('landmark:')
+        at = ' to' if goes else ' at' if somewhere and not does.endswith(' to') else ''
         whom = f'{at} {_place(behavior.target)}'
     else:
         does = does.removesuffix(' to')

@@ -67,6 +67,8 @@ _MOVING = frozenset(
 
 
 _EMERGENCY = (AgentType.POLICE, AgentType.AMBULANCE, AgentType.FIRETRUCK)
+_BEGINS = ('start', 'begin', 'began', 'begun', 'commenc', 'come', 'coming', 'came')
+_MOTION = frozenset({'drive', 'driving', 'move', 'moving', 'off', 'out', 'rolling'})
 _GOALS = (NounKind.PLACE, NounKind.LANDMARK, NounKind.MISSING_LANDMARK)
 
 
@@ -79,8 +81,8 @@ def behavior(frame: Frame) -> bool:
     """Read what ground agents do, with the place that is stated in the same breath."""
     if frame.negated or frame.key not in BEHAVIORS:
         return False
-    if frame.key == 'start' and frame.free(AdjunctKind.PLACE):
-        return False  # `starts 45 m behind the ego` is a place
+    if frame.key == 'start' and frame.free(AdjunctKind.PLACE) and _begins(frame):
+        return False  # `starts 45 m behind the ego` is a place, `pulls out ahead of it` a deed
     if frame.key == 'reach' and not any(n.kind in _GOALS for n in frame.nouns()):
         return False
     _commanded(frame)
@@ -252,6 +254,12 @@ def _target(frame: Frame, subjects: tuple[Entity, ...]) -> str | None:
                 adjunct.used = frame.key != 'drive' or adjunct.key in ('through', 'along')
                 return place if adjunct.used else None
     return None
+
+
+def _begins(frame: Frame) -> bool:
+    """Tell `starts`, `begins its run` from `starts off`, `pulls out`."""
+    words = frame.verb.words.split() if frame.verb is not None else ['']
+    return words[0].startswith(_BEGINS) and words[-1] not in _MOTION
 
 
 def _place_again(frame: Frame, nouns: list[NounPhrase]) -> str | None:

@@ -26,7 +26,7 @@ from aurora_core.parsing.doubts.clauses import (
 )
 from aurora_core.spec.parameter import Span
 from aurora_core.spec.scenario import AgentAction, Clause, ScenarioSpec
-from aurora_core.spec.vocabulary import AgentType, BehaviorKind, ClauseStatus, Role
+from aurora_core.spec.vocabulary import AgentType, BehaviorKind, ClauseStatus, Relation, Role
 
 _ON_FOOT = frozenset({AgentType.PEDESTRIAN, AgentType.RSU})
 _FINITE = frozenset({AtomKind.VERB, AtomKind.AUXILIARY})
@@ -96,6 +96,16 @@ def idle(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
                 meant = {who for who, names in bodies.items() if name in names}
                 if not meant & about and clause_of(spec, atom) is not None:
                     yield span
+
+
+def meeting(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
+    """`an oncoming truck passes the ego car`: they meet, which is no overtaking."""
+    for agent in spec.agents:
+        comes_to = {p.of for p in agent.placements if p.relation is Relation.ONCOMING}
+        for behavior in agent.behaviors:
+            overtakes = behavior.kind is BehaviorKind.OVERTAKE
+            if overtakes and behavior.target in comes_to and behavior.span is not None:
+                yield behavior.span
 
 
 def listed(spec: ScenarioSpec, atoms: Sequence[Atom]) -> Iterator[Span]:
