@@ -35,6 +35,8 @@ def _unread(prompt: str) -> list[str]:
         ('On a foggy morning a drone hovers over City Hall.', 'morning'),
         ('A drone tracks a speeding car.', 'speeding'),
         ('A drone tracks a slow bus.', 'slow'),
+        ('The ego overtakes a bicycle which is slow.', 'is slow'),
+        ('A drone hovers out of sight of the ego at 40 m.', 'out of sight'),
         ('A car follows a bus closely.', 'closely'),
         ('A car drives at full speed.', 'full speed'),
         ('A car drives straight ahead; a drone tracks it.', 'straight ahead'),
