@@ -18,6 +18,7 @@ from aurora_core.spec.requirements import UAV_TYPE
 from aurora_core.spec.scenario import (
     AgentAction,
     AltitudeTrigger,
+    Link,
     ScenarioSpec,
     SpeedTrigger,
     UavAction,
@@ -165,7 +166,7 @@ def _rules(
             limit_name='link_loss',
             low=0.0,
             high=1.0,
-            high_is_excluded=True,
+            high_is_excluded=not _is_to_lose(spec, link),
         )
     if spec.world.wind_mps is not None:
         yield _Rule(
@@ -185,6 +186,17 @@ def _rules(
             low=limits.duration_min_s,
             high=limits.duration_max_s,
         )
+
+
+def _is_to_lose(spec: ScenarioSpec, link: Link) -> bool:
+    """Tell whether the request itself asks that nothing comes over a link."""
+    return any(
+        c.quantity == QuantityName.DELIVERED
+        and c.of == (link.sender, link.receiver)
+        and c.op == '=='
+        and c.value.value == 0.0
+        for c in spec.conditions
+    )
 
 
 def _asked_of_bodies(

@@ -131,6 +131,7 @@ def _stated(proof: Certificate, spec: dict[str, Any] | None) -> list[Step]:
     names = limits_on(spec, proof.path, above=above)
     checks: list[Step] = [
         *_in_space(spec, proof),
+        *_may_not_lose(spec, proof),
         (proof.limit_name in names, f'{proof.path} is bound by {", ".join(names) or "nothing"}'),
         (value == proof.requested, f'the specification has {proof.path} = {value}'),
         (
@@ -154,6 +155,20 @@ def _in_space(spec: dict[str, Any], proof: Certificate) -> list[Step]:
     fastest = math.hypot(float(table['uav_speed_max_mps']), float(table['uav_climb_max_mps']))
     fastest *= 1.0 + float(margin)
     return [((proof.requested or 0.0) > fastest, f'it flies {fastest:.2f} m/s in space at most')]
+
+
+def _may_not_lose(spec: dict[str, Any], proof: Certificate) -> list[Step]:
+    """A link may lose all messages where the request asks for that."""
+    if proof.limit_name != _LOSS or proof.requested != 1.0:
+        return []
+    link = node_at(spec, proof.path.rpartition('/')[0]) or {}
+    asked = [
+        c
+        for c in spec.get('conditions') or ()
+        if (c['quantity'], c['op'], c['value']['value']) == ('delivered', '==', 0.0)
+        and list(c['of']) == [link.get('sender'), link.get('receiver')]
+    ]
+    return [(not asked, f'{proof.path}: that nothing is delivered is not what is asked for')]
 
 
 def _at(spec: dict[str, Any], path: str) -> dict[str, Any] | None:

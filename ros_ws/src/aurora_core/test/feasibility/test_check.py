@@ -14,6 +14,7 @@ from aurora_core.feasibility.limits import check_limits
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Limits
 from aurora_core.outcomes.feasibility import Certificate, Feasibility
+from aurora_core.recheck import recheck
 from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.scenario import (
     AgentAction,
@@ -23,6 +24,7 @@ from aurora_core.spec.scenario import (
     GroundAgent,
     Link,
     ScenarioSpec,
+    StatedCondition,
     Uav,
     UavAction,
     UavMission,
@@ -206,6 +208,23 @@ def test_a_link_that_loses_all_is_refused(
     if refused:
         assert found[0].reason == 'comm_range'
         assert ('below 1' if loss >= 1.0 else 'at least 0') in found[0].sentence
+
+
+def test_a_link_that_is_to_lose_all_may_do_so(limits: Limits, parameter: Make) -> None:
+    """`The loss is 100 percent, so nothing arrives`: an outcome that was asked for."""
+    lossy = _link(parameter, parameter(1.0, '1'))
+    refused = _certificates(lossy, limits)[0]
+    for of, value, left in (
+        (('uav1', 'a1'), 0.0, 0),
+        (('a1', 'uav1'), 0.0, 1),
+        (('uav1', 'a1'), 1.0, 1),
+    ):
+        asked = StatedCondition(
+            id='c1', quantity='delivered', of=of, op='==', value=parameter(value, '1')
+        )
+        spec = lossy.model_copy(update={'conditions': (asked,)})
+        assert len(_certificates(spec, limits)) == left
+        assert recheck(refused, spec.model_dump(mode='json')).valid is bool(left)
 
 
 def test_a_type_that_cannot_go_so_fast(
