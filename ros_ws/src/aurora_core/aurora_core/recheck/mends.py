@@ -69,10 +69,15 @@ def _steps(
         far = 0.0 if mend.requested > mend.nearest else _FAR
         other = _at(proof, spec, mend, far, by_any)
         free = other or not _at(proof, spec, mend, mend.nearest, by_any)
+    # Bounds that exclude each other with the nearest value, too, say nothing about the one before.
+    barred = _at(proof, spec, mend, round(back, 2), exactly) or (
+        _at(proof, spec, mend, round(back, 2), by_any)
+        and not _at(proof, spec, mend, mend.nearest, by_any)
+    )
     return [
         (known, f'{mend.requested:g} is stated at {mend.path}'),
         (free, f'{told} can be'),
-        (_at(proof, spec, mend, round(back, 2), by_any), f'{back:g} {mend.unit} cannot'),
+        (barred, f'{back:g} {mend.unit} cannot'),
     ]
 
 

@@ -163,3 +163,25 @@ def test_elements_that_are_too_many_are_told_with_how_many_can_be() -> None:
     proof: Certificate = judged(spec).certificates[0]
     assert [(m.path, m.requested, m.nearest) for m in proof.mends] == [('uavs', 12.0, 10.0)]
     assert recheck(proof, spec.model_dump(mode='json')).valid
+
+
+def test_a_value_is_not_told_to_be_nearest_because_other_times_exclude_each_other() -> None:
+    """A scenario too short for its hover is no reason why a lower height could not be due."""
+    due = {**asked('c1', 'altitude', ['uav1'], '>=', 39.5, 'm'), 'by_s': number(7.2, 's')}
+    spec = request_of(
+        hovering(40.0, duration_s=number(60.0, 's')), due, world={'duration_s': number(30.0, 's')}
+    )
+    told = [
+        (proof, mend)
+        for proof in judged(spec).certificates
+        for mend in proof.mends
+        if mend.path == 'conditions/c1/value'
+    ]
+    assert told
+    for proof, mend in told:
+        document = spec.model_dump(mode='json')
+        assert recheck(proof, document).valid
+        for off in (-5.0, -1.0, 1.0):
+            change = mend.model_copy(update={'nearest': mend.nearest + off})
+            forged = proof.model_copy(update={'mends': (change,)})
+            assert not recheck(forged, document).valid, off
