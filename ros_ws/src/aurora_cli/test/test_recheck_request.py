@@ -48,6 +48,8 @@ RULES = (
     (Rule.HORIZON, 'A scenario of 20 seconds. The bus brakes at 30 s.'),
     (Rule.PLACEMENT, 'The van is 30 m ahead of the ego and 30 m behind the ego.'),
     (Rule.ZONE, 'A drone hovers over Signal Tower at 50 m.'),
+    (Rule.HIDDEN, 'A drone hovers 90 m north of City Hall at 15 m for 20 seconds.'),
+    (Rule.ROUND, 'A drone circles City Hall at a radius of 50 m at 30 m altitude for 60 seconds.'),
     (Rule.ROOF, f'{HALL} at 15 m.'),
     (
         Rule.BOUNDS,

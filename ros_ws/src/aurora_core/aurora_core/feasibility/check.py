@@ -9,6 +9,7 @@ from collections.abc import Iterator, Mapping
 from aurora_core.feasibility.bounds import check_bounds
 from aurora_core.feasibility.doubts import doubts, nominal
 from aurora_core.feasibility.geometry import check_geometry
+from aurora_core.feasibility.hidden import check_hidden
 from aurora_core.feasibility.limits import check_limits
 from aurora_core.feasibility.mends import Check, Mends
 from aurora_core.feasibility.operands import operands_fit
@@ -16,6 +17,7 @@ from aurora_core.feasibility.places import check_placements
 from aurora_core.feasibility.pursuit import check_pursuit
 from aurora_core.feasibility.quotes import rests_on_unread, with_clauses
 from aurora_core.feasibility.roofs import check_roofs, check_walls
+from aurora_core.feasibility.rounds import check_rounds
 from aurora_core.feasibility.scene import check_scene
 from aurora_core.feasibility.sight import check_sight
 from aurora_core.feasibility.signs import check_signs
@@ -137,10 +139,13 @@ def _checks(
         marks, buildings = map_model.landmarks, map_model.buildings
         fenced = list(check_zones(spec, map_model.zones, marks, limits, tolerances, buildings))
         yield from fenced
-        # A tower in a no-fly zone is told of once.
+        # A tower in a no-fly zone is told of once, and a flight among buildings, too.
         told = {zone.path for zone in fenced}
-        roofs = check_roofs(spec, buildings, marks, limits, tolerances)
-        yield from (c for c in roofs if c.path.rpartition('/')[0] not in told)
+        built = (buildings, marks, limits, tolerances)
+        for check in (check_roofs, check_hidden, check_rounds):
+            found = [c for c in check(spec, *built) if c.path.rpartition('/')[0] not in told]
+            told |= {c.path.rpartition('/')[0] for c in found}
+            yield from found
 
     return (
         numbers,

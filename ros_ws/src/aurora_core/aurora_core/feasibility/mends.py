@@ -24,6 +24,8 @@ Check = Callable[[ScenarioSpec], Iterable[Certificate]]
 _STEPS = {Unit.ONE: 0.01, Unit.DEGREE: 1.0}
 _STEP = 0.1
 _WHOLE = frozenset({'waypoint_count', 'retransmissions', 'turns'})
+# Between buildings a flight may be and may not be by turns; only higher is always freer.
+_OF_ONE_NUMBER = frozenset({Rule.HIDDEN, Rule.ROUND})
 # No value beyond this is looked for: no limit in any unit is as great.
 _MOST = 5000.0
 
@@ -106,7 +108,8 @@ def _key(proof: Certificate) -> tuple[object, ...]:
 
 
 def _numbers(spec: ScenarioSpec, proof: Certificate) -> Iterator[tuple[str, Parameter]]:
-    for path in dict.fromkeys(paths_of(proof)):
+    paths = (proof.path,) if proof.rule in _OF_ONE_NUMBER else paths_of(proof)
+    for path in dict.fromkeys(paths):
         node: object = spec
         for part in path.split('/'):
             node = inside(node, part)

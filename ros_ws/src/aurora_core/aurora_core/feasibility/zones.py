@@ -20,7 +20,7 @@ from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_types import Building, Landmark, NoFlyZone
 from aurora_core.outcomes.feasibility import Certificate, Fact, Rule
 from aurora_core.spec.reference import LANDMARK
-from aurora_core.spec.scenario import ScenarioSpec, UavMission
+from aurora_core.spec.scenario import ScenarioSpec, UavAction, UavMission
 from aurora_core.spec.stated import is_stated, least, most
 from aurora_core.spec.vocabulary import ClauseStatus, MissionMode, Pattern
 
@@ -156,6 +156,16 @@ def is_half_read(spec: ScenarioSpec, mission: UavMission) -> bool:
             or (clause.span.start < mission.span.end and mission.span.start < clause.span.end)
         )
         for clause in spec.clauses
+    )
+
+
+def is_redirected(spec: ScenarioSpec, mission: UavMission) -> bool:
+    """Return whether an event may end a flight, or send its UAV to another height or place."""
+    return any(
+        isinstance(e.action, UavAction)
+        and e.action.uav == mission.uav
+        and e.action.mission != mission.id
+        for e in spec.events
     )
 
 

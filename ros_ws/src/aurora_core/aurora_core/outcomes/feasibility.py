@@ -40,6 +40,8 @@ class Rule(StrEnum):
     ORDER = 'order'  # a circle of orders, or an order against stated times
     PLACEMENT = 'placement'  # one pair on two sides or at two distances
     ZONE = 'zone'  # a flight at a landmark inside a no-fly zone
+    HIDDEN = 'hidden'  # a hover from which buildings hide what it watches, wherever it may be
+    ROUND = 'round'  # an orbit that buildings cut, wherever it may be flown
     ROOF = 'roof'  # a hover at a landmark inside a building, or too near it
     WALL = 'wall'  # a clearance from a building under the limit, asked below its roof
     BOUNDS = 'bounds'  # conditions on one quantity without a common value

@@ -14,7 +14,7 @@ from types import MappingProxyType
 from typing import Any
 
 from aurora_core.outcomes.feasibility import Certificate, Rule
-from aurora_core.recheck import bounds, flights, places, pursuit, scene, schedule, zones
+from aurora_core.recheck import bounds, buildings, flights, places, pursuit, scene, schedule, zones
 from aurora_core.recheck.finding import Finding, Outcome, Step, finding
 from aurora_core.recheck.limits import by_limit, by_sign
 from aurora_core.recheck.listings import by_listing
@@ -41,6 +41,8 @@ _DERIVATIONS: Mapping[Rule, _Derivation] = MappingProxyType(
         Rule.ORDER: schedule.times,
         Rule.PLACEMENT: places.placement,
         Rule.ZONE: zones.zone,
+        Rule.HIDDEN: buildings.hidden,
+        Rule.ROUND: buildings.cut_round,
         Rule.ROOF: zones.roof,
         Rule.WALL: zones.wall,
         Rule.BOUNDS: bounds.bounds,
