@@ -50,7 +50,9 @@ class RouteFinder:
         self._following = lru_cache(maxsize=None)(self._ordered_successors)
         onward = {e: {f for f in self._following(e) if self._goes_on(e, f)} for e in self._endless}
         # On a single road one turns round at its ends.
-        self._through = _on_cycles(onward) or self._endless
+        through = _on_cycles(onward)
+        self._has_ends_only = not through
+        self._through = through or self._endless
         self._liked = lru_cache(maxsize=None)(self._successors_through)
 
     def straight_route(self, start_edge: str, length_m: float) -> tuple[str, ...]:
@@ -171,15 +173,13 @@ class RouteFinder:
         return tuple(route)
 
     def _lanes_behind(self, lane_id: str) -> list[str]:
-        """Return the lanes onto which a lane leads, but for turning round."""
-        links = self._network.connections_from(lane_id)
-        onward = {
-            link.to_lane_id
-            for link in links
-            if link.direction != 't'
-            and self._network.lane(link.to_lane_id).edge_id in self._through
-        }
-        return sorted(onward)
+        """Return the lanes onto which a lane leads, round the end of a road only where all end."""
+        onward: set[str] = set()
+        round_it: set[str] = set()
+        for link in self._network.connections_from(lane_id):
+            if self._network.lane(link.to_lane_id).edge_id in self._through:
+                (round_it if link.direction == 't' else onward).add(link.to_lane_id)
+        return sorted(onward or (round_it if self._has_ends_only else ()))
 
     def endless(self, edge_id: str) -> bool:
         """Whether one can drive on from this edge for ever."""

@@ -68,6 +68,24 @@ def test_it_stays_on_a_map_whose_streets_end_at_its_border(
     assert len(cars) >= tolerances.traffic_share[0] * due
 
 
+def test_it_turns_round_where_every_road_ends(
+    read_prompt: Read, ground: Ground, map_of: Maps, tolerances: Tolerances
+) -> None:
+    """Four roads that end: who may never turn round gets nowhere, and nobody would be there."""
+    prompt = 'A drone hovers over the intersection at 50 m for 20 seconds in heavy traffic.'
+    cars = ground(read_prompt(prompt, 'junction'), 'junction').agents
+    assert all(c.role == 'background' for c in cars)
+    network = map_of('junction').network
+    lanes = [
+        (network.edge(lane.edge_id).street_name, lane.polyline)
+        for lane in network.driving_lanes('passenger')
+    ]
+    length_m = street_length_m(lanes, (0.0, 0.0), tolerances.traffic_radius_m)
+    due = tolerances.traffic_per_km['high'] * length_m / 1000.0
+    low, high = tolerances.traffic_share
+    assert low * due <= len(cars) <= high * due
+
+
 def test_it_keeps_off_the_actors_and_apart(traffic: Traffic) -> None:
     actors, cars = traffic('A van tailgates the ego car in heavy traffic; a drone tracks the van.')
     streets = {edge for a in actors for edge in a.edges[:8]}
