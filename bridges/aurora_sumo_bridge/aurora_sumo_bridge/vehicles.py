@@ -120,7 +120,9 @@ def place_vehicle(agent: GroundAgentLoad, network: Network) -> tuple[VehiclePlac
         half_m - agent.lane_position_m,
         agent.lane_position_m + half_m - line.length_m,
     )
-    bend_m = line.bend_m(agent.lane_position_m, half_m)
+    # SUMO counts the lane of a curve shorter than it is drawn: so much longer is the box there.
+    stretch = max(1.0, line.length_m / float(libsumo.lane.getLength(agent.lane_id)))
+    bend_m = line.bend_m(agent.lane_position_m, half_m * stretch)
     place = VehiclePlace(centre=centre, tolerance_m=EXACT_M + bend_m + 0.5 * over_m)
     return place, driver
 

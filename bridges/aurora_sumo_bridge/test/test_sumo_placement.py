@@ -143,6 +143,18 @@ def test_on_a_curve_the_centre_is_off_by_no_more_than_the_bend(
     assert 0.01 < off_m <= line.bend_m(40.0, 6.0) + EXACT_M
 
 
+def test_on_a_curve_that_is_drawn_longer_than_it_counts_a_car_can_stand(
+    client: SumoClient, scene: Scene, vehicle: Build
+) -> None:
+    lane = '26431226_1'
+    car = vehicle('car', edges=(lane[:-2],), lane_id=lane, lane_position_m=9.68723)
+    client.load(scene(car, map_name='helsinki'))
+    line = Network().shape(lane)
+    (x_m, y_m), _ = line.at(9.68723)
+    off_m = math.dist(client.state()[0, :2], (x_m, y_m))
+    assert line.bend_m(9.68723, 2.3) + EXACT_M < off_m < 0.2
+
+
 def test_an_empty_roster_is_a_scene_too(client: SumoClient, scene: Scene) -> None:
     client.load(scene(map_name='junction'))
     assert client.state().shape == (0, 7)
