@@ -100,7 +100,9 @@ def draw_check(
         places |= {u.id: flights.spot(u, u.missions[0]) for u in grounded.uavs if u.missions}
         _anchors(ax, tried)
         if tried:
-            _whole_map(figure, box, model, tried)
+            _score_bar(figure)
+            if not _shows_all(box, model):
+                _whole_map(figure, box, model, tried)
         _agents(ax, grounded.agents)
         _flown(ax, grounded.uavs, flights)
         _sight(ax, grounded.uavs, places, flights)
@@ -183,6 +185,13 @@ class _Flights:
         return points
 
 
+def _shows_all(box: Box, model: MapModel) -> bool:
+    """Tell whether a picture shows the whole map."""
+    west, south, east, north = model.bounds_m
+    across = box.west <= west and east <= box.west + box.width
+    return across and box.south <= south and north <= box.south + box.height
+
+
 def _whole_map(figure: Figure, box: Box, model: MapModel, tried: Sequence[Tried]) -> None:
     """Draw all anchors on the whole map, and which part of it the picture shows."""
     west, south, east, north = model.bounds_m
@@ -207,6 +216,9 @@ def _whole_map(figure: Figure, box: Box, model: MapModel, tried: Sequence[Tried]
     inset.add_patch(
         Rectangle(corner, box.width, box.height, fill=False, edgecolor=style.INK, zorder=7.0)
     )
+
+
+def _score_bar(figure: Figure) -> None:
     shades = ScalarMappable(Normalize(vmin=0.0, vmax=1.0), _SCORES)
     bar = figure.add_axes(_BAR)
     figure.colorbar(shades, cax=bar, orientation='horizontal')

@@ -5,14 +5,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from itertools import pairwise
 
+import pytest
 from matplotlib.figure import Figure
 
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.outcomes.grounding import GroundingFailure
+from aurora_core.report.picture import check_picture
 from aurora_core.report.picture.check_picture import _between, draw_check
+from aurora_core.report.scene.tracks import Box
 from aurora_core.spec.scenario import ScenarioSpec
 
 _TWICE = (
@@ -55,3 +59,29 @@ def test_names_of_streets_keep_clear_of_long_straight_ways() -> None:
     assert max(gaps) <= 2.0
     assert points[0] == (0.0, 0.0)
     assert points[-1] == (30.0, 100.0)
+
+
+@dataclass(frozen=True)
+class _Anchor:
+    x_m: float
+    y_m: float
+    joint: float | None
+
+
+@pytest.mark.parametrize(('more_m', 'axes'), [(-20.0, 3), (0.0, 2)])
+def test_a_picture_of_the_whole_map_has_no_smaller_one_of_it(
+    more_m: float,
+    axes: int,
+    read_prompt: Callable[..., ScenarioSpec],
+    ground: Callable[..., GroundedScenario | GroundingFailure],
+    map_of: Callable[[str], MapModel],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    spec, model = read_prompt('A drone tracks a bus at 40 m.', 'junction'), map_of('junction')
+    grounded = ground(spec, 'junction')
+    assert isinstance(grounded, GroundedScenario)
+    west, south, east, north = model.bounds_m
+    shown = Box(west=west, south=south, east=east + more_m, north=north)
+    monkeypatch.setattr(check_picture, '_box', lambda *_: shown)
+    figure = draw_check(spec, grounded, model, [_Anchor(0.0, 0.0, 0.5)])
+    assert len(figure.axes) == axes  # the map, the scores, and where it lies
