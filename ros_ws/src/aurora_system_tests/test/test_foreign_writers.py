@@ -124,14 +124,12 @@ def was_flown(graph: RunningGraph, result: Any) -> bool:
 def run_beside_who_is_there(graph: RunningGraph) -> Any:
     """Return the result of a run that begins beside somebody whom the graph knows.
 
-    Where discovery takes longer than all that comes before the recording, the first run has to
-    name him and the graph knows him from then on; the next one must not fly. The recording of the
-    first one may still be open, if it was he who was asked to end it.
+    Where discovery takes longer than all that comes before the first tick, the first run names
+    him while it flies (and, where he took its goal too, goes on for a moment after its result);
+    the graph knows him from then on, and the next run must not fly.
     """
-    result = run(graph)
-    assert result.status == 'error', graph.logs()
-    began = any((graph.runs / result.run_id).glob('bag.*'))
-    return run(graph) if began else result
+    assert run(graph).status == 'error', graph.logs()
+    return run(graph)
 
 
 def clock_ns(run_folder: Path) -> list[int]:

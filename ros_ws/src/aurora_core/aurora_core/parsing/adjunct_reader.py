@@ -310,6 +310,8 @@ class AdjunctReader:
 
     def _respective(self, i: int) -> tuple[tuple[Measure, ...], int]:
         """Read `30, 45 and 60 m respectively`."""
+        if not self._respectively:
+            return (), i
         found: list[Measure] = []
         j = i
         while True:
@@ -319,7 +321,7 @@ class AdjunctReader:
             found.append(atom.measure)
             j += 2 if self._is(j + 1, AtomKind.CONJUNCTION) else 1
         plain = all(m.second is None and m.upper is None for m in found)
-        if len(found) < 2 or not self._respectively or not plain:
+        if len(found) < 2 or not plain:
             return (), i
         if any(m.dimension != LENGTH for m in found):
             return (), i

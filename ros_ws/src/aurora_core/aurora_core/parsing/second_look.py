@@ -236,11 +236,12 @@ def _acts(sentence: Sequence[Atom], i: int) -> bool:
 
 def _may_end(sentence: Sequence[Atom], i: int) -> bool:
     """Return whether a sentence may be cut here: no cause may lose its effect by it."""
+    kind = sentence[i].kind
+    if kind is not AtomKind.COMMA and kind is not AtomKind.CONJUNCTION:
+        return False
     if any(a.kind is AtomKind.SUBORDINATOR for a in sentence):
         return False
-    says_more = any(a.kind is AtomKind.VERB for a in sentence[i + 1 :])
-    kind = sentence[i].kind
-    return kind is AtomKind.COMMA or (kind is AtomKind.CONJUNCTION and says_more)
+    return kind is AtomKind.COMMA or any(a.kind is AtomKind.VERB for a in sentence[i + 1 :])
 
 
 def _distance(atom: Atom, unread: tuple[Span, ...]) -> int:
