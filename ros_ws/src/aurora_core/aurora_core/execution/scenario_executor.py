@@ -27,7 +27,7 @@ from aurora_core.execution.premises import Premises
 from aurora_core.execution.reports import Reports
 from aurora_core.execution.step_output import StepOutput
 from aurora_core.execution.triggers import BatteryRule
-from aurora_core.execution.ways import Ways
+from aurora_core.execution.ways import Destinations, Ways
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.knowledge.settings import DrivingStyle
 from aurora_core.mission.machine import MissionMachine
@@ -109,6 +109,7 @@ class ScenarioExecutor:
         self._phases = [int(UavPhase.IDLE)] * len(setup.machines)
         self._seen: dict[tuple[str, str], bool] = {}
         self._ways = Ways(setup.spec, setup.drive_m)
+        self._destinations = Destinations(setup.spec, setup.arrival_m)
         self._runner = self._run_events(EventRunner)
         self._reports = Reports(setup.links, setup.roster.dt_s, self._runner.next_message)
         self._premises = Premises(setup.spec, setup.roster, self._ways)
@@ -138,6 +139,7 @@ class ScenarioExecutor:
         rows = self._fly(tick, uav, seen)
         commands += self._release(tick, seen)
         self._ways.step(s.roster.dt_s, seen)
+        self._destinations.step(seen)
         commands += self._premises.step(tick, s.roster.dt_s, seen, s.machines)
         commands += self._overtaker.step(seen)
         commands += self._follower.step(tick, seen, self._held)
@@ -256,7 +258,7 @@ class ScenarioExecutor:
                 )
                 or (agent.release is ReleaseOn.OBSERVED and machine.missions_done)
             )
-            if ready or _is_neared(agent, seen):
+            if ready or _is_as_far(agent, seen):
                 self._held.discard(index)
                 self.note(tick, ScenarioEventKind.RELEASED, agent.id)
                 commands += self._start_commands(index, agent)
@@ -350,15 +352,20 @@ class ScenarioExecutor:
         for machine in self._setup.machines:
             if not machine.done:  # the usual answer
                 return False
-        return self._runner.done and all(link.idle for link in self._setup.links)
+        idle = all(link.idle for link in self._setup.links)
+        return idle and self._runner.done and self._destinations.all_reached()
 
 
-def _is_neared(agent: GroundedAgent, seen: Observation) -> bool:
-    """Tell whether the agent that another one waits for has come near."""
-    if agent.release is not ReleaseOn.NEARED:
+def _is_as_far(agent: GroundedAgent, seen: Observation) -> bool:
+    """Tell whether the agent that another one waits for has come near, or has drawn away."""
+    if agent.release not in (ReleaseOn.NEARED, ReleaseOn.PARTED):
         return False
     distance_m = seen.distance_m(agent.id, agent.release_agent)
-    return distance_m is not None and distance_m <= agent.release_within_m
+    if distance_m is None:
+        return False
+    if agent.release is ReleaseOn.PARTED:
+        return distance_m >= agent.release_beyond_m
+    return distance_m <= agent.release_within_m
 
 
 def _path(seen: Observation, sender: str, receiver: str) -> Path:

@@ -9,6 +9,7 @@ driven as far as a drive is judged by would break the first sentence with the se
 from __future__ import annotations
 
 from aurora_core.execution.observe import Observation
+from aurora_core.grounding.places import has_point
 from aurora_core.quantities.actions import FROM_MOTION
 from aurora_core.spec.scenario import AgentAction, ScenarioSpec, SpeedTrigger
 from aurora_core.spec.vocabulary import BehaviorKind
@@ -50,3 +51,34 @@ class Ways:
     def all_driven(self) -> bool:
         """Tell whether all of them have come far enough."""
         return all(way_m >= self._least_m for way_m in self._ways_m.values())
+
+
+class Destinations:
+    """Places where the request has agents go, or do something.
+
+    Args:
+        spec: The request.
+        arrival_m: An agent this close to a place is there.
+    """
+
+    def __init__(self, spec: ScenarioSpec, arrival_m: float) -> None:
+        self._arrival_m = arrival_m
+        self._left = [
+            (agent.id, b.target)
+            for agent in spec.agents
+            for b in agent.behaviors
+            if has_point(b.target) and b.target is not None
+        ]
+
+    def step(self, seen: Observation) -> None:
+        """Strike out who has arrived, and who is gone or never can."""
+        if self._left:
+            self._left = [one for one in self._left if self._is_away(seen, *one)]
+
+    def all_reached(self) -> bool:
+        """Tell whether everybody has been where it is to go."""
+        return not self._left
+
+    def _is_away(self, seen: Observation, agent: str, place: str) -> bool:
+        away_m = seen.distance_m(agent, place, on_road=True)
+        return away_m is not None and away_m > self._arrival_m

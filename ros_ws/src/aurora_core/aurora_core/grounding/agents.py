@@ -5,7 +5,6 @@
 from __future__ import annotations
 
 import itertools
-from collections import Counter
 from collections.abc import Mapping
 from math import inf
 
@@ -13,60 +12,40 @@ import numpy as np
 
 from aurora_core.errors import MapError
 from aurora_core.grounding.convoy import SceneSplit
+from aurora_core.grounding.driving_style import ConvoyStyles, free_style, urged_factor
 from aurora_core.grounding.entries import entry_speeds_mps
 from aurora_core.grounding.free_room import FreeRoom
 from aurora_core.grounding.free_run import free_run_m, needed_run_m
 from aurora_core.grounding.goals import STOP_AFTER_M, GoalFinder, stops
-from aurora_core.grounding.kept_gaps import KeptGap, kept_gaps
 from aurora_core.grounding.lane_changers import ORDERED_CHANGES, changes_lane
 from aurora_core.grounding.pace import (
-    PACED,
-    Encounter,
-    approaches,
-    convoy_pace_mps,
-    encounters,
-    fastest_stated_mps,
     in_emergency,
-    own_speed_mps,
-    partings,
     stated_speed_mps,
-    tracked,
 )
 from aurora_core.grounding.parked import parked_pose
 from aurora_core.grounding.releases import Release, convoy_release, group_releases, own_release
 from aurora_core.grounding.routes import route_finder
+from aurora_core.grounding.shown_speed import head_starts
 from aurora_core.grounding.sites import (
     LIMIT_SLACK_MPS,
-    SeatedAgent,
     Site,
     brisk_lanes,
     limits_mps,
     line_from,
     on_main_roads,
-    tied_way_m,
     with_another_lane,
 )
 from aurora_core.knowledge.agent_types import AgentTypeRecord
-from aurora_core.knowledge.limits import Limits
+from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.map_records import SpawnTable, may_stand
 from aurora_core.knowledge.net_types import Lane
 from aurora_core.knowledge.route_path import RoutePath, arc_at
 from aurora_core.knowledge.settings import Settings
 from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
-from aurora_core.spec.own_events import let_cross, overtakings
 from aurora_core.spec.parking import parks, parks_after, stands
 from aurora_core.spec.scenario import GroundAgent, ScenarioSpec
-from aurora_core.spec.vocabulary import BehaviorKind, MissionMode, Place
-
-# Speed limit of the slowest streets (m/s).
-_SLOWEST_MPS = 8.0
-
-# Time gap of each of several that follow one: the last one has to be near it, too (s).
-_IN_LINE_S = 0.6
-
-# Who overtakes is so much faster (m/s).
-_PASSES_BY_MPS = 4.0
+from aurora_core.spec.vocabulary import Place
 
 # Routes tried for one on which no signal is in the way.
 _RUNS_TRIED = 60
@@ -83,6 +62,7 @@ class AgentPlacer:
         types: Agent sizes.
         settings: Style of driving.
         limits: Limits in force.
+        tolerances: Tolerances in force.
         goals: Where vehicles stop by themselves.
         spawns: Where vehicle types were measured to stand.
     """
@@ -93,6 +73,7 @@ class AgentPlacer:
         types: Mapping[str, AgentTypeRecord],
         settings: Settings,
         limits: Limits,
+        tolerances: Tolerances,
         goals: GoalFinder,
         spawns: SpawnTable | None = None,
     ) -> None:
@@ -102,48 +83,38 @@ class AgentPlacer:
         self._types = types
         self._settings = settings
         self._limits = limits
+        self._tolerances = tolerances
 
     def convoy(self, spec: ScenarioSpec, split: SceneSplit, site: Site) -> list[GroundedAgent]:
         """Return the convoy's members in the order of the specification."""
-        factor = self._convoy_factor(spec, site)
-        meetings = encounters(spec)
         release = convoy_release(spec, split)
         apart = group_releases(spec, split)
         seats = {s.agent.id: s for s in (*site.seated, *site.others)}
-        front_m = max((s.arc_m for s in site.seated), default=0.0)
-        gaps = kept_gaps(spec, seats, self._types)
-        in_line = _in_line(spec)
-        entries = entry_speeds_mps(
-            spec, seats, self._types, self._map.network, self._settings.grounding.speeds
-        )
-        parting = any(changes_lane(spec, s.agent) for s in site.seated)
-        followed = tracked(spec)
-        way_m = tied_way_m(spec, self._settings.grounding)
-        fastest_mps = site.fastest_mps(self._map.network, way_m)
+        network, speeds = self._map.network, self._settings.grounding.speeds
+        styles = ConvoyStyles(spec, site, self._types, network, self._settings, self._limits)
+        waiting = {
+            name: Release(on=ReleaseOn.PARTED, agent=front, beyond_m=beyond_m)
+            for name, front, beyond_m in head_starts(spec, site, self._types, self._tolerances)
+        }
+        entries = entry_speeds_mps(spec, seats, self._types, network, speeds)
         placed = []
         for agent in spec.agents:
             seat = seats.get(agent.id)
             if seat is None:
                 continue
-            # Who is slower would be passed once one of them has another lane.
-            is_front = seat.arc_m >= front_m or parting
-            on_mps = fastest_mps if agent.id in followed else None
-            style = self._style(
-                agent, factor, seats, meetings, gaps, in_line, on_mps, is_front=is_front
-            )
-            style |= self._passing_style(spec, agent, factor, seats)
             parked = parks(spec, agent)
             still = parked or (stands(agent) and parks_after(spec, agent) is None)
+            begins = waiting.get(agent.id, apart.get(agent.id, release))
             placed.append(
                 self._grounded(
                     agent,
                     seat.path,
                     seat.arc_m,
-                    release=own_release(spec, agent, apart.get(agent.id, release)),
+                    release=own_release(spec, agent, begins),
                     still=still,
                     speed_mps=self._stated_mps(spec, agent),
                     entry_mps=entries.get(agent.id, 0.0),
-                    style=style,
+                    style=styles.of(seat),
                     lane_changes=self._lane_changes(spec, agent, tied=len(site.seated) > 1),
                     stop_m=self._goals.stop_arc_m(spec, site, seat),
                     parked=parked,
@@ -153,20 +124,6 @@ class AgentPlacer:
 
     def _stated_mps(self, spec: ScenarioSpec, agent: GroundAgent) -> float | None:
         return stated_speed_mps(spec, agent, self._settings.grounding.speeds)
-
-    def _emergency_style(
-        self, agent: GroundAgent, watched_on_mps: float | None = None
-    ) -> dict[str, float]:
-        """Return what an emergency run makes of limits: enough for a stated speed anywhere.
-
-        Where a UAV is to keep up with it, it is no faster than it has to be on streets that allow
-        `watched_on_mps`.
-        """
-        speeds, stated = self._settings.grounding.speeds, own_speed_mps(agent)
-        least = speeds.emergency_factor
-        if watched_on_mps is not None and stated is None:
-            return {'speed_factor': min(least, 1.0 + speeds.emergency_over_mps / watched_on_mps)}
-        return {'speed_factor': least if stated is None else max(least, stated / _SLOWEST_MPS)}
 
     def free(
         self,
@@ -273,7 +230,7 @@ class AgentPlacer:
             release=release,
             still=parked or stands(agent),
             speed_mps=speed_mps,
-            style=self._emergency_style(agent) if in_emergency(agent) else {},
+            style=free_style(agent, self._settings.grounding.speeds),
             lane_changes=self._lane_changes(spec, agent, tied=False),
             stop_m=arc_m + STOP_AFTER_M if stops(agent) else None,
             parked=parked,
@@ -312,7 +269,7 @@ class AgentPlacer:
         lane_arc_m = arc_at(lane, position_m)
         first = lane.edge_id
         late = still or release.on is not ReleaseOn.START
-        factor = max(style.get('speed_factor', 1.0), _urged(record, speed_mps))
+        factor = max(style.get('speed_factor', 1.0), urged_factor(record, speed_mps))
         factor = max(factor, self._beyond_limits(path, arc_m, speed_mps))
         edges = path.edge_ids[path.edge_ids.index(first) :]
         x, y, hx, hy = path.position_at(arc_m)
@@ -351,6 +308,7 @@ class AgentPlacer:
             release_mission=release.mission,
             release_agent=release.agent,
             release_within_m=release.within_m,
+            release_beyond_m=release.beyond_m,
             drive_speed_mps=speed_mps,
             acceleration_mps2=record.accel_mps2,
             deceleration_mps2=record.decel_mps2,
@@ -365,132 +323,3 @@ class AgentPlacer:
         if changes_lane(spec, agent):
             return ORDERED_CHANGES
         return self._settings.run.convoy_lane_change_mode if tied else None
-
-    def _convoy_factor(self, spec: ScenarioSpec, site: Site) -> float:
-        """Slow a tracked, observed or tied convoy to its pace."""
-        watched = any(
-            m.mode is not MissionMode.NAVIGATE and site.seat(m.target or '') is not None
-            for m in spec.missions
-        )
-        waits = any(site.seat(vehicle) is not None for vehicle, _ in let_cross(spec))
-        if not watched and not waits and len(site.seated) < 2:
-            return 1.0
-        fastest = site.fastest_mps(self._map.network, tied_way_m(spec, self._settings.grounding))
-        stated = fastest_stated_mps(
-            spec, (s.agent for s in site.seated), self._settings.grounding.speeds
-        )
-        pace = max(stated, convoy_pace_mps(spec, self._limits, self._settings.grounding))
-        return min(1.0, pace / fastest)
-
-    def _style(
-        self,
-        agent: GroundAgent,
-        factor: float,
-        seats: Mapping[str, SeatedAgent],
-        meetings: tuple[Encounter, ...],
-        gaps: tuple[KeptGap, ...],
-        in_line: frozenset[str],
-        watched_on_mps: float | None,
-        *,
-        is_front: bool,
-    ) -> dict[str, float]:
-        run = self._settings.run
-        chased = self._settings.grounding.chased_speed_factor
-        close = False
-        for meeting in meetings:
-            pair = [seats.get(meeting.actor), seats.get(meeting.other)]
-            if None in pair or agent.id not in (meeting.actor, meeting.other):
-                continue
-            front = max((s for s in pair if s is not None), key=lambda s: s.arc_m)
-            # A stated speed stays: who comes up behind has to be faster then.
-            bound = own_speed_mps(front.member.agent) is not None
-            if front.member.agent.id == agent.id:
-                factor *= 1.0 if bound else chased
-            else:
-                factor /= chased if bound and own_speed_mps(agent) is None else 1.0
-                close = meeting.within_m <= self._settings.grounding.close_encounter_m
-        if close or any(b.kind is BehaviorKind.TAILGATE for b in agent.behaviors):
-            return {
-                'speed_factor': factor * run.tailgate_speed_factor,
-                'time_gap_s': run.tailgate_time_gap_s,
-                'min_gap_m': run.tailgate_min_gap_m,
-            }
-        if in_emergency(agent):
-            return self._emergency_style(agent, watched_on_mps)
-        behind = self._settings.grounding.convoy_speed_factor_behind
-        style = {'speed_factor': factor if is_front else factor * behind}
-        if agent.id in in_line:
-            style |= {'time_gap_s': _IN_LINE_S}
-        for gap in gaps:
-            if gap.follower == agent.id:
-                style |= {'min_gap_m': gap.gap_m, 'time_gap_s': run.dt_s}
-            elif gap.leader == agent.id:
-                style['gentle_mps2'] = min(
-                    gap.acceleration_mps2, style.get('gentle_mps2', gap.acceleration_mps2)
-                )
-        return style
-
-    def _passing_style(
-        self,
-        spec: ScenarioSpec,
-        agent: GroundAgent,
-        factor: float,
-        seats: Mapping[str, SeatedAgent],
-    ) -> dict[str, float]:
-        """Return what lets those who overtake be faster than those who are overtaken.
-
-        So it is with those who approach somebody, and who are to get away from each other.
-        """
-        pairs, grounding = overtakings(spec), self._settings.grounding
-        agents = {a.id: a for a in spec.agents}
-        passed = [other for one, other in pairs if one == agent.id]
-        if passed and in_emergency(agent):
-            return {}  # which makes it faster than anybody else
-        if passed:
-            speeds = [own_speed_mps(agents[other]) or 0.0 for other in passed]
-            brisk = max(speeds) + _PASSES_BY_MPS > grounding.target_speed_mps
-            return {'speed_factor': 1.0 if brisk else factor}
-        slow = [other for _, other in pairs]
-        # Whom they follow is as slow as they are.
-        for name in slow:
-            slow += [
-                b.target
-                for b in agents[name].behaviors
-                if b.target in agents and b.kind in PACED and b.target not in slow
-            ]
-        lasts = (_last(pair, seats) for pair in partings(spec))
-        slow += [name for name in lasts if name is not None]
-        slow += [other for _, other in approaches(spec)]
-        slowed = agent.id in slow and own_speed_mps(agent) is None
-        return {'speed_factor': factor * grounding.chased_speed_factor} if slowed else {}
-
-
-def _in_line(spec: ScenarioSpec) -> frozenset[str]:
-    """Return the vehicles of which several follow one: they keep together."""
-    followed = [
-        (b.target, agent.id)
-        for agent in spec.agents
-        for b in agent.behaviors
-        if b.kind is BehaviorKind.FOLLOW
-    ]
-    count = Counter(target for target, _ in followed)
-    return frozenset(agent for target, agent in followed if count[target] > 1)
-
-
-def _last(pair: frozenset[str], seats: Mapping[str, SeatedAgent]) -> str | None:
-    """Return which of two vehicles on one road is behind, None where they are on two."""
-    if not pair <= seats.keys():
-        return None
-    return min(sorted(pair), key=lambda name: seats[name].arc_m)
-
-
-def _urged(record: AgentTypeRecord, speed_mps: float | None) -> float:
-    """Return the least factor with which a type drives a stated speed, 0 where none is stated.
-
-    The speed itself is commanded; this keeps neither the pace of the convoy nor the type's own
-    desire below it, up to the limit of the road.
-    """
-    if speed_mps is None:
-        return 0.0
-    desired_mps = record.desired_speed_mps
-    return 1.0 if desired_mps is None else max(1.0, speed_mps / desired_mps)

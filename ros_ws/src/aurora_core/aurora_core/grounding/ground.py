@@ -454,20 +454,12 @@ class Grounder:
         persons: PersonPlacer,
     ) -> GroundedScenario:
         uavs = tuple(planner.with_landing_spots(u, best.site) for u in best.uavs)
-        placer = AgentPlacer(
-            self._map, self._types, self._settings, self._limits, self._goals, self._spawns
-        )
+        known, rules = (self._map, self._types), (self._limits, self._tolerances)
+        placer = AgentPlacer(*known, self._settings, *rules, self._goals, self._spawns)
         agents = [*placer.convoy(spec, split, best.site), *persons.grounded(spec, best.site)]
         generator = stream(seed, 'grounding:background')
         agents, missing = placer.free(spec, split, best.site, agents, run_m, generator)
-        traffic = TrafficPlacer(
-            self._map,
-            self._types,
-            self._settings.grounding,
-            self._limits,
-            self._tolerances,
-            self._spawns,
-        )
+        traffic = TrafficPlacer(*known, self._settings.grounding, *rules, self._spawns)
         homes = [(uav.home_x_m, uav.home_y_m) for uav in uavs]
         draws = stream(seed, 'grounding:traffic')
         agents += traffic.placed(spec, agents, homes, run_m, draws)

@@ -14,6 +14,7 @@ from aurora_core.outcomes.grounded import ReleaseOn
 from aurora_core.spec.events import bodies_of_cause, sets_off
 from aurora_core.spec.flight_order import begun_by, left_by
 from aurora_core.spec.own_events import YIELDS_WITHIN_M, let_cross
+from aurora_core.spec.parking import stands
 from aurora_core.spec.scenario import (
     AgentAction,
     ArrivalTrigger,
@@ -43,6 +44,7 @@ class Release:
     mission: str = ''
     agent: str = ''
     within_m: float = 0.0
+    beyond_m: float = 0.0
 
 
 def own_release(spec: ScenarioSpec, agent: GroundAgent, release: Release) -> Release:
@@ -55,6 +57,9 @@ def own_release(spec: ScenarioSpec, agent: GroundAgent, release: Release) -> Rel
         return Release(on=ReleaseOn.EVENT)
     if release == Release() and any(vehicle == agent.id for vehicle, _ in let_cross(spec)):
         return _watched(spec, '')
+    watched = release.on is ReleaseOn.OBSERVED and bool(release.mission)
+    if watched and agent.behaviors and not stands(agent):
+        return _ready_to_be_passed(spec, agent, release)
     teller = _told_by(spec, agent)
     return release if teller is None else Release(on=ReleaseOn.OBSERVED, uav=teller)
 
@@ -82,17 +87,24 @@ def person_release(spec: ScenarioSpec, agent: GroundAgent) -> Release:
 
 def _told_in_time(spec: ScenarioSpec, name: str) -> bool:
     """Tell whether something happens to somebody at a stated time, or by a chain from one."""
-    timed = {e.id for e in spec.events if isinstance(e.trigger, TimeTrigger)}
-    for _ in spec.events:
-        timed |= {
-            e.id
-            for e in spec.events
-            if isinstance(e.trigger, EventDoneTrigger) and e.trigger.event in timed
-        }
+    timed = _stated_times_s(spec)
     messages = [e.action for e in spec.events if e.id in timed]
     heard = {m.receiver for m in messages if isinstance(m, SendMessage)}
     acts = [e for e in spec.events if getattr(e.action, 'agent', None) == name]
     return any(e.id in timed for e in acts) or (name in heard and bool(acts))
+
+
+def _stated_times_s(spec: ScenarioSpec) -> dict[str, float]:
+    """Return when events happen at a stated time, or by a chain from one, at the earliest (s)."""
+    times_s = {
+        e.id: e.trigger.at_s.value for e in spec.events if isinstance(e.trigger, TimeTrigger)
+    }
+    for _ in spec.events:
+        for e in spec.events:
+            if isinstance(e.trigger, EventDoneTrigger) and e.trigger.event in times_s:
+                after_s = 0.0 if e.trigger.after_s is None else e.trigger.after_s.value
+                times_s.setdefault(e.id, times_s[e.trigger.event] + after_s)
+    return times_s
 
 
 def _watched(spec: ScenarioSpec, agent: str) -> Release:
@@ -150,10 +162,11 @@ def group_releases(spec: ScenarioSpec, split: SceneSplit) -> Mapping[str, Releas
 def convoy_release(spec: ScenarioSpec, split: SceneSplit) -> Release:
     """Hold the convoy until the UAV that watches it is ready, or has finished with it."""
     members = {m.agent.id: m.agent for m in split.convoy}
+    times_s = _stated_times_s(spec)
     on_time = [
-        e.trigger.at_s.value
+        times_s[e.id]
         for e in spec.events
-        if isinstance(e.trigger, TimeTrigger) and getattr(e.action, 'agent', None) in members
+        if e.id in times_s and getattr(e.action, 'agent', None) in members
     ]
     if on_time and min(on_time) < _watched_by_s(spec):
         return Release()  # What happens at a stated time does not wait for a UAV.
@@ -174,7 +187,7 @@ def convoy_release(spec: ScenarioSpec, split: SceneSplit) -> Release:
             watched = mission if _comes_upon(spec, mission) else before
             return Release(on=ReleaseOn.CAPTURED, uav=watched.uav, mission=watched.id)
         if mission.mode is MissionMode.HOVER and not moves(spec, target):
-            return Release(on=ReleaseOn.OBSERVED, uav=mission.uav)
+            return Release(on=ReleaseOn.OBSERVED, uav=mission.uav, mission=mission.id)
         last = _captured_last(spec, mission)
         return Release(on=ReleaseOn.CAPTURED, uav=last.uav, mission=last.id)
     arriving = {t.who for t in _arriving(spec)}
@@ -207,6 +220,26 @@ def convoy_release(spec: ScenarioSpec, split: SceneSplit) -> Release:
         if met & set(members):
             return Release(on=ReleaseOn.ASCENDED, uav=mission.uav)
     return Release()
+
+
+def _ready_to_be_passed(spec: ScenarioSpec, agent: GroundAgent, release: Release) -> Release:
+    """Return when one sets off who is to move while a UAV watches another one that does not.
+
+    Once that UAV is there, and the one, too, that watches the mover itself.
+    """
+    own = next(
+        (
+            m
+            for m in spec.missions
+            if m.target == agent.id
+            and m.mode is not MissionMode.NAVIGATE
+            and begun_by(spec, m) is None
+        ),
+        None,
+    )
+    if own is not None:
+        return Release(on=ReleaseOn.CAPTURED, uav=own.uav, mission=own.id)
+    return replace(release, on=ReleaseOn.CAPTURED)
 
 
 def _reporter_ready(spec: ScenarioSpec, uav: str) -> Release:

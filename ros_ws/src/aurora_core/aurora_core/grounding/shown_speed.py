@@ -1,16 +1,23 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""Whether a stated speed can show: far from junctions, and before one has caught up."""
+"""Whether a stated speed can show: far from junctions, and before one has caught up.
+
+Who would have caught up too soon waits until the slower one ahead has drawn away: nobody says when
+they start.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 
-from aurora_core.grounding.pace import own_speed_mps
+from aurora_core.grounding.pace import PACED, own_speed_mps
 from aurora_core.grounding.sites import SeatedAgent, Site, open_way_m
+from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Tolerances
 from aurora_core.quantities.free_road import caught_up_m
-from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.spec.scenario import AgentAction, GroundAgent, ScenarioSpec, TimeTrigger
+from aurora_core.spec.slower import slower_mps
 
 # A stated speed shows well when it is held for so long (s), within so much time (s).
 _SHOWS_WELL_S = 8.0
@@ -43,27 +50,111 @@ def shows_before(spec: ScenarioSpec, site: Site, tolerances: Tolerances) -> floa
         site: Where its vehicles stand.
         tolerances: In force.
     """
-    shares = [
-        open_way_m(rear.path, low_m, high_m, tolerances.free_road_m) / (_SHOWN_S * speed_mps)
-        for rear, low_m, high_m, speed_mps in _chases(spec, site, tolerances)
-    ]
-    return min([1.0, *shares])
+    return min(
+        (_share_before(chase, tolerances) for chase in _chases(spec, site, tolerances)),
+        default=1.0,
+    )
 
 
-def _chases(
-    spec: ScenarioSpec, site: Site, tolerances: Tolerances
-) -> Iterator[tuple[SeatedAgent, float, float, float]]:
-    """Yield who comes up behind a slower one, on which stretch of its way (m), and how fast."""
+def _share_before(chase: _Chase, tolerances: Tolerances) -> float:
+    speed_mps, rear = chase.speed_mps, chase.rear
+    settle_m = speed_mps * speed_mps / (2.0 * tolerances.route_acceleration_mps2)
+    way_m = speed_mps * (chase.gap_m - chase.closed_m) / (speed_mps - chase.slow_mps)
+    open_m = open_way_m(
+        rear.path, rear.arc_m + settle_m, rear.arc_m + way_m, tolerances.free_road_m
+    )
+    return min(1.0, open_m / (_SHOWN_S * speed_mps))
+
+
+def head_starts(
+    spec: ScenarioSpec,
+    site: Site,
+    types: Mapping[str, AgentTypeRecord],
+    tolerances: Tolerances,
+) -> tuple[tuple[str, str, float], ...]:
+    """Return who waits until which slower one has got how far away (reference points, m).
+
+    Args:
+        spec: The request.
+        site: Where its vehicles stand.
+        types: Agent sizes and dynamics.
+        tolerances: In force.
+    """
+    found = []
+    for chase in _chases(spec, site, tolerances):
+        rear, front = chase.rear.agent, chase.front.agent
+        if chase.slow_mps <= 0.0 or _are_tied(spec, rear, front):
+            continue
+        speed_mps, slow_mps = chase.speed_mps, chase.slow_mps
+        gains, lags = types[rear.type.value].accel_mps2, types[front.type.value].accel_mps2
+        reached_m = speed_mps * speed_mps / (2.0 * gains) - slow_mps * speed_mps / gains
+        shown_m = _SHOWN_S * (speed_mps - slow_mps)
+        needed_m = chase.closed_m + max(0.0, reached_m) + shown_m
+        lag_m = slow_mps * slow_mps / (2.0 * lags)
+        bumper_m = chase.gap_m - types[front.type.value].length_m
+        if bumper_m < needed_m + lag_m:
+            beyond_m = max(needed_m, bumper_m + lag_m) + types[front.type.value].length_m
+            found.append((rear.id, front.id, beyond_m))
+    return tuple(found)
+
+
+def _are_tied(spec: ScenarioSpec, rear: GroundAgent, front: GroundAgent) -> bool:
+    """Tell whether it is said how two follow each other, or when one of them does something."""
+    pair = {rear.id, front.id}
+    follows = any(b.kind in PACED and b.target == front.id for b in rear.behaviors)
+    kept = any(
+        p.keeps_distance and p.of in pair for agent in (rear, front) for p in agent.placements
+    )
+    bound = any(pair <= set(one.of) for one in spec.conditions)
+    timed = any(
+        isinstance(e.trigger, TimeTrigger)
+        and isinstance(e.action, AgentAction)
+        and e.action.agent in pair
+        for e in spec.events
+    )
+    return follows or kept or bound or timed
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _Chase:
+    """Somebody who comes up behind a slower one.
+
+    Attributes:
+        rear: Who comes up.
+        front: The slower one.
+        speed_mps: How fast the one drives ...
+        slow_mps: ... and the other.
+        gap_m: From one reference point to the other.
+        closed_m: Nearer than this it has caught up.
+    """
+
+    rear: SeatedAgent
+    front: SeatedAgent
+    speed_mps: float
+    slow_mps: float
+    gap_m: float
+    closed_m: float
+
+
+def _chases(spec: ScenarioSpec, site: Site, tolerances: Tolerances) -> Iterator[_Chase]:
+    """Yield who comes up behind whom: vehicles on one way."""
     for rear in site.seated:
         speed_mps = own_speed_mps(rear.agent)
+        if speed_mps is None:
+            continue
         for front in site.seated:
-            slow_mps = own_speed_mps(front.agent)
+            slow_mps = slower_mps(front.agent, speed_mps)
             gap_m = front.arc_m - rear.arc_m
-            if speed_mps is None or slow_mps is None or slow_mps >= speed_mps or gap_m <= 0.0:
+            if slow_mps is None or gap_m <= 0.0 or front.path.edge_ids != rear.path.edge_ids:
                 continue
-            if front.path.edge_ids != rear.path.edge_ids:
-                continue
-            closes_m = gap_m - caught_up_m(speed_mps, tolerances.tailgate_time_gap_s)
-            settle_m = speed_mps * speed_mps / (2.0 * tolerances.route_acceleration_mps2)
-            way_m = speed_mps * closes_m / (speed_mps - slow_mps)
-            yield rear, rear.arc_m + settle_m, rear.arc_m + way_m, speed_mps
+            closed_m = caught_up_m(
+                speed_mps, slow_mps, tolerances.tailgate_time_gap_s, tolerances.brake_mps2
+            )
+            yield _Chase(
+                rear=rear,
+                front=front,
+                speed_mps=speed_mps,
+                slow_mps=slow_mps,
+                gap_m=gap_m,
+                closed_m=closed_m,
+            )

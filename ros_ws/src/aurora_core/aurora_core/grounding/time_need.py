@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from math import ceil
 
+from aurora_core.grounding.places import has_point
 from aurora_core.knowledge.limits import Limits
 from aurora_core.knowledge.settings import FlightDefaults
 from aurora_core.spec.flight_order import begun_by
@@ -40,8 +41,9 @@ _EVENT_S = 45.0
 # Where nobody flies: so much longer for each event that a red light may hold up.
 _HELD_UP_S = 60.0
 _SLOWEST_MPS = 0.2
-# Between two places of a map, with its bends (m).
+# Between two places of a map, with its bends (m), and what a vehicle needs for it (s).
 _ACROSS_M = 2000.0
+_DRIVES_THERE_S = 240.0
 _BY_TRAFFIC = (ArrivalTrigger, DistanceTrigger)
 
 
@@ -80,6 +82,8 @@ def horizon_s(spec: ScenarioSpec, limits: Limits, flight: FlightDefaults | None 
     flown_s = sum(by_uav.values()) if waits else max(by_uav.values(), default=0.0)
     events = (*spec.events, *own_events(spec))
     need = flown_s + latest + sum(_event_s(spec, e, up_and_down) for e in events)
+    goes = any(has_point(b.target) for agent in spec.agents for b in agent.behaviors)
+    need = max(need, up_and_down + _TRANSIT_S + _DRIVES_THERE_S) if goes else need
     need = max(limits.horizon_inferred_min_s, ceil(need)) + patience_s(spec)
     return float(min(limits.duration_max_s, need))
 

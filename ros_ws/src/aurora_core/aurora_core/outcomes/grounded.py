@@ -28,6 +28,7 @@ class ReleaseOn(StrEnum):
     LAPPED = 'lapped'  # a UAV has flown its route once
     OBSERVED = 'observed'  # a UAV has finished watching it
     NEARED = 'neared'  # another agent has come near
+    PARTED = 'parted'  # another agent has drawn away
     EVENT = 'event'  # the event that lets it set off has happened
     NEVER = 'never'  # stands still
 
@@ -57,8 +58,9 @@ class GroundedAgent(Document):
         release: When it may start to move.
         release_uav: The UAV whose state releases it.
         release_mission: The mission whose capture releases it.
-        release_agent: The agent whose coming near releases it ...
-        release_within_m: ... and how near that is.
+        release_agent: The agent whose coming near, or drawing away, releases it ...
+        release_within_m: ... and how near, or ...
+        release_beyond_m: ... how far away that is.
         drive_speed_mps: Stated speed, held from the release on (None: drives with the traffic).
         acceleration_mps2: What its type can do from rest.
         deceleration_mps2: And to slow down, without emergency.
@@ -108,6 +110,7 @@ class GroundedAgent(Document):
     way_xy_m: tuple[tuple[FiniteFloat, FiniteFloat], ...] = omitted(())
     release_agent: str = omitted('')
     release_within_m: FiniteFloat = omitted(0.0)
+    release_beyond_m: FiniteFloat = omitted(0.0)
 
 
 class RealisedValue(Document):

@@ -7,6 +7,8 @@ Red lights stand at junctions; what is said of junctions covers them.
 
 from __future__ import annotations
 
+from math import inf
+
 import numpy as np
 import numpy.typing as npt
 
@@ -26,14 +28,21 @@ _STREET_M = 12.0
 _CLOSED = 2.0
 
 
-def caught_up_m(speed_mps: float, tailgate_gap_s: float) -> float:
+def caught_up_m(
+    speed_mps: float, slow_mps: float, tailgate_gap_s: float, brake_mps2: float
+) -> float:
     """Return how near to a slower one somebody has caught up with it, metres.
+
+    Nearer than that it would have to brake, or tailgates it soon.
 
     Args:
         speed_mps: Of who comes up behind.
+        slow_mps: Of who is ahead.
         tailgate_gap_s: Time gap that counts as tailgating.
+        brake_mps2: Deceleration that counts as braking.
     """
-    return _CLOSED * tailgate_gap_s * speed_mps
+    brakes_m = (speed_mps * speed_mps - slow_mps * slow_mps) / (2.0 * brake_mps2)
+    return max(_CLOSED * tailgate_gap_s * speed_mps, tailgate_gap_s * speed_mps + brakes_m)
 
 
 def free_of_junctions(view: RunView, body: Body, within_m: float) -> BoolArray:
@@ -52,7 +61,12 @@ def free_of_junctions(view: RunView, body: Body, within_m: float) -> BoolArray:
 
 
 def free_of_leaders(
-    view: RunView, body: Body, within_m: float, offset_m: float, besides: tuple[str, ...] = ()
+    view: RunView,
+    body: Body,
+    within_m: float,
+    offset_m: float,
+    besides: tuple[str, ...] = (),
+    below_mps: float = inf,
 ) -> BoolArray:
     """Return where nobody is ahead on the route with a gap of at most `within_m`, (T,).
 
@@ -64,6 +78,7 @@ def free_of_leaders(
         within_m: Bumper to bumper.
         offset_m: How far from the route a vehicle may be to be in the way.
         besides: Who is in nobody's way.
+        below_mps: Nor is who drives as fast as that.
     """
     free = np.ones(view.ticks, dtype=np.bool_)
     for other in view.agents:
@@ -77,15 +92,28 @@ def free_of_leaders(
             leads[leads] = driving.contains(view.reference(other.body_id)[leads, :2])
         else:
             leads &= along.offset_m <= offset_m
+        if below_mps < inf:
+            leads &= motion.speed(view, other) < below_mps
         free &= ~(leads & view.present(other.body_id))
     return free
 
 
-def under_way(view: RunView, body: Body, moving_mps: float, way_m: float) -> BoolArray:
-    """Return where a body has covered `way_m` since it first moved, (T,)."""
+def under_way(
+    view: RunView, body: Body, moving_mps: float, way_m: float, settled: BoolArray
+) -> BoolArray:
+    """Return where a body has covered `way_m` since it first moved, or has settled before, (T,).
+
+    Args:
+        view: The run.
+        body: The driver.
+        moving_mps: Speed that counts as moving.
+        way_m: Way that it may need to reach its speed.
+        settled: (T,) where it has reached it.
+    """
     moved = first_tick(motion.speed(view, body) >= moving_mps)
     if moved is None:
         return np.zeros(view.ticks, dtype=np.bool_)
     way = motion.travelled(view, body)
     started: BoolArray = way - way[moved] > way_m
+    started[1:] |= np.logical_or.accumulate(settled)[:-1]
     return started

@@ -73,6 +73,7 @@ class Stage:
         agents: Ids of the ground agents; all are cars.
         absent: Ids of agents that the request names and that nobody placed.
         releases: When each may start, as (release, UAV); START where not given.
+        parted: Who waits until whom is how far away (m).
         tracks: UAV id -> target of its one mission, '' = no mission at all.
         links: UAV or agent pairs with a link.
         hold_s: Length of the track missions.
@@ -85,6 +86,7 @@ class Stage:
     behaviors: dict[str, tuple[Behavior, ...]] = field(default_factory=dict)
     absent: tuple[str, ...] = ()
     releases: dict[str, tuple[ReleaseOn, str]] = field(default_factory=dict)
+    parted: dict[str, tuple[str, float]] = field(default_factory=dict)
     speeds: dict[str, float] = field(default_factory=dict)
     tracks: dict[str, str] = field(default_factory=lambda: {'uav1': 'van1'})
     links: tuple[tuple[str, str], ...] = ()
@@ -205,6 +207,7 @@ class Stage:
 
     def _grounded(self, agent: str) -> GroundedAgent:
         release, uav = self.releases.get(agent, (ReleaseOn.START, ''))
+        front, beyond_m = self.parted.get(agent, ('', 0.0))
         return GroundedAgent(
             id=agent,
             type_name='car',
@@ -221,7 +224,9 @@ class Stage:
             y_m=0.0,
             heading_x=1.0,
             heading_y=0.0,
-            release=release,
+            release=ReleaseOn.PARTED if front else release,
+            release_agent=front,
+            release_beyond_m=beyond_m,
             release_uav=uav,
             release_mission=f'm{list(self.tracks).index(uav)}' if uav else '',
             drive_speed_mps=self.speeds.get(agent),

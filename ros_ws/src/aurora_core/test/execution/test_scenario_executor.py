@@ -13,7 +13,8 @@ import pytest
 from aurora_core.knowledge.map_types import Building
 from aurora_core.outcomes.grounded import ReleaseOn
 from aurora_core.spec.parameter import Parameter
-from aurora_core.spec.scenario import Event, SendMessage, TimeTrigger
+from aurora_core.spec.scenario import Behavior, Event, SendMessage, TimeTrigger
+from aurora_core.spec.vocabulary import BehaviorKind
 from aurora_core.trace.layout import GroundCommandKind, UavCommandColumn, UavMode, UavPhase
 from aurora_core.trace.records import LinkEventKind, LossReason, ScenarioEventKind
 
@@ -257,6 +258,31 @@ def test_a_message_under_way_keeps_the_run_going(
     output = scene.step()
     assert output.links[-1].kind is LinkEventKind.FAILED
     assert output.finished
+
+
+def test_who_waits_for_another_to_draw_away_sets_off_then(stage: Callable[..., Any]) -> None:
+    scene = stage(tracks={}, parted={'ego': ('van1', 60.0)})
+    for metres, held in ((59.0, True), (60.0, False)):
+        scene.put('van1', metres).step()
+        assert (scene.notes(ScenarioEventKind.RELEASED) == []) is held
+    scene = stage(tracks={}, parted={'ego': ('van1', 60.0)})
+    scene.put('van1', 90.0).remove('van1').step()
+    assert scene.notes(ScenarioEventKind.RELEASED) == []
+
+
+def test_a_run_does_not_end_before_who_drives_somewhere_is_there(
+    stage: Callable[..., Any],
+) -> None:
+    goes = (Behavior(kind=BehaviorKind.DRIVE, target='intersection'),)
+    scene = stage(hold_s=1.0, behaviors={'ego': goes})
+    scene.put('van1', 40.0).put('ego', 0.0)
+    scene.follow(1500)
+    assert not scene.outputs[-1].finished
+    scene.put('ego', 290.0)
+    while not scene.follow().finished:
+        pass
+    assert scene.outputs[-1].outcome == 'finished'
+    assert scene.tick < 1520
 
 
 def test_a_scene_without_uavs_runs_to_its_horizon(stage: Callable[..., Any]) -> None:

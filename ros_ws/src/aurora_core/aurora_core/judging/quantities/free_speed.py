@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
+from math import inf
 from typing import Literal
 
 from pydantic import FiniteFloat
@@ -33,9 +34,12 @@ from aurora_core.quantities import free_road, motion
 from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import AgentAction, Behavior, GroundAgent
+from aurora_core.spec.slower import slower_mps
 from aurora_core.spec.vocabulary import AgentType, Relation
 
 _OTHER_SPEED = frozenset({'brake', 'stop', 'slow', 'accelerate', 'yield'})
+# They are in the way on the carriageway only, and there for a moment.
+_NO_LEADERS = frozenset({AgentType.PEDESTRIAN, AgentType.RSU})
 _BEHIND = (Relation.BEHIND, Relation.BEFORE, Relation.SAME_LANE)
 
 
@@ -121,7 +125,8 @@ class FreeSpeed(_KeptSpeed):
         free_m: No leader and no junction within this distance.
         lane_offset_m: How far off its way a leader may be.
         slower: Leaders who are to drive slower, by the request itself: it catches up with them.
-        closed_m: Nearer than this behind one of them it has caught up.
+        closed_m: Nearer than this behind one of them it has caught up ...
+        least_mps: ... while that one is slower than this.
     """
 
     kind: Literal['free_speed'] = 'free_speed'
@@ -130,6 +135,7 @@ class FreeSpeed(_KeptSpeed):
     lane_offset_m: FiniteFloat
     slower: tuple[str, ...] = omitted(())
     closed_m: FiniteFloat = omitted(0.0)
+    least_mps: FiniteFloat | None = omitted(None)
 
     def free(
         self, context: Context, condition: Condition, values: FloatArray
@@ -138,19 +144,21 @@ class FreeSpeed(_KeptSpeed):
         view = context.view
         body, *followed = (view.body(name) for name in condition.of)
         besides = tuple(other.body_id for other in followed)
-        # Who drives so fast from the start on has nothing to accelerate to.
-        settle_m = 0.0 if bool(self.speed.good(values[:1])[0]) else self.settle_m
-        free = free_road.under_way(view, body, self.moving_mps, settle_m)
+        good = self.speed.good(values)
+        free = free_road.under_way(view, body, self.moving_mps, self.settle_m, good)
         free &= free_road.free_of_junctions(view, body, self.free_m)
+        besides += self.slower
+        never = 'drove free of junctions'
+        if self.slower:
+            rest = tuple(a.body_id for a in view.agents if a.body_id not in self.slower)
+            below_mps = inf if self.least_mps is None else self.least_mps
+            free &= free_road.free_of_leaders(
+                view, body, self.closed_m, self.lane_offset_m, rest, below_mps
+            )
+            never += ' before it had caught up'
         alone = free & free_road.free_of_leaders(
             view, body, self.free_m, self.lane_offset_m, besides
         )
-        if self.slower:
-            rest = tuple(a.body_id for a in view.agents if a.body_id not in self.slower)
-            alone &= free_road.free_of_leaders(view, body, self.closed_m, self.lane_offset_m, rest)
-        never = 'drove free of junctions'
-        if self.slower:
-            return alone, f'{never} before it had caught up', True
         # Where somebody is ahead all the way, that is no excuse.
         return (alone, never, True) if alone.any() else (free, never, False)
 
@@ -169,20 +177,18 @@ def _followed(inputs: Inputs, agent: GroundAgent, behavior: Behavior) -> tuple[s
     return tuple(dict.fromkeys(known))
 
 
-def _slower(inputs: Inputs, followed: tuple[str, ...], speed: Parameter) -> tuple[str, ...]:
-    """Return whose own stated speeds are all below a stated speed that is no upper bound."""
-    told = {
-        name: [b.speed_mps for b in agent.behaviors if b.speed_mps is not None]
-        for name in followed
-        if (agent := inputs.agent(name)) is not None
+def _slower(
+    inputs: Inputs, agent: GroundAgent, followed: tuple[str, ...], speed: Parameter
+) -> dict[str, float]:
+    """Return who is to be slower than a stated speed that is no upper bound, and how slow, m/s."""
+    if speed.bound is Bound.AT_MOST:
+        return {}
+    found = {
+        other.id: slower_mps(other, speed.value)
+        for other in inputs.spec.agents
+        if other.id in followed or (other.id != agent.id and other.type not in _NO_LEADERS)
     }
-    return tuple(
-        name
-        for name, speeds in told.items()
-        if speeds
-        and speed.bound is not Bound.AT_MOST
-        and all(s.value < speed.value and s.bound is not Bound.AT_LEAST for s in speeds)
-    )
+    return {name: slow_mps for name, slow_mps in found.items() if slow_mps is not None}
 
 
 def _as_fast(other: GroundAgent, behavior: Behavior) -> bool:
@@ -199,7 +205,8 @@ def implied(
     walks = agent.type is AgentType.PEDESTRIAN
     # Whom it follows is no leader that keeps it from its speed: both are asked together.
     of = (agent.id,) if walks else (agent.id, *_followed(inputs, agent, behavior))
-    slower = _slower(inputs, of[1:], speed)
+    slow_mps = {} if walks else _slower(inputs, agent, of[1:], speed)
+    slower = tuple(slow_mps)
     slack = t.route_speed_mps.of(speed.value, approximate=speed.approximate)
     where = f'with no {"other " if len(of) > 1 else ""}leader or junction within'
     rest = 'while it walks' if walks else f'{where} {number(t.free_road_m)} m'
@@ -231,7 +238,12 @@ def implied(
             free_m=t.free_road_m,
             lane_offset_m=t.lane_offset_m,
             slower=slower,
-            closed_m=free_road.caught_up_m(speed.value, t.tailgate_time_gap_s) if slower else 0.0,
+            closed_m=free_road.caught_up_m(
+                speed.value, min(slow_mps.values()), t.tailgate_time_gap_s, t.brake_mps2
+            )
+            if slower
+            else 0.0,
+            least_mps=max(0.0, speed.value - slack) if slower else None,
         ),
         source=Source(ids=(agent.id,), spans=(speed.span,), provenance=speed.provenance),
         every_sample=False,

@@ -1,0 +1,73 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Who sets off when, where somebody slower is ahead, or one is watched who does not move."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pytest
+
+from aurora_core.knowledge.agent_types import load_agent_types
+from aurora_core.outcomes.grounded import GroundedAgent, GroundedScenario, ReleaseOn
+from aurora_core.spec.scenario import ScenarioSpec
+
+Agents = Callable[[str], dict[str, GroundedAgent]]
+
+
+@pytest.fixture
+def agents(
+    read_prompt: Callable[..., ScenarioSpec], ground: Callable[..., GroundedScenario]
+) -> Agents:
+    """Ground a request on the downtown map, return its agents by name."""
+
+    def agents_of(prompt: str) -> dict[str, GroundedAgent]:
+        found = ground(read_prompt(prompt, 'downtown'), 'downtown')
+        return {agent.id: agent for agent in found.agents}
+
+    return agents_of
+
+
+SLOW = 'A bus drives at 6 m/s, 35 m ahead of my car. '
+
+
+def test_who_would_catch_up_too_soon_waits_until_the_slower_one_has_drawn_away(
+    agents: Agents,
+) -> None:
+    found = agents(f'{SLOW}My car drives at 10 m/s. A drone tracks the bus at 30 m.')
+    rear = found['ego']
+    assert (rear.release, rear.release_agent) == (ReleaseOn.PARTED, 'bus1')
+    assert rear.release_beyond_m > 35.0
+    assert found['bus1'].release is ReleaseOn.CAPTURED
+
+
+@pytest.mark.parametrize(
+    'prompt',
+    [
+        'A bus drives at 9.5 m/s, 80 m ahead of my car. My car drives at 10 m/s.',
+        f'{SLOW}My car drives at 10 m/s and follows the bus.',
+        f'{SLOW}My car drives at 10 m/s. At 20 s my car stops.',
+        'A bus stands 60 m ahead of my car. My car drives at 10 m/s.',
+    ],
+    ids=['there is time', 'it follows', 'it does something at a stated time', 'one stands'],
+)
+def test_nobody_waits_otherwise(agents: Agents, prompt: str) -> None:
+    assert agents(prompt)['ego'].release is not ReleaseOn.PARTED
+
+
+def test_who_is_to_drive_does_so_while_somebody_is_watched_who_stands(agents: Agents) -> None:
+    hover = 'A drone hovers over the van at 30 m for 40 s. '
+    found = agents(f'{hover}The van is parked at the roadside. My car drives at 8 m/s.')
+    assert found['ego'].release in (ReleaseOn.START, ReleaseOn.CAPTURED)
+
+
+def test_a_cyclist_does_not_hold_up_who_has_a_stated_speed_behind(agents: Agents) -> None:
+    alone = agents('A cyclist is ahead of my car. A drone tracks the cyclist.')
+    hurried = agents(
+        'A cyclist is 20 m ahead of my car. My car drives at 8 m/s. A drone tracks the cyclist.'
+    )
+    desired_mps = load_agent_types()['bicycle'].desired_speed_mps
+    assert desired_mps is not None
+    assert desired_mps < 8.0
+    assert hurried['bicycle1'].speed_factor * desired_mps == pytest.approx(8.0, abs=0.1)
+    assert alone['bicycle1'].speed_factor <= 1.0
