@@ -21,9 +21,12 @@ from aurora_core.trace.commands import GroundCommand
 from aurora_core.trace.layout import GroundCommandKind
 from aurora_core.trace.roster import Roster
 
-# So much below the speed that is waited for (m/s), and not before it has been driven for so long.
+# So much below the speed that is waited for (m/s), and not before it has been driven for so long;
+# where a speed is stated, with such a share of it and for so long that slowing down is no matter.
 _BELOW_MPS = 1.0
 _DRIVEN_S = 4.0
+_STATED_SHARE = 0.95
+_STATED_S = 20.0
 
 _DECIDE_SPEED = frozenset(
     {
@@ -51,6 +54,11 @@ class Premises:
         self._ways = ways
         self._events = [e for e in spec.events if _is_left_to_chance(spec, e)]
         self._driven: dict[str, int] = {}
+        self._stated_mps = {
+            agent.id: _STATED_SHARE * max(speeds)
+            for agent in spec.agents
+            if (speeds := [b.speed_mps.value for b in agent.behaviors if b.speed_mps is not None])
+        }
 
     def step(
         self, tick: int, dt_s: float, seen: Observation, machines: Sequence[MissionMachine]
@@ -68,7 +76,8 @@ class Premises:
                 self._driven.pop(event.id, None)
                 continue
             since = self._driven.setdefault(event.id, tick)
-            if (tick - since) * dt_s < _DRIVEN_S or not self._ways.all_driven():
+            driven_s = _STATED_S if trigger.who in self._stated_mps else _DRIVEN_S
+            if (tick - since) * dt_s < driven_s or not self._ways.all_driven():
                 continue
             value = max(0.0, trigger.value_mps.value - _BELOW_MPS)
             kind = GroundCommandKind.SET_SPEED
@@ -79,7 +88,8 @@ class Premises:
     def _drive(self, event: Event, trigger: SpeedTrigger, seen: Observation) -> bool:
         """Tell whether who is waited for, and who is to answer, are on the move."""
         speed_mps = seen.speed_mps(trigger.who)
-        if speed_mps is None or speed_mps <= trigger.value_mps.value:
+        least_mps = self._stated_mps.get(trigger.who, 0.0)
+        if speed_mps is None or speed_mps <= trigger.value_mps.value or speed_mps < least_mps:
             return False
         if not isinstance(event.action, AgentAction):
             return True
@@ -98,5 +108,9 @@ def _is_left_to_chance(spec: ScenarioSpec, event: Event) -> bool:
     told = any(
         isinstance(e.action, AgentAction) and e.action.agent == agent.id for e in spec.events
     )
-    decided = any(b.kind in _DECIDE_SPEED or b.speed_mps is not None for b in agent.behaviors)
+    decided = any(
+        b.kind in _DECIDE_SPEED
+        or (b.speed_mps is not None and b.speed_mps.value <= trigger.value_mps.value)
+        for b in agent.behaviors
+    )
     return not told and not decided

@@ -173,7 +173,8 @@ class ConvoyStyles:
         """Return what gives the pace to a type that wants to be slower than the road allows.
 
         The factor of a convoy is meant of the limit of its road; the simulator applies it to what
-        the type wants, too. Who has a stated speed behind does not hold it up.
+        the type wants, too. Who has a stated speed behind does not hold it up, and who follows
+        somebody keeps up.
         """
         desired_mps = self._types[seat.agent.type.value].desired_speed_mps
         if desired_mps is None:
@@ -183,7 +184,9 @@ class ConvoyStyles:
             for other in self._seats.values()
             if other.arc_m < seat.arc_m and other.path.edge_ids == seat.path.edge_ids
         ]
-        most = min(_BRISK, max([desired_mps, *behind_mps]) / desired_mps)
+        paced = {b.target for b in seat.agent.behaviors if b.kind in PACED}
+        ahead_mps = [own_speed_mps(a) or 0.0 for a in self._spec.agents if a.id in paced]
+        most = min(_BRISK, max([desired_mps, *behind_mps, *ahead_mps]) / desired_mps)
         return {'speed_factor': max(factor, min(most, factor * self._limit_mps / desired_mps))}
 
 

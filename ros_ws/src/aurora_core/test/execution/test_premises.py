@@ -76,3 +76,17 @@ def test_what_something_else_decides_is_left_to_it(stage: Build, parameter: Make
     scene = stage(events=(_waits(parameter, 'speed_above'),))
     _drive(scene, 10.0, 10.0, 400)
     assert _slowed(scene) == []
+
+
+def test_who_has_a_stated_speed_slows_down_once_it_has_shown(
+    stage: Build, parameter: Make
+) -> None:
+    drives = Behavior(kind=BehaviorKind.DRIVE, speed_mps=parameter(12.0, 'm/s', explicit=True))
+    scene = stage(events=(_waits(parameter),), behaviors={'van1': (drives,)})
+    _drive(scene, 10.0, 10.0, 600)
+    assert _slowed(scene) == []  # it is not as fast as it is to be
+    _drive(scene, 12.0, 10.0, 380)
+    assert _slowed(scene) == []
+    _drive(scene, 12.0, 10.0, 40)
+    ((_, _, _, value),) = _slowed(scene)
+    assert value == pytest.approx(2.0)

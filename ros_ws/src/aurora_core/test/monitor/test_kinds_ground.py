@@ -140,6 +140,21 @@ def _told_otherwise(at_s: float) -> Case:
     return case
 
 
+def _awaited_slow() -> Case:
+    """From 8 m/s it slows to 2 m/s in the middle of the run; an event waits for 3 m/s."""
+    case = _cruise(_then(8.0, 2.0))
+    event = {
+        'id': 'e1',
+        'trigger': {
+            'on': 'speed_below',
+            'who': 'car1',
+            'value_mps': number(3.0, Unit.METRE_PER_SECOND),
+        },
+    }
+    case.spec = spec(**{**dict(case.spec), 'events': (event,)})
+    return case
+
+
 def _follower(own: float, *, third: float | None = None) -> Case:
     """car1 is asked to follow car2 with 8 m/s; a third car may drive in front of both."""
     asked = number(8.0, Unit.METRE_PER_SECOND, explicit=True)
@@ -238,6 +253,7 @@ BEHAVIOURS = (
         margin=199 / 379 - 0.8,
         what='told',
     ),
+    Row(id='car1.drive.speed', make=_awaited_slow, margin=1.0 - 0.8, what='awaited'),
     # Somebody is so near all the way: no excuse.
     Row(
         id='car1.drive.speed',

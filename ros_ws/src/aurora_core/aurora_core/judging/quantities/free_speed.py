@@ -33,7 +33,7 @@ from aurora_core.outcomes.verdict import Reason
 from aurora_core.quantities import free_road, motion
 from aurora_core.spec.parameter import Bound, Parameter
 from aurora_core.spec.quantity import QuantityName
-from aurora_core.spec.scenario import AgentAction, Behavior, GroundAgent
+from aurora_core.spec.scenario import AgentAction, Behavior, Event, GroundAgent, SpeedTrigger
 from aurora_core.spec.slower import slower_mps
 from aurora_core.spec.vocabulary import AgentType, Relation
 
@@ -92,15 +92,23 @@ class _KeptSpeed(Quantity):
 
 
 def _told_otherwise(context: Context, of: tuple[str, ...]) -> int:
-    """Return the tick from which on an event gives one of some bodies another speed."""
+    """Return the tick from which on an event gives one of some bodies another speed.
+
+    Or waits for it to be slow: the request itself says that it has its speed until then.
+    """
     due = [
         context.events.due_tick(event.id)
         for event in context.spec.events
-        if isinstance(event.action, AgentAction)
-        and event.action.agent in of
-        and event.action.do in _OTHER_SPEED
+        if _tells_otherwise(event, of)
     ]
     return min((tick for tick in due if tick is not None), default=context.view.ticks)
+
+
+def _tells_otherwise(event: Event, of: tuple[str, ...]) -> bool:
+    action, trigger = event.action, event.trigger
+    if isinstance(trigger, SpeedTrigger) and trigger.on == 'speed_below' and trigger.who in of:
+        return True
+    return isinstance(action, AgentAction) and action.agent in of and action.do in _OTHER_SPEED
 
 
 class WalkingSpeed(_KeptSpeed):
@@ -211,10 +219,7 @@ def implied(
     where = f'with no {"other " if len(of) > 1 else ""}leader or junction within'
     rest = 'while it walks' if walks else f'{where} {number(t.free_road_m)} m'
     rest += f', until it has caught up with {" and ".join(slower)}' if slower else ''
-    told = any(
-        isinstance(e.action, AgentAction) and e.action.agent in of and e.action.do in _OTHER_SPEED
-        for e in inputs.spec.events
-    )
+    told = any(_tells_otherwise(e, of) for e in inputs.spec.events)
     rest += ', until it or who is ahead of it is told otherwise' if told else ''
     wanted = PerSample.of(speed, slack)
     return condition(
