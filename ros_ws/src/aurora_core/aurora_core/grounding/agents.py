@@ -17,12 +17,12 @@ from aurora_core.grounding.entries import entry_speeds_mps
 from aurora_core.grounding.free_room import FreeRoom
 from aurora_core.grounding.free_run import free_run_m, needed_run_m
 from aurora_core.grounding.goals import STOP_AFTER_M, GoalFinder, stops
+from aurora_core.grounding.kerb import parked_pose
 from aurora_core.grounding.lane_changers import ORDERED_CHANGES, changes_lane
 from aurora_core.grounding.pace import (
     in_emergency,
     stated_speed_mps,
 )
-from aurora_core.grounding.parked import parked_pose
 from aurora_core.grounding.releases import Release, convoy_release, group_releases, own_release
 from aurora_core.grounding.routes import route_finder
 from aurora_core.grounding.shown_speed import head_starts

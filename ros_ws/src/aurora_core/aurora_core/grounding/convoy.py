@@ -12,9 +12,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from aurora_core.grounding.awaited import bound_to_places
+from aurora_core.grounding.distances import ALONG, DETACHED_M, Distances
 from aurora_core.grounding.nearby import BY_PERSONS, begins_near
 from aurora_core.grounding.pace import (
-    Encounter,
     approaches,
     encounter_room_m,
     encounters,
@@ -31,12 +31,13 @@ from aurora_core.grounding.ties import (
     in_passing_lane,
     passing_pairs,
     queued,
+    spread,
     without_implied,
 )
 from aurora_core.knowledge.limits import EXACT, Tolerance
 from aurora_core.spec.own_events import let_cross
-from aurora_core.spec.parameter import Parameter, Provenance
-from aurora_core.spec.parking import stands
+from aurora_core.spec.parameter import Provenance
+from aurora_core.spec.parking import parks, stands
 from aurora_core.spec.scenario import (
     Behavior,
     GroundAgent,
@@ -46,31 +47,8 @@ from aurora_core.spec.scenario import (
 )
 from aurora_core.spec.vocabulary import AgentType, BehaviorKind, Place, Relation, Role
 
-# Relations that a convoy can hold, as (sign of the offset, lane shift).
-ALONG: dict[Relation, tuple[int, int]] = {
-    Relation.AHEAD: (1, 0),
-    Relation.SAME_LANE: (1, 0),
-    Relation.BEHIND: (-1, 0),
-    Relation.BEFORE: (-1, 0),
-    Relation.ADJACENT_LANE: (0, 1),
-    Relation.LEFT: (0, 1),
-    Relation.RIGHT: (0, -1),
-    Relation.BESIDE: (0, 1),
-    Relation.NEAR: (-1, 0),
-}
-
-# Gap of an agent that follows without a stated placement (contract default for vehicles).
-DEFAULT_GAP_M = 20.0
-
-# Gap in front of a group of vehicles that nothing relates to those before it.
-DETACHED_M = 40.0
-
 # What is said of a second one who is to stand before such a place.
 BEFORE = 'placement before a place'
-
-# Share of a bound on the way that is left for corners and stops, but for two buses' room (m).
-_KEPT_ROOM = 0.25
-_ROOMY_FROM_M = 14.0
 
 _SAME_PLACE_M = 1e-6
 
@@ -93,65 +71,19 @@ _CHASES = frozenset(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ConvoyMember:
-    """A vehicle of the convoy: arc offset (m, positive ahead) and lane shift from the origin."""
+    """A vehicle of the convoy.
+
+    Attributes:
+        agent: Who it is.
+        offset_m: From the origin, positive ahead.
+        lane_shift: Lanes to the left of the origin.
+        parked: It stands at the kerb, right of its lane.
+    """
 
     agent: GroundAgent
     offset_m: float
     lane_shift: int
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class _Distances:
-    """How far apart two vehicles of the convoy start.
-
-    Attributes:
-        tolerance: So far inside a one-sided distance they are put.
-        meetings: Encounters still to come.
-        speeds_mps: Stated ones of agents.
-        near: Those near whom another one begins, who that is by its id.
-        approaches: Pairs of which one approaches the other.
-        oncoming: Ids of those in the other direction.
-        persons: Ids.
-    """
-
-    tolerance: Tolerance
-    meetings: tuple[Encounter, ...]
-    speeds_mps: Mapping[str, float]
-    near: Mapping[str, str]
-    approaches: frozenset[frozenset[str]]
-    oncoming: frozenset[str]
-    persons: frozenset[str]
-
-    def places_other(self, placement: Placement) -> bool:
-        """Tell whether it is the other one who is placed by it."""
-        if placement.relation is Relation.ONCOMING:
-            return placement.of in self.oncoming
-        return placement.of in self.persons and placement.relation in BY_PERSONS
-
-    def placed(self, agent: str, other: str | None, placement: Placement) -> float:
-        """Return the distance that a placement asks for, metres.
-
-        A bound that is kept on the way leaves room for corners and stops, too.
-        """
-        stated = placement.distance_m
-        distance_m = self.between(agent, other, stated)
-        if stated is None or not placement.keeps_distance:
-            return distance_m
-        roomy_m = stated.inside(_KEPT_ROOM * stated.value)
-        return max(roomy_m, min(distance_m, _ROOMY_FROM_M))
-
-    def between(self, agent: str, other: str | None, stated: Parameter | None) -> float:
-        """Return a distance, metres; a free one leaves room for an encounter."""
-        if stated is not None and stated.provenance is Provenance.EXPLICIT:
-            return stated.inside(self.tolerance.of(stated.value))
-        room = [
-            m.within_m + encounter_room_m(self.speeds_mps.get(m.actor))
-            for m in self.meetings
-            if {m.actor, m.other} == {agent, other}
-        ]
-        # Who approaches has to have room to come nearer.
-        room += [DETACHED_M] if {agent, other} in self.approaches else []
-        return max([DEFAULT_GAP_M if stated is None else stated.value, *room])
+    parked: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -201,7 +133,7 @@ def split_scene(
     unsupported: list[str] = []
     by_id = {a.id: a for a in vehicles}
     speeds = {a.id: v for a in spec.agents if (v := own_speed_mps(a)) is not None}
-    distances = _Distances(
+    distances = Distances(
         tolerance=tolerance,
         meetings=encounters(spec),
         speeds_mps=speeds,
@@ -209,6 +141,7 @@ def split_scene(
         approaches=frozenset(map(frozenset, approaches(spec))),
         oncoming=frozenset(a.id for a in oncoming),
         persons=frozenset(a.id for a in persons),
+        parked=frozenset(a.id for a in vehicles if parks(spec, a)),
     )
     passing = passing_pairs(spec)
     ties = [
@@ -221,6 +154,7 @@ def split_scene(
         ties = [t for t in ties if not _comes_from_a_side(spec, by_id[t.agent], t)]
     ties = agreed(ties + _past_persons(spec, by_id, ties, speeds))
     ties = queued(without_implied(ties), {a.id: {b.kind for b in a.behaviors} for a in vehicles})
+    ties = spread(ties, {a.id: a.type for a in vehicles}, _on_either_side(vehicles))
     origin = _origin(spec, vehicles, ties)
     if origin is None:
         _, others = _before_place(vehicles, {}, distances)
@@ -249,7 +183,9 @@ def split_scene(
         group = _solve(agent.id, ties)
         if apart and any(bound_to_places(spec, by_id[i]) for i in group):
             members = (
-                ConvoyMember(agent=by_id[i], offset_m=o, lane_shift=s)
+                ConvoyMember(
+                    agent=by_id[i], offset_m=o, lane_shift=s, parked=i in distances.parked
+                )
                 for i, (o, s) in group.items()
             )
             groups.append(tuple(members))
@@ -272,7 +208,9 @@ def split_scene(
     before, others = _before_place(vehicles, offsets, distances)
     unsupported += [f'{i}: {BEFORE}' for i in others]
     convoy = tuple(
-        ConvoyMember(agent=by_id[i], offset_m=offset, lane_shift=shift)
+        ConvoyMember(
+            agent=by_id[i], offset_m=offset, lane_shift=shift, parked=i in distances.parked
+        )
         for i, (offset, shift) in offsets.items()
     )
     free = tuple(a for a in vehicles if a.id not in places)
@@ -284,6 +222,13 @@ def split_scene(
         oncoming=oncoming,
         unsupported=tuple(unsupported),
         before=before,
+    )
+
+
+def _on_either_side(vehicles: Iterable[GroundAgent]) -> frozenset[str]:
+    """Return who is beside another one, on whichever side."""
+    return frozenset(
+        a.id for a in vehicles if any(p.relation is Relation.BESIDE for p in a.placements)
     )
 
 
@@ -313,7 +258,7 @@ def _is_at_place(placement: Placement) -> bool:
 
 
 def _before_place(
-    vehicles: list[GroundAgent], offsets: dict[str, tuple[float, int]], distances: _Distances
+    vehicles: list[GroundAgent], offsets: dict[str, tuple[float, int]], distances: Distances
 ) -> tuple[BeforePlace | None, list[str]]:
     """Return the first member that is placed so, and everybody else who is to be.
 
@@ -348,7 +293,7 @@ def _ties(
     agent: GroundAgent,
     by_id: dict[str, GroundAgent],
     unsupported: list[str],
-    distances: _Distances,
+    distances: Distances,
 ) -> list[Tie]:
     others: dict[str, list[Placement]] = {}
     for placement in agent.placements:
@@ -392,7 +337,7 @@ def _ties(
     )
 
 
-def _chasing(agent: str, behaviors: Sequence[Behavior], distances: _Distances) -> list[Tie]:
+def _chasing(agent: str, behaviors: Sequence[Behavior], distances: Distances) -> list[Tie]:
     """Return the ties of an agent to those ahead of it that it does something to."""
     ties = []
     for number, behavior in enumerate(behaviors):
@@ -428,11 +373,11 @@ def _past_persons(
 
 
 def _placed(
-    agent: str, other: str, placements: list[Placement], distances: _Distances
+    agent: str, other: str, placements: list[Placement], distances: Distances
 ) -> list[Tie]:
     """Return the ties of an agent to one other: "ahead of it", "in the lane to its left"."""
-    shifts = [ALONG[p.relation][1] for p in placements if ALONG[p.relation][1] != 0]
-    shift = shifts[0] if shifts else 0
+    shifts = [distances.lanes_between(agent, other, p) for p in placements]
+    shift = next((one for one in shifts if one != 0), 0)
     along = [p for p in placements if ALONG[p.relation][1] == 0]
     # "In the same lane, 30 m behind it" says the lane once and the place once.
     exact = [p for p in along if p.relation is not Relation.SAME_LANE] or along[:1]

@@ -84,7 +84,32 @@ class ConvoyStyles:
         on_mps = self._limit_mps if agent.id in self._tracked else None
         style = self._style(agent, on_mps, is_front=is_front)
         style |= self._passing_style(agent)
-        return style | self._paced_style(seat, style['speed_factor'])
+        style |= self._paced_style(seat, style['speed_factor'])
+        return style | self._kept_style(agent, style)
+
+    def _kept_style(self, agent: GroundAgent, style: Mapping[str, float]) -> dict[str, float]:
+        """Return what keeps one with who follows it, and with the UAV that tracks it.
+
+        Speeds and starts that nobody states are no harder than those can do.
+        """
+        if own_speed_mps(agent) is not None or in_emergency(agent):
+            return {}
+        kept = {}
+        if agent.id in self._tracked:
+            desired_mps = self._types[agent.type.value].desired_speed_mps or self._limit_mps
+            top_mps = min(desired_mps, self._limit_mps)
+            trackable = self._settings.grounding.speeds.trackable_mps / top_mps
+            kept['speed_factor'] = min(style['speed_factor'], trackable)
+        following = [
+            self._types[other.type.value].accel_mps2
+            for other in self._spec.agents
+            if other.id in self._seats
+            and any(b.kind in PACED and b.target == agent.id for b in other.behaviors)
+        ]
+        own_mps2 = style.get('gentle_mps2', self._types[agent.type.value].accel_mps2)
+        if following and min(following) < own_mps2:
+            kept['gentle_mps2'] = min(following)
+        return kept
 
     def _pace_factor(self, site: Site, limits: Limits) -> float:
         """Slow a tracked, observed or tied convoy to its pace."""

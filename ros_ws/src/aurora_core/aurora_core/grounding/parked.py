@@ -6,31 +6,15 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 
+from aurora_core.grounding.kerb import Pose, parked_pose
 from aurora_core.grounding.sites import SeatedAgent, SeatedPerson
 from aurora_core.knowledge.agent_types import AgentTypeRecord
-from aurora_core.knowledge.net_types import Lane
 from aurora_core.knowledge.road_network import RoadNetwork
-from aurora_core.ports.simulators import kerb_offset_m
 from aurora_core.spec.parking import parks
 from aurora_core.spec.scenario import ScenarioSpec
 
 # The way of a person is looked at in such steps (m).
 _STEP_M = 0.5
-
-Pose = tuple[float, float, float, float]
-
-
-def parked_pose(pose: Pose, lane: Lane, record: AgentTypeRecord) -> Pose:
-    """Return where a vehicle is parked that would stand at a pose of a lane: right of it.
-
-    Args:
-        pose: x, y (m) and unit heading on the lane.
-        lane: The lane.
-        record: Size of the vehicle.
-    """
-    x, y, hx, hy = pose
-    aside_m = kerb_offset_m(lane.width_m, record.width_m)
-    return x + aside_m * hy, y - aside_m * hx, hx, hy
 
 
 def parked_boxes(

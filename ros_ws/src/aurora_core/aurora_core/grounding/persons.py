@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.awaited import awaited_at
-from aurora_core.grounding.convoy import DEFAULT_GAP_M
+from aurora_core.grounding.distances import DEFAULT_GAP_M
 from aurora_core.grounding.nearby import ALONG, by_vehicles, in_order
 from aurora_core.grounding.pace import (
     encounter_room_m,

@@ -18,6 +18,7 @@ import numpy.typing as npt
 from aurora_core.errors import MapError
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.convoy import ConvoyMember
+from aurora_core.grounding.kerb import parked_pose
 from aurora_core.grounding.places import MapPlaces, has_point, nearest_to
 from aurora_core.grounding.routes import route_finder
 from aurora_core.grounding.ties import BeforePlace
@@ -402,7 +403,7 @@ def _site(
                 lane_position_m=places[1][1],
             )
         )
-    if _overlap(seated, types):
+    if _overlap(network, seated, types):
         return None
     origin = path_of(types[convoy[0].agent.type.value].vclass if convoy else ANY_CLASS, 0)
     if origin is None or origin_arc_m > origin.length_m:
@@ -448,12 +449,19 @@ def _abreast(network: RoadNetwork, origin: RoutePath, seated: Sequence[SeatedAge
     return True
 
 
-def _overlap(seated: Sequence[SeatedAgent], types: Mapping[str, AgentTypeRecord]) -> bool:
+def _overlap(
+    network: RoadNetwork, seated: Sequence[SeatedAgent], types: Mapping[str, AgentTypeRecord]
+) -> bool:
     """Tell whether two boxes touch; lanes may join between the first edge and a place."""
-    for a, b in itertools.combinations(seated, 2):
-        first, second = (types[s.member.agent.type.value] for s in (a, b))
-        x, y, hx, hy = a.path.position_at(a.arc_m)
-        other_x, other_y, _, _ = b.path.position_at(b.arc_m)
+    boxes = []
+    for seat in seated:
+        record, pose = types[seat.agent.type.value], seat.path.position_at(seat.arc_m)
+        if seat.member.parked:
+            pose = parked_pose(pose, network.lane(seat.lane_id), record)
+        boxes.append((pose, record))
+    for ((x, y, hx, hy), first), ((other_x, other_y, _, _), second) in itertools.combinations(
+        boxes, 2
+    ):
         dx, dy = other_x - x, other_y - y
         along, across = abs(dx * hx + dy * hy), abs(dy * hx - dx * hy)
         if (

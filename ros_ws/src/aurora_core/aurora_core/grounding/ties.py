@@ -11,7 +11,13 @@ from math import copysign
 
 from aurora_core.spec.own_events import let_pass, own_events
 from aurora_core.spec.scenario import AgentAction, ScenarioSpec
-from aurora_core.spec.vocabulary import BehaviorKind, Place, Relation
+from aurora_core.spec.vocabulary import AgentType, BehaviorKind, Place, Relation
+
+# Several beside one vehicle spread along it so far from centre to centre, by who they are (m).
+_SPREAD_M = {AgentType.BICYCLE: 3.2, AgentType.MOTORCYCLE: 3.4, AgentType.CAR: 7.0}
+
+# Who is to be as far from a third one as another is, to so much, stands beside that (m).
+_SAME_PLACE_M = 2.0
 
 # Two vehicles whose places are nearer than this stand in each other's way, and how far apart they
 # line up behind a third one: the last one still has to follow it (m, centre to centre).
@@ -128,9 +134,17 @@ def queued(ties: list[Tie], doing: Mapping[str, set[BehaviorKind]]) -> list[Tie]
         group.sort(
             key=lambda t: (_rank(doing[t.agent], t.offset_m), abs(t.offset_m), t.free, t.agent)
         )
-        last_m = 0.0
+        last_m, said_m = 0.0, list[float]()
         for tie in group:
             alone, away_m = tie.free and tied[tie.agent] == 1, abs(tie.offset_m)
+            if not tie.free:
+                # "Two cyclists 10 m ahead" ride abreast.
+                abreast = sum(abs(away_m - one) < _SAME_PLACE_M for one in said_m)
+                said_m.append(away_m)
+                if abreast:
+                    shift = (abreast + 1) // 2 * (1 if abreast % 2 else -1)
+                    found[found.index(tie)] = replace(tie, lane_shift=tie.lane_shift + shift)
+                    continue
             if not alone or away_m >= last_m + _QUEUE_M or last_m == 0.0:
                 last_m = max(last_m, away_m)
             elif side < 0.0 and BehaviorKind.OVERTAKE in doing[tie.agent]:
@@ -138,6 +152,31 @@ def queued(ties: list[Tie], doing: Mapping[str, set[BehaviorKind]]) -> list[Tie]
             else:
                 last_m += IN_LINE_M
                 found[found.index(tie)] = replace(tie, offset_m=side * last_m)
+    return found
+
+
+def spread(ties: list[Tie], types: Mapping[str, AgentType], beside: frozenset[str]) -> list[Tie]:
+    """Return ties in which several beside one other do not stand in one place.
+
+    Args:
+        ties: Of the vehicles.
+        types: What they are.
+        beside: Who may be on either side: two of them are on both.
+    """
+    found = list(ties)
+    groups: dict[tuple[str, int], list[Tie]] = {}
+    for tie in ties:
+        if tie.offset_m == 0.0 and tie.lane_shift != 0:
+            groups.setdefault((tie.other, tie.lane_shift), []).append(tie)
+    for group in groups.values():
+        if len(group) == 2 and group[1].agent in beside:
+            other = replace(group[1], lane_shift=-group[1].lane_shift)
+            found[found.index(group[1])] = other
+            continue
+        step_m = max(_SPREAD_M.get(types[t.agent], _QUEUE_M) for t in group)
+        for number, tie in enumerate(group):
+            offset_m = step_m * ((len(group) - 1) / 2.0 - number)
+            found[found.index(tie)] = replace(tie, offset_m=offset_m)
     return found
 
 

@@ -9,7 +9,8 @@ from typing import Any
 
 import pytest
 
-from aurora_core.grounding.convoy import DETACHED_M, SceneSplit, split_scene
+from aurora_core.grounding.convoy import SceneSplit, split_scene
+from aurora_core.grounding.distances import DETACHED_M
 from aurora_core.grounding.ties import BeforePlace
 from aurora_core.knowledge.limits import Tolerances
 from aurora_core.outcomes.parse import ParseContext
@@ -392,3 +393,63 @@ def test_who_only_waits_for_word_stands_behind_who_is_awaited() -> None:
     assert spec is not None
     along_m = {member.agent.id: member.offset_m for member in split_scene(spec).convoy}
     assert along_m['police1'] > along_m['ego']
+
+
+def test_two_that_are_as_far_from_a_third_one_drive_abreast(parameter: Make) -> None:
+    def explicit(value: float) -> Parameter:
+        return parameter(value, explicit=True)
+
+    ahead = (Relation.AHEAD, 'ego', 10.0)
+    spec = _spec(
+        _agent('ego'),
+        *(_agent(f'b{k}', ahead, make=explicit, kind=AgentType.BICYCLE) for k in (1, 2, 3)),
+    )
+    assert _places(split_scene(spec)) == {
+        'ego': (0.0, 0),
+        'b1': (10.0, 0),
+        'b2': (10.0, 1),
+        'b3': (10.0, -1),
+    }
+
+
+@pytest.mark.parametrize(
+    ('kind', 'relation', 'expected'),
+    [
+        (AgentType.BICYCLE, Relation.LEFT, {(1.6, 1), (-1.6, 1)}),
+        (AgentType.CAR, Relation.RIGHT, {(3.5, -1), (-3.5, -1)}),
+        (AgentType.CAR, Relation.BESIDE, {(0.0, 1), (0.0, -1)}),
+    ],
+)
+def test_two_beside_one_spread_along_it_or_are_on_both_sides(
+    kind: AgentType, relation: Relation, expected: set[tuple[float, int]]
+) -> None:
+    two = (_agent(f'c{k}', (relation, 'ego', None), kind=kind) for k in (1, 2))
+    places = _places(split_scene(_spec(_agent('ego'), *two)))
+    assert {places['c1'], places['c2']} == expected
+
+
+@pytest.mark.parametrize(
+    ('relation', 'parked', 'lanes'),
+    [
+        (Relation.BESIDE, 'van', 0),
+        (Relation.RIGHT, 'van', 0),
+        (Relation.LEFT, 'van', 1),
+        (Relation.LEFT, 'ego', 0),
+        (Relation.RIGHT, 'ego', -1),
+    ],
+)
+def test_at_the_kerb_one_is_beside_who_is_in_the_lane(
+    relation: Relation, parked: str, lanes: int
+) -> None:
+    spec = _spec(_agent('ego'), _agent('van', (relation, 'ego', None)))
+    parks = (Behavior(kind=BehaviorKind.PARK),)
+    agents = tuple(
+        a.model_copy(update={'behaviors': parks}) if a.id == parked else a for a in spec.agents
+    )
+    split = split_scene(spec.model_copy(update={'agents': agents}))
+    assert {m.agent.id: m.parked for m in split.convoy} == {
+        'ego': parked == 'ego',
+        'van': parked == 'van',
+    }
+    places = _places(split)
+    assert places['van'][1] - places['ego'][1] == lanes

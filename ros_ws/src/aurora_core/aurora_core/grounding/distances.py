@@ -1,0 +1,105 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""How far apart two vehicles of a convoy start, along the road and in lanes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from aurora_core.grounding.nearby import BY_PERSONS
+from aurora_core.grounding.pace import Encounter, encounter_room_m
+from aurora_core.knowledge.limits import Tolerance
+from aurora_core.spec.parameter import Parameter, Provenance
+from aurora_core.spec.scenario import Placement
+from aurora_core.spec.vocabulary import Relation
+
+# Relations that a convoy can hold, as (sign of the offset, lane shift).
+ALONG: dict[Relation, tuple[int, int]] = {
+    Relation.AHEAD: (1, 0),
+    Relation.SAME_LANE: (1, 0),
+    Relation.BEHIND: (-1, 0),
+    Relation.BEFORE: (-1, 0),
+    Relation.ADJACENT_LANE: (0, 1),
+    Relation.LEFT: (0, 1),
+    Relation.RIGHT: (0, -1),
+    Relation.BESIDE: (0, 1),
+    Relation.NEAR: (-1, 0),
+}
+
+# Gap of an agent that follows without a stated placement (contract default for vehicles).
+DEFAULT_GAP_M = 20.0
+
+# Gap in front of a group of vehicles that nothing relates to those before it.
+DETACHED_M = 40.0
+
+# Share of a bound on the way that is left for corners and stops, but for two buses' room (m).
+_KEPT_ROOM = 0.25
+_ROOMY_FROM_M = 14.0
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Distances:
+    """How far apart two vehicles of the convoy start.
+
+    Attributes:
+        tolerance: So far inside a one-sided distance they are put.
+        meetings: Encounters still to come.
+        speeds_mps: Stated ones of agents.
+        near: Those near whom another one begins, who that is by its id.
+        approaches: Pairs of which one approaches the other.
+        oncoming: Ids of those in the other direction.
+        persons: Ids.
+        parked: Ids of those who stand at the kerb.
+    """
+
+    tolerance: Tolerance
+    meetings: tuple[Encounter, ...]
+    speeds_mps: Mapping[str, float]
+    near: Mapping[str, str]
+    approaches: frozenset[frozenset[str]]
+    oncoming: frozenset[str]
+    persons: frozenset[str]
+    parked: frozenset[str]
+
+    def lanes_between(self, agent: str, other: str, placement: Placement) -> int:
+        """Return how many lanes an agent is to the left of another one by a placement."""
+        relation = placement.relation
+        shift = ALONG[relation][1]
+        at_kerb, other_at_kerb = agent in self.parked, other in self.parked
+        if shift == 0 or at_kerb == other_at_kerb:
+            return shift
+        # One is in the lane, the other at the kerb beside it.
+        goes = (Relation.RIGHT if at_kerb else Relation.LEFT, Relation.BESIDE)
+        return 0 if relation in goes else shift
+
+    def places_other(self, placement: Placement) -> bool:
+        """Tell whether it is the other one who is placed by it."""
+        if placement.relation is Relation.ONCOMING:
+            return placement.of in self.oncoming
+        return placement.of in self.persons and placement.relation in BY_PERSONS
+
+    def placed(self, agent: str, other: str | None, placement: Placement) -> float:
+        """Return the distance that a placement asks for, metres.
+
+        A bound that is kept on the way leaves room for corners and stops, too.
+        """
+        stated = placement.distance_m
+        distance_m = self.between(agent, other, stated)
+        if stated is None or not placement.keeps_distance:
+            return distance_m
+        roomy_m = stated.inside(_KEPT_ROOM * stated.value)
+        return max(roomy_m, min(distance_m, _ROOMY_FROM_M))
+
+    def between(self, agent: str, other: str | None, stated: Parameter | None) -> float:
+        """Return a distance, metres; a free one leaves room for an encounter."""
+        if stated is not None and stated.provenance is Provenance.EXPLICIT:
+            return stated.inside(self.tolerance.of(stated.value))
+        room = [
+            m.within_m + encounter_room_m(self.speeds_mps.get(m.actor))
+            for m in self.meetings
+            if {m.actor, m.other} == {agent, other}
+        ]
+        # Who approaches has to have room to come nearer.
+        room += [DETACHED_M] if {agent, other} in self.approaches else []
+        return max([DEFAULT_GAP_M if stated is None else stated.value, *room])
