@@ -146,7 +146,7 @@ def pushed(monitor: OnlineRobustness, trace: Trace, sizes: list[int]) -> Iterato
         yield at
 
 
-@settings(max_examples=500, deadline=None, derandomize=True)
+@settings(max_examples=150, deadline=None, derandomize=True)
 @given(formulas, traces(20), cuts, st.booleans())
 def test_close_and_now_are_the_offline_robustness(
     formula: Formula, trace: Trace, sizes: list[int], clip: bool
@@ -163,7 +163,7 @@ def test_close_and_now_are_the_offline_robustness(
         assert monitor.bounds() == (expected, expected)
 
 
-@settings(max_examples=500, deadline=None, derandomize=True)
+@settings(max_examples=150, deadline=None, derandomize=True)
 @given(formulas, traces(12), cuts, st.lists(traces(12), min_size=1, max_size=3), st.booleans())
 def test_bounds_hold_for_every_continuation_and_never_widen(
     formula: Formula, trace: Trace, sizes: list[int], rests: list[Trace], clip: bool
@@ -180,7 +180,7 @@ def test_bounds_hold_for_every_continuation_and_never_widen(
             assert value is None or low <= value <= high, at
 
 
-@settings(max_examples=300, deadline=None, derandomize=True)
+@settings(max_examples=100, deadline=None, derandomize=True)
 @given(formulas, traces(20), cuts, st.booleans())
 def test_it_does_not_matter_in_which_pieces_the_samples_come(
     formula: Formula, trace: Trace, sizes: list[int], clip: bool
@@ -193,7 +193,7 @@ def test_it_does_not_matter_in_which_pieces_the_samples_come(
         assert (pieces.bounds(), pieces.now()) == known[at], at
 
 
-@settings(max_examples=300, deadline=None, derandomize=True)
+@settings(max_examples=100, deadline=None, derandomize=True)
 @given(monotone, traces(10))
 def test_bounds_are_reached_by_the_worst_and_the_best_continuation(
     formula: Formula, trace: Trace

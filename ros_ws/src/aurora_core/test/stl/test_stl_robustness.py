@@ -141,7 +141,7 @@ samples = st.integers(1, 14).flatmap(
 )
 
 
-@settings(max_examples=400, deadline=None, derandomize=True)
+@settings(max_examples=150, deadline=None, derandomize=True)
 @given(formulas, samples, st.booleans())
 def test_robustness_is_the_definition(
     formula: Formula, pair: tuple[np.ndarray, np.ndarray], clip: bool
@@ -152,7 +152,7 @@ def test_robustness_is_the_definition(
         assert series.at(i) == brute(formula, signals, i), i
 
 
-@settings(max_examples=200, deadline=None, derandomize=True)
+@settings(max_examples=100, deadline=None, derandomize=True)
 @given(formulas, samples)
 def test_the_critical_sample_has_the_robustness(
     formula: Formula, pair: tuple[np.ndarray, np.ndarray]
