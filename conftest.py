@@ -2,10 +2,20 @@
 # SPDX-License-Identifier: Apache-2.0
 from __future__ import annotations
 
+import gc
 import signal
 from collections.abc import Iterator
 
 import pytest
+
+
+def pytest_collection_finish() -> None:
+    """Keep what was collected out of the garbage collector: thousands of tests that stay anyway.
+
+    Otherwise it goes through all of them again and again, a tenth of the time of a session.
+    """
+    gc.collect()
+    gc.freeze()
 
 
 @pytest.fixture(scope='session', autouse=True)

@@ -89,11 +89,11 @@ def test_it_answers_and_ends_while_a_model_is_silent(graph: tuple[NodeProcess, P
             with contextlib.suppress(AuroraError):  # the node ends before it can answer
                 play.call(on.PARSE, LIMIT_S, prompt=PROMPT, options_json=options(model))
 
-        threading.Thread(target=ask, daemon=True).start()
+        asking = threading.Thread(target=ask, daemon=True)
+        asking.start()
         while not server.requests:
             time.sleep(0.01)
-        begin = time.monotonic()
         assert play.call(on.PARSE, prompt=PROMPT).understood
         assert play.call(on.roll_call('parser')).error_code == 0
-        assert time.monotonic() - begin < 2.0
+        assert asking.is_alive(), 'nobody waited for the model'
         assert process.end() == 0

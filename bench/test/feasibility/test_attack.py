@@ -80,7 +80,12 @@ def test_every_second_plan_keeps_what_is_stated() -> None:
     assert other.world == spec.world
 
 
-def test_every_rule_is_attacked_and_both_ways_of_asking_are() -> None:
+def test_every_rule_is_attacked_and_both_ways_of_asking_are(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    # Of every family the first of each way of asking; all are judged by `test_families`.
+    some = [c for c in family_cases() if c.id.rpartition('-')[2] == '1']
+    monkeypatch.setattr(attack, 'family_cases', lambda: some)
     certified = attack._certified('downtown', '', 400.0)
     chosen = attack._sample(certified, 1)
     assert len(chosen) == len({c.rule for c in certified}) >= 18

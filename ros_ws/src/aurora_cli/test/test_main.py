@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
@@ -87,12 +86,10 @@ def test_help_loads_nothing_heavy() -> None:
         'print([m for m in ("numpy", "pydantic", "rich", "libsumo", "rclpy", "matplotlib", '
         '"shapely") if m in sys.modules])'
     )
-    begin = time.monotonic()
     done = subprocess.run(
-        [sys.executable, '-c', code], capture_output=True, text=True, check=True, timeout=30
+        [sys.executable, '-c', code], capture_output=True, text=True, check=True, timeout=60
     )
     assert done.stdout.splitlines()[-1] == '[]'
-    assert time.monotonic() - begin < 10.0  # 0.1 s on an idle machine
 
 
 def test_maps_are_listed_and_shown(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:

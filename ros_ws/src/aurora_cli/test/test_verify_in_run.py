@@ -17,8 +17,9 @@ from typing import Any
 
 import pytest
 
+from aurora_cli import installed
 from aurora_cli.main import run_command_line
-from aurora_core.knowledge.config_files import config_path
+from aurora_core.knowledge.config_files import ENVIRONMENT_VARIABLE, config_path
 
 Call = Callable[..., SimpleNamespace]
 
@@ -453,12 +454,12 @@ def test_the_certificate_of_another_run_is_not_checked_beside_this_request(
 
 @pytest.fixture
 def configuration(here: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A configuration folder of its own, for commands in a process of their own."""
+    """A configuration folder of its own, in force."""
     folder = here / 'config'
     folder.mkdir()
     for path in config_path().iterdir():
         (folder / path.name).symlink_to(path)
-    monkeypatch.setenv('AURORA_CONFIG_DIR', str(folder))
+    monkeypatch.setenv(ENVIRONMENT_VARIABLE, str(folder))
     return folder
 
 
@@ -467,11 +468,12 @@ def configured(folder: Path, file: str, change: Callable[[dict[str, Any]], Any])
     (folder / file).unlink()
     shutil.copyfile(target, folder / file)
     edited(folder / file, change)
+    installed.forget()
 
 
-def verified(shell: SimpleNamespace, here: Path, *arguments: str) -> tuple[int, str]:
-    done = shell.aurora('verify', *arguments, cwd=here)
-    return done.returncode, done.stdout.decode().splitlines()[0]
+def verified(call: Call, *arguments: str) -> tuple[int, str]:
+    done = call('verify', *arguments)
+    return done.code, done.out.splitlines()[0]
 
 
 @pytest.mark.parametrize(
@@ -482,24 +484,23 @@ def verified(shell: SimpleNamespace, here: Path, *arguments: str) -> tuple[int, 
     ],
 )
 def test_limits_that_were_changed_after_the_run_are_named(
-    here: Path,
     run: Path,
     failed: Path,
-    shell: SimpleNamespace,
+    call: Call,
     configuration: Path,
     file: str,
     change: Callable[[dict[str, Any]], Any],
     name: str,
 ) -> None:
     configured(configuration, file, change)
-    code, first = verified(shell, here, str(run))
+    code, first = verified(call, str(run))
     assert (code, first.startswith('INCONCLUSIVE  Nothing is claimed: ')) == (4, True)
     assert name in first
-    code, first = verified(shell, here, str(run), '--as-recorded')
+    code, first = verified(call, str(run), '--as-recorded')
     assert code == 0
     assert first.startswith('AS RECORDED: MARGINS HOLD  Judged under version ')
     assert name in first
-    code, first = verified(shell, here, str(failed), '--as-recorded')
+    code, first = verified(call, str(failed), '--as-recorded')
     assert code == 1
     assert first.startswith('AS RECORDED: VIOLATED  ')
 

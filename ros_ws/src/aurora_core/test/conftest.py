@@ -9,6 +9,8 @@ import sys
 from collections.abc import Callable, Mapping
 from functools import cache
 from pathlib import Path
+from types import FrameType
+from typing import Any
 
 import pytest
 from hypothesis.strategies import SearchStrategy
@@ -26,6 +28,9 @@ from aurora_core.parsing.parser import parse_offline
 from aurora_core.planning.complete import complete
 from aurora_core.spec.parameter import Bound, Parameter, Provenance, Span, Unit
 from aurora_core.spec.scenario import ScenarioSpec
+
+# What a trace function returns: itself.
+TraceFunction = Callable[[FrameType, str, Any], Any]
 
 # The prompts of the paper, by what they are about.
 PROMPTS = {
@@ -100,6 +105,32 @@ def _parameter(
         bound=bound,
         approximate=approximate,
     )
+
+
+def _steps(function: Callable[[], object]) -> int:
+    count = 0
+
+    def count_line(_frame: FrameType, event: str, _argument: object) -> TraceFunction:
+        nonlocal count
+        count += event == 'line'
+        return count_line
+
+    before = sys.gettrace()
+    sys.settrace(count_line)
+    try:
+        function()
+    finally:
+        sys.settrace(before)
+    return count
+
+
+@pytest.fixture(scope='session')
+def steps_of() -> Callable[[Callable[[], object]], int]:
+    """Count the lines of Python that a call executes: what it costs, on any machine, busy or not.
+
+    Work inside numpy counts as the line that asks for it.
+    """
+    return _steps
 
 
 @pytest.fixture(scope='session')

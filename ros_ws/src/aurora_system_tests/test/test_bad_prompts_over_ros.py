@@ -11,7 +11,6 @@ import json
 import os
 import subprocess
 import sys
-import time
 from pathlib import Path
 from typing import Any
 
@@ -31,8 +30,6 @@ pytestmark = pytest.mark.ros
 
 GOOD = 'A scenario of 36 seconds. A drone hovers at 20 meters over the ego car for 5 seconds.'
 LIMIT_S = 60.0
-# Nothing is done with a prompt beyond the limit; the megabyte itself takes 0.05 s.
-REFUSED_WITHIN_S = 2.0
 # What needs no simulator: the answer is that it cannot be read or cannot be.
 QUICK = [
     case
@@ -76,9 +73,7 @@ def check_report(response: Any, prompt: str, may: tuple[str, ...]) -> None:
 
 def test_bytes_that_are_no_prompt_through_the_service(graph: RunningGraph) -> None:
     for case in UNREADABLE:
-        begin = time.monotonic()
         response = ask(graph, **sent(case))
-        assert time.monotonic() - begin < REFUSED_WITHIN_S, case.name
         check_refused(response)
         text = case.raw.decode('utf-8', 'replace')
         if '\0' not in text and '\ufffd' not in text:
@@ -96,10 +91,8 @@ def test_a_prompt_that_was_damaged_on_the_way_is_refused_without_a_length(
 
 def test_bytes_that_are_no_prompt_through_the_action(graph: RunningGraph) -> None:
     for case in UNREADABLE:
-        begin = time.monotonic()
         with pytest.raises(PromptError):
             graph.play.send_goal(on.RUN, RunScenario.Goal(**sent(case)), LIMIT_S)
-        assert time.monotonic() - begin < REFUSED_WITHIN_S, case.name
 
 
 def test_texts_through_the_service_and_the_action(graph: RunningGraph) -> None:

@@ -18,6 +18,8 @@ from aurora_cli.map_import import importer, source
 from aurora_cli.testing.small_maps import small_city
 
 Call = Callable[..., SimpleNamespace]
+# Nothing that is refused takes as long on any machine; about 0.1 s is usual.
+HANGS_S = 60.0
 
 CITY = small_city()
 ROAD = '<way id="9"><nd ref="1"/><nd ref="2"/><tag k="highway" v="{}"/></way>'
@@ -68,7 +70,7 @@ def test_a_file_that_is_no_map_is_refused_in_words(
     file.write_bytes(data)
     begin_s = time.monotonic()
     done = call('map', 'import', str(file), '--name', 'x')
-    assert time.monotonic() - begin_s < 10.0
+    assert time.monotonic() - begin_s < HANGS_S
     assert done.code == 4
     assert words in done.err
     assert done.out == ''
@@ -96,7 +98,7 @@ def test_a_region_is_too_large(own: Path, tmp_path: Path, call: Call) -> None:
     file.write_text(f'<osm version="0.6">{body}</osm>')
     begin_s = time.monotonic()
     done = call('map', 'import', str(file), '--name', 'x')
-    assert time.monotonic() - begin_s < 20.0
+    assert time.monotonic() - begin_s < HANGS_S
     assert done.code == 4
     assert f'more than {source.MOST_NODES} nodes' in done.err
     assert 'cut out a smaller part' in done.err

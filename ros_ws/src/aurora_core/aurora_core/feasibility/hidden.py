@@ -111,9 +111,9 @@ def _hiding(
     reach_m = 2.0 * max(east - west, north - south)
     found: dict[str, tuple[Building, shapely.Geometry]] = {}
     for building in buildings:
-        xs, ys = [p[0] for p in building.ring], [p[1] for p in building.ring]
-        beside = min(xs) <= east + gap_m and max(xs) >= west - gap_m
-        if not (beside and min(ys) <= north + gap_m and max(ys) >= south - gap_m):
+        left, low, right, high = building.box_m
+        beside = left <= east + gap_m and right >= west - gap_m
+        if not (beside and low <= north + gap_m and high >= south - gap_m):
             continue
         taken = shapely.intersection(_taken(building, eye, high_m, reach_m, gap_m), area)
         if taken.area > 0.0:

@@ -23,9 +23,6 @@ from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.spec.stated import is_stated, most
 from aurora_core.spec.vocabulary import MissionMode
 
-# A hover at a landmark is asked for no farther away than this, whatever its bearing.
-_FARTHEST_M = 200.0
-
 
 def check_roofs(
     spec: ScenarioSpec,
@@ -47,8 +44,9 @@ def check_roofs(
         high = most(altitude, slack, limits.uav_altitude_max_m)
         roof = roof_of(mark, buildings)
         area = hover_area(mission, (mark.x_m, mark.y_m), limits, tolerances, roof)
+        west, south, east, north = area.bounds
         for building in (b for b in buildings if high < b.height_m + gap):
-            if not _is_around(building, mark):
+            if not all(building.has_in_box(*c, gap) for c in ((west, south), (east, north))):
                 continue
             outline = shapely.Polygon(building.ring, building.holes)
             # Beside a wall the gap is to the side; above the edge of a roof it need not be.
@@ -135,11 +133,3 @@ def check_walls(
                 ),
             ).model_copy(update={'word': building.id})
             break
-
-
-def _is_around(building: Building, mark: Landmark) -> bool:
-    """Tell whether the box around a building is that of a place at a landmark."""
-    east, north = [p[0] for p in building.ring], [p[1] for p in building.ring]
-    far = _FARTHEST_M
-    beside = min(east) - far <= mark.x_m <= max(east) + far
-    return beside and min(north) - far <= mark.y_m <= max(north) + far

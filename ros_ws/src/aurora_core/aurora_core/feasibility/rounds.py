@@ -268,9 +268,9 @@ def _seen_deg(piece: shapely.Geometry, at: _Place) -> float:
 
 def away_m(building: Building, mark: Landmark) -> float:
     """Return how far the box around a building is from a landmark, metres."""
-    east, north = [p[0] for p in building.ring], [p[1] for p in building.ring]
-    aside = max(min(east) - mark.x_m, mark.x_m - max(east), 0.0)
-    ahead = max(min(north) - mark.y_m, mark.y_m - max(north), 0.0)
+    west, south, east, north = building.box_m
+    aside = max(west - mark.x_m, mark.x_m - east, 0.0)
+    ahead = max(south - mark.y_m, mark.y_m - north, 0.0)
     return math.hypot(aside, ahead)
 
 

@@ -124,19 +124,13 @@ def is_over(mission: UavMission) -> bool:
 def roof_of(mark: Landmark, buildings: Sequence[Building]) -> shapely.Geometry | None:
     """Return the outline of the buildings that a landmark stands in, None in the open."""
     point = shapely.Point(mark.x_m, mark.y_m)
+    near = (b for b in buildings if b.has_in_box(mark.x_m, mark.y_m, _BESIDE_M))
     found = [
         outline
-        for outline in (shapely.Polygon(b.ring) for b in buildings if _may_hold(b, mark))
+        for outline in (shapely.Polygon(b.ring) for b in near)
         if outline.distance(point) <= _BESIDE_M
     ]
     return shapely.union_all(found) if found else None
-
-
-def _may_hold(building: Building, mark: Landmark) -> bool:
-    """Tell whether the box around a building holds a landmark: most need no closer look."""
-    east, north = [p[0] for p in building.ring], [p[1] for p in building.ring]
-    beside = min(east) - _BESIDE_M <= mark.x_m <= max(east) + _BESIDE_M
-    return beside and min(north) - _BESIDE_M <= mark.y_m <= max(north) + _BESIDE_M
 
 
 def roof_reach_m(mark: Landmark, buildings: Sequence[Building]) -> float:

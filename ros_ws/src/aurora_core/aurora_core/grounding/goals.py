@@ -8,7 +8,7 @@ placement says where it stands at t = 0, a behaviour or a trigger where its way 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import shapely
@@ -145,6 +145,16 @@ class GoalFinder:
                 elif self._arc_near(seat, point, bound, wide=wide) is None:
                     return False
         return True
+
+    def points(
+        self, spec: ScenarioSpec, agents: Iterable[GroundAgent], anchor: tuple[float, float]
+    ) -> tuple[tuple[float, float], ...]:
+        """Return the points that the places of vehicles count from, x and y in m.
+
+        All that `fits` knows of an anchor: with the same points, it gives the same answer.
+        """
+        bounds = (bound for agent in agents for bound in self._bounds(spec, agent))
+        return tuple(self._point(bound, anchor) for bound in bounds)
 
     def leads(
         self,

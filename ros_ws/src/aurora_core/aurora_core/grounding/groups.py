@@ -6,6 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
+from functools import partial
 
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.convoy import SIDES, ConvoyMember
@@ -13,6 +14,7 @@ from aurora_core.grounding.goals import GoalFinder
 from aurora_core.grounding.lane_changers import changes_lane
 from aurora_core.grounding.pace import fastest_stated_mps
 from aurora_core.grounding.sites import SeatedAgent, Site, sites
+from aurora_core.grounding.ways_round import Point2
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.settings import GroundingSettings
@@ -71,11 +73,12 @@ class GroupPlacer:
                 )
             )
 
-        self._candidates = [found(group, ()) for group in groups]
+        self._candidates = [_Candidates(found(group, ()), spec, goals) for group in groups]
         ways = [goals.edges_on_the_way(spec, [m.agent for m in group]) for group in groups]
         # Where no street leads straight on to a place, others do by turns.
         self._turning = [
-            found(group, way) if way else [] for group, way in zip(groups, ways, strict=True)
+            _Candidates(found(group, way) if way else [], spec, goals, wide=True)
+            for group, way in zip(groups, ways, strict=True)
         ]
 
     def seated(self, site: Site) -> Site | str:
@@ -86,7 +89,7 @@ class GroupPlacer:
         """
         for candidates, turning in zip(self._candidates, self._turning, strict=True):
             found = next(self._fit(candidates, site, leading=True), None)
-            found = found or next(self._fit(turning, site, leading=True, wide=True), None)
+            found = found or next(self._fit(turning, site, leading=True), None)
             found = found or next(self._fit(candidates, site), None)
             if found is None:
                 return 'road'
@@ -94,35 +97,75 @@ class GroupPlacer:
         return site
 
     def _fit(
-        self, candidates: list[Site], site: Site, *, leading: bool = False, wide: bool = False
+        self, candidates: _Candidates, site: Site, *, leading: bool = False
     ) -> Iterator[tuple[SeatedAgent, ...]]:
         """Yield the places of a group beside a site: `leading` to where an event waits for it."""
-        anchor = site.origin()[:2]
-        for one in _nearest_first(candidates, site):
+        anchor, wide = site.origin()[:2], candidates.wide
+        for one in candidates.beside(anchor):
             if (
-                self._goals.fits(self._spec, one, anchor, wide=wide)
-                and _apart(one.seated, site)
+                _apart(one.seated, site)
                 and all(_on_its_side(seat, site) for seat in one.seated)
                 and (not leading or self._goals.leads(self._spec, one, anchor, wide=wide))
             ):
                 yield one.seated
 
 
+class _Candidates:
+    """Where one group may be.
+
+    Whether it comes to its places from there is asked once, not of every scene: scenes that have
+    the same intersection nearest to them ask for the same.
+
+    Args:
+        found: Its sites, best first.
+        spec: The request.
+        goals: What places ask for.
+        wide: A long way does, too.
+    """
+
+    def __init__(
+        self, found: list[Site], spec: ScenarioSpec, goals: GoalFinder, *, wide: bool = False
+    ) -> None:
+        self.wide = wide
+        self._sites = found
+        self._spec = spec
+        self._goals = goals
+        self._agents = [seat.agent for one in found[:1] for seat in one.seated]
+        relations = {p.relation for agent in self._agents for p in agent.placements}
+        self._sided = not relations.isdisjoint(SIDES)
+        # By the points that count: of each site, whether it fits.
+        self._known: dict[tuple[Point2, ...], dict[int, bool]] = {}
+        self._origins: dict[int, Point2] = {}
+
+    def beside(self, anchor: Point2) -> Iterator[Site]:
+        """Yield what fits a scene in its order, but nearest first where it comes from a side.
+
+        Args:
+            anchor: Of the scene (x, y in m).
+        """
+        points = self._goals.points(self._spec, self._agents, anchor)
+        known = self._known.setdefault(points, {})
+        fitting = (k for k in range(len(self._sites)) if self._fits(k, anchor, known))
+        for k in sorted(fitting, key=partial(self._away_m, anchor)) if self._sided else fitting:
+            yield self._sites[k]
+
+    def _fits(self, index: int, anchor: Point2, known: dict[int, bool]) -> bool:
+        found = known.get(index)
+        if found is None:
+            site = self._sites[index]
+            found = known[index] = self._goals.fits(self._spec, site, anchor, wide=self.wide)
+        return found
+
+    def _away_m(self, anchor: Point2, index: int) -> float:
+        origin = self._origins.get(index)
+        if origin is None:
+            origin = self._origins[index] = self._sites[index].origin()[:2]
+        return norm2(origin[0] - anchor[0], origin[1] - anchor[1])
+
+
 def _best_first(found: Iterable[Site]) -> list[Site]:
     """Return sites by how far one drives there before the first signal."""
     return sorted(found, key=lambda site: -site.free_run_m)
-
-
-def _nearest_first(candidates: list[Site], site: Site) -> list[Site]:
-    """Return candidates in their order, but nearest first where they come from a side."""
-
-    def away_m(candidate: Site) -> float:
-        (x, y, _, _), (to_x, to_y, _, _) = candidate.origin(), site.origin()
-        return norm2(x - to_x, y - to_y)
-
-    members = (seat.agent for one in candidates[:1] for seat in one.seated)
-    sided = any(p.relation in SIDES for agent in members for p in agent.placements)
-    return sorted(candidates, key=away_m) if sided else candidates
 
 
 def _on_its_side(seat: SeatedAgent, site: Site) -> bool:

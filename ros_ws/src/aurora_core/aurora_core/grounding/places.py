@@ -198,16 +198,10 @@ def approach_point(map_model: MapModel, name: str) -> Point2:
     if norm2(x - mark.x_m, y - mark.y_m) > _OFF_STREET_M:
         return x, y
     point = shapely.Point(mark.x_m, mark.y_m)
-    around = (b for b in map_model.buildings if _reaches(b.ring, mark.x_m, mark.y_m))
+    around = (b for b in map_model.buildings if b.has_in_box(mark.x_m, mark.y_m))
     if any(shapely.Polygon(b.ring).contains(point) for b in around):
         return x, y
     return mark.x_m, mark.y_m
-
-
-def _reaches(ring: Sequence[Point2], x: float, y: float) -> bool:
-    """Tell whether a point lies inside the box round a ring."""
-    inside = min(p[0] for p in ring) <= x <= max(p[0] for p in ring)
-    return inside and min(p[1] for p in ring) <= y <= max(p[1] for p in ring)
 
 
 def nearest_to(anchor: Point2, centres: Sequence[Point2]) -> Point2:

@@ -7,7 +7,8 @@ Rings are open (the first point is not repeated) and counter-clockwise, holes cl
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, field
 
 import shapely
 
@@ -26,6 +27,7 @@ class Building:
         height_source: Where the height comes from (design, tag, levels, …).
         kind: house, block, tower, ….
         name: Name as people say it; empty for most.
+        box_m: West, south, east and north end of its outline.
     """
 
     id: str
@@ -35,12 +37,24 @@ class Building:
     height_source: str
     kind: str
     name: str
+    box_m: tuple[float, float, float, float] = field(init=False, compare=False, repr=False)
+
+    def __post_init__(self) -> None:
+        east, north = zip(*self.ring, strict=True) if self.ring else ((math.nan,),) * 2
+        box_m = (min(east), min(north), max(east), max(north))
+        object.__setattr__(self, 'box_m', box_m)
 
     @property
     def centre(self) -> tuple[float, float]:
         """The centroid of its outline."""
         point = shapely.Polygon(self.ring).centroid
         return float(point.x), float(point.y)
+
+    def has_in_box(self, x_m: float, y_m: float, gap_m: float = 0.0) -> bool:
+        """Tell whether a point is inside the box around it, or so near: a quick first look."""
+        west, south, east, north = self.box_m
+        beside = west - gap_m <= x_m <= east + gap_m
+        return beside and south - gap_m <= y_m <= north + gap_m
 
     def is_below(self, x_m: float, y_m: float) -> bool:
         """Tell whether a point is inside its outline."""

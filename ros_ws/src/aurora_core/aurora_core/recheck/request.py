@@ -5,8 +5,11 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
+from pathlib import Path
 from typing import Any, TypeGuard
 
+from shapely import STRtree
 from shapely.geometry import Point, Polygon, shape
 from shapely.ops import unary_union
 
@@ -46,8 +49,26 @@ def read_limits() -> dict[str, Any]:
 
 
 def read_map_file(name: str, file: str) -> Any:
-    """Return a JSON document of a map, bundled or imported."""
-    return read_json(map_folder(name) / file, MAP_BYTES)
+    """Return a JSON document of a map, bundled or imported; nobody may change it."""
+    return _document(*_version(map_folder(name) / file))
+
+
+def _version(path: Path) -> tuple[Path, int, int]:
+    """Return a file as a key under which what was read of it can be kept."""
+    found = path.stat()
+    return path, found.st_mtime_ns, found.st_size
+
+
+@lru_cache(maxsize=16)
+def _document(path: Path, _changed_ns: int, _size: int) -> Any:
+    return read_json(path, MAP_BYTES)
+
+
+@lru_cache(maxsize=4)
+def _outlines(path: Path, changed_ns: int, size: int) -> STRtree:
+    """Return the outlines of the buildings in a file, without their courtyards."""
+    features = _document(path, changed_ns, size)['features']
+    return STRtree([Polygon(shape(f['geometry']).exterior) for f in features])
 
 
 def node_at(document: Any, path: str) -> Any:
@@ -97,8 +118,7 @@ class Request:
 
     def features(self, file: str) -> list[dict[str, Any]]:
         """Return the features of a file of the map."""
-        name = str((self.spec.get('world') or {}).get('map_name', ''))
-        return list(read_map_file(name, file)['features'])
+        return list(read_map_file(self._map_name(), file)['features'])
 
     def landmarks(self) -> dict[str, tuple[float, float]]:
         """Return where the landmarks of the map are, by their references."""
@@ -115,9 +135,12 @@ class Request:
         centre = self.landmarks().get(target or '')
         if centre is None:
             return None
-        shapes = [shape(f['geometry']) for f in self.features('buildings.geojson')]
-        near = [s for s in shapes if Polygon(s.exterior).distance(Point(centre)) <= _BESIDE_M]
-        return unary_union([Polygon(s.exterior) for s in near]) if near else None
+        outlines = _outlines(*_version(map_folder(self._map_name()) / 'buildings.geojson'))
+        near = sorted(outlines.query(Point(centre), 'dwithin', _BESIDE_M))
+        return unary_union([outlines.geometries[k] for k in near]) if near else None
+
+    def _map_name(self) -> str:
+        return str((self.spec.get('world') or {}).get('map_name', ''))
 
 
 def names_of(request: Request, kind: str) -> set[str]:

@@ -18,9 +18,9 @@ from aurora_core.agsg.network import network, spec_of
 from aurora_core.errors import SpecError
 from aurora_core.spec.scenario import ScenarioSpec
 
-# Half a minute at most; set it to 10000 (a quarter of an hour) before a change of the
+# Seconds; set it to 10000 (a quarter of an hour) before a change of the
 # specification is published.
-ROUND_TRIPS = int(os.environ.get('AURORA_ROUND_TRIPS', '300'))
+ROUND_TRIPS = int(os.environ.get('AURORA_ROUND_TRIPS', '100'))
 
 
 @settings(

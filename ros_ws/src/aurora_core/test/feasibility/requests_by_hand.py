@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import Any
 
 from aurora_core.feasibility.check import check_request
@@ -66,10 +67,16 @@ def request(conditions: list[Any], missions: int = 1, **more: Any) -> ScenarioSp
     )
 
 
-def judged(spec: ScenarioSpec, *without: CheckStage) -> FeasibilityVerdict:
+# A map is loaded once for all tests.
+map_of = cache(load_map)
+
+
+def judged(
+    spec: ScenarioSpec, *without: CheckStage, map_name: str = 'downtown'
+) -> FeasibilityVerdict:
     return check_request(
         spec,
-        load_map('downtown'),
+        map_of(map_name),
         load_limits(config_path('limits.json')),
         load_tolerances(config_path('tolerances.json')),
         load_agent_types(),

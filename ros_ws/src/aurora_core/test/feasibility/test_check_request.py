@@ -5,13 +5,11 @@
 from __future__ import annotations
 
 import pytest
+from requests_by_hand import judged, map_of
 
-from aurora_core.feasibility.check import check_request
 from aurora_core.feasibility.limits import check_limits
-from aurora_core.knowledge.agent_types import load_agent_types
 from aurora_core.knowledge.config_files import config_path
-from aurora_core.knowledge.limits import load_limits, load_tolerances
-from aurora_core.knowledge.map_model import load_map
+from aurora_core.knowledge.limits import load_limits
 from aurora_core.outcomes.feasibility import Feasibility, FeasibilityVerdict
 from aurora_core.outcomes.parse import ParseContext
 from aurora_core.parsing.parser import parse_offline
@@ -115,7 +113,7 @@ ACCEPTED = (
 
 
 def _read(prompt: str) -> ScenarioSpec:
-    landmarks = load_map('downtown').landmarks
+    landmarks = map_of('downtown').landmarks
     context = ParseContext(landmark_names=tuple(m.name for m in landmarks))
     spec = parse_offline(prompt, context).spec
     assert spec is not None, prompt
@@ -123,13 +121,7 @@ def _read(prompt: str) -> ScenarioSpec:
 
 
 def _judged(prompt: str) -> FeasibilityVerdict:
-    return check_request(
-        _read(prompt),
-        load_map('downtown'),
-        load_limits(config_path('limits.json')),
-        load_tolerances(config_path('tolerances.json')),
-        load_agent_types(),
-    )
+    return judged(_read(prompt))
 
 
 @pytest.mark.parametrize(('prompt', 'reason'), REFUSED)

@@ -7,14 +7,10 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from requests_by_hand import number
+from requests_by_hand import judged, map_of, number
 
-from aurora_core.feasibility.check import check_request
 from aurora_core.feasibility.zones import roof_of
-from aurora_core.knowledge.agent_types import load_agent_types
-from aurora_core.knowledge.config_files import config_path
-from aurora_core.knowledge.limits import load_limits, load_tolerances
-from aurora_core.knowledge.map_model import MapModel, load_map
+from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.map_types import Landmark
 from aurora_core.outcomes.feasibility import FeasibilityVerdict, Rule
 from aurora_core.recheck import recheck
@@ -28,7 +24,7 @@ _BELOW_M = 3.5
 
 @pytest.fixture(scope='module')
 def maps() -> dict[str, MapModel]:
-    return {name: load_map(name) for name in MAPS}
+    return {name: map_of(name) for name in MAPS}
 
 
 def hover(map_name: str, landmark: str, altitude_m: float, **more: Any) -> ScenarioSpec:
@@ -53,13 +49,7 @@ def hover(map_name: str, landmark: str, altitude_m: float, **more: Any) -> Scena
 
 
 def said(spec: ScenarioSpec, map_model: MapModel) -> FeasibilityVerdict:
-    return check_request(
-        spec,
-        map_model,
-        load_limits(config_path('limits.json')),
-        load_tolerances(config_path('tolerances.json')),
-        load_agent_types(),
-    )
+    return judged(spec, map_name=map_model.name)
 
 
 def top_m(map_model: MapModel, mark: Landmark) -> float | None:

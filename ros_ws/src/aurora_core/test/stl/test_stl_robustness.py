@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import math
-import time
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -141,7 +141,7 @@ samples = st.integers(1, 14).flatmap(
 )
 
 
-@settings(max_examples=400, deadline=None, derandomize=True)
+@settings(max_examples=150, deadline=None, derandomize=True)
 @given(formulas, samples, st.booleans())
 def test_robustness_is_the_definition(
     formula: Formula, pair: tuple[np.ndarray, np.ndarray], clip: bool
@@ -152,7 +152,7 @@ def test_robustness_is_the_definition(
         assert series.at(i) == brute(formula, signals, i), i
 
 
-@settings(max_examples=200, deadline=None, derandomize=True)
+@settings(max_examples=100, deadline=None, derandomize=True)
 @given(formulas, samples)
 def test_the_critical_sample_has_the_robustness(
     formula: Formula, pair: tuple[np.ndarray, np.ndarray]
@@ -218,16 +218,13 @@ def test_broken_input_is_refused() -> None:
         critical_sample(Predicate(signal='x', op=Comparison.GE, threshold=0.0), signals, 3)
 
 
-def test_window_cost_does_not_grow_with_the_window() -> None:
+def test_window_cost_does_not_grow_with_the_window(
+    steps_of: Callable[[Callable[[], object]], int],
+) -> None:
     signals = SampledSignals(values={'x': np.sin(np.arange(200_000.0))}, dt_s=1.0)
 
-    def cost(width: int) -> float:
+    def cost(width: int) -> int:
         formula = parse_formula(f'always [0, {width}] s (x >= 0)')
-        runs = []
-        for _ in range(5):
-            begin = time.perf_counter()
-            robustness(formula, signals)
-            runs.append(time.perf_counter() - begin)
-        return min(runs)
+        return steps_of(lambda: robustness(formula, signals))
 
-    assert cost(50_000) < 20 * cost(10)
+    assert cost(50_000) < 4 * cost(10)
