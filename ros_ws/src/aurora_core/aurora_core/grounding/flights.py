@@ -19,7 +19,6 @@ from aurora_core.grounding.crossings import crossed
 from aurora_core.grounding.laps import Laps
 from aurora_core.grounding.neighbours import NOBODY, Neighbours
 from aurora_core.grounding.offsets import Spread, from_afar, is_lost, loses_sight, offsets
-from aurora_core.grounding.pace import moves
 from aurora_core.grounding.places import (
     ROAD_STEP_M,
     ROAD_WAY_M,
@@ -42,6 +41,7 @@ from aurora_core.grounding.routes_flown import RoutePlanner
 from aurora_core.grounding.sites import SeatedAgent, SeatedPerson, Site, samples_along
 from aurora_core.grounding.spots import SpotFinder
 from aurora_core.grounding.starts import Starts, uncrossed
+from aurora_core.grounding.watched import Watcher
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_model import MapModel
@@ -55,10 +55,10 @@ from aurora_core.spec.vocabulary import MissionMode
 FloatArray = npt.NDArray[np.float64]
 Point3 = tuple[float, float, float]
 
-_SIGHT_HEIGHT_PLACE_M = 1.0
-
 # Where sight is to be lost now and then, more of the phase than has to be is seen.
 _SPARE = 0.08
+# And on this share of its way.
+_EARLY = 0.5
 
 # A hover point stays so much inside the tolerance of its place (m).
 _DRIFTS_M = 0.1
@@ -183,8 +183,19 @@ class FlightPlanner:
         if mission.mode is MissionMode.NAVIGATE:
             beside = self._air.is_inside(*centre[:2])
             return self._routes.plan(mission, centre, others, beside=beside)
-        targets = self._watched(spec, mission, site, centre, speed_mps)
-        return self._hover(mission, centre, targets, others)
+        watcher = Watcher(spec=spec, site=site, types=self._types, settings=self._settings)
+        targets = watcher.target(mission, centre, speed_mps)
+        found = self._hover(mission, centre, targets, others)
+        if isinstance(found, Rejected) or found.plan.hover_point is None:
+            return found
+        # Who else is to be seen from there counts, too.
+        for points, stays in watcher.others(mission, speed_mps):
+            observers = np.repeat(np.array([found.plan.hover_point]), len(points), axis=0)
+            seen = self._air.seen_share(observers, points, self._range)
+            if stays and seen == 0.0:
+                return Rejected(reason='sight')
+            found = replace(found, seen=min(found.seen, seen))
+        return found
 
     def _inside(self, mission: UavMission) -> UavMission:
         """Return a mission whose standoff to plan with is inside the bound that is stated."""
@@ -283,6 +294,7 @@ class FlightPlanner:
         assert mission.standoff_m is not None
         assert mission.duration_s is not None
         record = self._types[seat.agent.type.value]
+        speed_mps = min(speed_mps, record.desired_speed_mps or record.max_speed_mps)
         way_m = speed_mps * (mission.duration_s.value + 6.0)
         samples = samples_along(seat.path, seat.arc_m, way_m, self._settings.sample_spacing_m)
         samples = samples if mission.side is None else with_turns(samples)
@@ -322,7 +334,8 @@ class FlightPlanner:
             if clearance < self._settings.clearance_m:
                 continue
             mask = self._air.seen(points, targets, self._range)
-            if gets_lost and not is_lost(mask):
+            # Held up by lights it comes no farther than a part of its way.
+            if gets_lost and not is_lost(mask[: round(_EARLY * len(mask))]):
                 continue
             seen = float(np.count_nonzero(mask)) / len(mask)
             if best is None or (round(seen, 3), clearance) > (
@@ -442,24 +455,6 @@ class FlightPlanner:
                 over_street=0.0,
             )
         return Rejected(reason=reason)
-
-    def _watched(
-        self,
-        spec: ScenarioSpec,
-        mission: UavMission,
-        site: Site,
-        centre: tuple[float, float, float, float],
-        speed_mps: float,
-    ) -> FloatArray:
-        """Return the points (K, 3) at which the target of a hover will be, its sight point."""
-        seat = site.seat(mission.target or '')
-        if seat is None:
-            return np.array([[centre[0], centre[1], _SIGHT_HEIGHT_PLACE_M]])
-        height_m = self._types[seat.agent.type.value].height_m / 2.0
-        assert mission.duration_s is not None
-        way_m = speed_mps * mission.duration_s.value if moves(spec, seat.agent) else 0.0
-        samples = samples_along(seat.path, seat.arc_m, way_m, self._settings.sample_spacing_m)
-        return _at_height(samples[:, :2], height_m)
 
     def _centre(
         self, spec: ScenarioSpec, mission: UavMission, site: Site

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from aurora_core.grounding.awaited import awaited_at, is_kept_away, leaving
 from aurora_core.grounding.convoy import SceneSplit
 from aurora_core.grounding.pace import encounters, moves
+from aurora_core.grounding.watched import asked_to_see
 from aurora_core.outcomes.grounded import ReleaseOn
 from aurora_core.spec.events import bodies_of_cause, sets_off
 from aurora_core.spec.flight_order import begun_by, left_by
@@ -201,6 +202,10 @@ def convoy_release(spec: ScenarioSpec, split: SceneSplit) -> Release:
         # Who gets far from a place is near it until the flight that this changes has begun.
         if one.agent in members and isinstance(one.event.action, UavAction):
             return _reporter_ready(spec, one.event.action.uav)
+    for uav in spec.uavs:
+        # Who is to be seen for a time does not go before anybody looks.
+        if asked_to_see(spec, uav.id) & set(members):
+            return _reporter_ready(spec, uav.id)
     met = {name for m in encounters(spec) for name in (m.actor, m.other)} | arriving
     # Who is reported by a UAV waits until that is up and can see it.
     flying = {uav.id for uav in spec.uavs}

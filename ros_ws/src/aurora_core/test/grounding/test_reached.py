@@ -8,6 +8,7 @@ from collections.abc import Callable
 from itertools import pairwise
 from math import dist
 
+import numpy as np
 import pytest
 
 from aurora_core.geometry.polyline import Polyline
@@ -95,6 +96,41 @@ def test_a_body_whose_deed_ends_the_hover_of_another_uav_waits_for_both(
     assert ambulance.release is ReleaseOn.CAPTURED
     assert ambulance.release_uav == highest.id
     assert ambulance.release_mission == highest.missions[0].id
+
+
+def test_who_is_to_be_seen_for_a_time_waits_until_somebody_looks(
+    read_prompt: Read, ground: Ground
+) -> None:
+    prompt = 'A drone hovers over Harbor Market at 60 m. A motorcycle circulates near the market.'
+    asked = ' The drone sees the motorcycle for at least 10 s.'
+    releases = []
+    for more in ('', asked):
+        spec = read_prompt(prompt + more, 'downtown')
+        assert len(spec.conditions) == (1 if more else 0)
+        releases.append(ground(spec, 'downtown').agents[0].release)
+    assert releases == [ReleaseOn.START, ReleaseOn.CAPTURED]
+
+
+@pytest.mark.parametrize('agent', ['cyclist', 'truck'])
+def test_who_is_to_get_out_of_sight_does_so_early_on_its_way(
+    agent: str, read_prompt: Read, ground: Ground, air: Airspace
+) -> None:
+    prompt = (
+        f'A drone tracks a {agent} at 35 m altitude for 90 s. When it loses sight of the {agent}, '
+        'it climbs to 60 m.'
+    )
+    found = ground(read_prompt(prompt, 'downtown'), 'downtown')
+    (body,) = found.agents
+    offset = found.uavs[0].missions[0].offset_m
+    way = Polyline(body.route_xy_m)
+    # A cyclist comes no farther than some 250 m in the first half of that time.
+    seen = []
+    for k in range(50 if agent == 'cyclist' else 120):
+        x, y = way.at(5.0 * k)[:2]
+        here = np.array([[x + offset[0], y + offset[1], 35.0]])
+        seen.append(bool(air.seen(here, np.array([[x, y, 1.0]]), 250.0)[0]))
+    assert seen[0]
+    assert not all(seen)
 
 
 def test_a_uav_starts_ahead_of_a_target_that_cannot_wait_for_it(
