@@ -189,6 +189,24 @@ def mission(
     return found
 
 
+def kept_off(
+    r: MissionRequirement, place: str, ident: str, uav: str, names: Names, numbers: Numbers
+) -> Doc:
+    """Return the condition that a UAV keeps off a place, so far as is stated."""
+    away = numbers.unsaid(0.0, 'm')
+    if r.avoid_m is not None:
+        away = numbers.stated('avoid_m', r.avoid_m, 'm')
+    of = [uav, names.one(place)]
+    return {'id': ident, 'quantity': 'clearance', 'of': of, 'op': '>=', 'value': away}
+
+
+def hearers(r: LinkRequirement, names: Names, numbers: Numbers) -> tuple[str, ...]:
+    """Return who hears over a link beside the first one: the other members of a group."""
+    if r.receiver is None or not numbers.are_judged:
+        return ()
+    return names.all(r.receiver)[1:]
+
+
 def link(r: LinkRequirement, ident: str, names: Names, numbers: Numbers) -> Doc:
     """Return a link."""
     given = numbers.of(r, ('loss', 'latency_s', 'range_m', 'retransmissions', 'rate_hz'))

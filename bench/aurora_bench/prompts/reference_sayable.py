@@ -17,13 +17,10 @@ from aurora_bench.prompts.format import (
     EventRequirement,
     MissionRequirement,
     Requirement,
-    stated_fields,
 )
 from aurora_bench.prompts.reference_names import NotExpressibleError
 from aurora_core.spec.requirements import STATED_QUANTITIES
 from aurora_core.spec.vocabulary import Pattern
-
-_OF_A_FLIGHT = ('avoid', 'avoid_m')
 
 
 def check_sayable(r: Requirement) -> None:
@@ -52,8 +49,8 @@ def _unsayable(r: Requirement) -> Iterator[str]:
 
 
 def _of_flight(flight: MissionRequirement | Action) -> Iterator[str]:
-    stated = stated_fields(flight)
-    yield from (name for name in _OF_A_FLIGHT if name in stated)
+    if isinstance(flight, Action) and flight.avoid:
+        yield 'avoid'
     if flight.pattern is not None and flight.pattern not in set(Pattern):
         yield f'pattern {flight.pattern}'
     goes = flight.pattern in (None, Pattern.WAYPOINTS) and flight.waypoint_count is None

@@ -38,6 +38,8 @@ from aurora_bench.prompts.reference_parts import (
     condition,
     default_link,
     event,
+    hearers,
+    kept_off,
     link,
     mission,
     placement,
@@ -175,8 +177,15 @@ class _Builder:
             for k, uav in enumerate(flyers):
                 ident = id_of(r.ref) if k == 0 else f'{id_of(r.ref)}_{k + 1}'
                 self._spec['missions'].append(mission(r, ident, uav, names, numbers))
+                for place in r.avoid or ():
+                    kept = kept_off(r, place, self._new('condition'), uav, names, numbers)
+                    self._spec['conditions'].append(kept)
         elif r.kind == 'link':
-            self._spec['links'].append(link(r, self._new('link'), names, numbers))
+            first = link(r, self._new('link'), names, numbers)
+            self._spec['links'].append(first)
+            for other in hearers(r, names, numbers):
+                more = {**first, 'id': self._new('link'), 'receiver': other}
+                self._spec['links'].append(more)
         elif r.kind == 'event' and r.action is not None and r.action.do == 'hand_over':
             self._hand_over(r, r.action, numbers)
         elif r.kind == 'event':
@@ -221,12 +230,15 @@ class _Builder:
         self._taken_over.append(mission(over, found['action']['mission'], uav, names, numbers))
 
     def _for_the_others(self, r: EventRequirement, first: Doc) -> Iterator[Doc]:
-        """Yield the event of each further member of a group that acts."""
+        """Yield the event of each further member of a group that acts, or that is told."""
+        told = None if r.action is None or r.action.do != 'send_message' else r.action.receiver
         agent = None if r.action is None else r.action.agent
         # Stored references stay as they are; of those that run nothing may be left out.
-        members = () if agent is None or self._spans is None else self._members(agent)
+        members: tuple[str, ...] = ()
+        if self._spans is not None and (agent is not None or told is not None):
+            members = self._members(agent) if told is None else self._names.all(told)
         for k, ident in enumerate(members[1:], start=2):
-            action = {**first['action'], 'agent': ident}
+            action = {**first['action'], ('agent' if told is None else 'receiver'): ident}
             yield {**first, 'id': f'{first["id"]}_{k}', 'action': action}
 
     def _world(self, r: WorldRequirement, numbers: Numbers) -> None:

@@ -12,6 +12,7 @@ from aurora_core.conditions.links import (
     link_conditions,
     loses_messages,
 )
+from aurora_core.conditions.stated_links import is_kept_from
 from aurora_core.judging.build import Inputs, Source, Underivable, number
 from aurora_core.judging.happening import earliest_s
 from aurora_core.judging.mission import missions_of_uav
@@ -176,7 +177,8 @@ def _alert(
 
 
 def _message(inputs: Inputs, event: Event, link: Link) -> Iterator[Condition]:
-    if is_needed(inputs.spec, link) or not loses_messages(link):
+    kept = any(is_kept_from(stated, link) for stated in inputs.spec.conditions)
+    if not kept and (is_needed(inputs.spec, link) or not loses_messages(link)):
         yield delivered.implied(inputs, event, link)
     if link.latency_s.provenance is Provenance.EXPLICIT:
         yield delivery_latency.implied(inputs, event, link)

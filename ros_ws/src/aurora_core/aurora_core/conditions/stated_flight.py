@@ -50,7 +50,7 @@ def stated_flight(inputs: Inputs, stated: StatedCondition) -> Iterator[Condition
         )
         return
     completed = stated.quantity == 'mission_completed'
-    only(stated, *(['by_s'] if completed else []))
+    only(stated, 'by_s')
     for mission in missions:
         name = f'{stated.id}.holds' + (f'.{mission.id}' if len(missions) > 1 else '')
         arguments = mission_arguments(inputs, mission)
@@ -71,7 +71,9 @@ def stated_flight(inputs: Inputs, stated: StatedCondition) -> Iterator[Condition
             sentence=sentence_of(stated),
             of=stated.of,
             target=asked,
-            arguments=WaypointsVisited(**inputs.common, mission=arguments),
+            arguments=WaypointsVisited(
+                **inputs.common, mission=arguments, by_s=value_of(stated.by_s)
+            ),
             source=source,
             every_sample=False,
         )

@@ -11,6 +11,7 @@ from aurora_core.comm.link import MessageLink, whole_ticks
 from aurora_core.execution.lane_changer import LaneChanger
 from aurora_core.execution.observe import Observation
 from aurora_core.execution.triggers import BatteryRule, Progress, holds
+from aurora_core.execution.untold import heard_before, slowed_later
 from aurora_core.execution.ways import Ways
 from aurora_core.execution.yielding import Yielding
 from aurora_core.geometry.kernel import norm2
@@ -29,18 +30,15 @@ from aurora_core.quantities.instant import Point3
 from aurora_core.spec.events import actor_of
 from aurora_core.spec.flight_order import counts_from_capture, is_next_anyway
 from aurora_core.spec.own_events import let_pass, own_events
-from aurora_core.spec.parking import stands
 from aurora_core.spec.scenario import (
     AgentAction,
     Event,
-    EventDoneTrigger,
-    MessageTrigger,
     ScenarioSpec,
     SendMessage,
     UavAction,
     bodies_of,
 )
-from aurora_core.spec.vocabulary import AgentType, MissionMode
+from aurora_core.spec.vocabulary import MissionMode
 from aurora_core.trace.commands import GroundCommand
 from aurora_core.trace.layout import GroundCommandKind
 from aurora_core.trace.records import ScenarioEventKind
@@ -150,7 +148,8 @@ class EventRunner:
             e.id: {o.first for o in spec.orders if o.then == e.id and o.first in ids}
             for e in events
         }
-        self._slowed_later = _slowed_later(spec)
+        self._slowed_later = slowed_later(spec)
+        self._heard_before = heard_before(spec)
         self._over_from: dict[str, int] = {}
         self._touchdown_m = battery.touchdown_m
         self._progress = Progress(arrival_m=arrival_m, endurance_s=battery.endurance_s)
@@ -188,7 +187,18 @@ class EventRunner:
     def _may_follow(self, event: Event, tick: int) -> bool:
         """Tell whether everything that is to come before an event shows by `tick`."""
         done = self._progress.done_tick
-        return all(first in done and done[first] <= tick for first in self._before[event.id])
+        return all(
+            first in done and done[first] <= tick and self._is_heard(first, event)
+            for first in self._before[event.id]
+        )
+
+    def _is_heard(self, first: str, event: Event) -> bool:
+        """Tell whether who acts has the message that is to come before, where it is to him."""
+        said = next(s.event.action for s in self._states if s.event.id == first)
+        actor = getattr(event.action, 'agent', getattr(event.action, 'uav', None))
+        if not isinstance(said, SendMessage) or said.receiver != actor:
+            return True
+        return (said.receiver, said.sender) in self._progress.received
 
     def step(
         self,
@@ -320,6 +330,9 @@ class EventRunner:
         if isinstance(event.action, UavAction) and event.action.lands:
             # Nobody says when: a UAV lands after its missions.
             return event.action.uav in self._over_from
+        heard = self._heard_before.get(event.id, frozenset())
+        if not heard <= self._progress.received:
+            return False
         # Nobody says when: once the UAVs watch, have flown the route that this may end, and once
         # who is to brake or stop is on the move and has driven.
         flying = [m for m in machines if not m.waits_on_ground]
@@ -418,44 +431,6 @@ class EventRunner:
             harder = GroundCommandKind.SET_DECELERATION
             commands.insert(0, GroundCommand(agent=row, kind=harder, value=BRAKING_MPS2))
         return commands
-
-
-def _slowed_later(spec: ScenarioSpec) -> dict[str, frozenset[str]]:
-    """Return by event without a cause which vehicles what follows it slows down or stops.
-
-    It waits until they drive, or nothing would be seen of that. Whom an event sets off is left
-    out: it may be this one that does so.
-    """
-    vehicles = {a.id for a in spec.agents if a.type is not AgentType.PEDESTRIAN and not stands(a)}
-    started = {
-        e.action.agent
-        for e in spec.events
-        if isinstance(e.action, AgentAction) and e.action.do == 'start'
-    }
-    found = {}
-    for first in spec.events:
-        chain = [first] if first.trigger is None else []
-        for event in chain:
-            chain += [e for e in spec.events if e not in chain and _follows(e, event)]
-        found[first.id] = frozenset(
-            e.action.agent
-            for e in chain[1:]
-            if isinstance(e.action, AgentAction) and e.action.do in FROM_MOTION
-        ) & (vehicles - started)
-    return found
-
-
-def _follows(event: Event, before: Event) -> bool:
-    """Tell whether an event is the end of another one, or the receipt of its message."""
-    trigger, sent = event.trigger, before.action
-    if isinstance(trigger, EventDoneTrigger):
-        return trigger.event == before.id
-    return (
-        isinstance(trigger, MessageTrigger)
-        and isinstance(sent, SendMessage)
-        and trigger.by == sent.receiver
-        and trigger.sender in (None, sent.sender)
-    )
 
 
 def _has_crossed(state: _EventState, person: str, seen: Observation) -> bool:

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from aurora_core.comm.link import LinkSettings, MessageLink, link_stream
 from aurora_core.conditions.capabilities import undone_events
@@ -184,7 +184,7 @@ def build_stepper(
             roster=roster,
             agents=grounded.agents,
             machines=tuple(
-                MissionMachine(plan, flight, dt_s)
+                MissionMachine(plan, _flown_by(plan, flight), dt_s)
                 for plan in plans_with_events(spec, grounded.uavs, undone_events(spec, grounded))
             ),
             links=tuple(_link(link, limits, dt_s, seed, acting) for link in spec.links),
@@ -412,6 +412,13 @@ def _air_load(grounded: GroundedScenario, map_model: MapModel, dt_s: float, seed
         wind_mean_north_mps=grounded.wind_mean_north_mps,
         wind_gust_mps=grounded.wind_gust_mps,
     )
+
+
+def _flown_by(plan: UavPlan, flight: FlightSettings) -> FlightSettings:
+    """Return the limits of the reference motion of one UAV."""
+    if plan.speed_max_mps is None:
+        return flight
+    return replace(flight, speed_max_mps=plan.speed_max_mps)
 
 
 def _link(

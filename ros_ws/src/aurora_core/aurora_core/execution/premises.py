@@ -16,7 +16,7 @@ from aurora_core.execution.observe import Observation
 from aurora_core.execution.ways import Ways
 from aurora_core.mission.machine import MissionMachine
 from aurora_core.spec.scenario import AgentAction, Event, ScenarioSpec, SpeedTrigger
-from aurora_core.spec.vocabulary import BehaviorKind
+from aurora_core.spec.vocabulary import BehaviorKind, MissionMode
 from aurora_core.trace.commands import GroundCommand
 from aurora_core.trace.layout import GroundCommandKind
 from aurora_core.trace.roster import Roster
@@ -27,6 +27,12 @@ _BELOW_MPS = 1.0
 _DRIVEN_S = 4.0
 _STATED_SHARE = 0.95
 _STATED_S = 20.0
+
+# Who was as fast as is waited for, for so long (s), goes on at this share of what a UAV flies.
+_FAST_S = 0.3
+_KEPT_UP_SHARE = 0.75
+# From this share on a UAV falls behind.
+_OUTRUN_SHARE = 0.85
 
 _DECIDE_SPEED = frozenset(
     {
@@ -41,15 +47,16 @@ _DECIDE_SPEED = frozenset(
 
 
 class Premises:
-    """Slows down the drivers whose low speed an event waits for.
+    """Slows down the drivers whose low speed an event waits for, or who need not be fast any more.
 
     Args:
         spec: The request.
         roster: Row order.
         ways: Who has to drive before anybody stops.
+        most_mps: So fast a UAV flies at most.
     """
 
-    def __init__(self, spec: ScenarioSpec, roster: Roster, ways: Ways) -> None:
+    def __init__(self, spec: ScenarioSpec, roster: Roster, ways: Ways, most_mps: float) -> None:
         self._roster = roster
         self._ways = ways
         self._events = [e for e in spec.events if _is_left_to_chance(spec, e)]
@@ -59,15 +66,17 @@ class Premises:
             for agent in spec.agents
             if (speeds := [b.speed_mps.value for b in agent.behaviors if b.speed_mps is not None])
         }
+        self._fast = [e for e in spec.events if _is_outrun(spec, e, most_mps)]
+        self._most_mps = most_mps
 
     def step(
         self, tick: int, dt_s: float, seen: Observation, machines: Sequence[MissionMachine]
     ) -> list[GroundCommand]:
         """Return the commands of a tick."""
+        commands = self._let_up(tick, dt_s, seen)
         if not self._events:
-            return []
+            return commands
         watched = all(m.first_capture_tick is not None for m in machines if not m.waits_on_ground)
-        commands = []
         for event in tuple(self._events):
             trigger = event.trigger
             assert isinstance(trigger, SpeedTrigger)
@@ -85,6 +94,26 @@ class Premises:
             self._events.remove(event)
         return commands
 
+    def _let_up(self, tick: int, dt_s: float, seen: Observation) -> list[GroundCommand]:
+        """Let who has been as fast as an event waits for drive on so that a UAV keeps up."""
+        commands = []
+        for event in tuple(self._fast):
+            trigger = event.trigger
+            assert isinstance(trigger, SpeedTrigger)
+            row = self._roster.agent_index(trigger.who)
+            speed_mps = seen.speed_mps(trigger.who)
+            if row is None or speed_mps is None or speed_mps <= trigger.value_mps.value:
+                self._driven.pop(event.id, None)
+                continue
+            since = self._driven.setdefault(event.id, tick)
+            if (tick - since) * dt_s < _FAST_S:
+                continue
+            value = _KEPT_UP_SHARE * self._most_mps
+            kind = GroundCommandKind.SET_SPEED
+            commands.append(GroundCommand(agent=row, kind=kind, value=value))
+            self._fast.remove(event)
+        return commands
+
     def _drive(self, event: Event, trigger: SpeedTrigger, seen: Observation) -> bool:
         """Tell whether who is waited for, and who is to answer, are on the move."""
         speed_mps = seen.speed_mps(trigger.who)
@@ -95,6 +124,18 @@ class Premises:
             return True
         answer_mps = seen.speed_mps(event.action.agent)
         return answer_mps is not None and answer_mps >= ON_THE_MOVE_MPS
+
+
+def _is_outrun(spec: ScenarioSpec, event: Event, most_mps: float) -> bool:
+    """Tell whether an event waits for a speed at which a UAV loses who is not asked to keep it."""
+    trigger = event.trigger
+    if not isinstance(trigger, SpeedTrigger) or trigger.on != 'speed_above':
+        return False
+    agent = next((a for a in spec.agents if a.id == trigger.who), None)
+    tracked = any(m.mode is MissionMode.TRACK and m.target == trigger.who for m in spec.missions)
+    if agent is None or not tracked or trigger.value_mps.value < _OUTRUN_SHARE * most_mps:
+        return False
+    return all(b.speed_mps is None for b in agent.behaviors)
 
 
 def _is_left_to_chance(spec: ScenarioSpec, event: Event) -> bool:

@@ -112,7 +112,8 @@ class ScenarioExecutor:
         self._destinations = Destinations(setup.spec, setup.arrival_m)
         self._runner = self._run_events(EventRunner)
         self._reports = Reports(setup.links, setup.roster.dt_s, self._runner.next_message)
-        self._premises = Premises(setup.spec, setup.roster, self._ways)
+        most_mps = setup.geometry.world.limits.uav_speed_max_mps
+        self._premises = Premises(setup.spec, setup.roster, self._ways, most_mps)
         self._overtaker = Overtaker(setup.spec, setup.roster, self._lanes(), setup.driving)
         self._follower = Follower(
             setup.spec, setup.roster, self._lanes(), self._drives, setup.driving

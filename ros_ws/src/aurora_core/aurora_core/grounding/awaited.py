@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from math import hypot, sqrt
 
-from aurora_core.grounding.places import arrivals, has_point
+from aurora_core.grounding.places import ROADS, arrivals, has_point
 from aurora_core.spec.events import (
     DistanceTrigger,
     Event,
@@ -57,17 +57,43 @@ def awaited_at(spec: ScenarioSpec) -> tuple[Awaited, ...]:
     return tuple(found for found in _awaited(spec) if found.agent in free)
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Leaving:
+    """Somebody who has to get far from a place for an event to happen, and is near it before."""
+
+    agent: str
+    place: str
+    event: Event
+    beyond_m: float
+
+
+def leaving(spec: ScenarioSpec) -> tuple[Leaving, ...]:
+    """Return who is to get far from places, of those to whom nothing else gives a place."""
+    free = {agent.id for agent in spec.agents if not _has_place(spec, agent)}
+    return tuple(
+        Leaving(agent=agent, place=place, event=event, beyond_m=event.trigger.value_m.value)
+        for event in spec.events
+        if isinstance(event.trigger, DistanceTrigger) and event.trigger.on == 'distance_above'
+        for agent, place in (
+            (event.trigger.a, event.trigger.b),
+            (event.trigger.b, event.trigger.a),
+        )
+        if agent in free and has_point(place)
+    )
+
+
 def is_kept_away(spec: ScenarioSpec, patrol: UavMission) -> bool:
     """Tell whether who ends a route by coming into view of it, or near, is far off before.
 
-    A route over a street goes where that body drives.
+    A route over a street goes where that body drives: it begins so much farther on.
     """
     event = left_by(spec, patrol)
     trigger = None if event is None else event.trigger
     near = isinstance(trigger, DistanceTrigger) and trigger.on == 'distance_below'
     seen = isinstance(trigger, VisibilityTrigger) and trigger.on == 'visible'
     ours = event is not None and patrol.uav in bodies_of_cause(event)
-    return ours and (near or seen) and (patrol.target is None or has_point(patrol.target))
+    where = patrol.target
+    return ours and (near or seen) and (where is None or where in ROADS or has_point(where))
 
 
 def kept_away_m(spec: ScenarioSpec, patrol: UavMission, range_m: float) -> float:
@@ -88,7 +114,8 @@ def kept_away_m(spec: ScenarioSpec, patrol: UavMission, range_m: float) -> float
 
 def bound_to_places(spec: ScenarioSpec, agent: GroundAgent) -> bool:
     """Tell whether a place decides where a vehicle stands or goes."""
-    return _has_place(spec, agent) or any(a.agent == agent.id for a in awaited_at(spec))
+    bound = {one.agent for one in awaited_at(spec)} | {one.agent for one in leaving(spec)}
+    return _has_place(spec, agent) or agent.id in bound
 
 
 def _has_place(spec: ScenarioSpec, agent: GroundAgent) -> bool:

@@ -49,7 +49,7 @@ def crossed(
         goal = first_point(after, site)
         starts = _ends_of(before.plan, site, speed_mps)
         if not all(_is_straight(airspace, s, goal, clearance_m) for s in starts):
-            over_m = _over(airspace, starts, goal, clearance_m, top_m)
+            over_m = way_over(airspace, starts, goal, clearance_m, top_m)
             if over_m is None and before.plan.mode is not MissionMode.TRACK:
                 return None
             if over_m is not None:
@@ -80,10 +80,18 @@ def _is_straight(airspace: Airspace, start: Point3, goal: Point3, clearance_m: f
     return all(airspace.way_is_free(way, clearance_m) for way in ways)
 
 
-def _over(
+def way_over(
     airspace: Airspace, starts: Sequence[Point3], goal: Point3, clearance_m: float, top_m: float
 ) -> float | None:
-    """Return the lowest height at which all ways up, across and down are free, None for none."""
+    """Return the lowest height at which all ways up, across and down are free, None for none.
+
+    Args:
+        airspace: What may stand between.
+        starts: Where the UAV may be before (x, y, z in m).
+        goal: Where it goes (x, y, z in m).
+        clearance_m: That ways keep.
+        top_m: No way is higher.
+    """
     height_m = max(goal[2], *(s[2] for s in starts)) + _STEP_M
     while height_m <= top_m:
         down = ((*goal[:2], height_m), goal)

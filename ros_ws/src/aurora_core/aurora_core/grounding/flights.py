@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from math import cos, pi, sin
 
 import numpy as np
@@ -12,12 +13,12 @@ import numpy.typing as npt
 
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.grounding.apart import sharing
+from aurora_core.grounding.awaited import is_kept_away
 from aurora_core.grounding.beside import turned_along, with_turns
 from aurora_core.grounding.crossings import crossed
 from aurora_core.grounding.laps import Laps
 from aurora_core.grounding.neighbours import NOBODY, Neighbours
 from aurora_core.grounding.offsets import Spread, from_afar, is_lost, loses_sight, offsets
-from aurora_core.grounding.pace import moves
 from aurora_core.grounding.places import (
     ROAD_STEP_M,
     ROAD_WAY_M,
@@ -32,7 +33,7 @@ from aurora_core.grounding.planned_flight import (
     altitude_slack_m,
     ascent_tolerance_m,
     first_point,
-    last_point,
+    landing_areas,
     planned_height_m,
 )
 from aurora_core.grounding.premises import middle_of_route
@@ -40,6 +41,7 @@ from aurora_core.grounding.routes_flown import RoutePlanner
 from aurora_core.grounding.sites import SeatedAgent, SeatedPerson, Site, samples_along
 from aurora_core.grounding.spots import SpotFinder
 from aurora_core.grounding.starts import Starts, uncrossed
+from aurora_core.grounding.watched import Watcher
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_model import MapModel
@@ -53,16 +55,13 @@ from aurora_core.spec.vocabulary import MissionMode
 FloatArray = npt.NDArray[np.float64]
 Point3 = tuple[float, float, float]
 
-_SIGHT_HEIGHT_PLACE_M = 1.0
-
 # Where sight is to be lost now and then, more of the phase than has to be is seen.
 _SPARE = 0.08
+# And on this share of its way.
+_EARLY = 0.5
 
 # A hover point stays so much inside the tolerance of its place (m).
 _DRIFTS_M = 0.1
-
-# So many ways to free spots are tried from the middle of a building.
-_WAYS_OUT = 6
 
 # Steps in which a flight at a landmark looks for free air above (m).
 _HIGHER_M = 10.0
@@ -184,8 +183,19 @@ class FlightPlanner:
         if mission.mode is MissionMode.NAVIGATE:
             beside = self._air.is_inside(*centre[:2])
             return self._routes.plan(mission, centre, others, beside=beside)
-        targets = self._watched(spec, mission, site, centre, speed_mps)
-        return self._hover(mission, centre, targets, others)
+        watcher = Watcher(spec=spec, site=site, types=self._types, settings=self._settings)
+        targets = watcher.target(mission, centre, speed_mps)
+        found = self._hover(mission, centre, targets, others)
+        if isinstance(found, Rejected) or found.plan.hover_point is None:
+            return found
+        # Who else is to be seen from there counts, too.
+        for points, stays in watcher.others(mission, speed_mps):
+            observers = np.repeat(np.array([found.plan.hover_point]), len(points), axis=0)
+            seen = self._air.seen_share(observers, points, self._range)
+            if stays and seen == 0.0:
+                return Rejected(reason='sight')
+            found = replace(found, seen=min(found.seen, seen))
+        return found
 
     def _inside(self, mission: UavMission) -> UavMission:
         """Return a mission whose standoff to plan with is inside the bound that is stated."""
@@ -238,7 +248,12 @@ class FlightPlanner:
             beside=None if seat is None else seat.path.position_at(seat.arc_m)[:2],
         )
         if home is None:
-            return Rejected(reason='start_spot')
+            from_above = self._starts.over(first, taken, self._limits.uav_altitude_max_m)
+            if from_above is None or ways[0].plan.mode is MissionMode.TRACK:
+                return Rejected(reason='start_spot')
+            home, over_m = from_above
+            begun = ways[0].plan.model_copy(update={'over_m': over_m})
+            ways = (replace(ways[0], plan=begun), *ways[1:])
         highest = max(f.plan.altitude_m for f in flights)
         over_all = self._air.highest_m + 2.0 * self._settings.clearance_m
         return UavPlan(
@@ -266,7 +281,7 @@ class FlightPlanner:
         """Add the free spots along everything that the UAV flies over."""
         spots = list(plan.landing_spots)
         for mission in plan.missions:
-            for x, y in self._landing_areas(mission, site):
+            for x, y in landing_areas(mission, site):
                 spots += [s for s in self._spots.near(x, y) if s not in spots]
         return UavPlan.model_validate({**plan.model_dump(), 'landing_spots': tuple(spots)})
 
@@ -279,6 +294,7 @@ class FlightPlanner:
         assert mission.standoff_m is not None
         assert mission.duration_s is not None
         record = self._types[seat.agent.type.value]
+        speed_mps = min(speed_mps, record.desired_speed_mps or record.max_speed_mps)
         way_m = speed_mps * (mission.duration_s.value + 6.0)
         samples = samples_along(seat.path, seat.arc_m, way_m, self._settings.sample_spacing_m)
         samples = samples if mission.side is None else with_turns(samples)
@@ -318,7 +334,8 @@ class FlightPlanner:
             if clearance < self._settings.clearance_m:
                 continue
             mask = self._air.seen(points, targets, self._range)
-            if gets_lost and not is_lost(mask):
+            # Held up by lights it comes no farther than a part of its way.
+            if gets_lost and not is_lost(mask[: round(_EARLY * len(mask))]):
                 continue
             seen = float(np.count_nonzero(mask)) / len(mask)
             if best is None or (round(seen, 3), clearance) > (
@@ -359,13 +376,16 @@ class FlightPlanner:
                 angle = 2.0 * pi * k / count
                 yield radius_m * cos(angle), radius_m * sin(angle)
 
-    def _is_shut_in(self, point: Point3) -> bool:
-        """Tell whether the air over a courtyard is left by no level way, as in a stadium."""
-        x, y, z = point
-        return self._air.is_inside(x, y) and all(
-            not self._air.way_is_free(((*spot, z), point), self._settings.clearance_m)
-            for spot in self._spots.near(x, y, _WAYS_OUT)
-        )
+    def _is_out_of_reach(self, mission: UavMission, point: Point3) -> bool:
+        """Tell whether no level way leads to a hover point, and it need not be just there.
+
+        A height that is stated is come to from above, one that is not may be another.
+        """
+        x, y, _ = point
+        if not self._air.is_inside(x, y) or self._starts.lead_to(point):
+            return False
+        stated = mission.altitude_m.provenance is Provenance.EXPLICIT
+        return not stated or self._starts.over(point, (), self._limits.uav_altitude_max_m) is None
 
     def _planned_height_m(self, mission: UavMission) -> float:
         return planned_height_m(mission, self._limits, self._tolerances)
@@ -421,7 +441,7 @@ class FlightPlanner:
                 reason = 'separation'
                 continue
             clearance = self._air.points_clearance_m(np.array([point]))
-            if clearance < self._settings.clearance_m or self._is_shut_in(point):
+            if clearance < self._settings.clearance_m or self._is_out_of_reach(mission, point):
                 continue
             observers = np.repeat(np.array([point]), len(targets), axis=0)
             seen = air.seen_share(observers, targets, self._range)
@@ -436,30 +456,12 @@ class FlightPlanner:
             )
         return Rejected(reason=reason)
 
-    def _watched(
-        self,
-        spec: ScenarioSpec,
-        mission: UavMission,
-        site: Site,
-        centre: tuple[float, float, float, float],
-        speed_mps: float,
-    ) -> FloatArray:
-        """Return the points (K, 3) at which the target of a hover will be, its sight point."""
-        seat = site.seat(mission.target or '')
-        if seat is None:
-            return np.array([[centre[0], centre[1], _SIGHT_HEIGHT_PLACE_M]])
-        height_m = self._types[seat.agent.type.value].height_m / 2.0
-        assert mission.duration_s is not None
-        way_m = speed_mps * mission.duration_s.value if moves(spec, seat.agent) else 0.0
-        samples = samples_along(seat.path, seat.arc_m, way_m, self._settings.sample_spacing_m)
-        return _at_height(samples[:, :2], height_m)
-
     def _centre(
         self, spec: ScenarioSpec, mission: UavMission, site: Site
     ) -> tuple[float, float, float, float] | None:
         target = mission.target
         x, y, hx, hy = site.origin()
-        if target is None:
+        if target is None or (target in ROADS and is_kept_away(spec, mission)):
             return middle_of_route(spec, mission, site, self._range)
         seat = site.seat(target)
         if seat is not None:
@@ -478,15 +480,6 @@ class FlightPlanner:
             road_x, road_y = road_point([(p[0], p[1]) for p in samples], seats)
             return road_x, road_y, hx, hy
         return None
-
-    def _landing_areas(self, plan: MissionPlan, site: Site) -> list[tuple[float, float]]:
-        if plan.mode is MissionMode.TRACK:
-            seat = site.seat(plan.target or '')
-            assert seat is not None
-            way = samples_along(seat.path, seat.arc_m, 900.0, 60.0)
-            return [(float(p[0]), float(p[1])) for p in way]
-        x, y, _ = last_point(plan)
-        return [(x, y)]
 
 
 def _at_height(points: FloatArray, height_m: float) -> FloatArray:

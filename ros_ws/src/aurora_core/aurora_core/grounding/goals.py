@@ -15,7 +15,7 @@ import shapely
 
 from aurora_core.geometry.frames import heading_to_sumo_angle
 from aurora_core.geometry.kernel import norm2
-from aurora_core.grounding.awaited import awaited_at
+from aurora_core.grounding.awaited import awaited_at, leaving
 from aurora_core.grounding.places import MapPlaces, arrivals, has_point
 from aurora_core.grounding.sites import SeatedAgent, Site
 from aurora_core.knowledge.agent_types import AgentTypeRecord
@@ -52,6 +52,9 @@ _NEARER_M = 0.5
 
 # Sites are so far apart where a place says exactly where a vehicle stands (m).
 _NARROW_M = 2.5
+
+# Who is to get farther than a distance from a place starts within this share of it.
+_NEAR_SHARE = 0.8
 
 # Share of a tolerance inside which a place is aimed at.
 _SAFE = 0.8
@@ -297,6 +300,11 @@ class GoalFinder:
         for trigger in arrivals(spec, agent):
             if has_point(trigger.place):
                 yield _Bound(place=trigger.place, within_m=arrival_m, at_start=False)
+
+        for one in leaving(spec):
+            if one.agent == agent.id:
+                near_m = _NEAR_SHARE * one.beyond_m
+                yield _Bound(place=one.place, within_m=near_m, at_start=True, stated=True)
 
     def _stated(
         self,

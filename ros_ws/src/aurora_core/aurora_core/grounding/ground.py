@@ -25,6 +25,7 @@ from aurora_core.grounding.groups import GroupPlacer
 from aurora_core.grounding.keep_out import kept_out
 from aurora_core.grounding.lane_changers import changes_lane, share_with_another_lane
 from aurora_core.grounding.laps import Laps
+from aurora_core.grounding.leads import leads_m
 from aurora_core.grounding.neighbours import Neighbours
 from aurora_core.grounding.oncoming import OncomingPlacer
 from aurora_core.grounding.pace import (
@@ -36,7 +37,7 @@ from aurora_core.grounding.pace import (
 from aurora_core.grounding.persons import PersonPlacer
 from aurora_core.grounding.places import MapPlaces
 from aurora_core.grounding.planned_flight import PlannedFlight, Rejected, planned_height_m
-from aurora_core.grounding.premises import comes_about, heard, starts_out_of_reach
+from aurora_core.grounding.premises import anchor_arc_m, comes_about, heard, starts_out_of_reach
 from aurora_core.grounding.radio import link_score
 from aurora_core.grounding.realised import realised_values
 from aurora_core.grounding.shown_speed import LOOKED_S, room_for, shows_before
@@ -44,6 +45,7 @@ from aurora_core.grounding.sites import Site, TriedSite, sites, tied_way_m
 from aurora_core.grounding.spots import SpotFinder
 from aurora_core.grounding.time_need import horizon_s
 from aurora_core.grounding.traffic import TrafficPlacer
+from aurora_core.grounding.uav_speeds import within_speeds
 from aurora_core.grounding.unplaced import lacked, on_no_street
 from aurora_core.grounding.wind import mean_wind_mps
 from aurora_core.knowledge.agent_types import AgentTypeRecord
@@ -57,9 +59,7 @@ from aurora_core.outcomes.grounded import AnchorScore, GroundedScenario
 from aurora_core.outcomes.grounding import GroundingFailure
 from aurora_core.outcomes.repair import RepairPlan
 from aurora_core.ports.random_streams import stream
-from aurora_core.spec.flight_order import begun_by
 from aurora_core.spec.scenario import GroundAgent, ScenarioSpec
-from aurora_core.spec.vocabulary import MissionMode
 
 # Clearance that earns the full air score (m above the planned clearance).
 _GOOD_CLEARANCE_M = 15.0
@@ -198,6 +198,7 @@ class Grounder:
             split.groups if ranked else (),
             run_m,
         )
+        leads = leads_m(spec, split, self._types, self._limits, self._settings)
         rejected: Counter[str] = Counter()
         best: _Option | None = None
         scored = 0
@@ -222,7 +223,7 @@ class Grounder:
                 continue
             scored += 1
             road *= 1.0 if comes_about(spec, peopled) else _NEVER
-            option = self._option(spec, peopled, road, planner)
+            option = self._option(spec, peopled, road, planner, leads)
             if isinstance(option, Rejected):
                 rejected[option.reason] += 1
                 tried.append(TriedSite.of(site, why=option.reason))
@@ -361,6 +362,7 @@ class Grounder:
         site: Site,
         road: float,
         planner: FlightPlanner,
+        leads: Mapping[str, float],
     ) -> _Option | Rejected:
         flown_by: dict[str, list[PlannedFlight]] = {}
         uavs: list[UavPlan] = []
@@ -398,11 +400,11 @@ class Grounder:
                 site,
                 taken,
                 lands=not last.ends_in_flight,
-                lead_m=self._lead_m(spec, uav.id),
+                lead_m=leads.get(uav.id, 0.0),
             )
             if isinstance(plan, Rejected):
                 return plan
-            uavs.append(plan)
+            uavs.append(within_speeds(spec, plan, self._limits, self._settings.grounding))
             hovering += columns(spec, uav.id, (f.plan.hover_point for f in own))
             routes += [own[0].plan] if own[0].plan.waypoints else []
         return _Option(
@@ -410,19 +412,6 @@ class Grounder:
             uavs=planner.uncrossed(uavs, site),
             score=self._score(road, flown_by, spec, site),
         )
-
-    def _lead_m(self, spec: ScenarioSpec, uav: str) -> float:
-        """Return how far the target of a UAV has gone that others have tracked before it."""
-        first = next(m for m in spec.missions if m.uav == uav)
-        if first.mode is not MissionMode.TRACK or begun_by(spec, first) is None:
-            return 0.0
-        before = [
-            m.duration_s.value
-            for m in spec.missions
-            if m.target == first.target and m.uav != uav and m.duration_s is not None
-        ]
-        speed = watched_speed_mps(spec, first, self._limits, self._settings.grounding)
-        return speed * sum(before)
 
     def _score(
         self,
@@ -463,8 +452,10 @@ class Grounder:
         homes = [(uav.home_x_m, uav.home_y_m) for uav in uavs]
         draws = stream(seed, 'grounding:traffic')
         agents += traffic.placed(spec, agents, homes, run_m, draws)
-        lane_id, position_m = best.site.origin_path.lane_position_at(best.site.origin_arc_m)
         weather = spec.world.weather.value
+        range_m = self._limits.sensing_range(weather, spec.world.time_of_day.value)
+        arc_m = anchor_arc_m(spec, best.site, range_m)
+        lane_id, position_m = best.site.origin_path.lane_position_at(arc_m)
         wind_mps = mean_wind_mps(spec, agents, uavs, self._limits, self._tolerances, seed)
         unsupported = (*split.unsupported, *missing)
         return GroundedScenario(

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from math import inf
 
 from aurora_core.knowledge.limits import Limits
 from aurora_core.knowledge.settings import GroundingSettings, SpeedSettings
@@ -36,6 +37,9 @@ _OBSERVED_SHARE = 0.5
 _ROOM_M = 15.0
 _GAINS_MPS2 = 1.5
 _DRIVES_S = 3.0
+
+# Below a bound on the speed of a UAV its target is so much slower, to be caught up with (m/s).
+_CAUGHT_UP_MPS = 3.0
 
 # Who does this drives as fast as the one that it does it to.
 PACED = frozenset({BehaviorKind.FOLLOW, BehaviorKind.TAILGATE})
@@ -138,7 +142,28 @@ def convoy_pace_mps(spec: ScenarioSpec, limits: Limits, settings: GroundingSetti
             pace = min(pace, _OBSERVED_SHARE * range_m / mission.duration_s.value)
         if target is not None and _is_taken_over(spec, mission):
             pace = min(pace, settings.speeds.taken_over_mps)
+        if target is not None and mission.mode is MissionMode.TRACK:
+            pace = min(pace, _kept_up_with_mps(spec, mission.uav))
     return pace
+
+
+def _kept_up_with_mps(spec: ScenarioSpec, uav: str) -> float:
+    """Return how fast a target is that a UAV with a stated bound on its speed keeps up with."""
+    bound_mps = least_bound_mps(spec, uav)
+    return inf if bound_mps is None else max(bound_mps - _CAUGHT_UP_MPS, bound_mps / 2.0)
+
+
+def least_bound_mps(spec: ScenarioSpec, body: str) -> float | None:
+    """Return the least number that the speed of a body is to stay below, None for none."""
+    bounds = [
+        one.value.value
+        for one in spec.conditions
+        if one.quantity == QuantityName.SPEED
+        and one.of == (body,)
+        and one.op in ('<=', '<')
+        and one.by_s is None
+    ]
+    return min(bounds, default=None)
 
 
 def _is_taken_over(spec: ScenarioSpec, mission: UavMission) -> bool:

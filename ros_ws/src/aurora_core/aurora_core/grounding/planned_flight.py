@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from aurora_core.grounding.sites import Site
+from aurora_core.grounding.sites import Site, samples_along
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.mission.plan import MissionPlan
 from aurora_core.spec.parameter import Bound
@@ -17,6 +17,10 @@ Point3 = tuple[float, float, float]
 
 # So near to its altitude a UAV gets at the lowest one that is allowed (m).
 _ABOVE_LOWEST_M = 0.25
+
+# After a tracking a UAV may land along so much of the way of its target, every so many metres.
+_LANDS_ON_M = 900.0
+_LANDS_EVERY_M = 60.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -81,3 +85,14 @@ def first_point(plan: MissionPlan, site: Site, lead_m: float = 0.0) -> Point3:
     if plan.hover_point is not None:
         return plan.hover_point
     return plan.waypoints[0]
+
+
+def landing_areas(plan: MissionPlan, site: Site) -> list[tuple[float, float]]:
+    """Return round which points a UAV may land after a mission (x, y in m)."""
+    if plan.mode is MissionMode.TRACK:
+        seat = site.seat(plan.target or '')
+        assert seat is not None
+        way = samples_along(seat.path, seat.arc_m, _LANDS_ON_M, _LANDS_EVERY_M)
+        return [(float(p[0]), float(p[1])) for p in way]
+    x, y, _ = last_point(plan)
+    return [(x, y)]

@@ -12,7 +12,7 @@ import numpy as np
 
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.awaited import awaited_at, is_kept_away, kept_away_m
-from aurora_core.grounding.places import MapPlaces, has_point
+from aurora_core.grounding.places import ROADS, MapPlaces, has_point
 from aurora_core.grounding.sites import SeatedAgent, SeatedPerson, Site, samples_along
 from aurora_core.knowledge.limits import Limits
 from aurora_core.spec.scenario import DistanceTrigger, ScenarioSpec, SendMessage, UavMission
@@ -77,10 +77,29 @@ def middle_of_route(spec: ScenarioSpec, mission: UavMission, site: Site, range_m
         site: Where the vehicles stand.
         range_m: Of sight.
     """
+    return site.origin_path.position_at(_route_arc_m(spec, mission, site, range_m))
+
+
+def anchor_arc_m(spec: ScenarioSpec, site: Site, range_m: float) -> float:
+    """Return where on its way the street is that places of the scene are looked for at (m).
+
+    That is where the scene begins, or where a route over the street is flown.
+
+    Args:
+        spec: The request.
+        site: Where the vehicles stand.
+        range_m: Of sight.
+    """
+    routes = [m for m in spec.missions if m.target in ROADS and is_kept_away(spec, m)]
+    arcs = [_route_arc_m(spec, mission, site, range_m) for mission in routes]
+    return max(arcs, default=site.origin_arc_m)
+
+
+def _route_arc_m(spec: ScenarioSpec, mission: UavMission, site: Site, range_m: float) -> float:
     if not site.seated or not is_kept_away(spec, mission):
-        return site.origin()
+        return site.origin_arc_m
     away_m = site.origin_arc_m + kept_away_m(spec, mission, range_m)
-    return site.origin_path.position_at(min(away_m, site.origin_path.length_m))
+    return min(away_m, site.origin_path.length_m)
 
 
 def heard(spec: ScenarioSpec, site: Site, places: MapPlaces, limits: Limits) -> float:

@@ -7,9 +7,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from aurora_core.grounding.awaited import awaited_at, is_kept_away
+from aurora_core.grounding.awaited import awaited_at, is_kept_away, leaving
 from aurora_core.grounding.convoy import SceneSplit
 from aurora_core.grounding.pace import encounters, moves
+from aurora_core.grounding.watched import asked_to_see
 from aurora_core.outcomes.grounded import ReleaseOn
 from aurora_core.spec.events import bodies_of_cause, sets_off
 from aurora_core.spec.flight_order import begun_by, left_by
@@ -19,12 +20,15 @@ from aurora_core.spec.scenario import (
     AgentAction,
     ArrivalTrigger,
     DistanceTrigger,
+    Event,
     EventDoneTrigger,
     GroundAgent,
     Link,
+    MessageTrigger,
     ScenarioSpec,
     SendMessage,
     TimeTrigger,
+    UavAction,
     UavMission,
 )
 from aurora_core.spec.vocabulary import MissionMode
@@ -207,6 +211,14 @@ def convoy_release(spec: ScenarioSpec, split: SceneSplit) -> Release:
             if left_by(spec, there) == premise.event:
                 return Release(on=ReleaseOn.LAPPED, uav=there.uav, mission=there.id)
         arriving.add(premise.agent)
+    for one in leaving(spec):
+        # Who gets far from a place is near it until the flight that this changes has begun.
+        if one.agent in members and isinstance(one.event.action, UavAction):
+            return _reporter_ready(spec, one.event.action.uav)
+    for uav in spec.uavs:
+        # Who is to be seen for a time does not go before anybody looks.
+        if asked_to_see(spec, uav.id) & set(members):
+            return _reporter_ready(spec, uav.id)
     met = {name for m in encounters(spec) for name in (m.actor, m.other)} | arriving
     # Who is reported by a UAV waits until that is up and can see it.
     flying = {uav.id for uav in spec.uavs}
@@ -298,9 +310,11 @@ def _watched_from(spec: ScenarioSpec, mission: UavMission) -> UavMission | None:
 
 
 def _captured_last(spec: ScenarioSpec, mission: UavMission) -> UavMission:
-    """Return which of the UAVs that begin by watching the same body is ready last.
+    """Return which of the UAVs that wait for the same body is ready last.
 
-    The highest one; nobody has to catch up with a target that another one has set free.
+    Those that begin by watching it, and those whose first mission ends with something that it
+    does: broken off before it has begun, that would not show. The highest one is ready last;
+    nobody has to catch up with a target that another one has set free.
     """
     first = {m.uav: m for m in reversed(spec.missions)}.values()
     if mission not in first:
@@ -308,6 +322,43 @@ def _captured_last(spec: ScenarioSpec, mission: UavMission) -> UavMission:
     sharing = [
         m
         for m in first
-        if m.target == mission.target and m.mode is mission.mode and begun_by(spec, m) is None
+        if begun_by(spec, m) is None
+        and (
+            (m.target == mission.target and m.mode is mission.mode)
+            or (m.mode is MissionMode.HOVER and _is_ended_by(spec, m, mission.target or ''))
+        )
     ]
     return max((mission, *sharing), key=lambda m: m.altitude_m.value)
+
+
+def _is_ended_by(spec: ScenarioSpec, mission: UavMission, body: str) -> bool:
+    """Tell whether a mission ends with what a body does, or with what comes of that."""
+    ends = left_by(spec, mission)
+    causes = {None if ends is None else ends.id} - {None}
+    events = {e.id: e for e in spec.events}
+    while ends is not None:
+        if body in bodies_of_cause(ends):
+            return True
+        before = _cause_of(spec, ends)
+        ends = None if before is None or before in causes else events.get(before)
+        causes.add(before)
+    return False
+
+
+def _cause_of(spec: ScenarioSpec, event: Event) -> str | None:
+    """Return the event that another one waits for: by name, or for its message."""
+    trigger = event.trigger
+    if isinstance(trigger, EventDoneTrigger):
+        return trigger.event
+    if not isinstance(trigger, MessageTrigger):
+        return None
+    return next(
+        (
+            other.id
+            for other in spec.events
+            if isinstance(other.action, SendMessage)
+            and other.action.receiver == trigger.by
+            and trigger.sender in (None, other.action.sender)
+        ),
+        None,
+    )

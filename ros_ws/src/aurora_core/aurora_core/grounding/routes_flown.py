@@ -7,7 +7,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterator
 from dataclasses import replace
-from math import inf, pi, sin
+from math import cos, inf, pi, sin
 
 import shapely
 
@@ -27,10 +27,12 @@ from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.settings import GroundingSettings
 from aurora_core.mission.plan import MissionPlan
 from aurora_core.spec.parameter import Provenance
+from aurora_core.spec.reference import is_landmark
 from aurora_core.spec.scenario import UavMission
 from aurora_core.spec.vocabulary import Pattern
 
 Point3 = tuple[float, float, float]
+Pose = tuple[float, float, float, float]
 
 # Planned share of a leg over a carriageway, beyond what the condition asks.
 SPARE_SHARE = 0.05
@@ -45,6 +47,8 @@ _BEGINNINGS = 12
 # inside its tolerance (m).
 _BESIDE = 24
 _INSIDE_M = 1.0
+# Round a landmark that has no room for a pattern just there, the centre moves by such shares.
+_MOVED = (0.35, 0.7, 1.0)
 # And so far along the street, for those that are to be over it (m).
 _FARTHER_M = tuple(50.0 * k for k in range(1, 13))
 
@@ -88,7 +92,7 @@ class RoutePlanner:
     def plan(
         self,
         mission: UavMission,
-        centre: tuple[float, float, float, float],
+        centre: Pose,
         others: Neighbours = NOBODY,
         *,
         beside: bool = False,
@@ -102,8 +106,12 @@ class RoutePlanner:
             beside: The centre is in a building: an orbit is as wide as it has to be.
         """
         best = self._wide_enough(mission, centre, 0.0, beside=beside)
-        if isinstance(best, Rejected):
-            return best
+        moved = self._moved(centre) if is_landmark(mission.target) else iter(())
+        while isinstance(best, Rejected):
+            middle = next(moved, None)
+            if middle is None:
+                return best
+            best, centre = self._wide_enough(mission, middle, 0.0, beside=beside), middle
         gap_m = others.gap_m(best.plan)
         # Where nothing is far enough, the farthest: how near they come is for the run to show.
         for middle, turned in self._elsewhere(mission, centre, others):
@@ -114,9 +122,18 @@ class RoutePlanner:
                 best, gap_m = found, others.gap_m(found.plan)
         return best
 
+    def _moved(self, centre: Pose) -> Iterator[Pose]:
+        """Yield the centres about a landmark that still count as over it, the nearest first."""
+        x, y, hx, hy = centre
+        most_m = self._tolerances.pattern_centre_m - _INSIDE_M
+        for share in _MOVED:
+            for k in range(_BEGINNINGS):
+                angle, away_m = 2.0 * pi * k / _BEGINNINGS, share * most_m
+                yield x + away_m * cos(angle), y + away_m * sin(angle), hx, hy
+
     def _elsewhere(
-        self, mission: UavMission, centre: tuple[float, float, float, float], others: Neighbours
-    ) -> Iterator[tuple[tuple[float, float, float, float], float]]:
+        self, mission: UavMission, centre: Pose, others: Neighbours
+    ) -> Iterator[tuple[Pose, float]]:
         """Yield other centres of a pattern, and at which share of it its flight begins.
 
         Round something it stays there, so that one begins elsewhere; nowhere in particular it has
@@ -143,7 +160,7 @@ class RoutePlanner:
     def _wide_enough(
         self,
         mission: UavMission,
-        centre: tuple[float, float, float, float],
+        centre: Pose,
         turned: float,
         *,
         beside: bool,
@@ -188,7 +205,7 @@ class RoutePlanner:
         return PlannedFlight(plan=plan, clearance_m=clearance, seen=1.0, over_street=over)
 
     def _around(
-        self, mission: UavMission, centre: tuple[float, float, float, float], turned: float
+        self, mission: UavMission, centre: Pose, turned: float
     ) -> PlannedFlight | Rejected:
         """Plan a pattern round a point, begun at a share of it."""
         assert mission.pattern is not None

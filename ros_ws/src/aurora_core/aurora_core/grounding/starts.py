@@ -14,6 +14,7 @@ import numpy as np
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.grounding.beside import side_first
+from aurora_core.grounding.crossings import way_over
 from aurora_core.grounding.spots import Point2, SpotFinder
 from aurora_core.mission.plan import UavPlan
 
@@ -21,6 +22,8 @@ Point3 = tuple[float, float, float]
 
 # A start at a distance is looked for in so many directions, on so many spots in each.
 _DIRECTIONS, _SPOTS = 12, 3
+# And so many near where it flies first.
+_SPOTS_LOOKED_AT = 6
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -61,7 +64,9 @@ class Starts:
         if way_m:
             spots = self._around((x, y), way_m + self.apart_m)
         else:
-            spots = self.spots.near(x, y, (6 + 20 * len(taken)) * (4 if self.wide else 1))
+            spots = self.spots.near(
+                x, y, (_SPOTS_LOOKED_AT + 20 * len(taken)) * (4 if self.wide else 1)
+            )
         if beside is not None:
             spots = side_first(spots, beside, (x, y))
         for spot in spots:
@@ -70,6 +75,33 @@ class Starts:
             way = ((*spot, z), first)
             if apart and away_m >= way_m and self.airspace.way_is_free(way, self.clearance_m):
                 return spot
+        return None
+
+    def lead_to(self, point: Point3) -> bool:
+        """Tell whether a level way leads from a free spot to a point (x, y, z in m)."""
+        x, y, z = point
+        return any(
+            self.airspace.way_is_free(((*spot, z), point), self.clearance_m)
+            for spot in self.spots.near(x, y, _SPOTS_LOOKED_AT)
+        )
+
+    def over(
+        self, first: Point3, taken: Sequence[Point2], top_m: float
+    ) -> tuple[Point2, float] | None:
+        """Return a spot, and how high the way from it has to be to come to a point from above.
+
+        Args:
+            first: Where the UAV flies first (x, y, z in m).
+            taken: Starts of others.
+            top_m: No way is higher.
+        """
+        x, y, _ = first
+        for spot in self.spots.near(x, y, _SPOTS_LOOKED_AT + 20 * len(taken)):
+            apart = all(norm2(spot[0] - a, spot[1] - b) >= self.apart_m for a, b in taken)
+            low = (*spot, first[2])
+            up_m = way_over(self.airspace, [low], first, self.clearance_m, top_m)
+            if apart and up_m is not None:
+                return spot, up_m
         return None
 
     def _around(self, centre: Point2, away_m: float) -> tuple[Point2, ...]:

@@ -69,6 +69,7 @@ class UavPlan(Document):
         lands: After its missions; else it holds where the last one ended.
         lands_after: Events that have to be over before it lands.
         returns: It lands where it started, and nowhere else.
+        speed_max_mps: So fast it flies at most (horizontally); None: as fast as any.
     """
 
     id: str
@@ -82,3 +83,4 @@ class UavPlan(Document):
     lands: bool = omitted(True)
     lands_after: tuple[str, ...] = omitted(())
     returns: bool = omitted(False)
+    speed_max_mps: FiniteFloat | None = omitted(None)

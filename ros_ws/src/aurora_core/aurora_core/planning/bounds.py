@@ -35,6 +35,8 @@ _SPEED_ROOM_MPS = 1.0
 # Who is on a side of a target is so far from it, and no nearer than that (m).
 _SIDE_M = 20.0
 _SIDE_LEAST_M = 10.0
+# Who is to be seen for a time is looked at for so many times that.
+_SEEN_AT_TIMES = 3.0
 # A trigger has to be passed, not touched (m).
 _PAST_M = 1.0
 # Share of a greatest distance in space that is altitude where both are free.
@@ -65,7 +67,7 @@ def bent(spec: ScenarioSpec, limits: Limits) -> ScenarioSpec:
         limits: Limits in force.
     """
     missions = tuple(
-        _at_speed(spec, _standing_off(spec, _at_altitude(spec, m, limits), limits))
+        _lasting(spec, _at_speed(spec, _standing_off(spec, _at_altitude(spec, m, limits), limits)))
         for m in spec.missions
     )
     agents = tuple(_placed(spec, agent) for agent in spec.agents)
@@ -150,6 +152,25 @@ def _at_speed(spec: ScenarioSpec, mission: UavMission) -> UavMission:
     bounds = stated_range(spec, (QuantityName.SPEED,), {mission.uav})
     value = min(max(bounds.near(speed.value, _SPEED_ROOM_MPS), speed.low), speed.high)
     return mission.model_copy(update={'speed_mps': _moved(speed, value, bounds)})
+
+
+def _lasting(spec: ScenarioSpec, mission: UavMission) -> UavMission:
+    """Return a mission that goes on long enough for somebody to be seen for a stated time."""
+    duration = mission.duration_s
+    if duration is None or duration.provenance is not Provenance.DEFAULT:
+        return mission
+    seen_s = [
+        one.value.value
+        for one in spec.conditions
+        if one.quantity == QuantityName.VISIBLE_TIME
+        and one.op in ('>=', '>')
+        and one.of[:1] == (mission.uav,)
+    ]
+    need_s = _SEEN_AT_TIMES * max(seen_s, default=0.0)
+    if need_s <= duration.value:
+        return mission
+    value = min(need_s, max(duration.value, duration.high))
+    return mission.model_copy(update={'duration_s': duration.model_copy(update={'value': value})})
 
 
 def stated_range(spec: ScenarioSpec, quantities: Iterable[str], of: set[str]) -> Range:

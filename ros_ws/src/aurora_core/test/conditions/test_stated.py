@@ -115,7 +115,8 @@ def test_a_stretch_and_a_deadline_are_in_the_sentence(tb: ModuleType) -> None:
 @pytest.mark.parametrize(
     ('quantity', 'op', 'value', 'what'),
     [
-        ('delivered', '==', 0.0, 'delivered == 0'),
+        ('delivered', '==', 0.0, ''),
+        ('delivered', '==', 0.5, 'delivered == 0.5'),
         ('delivery_latency', '>=', 1.0, 'delivery_latency >='),
         ('delivery_ratio', '>=', 0.5, ''),
     ],
@@ -127,6 +128,35 @@ def test_what_a_link_can_be_asked(
     derivation = _derive(tb, tb.tailgate_case(), quantity, pair, op=op, value=number)
     assert [u.what for u in derivation.underivable] == ([what] if what else [])
     assert len(_stated(derivation)) == (0 if what else 1)
+
+
+def test_of_what_is_not_to_arrive_no_arrival_is_asked(tb: ModuleType) -> None:
+    pair, case = ('uav1', 'ego'), tb.tailgate_case()
+    none, all_ = (tb.number(value, STATED_QUANTITIES['delivered']) for value in (0.0, 1.0))
+    asked = {c.id for c in _derive(tb, case, 'delivered', pair, op='==', value=none).conditions}
+    assert {i for i in asked if i.endswith('.delivered')} == set()
+    (event,) = case.spec.events
+    said = _derive(tb, tb.tailgate_case(), 'delivered', pair, op='==', value=all_)
+    assert f'{event.id}.delivered' in {c.id for c in said.conditions}
+
+
+def test_a_latency_to_several_is_asked_of_each_link(tb: ModuleType) -> None:
+    case = tb.tailgate_case()
+    (link,) = case.spec.links
+    links = (dict(link), dict(link) | {'id': 'l2', 'receiver': 'bus1'})
+    (event,) = case.spec.events
+    told = dict(event) | {
+        'id': 'e9',
+        'action': {'do': 'send_message', 'sender': 'uav1', 'receiver': 'bus1'},
+    }
+    agents = (*case.spec.agents, {'id': 'bus1', 'type': 'bus'})
+    changed = {'links': links, 'events': (event, told), 'agents': agents}
+    case.spec = tb.spec(**{**dict(case.spec), **changed})
+    made = _stated(_derive(tb, case, 'delivery_latency', ('uav1', 'ego', 'bus1')))
+    assert [(c.id, c.of) for c in made] == [
+        ('c1.holds.ego', ('uav1', 'ego')),
+        ('c1.holds.bus1', ('uav1', 'bus1')),
+    ]
 
 
 def test_a_share_that_is_asked_exactly_has_no_tolerance(tb: ModuleType) -> None:

@@ -90,3 +90,33 @@ def test_who_has_a_stated_speed_slows_down_once_it_has_shown(
     _drive(scene, 12.0, 10.0, 40)
     ((_, _, _, value),) = _slowed(scene)
     assert value == pytest.approx(2.0)
+
+
+def _outruns(make: Make, value_mps: float = 20.0) -> Event:
+    values = {'on': 'speed_above', 'who': 'van1', 'value_mps': make(value_mps, 'm/s')}
+    trigger = SpeedTrigger.model_validate(values)
+    return Event(id='e1', trigger=trigger, action=AgentAction(do='start', agent='ego'))
+
+
+def test_who_was_as_fast_as_is_waited_for_lets_its_uav_catch_up(
+    stage: Build, parameter: Make
+) -> None:
+    scene = stage(events=(_outruns(parameter),))
+    _drive(scene, 19.0, 0.0, 40)
+    assert _slowed(scene) == []
+    _drive(scene, 20.5, 0.0, 40)
+    ((tick, _, _, value),) = _slowed(scene)
+    assert 40 < tick < 60
+    assert value == pytest.approx(0.75 * 18.0)
+
+
+@pytest.mark.parametrize('why', ['it is slow enough', 'its speed is stated', 'nobody tracks it'])
+def test_who_is_not_outrun_keeps_its_speed(stage: Build, parameter: Make, why: str) -> None:
+    fast = Behavior(kind=BehaviorKind.DRIVE, speed_mps=parameter(20.5, 'm/s'))
+    scene = stage(
+        events=(_outruns(parameter, 12.0 if why == 'it is slow enough' else 20.0),),
+        behaviors={'van1': (fast,)} if why == 'its speed is stated' else {},
+        **({'tracks': {}} if why == 'nobody tracks it' else {}),
+    )
+    _drive(scene, 20.5, 0.0, 80)
+    assert _slowed(scene) == []

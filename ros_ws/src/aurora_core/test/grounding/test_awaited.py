@@ -71,3 +71,18 @@ def test_a_person_who_is_to_be_seen_is_there(
     person = _agent(ground(read_prompt(prompt, 'downtown'), 'downtown'), 'pedestrian')
     point = MapPlaces(map_of('downtown')).point(SCHOOL, (0.0, 0.0))
     assert dist((person.x_m, person.y_m), point) <= 50.0
+
+
+def test_who_is_to_get_far_from_a_place_is_near_it_until_the_uav_hovers(
+    read_prompt: Read, ground: Ground, map_of: Maps
+) -> None:
+    prompt = (
+        'A drone hovers over Harbor Market at 50 m. When the van is more than 100 m away from '
+        'Harbor Market, the drone lands.'
+    )
+    found = ground(read_prompt(prompt, 'downtown'), 'downtown')
+    van = _agent(found, 'van')
+    market = MapPlaces(map_of('downtown')).itself('landmark:Harbor Market', (0.0, 0.0))
+    assert dist((van.x_m, van.y_m), market) < 100.0
+    assert dist(van.route_xy_m[-1], market) > 100.0
+    assert van.release is ReleaseOn.CAPTURED

@@ -59,8 +59,8 @@ def _one(loss: float, *, passes: bool) -> Case:
     return case
 
 
-def _said(case: Case, quantity: str, op: str, value: float) -> Case:
-    return stated(case, quantity, LINK, op, value)
+def _said(case: Case, quantity: str, op: str, value: float, **more: float) -> Case:
+    return stated(case, quantity, LINK, op, value, **more)
 
 
 def _never() -> Case:
@@ -138,6 +138,49 @@ LINKS = (
         reason=NEVER,
         what='all',
     ),
+    # It arrives 0.1 s after it is sent, at 32.25 s.
+    Row(
+        id='c1.deadline',
+        make=lambda: _said(tailgate_case(), 'delivered', '==', 1.0, by_s=40.0),
+        margin=40.0 - 32.35,
+        what='delivered',
+    ),
+    Row(
+        id='c1.deadline',
+        make=lambda: _said(tailgate_case(), 'delivered', '==', 1.0, by_s=32.3),
+        margin=32.3 - 32.35,
+        what='delivered',
+    ),
+    Row(
+        id='c1.deadline',
+        make=lambda: _said(tailgate_case(lost=9), 'delivered', '==', 1.0, by_s=40.0),
+        margin=40.0 - END_S,
+        what='given-up',
+    ),
+    Row(
+        id='c1.deadline',
+        make=lambda: _said(_never(), 'delivered', '==', 1.0, by_s=40.0),
+        reason=NEVER,
+        what='delivered',
+    ),
+    Row(
+        id='c1.holds',
+        make=lambda: _said(tailgate_case(lost=9), 'delivered', '==', 0.0),
+        margin=0.0,
+        what='kept',
+    ),
+    Row(
+        id='c1.holds',
+        make=lambda: _said(tailgate_case(), 'delivered', '==', 0.0),
+        margin=-1.0,
+        what='kept',
+    ),
+    Row(
+        id='c1.holds',
+        make=lambda: _said(_never(), 'delivered', '==', 0.0),
+        reason=NEVER,
+        what='kept',
+    ),
     # Three attempts are lost, 0.2 s apart; the fourth one takes 0.1 s.
     Row(
         id='c1.holds',
@@ -198,6 +241,19 @@ FLIGHTS = (
         id='c1.holds',
         make=lambda: _flight(grounded(survey_case()), 'waypoints_visited', 4.0),
         reason=EMPTY,
+    ),
+    # All four are behind it after a minute, three of them after half of that.
+    Row(
+        id='c1.holds',
+        make=lambda: _flight(survey_case(), 'waypoints_visited', 4.0, by_s=60.0),
+        margin=0.0,
+        what='in time',
+    ),
+    Row(
+        id='c1.holds',
+        make=lambda: _flight(survey_case(), 'waypoints_visited', 4.0, by_s=30.0),
+        margin=3.0 - 4.0,
+        what='late',
     ),
     # 36.75 s, see test_kinds_missions.py; 30 s less 2 % are asked.
     Row(

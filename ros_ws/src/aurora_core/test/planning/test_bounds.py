@@ -154,3 +154,23 @@ def test_a_speed_that_nobody_states_is_inside_its_bounds(
     (mission,) = bent(spec, LIMITS).missions
     assert mission.speed_mps is not None
     assert low <= mission.speed_mps.value <= high
+
+
+@pytest.mark.parametrize(('seen_s', 'lasts_s'), [(8.0, 30.0), (20.0, 60.0), (50.0, 120.0)])
+def test_a_duration_that_nobody_states_has_room_for_a_time_of_sight(
+    parameter: Make, seen_s: float, lasts_s: float
+) -> None:
+    asked = {
+        'quantity': 'visible_time',
+        'of': ('uav1', 'van1'),
+        'op': '>=',
+        'value': parameter(seen_s, 's'),
+    }
+    spec = _spec(parameter, asked)
+    (mission,) = spec.missions
+    free = parameter(30.0, 's', explicit=False).model_copy(update={'low': 10.0, 'high': 120.0})
+    open_ = mission.model_copy(update={'duration_s': free})
+    (made,) = bent(spec.model_copy(update={'missions': (open_,)}), LIMITS).missions
+    assert made.duration_s.value == lasts_s
+    (said,) = bent(spec, LIMITS).missions
+    assert said.duration_s.value == 30.0

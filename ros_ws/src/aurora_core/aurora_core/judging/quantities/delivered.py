@@ -6,9 +6,11 @@ from __future__ import annotations
 
 from typing import Literal
 
+import numpy as np
+
 from aurora_core.judging.build import Inputs, Source, Target, condition
 from aurora_core.judging.delivery import delivery_times
-from aurora_core.judging.evaluation import Context, Evaluation, Missing
+from aurora_core.judging.evaluation import Context, Evaluation, Measured, Missing, at_tick
 from aurora_core.judging.messages import messages_of_event, messages_of_link
 from aurora_core.judging.quantity import OfEvent, OfLink
 from aurora_core.outcomes.condition import Condition
@@ -29,6 +31,57 @@ class Delivered(OfLink):
         if isinstance(sent, Missing):
             return sent
         return delivery_times(context, condition, sent, self.link)
+
+
+class DeliveredAt(OfLink):
+    """When every message of a link arrived, seconds from scenario start."""
+
+    name = QuantityName.DELIVERED
+    kind: Literal['delivered_at'] = 'delivered_at'
+
+    def measure(self, context: Context, condition: Condition) -> Evaluation:
+        """Return one time per message: one that has not arrived will not have by the deadline."""
+        sent = messages_of_link(context, condition, self.link)
+        if isinstance(sent, Missing):
+            return sent
+        end = context.view.ticks
+        never_s = max(context.time_s(end), condition.threshold + context.view.dt_s)
+        ticks, values = [], []
+        for message in sent:
+            arrived = message.delivered_tick
+            there = arrived is not None and arrived < end
+            ticks.append(arrived if arrived is not None and there else message.sent_tick)
+            values.append(context.time_s(arrived) if arrived is not None and there else never_s)
+        worst = int(np.argmax(values))
+        arrived = sent[worst].delivered_tick
+        told = 'never' if arrived is None or arrived >= end else f'at {values[worst]:.2f} s'
+        return Measured(
+            ticks=np.array(ticks, dtype=np.intp),
+            values=np.array(values),
+            story=f'the last message reached {condition.of[-1]} {told}',
+            place_of=condition.of[-1],
+            evidence=('comm',),
+            provisional=True,
+        )
+
+
+class NeverDelivered(OfLink):
+    """How many messages of a link arrive, where none of those that are sent may."""
+
+    name = QuantityName.DELIVERED
+    kind: Literal['never_delivered'] = 'never_delivered'
+
+    def measure(self, context: Context, condition: Condition) -> Evaluation:
+        """Return the number; where nothing was sent nothing was kept from arriving."""
+        sent = messages_of_link(context, condition, self.link)
+        if isinstance(sent, Missing):
+            return sent
+        end = context.view.ticks
+        arrived = [m for m in sent if m.delivered_tick is not None and m.delivered_tick < end]
+        story = f'{len(arrived)} of {len(sent)} messages reached {condition.of[-1]}'
+        tick = sent[-1].sent_tick if not arrived else arrived[0].delivered_tick
+        assert tick is not None
+        return at_tick(tick, float(len(arrived)), story, ('comm',), provisional=True)
 
 
 class MessageDelivered(OfEvent):

@@ -98,13 +98,18 @@ def _turn(side: Literal['left', 'right']) -> _Row:
     )
 
 
+def _braking_mps2(tolerances: Tolerances) -> float:
+    """Return what may count as braking, a realised value, and is therefore not to be."""
+    return tolerances.brake_mps2 * (1.0 - tolerances.limit_margin)
+
+
 # By the names of behaviours, which are those of the actions, too.
 _DEEDS: Mapping[str, _Row] = MappingProxyType(
     {
         BehaviorKind.BRAKE.value: _Row(
-            says=lambda a, _, t: f'{a} never brakes with {number(t.brake_mps2)} m/s^2 or more',
+            says=lambda a, _, t: f'{a} never brakes with {number(_braking_mps2(t))} m/s^2 or more',
             deed=lambda inputs: GreatestDeceleration(**inputs.common),
-            most=lambda t: t.brake_mps2,
+            most=_braking_mps2,
             unit='m/s^2',
         ),
         BehaviorKind.CHANGE_LANE.value: _Row(

@@ -4,10 +4,13 @@
 
 from __future__ import annotations
 
+from math import inf
 from typing import Literal
 
 import numpy as np
+from pydantic import FiniteFloat
 
+from aurora_core.document import omitted
 from aurora_core.judging.build import (
     Inputs,
     Source,
@@ -79,10 +82,15 @@ class WaypointDistance(OfMission):
 
 
 class WaypointsVisited(OfMission):
-    """Number of waypoints visited in order."""
+    """Number of waypoints visited in order.
+
+    Attributes:
+        by_s: Only those count that were by then, seconds from scenario start; None: all.
+    """
 
     name = QuantityName.WAYPOINTS_VISITED
     kind: Literal['waypoints_visited'] = 'waypoints_visited'
+    by_s: FiniteFloat | None = omitted(None)
 
     def measure(self, context: Context, condition: Condition) -> Evaluation:
         """Return how many; a closing point is the first one again, not another waypoint."""
@@ -91,10 +99,13 @@ class WaypointsVisited(OfMission):
             return missing
         flown = route_flown(context, condition, self.mission)
         points = self.mission.waypoints
-        again = points[0] == points[-1] and flown[-1].tick is not None
-        passed = sum(passage.tick is not None for passage in flown)
-        count = float(passed - 1 if again else passed)
+        by_s = inf if self.by_s is None else self.by_s
+        counted = [p.tick is not None and context.time_s(p.tick) <= by_s for p in flown]
+        again = points[0] == points[-1] and counted[-1]
+        count = float(sum(counted) - 1 if again else sum(counted))
         story, topics = _visits(self.mission, flown), route_topics(condition)
+        if self.by_s is not None:
+            story += f', {sum(counted)} of them by {number(self.by_s)} s'
         return at_tick(flown[-1].nearest_tick, count, story, topics, later=Later.RISES)
 
 

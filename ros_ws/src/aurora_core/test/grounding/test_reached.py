@@ -1,0 +1,148 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Flights that are asked for where the plain plan has no room: from above, beside, in time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from itertools import pairwise
+from math import dist
+
+import numpy as np
+import pytest
+
+from aurora_core.geometry.polyline import Polyline
+from aurora_core.grounding.airspace import Airspace
+from aurora_core.grounding.places import MapPlaces, place_positions
+from aurora_core.knowledge.limits import Limits, Tolerances
+from aurora_core.knowledge.map_model import MapModel
+from aurora_core.outcomes.grounded import GroundedScenario, ReleaseOn
+from aurora_core.spec.scenario import ScenarioSpec
+
+Read = Callable[..., ScenarioSpec]
+Ground = Callable[..., GroundedScenario]
+Maps = Callable[[str], MapModel]
+
+
+@pytest.fixture
+def air(map_of: Maps) -> Airspace:
+    model = map_of('downtown')
+    return Airspace(model.buildings, model.zones)
+
+
+def test_a_low_hover_inside_a_stadium_is_come_to_from_above(
+    read_prompt: Read, ground: Ground, air: Airspace, limits: Limits
+) -> None:
+    spec = read_prompt('A drone hovers over Eastgate Stadium at 15 m for 20 s.', 'downtown')
+    (uav,) = ground(spec, 'downtown').uavs
+    (mission,) = uav.missions
+    assert mission.hover_point is not None
+    assert mission.altitude_m == 15.0
+    x, y, z = mission.hover_point
+    assert air.way_clearance_m(((uav.home_x_m, uav.home_y_m, z), (x, y, z))) <= 0.0
+    over_m = mission.over_m
+    assert over_m is not None
+    way = ((uav.home_x_m, uav.home_y_m, z), (uav.home_x_m, uav.home_y_m, over_m))
+    assert air.way_clearance_m((*way, (x, y, over_m), (x, y, z))) >= limits.clearance_min_m
+
+
+def test_an_orbit_that_grazes_a_roof_goes_round_a_centre_beside_the_landmark(
+    read_prompt: Read, ground: Ground, air: Airspace, map_of: Maps, tolerances: Tolerances
+) -> None:
+    prompt = 'A drone orbits City Hall with a radius of 40 m at 70 m altitude.'
+    (uav,) = ground(read_prompt(prompt, 'downtown'), 'downtown').uavs
+    (mission,) = uav.missions
+    hall = MapPlaces(map_of('downtown')).itself('landmark:City Hall', (0.0, 0.0))
+    ring = mission.waypoints[:-1]
+    centre = (sum(p[0] for p in ring) / len(ring), sum(p[1] for p in ring) / len(ring))
+    assert 0.0 < dist(centre, hall) <= tolerances.pattern_centre_m
+    assert [dist(p[:2], centre) for p in ring] == pytest.approx([40.0] * len(ring))
+    assert air.way_clearance_m(mission.waypoints) >= 5.0
+
+
+@pytest.mark.parametrize(
+    ('ends', 'range_m'),
+    [('As soon as it sees an ambulance', 250.0), ('When an ambulance is within 60 m of it', 60.0)],
+)
+def test_who_ends_a_patrol_of_the_street_is_out_of_reach_until_one_lap_is_flown(
+    ends: str, range_m: float, read_prompt: Read, ground: Ground, map_of: Maps
+) -> None:
+    prompt = f'A drone patrols a 200 m line along the main road at 30 m. {ends}, it tracks it.'
+    spec = read_prompt(prompt, 'downtown')
+    found = ground(spec, 'downtown')
+    (ambulance,) = found.agents
+    line = found.uavs[0].missions[0].waypoints
+    assert sum(dist(a, b) for a, b in pairwise(line)) == pytest.approx(200.0)
+    assert min(dist((ambulance.x_m, ambulance.y_m, 0.0), p) for p in line) > range_m
+    assert ambulance.release is ReleaseOn.LAPPED
+    # Its way leads there, and the road that is meant is there as well.
+    middle = ((line[0][0] + line[1][0]) / 2.0, (line[0][1] + line[1][1]) / 2.0)
+    way = Polyline(ambulance.route_xy_m)
+    assert dist(way.at(way.project(*middle)[0])[:2], middle) < 10.0
+    assert dist(place_positions(spec, map_of('downtown'), found)['main_road'], middle) < 10.0
+
+
+def test_a_body_whose_deed_ends_the_hover_of_another_uav_waits_for_both(
+    read_prompt: Read, ground: Ground
+) -> None:
+    prompt = (
+        'Drone 1 hovers over Mercy Hospital at 60 m. Drone 2 tracks an ambulance at 40 m. When '
+        'the ambulance arrives at Mercy Hospital, drone 2 sends a message to drone 1. When drone '
+        '1 receives the message, it lands.'
+    )
+    found = ground(read_prompt(prompt, 'downtown'), 'downtown')
+    (ambulance,) = found.agents
+    highest = max(found.uavs, key=lambda uav: uav.missions[0].altitude_m)
+    assert ambulance.release is ReleaseOn.CAPTURED
+    assert ambulance.release_uav == highest.id
+    assert ambulance.release_mission == highest.missions[0].id
+
+
+def test_who_is_to_be_seen_for_a_time_waits_until_somebody_looks(
+    read_prompt: Read, ground: Ground
+) -> None:
+    prompt = 'A drone hovers over Harbor Market at 60 m. A motorcycle circulates near the market.'
+    asked = ' The drone sees the motorcycle for at least 10 s.'
+    releases = []
+    for more in ('', asked):
+        spec = read_prompt(prompt + more, 'downtown')
+        assert len(spec.conditions) == (1 if more else 0)
+        releases.append(ground(spec, 'downtown').agents[0].release)
+    assert releases == [ReleaseOn.START, ReleaseOn.CAPTURED]
+
+
+@pytest.mark.parametrize('agent', ['cyclist', 'truck'])
+def test_who_is_to_get_out_of_sight_does_so_early_on_its_way(
+    agent: str, read_prompt: Read, ground: Ground, air: Airspace
+) -> None:
+    prompt = (
+        f'A drone tracks a {agent} at 35 m altitude for 90 s. When it loses sight of the {agent}, '
+        'it climbs to 60 m.'
+    )
+    found = ground(read_prompt(prompt, 'downtown'), 'downtown')
+    (body,) = found.agents
+    offset = found.uavs[0].missions[0].offset_m
+    way = Polyline(body.route_xy_m)
+    # A cyclist comes no farther than some 250 m in the first half of that time.
+    seen = []
+    for k in range(50 if agent == 'cyclist' else 120):
+        x, y = way.at(5.0 * k)[:2]
+        here = np.array([[x + offset[0], y + offset[1], 35.0]])
+        seen.append(bool(air.seen(here, np.array([[x, y, 1.0]]), 250.0)[0]))
+    assert seen[0]
+    assert not all(seen)
+
+
+def test_a_uav_starts_ahead_of_a_target_that_cannot_wait_for_it(
+    read_prompt: Read, ground: Ground
+) -> None:
+    ahead_m = []
+    for when in ('', ' At 20 s the truck brakes.'):
+        prompt = f'A truck drives at 10 m/s. A drone tracks the truck at 40 m altitude.{when}'
+        found = ground(read_prompt(prompt, 'downtown'), 'downtown')
+        (truck,) = found.agents
+        (uav,) = found.uavs
+        way = Polyline(truck.route_xy_m)
+        ahead_m.append(way.project(uav.home_x_m, uav.home_y_m)[0])
+    # It is up after some 11 s: 10 m/s less what it takes to get there.
+    assert ahead_m[0] < 60.0 < ahead_m[1] < 140.0
