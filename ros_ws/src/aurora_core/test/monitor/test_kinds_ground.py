@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -281,7 +282,7 @@ BEHAVIOURS = (
     *(
         Row(
             id='car1.drive.speed',
-            make=lambda kind=kind: _up_to(kind, _then(10.0, 0.0, 108)),
+            make=partial(_up_to, kind, _then(10.0, 0.0, 108)),
             margin=1.0 - 0.8,
             what=f'up to one who is to {kind.value}',
         )
