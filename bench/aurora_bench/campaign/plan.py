@@ -83,7 +83,7 @@ class Plan(Document):
         first: Of each file the first prompts, None: all.
         configurations: In the order of the tables.
         readers: In the order of the tables.
-        seeds: Each prompt with each of them.
+        seeds: Each prompt with each of them; more may be asked for later.
         map: Of all runs.
         repair: Co-simulations that repair may spend where it is on.
         limit_s: Wall seconds of one run.
@@ -171,7 +171,10 @@ def files_of(plan: Plan) -> tuple[PromptFile, ...]:
 
 
 def tasks_of(plan: Plan, files: Sequence[PromptFile]) -> tuple[Task, ...]:
-    """Return every run: prompt by prompt, so that what is compared runs side by side."""
+    """Return every run: seed by seed, so that a whole table of the first one is there soonest.
+
+    Within a seed prompt by prompt: what is compared runs side by side.
+    """
     return tuple(
         Task(
             key=f'{trial.key}:{reader.name}:{configuration.value}',
@@ -186,13 +189,14 @@ def tasks_of(plan: Plan, files: Sequence[PromptFile]) -> tuple[Task, ...]:
 
 
 def _trials(plan: Plan, files: Sequence[PromptFile]) -> Iterator[Trial]:
-    for file in files:
-        pairs = [
-            (p, d)
-            for p, d in zip(file.prompts, file.documents, strict=True)
-            if p.end_to_end or not plan.end_to_end
-        ]
-        yield from trials_of(file, pairs[: plan.first], plan.seeds, file.sha256[:8])
+    for seed in plan.seeds:
+        for file in files:
+            pairs = [
+                (p, d)
+                for p, d in zip(file.prompts, file.documents, strict=True)
+                if p.end_to_end or not plan.end_to_end
+            ]
+            yield from trials_of(file, pairs[: plan.first], (seed,), file.sha256[:8])
 
 
 def _paths(name: str) -> Iterator[Path]:

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from aurora_bench.campaign.episode import EpisodeStages
 from aurora_bench.campaign.plan import Plan, Task
 from aurora_bench.campaign.record import CampaignRun, Ending, Tried, identity
 from aurora_bench.fidelity.answer import Answer
@@ -77,6 +78,10 @@ class _Watched(OutcomeWork):
     facts: dict[str, Any] = field(default_factory=dict)
     _ran: Ran | None = None
 
+    def stages(self) -> EpisodeStages:
+        """Return an engine that remembers every realisation."""
+        return EpisodeStages(self.without)
+
     def ran(self, request: RunRequest, place: Path, stages: Any) -> Ran:
         """Run, and remember the run."""
         self._ran = super().ran(request, place, stages)
@@ -87,6 +92,10 @@ class _Watched(OutcomeWork):
         judged = super().judge(trial, place)
         assert self._ran is not None  # `judge` runs it
         self.facts = facts_of(self._ran, trial.prompt)
+        engine, trace = self._ran.stages, self._ran.report.trace
+        if isinstance(engine, EpisodeStages):
+            self._seconds.update({f'again {k}': s for k, s in engine.again_s.items()})
+            self.facts['measured'] = None if trace is None else engine.measured.get(trace.bag)
         passed = self.facts['final'] is VerdictStatus.VERIFIED
         if passed and not judged.said and trial.prompt.feasibility != 'infeasible':
             self.facts['said'] = self._asked(self._ran, trial.document)

@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from statistics import fmean, median
 
+from aurora_bench.campaign.executed import coordination_table, episode_table, mission_table
 from aurora_bench.campaign.metrics import (
     METRICS,
     anchors_by_outcome,
@@ -47,6 +48,7 @@ def all_tables(runs: Runs) -> Mapping[str, Table]:
     """Return every table by the name of its file."""
     tables = {
         'performance': performance_table(runs),
+        'beside': beside_table(runs),
         'paper': paper_table(),
         'paired': paired_table(runs),
         'checked': checked_table(runs),
@@ -56,7 +58,10 @@ def all_tables(runs: Runs) -> Mapping[str, Table]:
         'placement': placement_table(runs),
         'anchors': anchor_table(runs),
         'margins': margin_table(runs),
+        'coordination': coordination_table(runs),
+        'missions': mission_table(runs),
         'cost': cost_table(runs),
+        'episodes': episode_table(runs),
     }
     if len({r.seed for r in runs}) > 1:
         tables['seeds'] = seed_table(runs)
@@ -85,6 +90,34 @@ def performance_table(runs: Runs) -> Table:
         caption=f'End-to-end performance, shares with 95 % Wilson intervals ({words}; Fid: '
         'annotated requirements that the specification holds)',
     )  # fmt: skip
+
+
+def beside_table(runs: Runs) -> Table:
+    """Return ours beside the least and the greatest of the paper's models."""
+    of = {m.name: m.of for m in METRICS}
+    rows: list[Sequence[Cell]] = []
+    for (reader, configuration), part in groups(runs).items():
+        ours = [share(part, of[name]).value for name in ('C', 'RF', 'P', 'SF')]
+        ours.append(fidelity(part).value)
+        theirs = zip(*TABLE[configuration.value], strict=True)
+        pairs = zip(ours, theirs, strict=True)
+        cells = (cell for one, column in pairs for cell in (f'{one:.3f}', _span(column)))
+        rows.append((reader, configuration.value, *cells))
+    names = ('C', 'RF', 'P', 'SF', 'Fid')
+    return Table(
+        headings=('reader', 'configuration', *(h for n in names for h in (n, f'paper {n}'))),
+        rows=rows,
+        caption="Ours, and the least and the greatest of the paper's five models (the simulators "
+        'differ)',
+    )
+
+
+def _span(values: Sequence[float | None]) -> str:
+    known = [v for v in values if v is not None]
+    if not known:
+        return '–'
+    least, most = min(known), max(known)
+    return f'{least:.3f}' if least == most else f'{least:.3f}..{most:.3f}'
 
 
 def paper_table() -> Table:

@@ -120,6 +120,19 @@ def test_the_parquet_file_holds_every_run(tmp_path: Path) -> None:
     assert rows == [('AURORA', 10, 8, 1.1), ('B4', 10, 8, 1.1), ('B5', 10, 8, 1.1)]
 
 
+def test_more_seeds_go_on_with_what_is_there(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The table is the one of a campaign that had all seeds from the beginning."""
+    assert run(plan_file(tmp_path / 'in', more=f'{ONE}seeds: [1]\n'), tmp_path / 'out') == 0
+    more = plan_file(tmp_path / 'in', more=f'{ONE}seeds: [1, 2, 3]\n')
+    capsys.readouterr()
+    assert run(more, tmp_path / 'out') == 0
+    assert capsys.readouterr().err.count('from the journal') == len(PROMPTS)
+    assert run(more, tmp_path / 'whole') == 0
+    assert table(tmp_path / 'out') == table(tmp_path / 'whole')
+
+
 def test_another_campaign_is_not_mixed_in(tmp_path: Path) -> None:
     assert run(plan_file(tmp_path / 'in'), tmp_path / 'out') == 0
     other = plan_file(tmp_path / 'in', more=f'{ONE}repair: 3\n')
