@@ -9,7 +9,7 @@ from statistics import median
 
 from aurora_bench.campaign.measured import Flown, Measured
 from aurora_bench.campaign.metrics import groups
-from aurora_bench.campaign.record import CampaignRun
+from aurora_bench.campaign.record import CampaignRun, Ending
 from aurora_bench.results import Cell, Table
 
 Runs = Sequence[CampaignRun]
@@ -94,6 +94,35 @@ def missions_of(runs: Runs) -> dict[str, list[Flown]]:
 def measured_of(runs: Runs) -> list[Measured]:
     """Return what was measured of those runs that were executed."""
     return [r.measured for r in runs if r.measured is not None]
+
+
+def program_table(runs: Runs) -> Table:
+    """Return what the independent checker says of programs that completed."""
+    rows: list[Sequence[Cell]] = []
+    for (reader, configuration), part in groups(runs).items():
+        if not configuration.writes_program:
+            continue
+        done = [
+            r for r in part
+            if r.ending is Ending.COMPLETED and r.feasibility != 'infeasible'
+        ]  # fmt: skip
+        said = [s.outcome for r in done for s in r.said]
+        rows.append(
+            (
+                reader, configuration.value, len(part), len(done),
+                sum(r.contradicted for r in done), len(said), said.count('holds'),
+                said.count('does_not'), said.count('cannot_tell'),
+            )
+        )  # fmt: skip
+    return Table(
+        headings=(
+            'reader', 'configuration', 'programs', 'completed, possible requests',
+            'of these contradicted', 'requirements asked', 'hold', 'do not hold', 'cannot tell',
+        ),
+        rows=rows,
+        caption='Programs of models: the paper calls those that complete unverifiable; the '
+        'independent checker judges their recordings by the annotation alone',
+    )  # fmt: skip
 
 
 def episode_table(runs: Runs) -> Table:

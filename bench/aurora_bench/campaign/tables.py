@@ -11,9 +11,15 @@ from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from statistics import fmean, median
 
-from aurora_bench.campaign.executed import coordination_table, episode_table, mission_table
+from aurora_bench.campaign.executed import (
+    coordination_table,
+    episode_table,
+    mission_table,
+    program_table,
+)
 from aurora_bench.campaign.metrics import (
     METRICS,
+    OF_SPECIFICATIONS,
     anchors_by_outcome,
     by_category,
     fidelity,
@@ -52,6 +58,7 @@ def all_tables(runs: Runs) -> Mapping[str, Table]:
         'paper': paper_table(),
         'paired': paired_table(runs),
         'checked': checked_table(runs),
+        'programs': program_table(runs),
         'categories': category_table(runs),
         'declined': declined_table(runs),
         'repair': repair_table(runs),
@@ -72,13 +79,17 @@ def performance_table(runs: Runs) -> Table:
     """Return C, RF, P, SF and Fid by reader and configuration."""
     rows: list[Sequence[Cell]] = []
     for (reader, configuration), part in groups(runs).items():
-        shares = [share(part, metric.of) for metric in METRICS]
-        fid = fidelity(part)
+        fid, program = fidelity(part), configuration.writes_program
         rows.append(
             (
-                reader, configuration.value, len(part), *(told(s) for s in shares),
-                f'{fid.value:.3f} [{fid.interval[0]:.3f}, {fid.interval[1]:.3f}]',
-                f'{field_fidelity(part).value:.3f}',
+                reader, configuration.value, len(part),
+                *(
+                    None if program and m.name in OF_SPECIFICATIONS else told(share(part, m.of))
+                    for m in METRICS
+                ),
+                None if program
+                else f'{fid.value:.3f} [{fid.interval[0]:.3f}, {fid.interval[1]:.3f}]',
+                None if program else f'{field_fidelity(part).value:.3f}',
             )
         )  # fmt: skip
     words = '; '.join(f'{m.name}: {m.about}' for m in METRICS)
@@ -97,11 +108,15 @@ def beside_table(runs: Runs) -> Table:
     of = {m.name: m.of for m in METRICS}
     rows: list[Sequence[Cell]] = []
     for (reader, configuration), part in groups(runs).items():
-        ours = [share(part, of[name]).value for name in ('C', 'RF', 'P', 'SF')]
-        ours.append(fidelity(part).value)
+        ours = {name: share(part, of[name]).value for name in ('C', 'RF', 'P', 'SF')}
+        ours['Fid'] = fidelity(part).value
+        lacks = {*OF_SPECIFICATIONS, 'Fid'} if configuration.writes_program else set()
         theirs = zip(*TABLE[configuration.value], strict=True)
-        pairs = zip(ours, theirs, strict=True)
-        cells = (cell for one, column in pairs for cell in (f'{one:.3f}', _span(column)))
+        cells = (
+            cell
+            for name, column in zip(ours, theirs, strict=True)
+            for cell in (None if name in lacks else f'{ours[name]:.3f}', _span(column))
+        )
         rows.append((reader, configuration.value, *cells))
     names = ('C', 'RF', 'P', 'SF', 'Fid')
     return Table(
@@ -143,7 +158,8 @@ def paired_table(runs: Runs) -> Table:
         pairs += [(own[0], own[-1])] if len(own) > 2 else []
         for one, other in pairs:
             for metric in METRICS:
-                if metric.name not in ('C', 'P', 'right'):
+                wanted = ('C', 'right') if one.writes_program else ('C', 'P', 'right')
+                if metric.name not in wanted:
                     continue
                 test = paired(found[reader, one], found[reader, other], metric.of)
                 rows.append(
@@ -163,6 +179,8 @@ def checked_table(runs: Runs) -> Table:
     """Return what the independent checker says of runs whose conditions all hold."""
     rows: list[Sequence[Cell]] = []
     for (reader, configuration), part in groups(runs).items():
+        if configuration.writes_program:
+            continue
         passed = [r for r in part if r.passed and r.feasibility != 'infeasible']
         said = [s.outcome for r in passed for s in r.said]
         rows.append(
@@ -189,14 +207,17 @@ def category_table(runs: Runs) -> Table:
     """Return the metrics by category."""
     rows: list[Sequence[Cell]] = []
     for (reader, configuration), part in groups(runs).items():
+        program = configuration.writes_program
         for category, some in by_category(part).items():
             first = share(some, lambda r: r.first is not None and r.first.value == 'verified')
             rows.append(
                 (
                     reader, configuration.value, category, len(some),
                     *(share(some, m.of).met for m in METRICS if m.name in ('C', 'RF', 'declined')),
-                    first.met, share(some, lambda r: r.passed).met,
-                    share(some, lambda r: r.right).met, fidelity(some).value,
+                    None if program else first.met,
+                    None if program else share(some, lambda r: r.passed).met,
+                    share(some, lambda r: r.right).met,
+                    None if program else fidelity(some).value,
                 )
             )  # fmt: skip
     return Table(

@@ -11,7 +11,7 @@ import pytest
 
 from aurora_bench.campaign.measured import Flown, Measured
 from aurora_bench.campaign.metrics import METRICS, fidelity, paired, share
-from aurora_bench.campaign.plan import Configuration, Plan, Reader, Task
+from aurora_bench.campaign.plan import TYPED, Configuration, Plan, Reader, Task
 from aurora_bench.campaign.record import CampaignRun, Ending
 from aurora_bench.campaign.report import write_report
 from aurora_bench.campaign.results import Campaign, write_campaign
@@ -138,7 +138,7 @@ def test_paired_runs_are_compared_prompt_by_prompt() -> None:
 
 def test_configurations_differ_by_switches_alone() -> None:
     budget = Plan(name='any', prompts=('own.jsonl',)).repair
-    switches = {c.value: (c.without, c.repair(budget)) for c in Configuration}
+    switches = {c.value: (c.without, c.repair(budget)) for c in TYPED}
     everything = frozenset({CheckStage.STATIC, CheckStage.PROOFS})
     nothing: frozenset[CheckStage] = frozenset()
     assert switches == {'B4': (everything, 0), 'B5': (nothing, 0), 'AURORA': (nothing, 5)}
