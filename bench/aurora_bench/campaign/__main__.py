@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""`aurora campaign run FILE.yaml` and `aurora campaign report FOLDER`."""
+"""`aurora campaign run FILE.yaml`, `report FOLDER` and `gallery RUN…`."""
 
 from __future__ import annotations
 
@@ -33,6 +33,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
             if options.jobs < 1:
                 raise ConfigError(f'--jobs needs at least 1 worker, found {options.jobs}')
             return run_campaign(options)
+        if options.command == 'gallery':
+            from aurora_bench.campaign.gallery import draw_gallery
+
+            written = draw_gallery(options.runs, options.out)
+            sys.stdout.write(''.join(f'{path}\n' for path in written))
+            return 0
         from aurora_bench.campaign.report import write_report
 
         written = write_report(options.folder, options.out or options.folder, name=options.name)
@@ -64,6 +70,11 @@ def _parser() -> argparse.ArgumentParser:
         metavar='ADDRESS',
         help='workers of this Dask scheduler; local: one that is started for this campaign',
     )
+    gallery = commands.add_parser(
+        'gallery', help='figures of single runs: views from the UAV, maps, the first one whole'
+    )
+    gallery.add_argument('runs', type=Path, nargs='+', metavar='RUN', help='run folders')
+    gallery.add_argument('--out', type=Path, required=True, metavar='FOLDER', help='of figures')
     report = commands.add_parser('report', help='tables and figures of a finished campaign')
     report.add_argument('folder', type=Path, metavar='FOLDER')
     report.add_argument('--out', type=Path, default=None, metavar='FOLDER', help='of the report')

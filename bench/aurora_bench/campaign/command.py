@@ -57,7 +57,8 @@ def run_campaign(options: argparse.Namespace, make_work: MakeWork = _campaign_wo
         campaign=f'campaign {plan.name}',
         files=campaign.files,
         options={
-            'plan': canonical_json(campaign.plan),
+            # More seeds are more runs of the same campaign: the key of each run names its seed.
+            'plan': canonical_json({k: v for k, v in campaign.plan.items() if k != 'seeds'}),
             'transcripts': canonical_json(campaign.transcripts),
             'code': campaign.code,
             **campaign.versions,

@@ -23,7 +23,7 @@ from aurora_bench.campaign.metrics import (
     share,
 )
 from aurora_bench.campaign.paper import TABLE
-from aurora_bench.campaign.plan import Configuration
+from aurora_bench.campaign.plan import TYPED, Configuration
 from aurora_bench.campaign.record import CampaignRun, Ending
 from aurora_bench.campaign.tables import ANCHOR_TERMS, once
 from aurora_bench.plotting import COLOURS, new_figure, save_as
@@ -33,7 +33,7 @@ Runs = Sequence[CampaignRun]
 _FONT = 7.5
 _WIDTH_IN = 7.2
 _PAPER = '#999999'
-_HUES = dict(zip(Configuration, (COLOURS[7], COLOURS[0], COLOURS[1]), strict=True))
+_HUES = dict(zip(TYPED, (COLOURS[7], COLOURS[0], COLOURS[1]), strict=True))
 _STAGES = ('parse', 'check', 'ground', 'execute', 'verify', 'repair')
 
 

@@ -45,6 +45,10 @@ METRICS = (
 )
 
 
+# What needs an executable specification: of B1 to B3 there is none.
+OF_SPECIFICATIONS = frozenset({'P', 'SF', 'undecided', 'verified'})
+
+
 def share(runs: Iterable[CampaignRun], of: Callable[[CampaignRun], bool]) -> Share:
     """Return for how many runs something is so."""
     found = [of(run) for run in runs]

@@ -21,6 +21,7 @@ from aurora_core.errors import AuroraError
 from aurora_core.files import DOCUMENT_BYTES, read_bytes
 from aurora_core.knowledge.map_folders import list_maps
 from aurora_core.outcomes.feasibility import CheckStage
+from aurora_core.ports.model_name import OFFLINE
 from aurora_core.spec.seed import Seed
 from aurora_llm.parse import check_model_name
 
@@ -34,15 +35,25 @@ class PlanError(AuroraError):
 
 
 class Configuration(StrEnum):
-    """The paper's configurations that compile a typed graph and let the managed executor run it.
+    """The paper's configurations, each with all of the one before.
 
-    Each has all of the one before, so two differ by what one of them leaves out and by nothing
-    else. Whatever runs is judged afterwards, by the same verifier: in B4 and B5 as measurement.
+    B1 to B3 let a model write a program, which runs contained. B4 to AURORA compile a typed graph
+    and let the managed executor run it; two of these differ by what one of them leaves out and by
+    nothing else. Whatever they run is judged afterwards, by the same verifier: in B4 and B5 as
+    measurement.
     """
 
+    B1 = 'B1'  # a program, of the names of what it may call
+    B2 = 'B2'  # and their documentation
+    B3 = 'B3'  # and what was measured of map and bodies, as the parser is shown it
     B4 = 'B4'  # typed AGSG and managed executor
     B5 = 'B5'  # and static verification: requests are refused before they run
     AURORA = 'AURORA'  # and the verdict counts: a violated run is repaired
+
+    @property
+    def writes_program(self) -> bool:
+        """Whether a model writes a program in place of a typed graph."""
+        return self in (Configuration.B1, Configuration.B2, Configuration.B3)
 
     @property
     def without(self) -> frozenset[CheckStage]:
@@ -56,6 +67,9 @@ class Configuration(StrEnum):
             budget: What the campaign gives where repair is on.
         """
         return budget if self is Configuration.AURORA else 0
+
+
+TYPED = tuple(c for c in Configuration if not c.writes_program)
 
 
 class Reader(Document):
@@ -81,9 +95,10 @@ class Plan(Document):
             are the first ones that are shipped, `shipped:tune/bench` is one of them.
         end_to_end: Only prompts that are marked so.
         first: Of each file the first prompts, None: all.
-        configurations: In the order of the tables.
+        configurations: In the order of the tables. The offline reader writes no programs: with it
+            there are no runs of B1 to B3.
         readers: In the order of the tables.
-        seeds: Each prompt with each of them.
+        seeds: Each prompt with each of them; more may be asked for later.
         map: Of all runs.
         repair: Co-simulations that repair may spend where it is on.
         limit_s: Wall seconds of one run.
@@ -93,7 +108,7 @@ class Plan(Document):
     prompts: tuple[str, ...] = Field(min_length=1)
     end_to_end: bool = False
     first: Annotated[int, Field(ge=1)] | None = None
-    configurations: tuple[Configuration, ...] = tuple(Configuration)
+    configurations: tuple[Configuration, ...] = TYPED
     readers: tuple[Reader, ...] = (Reader(name='offline'),)
     seeds: tuple[Seed, ...] = (1,)
     map: str = 'downtown'
@@ -113,6 +128,9 @@ class Plan(Document):
                 raise ValueError(f'{name}: at least one, and each once')
         if self.map not in list_maps():
             raise ValueError(f'map: there is no map {self.map!r}')
+        offline = all(r.model == OFFLINE for r in self.readers)
+        if offline and all(c.writes_program for c in self.configurations):
+            raise ValueError('configurations: the offline reader writes no programs')
         return self
 
 
@@ -171,7 +189,10 @@ def files_of(plan: Plan) -> tuple[PromptFile, ...]:
 
 
 def tasks_of(plan: Plan, files: Sequence[PromptFile]) -> tuple[Task, ...]:
-    """Return every run: prompt by prompt, so that what is compared runs side by side."""
+    """Return every run: seed by seed, so that a whole table of the first one is there soonest.
+
+    Within a seed prompt by prompt: what is compared runs side by side.
+    """
     return tuple(
         Task(
             key=f'{trial.key}:{reader.name}:{configuration.value}',
@@ -182,17 +203,19 @@ def tasks_of(plan: Plan, files: Sequence[PromptFile]) -> tuple[Task, ...]:
         for trial in _trials(plan, files)
         for reader in plan.readers
         for configuration in plan.configurations
+        if reader.model != OFFLINE or not configuration.writes_program
     )
 
 
 def _trials(plan: Plan, files: Sequence[PromptFile]) -> Iterator[Trial]:
-    for file in files:
-        pairs = [
-            (p, d)
-            for p, d in zip(file.prompts, file.documents, strict=True)
-            if p.end_to_end or not plan.end_to_end
-        ]
-        yield from trials_of(file, pairs[: plan.first], plan.seeds, file.sha256[:8])
+    for seed in plan.seeds:
+        for file in files:
+            pairs = [
+                (p, d)
+                for p, d in zip(file.prompts, file.documents, strict=True)
+                if p.end_to_end or not plan.end_to_end
+            ]
+            yield from trials_of(file, pairs[: plan.first], (seed,), file.sha256[:8])
 
 
 def _paths(name: str) -> Iterator[Path]:

@@ -10,6 +10,7 @@ from typing import Any
 
 from pydantic import FiniteFloat
 
+from aurora_bench.campaign.measured import Measured
 from aurora_bench.campaign.plan import Configuration, Task
 from aurora_bench.prompts.format import Category, Feasibility
 from aurora_bench.rulers.checking import Said
@@ -67,9 +68,11 @@ class CampaignRun(Document):
         simulations: Executions, the first one included.
         anchor: Terms of the joint anchor score of the final realisation.
         placed_m: Metres from the grounded place at t = 0 of the first realisation, by agent type.
+        measured: Missions, events and messages of the final realisation.
         trace_sha256, motion_sha256: '' without a trace.
         simulated_s: Simulated seconds of the final realisation.
-        seconds: Wall seconds by stage, and `processor`.
+        seconds: Wall seconds by stage, and `processor`; `again ...` is the part of a stage that
+            came after the first verdict.
     """
 
     key: str
@@ -101,6 +104,7 @@ class CampaignRun(Document):
     simulations: int = 0
     anchor: AnchorScore | None = None
     placed_m: Mapping[str, tuple[FiniteFloat, ...]] = {}
+    measured: Measured | None = None
     trace_sha256: str = ''
     motion_sha256: str = ''
     simulated_s: FiniteFloat | None = None

@@ -9,13 +9,15 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from aurora_bench.campaign.episode import EpisodeStages
 from aurora_bench.campaign.plan import Plan, Task
+from aurora_bench.campaign.program_runs import check_containment, program_run
 from aurora_bench.campaign.record import CampaignRun, Ending, Tried, identity
 from aurora_bench.fidelity.answer import Answer
 from aurora_bench.fidelity.score import score
 from aurora_bench.fidelity.summary import field_share, requirement_share
 from aurora_bench.prompts.format import AnnotatedPrompt
-from aurora_bench.rulers.checking import Said, asked_of
+from aurora_bench.rulers.checking import Said, asked_of, independent_checker
 from aurora_bench.rulers.readback import distances
 from aurora_bench.rulers.runs import OutcomeWork, Ran
 from aurora_bench.rulers.trial import JudgedTrial, Trial
@@ -45,11 +47,16 @@ class CampaignWork:
     def prepare(self) -> None:
         """Load what every run needs."""
         _Watched(folder=self.folder, map_name=self.plan.map).prepare()
+        if any(c.writes_program for c in self.plan.configurations):
+            check_containment()
 
     def __call__(self, task: Task) -> CampaignRun:
         """Run one task; its folder goes, whatever happens."""
+        folder = self.folder / task.reader.name / task.configuration.value
+        if task.configuration.writes_program:
+            return program_run(self.plan, task, folder, independent_checker())
         work = _Watched(
-            folder=self.folder / task.reader.name / task.configuration.value,
+            folder=folder,
             map_name=self.plan.map,
             repair=task.configuration.repair(self.plan.repair),
             model=task.reader.model,
@@ -77,6 +84,10 @@ class _Watched(OutcomeWork):
     facts: dict[str, Any] = field(default_factory=dict)
     _ran: Ran | None = None
 
+    def stages(self) -> EpisodeStages:
+        """Return an engine that remembers every realisation."""
+        return EpisodeStages(self.without)
+
     def ran(self, request: RunRequest, place: Path, stages: Any) -> Ran:
         """Run, and remember the run."""
         self._ran = super().ran(request, place, stages)
@@ -87,6 +98,10 @@ class _Watched(OutcomeWork):
         judged = super().judge(trial, place)
         assert self._ran is not None  # `judge` runs it
         self.facts = facts_of(self._ran, trial.prompt)
+        engine, trace = self._ran.stages, self._ran.report.trace
+        if isinstance(engine, EpisodeStages):
+            self._seconds.update({f'again {k}': s for k, s in engine.again_s.items()})
+            self.facts['measured'] = None if trace is None else engine.measured.get(trace.bag)
         passed = self.facts['final'] is VerdictStatus.VERIFIED
         if passed and not judged.said and trial.prompt.feasibility != 'infeasible':
             self.facts['said'] = self._asked(self._ran, trial.document)

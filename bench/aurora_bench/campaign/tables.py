@@ -11,8 +11,15 @@ from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from statistics import fmean, median
 
+from aurora_bench.campaign.executed import (
+    coordination_table,
+    episode_table,
+    mission_table,
+    program_table,
+)
 from aurora_bench.campaign.metrics import (
     METRICS,
+    OF_SPECIFICATIONS,
     anchors_by_outcome,
     by_category,
     fidelity,
@@ -47,16 +54,21 @@ def all_tables(runs: Runs) -> Mapping[str, Table]:
     """Return every table by the name of its file."""
     tables = {
         'performance': performance_table(runs),
+        'beside': beside_table(runs),
         'paper': paper_table(),
         'paired': paired_table(runs),
         'checked': checked_table(runs),
+        'programs': program_table(runs),
         'categories': category_table(runs),
         'declined': declined_table(runs),
         'repair': repair_table(runs),
         'placement': placement_table(runs),
         'anchors': anchor_table(runs),
         'margins': margin_table(runs),
+        'coordination': coordination_table(runs),
+        'missions': mission_table(runs),
         'cost': cost_table(runs),
+        'episodes': episode_table(runs),
     }
     if len({r.seed for r in runs}) > 1:
         tables['seeds'] = seed_table(runs)
@@ -67,13 +79,17 @@ def performance_table(runs: Runs) -> Table:
     """Return C, RF, P, SF and Fid by reader and configuration."""
     rows: list[Sequence[Cell]] = []
     for (reader, configuration), part in groups(runs).items():
-        shares = [share(part, metric.of) for metric in METRICS]
-        fid = fidelity(part)
+        fid, program = fidelity(part), configuration.writes_program
         rows.append(
             (
-                reader, configuration.value, len(part), *(told(s) for s in shares),
-                f'{fid.value:.3f} [{fid.interval[0]:.3f}, {fid.interval[1]:.3f}]',
-                f'{field_fidelity(part).value:.3f}',
+                reader, configuration.value, len(part),
+                *(
+                    None if program and m.name in OF_SPECIFICATIONS else told(share(part, m.of))
+                    for m in METRICS
+                ),
+                None if program
+                else f'{fid.value:.3f} [{fid.interval[0]:.3f}, {fid.interval[1]:.3f}]',
+                None if program else f'{field_fidelity(part).value:.3f}',
             )
         )  # fmt: skip
     words = '; '.join(f'{m.name}: {m.about}' for m in METRICS)
@@ -85,6 +101,38 @@ def performance_table(runs: Runs) -> Table:
         caption=f'End-to-end performance, shares with 95 % Wilson intervals ({words}; Fid: '
         'annotated requirements that the specification holds)',
     )  # fmt: skip
+
+
+def beside_table(runs: Runs) -> Table:
+    """Return ours beside the least and the greatest of the paper's models."""
+    of = {m.name: m.of for m in METRICS}
+    rows: list[Sequence[Cell]] = []
+    for (reader, configuration), part in groups(runs).items():
+        ours = {name: share(part, of[name]).value for name in ('C', 'RF', 'P', 'SF')}
+        ours['Fid'] = fidelity(part).value
+        lacks = {*OF_SPECIFICATIONS, 'Fid'} if configuration.writes_program else set()
+        theirs = zip(*TABLE[configuration.value], strict=True)
+        cells = (
+            cell
+            for name, column in zip(ours, theirs, strict=True)
+            for cell in (None if name in lacks else f'{ours[name]:.3f}', _span(column))
+        )
+        rows.append((reader, configuration.value, *cells))
+    names = ('C', 'RF', 'P', 'SF', 'Fid')
+    return Table(
+        headings=('reader', 'configuration', *(h for n in names for h in (n, f'paper {n}'))),
+        rows=rows,
+        caption="Ours, and the least and the greatest of the paper's five models (the simulators "
+        'differ)',
+    )
+
+
+def _span(values: Sequence[float | None]) -> str:
+    known = [v for v in values if v is not None]
+    if not known:
+        return '–'
+    least, most = min(known), max(known)
+    return f'{least:.3f}' if least == most else f'{least:.3f}..{most:.3f}'
 
 
 def paper_table() -> Table:
@@ -110,7 +158,8 @@ def paired_table(runs: Runs) -> Table:
         pairs += [(own[0], own[-1])] if len(own) > 2 else []
         for one, other in pairs:
             for metric in METRICS:
-                if metric.name not in ('C', 'P', 'right'):
+                wanted = ('C', 'right') if one.writes_program else ('C', 'P', 'right')
+                if metric.name not in wanted:
                     continue
                 test = paired(found[reader, one], found[reader, other], metric.of)
                 rows.append(
@@ -130,6 +179,8 @@ def checked_table(runs: Runs) -> Table:
     """Return what the independent checker says of runs whose conditions all hold."""
     rows: list[Sequence[Cell]] = []
     for (reader, configuration), part in groups(runs).items():
+        if configuration.writes_program:
+            continue
         passed = [r for r in part if r.passed and r.feasibility != 'infeasible']
         said = [s.outcome for r in passed for s in r.said]
         rows.append(
@@ -156,14 +207,17 @@ def category_table(runs: Runs) -> Table:
     """Return the metrics by category."""
     rows: list[Sequence[Cell]] = []
     for (reader, configuration), part in groups(runs).items():
+        program = configuration.writes_program
         for category, some in by_category(part).items():
             first = share(some, lambda r: r.first is not None and r.first.value == 'verified')
             rows.append(
                 (
                     reader, configuration.value, category, len(some),
                     *(share(some, m.of).met for m in METRICS if m.name in ('C', 'RF', 'declined')),
-                    first.met, share(some, lambda r: r.passed).met,
-                    share(some, lambda r: r.right).met, fidelity(some).value,
+                    None if program else first.met,
+                    None if program else share(some, lambda r: r.passed).met,
+                    share(some, lambda r: r.right).met,
+                    None if program else fidelity(some).value,
                 )
             )  # fmt: skip
     return Table(

@@ -9,6 +9,8 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+from aurora_bench.campaign.plan import Configuration
+from aurora_bench.campaign.written import write_program
 from aurora_bench.interrupt import stop_on_sigterm
 from aurora_bench.progress import Progress
 from aurora_bench.prompts.reading import read_prompts
@@ -38,6 +40,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument('--map', default='downtown', help='map that the prompts are read against')
     parser.add_argument('--seed', type=seed_option, default=1)
     parser.add_argument('--only', default='', help='prompts whose id begins so')
+    parser.add_argument(
+        '--programs', action='store_true', help='the programs of B1 to B3 of a campaign as well'
+    )
     parser.add_argument('--history', type=Path, default=None, help='past runs; nothing is added')
     options = parser.parse_args(arguments)
     try:
@@ -68,6 +73,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         )
         try:
             outcome = read_prompt(installed(), request, wrap=wrap)
+            for configuration in Configuration if options.programs else ():
+                if configuration.writes_program:
+                    write_program(configuration, installed(), request, wrap)
         except ConfigError as err:
             sys.stderr.write(f'{prompt.id}: {err}\n')
             return BROKEN

@@ -203,6 +203,10 @@ class OutcomeWork(RunWork):
     transcripts: Path | None = None
     without: frozenset[CheckStage] = frozenset()
 
+    def stages(self) -> WatchedStages:
+        """Return the engine of the next run."""
+        return WatchedStages(without=self.without)
+
     def judge(self, trial: Trial, place: Path) -> JudgedTrial:
         """Run the prompt."""
         request = RunRequest(
@@ -214,7 +218,7 @@ class OutcomeWork(RunWork):
             history_frozen=True,
             repair=self.repair,
         )
-        ran = self.ran(request, place, WatchedStages(without=self.without))
+        ran = self.ran(request, place, self.stages())
         if trial.prompt.feasibility != 'infeasible':
             return self.verified(trial, ran)
         found = refusal_cause(trial.prompt, ran.report)

@@ -6,16 +6,20 @@ from __future__ import annotations
 
 import importlib
 import json
+import os
 import signal
 import subprocess
 import sys
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
 import duckdb
 import pytest
+from distributed import Client
 
 from aurora_bench.campaign.__main__ import main
 from aurora_bench.campaign.command import run_campaign
@@ -28,7 +32,7 @@ PROMPTS = ('one', 'two fails', 'three', 'four', 'five')
 
 def plan_file(folder: Path, prompts: tuple[str, ...] = PROMPTS, more: str = ONE) -> Path:
     """Write a campaign of some prompts into a folder and return its file."""
-    folder.mkdir(exist_ok=True)
+    folder.mkdir(parents=True, exist_ok=True)
     lines = [
         json.dumps(
             {
@@ -108,6 +112,54 @@ def test_a_killed_worker_costs_nothing(
     assert endings == ['completed', 'completed', 'completed', 'failed', 'completed']
 
 
+@contextmanager
+def started_as_users_do(folder: Path, workers: int) -> Iterator[str]:
+    """Start a Dask scheduler and workers as processes of their own; give the address."""
+    place = folder / 'scheduler.json'
+    environment = {
+        **os.environ,
+        'PYTHONPATH': os.pathsep.join([str(HERE), os.environ.get('PYTHONPATH', '')]),
+    }
+    scheduler = ['scheduler', '--host', '127.0.0.1', '--port', '0', '--no-dashboard']
+    worker = ['worker', '--nthreads', '1', '--no-dashboard', '--host', '127.0.0.1']
+    processes = [
+        subprocess.Popen(
+            [sys.executable, '-m', 'dask', *command, '--scheduler-file', str(place)],
+            env=environment,
+            cwd=folder,
+            stderr=subprocess.DEVNULL,
+        )
+        for command in (scheduler, *(worker for _ in range(workers)))
+    ]
+    try:
+        while not (place.exists() and place.read_text().endswith('}')):
+            assert processes[0].poll() is None
+            time.sleep(0.05)
+        address = str(json.loads(place.read_text())['address'])
+        with Client(address) as client:
+            client.wait_for_workers(workers, timeout=240)
+        yield address
+    finally:
+        # The workers first: without their scheduler they would look for it.
+        for process in reversed(processes):
+            process.terminate()
+            try:
+                process.wait(timeout=20)
+            except subprocess.TimeoutExpired:
+                process.kill()
+                process.wait()
+
+
+def test_workers_that_users_started_give_the_same_table(tmp_path: Path) -> None:
+    """One of the two dies over a run; the table is that of the processes of this machine."""
+    prompts = ('one', 'two fails', 'dies once', 'four')
+    assert run(plan_file(tmp_path / 'here' / 'in', prompts), tmp_path / 'whole') == 0
+    file = plan_file(tmp_path / 'there' / 'in', prompts)
+    with started_as_users_do(tmp_path, 2) as address:
+        assert run(file, tmp_path / 'out', dask=address) == 0
+    assert table(tmp_path / 'out') == table(tmp_path / 'whole')
+
+
 def test_the_parquet_file_holds_every_run(tmp_path: Path) -> None:
     file = plan_file(tmp_path / 'in', more='seeds: [1, 2]\n')
     assert run(file, tmp_path / 'out') == 0
@@ -118,6 +170,19 @@ def test_the_parquet_file_holds_every_run(tmp_path: Path) -> None:
     assert found is not None
     rows = found.fetchall()
     assert rows == [('AURORA', 10, 8, 1.1), ('B4', 10, 8, 1.1), ('B5', 10, 8, 1.1)]
+
+
+def test_more_seeds_go_on_with_what_is_there(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The table is the one of a campaign that had all seeds from the beginning."""
+    assert run(plan_file(tmp_path / 'in', more=f'{ONE}seeds: [1]\n'), tmp_path / 'out') == 0
+    more = plan_file(tmp_path / 'in', more=f'{ONE}seeds: [1, 2, 3]\n')
+    capsys.readouterr()
+    assert run(more, tmp_path / 'out') == 0
+    assert capsys.readouterr().err.count('from the journal') == len(PROMPTS)
+    assert run(more, tmp_path / 'whole') == 0
+    assert table(tmp_path / 'out') == table(tmp_path / 'whole')
 
 
 def test_another_campaign_is_not_mixed_in(tmp_path: Path) -> None:

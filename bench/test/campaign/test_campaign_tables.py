@@ -9,8 +9,9 @@ from typing import Any
 
 import pytest
 
+from aurora_bench.campaign.measured import Flown, Measured
 from aurora_bench.campaign.metrics import METRICS, fidelity, paired, share
-from aurora_bench.campaign.plan import Configuration, Plan, Reader, Task
+from aurora_bench.campaign.plan import TYPED, Configuration, Plan, Reader, Task
 from aurora_bench.campaign.record import CampaignRun, Ending
 from aurora_bench.campaign.report import write_report
 from aurora_bench.campaign.results import Campaign, write_campaign
@@ -91,6 +92,41 @@ def test_the_table_of_ten_records_is_that_worked_out_by_hand() -> None:
     assert (repair['repaired'], repair['nothing simulated again']) == (1, 1)
 
 
+def test_what_was_executed_is_told_by_mission_event_and_episode() -> None:
+    """Two missions of one mode, three events, four messages, one episode of two simulations."""
+    one = Measured(
+        missions=(Flown(mode='track', capture_s=4.0, on_target=0.9, off_m=2.0, off_most_m=5.0),),
+        event_s=(0.05, -0.1), latency_s=(0.1, 0.3), sent=3,
+    )  # fmt: skip
+    two = Measured(missions=(Flown(mode='track'),), stated_s=(-0.2,), latency_s=(0.2,), sent=1)
+    again = {'again repair': 1.0, 'again execute': 6.0, 'again verify': 3.0}
+    runs = (
+        record(0, Configuration.AURORA, first=V, final=V, measured=one),
+        record(1, Configuration.AURORA, first=X, final=X, simulations=3, measured=two)
+        .model_copy(update={'seconds': again}),
+        record(2, Configuration.AURORA, ending=Ending.DECLINED),
+    )  # fmt: skip
+    tables = all_tables(runs)
+    moments = {row[2]: row[3:] for row in tables['coordination'].rows}
+    assert moments == {
+        'event: recorded to recomputed moment': (2, pytest.approx(0.075), 0.1, None),
+        'event: recorded to stated time': (1, 0.2, 0.2, None),
+        'message: latency': (3, 0.2, 0.3, None),
+        'messages delivered': (4, None, None, 0.75),
+    }
+    assert tables['missions'].rows == [
+        ('offline', 'AURORA', 'track', 2, 1, 4.0, 4.0, 0.9, 2.0, 5.0)
+    ]
+    parts = {row[2]: row[3:] for row in tables['episodes'].rows}
+    assert parts['execute'] == (1, 6.0, 3.0, 0.6)
+    assert parts['episode'] == (1, 10.0, 5.0, 1.0)
+
+
+def test_ours_stand_beside_the_least_and_the_greatest_of_the_papers() -> None:
+    row = all_tables(AURORA)['beside'].rows[0]
+    assert row[2:8] == ('0.800', '0.980..1.000', '0.000', '0.000', '0.600', '0.640..0.840')
+
+
 def test_paired_runs_are_compared_prompt_by_prompt() -> None:
     passed = next(m.of for m in METRICS if m.name == 'P')
     assert paired(B4, AURORA, passed) == (5, 1, 0, 1.0)
@@ -102,7 +138,7 @@ def test_paired_runs_are_compared_prompt_by_prompt() -> None:
 
 def test_configurations_differ_by_switches_alone() -> None:
     budget = Plan(name='any', prompts=('own.jsonl',)).repair
-    switches = {c.value: (c.without, c.repair(budget)) for c in Configuration}
+    switches = {c.value: (c.without, c.repair(budget)) for c in TYPED}
     everything = frozenset({CheckStage.STATIC, CheckStage.PROOFS})
     nothing: frozenset[CheckStage] = frozenset()
     assert switches == {'B4': (everything, 0), 'B5': (nothing, 0), 'AURORA': (nothing, 5)}
@@ -156,3 +192,9 @@ def test_who_leaves_the_check_out_refuses_nothing(
         assert (run.ending, run.right, run.met) == (Ending.COMPLETED, False, 0)
         assert run.final is not None
         assert run.trace_sha256
+        assert run.measured is not None
+        (flown,) = run.measured.missions
+        assert (flown.mode, flown.on_target) == ('hover', None)
+        assert flown.capture_s is not None
+        assert flown.off_m is not None
+        assert flown.off_m < 1.0

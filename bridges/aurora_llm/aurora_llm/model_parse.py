@@ -41,10 +41,10 @@ def read_with_models(
     outcome = parse_with_models(
         request.prompt,
         parse_context(known, request.map_name, request.seed),
-        [wrap(_client(name, models, request)) for name in order if name != OFFLINE],
+        [wrap(client_of(name, models, request)) for name in order if name != OFFLINE],
         attempts=models.attempts,
         wait=lambda seconds: time.sleep(min(seconds, models.most_wait_s)),
-        background=_background(known, request, models),
+        background=background_of(known, request, models),
     )
     if order[-1] != OFFLINE or not _is_spent(outcome):
         return understood(known, outcome)
@@ -64,7 +64,7 @@ def check_models(model: str) -> None:
     settings = load_model_settings()
     for name in settings.order(model):
         if name != OFFLINE:
-            _client(name, settings, None)
+            client_of(name, settings)
 
 
 def _is_spent(outcome: ParseOutcome) -> bool:
@@ -73,12 +73,29 @@ def _is_spent(outcome: ParseOutcome) -> bool:
     return last is None or last.failure is not None or bool(last.complaints)
 
 
-def _background(known: Knowledge, request: RunRequest, settings: ModelSettings) -> Background:
+def background_of(known: Knowledge, request: RunRequest, settings: ModelSettings) -> Background:
+    """Return what a model is shown with the prompt of a request.
+
+    Raises:
+        ConfigError: The history cannot be read.
+    """
     wanted = settings.retrieval
     return background(known, request, rankers(embedding=wanted.embedding), wanted)
 
 
-def _client(name: str, settings: ModelSettings, request: RunRequest | None) -> LanguageModel:
+def client_of(
+    name: str, settings: ModelSettings, request: RunRequest | None = None
+) -> LanguageModel:
+    """Return who answers for a model of the order.
+
+    Args:
+        name: Of the order; not the offline parser.
+        settings: Of all models.
+        request: May name recorded replies; None: only whether the model can be used is asked.
+
+    Raises:
+        ConfigError: It cannot be used as it is named.
+    """
     if name.startswith(RECORDED):
         return RecordedClient(name, Path(name.removeprefix(RECORDED)))
     if request is not None and request.transcripts is not None:

@@ -74,6 +74,10 @@ class Scene:
         """Return the landmarks: name to x, y, and the lane from which it is reached."""
         return dict(self._ask('places'))
 
+    def refuse(self, because: str) -> None:
+        """Say that the request cannot be carried out, and why in a word or two: altitude_limit."""
+        self._ask('refuse', because=because)
+
     # --- before begin ----------------------------------------------------------------------------
     def world(
         self,
