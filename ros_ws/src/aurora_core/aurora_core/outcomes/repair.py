@@ -27,6 +27,7 @@ class Step(StrEnum):
     ONE = 'one_parameter'
     SEARCH = 'search'
     GROUNDING = 'grounding'
+    SYMBOLIC = 'symbolic'
 
 
 class Anchor(Document):
@@ -99,6 +100,7 @@ class AttemptOutcome(StrEnum):
     VERIFIED = 'verified'
     VIOLATED = 'violated'
     INCONCLUSIVE = 'inconclusive'
+    PLACED = 'placed'  # a request that had no place has one; the first realisation is there
     NO_PLACE = 'no_place'  # grounding found none; nothing was simulated
     REFUSED = 'refused'  # the request would have been judged otherwise; nothing was simulated
     SAME_SCENE = 'same_scene'  # it gives a scene that was tried already; nothing was simulated

@@ -12,6 +12,7 @@ import logging
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
+from itertools import islice
 from types import MappingProxyType
 from typing import Any
 
@@ -19,7 +20,7 @@ from aurora_core.errors import AuroraError
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.feasibility import Feasibility
 from aurora_core.outcomes.grounding import GroundingOutcome
-from aurora_core.outcomes.repair import Attempt, Proposal, ProposalOutcome, RepairPlan
+from aurora_core.outcomes.repair import Attempt, Proposal, ProposalOutcome, RepairPlan, Step
 from aurora_core.outcomes.verdict import VerdictStatus
 from aurora_core.pipeline.history import remember
 from aurora_core.pipeline.knowledge import Knowledge
@@ -29,11 +30,13 @@ from aurora_core.pipeline.repairing import (
     nothing_left,
     realised,
     repair_report,
+    to_fit,
     why_not,
 )
 from aurora_core.pipeline.stages import ExecutionResult, RunControl, RunRequest, Stages
 from aurora_core.pipeline.verification import load_bag
 from aurora_core.ports.clock import SteadyClock
+from aurora_core.repair.revise import revised_to_fit
 from aurora_core.report.build import build_report
 from aurora_core.report.facts import ExecutionFacts, RunFacts
 from aurora_core.report.outputs import write_outputs
@@ -133,11 +136,11 @@ class _Run:
         graph = self.understand()
         if graph is None:
             return
-        grounding = self.ground(graph)
+        grounding, proposal = self.place(graph)
         if grounding.agsg is None:
             return
         self.keep(grounding.agsg)
-        first = self.execute(grounding, iteration=0)
+        first = self.execute(grounding, 0, proposal)
         if first.verdict.status is VerdictStatus.VIOLATED:
             self.repair(graph, first)
             self.relax()
@@ -170,6 +173,23 @@ class _Run:
                 self.note(grounding=outcome)
                 return outcome
             return self.stages.ground(graph, self.request, plan)
+
+    def place(self, graph: Agsg) -> tuple[GroundingOutcome, Proposal | None]:
+        """Ground a request; where there is no place, revise what it leaves open until one is."""
+        outcome = self.ground(graph)
+        if outcome.failure is None or not self.budget():
+            return outcome, None
+        repair = self.known.repair
+        if Step.SYMBOLIC not in repair.escalation:
+            return outcome, None
+        found = revised_to_fit(graph, outcome.failure, repair)
+        for proposal in islice(found, repair.groundings):
+            again = self.ground(graph, proposal.plan)
+            self._tell(to_fit(proposal, again))
+            if again.agsg is not None:
+                self.note(grounding=again)
+                return again, proposal
+        return outcome, None
 
     def keep(self, grounded: Agsg) -> None:
         """Write the documents that a grounded scenario is executed from."""
@@ -274,7 +294,7 @@ class _Run:
             return False
         again = graph.model_copy(update={'iteration': iteration})
         grounding = self.ground(again, proposal.plan)
-        unfit = why_not(iteration, proposal, grounding, made[0].grounding, past)
+        unfit = why_not(iteration, proposal, grounding, made[0].grounding, best, past)
         before = best.graph.grounding
         if unfit is not None:
             attempt, why = unfit

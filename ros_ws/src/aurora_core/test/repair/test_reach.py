@@ -20,8 +20,8 @@ PROMPT = (
 ALTITUDE, STANDOFF = 'missions/m1/altitude_m', 'missions/m1/standoff_m'
 
 
-def grounded(altitude_m: float, standoff_m: float) -> Agsg:
-    parsed = parse_stage(_KNOWN, PROMPT, 'downtown', 1)
+def grounded(altitude_m: float, standoff_m: float, prompt: str = PROMPT) -> Agsg:
+    parsed = parse_stage(_KNOWN, prompt, 'downtown', 1)
     assert parsed.spec is not None
     assert parsed.agsg is not None
     rows = {row.path: row for row in parsed.agsg.parameters}
@@ -59,8 +59,16 @@ def test_the_value_that_keeps_away_is_named_with_one_that_does_not(
 ) -> None:
     found = evidence(grounded(altitude_m, standoff_m))
     assert set(found) == {cause}
-    assert 30.0 < hypot(found[cause], other_m) < 40.0
+    assert 20.0 < hypot(found[cause], other_m) < 35.0
 
 
 def test_nothing_is_named_where_it_is_near_enough() -> None:
     assert evidence(grounded(20.0, 10.0)) == {}
+
+
+def test_a_distance_to_stay_within_is_evidence_as_well() -> None:
+    graph = grounded(20.0, 70.0, 'A drone tracks a van and stays within 40 meters of it.')
+    [within] = [c for c in graph.conditions if c.id == 'c1.holds']
+    found = out_of_reach(graph, within)
+    assert set(found) == {STANDOFF}
+    assert found[STANDOFF].aim < 35.0
