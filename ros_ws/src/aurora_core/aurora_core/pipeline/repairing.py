@@ -173,17 +173,19 @@ def scene_digest(grounded: GroundedScenario) -> str:
 
 
 def repair_report(
-    proposal: Proposal, attempt: Attempt, before: GroundedScenario | None, note: str = ''
+    proposal: Proposal, attempt: Attempt, best: Realisation | None, note: str = ''
 ) -> RepairReport:
     """Return how an attempt is told.
 
     Args:
         proposal: What was tried.
         attempt: What came of it.
-        before: Grounding that the proposal was made after.
+        best: The realisation that the proposal was made after.
         note: Why nothing was simulated.
     """
     ids = dict.fromkeys((*proposal.predicted, *attempt.margins))
+    before = None if best is None else best.graph.grounding
+    margins = {} if best is None else best.attempt.margins
     return RepairReport(
         iteration=attempt.iteration,
         kind='' if proposal.step is None else proposal.step.value,
@@ -191,6 +193,7 @@ def repair_report(
         margins=tuple(
             MarginChange(
                 condition=name,
+                before=margins.get(name),
                 predicted=proposal.predicted.get(name),
                 realised=attempt.margins.get(name),
             )

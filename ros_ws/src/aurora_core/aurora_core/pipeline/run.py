@@ -295,11 +295,10 @@ class _Run:
         again = graph.model_copy(update={'iteration': iteration})
         grounding = self.ground(again, proposal.plan)
         unfit = why_not(iteration, proposal, grounding, made[0].grounding, best, past)
-        before = best.graph.grounding
         if unfit is not None:
             attempt, why = unfit
             past.append(attempt)
-            self._tell(repair_report(proposal, attempt, before, why))
+            self._tell(repair_report(proposal, attempt, best, why))
             return True
         assert grounding.agsg is not None  # `why_not` tells
         self.folder.write_stage(StageFile.SPEC, iteration, grounding.agsg.spec)
@@ -309,7 +308,7 @@ class _Run:
         done = self.execute(grounding, iteration, proposal)
         made.append(done)
         past.append(done.attempt)
-        told = repair_report(proposal, done.attempt, before)
+        told = repair_report(proposal, done.attempt, best)
         self._tell(told)
         self.folder.write_stage(StageFile.EDITS, iteration, told)
         return True
