@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Mapping
+from itertools import count
 from typing import Any
 
 from aurora_bench.repair.kinds import KINDS, PLACE, Kind, Span
@@ -20,6 +21,8 @@ from aurora_core.outcomes.repair import ValueEdit, with_values
 from aurora_core.pipeline.functions import parse_stage
 from aurora_core.pipeline.knowledge import Knowledge
 from aurora_core.spec.scenario import ScenarioSpec
+
+_LOCKED_EVERY = 3
 
 
 class Fault(Document):
@@ -73,12 +76,19 @@ class Draws(Document):
 
 
 def faults(number: int, seed: int) -> tuple[Draws, ...]:
-    """Return faults of all kinds in turn, the same ones for a seed."""
-    found = []
-    for k in range(number):
-        kind = KINDS[k % len(KINDS)].name
-        found.append(Draws(key=f'{kind} {k}', kind=kind, number=k, seed=seed))
-    return tuple(found)
+    """Return faults of all kinds in turn, the same ones for a seed.
+
+    Locked ones come in every third round: all that can be shown of them is that they stay.
+    """
+    found: list[Draws] = []
+    for turn in count():
+        for kind in KINDS:
+            if len(found) >= number:
+                return tuple(found)
+            if kind.mends or turn % _LOCKED_EVERY == 0:
+                k = len(found)
+                found.append(Draws(key=f'{kind.name} {k}', kind=kind.name, number=k, seed=seed))
+    raise AssertionError('count() does not end')
 
 
 def _drawn(kind: Kind, key: str, draw: random.Random) -> Fault:

@@ -10,7 +10,6 @@ from dataclasses import dataclass, field
 VEHICLES = ('car', 'van', 'bus', 'truck', 'motorcycle')
 SMALL = ('car', 'van', 'motorcycle')
 LARGE = ('bus', 'truck')
-SIDES = ('left', 'right')
 ALTITUDE, STANDOFF = 'missions/m1/altitude_m', 'missions/m1/standoff_m'
 GAP, RADIUS = 'placements/0/distance_m', 'missions/m1/radius_m'
 PACE = 'missions/m1/speed_mps'
@@ -62,7 +61,6 @@ class Kind:
 
 _FAR = Span(low=120.0, high=195.0)
 _CLOSE = Span(low=15.0, high=30.0)
-_ANY_HEIGHT = Span(low=20.0, high=90.0)
 _LOW_FLIGHT = Span(low=15.0, high=35.0)
 _OUT_OF_REACH = Span(low=15.0, high=118.0, above='reach')
 _HALF = Span(low=0.45, high=0.55, of='reach')
@@ -165,31 +163,10 @@ KINDS: tuple[Kind, ...] = (
     ),
     Kind(
         name='route through a tower',
-        prompt='A drone orbits the City Hall.',
-        values={ALTITUDE: Span(low=4.0, high=9.0), RADIUS: Span(low=25.0, high=60.0)},
-        cause=ALTITUDE,
-        good=Span(low=90.0, high=110.0),
-    ),
-    Kind(
-        name='street whose signals split a pair',
-        prompt='A {who} follows a {whom} for 30 seconds.',
-        words=_PAIR,
-        values={GAP: Span(low=15.0, high=40.0)},
-        cause=PLACE,
-    ),
-    Kind(
-        name='street without the turn',
-        prompt='A {vehicle} turns {side} at an intersection while a drone watches.',
-        words={**_ONE, 'side': SIDES},
-        values={ALTITUDE: _ANY_HEIGHT},
-        cause=PLACE,
-    ),
-    Kind(
-        name='street that leaves the tracker behind',
-        prompt='A drone tracks a {vehicle} for 40 seconds.',
-        words=_ONE,
-        values={ALTITUDE: _ANY_HEIGHT, STANDOFF: Span(low=10.0, high=60.0)},
-        cause=PLACE,
+        prompt='A drone orbits the Signal Tower.',
+        values={RADIUS: Span(low=5.0, high=10.0), ALTITUDE: Span(low=40.0, high=80.0)},
+        cause=RADIUS,
+        good=Span(low=40.0, high=50.0),
     ),
     Kind(
         name='anchor without a crossing',

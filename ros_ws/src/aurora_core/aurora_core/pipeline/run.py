@@ -183,7 +183,7 @@ class _Run:
         if Step.SYMBOLIC not in repair.escalation:
             return outcome, None
         found = revised_to_fit(graph, outcome.failure, repair)
-        for proposal in islice(found, repair.groundings):
+        for proposal in islice(found, repair.placements):
             again = self.ground(graph, proposal.plan)
             self._tell(to_fit(proposal, again))
             if again.agsg is not None:

@@ -1,10 +1,11 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""Evidence of geometry: values that keep a UAV out of a distance that is asked of it.
+"""Evidence of geometry: values that keep somebody out of a distance that is asked of him.
 
-That is the distance at which something happens, or one that it is to stay within. A distance
-counts the height. Who tracks a body is as far from it as altitude and standoff are together,
-whatever the road; so is who hovers over a place from what passes there.
+That is the distance at which something happens, or one to stay within. A distance to a UAV counts
+the height. Who tracks a body is as far from it as altitude and standoff are together, whatever the
+road; so is who hovers over a place from what passes there. A follower that starts behind the
+greatest gap is out of it until it has caught up.
 """
 
 from __future__ import annotations
@@ -12,15 +13,19 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import hypot, sqrt
 
+from aurora_core.judging.quantities.follow_fraction import FollowFraction
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.condition import Condition
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import DistanceTrigger, ScenarioSpec, UavMission
-from aurora_core.spec.vocabulary import MissionMode
+from aurora_core.spec.vocabulary import MissionMode, Relation
 
 # Passed, not touched: so much of the distance is aimed at.
 _INSIDE = 0.7
+# Who follows starts in the middle of the gap that is allowed.
+_MIDDLE = 0.5
+_BESIDE = (Relation.BEHIND, Relation.AHEAD)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -44,6 +49,8 @@ def out_of_reach(agsg: Agsg, condition: Condition) -> dict[str, Evidence]:
         condition: Violated.
     """
     spec = agsg.realised_spec
+    if isinstance(condition.arguments, FollowFraction):
+        return _too_far_behind(spec, condition, condition.arguments)
     asked = _waited_for(spec, condition) or _to_stay_within(condition)
     if asked is None:
         return {}
@@ -51,6 +58,24 @@ def out_of_reach(agsg: Agsg, condition: Condition) -> dict[str, Evidence]:
     for mission in spec.missions:
         if mission.uav in asked.of:
             found |= _of_mission(mission, asked.reach_m, flat=asked.flat)
+    return found
+
+
+def _too_far_behind(
+    spec: ScenarioSpec, condition: Condition, asked: FollowFraction
+) -> dict[str, Evidence]:
+    found = {}
+    for agent in spec.agents:
+        for k, placement in enumerate(agent.placements):
+            between = {agent.id, placement.of} == {*condition.of}
+            if placement.distance_m is None or placement.relation not in _BESIDE or not between:
+                continue
+            here_m = placement.distance_m.value
+            if here_m > asked.high_m:
+                found[f'agents/{agent.id}/placements/{k}/distance_m'] = Evidence(
+                    aim=_MIDDLE * (asked.low_m + asked.high_m),
+                    because=f'{here_m:.3g} m apart at the start, {asked.high_m:g} m are allowed',
+                )
     return found
 
 

@@ -32,15 +32,21 @@ from aurora_core.repair.values import moved, value_edits
 # The paper bounds a symbolic repair so.
 MOST_FIELDS = 6
 
-_HIGHER, _NEARER, _CLOSER = ('altitude_m', 1), ('standoff_m', -1), ('distance_m', -1)
-_SMALLER = (('radius_m', -1), ('0', -1), ('1', -1))
-# What helps where a site lacks something: last name of the path, and in which direction.
-LACKED: Mapping[str, tuple[tuple[str, int], ...]] = MappingProxyType(
+Rule = tuple[tuple[str, int], ...]
+
+# Last name of a path, and in which direction it goes.
+_HIGHER: Rule = (('altitude_m', 1),)
+_NEARER: Rule = (('standoff_m', -1),)
+_CLOSER: Rule = (('distance_m', -1),)
+_SMALLER: Rule = (('radius_m', -1), ('0', -1), ('1', -1))
+_ROUND_IT: Rule = (('radius_m', 1),)
+# What helps where a site lacks something: what most often does, and else.
+LACKED: Mapping[str, tuple[Rule, ...]] = MappingProxyType(
     {
-        'clearance': (_HIGHER, *_SMALLER, _NEARER),
-        'pattern': (*_SMALLER, _HIGHER),
-        'sight': (_NEARER, _HIGHER),
-        'separation': (('standoff_m', 1), _HIGHER),
+        'clearance': (_HIGHER, _ROUND_IT, (*_HIGHER, *_SMALLER, *_NEARER)),
+        'pattern': (_SMALLER, _HIGHER, (*_SMALLER, *_HIGHER)),
+        'sight': (_NEARER, _HIGHER, (*_NEARER, *_HIGHER)),
+        'separation': ((('standoff_m', 1),), _HIGHER),
         'way_between_missions': (_HIGHER,),
         'road': (_CLOSER,),
         'oncoming': (_CLOSER,),
@@ -56,46 +62,61 @@ def revised_to_fit(
 ) -> Iterator[Proposal]:
     """Yield revisions with which a request may find a place, small ones first.
 
+    Nothing was recorded that would say how far: each rule is tried with a small step, then with
+    larger ones.
+
     Args:
         agsg: Of the request.
         failure: What its sites lacked.
         settings: How far a value goes, one after another.
     """
-    open_rows = [row for row in agsg.parameters if is_movable(row)]
     counts = failure.rejected_by or {failure.reason: 1}
-    for reason in sorted(counts, key=lambda name: (-counts[name], name)):
-        rules = LACKED.get(reason, ())
-        named = [
-            (row, direction)
-            for name, direction in rules
-            for row in open_rows
-            if row.path.rpartition('/')[2] == name
-        ][:MOST_FIELDS]
-        if not named:
-            continue
-        implicated = tuple(
-            Implicated(
-                field=row.path,
-                score=float(counts[reason]),
-                direction=direction,
-                conditions=(),
-                reason=f'no place: {failure.told}',
-            )
-            for row, direction in named
+    lacked = sorted(counts, key=lambda name: (-counts[name], name))
+    rules = [rule for reason in lacked for rule in LACKED.get(reason, ())]
+    implicated = tuple(_at_fault(agsg, rules, failure))
+    given: list[RepairPlan] = []
+    for share in settings.steps:
+        for rule in rules:
+            rows = _open_rows(agsg, rule)[:MOST_FIELDS]
+            values = {row.path: moved(row, row.requested, way * share) for row, way in rows}
+            plan = RepairPlan(values=value_edits(agsg, values))
+            if plan.values and plan not in given:
+                given.append(plan)
+                yield Proposal(
+                    outcome=ProposalOutcome.EDITED,
+                    step=Step.SYMBOLIC,
+                    plan=plan,
+                    implicated=implicated,
+                    reason=f'no place ({failure.told}); {_told(plan.values)}',
+                )
+
+
+def _open_rows(agsg: Agsg, rule: Rule) -> list[tuple[AgsgParameter, int]]:
+    return [
+        (row, way)
+        for name, way in rule
+        for row in agsg.parameters
+        if is_movable(row) and row.path.rpartition('/')[2] == name
+    ]
+
+
+def _at_fault(
+    agsg: Agsg, rules: Sequence[Rule], failure: GroundingFailure
+) -> Iterator[Implicated]:
+    """Yield what the rules move, each once, in their order."""
+    pairs = dict.fromkeys(pair for rule in rules for pair in _names(agsg, rule))
+    for k, (path, way) in enumerate(pairs):
+        yield Implicated(
+            field=path,
+            score=1.0 / (1.0 + k),
+            direction=way,
+            conditions=(),
+            reason=f'no place: {failure.told}',
         )
-        first = [pair for pair in named if pair[0].path.endswith(rules[0][0])]
-        for chosen in (first, named) if first and len(first) < len(named) else (named,):
-            for share in settings.steps:
-                values = {row.path: moved(row, row.requested, d * share) for row, d in chosen}
-                edits = value_edits(agsg, values)
-                if edits:
-                    yield Proposal(
-                        outcome=ProposalOutcome.EDITED,
-                        step=Step.SYMBOLIC,
-                        plan=RepairPlan(values=edits),
-                        implicated=implicated,
-                        reason=f'no place ({failure.told}); {_told(edits)}',
-                    )
+
+
+def _names(agsg: Agsg, rule: Rule) -> list[tuple[str, int]]:
+    return [(row.path, way) for row, way in _open_rows(agsg, rule)]
 
 
 def revised(

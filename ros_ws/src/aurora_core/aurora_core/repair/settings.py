@@ -61,6 +61,7 @@ class RepairSettings(Document):
     budget: NonNegativeInt
     unasked: NonNegativeInt
     groundings: PositiveInt
+    placements: NonNegativeInt
     most_parameters: PositiveInt = Field(le=_MOST_PARAMETERS)
     singles: PositiveInt
     in_vain: PositiveInt

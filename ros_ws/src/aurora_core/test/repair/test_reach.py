@@ -8,10 +8,11 @@ import pytest
 
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.parse import ParseOutcome
-from aurora_core.outcomes.repair import ValueEdit, with_values
+from aurora_core.outcomes.repair import RepairPlan, ValueEdit, with_values
 from aurora_core.pipeline.functions import ground_stage, parse_stage, understood
 from aurora_core.pipeline.knowledge import installed_knowledge
 from aurora_core.repair.reach import out_of_reach
+from aurora_core.spec.quantity import QuantityName
 
 _KNOWN = installed_knowledge()
 PROMPT = (
@@ -72,3 +73,19 @@ def test_a_distance_to_stay_within_is_evidence_as_well() -> None:
     found = out_of_reach(graph, within)
     assert set(found) == {STANDOFF}
     assert found[STANDOFF].aim < 35.0
+
+
+@pytest.mark.parametrize(('gap_m', 'is_named'), [(150.0, True), (20.0, False)])
+def test_who_starts_behind_the_greatest_gap_starts_nearer(gap_m: float, is_named: bool) -> None:
+    parsed = parse_stage(_KNOWN, 'A car follows a bus.', 'downtown', 1).agsg
+    assert parsed is not None
+    [row] = [r for r in parsed.parameters if r.path.endswith('placements/0/distance_m')]
+    edit = ValueEdit(
+        path=row.path, requested=row.requested, realised=gap_m, provenance=row.provenance
+    )
+    found = ground_stage(_KNOWN, parsed, 1, RepairPlan(values=(edit,))).agsg
+    assert found is not None
+    [follows] = [c for c in found.conditions if c.quantity is QuantityName.FOLLOW_FRACTION]
+    named = out_of_reach(found, follows)
+    assert set(named) == ({row.path} if is_named else set())
+    assert all(10.0 < evidence.aim < 50.0 for evidence in named.values())

@@ -36,10 +36,12 @@ def to_fit(agsg: Agsg, *reasons: str) -> list[Proposal]:
 def test_what_flies_too_low_to_be_clear_is_revised_upwards_and_first_alone() -> None:
     agsg = parsed('A drone orbits the City Hall.')
     low = next(row.requested for row in agsg.parameters if row.path == ALTITUDE)
-    first, *_, last = to_fit(agsg, 'clearance')
+    first, round_it, both, *_ = to_fit(agsg, 'clearance')
     [edit] = first.plan.values
     assert (edit.path, edit.realised > low) == (ALTITUDE, True)
-    assert {edit.path for edit in last.plan.values} == {ALTITUDE, 'missions/m1/radius_m'}
+    [edit] = round_it.plan.values
+    assert (edit.path, edit.realised > edit.requested) == ('missions/m1/radius_m', True)
+    assert {edit.path for edit in both.plan.values} == {ALTITUDE, 'missions/m1/radius_m'}
     assert first.step is Step.SYMBOLIC
 
 
