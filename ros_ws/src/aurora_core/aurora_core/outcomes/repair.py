@@ -116,6 +116,7 @@ class Attempt(Document):
         margins: Normalised margin of every condition; None without one.
         predicted: Normalised margins that were expected of it; {} where nothing was.
         failed: Conditions that do not hold, or were not exercised.
+        learned: Of the first one: what past episodes taught (`repair.experience`).
     """
 
     iteration: int
@@ -127,6 +128,7 @@ class Attempt(Document):
     margins: Mapping[str, FiniteFloat | None] = {}
     predicted: Mapping[str, FiniteFloat] = {}
     failed: tuple[str, ...] = ()
+    learned: Mapping[str, FiniteFloat] = {}
 
     @property
     def simulated(self) -> bool:

@@ -22,7 +22,7 @@ from aurora_core.outcomes.feasibility import Feasibility
 from aurora_core.outcomes.grounding import GroundingOutcome
 from aurora_core.outcomes.repair import Attempt, Proposal, ProposalOutcome, RepairPlan, Step
 from aurora_core.outcomes.verdict import VerdictStatus
-from aurora_core.pipeline.history import remember
+from aurora_core.pipeline.history import learned_of, remember, remember_lessons
 from aurora_core.pipeline.knowledge import Knowledge
 from aurora_core.pipeline.relaxing import relaxed
 from aurora_core.pipeline.repairing import (
@@ -36,6 +36,7 @@ from aurora_core.pipeline.repairing import (
 from aurora_core.pipeline.stages import ExecutionResult, RunControl, RunRequest, Stages
 from aurora_core.pipeline.verification import load_bag
 from aurora_core.ports.clock import SteadyClock
+from aurora_core.repair.experience import Lesson, lessons
 from aurora_core.repair.revise import revised_to_fit
 from aurora_core.report.build import build_report
 from aurora_core.report.facts import ExecutionFacts, RunFacts
@@ -93,6 +94,7 @@ class _Run:
         self.control = control
         self.clock = clock
         self.facts = facts
+        self.lessons: tuple[Lesson, ...] = ()
         self._dt_s = 0.0
         self._timing: dict[str, float] = {}
         # Of the time for repair: what is over, and what an iteration takes of it.
@@ -244,7 +246,7 @@ class _Run:
         """
         budget = self.budget()
         made = [first]
-        past = [first.attempt]
+        past = [first.attempt.model_copy(update={'learned': learned_of(self.request)})]
         tries = self.known.repair.groundings if budget else 0
         try:
             while tries and len(made) <= budget and made[-1].verdict.status in _GO_ON:
@@ -259,6 +261,7 @@ class _Run:
             best = max(made, key=lambda r: r.attempt.rank)
             self.note(grounding=best.grounding, execution=best.execution, verdict=best.verdict)
             self.note(iterations=len(made))
+            self.lessons = lessons(past, first.graph.conditions)
             self._share = None
 
     def relax(self) -> None:
@@ -389,14 +392,16 @@ def run(
     control.progress('report', _BEGINS['report'], 0.0)
     report = build_report(state.facts)
     outputs(report, folder)
-    _keep(request, report, state.facts)
+    _keep(request, report, state)
     control.progress('done', _BEGINS['done'], 0.0)
     return report
 
 
-def _keep(request: RunRequest, report: RunReport, facts: RunFacts) -> None:
-    """Put a verified run into the history; the run stands, whether that succeeds or not."""
+def _keep(request: RunRequest, report: RunReport, state: _Run) -> None:
+    """Put a run into the history; it stands, whether that succeeds or not."""
+    parse = state.facts.parse
     try:
-        remember(request, report, facts.parse.spec if facts.parse is not None else None)
+        remember(request, report, parse.spec if parse is not None else None)
+        remember_lessons(request, report, state.lessons)
     except AuroraError as err:
         _LOG.warning('run %s is not in the history: %s', report.run_id, err)

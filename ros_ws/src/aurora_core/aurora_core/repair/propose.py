@@ -58,7 +58,7 @@ def propose(
         settings: How it is searched.
         view: What was recorded of that realisation; None: nothing is foreseen.
     """
-    implicated = localize(agsg, verdict)
+    implicated = localize(agsg, verdict, past[0].learned if past else {})
     if not implicated:
         return Proposal(
             outcome=ProposalOutcome.OUT_OF_SCOPE,
