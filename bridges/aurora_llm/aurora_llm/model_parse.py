@@ -41,7 +41,7 @@ def read_with_models(
     outcome = parse_with_models(
         request.prompt,
         parse_context(known, request.map_name, request.seed),
-        [wrap(_client(name, models, request)) for name in order if name != OFFLINE],
+        [wrap(client_of(name, models, request)) for name in order if name != OFFLINE],
         attempts=models.attempts,
         wait=lambda seconds: time.sleep(min(seconds, models.most_wait_s)),
         background=_background(known, request, models),
@@ -64,7 +64,7 @@ def check_models(model: str) -> None:
     settings = load_model_settings()
     for name in settings.order(model):
         if name != OFFLINE:
-            _client(name, settings, None)
+            client_of(name, settings, None)
 
 
 def _is_spent(outcome: ParseOutcome) -> bool:
@@ -78,7 +78,8 @@ def _background(known: Knowledge, request: RunRequest, settings: ModelSettings) 
     return background(known, request, rankers(embedding=wanted.embedding), wanted)
 
 
-def _client(name: str, settings: ModelSettings, request: RunRequest | None) -> LanguageModel:
+def client_of(name: str, settings: ModelSettings, request: RunRequest | None) -> LanguageModel:
+    """Return the model of a name; where a request has transcripts, these answer for it."""
     if name.startswith(RECORDED):
         return RecordedClient(name, Path(name.removeprefix(RECORDED)))
     if request is not None and request.transcripts is not None:

@@ -17,6 +17,7 @@ from pydantic import BaseModel, FiniteFloat, TypeAdapter, ValidationError
 
 from aurora_core.document import Document
 from aurora_core.errors import SpecError
+from aurora_core.ports.language_model import ModelCall
 from aurora_core.spec.parameter import Parameter, Provenance
 from aurora_core.spec.scenario import ScenarioSpec
 
@@ -185,6 +186,7 @@ class Proposal(Document):
         implicated: The ranked result of the fault localization.
         predicted: Normalised margins that the surrogate expects; {} without one.
         reason: Why this is tried, or why nothing is, in English.
+        model_calls: Every call to a language model for it.
     """
 
     outcome: ProposalOutcome
@@ -193,6 +195,7 @@ class Proposal(Document):
     implicated: tuple[Implicated, ...] = ()
     predicted: Mapping[str, FiniteFloat] = {}
     reason: str
+    model_calls: tuple[ModelCall, ...] = ()
 
 
 def with_values(spec: ScenarioSpec, values: tuple[ValueEdit, ...]) -> ScenarioSpec:

@@ -20,6 +20,7 @@ from aurora_core.errors import AuroraError
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.feasibility import Feasibility
 from aurora_core.outcomes.grounding import GroundingOutcome
+from aurora_core.outcomes.parse import ParseOutcome
 from aurora_core.outcomes.repair import Attempt, Proposal, ProposalOutcome, RepairPlan, Step
 from aurora_core.outcomes.verdict import VerdictStatus
 from aurora_core.pipeline.history import learned_of, remember, remember_lessons
@@ -292,6 +293,7 @@ class _Run:
         with self.stage('repair'):
             bag = self.folder.path / best.execution.bag
             proposal = self.stages.propose(best.graph, best.verdict, bag, tuple(past))
+            self.record_calls(proposal)
         if proposal.outcome is not ProposalOutcome.EDITED:
             self._tell(nothing_left(iteration, proposal))
             return False
@@ -315,6 +317,15 @@ class _Run:
         self._tell(told)
         self.folder.write_stage(StageFile.EDITS, iteration, told)
         return True
+
+    def record_calls(self, proposal: Proposal) -> None:
+        """Put what models were asked for a proposal to the other calls of the run."""
+        parse = self.facts.parse
+        if proposal.model_calls and parse is not None:
+            calls = (*parse.model_calls, *proposal.model_calls)
+            fields = {name: getattr(parse, name) for name in ParseOutcome.model_fields}
+            self.note(parse=ParseOutcome(**{**fields, 'model_calls': calls}))
+            self.folder.write_lines(TRANSCRIPT, calls)
 
     def _tell(self, told: RepairReport) -> None:
         self.note(repairs=(*self.facts.repairs, told))

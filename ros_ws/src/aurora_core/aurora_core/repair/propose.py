@@ -151,11 +151,24 @@ def _symbolic(
 ) -> Iterator[Proposal]:
     """Revise several fields at another place than those that were tried."""
     here = {row.path: here_of(row, agsg) for row in agsg.parameters}
+    for plan in plans_elsewhere(agsg, implicated, past):
+        yield from revised(agsg, implicated, here, plan, settings)
+
+
+def plans_elsewhere(
+    agsg: Agsg, implicated: Sequence[Implicated], past: Sequence[Attempt]
+) -> Iterator[RepairPlan]:
+    """Yield plans that lead to places that were not tried, where the place can be at fault.
+
+    Args:
+        agsg: The best realisation so far.
+        implicated: The localization.
+        past: Everything that was tried, in order.
+    """
     place = next((item for item in implicated if item.field == ANCHOR), None)
-    if place is None:
-        return
-    for elsewhere in _elsewhere(agsg, place, implicated, past):
-        yield from revised(agsg, implicated, here, elsewhere.plan, settings)
+    if place is not None:
+        for proposal in _elsewhere(agsg, place, tuple(implicated), past):
+            yield proposal.plan
 
 
 def _fails(agsg: Agsg, proposal: Proposal, foresight: Foresight | None) -> bool:
