@@ -10,7 +10,8 @@ from typing import NamedTuple
 import numpy as np
 import pytest
 
-from aurora_bench.repair.faults import ALTITUDE, Fault, with_fault
+from aurora_bench.repair.faults import Fault, with_fault
+from aurora_bench.repair.kinds import ALTITUDE
 from aurora_bench.rulers.runs import run_into
 from aurora_bench.rulers.watched import WatchedStages
 from aurora_core.outcomes.agsg import Agsg
@@ -28,6 +29,7 @@ FAULT = Fault(
     key='hover',
     kind='hover above the distance it has to keep',
     prompt='A drone hovers near a bus and stays within 50 meters of it.',
+    good_prompt='A drone hovers near a bus and stays within 50 meters of it.',
     values={ALTITUDE: 80.0},
     cause=ALTITUDE,
     good=25.0,

@@ -21,6 +21,7 @@ from aurora_core.pipeline.verification import Judged, judge_content, load_bag
 from aurora_core.trace.bag_reader import BagContent
 from aurora_core.trace.definitions import message_definitions
 from aurora_llm.parse import read_prompt
+from aurora_llm.revise import revised_by_models
 
 
 class LocalStages:
@@ -43,6 +44,8 @@ class LocalStages:
         self.verified: BagContent | None = None
         self.verified_bag: Path | None = None
         self.judged: Judged | None = None
+        # Names the models that may revise what was grounded for it.
+        self._request: RunRequest | None = None
 
     def parse(self, request: RunRequest) -> ParseOutcome:
         """Read the prompt."""
@@ -52,6 +55,7 @@ class LocalStages:
         self, agsg: Agsg, request: RunRequest, plan: RepairPlan | None = None
     ) -> GroundingOutcome:
         """Ground the graph."""
+        self._request = request
         return functions.ground_stage(self.known, agsg, request.seed, plan)
 
     def check(self, agsg: Agsg, request: RunRequest) -> FeasibilityVerdict:
@@ -100,4 +104,7 @@ class LocalStages:
     ) -> Proposal:
         """Propose how to realise a violated request otherwise."""
         content = self.verified if self.verified_bag == bag else load_bag(bag)[0]
-        return functions.repair_stage(self.known, agsg, verdict, past, content)
+        proposal = functions.repair_stage(self.known, agsg, verdict, past, content)
+        if self._request is None:
+            return proposal
+        return revised_by_models(self.known, self._request, agsg, past, proposal)

@@ -17,6 +17,7 @@ from pydantic import BaseModel, FiniteFloat, TypeAdapter, ValidationError
 
 from aurora_core.document import Document
 from aurora_core.errors import SpecError
+from aurora_core.ports.language_model import ModelCall
 from aurora_core.spec.parameter import Parameter, Provenance
 from aurora_core.spec.scenario import ScenarioSpec
 
@@ -27,6 +28,7 @@ class Step(StrEnum):
     ONE = 'one_parameter'
     SEARCH = 'search'
     GROUNDING = 'grounding'
+    SYMBOLIC = 'symbolic'
 
 
 class Anchor(Document):
@@ -99,6 +101,7 @@ class AttemptOutcome(StrEnum):
     VERIFIED = 'verified'
     VIOLATED = 'violated'
     INCONCLUSIVE = 'inconclusive'
+    PLACED = 'placed'  # a request that had no place has one; the first realisation is there
     NO_PLACE = 'no_place'  # grounding found none; nothing was simulated
     REFUSED = 'refused'  # the request would have been judged otherwise; nothing was simulated
     SAME_SCENE = 'same_scene'  # it gives a scene that was tried already; nothing was simulated
@@ -114,6 +117,7 @@ class Attempt(Document):
         margins: Normalised margin of every condition; None without one.
         predicted: Normalised margins that were expected of it; {} where nothing was.
         failed: Conditions that do not hold, or were not exercised.
+        learned: Of the first one: what past episodes taught (`repair.experience`).
     """
 
     iteration: int
@@ -125,6 +129,7 @@ class Attempt(Document):
     margins: Mapping[str, FiniteFloat | None] = {}
     predicted: Mapping[str, FiniteFloat] = {}
     failed: tuple[str, ...] = ()
+    learned: Mapping[str, FiniteFloat] = {}
 
     @property
     def simulated(self) -> bool:
@@ -181,6 +186,7 @@ class Proposal(Document):
         implicated: The ranked result of the fault localization.
         predicted: Normalised margins that the surrogate expects; {} without one.
         reason: Why this is tried, or why nothing is, in English.
+        model_calls: Every call to a language model for it.
     """
 
     outcome: ProposalOutcome
@@ -189,6 +195,7 @@ class Proposal(Document):
     implicated: tuple[Implicated, ...] = ()
     predicted: Mapping[str, FiniteFloat] = {}
     reason: str
+    model_calls: tuple[ModelCall, ...] = ()
 
 
 def with_values(spec: ScenarioSpec, values: tuple[ValueEdit, ...]) -> ScenarioSpec:

@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from aurora_core.agsg.build import build_agsg
 from aurora_core.errors import SpecError
 from aurora_core.execution.faults import Fault
@@ -13,17 +15,27 @@ from aurora_core.outcomes.agsg import Agsg, Stage
 from aurora_core.outcomes.feasibility import CheckStage, FeasibilityVerdict
 from aurora_core.outcomes.grounding import GroundingFailure, GroundingOutcome
 from aurora_core.outcomes.parse import ParseContext, ParseOutcome
-from aurora_core.outcomes.repair import Attempt, Proposal, RepairPlan, with_values
+from aurora_core.outcomes.repair import (
+    Attempt,
+    Proposal,
+    ProposalOutcome,
+    RepairPlan,
+    Step,
+    with_values,
+)
 from aurora_core.outcomes.verdict import Verdict
 from aurora_core.parsing.parser import parse_offline
 from aurora_core.pipeline.knowledge import Knowledge
 from aurora_core.pipeline.planned import plan_conditions
 from aurora_core.pipeline.reading import parser_digest
 from aurora_core.planning.complete import complete
+from aurora_core.ports.language_model import LanguageModel
 from aurora_core.quantities.view import RunView
+from aurora_core.repair.guarded import guarded_revision
 from aurora_core.repair.lock import locked_edits
-from aurora_core.repair.propose import propose
+from aurora_core.repair.propose import plans_elsewhere, propose
 from aurora_core.repair.realise import repaired
+from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.temporal.retarget import retargeted
 from aurora_core.temporal.schedule import plan_time
 from aurora_core.trace.bag_content import BagContent
@@ -155,3 +167,45 @@ def repair_stage(
     if view is not None and view.first_missing_tick is not None:
         view = None
     return propose(agsg, verdict, past, known.repair, view)
+
+
+def revision_stage(
+    known: Knowledge,
+    agsg: Agsg,
+    past: tuple[Attempt, ...],
+    proposal: Proposal,
+    models: Sequence[LanguageModel],
+    attempts: int,
+) -> Proposal:
+    """Let models revise what rules would revise; the rules stand where no answer is taken.
+
+    Args:
+        known: What is installed here.
+        agsg: The best realisation so far.
+        past: Everything that was tried, in order.
+        proposal: Of `repair_stage`.
+        models: In the order in which they are asked.
+        attempts: Most calls to one model.
+    """
+    is_spent = proposal.outcome is ProposalOutcome.EXHAUSTED
+    if not (is_spent or proposal.step is Step.SYMBOLIC) or not proposal.implicated:
+        return proposal
+
+    def refused(spec: ScenarioSpec) -> str:
+        verdict = check_stage(known, build_agsg(spec))
+        return ' '.join(certificate.sentence for certificate in verdict.certificates)
+
+    elsewhere = next(plans_elsewhere(agsg, proposal.implicated, past), None)
+    plan, because, calls = guarded_revision(
+        agsg, proposal.implicated, elsewhere, refused, models, attempts
+    )
+    if plan is None or plan in [attempt.plan for attempt in past]:
+        return proposal.model_copy(update={'model_calls': calls})
+    return Proposal(
+        outcome=ProposalOutcome.EDITED,
+        step=Step.SYMBOLIC,
+        plan=plan,
+        implicated=proposal.implicated,
+        reason=f'{calls[-1].model} proposes: {because}',
+        model_calls=calls,
+    )

@@ -7,6 +7,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from aurora_core.pipeline.stages import RunRequest
+from aurora_core.repair.experience import Lesson, RepairEpisode, learned, remember_repairs
 from aurora_core.report.run_report import RunReport
 from aurora_core.report.status import Status
 from aurora_core.retrieval.episodes import Episode, EpisodeStore
@@ -31,6 +32,28 @@ def remember(request: RunRequest, report: RunReport, spec: ScenarioSpec | None) 
         return False
     # A run with injected faults shows what was done to it, not what the request is like.
     return not report.faults and history.add(episode_of(report, spec))
+
+
+def learned_of(request: RunRequest) -> dict[str, float]:
+    """Return what the history of a request teaches repair, {} without one.
+
+    Raises:
+        ConfigError: The history cannot be read.
+    """
+    return {} if request.history is None else learned(request.history)
+
+
+def remember_lessons(request: RunRequest, report: RunReport, lessons: tuple[Lesson, ...]) -> bool:
+    """Keep what repair learned in the history of a request; return whether it was kept.
+
+    Raises:
+        ConfigError: The history cannot be written.
+    """
+    # A run with injected faults shows what was done to it, not what the request is like.
+    if request.history is None or request.history_frozen or report.faults or not lessons:
+        return False
+    remember_repairs(request.history, RepairEpisode(id=report.run_id, lessons=lessons))
+    return True
 
 
 def episode_of(report: RunReport, spec: ScenarioSpec) -> Episode:

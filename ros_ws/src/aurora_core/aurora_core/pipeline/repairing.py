@@ -20,8 +20,9 @@ from aurora_core.outcomes.repair import (
     RepairPlan,
 )
 from aurora_core.outcomes.verdict import Verdict, VerdictStatus
-from aurora_core.repair.localize import violated
+from aurora_core.repair.localize import localize, violated
 from aurora_core.repair.lock import changes_of_the_request
+from aurora_core.repair.neighbourhood import outside
 from aurora_core.report.facts import ExecutionFacts
 from aurora_core.report.run_report import ChangeKind, EditReport, MarginChange, RepairReport
 from aurora_core.spec.parameter import Provenance
@@ -81,6 +82,7 @@ def why_not(
     proposal: Proposal,
     grounding: GroundingOutcome,
     first: GroundingOutcome,
+    best: Realisation,
     past: Sequence[Attempt],
 ) -> tuple[Attempt, str] | None:
     """Return why a grounded proposal is not worth or not allowed a simulation, None when it is.
@@ -90,6 +92,8 @@ def why_not(
         proposal: What was proposed.
         grounding: What came of it.
         first: Of the first realisation, by whose conditions every other one is judged as well.
+        best: The realisation that it was proposed after. Its neighbourhood is worked out anew:
+            whoever proposes does not say how far he may go.
         past: Everything that was tried.
     """
     graph = grounding.agsg
@@ -103,6 +107,12 @@ def why_not(
         return (
             _not_simulated(iteration, proposal, AttemptOutcome.REFUSED, graph.grounding),
             f'the request would be judged otherwise: {change}',
+        )
+    admissible = {item.field for item in localize(best.graph, best.verdict)}
+    for change in outside(best.graph, graph, admissible):
+        return (
+            _not_simulated(iteration, proposal, AttemptOutcome.REFUSED, graph.grounding),
+            f'it would change more than it says: {change}',
         )
     if scene_digest(graph.grounding) in {attempt.scene for attempt in past}:
         return (
@@ -126,6 +136,17 @@ def _not_simulated(
         anchor=None if grounded is None else anchor_of(grounded),
         scene='' if grounded is None else scene_digest(grounded),
     )
+
+
+def to_fit(proposal: Proposal, outcome: GroundingOutcome) -> RepairReport:
+    """Return how a revision is told that was made because the request had no place."""
+    agsg = outcome.agsg
+    anchor = None if agsg is None or agsg.grounding is None else anchor_of(agsg.grounding)
+    found = AttemptOutcome.NO_PLACE if anchor is None else AttemptOutcome.PLACED
+    attempt = Attempt(
+        iteration=0, step=proposal.step, plan=proposal.plan, outcome=found, anchor=anchor
+    )
+    return repair_report(proposal, attempt, None)
 
 
 def nothing_left(iteration: int, proposal: Proposal) -> RepairReport:
@@ -152,17 +173,19 @@ def scene_digest(grounded: GroundedScenario) -> str:
 
 
 def repair_report(
-    proposal: Proposal, attempt: Attempt, before: GroundedScenario | None, note: str = ''
+    proposal: Proposal, attempt: Attempt, best: Realisation | None, note: str = ''
 ) -> RepairReport:
     """Return how an attempt is told.
 
     Args:
         proposal: What was tried.
         attempt: What came of it.
-        before: Grounding that the proposal was made after.
+        best: The realisation that the proposal was made after.
         note: Why nothing was simulated.
     """
     ids = dict.fromkeys((*proposal.predicted, *attempt.margins))
+    before = None if best is None else best.graph.grounding
+    margins = {} if best is None else best.attempt.margins
     return RepairReport(
         iteration=attempt.iteration,
         kind='' if proposal.step is None else proposal.step.value,
@@ -170,6 +193,7 @@ def repair_report(
         margins=tuple(
             MarginChange(
                 condition=name,
+                before=margins.get(name),
                 predicted=proposal.predicted.get(name),
                 realised=attempt.margins.get(name),
             )

@@ -12,6 +12,7 @@ import logging
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import replace
+from itertools import islice
 from types import MappingProxyType
 from typing import Any
 
@@ -19,9 +20,10 @@ from aurora_core.errors import AuroraError
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.feasibility import Feasibility
 from aurora_core.outcomes.grounding import GroundingOutcome
-from aurora_core.outcomes.repair import Attempt, Proposal, ProposalOutcome, RepairPlan
+from aurora_core.outcomes.parse import ParseOutcome
+from aurora_core.outcomes.repair import Attempt, Proposal, ProposalOutcome, RepairPlan, Step
 from aurora_core.outcomes.verdict import VerdictStatus
-from aurora_core.pipeline.history import remember
+from aurora_core.pipeline.history import learned_of, remember, remember_lessons
 from aurora_core.pipeline.knowledge import Knowledge
 from aurora_core.pipeline.relaxing import relaxed
 from aurora_core.pipeline.repairing import (
@@ -29,11 +31,14 @@ from aurora_core.pipeline.repairing import (
     nothing_left,
     realised,
     repair_report,
+    to_fit,
     why_not,
 )
 from aurora_core.pipeline.stages import ExecutionResult, RunControl, RunRequest, Stages
 from aurora_core.pipeline.verification import load_bag
 from aurora_core.ports.clock import SteadyClock
+from aurora_core.repair.experience import Lesson, lessons
+from aurora_core.repair.revise import revised_to_fit
 from aurora_core.report.build import build_report
 from aurora_core.report.facts import ExecutionFacts, RunFacts
 from aurora_core.report.outputs import write_outputs
@@ -90,6 +95,7 @@ class _Run:
         self.control = control
         self.clock = clock
         self.facts = facts
+        self.lessons: tuple[Lesson, ...] = ()
         self._dt_s = 0.0
         self._timing: dict[str, float] = {}
         # Of the time for repair: what is over, and what an iteration takes of it.
@@ -133,11 +139,11 @@ class _Run:
         graph = self.understand()
         if graph is None:
             return
-        grounding = self.ground(graph)
+        grounding, proposal = self.place(graph)
         if grounding.agsg is None:
             return
         self.keep(grounding.agsg)
-        first = self.execute(grounding, iteration=0)
+        first = self.execute(grounding, 0, proposal)
         if first.verdict.status is VerdictStatus.VIOLATED:
             self.repair(graph, first)
             self.relax()
@@ -170,6 +176,23 @@ class _Run:
                 self.note(grounding=outcome)
                 return outcome
             return self.stages.ground(graph, self.request, plan)
+
+    def place(self, graph: Agsg) -> tuple[GroundingOutcome, Proposal | None]:
+        """Ground a request; where there is no place, revise what it leaves open until one is."""
+        outcome = self.ground(graph)
+        if outcome.failure is None or not self.budget():
+            return outcome, None
+        repair = self.known.repair
+        if Step.SYMBOLIC not in repair.escalation:
+            return outcome, None
+        found = revised_to_fit(graph, outcome.failure, repair)
+        for proposal in islice(found, repair.placements):
+            again = self.ground(graph, proposal.plan)
+            self._tell(to_fit(proposal, again))
+            if again.agsg is not None:
+                self.note(grounding=again)
+                return again, proposal
+        return outcome, None
 
     def keep(self, grounded: Agsg) -> None:
         """Write the documents that a grounded scenario is executed from."""
@@ -224,7 +247,7 @@ class _Run:
         """
         budget = self.budget()
         made = [first]
-        past = [first.attempt]
+        past = [first.attempt.model_copy(update={'learned': learned_of(self.request)})]
         tries = self.known.repair.groundings if budget else 0
         try:
             while tries and len(made) <= budget and made[-1].verdict.status in _GO_ON:
@@ -239,6 +262,7 @@ class _Run:
             best = max(made, key=lambda r: r.attempt.rank)
             self.note(grounding=best.grounding, execution=best.execution, verdict=best.verdict)
             self.note(iterations=len(made))
+            self.lessons = lessons(past, first.graph.conditions)
             self._share = None
 
     def relax(self) -> None:
@@ -269,17 +293,17 @@ class _Run:
         with self.stage('repair'):
             bag = self.folder.path / best.execution.bag
             proposal = self.stages.propose(best.graph, best.verdict, bag, tuple(past))
+            self.record_calls(proposal)
         if proposal.outcome is not ProposalOutcome.EDITED:
             self._tell(nothing_left(iteration, proposal))
             return False
         again = graph.model_copy(update={'iteration': iteration})
         grounding = self.ground(again, proposal.plan)
-        unfit = why_not(iteration, proposal, grounding, made[0].grounding, past)
-        before = best.graph.grounding
+        unfit = why_not(iteration, proposal, grounding, made[0].grounding, best, past)
         if unfit is not None:
             attempt, why = unfit
             past.append(attempt)
-            self._tell(repair_report(proposal, attempt, before, why))
+            self._tell(repair_report(proposal, attempt, best, why))
             return True
         assert grounding.agsg is not None  # `why_not` tells
         self.folder.write_stage(StageFile.SPEC, iteration, grounding.agsg.spec)
@@ -289,10 +313,19 @@ class _Run:
         done = self.execute(grounding, iteration, proposal)
         made.append(done)
         past.append(done.attempt)
-        told = repair_report(proposal, done.attempt, before)
+        told = repair_report(proposal, done.attempt, best)
         self._tell(told)
         self.folder.write_stage(StageFile.EDITS, iteration, told)
         return True
+
+    def record_calls(self, proposal: Proposal) -> None:
+        """Put what models were asked for a proposal to the other calls of the run."""
+        parse = self.facts.parse
+        if proposal.model_calls and parse is not None:
+            calls = (*parse.model_calls, *proposal.model_calls)
+            fields = {name: getattr(parse, name) for name in ParseOutcome.model_fields}
+            self.note(parse=ParseOutcome(**{**fields, 'model_calls': calls}))
+            self.folder.write_lines(TRANSCRIPT, calls)
 
     def _tell(self, told: RepairReport) -> None:
         self.note(repairs=(*self.facts.repairs, told))
@@ -370,14 +403,16 @@ def run(
     control.progress('report', _BEGINS['report'], 0.0)
     report = build_report(state.facts)
     outputs(report, folder)
-    _keep(request, report, state.facts)
+    _keep(request, report, state)
     control.progress('done', _BEGINS['done'], 0.0)
     return report
 
 
-def _keep(request: RunRequest, report: RunReport, facts: RunFacts) -> None:
-    """Put a verified run into the history; the run stands, whether that succeeds or not."""
+def _keep(request: RunRequest, report: RunReport, state: _Run) -> None:
+    """Put a run into the history; it stands, whether that succeeds or not."""
+    parse = state.facts.parse
     try:
-        remember(request, report, facts.parse.spec if facts.parse is not None else None)
+        remember(request, report, parse.spec if parse is not None else None)
+        remember_lessons(request, report, state.lessons)
     except AuroraError as err:
         _LOG.warning('run %s is not in the history: %s', report.run_id, err)

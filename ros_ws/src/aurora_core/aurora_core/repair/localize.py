@@ -13,12 +13,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from types import MappingProxyType
 
 from aurora_core.agsg.influence import Influence, parameters_affecting
 from aurora_core.outcomes.agsg import Agsg, AgsgParameter
 from aurora_core.outcomes.condition import Condition
 from aurora_core.outcomes.repair import Implicated
 from aurora_core.outcomes.verdict import ConditionResult, Reason, Verdict
+from aurora_core.repair.experience import weight
 from aurora_core.repair.helps import ANCHOR, APART, HELPS, TOGETHER, Help
 from aurora_core.repair.lock import is_movable
 from aurora_core.repair.reach import out_of_reach
@@ -61,7 +63,9 @@ def violated(verdict: Verdict) -> tuple[ConditionResult, ...]:
     return tuple(row for row in verdict.results if not (row.satisfied and row.exercised))
 
 
-def localize(agsg: Agsg, verdict: Verdict) -> tuple[Implicated, ...]:
+def localize(
+    agsg: Agsg, verdict: Verdict, learned: Mapping[str, float] = MappingProxyType({})
+) -> tuple[Implicated, ...]:
     """Return what can be at fault, what most speaks for first; equal ones by name.
 
     Only what repair may move is in it: the admissible neighbourhood N(S_k).
@@ -69,6 +73,8 @@ def localize(agsg: Agsg, verdict: Verdict) -> tuple[Implicated, ...]:
     Args:
         agsg: Grounded, as it was executed.
         verdict: Of its trace.
+        learned: How much more a move counts than usual (`repair.experience`); it orders what is
+            in it, and takes nothing in or out.
     """
     rows = violated(verdict)
     conditions = {condition.id: condition for condition in agsg.conditions}
@@ -83,7 +89,8 @@ def localize(agsg: Agsg, verdict: Verdict) -> tuple[Implicated, ...]:
         influences = parameters_affecting(agsg, row.id)
         for name, direction, score, reason in _speaking(condition, row, influences, movable):
             case = cases.setdefault((name, direction), _Case())
-            case.add(share * score, row.id, reason, None)
+            known = weight(learned, condition.quantity.value, name, direction)
+            case.add(share * score * known, row.id, reason, None)
         for name, evidence in out_of_reach(agsg, condition).items():
             if name in movable:
                 case = cases.setdefault((name, -1), _Case())

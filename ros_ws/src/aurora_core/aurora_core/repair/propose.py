@@ -25,12 +25,16 @@ from aurora_core.quantities.view import RunView
 from aurora_core.repair.foresee import Foresight
 from aurora_core.repair.helps import ANCHOR
 from aurora_core.repair.localize import localize
+from aurora_core.repair.realised_values import here_of
+from aurora_core.repair.revise import revised
 from aurora_core.repair.settings import RepairSettings
 from aurora_core.repair.surrogate.replay import Replay
 from aurora_core.repair.values import moved_values, one_parameter, plan_with, searched
 
 # What was of no avail speaks for a field so much less.
 _LESS = 0.5
+# Steps that put the scene elsewhere.
+_AWAY = (Step.GROUNDING, Step.SYMBOLIC)
 
 
 def propose(
@@ -45,7 +49,7 @@ def propose(
     An edit after which everything is expected to hold comes first. Then what most speaks for: a
     place is changed by going back to grounding, a value by one parameter and, when several single
     ones were of no avail, by several at once. What was of no avail, or is expected to fail, speaks
-    less for its field.
+    less for its field. When nothing was of avail, several fields are revised at another place.
 
     Args:
         agsg: The best realisation so far, grounded.
@@ -54,7 +58,7 @@ def propose(
         settings: How it is searched.
         view: What was recorded of that realisation; None: nothing is foreseen.
     """
-    implicated = localize(agsg, verdict)
+    implicated = localize(agsg, verdict, past[0].learned if past else {})
     if not implicated:
         return Proposal(
             outcome=ProposalOutcome.OUT_OF_SCOPE,
@@ -66,9 +70,9 @@ def propose(
         foresight = Foresight(replay, agsg, implicated, verdict, settings)
     tried = [attempt.plan for attempt in past[1:]]
     for proposal in _ordered(agsg, implicated, past, settings, foresight):
-        if proposal.plan in tried:
+        if proposal.plan in tried or proposal.step not in settings.escalation:
             continue
-        if foresight is None or proposal.step is Step.GROUNDING or proposal.predicted:
+        if foresight is None or proposal.step in _AWAY or proposal.predicted:
             return proposal
         values = moved_values(agsg, proposal.plan)
         return proposal.model_copy(update={'predicted': foresight.predicted(values)})
@@ -117,6 +121,8 @@ def _candidates(
     foresight: Foresight | None,
 ) -> Iterator[Proposal]:
     """Yield proposals, the best one first; those that were made already are among them."""
+    if sum(1 for _ in _of_no_avail(past)) >= settings.in_vain:
+        yield from _symbolic(agsg, implicated, past, settings)
     singles = [a for a in past if a.step is Step.ONE and a.simulated]
     if len(singles) >= settings.singles:
         yield from searched(agsg, implicated, past, settings)
@@ -134,6 +140,35 @@ def _candidates(
     found.sort(key=lambda row: -row[0])
     for _, proposals in found:
         yield from proposals
+    yield from _symbolic(agsg, implicated, past, settings)
+
+
+def _symbolic(
+    agsg: Agsg,
+    implicated: tuple[Implicated, ...],
+    past: Sequence[Attempt],
+    settings: RepairSettings,
+) -> Iterator[Proposal]:
+    """Revise several fields at another place than those that were tried."""
+    here = {row.path: here_of(row, agsg) for row in agsg.parameters}
+    for plan in plans_elsewhere(agsg, implicated, past):
+        yield from revised(agsg, implicated, here, plan, settings)
+
+
+def plans_elsewhere(
+    agsg: Agsg, implicated: Sequence[Implicated], past: Sequence[Attempt]
+) -> Iterator[RepairPlan]:
+    """Yield plans that lead to places that were not tried, where the place can be at fault.
+
+    Args:
+        agsg: The best realisation so far.
+        implicated: The localization.
+        past: Everything that was tried, in order.
+    """
+    place = next((item for item in implicated if item.field == ANCHOR), None)
+    if place is not None:
+        for proposal in _elsewhere(agsg, place, tuple(implicated), past):
+            yield proposal.plan
 
 
 def _fails(agsg: Agsg, proposal: Proposal, foresight: Foresight | None) -> bool:
@@ -142,13 +177,25 @@ def _fails(agsg: Agsg, proposal: Proposal, foresight: Foresight | None) -> bool:
 
 
 def _tries(item: Implicated, past: Sequence[Attempt]) -> int:
-    """Return how often a field was realised otherwise, of no avail."""
-    made = [attempt for attempt in past if attempt.simulated and attempt.step is not None]
+    """Return how often a field was realised otherwise, and nothing became better by it."""
+    made = [attempt for attempt in _of_no_avail(past) if attempt.step is not None]
     if item.field == ANCHOR:
-        return sum(attempt.step is Step.GROUNDING for attempt in made)
+        return sum(attempt.step in _AWAY for attempt in made)
     # Who goes to another place keeps what was moved before: that is no try of it.
-    moved = [attempt.plan.values for attempt in made if attempt.step is not Step.GROUNDING]
+    moved = [attempt.plan.values for attempt in made if attempt.step not in _AWAY]
     return sum(item.field in {edit.path for edit in values} for values in moved)
+
+
+def _of_no_avail(past: Sequence[Attempt]) -> Iterator[Attempt]:
+    """Yield the simulated attempts that are no better than all before them."""
+    best: tuple[int, int, float] | None = None
+    for attempt in past:
+        if not attempt.simulated:
+            continue
+        if best is None or attempt.rank > best:
+            best = attempt.rank
+        else:
+            yield attempt
 
 
 def _elsewhere(

@@ -14,6 +14,7 @@ from aurora_core.document import Document
 from aurora_core.errors import ConfigError
 from aurora_core.files import CONFIG_BYTES, read_text
 from aurora_core.knowledge.config_files import config_path
+from aurora_core.outcomes.repair import Step
 from aurora_core.spec.parameter import Provenance
 
 # The paper bounds a numerical repair so.
@@ -56,11 +57,14 @@ class SurrogateSettings(Document):
 class RepairSettings(Document):
     """See `config/repair.yaml`."""
 
+    escalation: tuple[Step, ...]
     budget: NonNegativeInt
     unasked: NonNegativeInt
     groundings: PositiveInt
+    placements: NonNegativeInt
     most_parameters: PositiveInt = Field(le=_MOST_PARAMETERS)
     singles: PositiveInt
+    in_vain: PositiveInt
     steps: Annotated[tuple[Share, ...], Field(min_length=1)]
     epsilon: PositiveFloat
     lambda_sem: NonNegativeFloat

@@ -80,27 +80,29 @@ def searched(
         settings: How it is searched.
     """
     rows = {row.path: row for row in agsg.parameters}
-    moved: dict[str, list[float]] = {}
+    axes_of: dict[str, list[float]] = {}
     for item in implicated:
         if item.field == ANCHOR or item.field not in rows:
             continue
-        if item.field not in moved and len(moved) == settings.most_parameters:
+        if item.field not in axes_of and len(axes_of) == settings.most_parameters:
             continue
         row = rows[item.field]
         here = here_of(row, agsg)
-        steps = moved.setdefault(item.field, [here])
-        steps += [_moved(row, here, item.direction * share) for share in settings.steps]
-    if len(moved) < 2:
+        steps = axes_of.setdefault(item.field, [here])
+        steps += [moved(row, here, item.direction * share) for share in settings.steps]
+    if len(axes_of) < 2:
         return
     base = past[_index_of_best(past)].margins
-    axes = [rows[path] for path in moved]
+    axes = [rows[path] for path in axes_of]
     slopes = _slopes(axes, agsg, past)
     width = np.array([row.high - row.low for row in axes])
     at = np.array([here_of(row, agsg) for row in axes])
     found = []
-    for values in product(*(dict.fromkeys(steps) for steps in moved.values())):
+    for values in product(*(dict.fromkeys(steps) for steps in axes_of.values())):
         shifts = np.array(values) - at
-        changed = {path: value for path, value, d in zip(moved, values, shifts, strict=True) if d}
+        changed = {
+            path: value for path, value, d in zip(axes_of, values, shifts, strict=True) if d
+        }
         if len(changed) < 2:
             continue
         predicted = _predicted(base, slopes, shifts / width)
@@ -133,7 +135,7 @@ def _tries(
     wanted = [_secant(row, known, settings.epsilon)] if len(known) > 1 else []
     if item.aim is not None:
         wanted.insert(0, _rounded(row, item.aim))
-    wanted += [_moved(row, here, item.direction * share) for share in settings.steps]
+    wanted += [moved(row, here, item.direction * share) for share in settings.steps]
     least = _LEAST_SHARE * (row.high - row.low)
     for value in wanted:
         if value is not None and all(abs(value - other) > least for other in tried):
@@ -141,8 +143,14 @@ def _tries(
             yield value
 
 
-def _moved(row: AgsgParameter, here: float, share: float) -> float:
-    """Return a value moved by a share of the room that is left in its direction."""
+def moved(row: AgsgParameter, here: float, share: float) -> float:
+    """Return a value moved by a share of the room that is left in its direction.
+
+    Args:
+        row: The parameter.
+        here: Where it is, in its unit.
+        share: In [-1, 1]; below 0: downwards.
+    """
     room = row.high - here if share > 0.0 else here - row.low
     return _rounded(row, here + share * room)
 
@@ -195,8 +203,8 @@ def _slopes(
         return {}
     width = np.array([row.high - row.low for row in rows])
     at = np.array([here_of(row, agsg) for row in rows])
-    moved = np.array([[_value(row, a) for row in rows] for a in others])
-    answer = np.linalg.pinv((moved - at) / width)
+    tried = np.array([[_value(row, a) for row in rows] for a in others])
+    answer = np.linalg.pinv((tried - at) / width)
     found = {}
     for name, margin in best.margins.items():
         told = [a.margins.get(name) for a in others]
@@ -244,21 +252,25 @@ def moved_values(agsg: Agsg, plan: RepairPlan) -> dict[str, float]:
 def plan_with(agsg: Agsg, values: Mapping[str, float]) -> RepairPlan:
     """Return the plan of a realisation at its place with other values, earlier ones kept."""
     assert agsg.grounding is not None  # it was executed
-    rows = {row.path: row for row in agsg.parameters}
     before = agsg.grounding.repair
     wanted = {} if before is None else {edit.path: edit.realised for edit in before.values}
-    wanted |= values
     return RepairPlan(
         avoided=() if before is None else before.avoided,
         kept=_anchor(agsg),
-        values=tuple(
-            ValueEdit(
-                path=path,
-                requested=rows[path].requested,
-                realised=value,
-                provenance=rows[path].provenance,
-            )
-            for path, value in sorted(wanted.items())
-            if value != rows[path].requested
-        ),
+        values=value_edits(agsg, {**wanted, **values}),
+    )
+
+
+def value_edits(agsg: Agsg, values: Mapping[str, float]) -> tuple[ValueEdit, ...]:
+    """Return the edits that realise values, those left out that are as requested."""
+    rows = {row.path: row for row in agsg.parameters}
+    return tuple(
+        ValueEdit(
+            path=path,
+            requested=rows[path].requested,
+            realised=value,
+            provenance=rows[path].provenance,
+        )
+        for path, value in sorted(values.items())
+        if value != rows[path].requested
     )

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 from aurora_core.compiled import Compiled
 from aurora_core.report.clauses import status_word
 from aurora_core.report.mends import could_be
+from aurora_core.report.page.repairs import repair_figure
 from aurora_core.report.run_report import ClauseReport, RunReport
 from aurora_core.report.status import Status
 from aurora_core.report.summary import margin_value
@@ -70,6 +71,7 @@ def report_html(
         safety=[row for row in report.conditions if not row.source],
         picture=picture,
         recorded=recorded,
+        iterations=Markup(repair_figure(report.repairs)),
         data=Markup(recorded.data) if recorded is not None else '',
         style=Markup(parts.style),
         script=Markup(parts.script),

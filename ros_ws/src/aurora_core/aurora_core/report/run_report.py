@@ -95,9 +95,14 @@ class EditReport(Document):
 
 
 class MarginChange(Document):
-    """Normalised margin of a condition as repair expected it and as it came out."""
+    """Normalised margin of a condition as repair expected it and as it came out.
+
+    Attributes:
+        before: In the realisation that the edit answers to.
+    """
 
     condition: str
+    before: FiniteFloat | None = None
     predicted: FiniteFloat | None = None
     realised: FiniteFloat | None = None
 

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from aurora_core.outcomes.grounding import GroundingOutcome
+from aurora_core.outcomes.repair import AttemptOutcome
 from aurora_core.outcomes.verdict import Reason
 from aurora_core.report.run_report import ConditionReport, RunReport
 from aurora_core.report.status import Status
@@ -71,21 +72,33 @@ def _doubted(report: RunReport) -> str:
 def _repaired(report: RunReport) -> str:
     """Return how many realisations it took, where the first one did not hold."""
     tried = sum(repair.bag is not None for repair in report.repairs)
+    told = _placed(report)
     if not tried:
+        return told
+    return f'{told} It took {tried + 1} realisations; the request is unchanged.'
+
+
+def _placed(report: RunReport) -> str:
+    """Return with which values a request was placed that has no place with the usual ones."""
+    fits = next((r for r in report.repairs if r.outcome == AttemptOutcome.PLACED), None)
+    if fits is None:
         return ''
-    return f' It took {tried + 1} realisations; the request is unchanged.'
+    values = ', '.join(f'{edit.path} {edit.new:g}' for edit in fits.edits)
+    return f' With the usual values it has no place; it was placed with {values}.'
 
 
 def _not_repaired(report: RunReport) -> str:
     """Return what repair tried in vain, and why it ended."""
-    if not report.repairs:
-        return ''
-    tried = sum(repair.bag is not None for repair in report.repairs)
-    last = report.repairs[-1]
+    made = [repair for repair in report.repairs if repair.iteration > 0]
+    told = _placed(report)
+    if not made:
+        return told
+    tried = sum(repair.bag is not None for repair in made)
+    last = made[-1]
     why = f': {last.reason}' if last.bag is None else ''
     if not tried:
-        return f' Repair had nothing to try{why}.'
-    return f' {tried} other realisation{"s" * (tried > 1)} did not hold either{why}.'
+        return f'{told} Repair had nothing to try{why}.'
+    return f'{told} {tried} other realisation{"s" * (tried > 1)} did not hold either{why}.'
 
 
 def _lost(report: RunReport) -> str:

@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -115,9 +116,9 @@ class Clock:
         return 0.0
 
 
-def ran(stages: FakeStages, root: Path, repair: int = 5) -> RunReport:
+def ran(stages: FakeStages, root: Path, repair: int = 5, **more: Any) -> RunReport:
     return run(
-        RunRequest(prompt=PROMPT, repair=repair),
+        RunRequest(prompt=PROMPT, repair=repair, **more),
         stages,
         _KNOWN,
         RunFolder(root, RUN_ID),
@@ -232,3 +233,41 @@ def test_grounding_refuses_what_is_locked() -> None:
     )
     with pytest.raises(SpecError, match='duration_s is locked'):
         functions.ground_stage(_KNOWN, graph, 1, RepairPlan(values=(edit,)))
+
+
+def test_what_was_tried_goes_into_a_history_that_is_not_frozen(tmp_path: Path) -> None:
+    history = tmp_path / 'history'
+    frozen = tmp_path / 'frozen'
+    ran(FakeStages(-0.5, HELD), tmp_path / 'a', history=history)
+    ran(FakeStages(-0.5, HELD), tmp_path / 'b', history=frozen, history_frozen=True)
+    [kept] = (history / 'repairs').glob('*.json')
+    [lesson] = json.loads(kept.read_text())['lessons']
+    assert lesson['move'].endswith(' grounding/anchor +0')
+    assert lesson['helped'] is True
+    assert not frozen.exists()
+
+
+class Watching(FakeStages):
+    """Remembers with what each proposal began."""
+
+    def __init__(self, *margins: float) -> None:
+        super().__init__(*margins)
+        self.learned: list[dict[str, float]] = []
+
+    def propose(
+        self, agsg: Agsg, verdict: Verdict, bag: Path, past: tuple[Attempt, ...]
+    ) -> Proposal:
+        self.learned.append(dict(past[0].learned))
+        return super().propose(agsg, verdict, bag, past)
+
+
+def test_the_next_run_begins_with_what_the_history_teaches(tmp_path: Path) -> None:
+    history = tmp_path / 'history'
+    first, second = Watching(-0.5, -0.4, HELD), Watching(-0.5, HELD)
+    ran(first, tmp_path / 'a', history=history)
+    ran(second, tmp_path / 'b', history=history)
+    # Within a run nothing more is learned than it began with.
+    assert first.learned == [{}, {}]
+    [known] = second.learned
+    assert all(factor > 1.0 for factor in known.values())
+    assert known

@@ -8,10 +8,11 @@ import pytest
 
 from aurora_core.outcomes.agsg import Agsg
 from aurora_core.outcomes.parse import ParseOutcome
-from aurora_core.outcomes.repair import ValueEdit, with_values
+from aurora_core.outcomes.repair import RepairPlan, ValueEdit, with_values
 from aurora_core.pipeline.functions import ground_stage, parse_stage, understood
 from aurora_core.pipeline.knowledge import installed_knowledge
 from aurora_core.repair.reach import out_of_reach
+from aurora_core.spec.quantity import QuantityName
 
 _KNOWN = installed_knowledge()
 PROMPT = (
@@ -20,8 +21,8 @@ PROMPT = (
 ALTITUDE, STANDOFF = 'missions/m1/altitude_m', 'missions/m1/standoff_m'
 
 
-def grounded(altitude_m: float, standoff_m: float) -> Agsg:
-    parsed = parse_stage(_KNOWN, PROMPT, 'downtown', 1)
+def grounded(altitude_m: float, standoff_m: float, prompt: str = PROMPT) -> Agsg:
+    parsed = parse_stage(_KNOWN, prompt, 'downtown', 1)
     assert parsed.spec is not None
     assert parsed.agsg is not None
     rows = {row.path: row for row in parsed.agsg.parameters}
@@ -59,8 +60,32 @@ def test_the_value_that_keeps_away_is_named_with_one_that_does_not(
 ) -> None:
     found = evidence(grounded(altitude_m, standoff_m))
     assert set(found) == {cause}
-    assert 30.0 < hypot(found[cause], other_m) < 40.0
+    assert 20.0 < hypot(found[cause], other_m) < 35.0
 
 
 def test_nothing_is_named_where_it_is_near_enough() -> None:
     assert evidence(grounded(20.0, 10.0)) == {}
+
+
+def test_a_distance_to_stay_within_is_evidence_as_well() -> None:
+    graph = grounded(20.0, 70.0, 'A drone tracks a van and stays within 40 meters of it.')
+    [within] = [c for c in graph.conditions if c.id == 'c1.holds']
+    found = out_of_reach(graph, within)
+    assert set(found) == {STANDOFF}
+    assert found[STANDOFF].aim < 35.0
+
+
+@pytest.mark.parametrize(('gap_m', 'is_named'), [(150.0, True), (20.0, False)])
+def test_who_starts_behind_the_greatest_gap_starts_nearer(gap_m: float, is_named: bool) -> None:
+    parsed = parse_stage(_KNOWN, 'A car follows a bus.', 'downtown', 1).agsg
+    assert parsed is not None
+    [row] = [r for r in parsed.parameters if r.path.endswith('placements/0/distance_m')]
+    edit = ValueEdit(
+        path=row.path, requested=row.requested, realised=gap_m, provenance=row.provenance
+    )
+    found = ground_stage(_KNOWN, parsed, 1, RepairPlan(values=(edit,))).agsg
+    assert found is not None
+    [follows] = [c for c in found.conditions if c.quantity is QuantityName.FOLLOW_FRACTION]
+    named = out_of_reach(found, follows)
+    assert set(named) == ({row.path} if is_named else set())
+    assert all(10.0 < evidence.aim < 50.0 for evidence in named.values())
