@@ -23,14 +23,20 @@ from aurora_core.grounding.free_run import never_stops
 from aurora_core.grounding.goals import GoalFinder
 from aurora_core.grounding.groups import GroupPlacer
 from aurora_core.grounding.keep_out import kept_out
-from aurora_core.grounding.lane_changers import changes_lane, share_with_another_lane
+from aurora_core.grounding.lane_changers import (
+    changes_in_time,
+    changes_lane,
+    share_with_another_lane,
+)
 from aurora_core.grounding.laps import Laps
 from aurora_core.grounding.leads import leads_m
 from aurora_core.grounding.neighbours import Neighbours
 from aurora_core.grounding.oncoming import OncomingPlacer
 from aurora_core.grounding.pace import (
+    PACED,
     fastest_stated_mps,
     outruns,
+    own_speed_mps,
     timed_way_m,
     watched_speed_mps,
 )
@@ -287,6 +293,8 @@ class Grounder:
         need_m = way_m if len(split.convoy) > 1 else LOOKED_S / 2.0 * stated
         members = [m.agent for m in split.convoy]
         goes_on = never_stops(spec, members)
+        # A red light would part them.
+        followed = any(b.kind in PACED for agent in members for b in agent.behaviors)
         need_m = run_m if goes_on else max(need_m, timed_way_m(spec, members, grounding))
         wanted = grounding.target_speed_mps
         ranked: list[tuple[float, Site]] = []
@@ -316,6 +324,7 @@ class Grounder:
             straight = max(0.0, 1.0 - site.turns(way_m, grounding) / grounding.turns_bad)
             road = 0.4 * free + 0.2 * float(site.steady) + 0.2 * brisk + 0.2 * straight
             road *= max(_NEVER, free * straight) if goes_on else 1.0
+            road *= 0.5 + 0.5 * free if followed else 1.0
             if bends_between(spec, site, self._tolerances.placement_vehicle_m, split.before):
                 road *= _BENT
             if not self._goals.leads(spec, site, wide=True):
@@ -330,9 +339,10 @@ class Grounder:
                 road *= max(_NEVER, shows_before(spec, site, self._tolerances))
             for seat in site.seated:
                 if seat.agent.id in changing:
-                    road *= share_with_another_lane(
-                        self._map.network, seat, way_m, stated or wanted
-                    )
+                    pace_mps = own_speed_mps(seat.agent) or stated or wanted
+                    road *= share_with_another_lane(self._map.network, seat, way_m, pace_mps)
+                    in_time = changes_in_time(spec, self._map.network, seat, pace_mps)
+                    road *= max(_NEVER, in_time)
             ranked.append((road, site))
         # Stable: equal scores keep the order of the map.
         ranked.sort(key=lambda r: -r[0])

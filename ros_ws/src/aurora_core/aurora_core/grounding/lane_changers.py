@@ -5,15 +5,21 @@
 from __future__ import annotations
 
 from aurora_core.geometry.kernel import norm2
+from aurora_core.grounding.pace import stated_times_s
 from aurora_core.grounding.sites import ANY_CLASS, SeatedAgent, with_another_lane
 from aurora_core.knowledge.net_types import Lane
 from aurora_core.knowledge.road_network import RoadNetwork
+from aurora_core.knowledge.route_path import RouteSegment
 from aurora_core.quantities.lane_changes import ROOM_S
 from aurora_core.spec.own_events import keeps_to_lanes, overtakings, own_events
-from aurora_core.spec.scenario import AgentAction, GroundAgent, ScenarioSpec
+from aurora_core.spec.scenario import AgentAction, AltitudeTrigger, GroundAgent, ScenarioSpec
 
 # Share of a lane's length that its ends are apart where it is straight.
 _STRAIGHT = 0.995
+
+# From rest one gains so much (m/s^2), and one is where one is then to so much (m).
+_GAINS_MPS2 = 2.6
+_UNSURE_M = 8.0
 
 # SUMO bit set: no change of lane but the ordered one, which minds the others.
 ORDERED_CHANGES = 512
@@ -44,15 +50,53 @@ def share_with_another_lane(
         way_m: How much of its way counts, metres.
         pace_mps: How fast it drives; a change of lane takes its way.
     """
-    several = {lane.id for lane in with_another_lane(network.driving_lanes(ANY_CLASS))}
     low, high, room_m = seat.arc_m, seat.arc_m + way_m, ROOM_S * pace_mps
-    streets = [
+    streets = _wide_streets(network, seat)
+    open_m = sum(max(0.0, min(high, s.end_m - room_m) - max(low, s.start_m)) for s in streets)
+    return min(1.0, open_m / way_m)
+
+
+def changes_in_time(
+    spec: ScenarioSpec, network: RoadNetwork, seat: SeatedAgent, pace_mps: float
+) -> float:
+    """Return whether a vehicle is where it can change lane when it is to, in [0, 1].
+
+    At a stated time it has driven so far; when a UAV is up it has hardly begun to.
+
+    Args:
+        spec: The request.
+        network: Road network.
+        seat: Where it stands.
+        pace_mps: How fast it drives.
+    """
+    times_s = stated_times_s(spec)
+    ordered = [
+        e
+        for e in spec.events
+        if isinstance(e.action, AgentAction)
+        and (e.action.do, e.action.agent) == ('change_lane', seat.agent.id)
+    ]
+    due_s = [times_s[e.id] for e in ordered if e.id in times_s]
+    due_s += [0.0 for e in ordered if isinstance(e.trigger, AltitudeTrigger)]
+    lags_m = pace_mps * pace_mps / (2.0 * _GAINS_MPS2)
+    fit = 0
+    for at_s in due_s:
+        low_m = seat.arc_m + max(0.0, pace_mps * at_s - lags_m)
+        high_m = low_m + ROOM_S * pace_mps + _UNSURE_M
+        fit += any(
+            s.start_m <= max(seat.arc_m, low_m - _UNSURE_M) and high_m <= s.end_m
+            for s in _wide_streets(network, seat)
+        )
+    return fit / len(due_s) if due_s else 1.0
+
+
+def _wide_streets(network: RoadNetwork, seat: SeatedAgent) -> list[RouteSegment]:
+    several = {lane.id for lane in with_another_lane(network.driving_lanes(ANY_CLASS))}
+    return [
         s
         for s in seat.path.segments
         if s.lane_id in several and not s.is_lane_change and _is_straight(network.lane(s.lane_id))
     ]
-    open_m = sum(max(0.0, min(high, s.end_m - room_m) - max(low, s.start_m)) for s in streets)
-    return min(1.0, open_m / way_m)
 
 
 def _is_straight(lane: Lane) -> bool:

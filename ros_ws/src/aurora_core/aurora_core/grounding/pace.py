@@ -21,6 +21,7 @@ from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import (
     AgentAction,
     DistanceTrigger,
+    EventDoneTrigger,
     GroundAgent,
     ScenarioSpec,
     SpeedTrigger,
@@ -292,6 +293,19 @@ def fastest_stated_mps(
         ),
         default=0.0,
     )
+
+
+def stated_times_s(spec: ScenarioSpec) -> dict[str, float]:
+    """Return when events happen at a stated time, or by a chain from one, at the earliest (s)."""
+    times_s = {
+        e.id: e.trigger.at_s.value for e in spec.events if isinstance(e.trigger, TimeTrigger)
+    }
+    for _ in spec.events:
+        for e in spec.events:
+            if isinstance(e.trigger, EventDoneTrigger) and e.trigger.event in times_s:
+                after_s = 0.0 if e.trigger.after_s is None else e.trigger.after_s.value
+                times_s.setdefault(e.id, times_s[e.trigger.event] + after_s)
+    return times_s
 
 
 def timed_way_m(

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 from aurora_core.grounding.awaited import awaited_at, is_kept_away, leaving
 from aurora_core.grounding.convoy import SceneSplit
-from aurora_core.grounding.pace import encounters, moves
+from aurora_core.grounding.pace import encounters, moves, stated_times_s
 from aurora_core.grounding.watched import asked_to_see
 from aurora_core.outcomes.grounded import ReleaseOn
 from aurora_core.spec.events import bodies_of_cause, sets_off
@@ -27,7 +27,6 @@ from aurora_core.spec.scenario import (
     MessageTrigger,
     ScenarioSpec,
     SendMessage,
-    TimeTrigger,
     UavAction,
     UavMission,
 )
@@ -91,24 +90,11 @@ def person_release(spec: ScenarioSpec, agent: GroundAgent) -> Release:
 
 def _told_in_time(spec: ScenarioSpec, name: str) -> bool:
     """Tell whether something happens to somebody at a stated time, or by a chain from one."""
-    timed = _stated_times_s(spec)
+    timed = stated_times_s(spec)
     messages = [e.action for e in spec.events if e.id in timed]
     heard = {m.receiver for m in messages if isinstance(m, SendMessage)}
     acts = [e for e in spec.events if getattr(e.action, 'agent', None) == name]
     return any(e.id in timed for e in acts) or (name in heard and bool(acts))
-
-
-def _stated_times_s(spec: ScenarioSpec) -> dict[str, float]:
-    """Return when events happen at a stated time, or by a chain from one, at the earliest (s)."""
-    times_s = {
-        e.id: e.trigger.at_s.value for e in spec.events if isinstance(e.trigger, TimeTrigger)
-    }
-    for _ in spec.events:
-        for e in spec.events:
-            if isinstance(e.trigger, EventDoneTrigger) and e.trigger.event in times_s:
-                after_s = 0.0 if e.trigger.after_s is None else e.trigger.after_s.value
-                times_s.setdefault(e.id, times_s[e.trigger.event] + after_s)
-    return times_s
 
 
 def _watched(spec: ScenarioSpec, agent: str) -> Release:
@@ -166,7 +152,7 @@ def group_releases(spec: ScenarioSpec, split: SceneSplit) -> Mapping[str, Releas
 def convoy_release(spec: ScenarioSpec, split: SceneSplit) -> Release:
     """Hold the convoy until the UAV that watches it is ready, or has finished with it."""
     members = {m.agent.id: m.agent for m in split.convoy}
-    times_s = _stated_times_s(spec)
+    times_s = stated_times_s(spec)
     on_time = [
         times_s[e.id]
         for e in spec.events

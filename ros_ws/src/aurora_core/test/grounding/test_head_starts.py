@@ -9,6 +9,7 @@ from collections.abc import Callable
 import pytest
 
 from aurora_core.knowledge.agent_types import load_agent_types
+from aurora_core.knowledge.map_model import MapModel
 from aurora_core.outcomes.grounded import GroundedAgent, GroundedScenario, ReleaseOn
 from aurora_core.spec.scenario import ScenarioSpec
 
@@ -86,3 +87,27 @@ def test_a_parked_one_stands_beside_one_in_the_lane(agents: Agents) -> None:
     assert car.parked
     assert not van.parked
     assert 1.5 < ((car.x_m - van.x_m) ** 2 + (car.y_m - van.y_m) ** 2) ** 0.5 < 5.0
+
+
+def test_at_its_time_one_is_where_there_is_another_lane(
+    agents: Agents, map_of: Callable[[str], MapModel]
+) -> None:
+    car = agents('A car drives at 10 m/s. At 20 s the car changes lanes.')['car1']
+    network = map_of('downtown').network
+    path = network.route_path(car.edges, 'passenger', start_lane_id=car.lane_id)
+    at_m = path.arc_of(car.lane_id, car.lane_position_m) + 20.0 * 10.0 - 10.0 * 10.0 / (2.0 * 2.6)
+    (street,) = (s for s in path.segments if s.start_m <= at_m < s.end_m)
+    assert not street.is_internal
+    assert street.end_m - at_m > 30.0  # room for the change
+    lane = network.lane(street.lane_id)
+    assert lane.left_lane_id is not None or lane.right_lane_id is not None
+
+
+@pytest.mark.parametrize(
+    ('start', 'goal'), [('Meadow Park', 'Eastgate Stadium'), ('Eastgate Stadium', 'Meadow Park')]
+)
+def test_a_vehicle_drives_from_one_end_of_the_town_to_the_other(
+    agents: Agents, start: str, goal: str
+) -> None:
+    van = agents(f'A van is at {start}. The van drives to {goal}.')['van1']
+    assert len(van.edges) > 3
