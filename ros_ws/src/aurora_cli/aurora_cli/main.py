@@ -9,8 +9,9 @@ import os
 import sys
 import traceback
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
-from typing import Annotated, NoReturn, cast
+from typing import Annotated, Any, NoReturn, cast
 
 import typer
 
@@ -446,7 +447,7 @@ def run_command_line(arguments: list[str]) -> int:
     if not arguments:
         arguments = ['--help']
     try:
-        result = app(arguments, prog_name='aurora', standalone_mode=False)
+        result = _command()(arguments, prog_name='aurora', standalone_mode=False)
     except UsageProblem as err:
         say(f'aurora: {err}')
         return USAGE
@@ -467,6 +468,12 @@ def run_command_line(arguments: list[str]) -> int:
         say('        set AURORA_TRACEBACK=1 to see where, and please report it')
         return BROKEN
     return int(result or 0)
+
+
+@cache
+def _command() -> Any:
+    """Return what the options of all commands make; a program may run several."""
+    return typer.main.get_command(app)
 
 
 def _usage_text(err: BaseException) -> str:

@@ -11,20 +11,26 @@ import os
 import threading
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 
 from rclpy.callback_groups import CallbackGroup
-from rclpy.event_handler import QoSLivelinessChangedInfo, SubscriptionEventCallbacks
+from rclpy.clock import Clock
+from rclpy.clock_type import ClockType
+from rclpy.event_handler import QoSLivelinessChangedInfo, QoSSubscriptionEventType
 from rclpy.exceptions import InvalidHandle
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 
 from aurora_msgs.msg import Heartbeat
 from aurora_ros import interfaces
+from aurora_ros.polling import PolledGroup, drain
 from aurora_ros.processes import ProcessState, is_dumping_core, pid_space, process_state
-from aurora_ros.qos import LIVELINESS_LEASE_S
+from aurora_ros.qos import HEARTBEATS_HEARD, LIVELINESS_LEASE_S
 
 PERIOD_S = 0.5
+# Between two looks at what others said: half of their period, far below the lease.
+_LOOK_S = 0.25
 
 
 class HeartbeatPublisher:
@@ -155,10 +161,20 @@ class HeartbeatWatch:
             topic.type,
             topic.name,
             self._on_heartbeat,
-            topic.qos,
-            callback_group=group,
-            event_callbacks=SubscriptionEventCallbacks(liveliness=self._on_liveliness),
+            HEARTBEATS_HEARD,
+            # A dozen nodes speak twice a second each, and an executor that wakes for every word
+            # of theirs does little else in a graph at rest. So they are taken together, by a
+            # timer and by whoever asks.
+            callback_group=PolledGroup(),
         )
+        handle = self._subscription.handle
+        with handle:
+            self._liveliness = rclpy_implementation.EventHandle(
+                handle, QoSSubscriptionEventType.RCL_SUBSCRIPTION_LIVELINESS_CHANGED
+            )
+        self._taking = threading.Lock()
+        steady = Clock(clock_type=ClockType.STEADY_TIME)
+        node.create_timer(_LOOK_S, self._take, callback_group=group, clock=steady)
 
     def is_dead(self, name: str) -> bool:
         """Return whether a node that was heard before has ended, was stopped or has gone."""
@@ -166,6 +182,7 @@ class HeartbeatWatch:
 
     def cause_of_death(self, name: str) -> str:
         """Return what happened to a node that was heard before; empty while it lives."""
+        self._take()
         heard = self._heard.get(name)
         if heard is None:
             return ''
@@ -183,30 +200,36 @@ class HeartbeatWatch:
 
     def was_heard(self, name: str) -> bool:
         """Return whether a node has ever given a sign of life."""
+        self._take()
         return name in self._heard
 
     def heard_since(self, name: str, since_s: float) -> bool:
         """Return whether a node has given a sign of life after a steady time."""
+        self._take()
         heard = self._heard.get(name)
         return heard is not None and heard.at_s > since_s
 
     def is_busy(self, name: str) -> bool:
         """Return whether a node said last that a run is going on."""
+        self._take()
         heard = self._heard.get(name)
         return heard is not None and heard.busy
 
     def run_number(self, name: str) -> int:
         """Return the run that a node said last is going on, 0 when none is."""
+        self._take()
         heard = self._heard.get(name)
         return heard.run_number if heard is not None and heard.busy else 0
 
     def process(self, name: str) -> tuple[int, int]:
         """Return process id and start time of a node, (0, 0) when they are not known."""
+        self._take()
         heard = self._heard.get(name)
         return (heard.pid, heard.started) if heard is not None else (0, 0)
 
     def came_further_s(self, name: str) -> float:
         """Return the steady time at which a node said last that long work of it goes on."""
+        self._take()
         heard = self._heard.get(name)
         return float('-inf') if heard is None else heard.further_s
 
@@ -217,6 +240,17 @@ class HeartbeatWatch:
             self._heard[name] = _Heard(self._clock())
         else:
             heard.at_s = self._clock()
+
+    def _take(self) -> None:
+        """Hear what has arrived; whoever comes meanwhile waits until it was heard."""
+        with self._taking, suppress(InvalidHandle, rclpy_implementation.RCLError):
+            # Nothing is heard any more while the node is being shut down.
+            for message in drain(self._subscription):
+                self._on_heartbeat(message)
+            with self._liveliness:
+                info = self._liveliness.take_event()
+            if info is not None:
+                self._on_liveliness(info)
 
     def _on_heartbeat(self, message: Heartbeat) -> None:
         self.hear(message.node)

@@ -62,6 +62,16 @@ UNHEARD = QoSProfile(
     durability=DurabilityPolicy.VOLATILE,
 )
 
+# Heartbeats as they are heard: taken some times a second, and every one of every node counts.
+HEARTBEATS_HEARD = QoSProfile(
+    history=HistoryPolicy.KEEP_LAST,
+    depth=200,
+    reliability=ReliabilityPolicy.RELIABLE,
+    durability=DurabilityPolicy.TRANSIENT_LOCAL,
+    liveliness=LivelinessPolicy.AUTOMATIC,
+    liveliness_lease_duration=Duration(seconds=LIVELINESS_LEASE_S),
+)
+
 # Heartbeats: AUTOMATIC liveliness is asserted by the middleware's own thread, so a node that is
 # busy in a callback stays alive and one that was killed or stopped is noticed within the lease.
 # Transient local, so that a restarted node counts as alive as soon as it is discovered.

@@ -16,9 +16,12 @@ from rclpy.context import Context
 from rclpy.node import Node
 
 from aurora_msgs.msg import Heartbeat
-from aurora_ros.heartbeat import HeartbeatWatch
+from aurora_ros.heartbeat import HeartbeatPublisher, HeartbeatWatch
+from aurora_ros.matching import wait_until
 from aurora_ros.processes import ProcessState, pid_space
 from aurora_ros.testing.domains import own_domain
+
+LIMIT_S = 60.0
 
 
 class Clock:
@@ -51,14 +54,19 @@ def kernel() -> Kernel:
 
 
 @pytest.fixture
-def watch(clock: Clock, kernel: Kernel) -> Iterator[HeartbeatWatch]:
+def domain() -> Iterator[int]:
+    with own_domain() as number:
+        yield number
+
+
+@pytest.fixture
+def watch(clock: Clock, kernel: Kernel, domain: int) -> Iterator[HeartbeatWatch]:
     context = Context()
-    with own_domain() as domain:
-        rclpy.init(context=context, domain_id=domain)
-        node = Node('watcher', context=context)
-        yield HeartbeatWatch(node, clock, look=kernel, dumps=kernel.dumping.__contains__)
-        node.destroy_node()
-        rclpy.shutdown(context=context)
+    rclpy.init(context=context, domain_id=domain)
+    node = Node('watcher', namespace='aurora', context=context)
+    yield HeartbeatWatch(node, clock, look=kernel, dumps=kernel.dumping.__contains__)
+    node.destroy_node()
+    rclpy.shutdown(context=context)
 
 
 def hear(watch: HeartbeatWatch, name: str) -> None:
@@ -71,6 +79,29 @@ def hear_process(watch: HeartbeatWatch, name: str, pid: int, state: int = 0) -> 
 
 def lose(watch: HeartbeatWatch) -> None:
     watch._on_liveliness(SimpleNamespace(alive_count_change=-1, not_alive_count_change=1))
+
+
+def test_who_asks_hears_all_who_spoke_though_nobody_serves_the_node(
+    watch: HeartbeatWatch, domain: int
+) -> None:
+    """Heartbeats wake no executor, and none hides behind a later one."""
+    context = Context()
+    rclpy.init(context=context, domain_id=domain)
+    nodes = [Node(name, namespace='aurora', context=context) for name in ('sync', 'recorder')]
+    speakers = [HeartbeatPublisher(node) for node in nodes]
+    try:
+        for number, speaker in enumerate(speakers, 1):
+            speaker.start()
+            speaker.busy(number)
+        for number, name in enumerate(('sync', 'recorder'), 1):
+            assert wait_until(lambda name=name: watch.is_busy(name), LIMIT_S)
+            assert watch.run_number(name) == number
+    finally:
+        for speaker in speakers:
+            speaker.close()
+        for node in nodes:
+            node.destroy_node()
+        rclpy.shutdown(context=context)
 
 
 def test_a_node_that_was_never_heard_is_not_dead(watch: HeartbeatWatch) -> None:

@@ -20,6 +20,8 @@ Point2 = tuple[float, float]
 
 # More than the distance of two shapes is rounded by.
 _ROUNDING_M = 1e-6
+# Places that are looked at in one go: most often one of the nearest is free.
+_FEW, _MANY = 40, 400
 
 
 def compiled_area(map_model: MapModel) -> Compiled:
@@ -78,8 +80,10 @@ class SpotFinder:
         base = np.array([round(x_m / spacing) * spacing, round(y_m / spacing) * spacing])
         found: list[Point2] = []
         apart = 2.0 * self._settings.spot_clearance_m
-        for start in range(0, len(self._offsets), 400):
-            points = self._offsets[start : start + 400] + base
+        start, size = 0, _FEW
+        while start < len(self._offsets):
+            points = self._offsets[start : start + size] + base
+            start, size = start + size, _MANY
             free = ~self._is_blocked(points)
             for x, y in points[free].tolist():
                 inside = (
