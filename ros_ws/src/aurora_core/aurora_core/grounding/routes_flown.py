@@ -85,6 +85,7 @@ class RoutePlanner:
         self._tolerances = tolerances
         self._settings = settings
         self._laps = laps
+        self._found_moved: dict[tuple[str, Pose], tuple[PlannedFlight | Rejected, Pose]] = {}
         self._leg_share = min(1.0, tolerances.over_carriageway_share + SPARE_SHARE)
         self._carriageway = map_model.network.carriageway
         shapely.prepare(self._carriageway)
@@ -106,12 +107,10 @@ class RoutePlanner:
             beside: The centre is in a building: an orbit is as wide as it has to be.
         """
         best = self._wide_enough(mission, centre, 0.0, beside=beside)
-        moved = self._moved(centre) if is_landmark(mission.target) else iter(())
-        while isinstance(best, Rejected):
-            middle = next(moved, None)
-            if middle is None:
-                return best
-            best, centre = self._wide_enough(mission, middle, 0.0, beside=beside), middle
+        if isinstance(best, Rejected) and _is_all_stated(mission):
+            best, centre = self._moved(mission, centre, best)
+        if isinstance(best, Rejected):
+            return best
         gap_m = others.gap_m(best.plan)
         # Where nothing is far enough, the farthest: how near they come is for the run to show.
         for middle, turned in self._elsewhere(mission, centre, others):
@@ -122,14 +121,27 @@ class RoutePlanner:
                 best, gap_m = found, others.gap_m(found.plan)
         return best
 
-    def _moved(self, centre: Pose) -> Iterator[Pose]:
-        """Yield the centres about a landmark that still count as over it, the nearest first."""
-        x, y, hx, hy = centre
-        most_m = self._tolerances.pattern_centre_m - _INSIDE_M
-        for share in _MOVED:
-            for k in range(_BEGINNINGS):
+    def _moved(
+        self, mission: UavMission, centre: Pose, rejected: Rejected
+    ) -> tuple[PlannedFlight | Rejected, Pose]:
+        """Plan a pattern about the nearest centre that still counts as over its landmark.
+
+        A landmark stands where it stands: what was found for one site is so for all.
+        """
+        key = (mission.id, centre)
+        if key not in self._found_moved:
+            x, y, hx, hy = centre
+            most_m = self._tolerances.pattern_centre_m - _INSIDE_M
+            found: tuple[PlannedFlight | Rejected, Pose] = rejected, centre
+            for share, k in itertools.product(_MOVED, range(_BEGINNINGS)):
                 angle, away_m = 2.0 * pi * k / _BEGINNINGS, share * most_m
-                yield x + away_m * cos(angle), y + away_m * sin(angle), hx, hy
+                middle = x + away_m * cos(angle), y + away_m * sin(angle), hx, hy
+                planned = self._around(mission, middle, 0.0)
+                if not isinstance(planned, Rejected):
+                    found = planned, middle
+                    break
+            self._found_moved[key] = found
+        return self._found_moved[key]
 
     def _elsewhere(
         self, mission: UavMission, centre: Pose, others: Neighbours
@@ -298,6 +310,14 @@ class RoutePlanner:
             ),
             default=0.0,
         )
+
+
+def _is_all_stated(mission: UavMission) -> bool:
+    """Tell whether a pattern at a landmark can be no wider and no higher than it is."""
+    sizes = (mission.radius_m,) if mission.size_m is None else mission.size_m
+    numbers = (mission.altitude_m, *sizes)
+    stated = all(n is not None and n.provenance is Provenance.EXPLICIT for n in numbers)
+    return stated and is_landmark(mission.target)
 
 
 def _radius_m(mission: UavMission, count: int, acceleration_mps2: float) -> float:
