@@ -9,9 +9,11 @@ from collections.abc import Iterator
 from dataclasses import replace
 from math import cos, inf, pi, sin
 
+import numpy as np
 import shapely
 
 from aurora_core.grounding.airspace import Airspace
+from aurora_core.grounding.come_upon import before_sight, is_seen_last, lap_points
 from aurora_core.grounding.laps import REPEATED, Laps
 from aurora_core.grounding.neighbours import NOBODY, Neighbours
 from aurora_core.grounding.patterns import begun_at, pattern_points, place_pattern
@@ -22,6 +24,7 @@ from aurora_core.grounding.planned_flight import (
     ascent_tolerance_m,
     planned_height_m,
 )
+from aurora_core.grounding.sites import SeatedAgent, SeatedPerson
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.settings import GroundingSettings
@@ -169,6 +172,30 @@ class RoutePlanner:
                 for along_m in (away_m, -away_m):
                     yield (x + along_m * hx, y + along_m * hy, hx, hy), 0.0
 
+    def coming_upon(
+        self, mission: UavMission, seat: SeatedAgent | SeatedPerson, body_m: float, range_m: float
+    ) -> PlannedFlight | Rejected:
+        """Plan a route from whose far end somebody is seen who stands, and not before.
+
+        Args:
+            mission: The route.
+            seat: Where he stands.
+            body_m: How high above the ground he is looked for.
+            range_m: Of sight.
+        """
+        height_m = planned_height_m(mission, self._limits, self._tolerances)
+        where = before_sight(mission, seat, range_m, height_m)
+        if where is None:
+            return Rejected(reason='sight')
+        found = self._around(mission, *where, crosswise=False)
+        if isinstance(found, Rejected):
+            return found
+        points = lap_points(found.plan)
+        target = np.array([[*seat.path.position_at(seat.arc_m)[:2], body_m]])
+        seen = self._air.seen(points, np.repeat(target, len(points), axis=0), range_m)
+        shows = is_seen_last(mission, seen)
+        return found if shows else Rejected(reason='sight')
+
     def _wide_enough(
         self,
         mission: UavMission,
@@ -217,9 +244,9 @@ class RoutePlanner:
         return PlannedFlight(plan=plan, clearance_m=clearance, seen=1.0, over_street=over)
 
     def _around(
-        self, mission: UavMission, centre: Pose, turned: float
+        self, mission: UavMission, centre: Pose, turned: float, *, crosswise: bool = True
     ) -> PlannedFlight | Rejected:
-        """Plan a pattern round a point, begun at a share of it."""
+        """Plan a pattern round a point, begun at a share of it, along a street or across it."""
         assert mission.pattern is not None
         assert mission.speed_mps is not None
         count = 4 if mission.waypoint_count is None else round(mission.waypoint_count.value)
@@ -238,7 +265,8 @@ class RoutePlanner:
         shifts = self._settings.pattern_shifts_m
         height_m = planned_height_m(mission, self._limits, self._tolerances)
         best: PlannedFlight | None = None
-        headings = ((hx, hy), (-hy, hx)) if mission.pattern is not Pattern.ORBIT else ((hx, hy),)
+        crosswise = crosswise and mission.pattern is not Pattern.ORBIT
+        headings = ((hx, hy), (-hy, hx)) if crosswise else ((hx, hy),)
         for heading in headings:
             for along in shifts if mission.over_streets else (0.0,):
                 middle = (centre[0] + along * hx, centre[1] + along * hy)
