@@ -134,7 +134,9 @@ def test_who_is_to_get_out_of_sight_does_so_early_on_its_way(
     assert not all(seen)
 
 
-@pytest.mark.parametrize(('pattern', 'shown'), [('300 m line', 1.0), ('120 by 80 m rectangle', 0.5)])
+@pytest.mark.parametrize(
+    ('pattern', 'shown'), [('300 m line', 1.0), ('120 by 80 m rectangle', 0.5)]
+)
 def test_who_stands_and_ends_a_patrol_comes_into_view_when_it_has_shown_its_size(
     pattern: str, shown: float, read_prompt: Read, ground: Ground, air: Airspace, limits: Limits
 ) -> None:
