@@ -154,6 +154,7 @@ SAYABLE = frozenset(
         'battery-left',
         'clearance',
         'battery',
+        'avoid',
     }
 )
 UNSAYABLE = [(name, good) for name, good, *_ in EXTENSIONS if name not in SAYABLE]

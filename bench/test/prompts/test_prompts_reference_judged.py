@@ -15,7 +15,7 @@ from aurora_cli.installed import installed
 from aurora_core.agsg.build import build_agsg
 from aurora_core.pipeline.functions import ground_stage
 from aurora_core.spec.parameter import Bound, Provenance
-from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.spec.scenario import ScenarioSpec, SendMessage
 
 Doc = dict[str, Any]
 TEXT = 'A drone circles City Hall at 40 m with a radius of 50 m at 8 m/s.'
@@ -110,3 +110,38 @@ def test_one_clause_names_every_element() -> None:
     (clause,) = reference_spec(asked(ORBIT, car, none), judged=True).clauses
     assert clause.text == TEXT
     assert set(clause.ids) == {'car1', 'uav1', 'm1', 'no1'}
+
+
+@pytest.mark.parametrize(('away', 'metres', 'stated'), [({'avoid_m': 80}, 80.0, True), ({}, 0, 0)])
+def test_a_place_to_keep_off_is_a_clearance_that_is_kept(
+    away: Doc, metres: float, stated: bool
+) -> None:
+    text = 'Fly from Meadow Park to Union Station at 60 m, avoiding Ridge School by 80 m.'
+    flight: Doc = {
+        'id': 'r2', 'kind': 'mission', 'ref': 'm1', 'uav': 'uav1', 'mode': 'navigate',
+        'start': 'Meadow Park', 'end': 'Union Station', 'altitude_m': 60,
+        'avoid': ['Ridge School'], **away,
+    }  # fmt: skip
+    (kept,) = reference_spec(asked(flight, text=text), judged=True).conditions
+    assert (kept.quantity, kept.op) == ('clearance', '>=')
+    assert kept.of == ('uav1', 'landmark:Ridge School')
+    assert kept.value.value == metres
+    assert (kept.value.provenance is Provenance.EXPLICIT) is bool(stated)
+
+
+def test_a_message_to_a_group_goes_to_each_of_its_members() -> None:
+    text = 'A drone hovers at 30 m. After 5 s it warns three cars over a link with 20 % loss.'
+    parts: tuple[Doc, ...] = (
+        {'id': 'r2', 'kind': 'mission', 'ref': 'm1', 'uav': 'uav1', 'mode': 'hover'},
+        {'id': 'r3', 'kind': 'agent', 'ref': 'cars', 'type': 'car', 'count': 3},
+        {'id': 'r4', 'kind': 'link', 'sender': 'uav1', 'receiver': 'cars', 'loss': 0.2},
+        {
+            'id': 'r5', 'kind': 'event', 'ref': 'e1', 'trigger': {'on': 'time', 'at_s': 5},
+            'action': {'do': 'send_message', 'sender': 'uav1', 'receiver': 'cars'},
+        },
+    )  # fmt: skip
+    spec = reference_spec(asked(*parts, text=text), judged=True)
+    told = [e.action.receiver for e in spec.events if isinstance(e.action, SendMessage)]
+    assert sorted(told) == ['cars_1', 'cars_2', 'cars_3']
+    assert [link.receiver for link in spec.links] == ['cars_1', 'cars_2', 'cars_3']
+    assert {link.loss.value for link in spec.links} == {0.2}

@@ -66,9 +66,9 @@ def helper(monkeypatch: pytest.MonkeyPatch, name: str) -> Any:
 
 
 def test_what_cannot_be_said_is_not_realised_and_nothing_is_run(tmp_path: Path) -> None:
-    found = RealiseWork(folder=tmp_path)(trial({**HOVER, 'avoid': ['City Hall']}))
+    found = RealiseWork(folder=tmp_path)(trial({**HOVER, 'mode': 'navigate', 'pattern': 'facade'}))
     assert (found.status, found.cause) == ('not_expressible', Cause.CAPABILITY)
-    assert found.words == ('no specification can say: mission avoid',)
+    assert found.words == ('no specification can say: mission pattern facade',)
 
 
 @pytest.mark.usefixtures('verified')

@@ -281,6 +281,24 @@ def _lower(plan: UavPlan) -> UavPlan:
     return UavPlan.model_validate(document)
 
 
+def _straight(plan: UavPlan) -> UavPlan:
+    """Plan to fly straight to what is to be come to from above."""
+    missions = tuple(m.model_copy(update={'over_m': None}) for m in plan.missions)
+    return plan.model_copy(update={'missions': missions})
+
+
+def _at_full_speed(plan: UavPlan) -> UavPlan:
+    """Plan to fly routes 1 m/s faster."""
+    missions = tuple(m.model_copy(update={'speed_mps': m.speed_mps + 1.0}) for m in plan.missions)
+    return plan.model_copy(update={'missions': missions})
+
+
+def _never_let_up(executor: ScenarioExecutor) -> Stepper:
+    """Let who was as fast as is waited for stay as fast."""
+    executor._premises._fast.clear()
+    return executor
+
+
 def _after_the_ambulance(plan: UavPlan) -> UavPlan:
     document = plan.model_dump()
     for mission in document['missions']:
@@ -367,6 +385,27 @@ PLANTED = (
         'another target tracked',
         'convoy',
         with_machines(plan=_after_the_ambulance),
+        'condition:m1.tracked',
+    ),
+    _planted(
+        'straight into a stadium',
+        'A drone hovers over Eastgate Stadium at 15 m for 20 s.',
+        with_machines(plan=_straight),
+        'condition:safety.clearance.uav1',
+        'condition:safety.collision.uav1',
+    ),
+    _planted(
+        'faster than a stated bound',
+        'A UAV flies a 400 by 200 m rectangle at 100 m and 18 m/s. The speed of the UAV stays '
+        'below 18 m/s.',
+        with_machines(plan=_at_full_speed),
+        'condition:c1.holds',
+    ),
+    _planted(
+        'a fast target never lets up',
+        'A drone tracks the blue car at 40 m altitude. When the blue car goes faster than 70 '
+        'km/h, the drone reports to a police car.',
+        _never_let_up,
         'condition:m1.tracked',
     ),
     _planted(

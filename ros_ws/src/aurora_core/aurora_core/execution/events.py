@@ -187,18 +187,7 @@ class EventRunner:
     def _may_follow(self, event: Event, tick: int) -> bool:
         """Tell whether everything that is to come before an event shows by `tick`."""
         done = self._progress.done_tick
-        return all(
-            first in done and done[first] <= tick and self._is_heard(first, event)
-            for first in self._before[event.id]
-        )
-
-    def _is_heard(self, first: str, event: Event) -> bool:
-        """Tell whether who acts has the message that is to come before, where it is to him."""
-        said = next(s.event.action for s in self._states if s.event.id == first)
-        actor = getattr(event.action, 'agent', getattr(event.action, 'uav', None))
-        if not isinstance(said, SendMessage) or said.receiver != actor:
-            return True
-        return (said.receiver, said.sender) in self._progress.received
+        return all(first in done and done[first] <= tick for first in self._before[event.id])
 
     def step(
         self,

@@ -15,6 +15,7 @@ from aurora_core.grounding.airspace import Airspace
 from aurora_core.grounding.apart import sharing
 from aurora_core.grounding.awaited import is_kept_away
 from aurora_core.grounding.beside import turned_along, with_turns
+from aurora_core.grounding.come_upon import come_upon
 from aurora_core.grounding.crossings import crossed
 from aurora_core.grounding.laps import Laps
 from aurora_core.grounding.neighbours import NOBODY, Neighbours
@@ -174,6 +175,10 @@ class FlightPlanner:
         others: Neighbours,
     ) -> PlannedFlight | Rejected:
         """Plan a hover or a route over or round where its target is at t = 0."""
+        stood = come_upon(spec, mission, site)
+        if stood is not None:
+            height_m = self._types[stood.agent.type.value].height_m / 2.0
+            return self._routes.coming_upon(mission, stood, height_m, self._range)
         centre = self._centre(spec, mission, site)
         if centre is None:
             return Rejected(reason='target_place')

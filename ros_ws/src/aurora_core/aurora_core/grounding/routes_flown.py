@@ -9,9 +9,11 @@ from collections.abc import Iterator
 from dataclasses import replace
 from math import cos, inf, pi, sin
 
+import numpy as np
 import shapely
 
 from aurora_core.grounding.airspace import Airspace
+from aurora_core.grounding.come_upon import before_sight, is_seen_last, lap_points
 from aurora_core.grounding.laps import REPEATED, Laps
 from aurora_core.grounding.neighbours import NOBODY, Neighbours
 from aurora_core.grounding.patterns import begun_at, pattern_points, place_pattern
@@ -22,6 +24,7 @@ from aurora_core.grounding.planned_flight import (
     ascent_tolerance_m,
     planned_height_m,
 )
+from aurora_core.grounding.sites import SeatedAgent, SeatedPerson
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.settings import GroundingSettings
@@ -85,6 +88,7 @@ class RoutePlanner:
         self._tolerances = tolerances
         self._settings = settings
         self._laps = laps
+        self._found_moved: dict[tuple[str, Pose], tuple[PlannedFlight | Rejected, Pose]] = {}
         self._leg_share = min(1.0, tolerances.over_carriageway_share + SPARE_SHARE)
         self._carriageway = map_model.network.carriageway
         shapely.prepare(self._carriageway)
@@ -106,12 +110,10 @@ class RoutePlanner:
             beside: The centre is in a building: an orbit is as wide as it has to be.
         """
         best = self._wide_enough(mission, centre, 0.0, beside=beside)
-        moved = self._moved(centre) if is_landmark(mission.target) else iter(())
-        while isinstance(best, Rejected):
-            middle = next(moved, None)
-            if middle is None:
-                return best
-            best, centre = self._wide_enough(mission, middle, 0.0, beside=beside), middle
+        if isinstance(best, Rejected) and _is_all_stated(mission):
+            best, centre = self._moved(mission, centre, best)
+        if isinstance(best, Rejected):
+            return best
         gap_m = others.gap_m(best.plan)
         # Where nothing is far enough, the farthest: how near they come is for the run to show.
         for middle, turned in self._elsewhere(mission, centre, others):
@@ -122,14 +124,27 @@ class RoutePlanner:
                 best, gap_m = found, others.gap_m(found.plan)
         return best
 
-    def _moved(self, centre: Pose) -> Iterator[Pose]:
-        """Yield the centres about a landmark that still count as over it, the nearest first."""
-        x, y, hx, hy = centre
-        most_m = self._tolerances.pattern_centre_m - _INSIDE_M
-        for share in _MOVED:
-            for k in range(_BEGINNINGS):
+    def _moved(
+        self, mission: UavMission, centre: Pose, rejected: Rejected
+    ) -> tuple[PlannedFlight | Rejected, Pose]:
+        """Plan a pattern about the nearest centre that still counts as over its landmark.
+
+        A landmark stands where it stands: what was found for one site is so for all.
+        """
+        key = (mission.id, centre)
+        if key not in self._found_moved:
+            x, y, hx, hy = centre
+            most_m = self._tolerances.pattern_centre_m - _INSIDE_M
+            found: tuple[PlannedFlight | Rejected, Pose] = rejected, centre
+            for share, k in itertools.product(_MOVED, range(_BEGINNINGS)):
                 angle, away_m = 2.0 * pi * k / _BEGINNINGS, share * most_m
-                yield x + away_m * cos(angle), y + away_m * sin(angle), hx, hy
+                middle = x + away_m * cos(angle), y + away_m * sin(angle), hx, hy
+                planned = self._around(mission, middle, 0.0)
+                if not isinstance(planned, Rejected):
+                    found = planned, middle
+                    break
+            self._found_moved[key] = found
+        return self._found_moved[key]
 
     def _elsewhere(
         self, mission: UavMission, centre: Pose, others: Neighbours
@@ -156,6 +171,30 @@ class RoutePlanner:
             for away_m in _FARTHER_M:
                 for along_m in (away_m, -away_m):
                     yield (x + along_m * hx, y + along_m * hy, hx, hy), 0.0
+
+    def coming_upon(
+        self, mission: UavMission, seat: SeatedAgent | SeatedPerson, body_m: float, range_m: float
+    ) -> PlannedFlight | Rejected:
+        """Plan a route from whose far end somebody is seen who stands, and not before.
+
+        Args:
+            mission: The route.
+            seat: Where he stands.
+            body_m: How high above the ground he is looked for.
+            range_m: Of sight.
+        """
+        height_m = planned_height_m(mission, self._limits, self._tolerances)
+        where = before_sight(mission, seat, range_m, height_m)
+        if where is None:
+            return Rejected(reason='sight')
+        found = self._around(mission, *where, crosswise=False)
+        if isinstance(found, Rejected):
+            return found
+        points = lap_points(found.plan)
+        target = np.array([[*seat.path.position_at(seat.arc_m)[:2], body_m]])
+        seen = self._air.seen(points, np.repeat(target, len(points), axis=0), range_m)
+        shows = is_seen_last(mission, seen)
+        return found if shows else Rejected(reason='sight')
 
     def _wide_enough(
         self,
@@ -205,9 +244,9 @@ class RoutePlanner:
         return PlannedFlight(plan=plan, clearance_m=clearance, seen=1.0, over_street=over)
 
     def _around(
-        self, mission: UavMission, centre: Pose, turned: float
+        self, mission: UavMission, centre: Pose, turned: float, *, crosswise: bool = True
     ) -> PlannedFlight | Rejected:
-        """Plan a pattern round a point, begun at a share of it."""
+        """Plan a pattern round a point, begun at a share of it, along a street or across it."""
         assert mission.pattern is not None
         assert mission.speed_mps is not None
         count = 4 if mission.waypoint_count is None else round(mission.waypoint_count.value)
@@ -226,7 +265,8 @@ class RoutePlanner:
         shifts = self._settings.pattern_shifts_m
         height_m = planned_height_m(mission, self._limits, self._tolerances)
         best: PlannedFlight | None = None
-        headings = ((hx, hy), (-hy, hx)) if mission.pattern is not Pattern.ORBIT else ((hx, hy),)
+        crosswise = crosswise and mission.pattern is not Pattern.ORBIT
+        headings = ((hx, hy), (-hy, hx)) if crosswise else ((hx, hy),)
         for heading in headings:
             for along in shifts if mission.over_streets else (0.0,):
                 middle = (centre[0] + along * hx, centre[1] + along * hy)
@@ -298,6 +338,14 @@ class RoutePlanner:
             ),
             default=0.0,
         )
+
+
+def _is_all_stated(mission: UavMission) -> bool:
+    """Tell whether a pattern at a landmark can be no wider and no higher than it is."""
+    sizes = (mission.radius_m,) if mission.size_m is None else mission.size_m
+    numbers = (mission.altitude_m, *sizes)
+    stated = all(n is not None and n.provenance is Provenance.EXPLICIT for n in numbers)
+    return stated and is_landmark(mission.target)
 
 
 def _radius_m(mission: UavMission, count: int, acceleration_mps2: float) -> float:

@@ -15,6 +15,8 @@ from aurora_core.spec.events import (
     AgentAction,
     Event,
     EventDoneTrigger,
+    MessageTrigger,
+    SendMessage,
     UavAction,
 )
 from aurora_core.spec.flight_order import begun_by, end_of
@@ -48,7 +50,7 @@ def _waits(
             return events
         if isinstance(trigger, EventDoneTrigger) and not isinstance(later.action, AgentAction):
             return events  # what a UAV does has a moment of its own
-        timed = Event.model_validate({**dict(later), 'trigger': trigger})
+        timed = Event.model_validate({**dict(later), 'trigger': _told(events, order) or trigger})
         return tuple(timed if e is later else e for e in events)
     mission = next((m for m in spec.missions if m.id == order.then), None)
     if mission is None or not _is_first_of_another(spec, mission, order.first):
@@ -62,6 +64,17 @@ def _waits(
         span=order.span or mission.span,
     )
     return (*events, takeoff)
+
+
+def _told(events: tuple[Event, ...], order: Order) -> MessageTrigger | None:
+    """Return the receipt of the earlier message, where the one who is to act is told by it."""
+    actions = {e.id: e.action for e in events}
+    said, does = actions.get(order.first), actions.get(order.then)
+    if not isinstance(said, SendMessage) or not isinstance(does, AgentAction):
+        return None
+    if said.receiver != does.agent:
+        return None
+    return MessageTrigger(on='message_received', by=said.receiver, sender=said.sender)
 
 
 def _awaits(events: tuple[Event, ...], order: Order) -> bool:

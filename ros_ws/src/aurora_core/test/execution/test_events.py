@@ -538,28 +538,6 @@ def test_an_event_waits_for_what_comes_before_it(stage: Build, parameter: Make) 
     assert done == [(10, 'e2'), (21, 'e1')]
 
 
-def test_what_comes_after_a_message_waits_until_who_acts_has_it(
-    stage: Build, parameter: Make
-) -> None:
-    at = TimeTrigger(on='time', at_s=parameter(0.5, 's'))
-    send = SendMessage(do='send_message', sender='van1', receiver='ego')
-    scene = stage(
-        events=(
-            _event(at, send, id='e1'),
-            _event(NOW, AgentAction(do='start', agent='ego'), id='e2'),
-            _event(NOW, AgentAction(do='start', agent='van1'), id='e3'),
-        ),
-        links=(('van1', 'ego'),),
-        orders=(Order(id='o1', first='e1', then='e2'), Order(id='o2', first='e1', then='e3')),
-    )
-    scene.put('ego', 30.0).step(40)
-    delivered = [
-        r.tick for o in scene.outputs for r in o.links if r.kind is LinkEventKind.DELIVERED
-    ]
-    acted = {name: tick for tick, name, _ in scene.notes(ScenarioEventKind.ACTION)}
-    assert acted == {'e1': 10, 'e2': delivered[0] + 1, 'e3': 10}
-
-
 @pytest.mark.parametrize('told', ['van1', 'ego'])
 def test_who_is_told_something_and_does_something_does_it_upon_that(
     stage: Build, parameter: Make, told: str

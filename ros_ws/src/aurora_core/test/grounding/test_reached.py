@@ -13,6 +13,7 @@ import pytest
 
 from aurora_core.geometry.polyline import Polyline
 from aurora_core.grounding.airspace import Airspace
+from aurora_core.grounding.come_upon import lap_points
 from aurora_core.grounding.places import MapPlaces, place_positions
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_model import MapModel
@@ -131,6 +132,25 @@ def test_who_is_to_get_out_of_sight_does_so_early_on_its_way(
         seen.append(bool(air.seen(here, np.array([[x, y, 1.0]]), 250.0)[0]))
     assert seen[0]
     assert not all(seen)
+
+
+@pytest.mark.parametrize(
+    ('pattern', 'shown'), [('300 m line', 1.0), ('120 by 80 m rectangle', 0.5)]
+)
+def test_who_stands_and_ends_a_patrol_comes_into_view_when_it_has_shown_its_size(
+    pattern: str, shown: float, read_prompt: Read, ground: Ground, air: Airspace, limits: Limits
+) -> None:
+    prompt = (
+        f'A van is parked at the roadside. A drone patrols a {pattern} at 30 m altitude. When the '
+        'drone sees the van, it lands.'
+    )
+    found = ground(read_prompt(prompt, 'downtown'), 'downtown')
+    (van,) = found.agents
+    points = lap_points(found.uavs[0].missions[0])
+    here = np.repeat([[van.x_m, van.y_m, van.height_m / 2.0]], len(points), axis=0)
+    seen = air.seen(points, here, limits.sensing_range('clear', 'noon'))
+    assert seen.any()
+    assert shown * len(seen) - 6 < int(np.argmax(seen)) < len(seen) - 1
 
 
 def test_a_uav_starts_ahead_of_a_target_that_cannot_wait_for_it(

@@ -62,8 +62,12 @@ ROWS = (
         reason=Reason.PREMISE_NEVER,
     ),
     Row(id='no1.holds', what='cut', make=lambda: cut(_not('stop', FAST), 200), reason=SHORT),
-    Row(id='no1.holds', what='gently', make=lambda: _not('brake', _braking(3.0)), margin=1.0),
-    Row(id='no1.holds', what='brakes', make=lambda: _not('brake', _braking(5.0)), margin=-1.0),
+    Row(
+        id='no1.holds', what='gently', make=lambda: _not('brake', _braking(3.0)), margin=3.96 - 3.0
+    ),
+    Row(
+        id='no1.holds', what='brakes', make=lambda: _not('brake', _braking(5.0)), margin=3.96 - 5.0
+    ),
     Row(
         id='no1.holds',
         what='gone',
@@ -115,7 +119,7 @@ ROWS = (
         make=lambda: _not('turn_left', STILL),
         margin=60.0,
     ),
-    Row(id='no1.holds', what='done', make=lambda: done_at(_not('brake', FAST), 300), margin=4.0),
+    Row(id='no1.holds', what='done', make=lambda: done_at(_not('brake', FAST), 300), margin=3.96),
 )
 
 

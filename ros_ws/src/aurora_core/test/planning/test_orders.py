@@ -48,6 +48,19 @@ def test_an_agent_waits_for_the_event_before(parameter: Make) -> None:
     assert _triggers(spec) == {'e1': None, 'e2': ('event_done', 'e1')}
 
 
+@pytest.mark.parametrize(('told', 'on'), [('car1', 'message_received'), ('bus1', 'event_done')])
+def test_who_is_told_waits_until_the_message_is_there(parameter: Make, told: str, on: str) -> None:
+    says = {'action': {'do': 'send_message', 'sender': 'uav1', 'receiver': told}}
+    spec = _spec(parameter, ('e1', 'e2'), e1=says, e2=_stops('car1'))
+    made = waiting(spec)
+    later = next(e.trigger for e in made.events if e.id == 'e2')
+    assert later is not None
+    assert later.on == on
+    if on == 'message_received':
+        assert (later.by, later.sender) == ('car1', 'uav1')  # type: ignore[union-attr]
+    assert waiting(made) == made
+
+
 def test_a_landing_waits_for_the_last_mission(parameter: Make) -> None:
     assert _triggers(_spec(parameter, ('m2', 'e1'), e1={'action': LANDS})) == {
         'e1': ('mission_done', 'uav1')
