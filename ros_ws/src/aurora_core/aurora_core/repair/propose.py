@@ -121,6 +121,7 @@ def _candidates(
     foresight: Foresight | None,
 ) -> Iterator[Proposal]:
     """Yield proposals, the best one first; those that were made already are among them."""
+    yield from _moved_along(implicated, past)
     if sum(1 for _ in _of_no_avail(past)) >= settings.in_vain:
         yield from _symbolic(agsg, implicated, past, settings)
     singles = [a for a in past if a.step is Step.ONE and a.simulated]
@@ -141,6 +142,23 @@ def _candidates(
     for _, proposals in found:
         yield from proposals
     yield from _symbolic(agsg, implicated, past, settings)
+
+
+def _moved_along(
+    implicated: tuple[Implicated, ...], past: Sequence[Attempt]
+) -> Iterator[Proposal]:
+    """Yield the last edit at any other place, where its own has no room for it."""
+    last = past[-1]
+    no_room = last.outcome is AttemptOutcome.NO_PLACE and last.plan.kept is not None
+    if no_room and any(item.field == ANCHOR for item in implicated):
+        told = ', '.join(f'{edit.path} to {edit.realised:.4g}' for edit in last.plan.values)
+        yield Proposal(
+            outcome=ProposalOutcome.EDITED,
+            step=Step.SYMBOLIC,
+            plan=last.plan.model_copy(update={'kept': None}),
+            implicated=implicated,
+            reason=f'at its place there is no room for {told}; the scene goes along',
+        )
 
 
 def _symbolic(
