@@ -22,6 +22,7 @@ from aurora_core.outcomes.repair import (
 )
 from aurora_core.outcomes.verdict import Verdict
 from aurora_core.quantities.view import RunView
+from aurora_core.repair.beyond import beyond_repair
 from aurora_core.repair.foresee import Foresight
 from aurora_core.repair.helps import ANCHOR
 from aurora_core.repair.localize import localize
@@ -58,6 +59,14 @@ def propose(
         settings: How it is searched.
         view: What was recorded of that realisation; None: nothing is foreseen.
     """
+    locked = beyond_repair(agsg, verdict)
+    if locked:
+        told = ', '.join(item.field for item in locked)
+        return Proposal(
+            outcome=ProposalOutcome.OUT_OF_SCOPE,
+            implicated=locked,
+            reason=f'{locked[0].reason}; {told} is locked, so no other realisation mends that',
+        )
     implicated = localize(agsg, verdict, past[0].learned if past else {})
     if not implicated:
         return Proposal(
@@ -121,6 +130,7 @@ def _candidates(
     foresight: Foresight | None,
 ) -> Iterator[Proposal]:
     """Yield proposals, the best one first; those that were made already are among them."""
+    yield from _moved_along(implicated, past)
     if sum(1 for _ in _of_no_avail(past)) >= settings.in_vain:
         yield from _symbolic(agsg, implicated, past, settings)
     singles = [a for a in past if a.step is Step.ONE and a.simulated]
@@ -141,6 +151,24 @@ def _candidates(
     for _, proposals in found:
         yield from proposals
     yield from _symbolic(agsg, implicated, past, settings)
+
+
+def _moved_along(
+    implicated: tuple[Implicated, ...], past: Sequence[Attempt]
+) -> Iterator[Proposal]:
+    """Yield the last edit at any other place, where its own has no room for it."""
+    last = past[-1] if past else None
+    if last is None or last.outcome is not AttemptOutcome.NO_PLACE or last.plan.kept is None:
+        return
+    if any(item.field == ANCHOR for item in implicated):
+        told = ', '.join(f'{edit.path} to {edit.realised:.4g}' for edit in last.plan.values)
+        yield Proposal(
+            outcome=ProposalOutcome.EDITED,
+            step=Step.SYMBOLIC,
+            plan=last.plan.model_copy(update={'kept': None}),
+            implicated=implicated,
+            reason=f'at its place there is no room for {told}; the scene goes along',
+        )
 
 
 def _symbolic(

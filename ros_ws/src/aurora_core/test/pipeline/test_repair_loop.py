@@ -118,7 +118,7 @@ class Clock:
 
 def ran(stages: FakeStages, root: Path, repair: int = 5, **more: Any) -> RunReport:
     return run(
-        RunRequest(prompt=PROMPT, repair=repair, **more),
+        RunRequest(**{'prompt': PROMPT, 'repair': repair, **more}),
         stages,
         _KNOWN,
         RunFolder(root, RUN_ID),
@@ -271,3 +271,55 @@ def test_the_next_run_begins_with_what_the_history_teaches(tmp_path: Path) -> No
     [known] = second.learned
     assert all(factor > 1.0 for factor in known.values())
     assert known
+
+
+class Nowhere(FakeStages):
+    """Has a place only for what flies higher than usual."""
+
+    def ground(
+        self, agsg: Agsg, request: RunRequest, plan: RepairPlan | None = None
+    ) -> GroundingOutcome:
+        if plan is None:
+            self.plans.append(plan)
+            failure = GroundingFailure(reason='clearance', tried=1, rejected_by={'clearance': 1})
+            return GroundingOutcome(failure=failure)
+        return super().ground(agsg, request, plan)
+
+
+OPEN = 'A drone hovers over the ego car for 5 seconds.'
+
+
+def test_a_request_without_a_place_is_run_with_values_that_have_one(tmp_path: Path) -> None:
+    report = ran(Nowhere(HELD), tmp_path, prompt=OPEN)
+    assert report.status is Status.VERIFIED
+    [placed] = report.repairs
+    assert (placed.kind, placed.outcome, placed.bag) == ('symbolic', 'placed', None)
+    [edit] = placed.edits
+    assert edit.path == 'missions/m1/altitude_m'
+    assert isinstance(edit.new, float)
+    assert f'it was placed with missions/m1/altitude_m {edit.new:g}' in report.summary
+    assert 'realisations' not in report.summary
+    grounding = json.loads((tmp_path / RUN_ID / 'grounding.0.json').read_text())
+    assert grounding['repair']['values'][0]['realised'] == edit.new
+
+
+@pytest.mark.parametrize('more', [{'repair': 0, 'prompt': OPEN}, {'prompt': PROMPT}])
+def test_without_repair_or_with_all_stated_there_is_no_place(
+    tmp_path: Path, more: dict[str, Any]
+) -> None:
+    stages = Nowhere(HELD)
+    report = ran(stages, tmp_path, **more)
+    assert (report.status, report.trace) == (Status.INCONCLUSIVE, None)
+    assert stages.plans == [None]
+
+
+def test_a_placed_run_that_is_violated_keeps_its_values_when_it_is_repaired(
+    tmp_path: Path,
+) -> None:
+    stages = Nowhere(-0.5, HELD)
+    report = ran(stages, tmp_path, prompt=OPEN)
+    assert report.status is Status.VERIFIED
+    assert [repair.outcome for repair in report.repairs] == ['placed', 'verified']
+    first, second = (plan for plan in stages.plans if plan is not None)
+    assert {e.path for e in first.values} <= {e.path for e in second.values}
+    assert 'It took 2 realisations' in report.summary

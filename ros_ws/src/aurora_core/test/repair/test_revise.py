@@ -101,3 +101,21 @@ def test_a_step_that_is_left_out_is_never_taken(agsg: Agsg, failing: Failing) ->
     for number in (1, 5):
         found = propose(agsg, failing(m1__visible=-0.4), attempts(number), settings)
         assert found.step in (Step.ONE, Step.SEARCH)
+
+
+def test_an_edit_without_room_at_its_place_takes_the_scene_along(
+    agsg: Agsg, failing: Failing
+) -> None:
+    verdict = failing(m1__visible=-0.4)
+    past = attempts(1)
+    first = propose(agsg, verdict, past, SETTINGS)
+    assert (first.step, first.plan.kept is None) == (Step.ONE, False)
+    fields = {'iteration': 1, 'outcome': 'no_place', 'step': Step.ONE, 'plan': first.plan}
+    again = propose(agsg, verdict, (*past, Attempt.model_validate(fields)), SETTINGS)
+    assert again.step is Step.SYMBOLIC
+    assert again.plan.kept is None
+    assert again.plan.values == first.plan.values
+    # Nowhere else either: on with what else can be at fault.
+    gone = {**fields, 'step': Step.SYMBOLIC, 'plan': again.plan}
+    rows = (Attempt.model_validate(fields), Attempt.model_validate(gone))
+    assert propose(agsg, verdict, (*past, *rows), SETTINGS).plan not in (first.plan, again.plan)
