@@ -97,8 +97,13 @@ def draw_all(runs: Runs, folder: Path) -> tuple[Drawn, ...]:
         ),
     }
     found = []
+    typed = [r for r in runs if not r.configuration.writes_program]
     for name, (draw, caption) in figures.items():
-        paths = save_as(draw(runs), folder, name, ('pdf', 'svg', 'png'))
+        # Programs have no grounding, no conditions and no repair: one figure shows them.
+        shown = runs if name == 'ladder' else typed
+        if not shown:
+            continue
+        paths = save_as(draw(shown), folder, name, ('pdf', 'svg', 'png'))
         found.append(Drawn(name, caption, paths))
     return tuple(found)
 
