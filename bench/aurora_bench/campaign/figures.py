@@ -12,6 +12,7 @@ from typing import NamedTuple
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from aurora_bench.campaign.executed import EPISODE, episode_of, measured_of
 from aurora_bench.campaign.metrics import (
     NOTHING,
     REPAIRED,
@@ -64,9 +65,8 @@ def draw_all(runs: Runs, folder: Path) -> tuple[Drawn, ...]:
     figures: Mapping[str, tuple[Callable[[Runs], Figure], str]] = {
         'ladder': (
             _ladder,
-            'Verified passes by configuration, with 95 % Wilson intervals; grey: the five models '
-            'of the paper, in other simulators. Completion of B1 to B3 is not drawn: they were '
-            'not run.',
+            '(a) Completion of programs (B1 to B3) and (b) verified passes by configuration, '
+            'with 95 % Wilson intervals; grey: the five models of the paper, in other simulators.',
         ),
         'overview': (
             _overview,
@@ -81,39 +81,104 @@ def draw_all(runs: Runs, folder: Path) -> tuple[Drawn, ...]:
             'tracking (share) and waypoints (number), one point a run, with the median; it holds '
             'from zero on.',
         ),
+        'coordination': (
+            _coordination,
+            'Execution and missions by reader, boxes from quartile to quartile: (a) recorded to '
+            'recomputed moment of events, (b) distance from the grounded place at t = 0, (c) time '
+            'from ready to capture, (d) share of time on target while tracking, (e) greatest '
+            'distance off the way between waypoints, (f) latency of delivered messages. The '
+            'clock offset between the simulators is zero by construction (lockstep).',
+        ),
         'cost': (
             _cost,
-            '(a) Wall seconds by stage (median, quartiles) of AURORA. (b) Whole runs under AURORA '
-            'by the number of co-simulations. Sums over a run; a busy machine shows.',
+            '(a) Wall seconds by stage (median, quartiles) of AURORA. (b) Repair episodes: wall '
+            'seconds after the first verdict by part, and of whole episodes. (c) Whole runs under '
+            'AURORA by the number of co-simulations. A busy machine shows.',
         ),
     }
     found = []
+    typed = [r for r in runs if not r.configuration.writes_program]
     for name, (draw, caption) in figures.items():
-        paths = save_as(draw(runs), folder, name, ('pdf', 'svg', 'png'))
+        # Programs have no grounding, no conditions and no repair: one figure shows them.
+        shown = runs if name == 'ladder' else typed
+        if not shown:
+            continue
+        paths = save_as(draw(shown), folder, name, ('pdf', 'svg', 'png'))
         found.append(Drawn(name, caption, paths))
     return tuple(found)
 
 
 def _ladder(runs: Runs) -> Figure:
-    figure, (ax,) = new_figure(_WIDTH_IN / 2, 2.4, font_size=_FONT)
+    figure, (left, right) = new_figure(_WIDTH_IN, 2.4, panels=2, font_size=_FONT)
+    programs = [c for c in Configuration if c.writes_program]
+    _rungs(left, runs, programs, 0, lambda r: r.ending is Ending.COMPLETED)
+    _rungs(right, runs, TYPED, 2, lambda r: r.passed)
+    left.set_title('(a)', loc='left')
+    left.set_ylabel('share of programs that complete')
+    right.set_title('(b)', loc='left')
+    right.set_ylabel('share of runs that pass')
+    return figure
+
+
+def _rungs(
+    ax: Axes,
+    runs: Runs,
+    configurations: Sequence[Configuration],
+    column: int,
+    of: Callable[[CampaignRun], bool],
+) -> None:
+    """Draw a share by configuration beside a column of the paper's table."""
     found = groups(runs)
-    configurations = [c for c in Configuration if any(c is k[1] for k in found)]
-    readers = list(dict.fromkeys(r.reader for r in runs))
-    width = 0.8 / len(readers)
+    readers = [
+        r for r in dict.fromkeys(r.reader for r in runs)
+        if any((r, c) in found for c in configurations)
+    ]  # fmt: skip
+    width = 0.8 / max(1, len(readers))
     for n, reader in enumerate(readers):
-        shares = [share(found.get((reader, c), ()), lambda r: r.passed) for c in configurations]
+        shares = [share(found.get((reader, c), ()), of) for c in configurations]
         places = [k - 0.4 + width * (n + 0.5) for k in range(len(configurations))]
         _bars(ax, places, shares, width, COLOURS[n % len(COLOURS)], reader)
     for k, configuration in enumerate(configurations):
-        values = [row[2] for row in TABLE[configuration.value] if row[2] is not None]
+        values = [v for row in TABLE[configuration.value] if (v := row[column]) is not None]
         ax.scatter(
             [k] * len(values), values, s=14, marker='D', color=_PAPER, zorder=3,
             label="the paper's models" if k == 0 else None,
         )  # fmt: skip
     ax.set_xticks(range(len(configurations)), [c.value for c in configurations])
-    ax.set_ylim(0.0, 1.0)
-    ax.set_ylabel('share of runs that pass')
-    ax.legend(loc='upper left', fontsize=_FONT - 1)
+    ax.set_ylim(0.0, 1.05)
+    ax.legend(loc='lower right', fontsize=_FONT - 1)
+
+
+def _coordination(runs: Runs) -> Figure:
+    figure, axes = new_figure(_WIDTH_IN, 3.6, panels=3, rows=2, font_size=_FONT)
+    some = [r for r in runs if r.configuration is Configuration.AURORA]
+    readers = list(dict.fromkeys(r.reader for r in some))
+    whose = {reader: [r for r in some if r.reader == reader] for reader in readers}
+    found = {reader: measured_of(part) for reader, part in whose.items()}
+    flown = {k: [m for one in v for m in one.missions] for k, v in found.items()}
+    panels: tuple[tuple[str, Mapping[str, Sequence[float]]], ...] = (
+        ('event moment [s]', {k: [abs(v) for m in ms for v in m.event_s]
+                              for k, ms in found.items()}),
+        ('placement [m]', {k: [v for r in part for values in r.placed_m.values() for v in values]
+                           for k, part in whose.items()}),
+        ('capture [s]', {k: [m.capture_s for m in ms if m.capture_s is not None]
+                         for k, ms in flown.items()}),
+        ('time on target (share)', {k: [m.on_target for m in ms if m.on_target is not None]
+                                    for k, ms in flown.items()}),
+        ('off the route [m]', {
+            k: [m.off_most_m for m in ms if m.mode == 'navigate' and m.off_most_m is not None]
+            for k, ms in flown.items()
+        }),
+        ('message latency [s]', {k: [v for m in ms for v in m.latency_s]
+                                 for k, ms in found.items()}),
+    )  # fmt: skip
+    for ax, letter, (name, values) in zip(axes, 'abcdef', panels, strict=True):
+        kept = {k: v for k, v in values.items() if v}
+        if kept:
+            labels = [f'{k} ({len(v)})' for k, v in kept.items()]
+            ax.boxplot(list(kept.values()), tick_labels=labels, flierprops={'markersize': 2})
+        ax.set_ylabel(name)
+        ax.set_title(f'({letter})', loc='left')
     return figure
 
 
@@ -206,27 +271,33 @@ def _margins(ax: Axes, runs: Runs, name: str) -> None:
 
 
 def _cost(runs: Runs) -> Figure:
-    figure, (left, right) = new_figure(_WIDTH_IN, 2.4, panels=2, font_size=_FONT)
+    figure, (left, middle, right) = new_figure(_WIDTH_IN, 2.4, panels=3, font_size=_FONT)
     some = [r for r in runs if r.configuration is Configuration.AURORA]
-    stages = [[r.seconds[s] for r in some if s in r.seconds] for s in _STAGES]
-    shown = [(s, values) for s, values in zip(_STAGES, stages, strict=True) if values]
-    if shown:
-        left.boxplot(
-            [values for _, values in shown], tick_labels=[s for s, _ in shown], showfliers=False
-        )
-        left.set_yscale('log')
-    left.set_ylabel('wall time [s]')
-    left.set_title('(a)', loc='left')
-    for run in some:
-        if run.simulations and 'all' in run.seconds:
-            hue = COLOURS[0] if run.passed else COLOURS[1]
-            right.scatter([run.simulations], [run.seconds['all']], s=9, color=hue)
-    right.scatter([], [], s=9, color=COLOURS[0], label='passes')
-    right.scatter([], [], s=9, color=COLOURS[1], label='does not')
+    stages = {s: [r.seconds[s] for r in some if s in r.seconds] for s in _STAGES}
+    episodes = [episode for r in some if (episode := episode_of(r))]
+    by_part = {name: [e[name] for e in episodes if name in e] for name in EPISODE}
+    by_part['whole'] = [sum(e.values()) for e in episodes]
+    for ax, values in ((left, stages), (middle, by_part)):
+        shown = {k: v for k, v in values.items() if v}
+        if shown:
+            ax.boxplot(list(shown.values()), tick_labels=list(shown), showfliers=False)
+            ax.set_yscale('log')
+            ax.tick_params(axis='x', rotation=40)
+        ax.set_ylabel('wall time [s]')
+    timed = [r for r in some if r.simulations and 'all' in r.seconds]
+    for hue, label, passes in ((COLOURS[0], 'passes', True), (COLOURS[1], 'does not', False)):
+        shown_runs = [r for r in timed if r.passed is passes]
+        right.scatter(
+            [r.simulations for r in shown_runs], [r.seconds['all'] for r in shown_runs], s=9,
+            color=hue, label=label,
+        )  # fmt: skip
+    if timed:
+        right.set_yscale('log')
     right.set_xlabel('co-simulations of a run')
     right.set_ylabel('wall time of the run [s]')
-    right.set_title('(b)', loc='left')
     right.legend(fontsize=_FONT - 1)
+    for ax, letter in ((left, 'a'), (middle, 'b'), (right, 'c')):
+        ax.set_title(f'({letter})', loc='left')
     return figure
 
 

@@ -103,6 +103,17 @@ def draw_gallery(folders: Sequence[Path], out: Path) -> tuple[Path, ...]:
             'and flown, planned waypoints as crosses.',
         ),
         (
+            'graphs',
+            _graphs(runs),
+            'Scenario graphs of the grounded runs: typed nodes and the dependencies between them, '
+            'without conditions.',
+        ),
+        (
+            'missions',
+            _missions(runs),
+            'Flights by phase: ascent, mission, holding, landing; altitude over time.',
+        ),
+        (
             'example',
             _example(runs[0]),
             'One run: the request, its scenario graph, the grounded trajectories, and what was '
@@ -159,6 +170,35 @@ def _maps(runs: Sequence[Shown]) -> Figure:
     figure.legend(
         *axes[0].get_legend_handles_labels(), loc='outside lower center', ncols=6, fontsize=_FONT
     )
+    return figure
+
+
+def _graphs(runs: Sequence[Shown]) -> Figure:
+    figure, axes = new_figure(
+        _WIDTH_IN, 0.3 + _WIDTH_IN / len(runs), panels=len(runs), font_size=_FONT
+    )
+    for k, (ax, run) in enumerate(zip(axes, runs, strict=True)):
+        _graph(ax, run.agsg)
+        _titled(ax, f'({chr(97 + k)})' + ('' if run.mode is None else f' {run.mode.value}'))
+    return figure
+
+
+def _missions(runs: Sequence[Shown]) -> Figure:
+    figure, axes = new_figure(_WIDTH_IN, 2.0, panels=len(runs), font_size=_FONT)
+    phases = {'ascent': UavPhase.ASCENT, 'holding': UavPhase.HOLDING, 'landing': UavPhase.LANDING}
+    for k, (ax, run) in enumerate(zip(axes, runs, strict=True)):
+        trace = run.content.trace
+        times = np.arange(trace.ticks) * trace.roster.dt_s
+        phase = trace.uav_commands[:, 0, UavCommandColumn.PHASE]
+        flies = (phase >= UavPhase.MISSION) & (phase < UavPhase.HOLDING)
+        parts = {**{name: phase == p for name, p in phases.items()}, 'mission': flies}
+        for hue, (name, here) in zip(COLOURS, parts.items(), strict=False):
+            altitude_m = np.where(here, trace.uav[:, 0, UavColumn.Z], np.nan)
+            ax.plot(times, altitude_m, color=hue, linewidth=1.6, label=name)
+        ax.set_xlabel('simulated time [s]')
+        _titled(ax, f'({chr(97 + k)})' + ('' if run.mode is None else f' {run.mode.value}'))
+    axes[0].set_ylabel('altitude [m]')
+    axes[0].legend(fontsize=_FONT - 1)
     return figure
 
 
@@ -229,13 +269,12 @@ def _graph(ax: Axes, agsg: Agsg) -> None:
     pairs = sorted({(e.source, e.target) for e in agsg.edges})
     lines = [(place[a], place[b]) for a, b in pairs if a in place and b in place and a != b]
     ax.add_collection(LineCollection(lines, colors='#999999', linewidths=0.7))
-    kinds = sorted({n.type.value for n in nodes})
+    hues = dict(zip(NodeType, COLOURS, strict=False))
     for node in nodes:
-        hue = COLOURS[kinds.index(node.type.value) % len(COLOURS)]
-        ax.plot(*place[node.id], marker='o', markersize=7, color=hue)
+        ax.plot(*place[node.id], marker='o', markersize=7, color=hues[node.type])
         ax.annotate(node.id, 1.16 * place[node.id], ha='center', va='center', fontsize=_FONT - 1)
-    for k, kind in enumerate(kinds):
-        ax.plot([], [], linestyle='', marker='o', color=COLOURS[k % len(COLOURS)], label=kind)
+    for kind in dict.fromkeys(n.type for n in nodes):
+        ax.plot([], [], linestyle='', marker='o', color=hues[kind], label=kind.value)
     ax.legend(fontsize=_FONT - 1.5, loc='lower center', ncols=3)
     ax.set_xlim(-1.5, 1.5)
     ax.set_ylim(-2.0, 1.3)

@@ -11,6 +11,7 @@ from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from statistics import fmean, median
 
+from aurora_bench.campaign.at_scale import cost_line_table, scale_table
 from aurora_bench.campaign.executed import (
     coordination_table,
     episode_table,
@@ -69,6 +70,8 @@ def all_tables(runs: Runs) -> Mapping[str, Table]:
         'missions': mission_table(runs),
         'cost': cost_table(runs),
         'episodes': episode_table(runs),
+        'cost_model': cost_line_table(runs),
+        'scale': scale_table(runs),
     }
     if len({r.seed for r in runs}) > 1:
         tables['seeds'] = seed_table(runs)

@@ -103,7 +103,7 @@ def test_the_figures_of_a_run_are_written_whole(tmp_path: Path) -> None:
     written = draw_gallery([folder.path], tmp_path / 'out')
     assert {p.name for p in written} == {
         f'{name}.{kind}'
-        for name in ('views', 'maps', 'example')
+        for name in ('views', 'maps', 'graphs', 'missions', 'example')
         for kind in ('pdf', 'svg', 'png', 'txt')
     }
     assert all(p.stat().st_size for p in written)

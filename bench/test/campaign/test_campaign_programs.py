@@ -10,6 +10,7 @@ from typing import Any
 
 import pytest
 
+from aurora_bench.campaign.figures import draw_all
 from aurora_bench.campaign.metrics import METRICS, share
 from aurora_bench.campaign.plan import Configuration, Plan, Reader, Task, tasks_of
 from aurora_bench.campaign.record import CampaignRun, Ending
@@ -167,6 +168,12 @@ def test_tables_say_nothing_that_programs_have_not(tmp_path: Path) -> None:
     assert str(row['RF']).startswith('1.00')
     assert tables['programs'].rows == [('recorded', 'B1', 1, 0, 0, 0, 0, 0, 0)]
     assert share((run,), next(m.of for m in METRICS if m.name == 'RF')).met == 1
+
+
+def test_a_report_of_programs_alone_has_the_one_figure_that_shows_them(tmp_path: Path) -> None:
+    answer(tmp_path / 'replies', B1, HOVER, 'none')
+    run = ran(tmp_path, B1, HOVER)
+    assert [drawn.name for drawn in draw_all((run,), tmp_path)] == ['ladder']
 
 
 def test_the_offline_reader_writes_no_programs() -> None:

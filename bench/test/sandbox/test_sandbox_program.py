@@ -126,3 +126,51 @@ def test_a_program_may_say_that_it_cannot_be_done(tmp_path: Path) -> None:
     found = ran("from aurora_scene import scene\nscene.refuse('altitude_limit')\n", tmp_path)
     assert (found.end, found.refused, found.begun) == (End.FINISHED, 'altitude_limit', False)
     assert not found.completed
+
+
+EVERY = """
+from aurora_scene import SceneError, scene
+lanes = [l for l in scene.lanes(within_m=900.0) if l['length_m'] > 150.0]
+mine = [l for l in lanes if any(o['edge'] == l['edge'] and o['index'] == l['index'] + 1
+                                for o in lanes)][0]
+onward = scene.next_edges(mine['edge'])[0]
+assert scene.route(mine['edge'], onward) == [mine['edge'], onward]
+assert all(set(p) == {'x', 'y', 'lane'} for p in scene.places().values())
+scene.world(weather='fog', wind_mps=3.0, wind_from_deg=270.0)
+scene.spawn('car', 'car', mine['id'], 20.0, speed_mps=8.0, role='ego')
+scene.spawn('bus', 'bus', mine['id'], 60.0, speed_mps=8.0)
+scene.spawn('van', 'van', mine['id'], 110.0, parked=True)
+scene.spawn('ann', 'pedestrian', mine['id'], 5.0)
+dt = scene.begin()
+walked = scene.state('ann')
+scene.set_time_gap('car', 3.0)
+scene.change_lane('car', mine['index'] + 1)
+scene.set_route('bus', [mine['edge'], onward])
+scene.stop_at('bus', mine['id'], 100.0, 5.0)
+speeds = []
+for _ in range(20):
+    scene.step(round(1.0 / dt))
+    speeds.append(scene.state('bus')['speed'])
+assert min(speeds) < 0.1 < speeds[-1], speeds
+scene.set_speed('car', 4.0)
+scene.step(round(4.0 / dt))
+assert abs(scene.state('car')['speed'] - 4.0) < 0.5 or not scene.state('car')['present']
+scene.free_speed('car')
+scene.step(round(3.0 / dt))
+now = scene.state('ann')
+assert (now['x'] - walked['x']) ** 2 + (now['y'] - walked['y']) ** 2 > 100.0
+assert scene.state('van')['speed'] == 0.0
+try:
+    scene.set_speed('nobody', 1.0)
+except SceneError as err:
+    scene.log(str(err))
+"""
+
+
+def test_every_command_on_the_ground_reaches_the_simulator(tmp_path: Path) -> None:
+    found = ran(EVERY, tmp_path)
+    assert (found.end, found.told) == (End.FINISHED, '')
+    world = read_bag(tmp_path / 'bag.1').world
+    assert world.weather == 'fog'
+    # From the west: it blows to the east.
+    assert world.wind_mps == pytest.approx((3.0, 0.0), abs=1e-9)
