@@ -235,8 +235,10 @@ class _Builder:
         agent = None if r.action is None else r.action.agent
         # Stored references stay as they are; of those that run nothing may be left out.
         members: tuple[str, ...] = ()
-        if self._spans is not None and (agent is not None or told is not None):
-            members = self._members(agent) if told is None else self._names.all(told)
+        if self._spans is not None and told is not None:
+            members = self._names.all(told)
+        elif self._spans is not None and agent is not None:
+            members = self._members(agent)
         for k, ident in enumerate(members[1:], start=2):
             action = {**first['action'], ('agent' if told is None else 'receiver'): ident}
             yield {**first, 'id': f'{first["id"]}_{k}', 'action': action}

@@ -171,6 +171,8 @@ def test_a_duration_that_nobody_states_has_room_for_a_time_of_sight(
     free = parameter(30.0, 's', explicit=False).model_copy(update={'low': 10.0, 'high': 120.0})
     open_ = mission.model_copy(update={'duration_s': free})
     (made,) = bent(spec.model_copy(update={'missions': (open_,)}), LIMITS).missions
+    assert made.duration_s is not None
     assert made.duration_s.value == lasts_s
     (said,) = bent(spec, LIMITS).missions
+    assert said.duration_s is not None
     assert said.duration_s.value == 30.0
