@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 from types import SimpleNamespace
 
 import pytest
@@ -94,7 +95,7 @@ def test_who_asks_hears_all_who_spoke_though_nobody_serves_the_node(
             speaker.start()
             speaker.busy(number)
         for number, name in enumerate(('sync', 'recorder'), 1):
-            assert wait_until(lambda name=name: watch.is_busy(name), LIMIT_S)
+            assert wait_until(partial(watch.is_busy, name), LIMIT_S)
             assert watch.run_number(name) == number
     finally:
         for speaker in speakers:
