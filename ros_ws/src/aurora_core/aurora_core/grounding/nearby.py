@@ -35,8 +35,8 @@ ALONG = {
     Relation.RIGHT: 0.0,
     Relation.LEFT: 0.0,
 }
-# Whoever stands beside a vehicle stands where the sidewalk is: a distance cannot be chosen.
-_NO_DISTANCE = (Relation.BESIDE, Relation.RIGHT, Relation.LEFT)
+# Who stands on a side of another one; of a person only in the same walk, at no stated distance.
+SIDES = (Relation.BESIDE, Relation.RIGHT, Relation.LEFT)
 _AT = (Relation.AT, Relation.NEAR, Relation.ON)
 
 
@@ -84,7 +84,7 @@ def can_stand(agent: GroundAgent, placement: Placement, spec: ScenarioSpec) -> b
         persons = {a.id for a in spec.agents if a.type in ON_SIDEWALKS}
         if of in persons and relation is Relation.RIGHT:
             return False  # SUMO has no room there
-        stated = placement.distance_m is not None and relation in _NO_DISTANCE
+        stated = of in persons and placement.distance_m is not None and relation in SIDES
         return relation in ALONG and not stated and placement.bearing_deg is None
     if placement.distance_m is not None and relation is not Relation.NEAR:
         return False

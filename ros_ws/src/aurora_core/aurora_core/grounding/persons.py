@@ -10,11 +10,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from math import inf
 
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.awaited import awaited_at
 from aurora_core.grounding.distances import DEFAULT_GAP_M
-from aurora_core.grounding.nearby import ALONG, by_vehicles, in_order
+from aurora_core.grounding.kerb import parked_pose
+from aurora_core.grounding.nearby import ALONG, SIDES, by_vehicles, in_order
 from aurora_core.grounding.pace import (
     encounter_room_m,
     met_persons,
@@ -51,6 +53,9 @@ from aurora_core.spec.vocabulary import BehaviorKind, Place, Relation
 
 # Who waits stands this far before the end of the sidewalk (m), the next one behind the first.
 _KERB_M = 0.6
+# Who stands on a side of a vehicle is where the sidewalk is, to so much of a stated distance (m).
+_OFF_M = 1.5
+
 _NEXT_M = 1.0
 
 # Who is to arrive at a crosswalk comes from so far away (m): not there yet at t = 0.
@@ -306,14 +311,16 @@ class PersonPlacer:
                 continue
             stated = placement.distance_m
             told = stated is not None and stated.provenance is Provenance.EXPLICIT
-            if told and stated is not None and placement.relation is Relation.NEAR:
+            left = placement.relation is Relation.LEFT
+            aside = placement.relation in SIDES and isinstance(seat, SeatedAgent)
+            if told and stated is not None and (aside or placement.relation is Relation.NEAR):
                 aimed_m = max(0.0, stated.inside(self._style.inside_bound_m))
-                return self._so_near(seat, aimed_m) or 'sidewalk'
+                off_m = _OFF_M if aside else inf
+                return self._so_near(seat, aimed_m, off_m, left=left) or 'sidewalk'
             sign = ALONG[placement.relation]
             away_m = sign * (stated.value if told and stated else self._near_m(seat, stated))
             if isinstance(seat, SeatedPerson) and sign == 0.0:
                 return self._abreast_of(seat, placement.relation)
-            left = placement.relation is Relation.LEFT
             return self._along(seat, away_m, 0, left=left) or 'sidewalk'
         if agent.placements or crosses(spec, agent):
             return None
@@ -348,18 +355,32 @@ class PersonPlacer:
             return DEFAULT_GAP_M if free is None else free.value
         return self._types[seat.agent.type.value].length_m / 2.0 + _STANDS_BEHIND_M
 
-    def _so_near(self, seat: SeatedAgent | SeatedPerson, stated_m: float) -> _Spot | None:
-        """Return the spot on the sidewalk that is so far from another one, ahead of it."""
-        x, y, _, _ = seat.path.position_at(seat.arc_m)
+    def _so_near(
+        self,
+        seat: SeatedAgent | SeatedPerson,
+        stated_m: float,
+        most_off_m: float,
+        *,
+        left: bool = False,
+    ) -> _Spot | None:
+        """Return the spot on the sidewalk that is so far from another one, ahead of it.
+
+        None where that is farther off than `most_off_m`.
+        """
+        pose = seat.path.position_at(seat.arc_m)
+        if isinstance(seat, SeatedAgent) and seat.member.parked:
+            record = self._types[seat.agent.type.value]
+            pose = parked_pose(pose, self._map.network.lane(seat.lane_id), record)
+        x, y, _, _ = pose
         best: tuple[float, _Spot] | None = None
         for step in range(round(stated_m / _STEP_M) + 1):
-            spot = self._along(seat, stated_m - step * _STEP_M, 0)
+            spot = self._along(seat, stated_m - step * _STEP_M, 0, left=left)
             if spot is not None:
                 here = spot.path.position_at(spot.arc_m)
                 off_m = abs(norm2(here[0] - x, here[1] - y) - stated_m)
                 if best is None or off_m < best[0]:
                     best = off_m, spot
-        return None if best is None else best[1]
+        return None if best is None or best[0] > most_off_m else best[1]
 
     def _along(
         self,

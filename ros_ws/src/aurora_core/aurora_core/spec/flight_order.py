@@ -97,7 +97,9 @@ def end_of(spec: ScenarioSpec, element: str) -> Trigger | None:
 def mission_after(spec: ScenarioSpec, mission: UavMission) -> UavMission | None:
     """Return the next mission of the same UAV, None after the last one."""
     own = [m for m in spec.missions if m.uav == mission.uav]
-    return next(iter(own[own.index(mission) + 1 :]), None)
+    # A mission that grounding has raised, or moved, is still the one of its id.
+    number = next(k for k, m in enumerate(own) if m.id == mission.id)
+    return next(iter(own[number + 1 :]), None)
 
 
 def left_by(spec: ScenarioSpec, mission: UavMission) -> Event | None:

@@ -129,3 +129,16 @@ def test_who_crosses_by_a_car_that_drives_takes_the_crosswalk(grounded: Ground) 
         'The ego car drives. A pedestrian waits ahead of it and crosses when it comes near.'
     )
     assert all(person.way_xy_m == () and len(person.edges) == 2 for person in _persons(found))
+
+
+def test_a_distance_to_the_side_of_a_vehicle_is_kept_where_the_sidewalk_allows_it(
+    grounded: Ground,
+) -> None:
+    found, _ = grounded('A pedestrian waits 8 m to the right of a van. The van waits.')
+    assert found.unsupported == ()
+    (person,) = _persons(found)
+    (van,) = (a for a in found.agents if not a.is_person)
+    away_m = dist((person.x_m, person.y_m), (van.x_m, van.y_m))
+    assert away_m == pytest.approx(8.0, abs=1.5)
+    left_m = van.heading_x * (person.y_m - van.y_m) - van.heading_y * (person.x_m - van.x_m)
+    assert left_m < -van.width_m / 2.0
