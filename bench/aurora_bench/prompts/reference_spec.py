@@ -39,6 +39,7 @@ from aurora_bench.prompts.reference_parts import (
     default_link,
     event,
     hearers,
+    is_a_message_at_no_time,
     kept_off,
     link,
     mission,
@@ -235,8 +236,10 @@ class _Builder:
         agent = None if r.action is None else r.action.agent
         # Stored references stay as they are; of those that run nothing may be left out.
         members: tuple[str, ...] = ()
-        if self._spans is not None and (agent is not None or told is not None):
-            members = self._members(agent) if told is None else self._names.all(told)
+        if self._spans is not None and told is not None:
+            members = self._names.all(told)
+        elif self._spans is not None and agent is not None:
+            members = self._members(agent)
         for k, ident in enumerate(members[1:], start=2):
             action = {**first['action'], ('agent' if told is None else 'receiver'): ident}
             yield {**first, 'id': f'{first["id"]}_{k}', 'action': action}
@@ -265,6 +268,9 @@ class _Builder:
             found['target'] = self._names.one(r.target)
         elif r.kind == 'event' and r.action is not None and r.action.do in get_args(AgentDo):
             found |= event(r, self._names, numbers)
+        elif r.kind == 'event' and is_a_message_at_no_time(r):
+            sent = event(r, self._names, numbers)['action']
+            found |= {'forbids': 'link', 'sender': sent['sender'], 'receiver': sent['receiver']}
         elif not isinstance(r, AgentRequirement | UavRequirement):
             raise NotExpressibleError(f'{r.id} forbids a {r.kind}')
         if not isinstance(r, AgentRequirement | UavRequirement):
