@@ -100,7 +100,7 @@ class NeverSent(Quantity):
     window: Window = Window.RUN
 
     def measure(self, context: Context, condition: Condition) -> Evaluation:
-        """Return the number in the ledger; one is known as soon as it is sent."""
+        """Return the number in the ledger."""
         sent = [
             record.tick
             for record in context.view.trace.links
@@ -111,7 +111,8 @@ class NeverSent(Quantity):
             return context.short(condition)
         story = f'{condition.of[0]} sent {len(sent)} messages to {condition.of[1]}'
         tick = sent[0] if sent else context.view.ticks - 1
-        return at_tick(tick, float(len(sent)), story, ('comm',), later=Later.RISES)
+        number, rises = float(len(sent)), Later.RISES
+        return at_tick(tick, number, story, ('comm',), later=rises, provisional=True)
 
 
 def never_sent(
