@@ -224,6 +224,13 @@ def default_link(ident: str, sender: str, receiver: str) -> Doc:
     return {'id': ident, 'sender': sender, 'receiver': receiver, **numbers}
 
 
+def is_a_message_at_no_time(r: EventRequirement) -> bool:
+    """Tell whether an event is a message between two who are named, without a cause."""
+    action = r.action
+    sends = action is not None and action.do == 'send_message' and action.receiver is not None
+    return sends and r.trigger is None
+
+
 def event(r: EventRequirement, names: Names, numbers: Numbers) -> Doc:
     """Return an event; a change of mission flies the mission `<event>_mission`."""
     found: Doc = {'id': id_of(r.ref)}

@@ -39,6 +39,7 @@ from aurora_bench.prompts.reference_parts import (
     default_link,
     event,
     hearers,
+    is_a_message_at_no_time,
     kept_off,
     link,
     mission,
@@ -267,6 +268,9 @@ class _Builder:
             found['target'] = self._names.one(r.target)
         elif r.kind == 'event' and r.action is not None and r.action.do in get_args(AgentDo):
             found |= event(r, self._names, numbers)
+        elif r.kind == 'event' and is_a_message_at_no_time(r):
+            sent = event(r, self._names, numbers)['action']
+            found |= {'forbids': 'link', 'sender': sent['sender'], 'receiver': sent['receiver']}
         elif not isinstance(r, AgentRequirement | UavRequirement):
             raise NotExpressibleError(f'{r.id} forbids a {r.kind}')
         if not isinstance(r, AgentRequirement | UavRequirement):

@@ -145,3 +145,23 @@ def test_a_message_to_a_group_goes_to_each_of_its_members() -> None:
     assert sorted(told) == ['cars_1', 'cars_2', 'cars_3']
     assert [link.receiver for link in spec.links] == ['cars_1', 'cars_2', 'cars_3']
     assert {link.loss.value for link in spec.links} == {0.2}
+
+
+def test_a_message_that_nobody_may_send_is_forbidden() -> None:
+    text = 'A drone tracks a van at 50 m. It never warns the van.'
+    parts: tuple[Doc, ...] = (
+        {'id': 'r2', 'kind': 'agent', 'ref': 'van1', 'type': 'van'},
+        {
+            'id': 'r3', 'kind': 'mission', 'ref': 'm1', 'uav': 'uav1', 'mode': 'track',
+            'target': 'van1',
+        },
+        {
+            'id': 'r4', 'kind': 'event', 'ref': 'e1', 'negate': True,
+            'action': {'do': 'send_message', 'sender': 'uav1', 'receiver': 'van1'},
+        },
+    )  # fmt: skip
+    spec = reference_spec(asked(*parts, text=text), judged=True)
+    (no,) = spec.prohibitions
+    assert (no.forbids, no.sender, no.receiver) == ('link', 'uav1', 'van1')  # type: ignore[union-attr]
+    assert spec.events == ()
+    assert f'{no.id}.holds' in condition_ids(spec)

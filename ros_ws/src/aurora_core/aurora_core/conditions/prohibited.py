@@ -7,13 +7,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from aurora_core.judging.build import Inputs, Underivable
-from aurora_core.judging.quantities import count, undone, world_setting
+from aurora_core.judging.quantities import count, delivered, undone, world_setting
 from aurora_core.outcomes.condition import Condition
 from aurora_core.spec.parameter import Span
 from aurora_core.spec.prohibitions import (
     ForbiddenAgent,
     ForbiddenBehavior,
     ForbiddenEvent,
+    ForbiddenLink,
     ForbiddenWorld,
     Prohibition,
 )
@@ -38,6 +39,8 @@ def _condition(inputs: Inputs, prohibition: Prohibition) -> Condition | None:
             return _deed(inputs, prohibition.id, agent, kind.value, target, prohibition.span)
         case ForbiddenEvent(trigger=None, action=AgentAction(agent=agent, do=do, value_mps=None)):
             return _deed(inputs, prohibition.id, agent, do, None, prohibition.span)
+        case ForbiddenLink(sender=sender, receiver=receiver):
+            return delivered.never_sent(inputs, prohibition.id, sender, receiver, prohibition.span)
         case _:
             return None
 

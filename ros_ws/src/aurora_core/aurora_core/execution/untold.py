@@ -14,6 +14,7 @@ from aurora_core.spec.scenario import (
     MessageTrigger,
     ScenarioSpec,
     SendMessage,
+    SpeedTrigger,
 )
 from aurora_core.spec.vocabulary import AgentType
 
@@ -35,10 +36,18 @@ def heard_before(spec: ScenarioSpec) -> dict[str, frozenset[tuple[str, str]]]:
             if isinstance(e.action, SendMessage)
             and e.action.receiver == actor
             and e.trigger is not None
-            and actor not in bodies_of_cause(e)
+            and not _may_need(e, event.action)
             and e not in _after(spec, event)
         )
     return found
+
+
+def _may_need(event: Event, action: AgentAction) -> bool:
+    """Tell whether an event may wait for what somebody does: he drives anyway, until he stops."""
+    if action.agent not in bodies_of_cause(event):
+        return False
+    slow = isinstance(event.trigger, SpeedTrigger) and event.trigger.on == 'speed_below'
+    return slow or action.do not in FROM_MOTION
 
 
 def slowed_later(spec: ScenarioSpec) -> dict[str, frozenset[str]]:

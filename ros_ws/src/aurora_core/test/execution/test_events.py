@@ -538,6 +538,25 @@ def test_an_event_waits_for_what_comes_before_it(stage: Build, parameter: Make) 
     assert done == [(10, 'e2'), (21, 'e1')]
 
 
+@pytest.mark.parametrize(('on', 'waits'), [('speed_above', True), ('speed_below', False)])
+def test_a_message_about_who_is_told_is_awaited_unless_it_waits_for_him(
+    stage: Build, parameter: Make, on: str, waits: bool
+) -> None:
+    values = {'on': on, 'who': 'ego', 'value_mps': parameter(15.0, 'm/s')}
+    send = SendMessage(do='send_message', sender='van1', receiver='ego')
+    scene = stage(
+        events=(
+            _event(SpeedTrigger.model_validate(values), send, id='e1'),
+            _event(None, AgentAction(do='slow', agent='ego'), id='e2'),
+        ),
+        links=(('van1', 'ego'),),
+    )
+    # Just at the number nothing is triggered by getting slower, and nothing is faster.
+    scene.put('ego', 0.0, speed=14.9 if waits else 15.1).put('van1', 30.0, speed=10.0).follow(500)
+    acted = {name for _, name, _ in scene.notes(ScenarioEventKind.ACTION)}
+    assert acted == (set() if waits else {'e2'})
+
+
 @pytest.mark.parametrize('told', ['van1', 'ego'])
 def test_who_is_told_something_and_does_something_does_it_upon_that(
     stage: Build, parameter: Make, told: str

@@ -86,6 +86,13 @@ def _flight(case: Case, quantity: str, value: float = 1.0, **more: float) -> Cas
     return stated(case, quantity, ('uav1',), '==', value, **more)
 
 
+def _untold(case: Case, receiver: str) -> Case:
+    """The prompt says that the UAV tells somebody nothing."""
+    no = {'forbids': 'link', 'id': 'no1', 'sender': 'uav1', 'receiver': receiver}
+    case.spec = spec(**{**dict(case.spec), 'prohibitions': (no,)})
+    return case
+
+
 NEVER, EMPTY, SHORT = Reason.PREMISE_NEVER, Reason.EMPTY_PHASE, Reason.TRACE_SHORT
 LINKS = (
     Row(id='l1.ratio', make=lambda: _twenty(6), margin=(19 - 14) / 20),
@@ -180,6 +187,17 @@ LINKS = (
         make=lambda: _said(_never(), 'delivered', '==', 0.0),
         reason=NEVER,
         what='kept',
+    ),
+    Row(id='no1.holds', make=lambda: _untold(tailgate_case(), 'van1'), margin=1.0, what='van1'),
+    Row(
+        id='no1.holds', make=lambda: _untold(tailgate_case(), 'ego'), margin=0.0 - 0.0, what='ego'
+    ),
+    Row(id='no1.holds', make=lambda: _untold(_twenty(6), 'ego'), margin=1.0 - 20.0, what='20'),
+    Row(
+        id='no1.holds',
+        make=lambda: cut(_untold(tailgate_case(), 'van1'), 600),
+        reason=SHORT,
+        what='cut',
     ),
     # Three attempts are lost, 0.2 s apart; the fourth one takes 0.1 s.
     Row(

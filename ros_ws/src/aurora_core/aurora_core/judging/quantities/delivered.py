@@ -10,13 +10,21 @@ import numpy as np
 
 from aurora_core.judging.build import Inputs, Source, Target, condition
 from aurora_core.judging.delivery import delivery_times
-from aurora_core.judging.evaluation import Context, Evaluation, Measured, Missing, at_tick
+from aurora_core.judging.evaluation import (
+    Context,
+    Evaluation,
+    Later,
+    Measured,
+    Missing,
+    at_tick,
+)
 from aurora_core.judging.messages import messages_of_event, messages_of_link
-from aurora_core.judging.quantity import OfEvent, OfLink
-from aurora_core.outcomes.condition import Condition
-from aurora_core.spec.parameter import Provenance
+from aurora_core.judging.quantity import OfEvent, OfLink, Quantity
+from aurora_core.outcomes.condition import Condition, Window
+from aurora_core.spec.parameter import Provenance, Span
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import Event, Link
+from aurora_core.trace.records import LinkEventKind
 
 
 class Delivered(OfLink):
@@ -82,6 +90,53 @@ class NeverDelivered(OfLink):
         tick = sent[-1].sent_tick if not arrived else arrived[0].delivered_tick
         assert tick is not None
         return at_tick(tick, float(len(arrived)), story, ('comm',), provisional=True)
+
+
+class NeverSent(Quantity):
+    """How many messages one body sends to another, where it may send none."""
+
+    name = QuantityName.DELIVERED
+    kind: Literal['never_sent'] = 'never_sent'
+    window: Window = Window.RUN
+
+    def measure(self, context: Context, condition: Condition) -> Evaluation:
+        """Return the number in the ledger."""
+        sent = [
+            record.tick
+            for record in context.view.trace.links
+            if record.kind is LinkEventKind.SENT
+            and (record.sender, record.receiver) == condition.of
+        ]
+        if not sent and not context.complete(condition):
+            return context.short(condition)
+        story = f'{condition.of[0]} sent {len(sent)} messages to {condition.of[1]}'
+        tick = sent[0] if sent else context.view.ticks - 1
+        number, rises = float(len(sent)), Later.RISES
+        return at_tick(tick, number, story, ('comm',), later=rises, provisional=True)
+
+
+def never_sent(
+    inputs: Inputs, id: str, sender: str, receiver: str, span: Span | None
+) -> Condition:
+    """Return that one body sends nothing to another.
+
+    Args:
+        inputs: What every derivation needs.
+        id: Of the prohibition.
+        sender: Who must not send.
+        receiver: To whom.
+        span: Where the prompt says so.
+    """
+    return condition(
+        id=f'{id}.holds',
+        sentence=f'{sender} never sends a message to {receiver}',
+        signal=f'messages({sender},{receiver})',
+        of=(sender, receiver),
+        target=Target(op='<', threshold=1.0, unit='1'),
+        arguments=NeverSent(**inputs.common),
+        source=Source(ids=(id,), spans=(span,), provenance=Provenance.EXPLICIT, implied=False),
+        every_sample=False,
+    )
 
 
 class MessageDelivered(OfEvent):
