@@ -52,7 +52,8 @@ def _variants(record: Any) -> list[tuple[str, Any]]:
     return [
         (f.name, replace(record, **{f.name: _changed(getattr(record, f.name))}))
         for f in fields(record)
-        if not (isinstance(getattr(record, f.name), tuple) and not getattr(record, f.name))
+        if f.init
+        and not (isinstance(getattr(record, f.name), tuple) and not getattr(record, f.name))
     ]
 
 
