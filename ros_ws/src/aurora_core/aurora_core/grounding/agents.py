@@ -16,7 +16,7 @@ from aurora_core.grounding.driving_style import ConvoyStyles, free_style, urged_
 from aurora_core.grounding.entries import entry_speeds_mps
 from aurora_core.grounding.free_room import FreeRoom
 from aurora_core.grounding.free_run import free_run_m, needed_run_m
-from aurora_core.grounding.goals import STOP_AFTER_M, GoalFinder, stops
+from aurora_core.grounding.goals import GoalFinder, stop_after_m, stops
 from aurora_core.grounding.kerb import parked_pose
 from aurora_core.grounding.lane_changers import ORDERED_CHANGES, changes_lane
 from aurora_core.grounding.pace import (
@@ -232,7 +232,7 @@ class AgentPlacer:
             speed_mps=speed_mps,
             style=free_style(agent, self._settings.grounding.speeds),
             lane_changes=self._lane_changes(spec, agent, tied=False),
-            stop_m=arc_m + STOP_AFTER_M if stops(agent) else None,
+            stop_m=arc_m + stop_after_m(agent) if stops(agent) else None,
             parked=parked,
         )
 

@@ -16,6 +16,7 @@ import shapely
 from aurora_core.geometry.frames import heading_to_sumo_angle
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.awaited import awaited_at, leaving
+from aurora_core.grounding.pace import own_speed_mps
 from aurora_core.grounding.places import MapPlaces, arrivals, has_point
 from aurora_core.grounding.sites import SeatedAgent, Site
 from aurora_core.knowledge.agent_types import AgentTypeRecord
@@ -45,7 +46,10 @@ _LEADS = (
 _WAY_M = (40.0, 260.0)
 
 # Who stops where no place is named does so after this way (m), or before the way ends.
-STOP_AFTER_M = 60.0
+_STOP_AFTER_M = 60.0
+
+# What a stated speed takes to be reached, to show and to be lost again (m/s^2, s, m/s^2).
+_GAINS_MPS2, _SHOWS_S, _LOSES_MPS2 = 1.5, 8.0, 2.0
 
 # Who is awaited within a distance comes at least this much nearer (m): ticks are that far apart.
 _NEARER_M = 0.5
@@ -95,6 +99,16 @@ def stops(agent: GroundAgent) -> bool:
 def _told(value: Parameter | None) -> Parameter | None:
     """Return a value that the prompt states, None for defaults."""
     return value if value is not None and value.provenance is Provenance.EXPLICIT else None
+
+
+def stop_after_m(agent: GroundAgent) -> float:
+    """Return how far a vehicle drives that stops at no place that is named, metres.
+
+    A stated speed shows before that.
+    """
+    speed_mps = own_speed_mps(agent) or 0.0
+    way_m = speed_mps * speed_mps / 2.0 * (1.0 / _GAINS_MPS2 + 1.0 / _LOSES_MPS2)
+    return max(_STOP_AFTER_M, way_m + _SHOWS_S * speed_mps)
 
 
 class GoalFinder:
@@ -251,7 +265,7 @@ class GoalFinder:
                 point = self._point(bound, (x, y))
                 near = self._arc_near(seat, point, bound)
                 return near or self._arc_near(seat, point, bound, wide=True)
-        return self._open_arc(seat, seat.arc_m + STOP_AFTER_M)
+        return self._open_arc(seat, seat.arc_m + stop_after_m(seat.agent))
 
     def _met_arc_m(
         self, spec: ScenarioSpec, anchor: tuple[float, float], seat: SeatedAgent

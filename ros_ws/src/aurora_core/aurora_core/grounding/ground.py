@@ -335,7 +335,7 @@ class Grounder:
             if not starts_out_of_reach(spec, site, places, range_m):
                 road *= _ASTRAY
             if stated > 0.0:
-                road *= 0.5 + 0.5 * room_for(stated, site, self._tolerances)
+                road *= 0.5 + 0.5 * room_for(stated, spec, site, self._tolerances)
                 road *= max(_NEVER, shows_before(spec, site, self._tolerances))
             for seat in site.seated:
                 if seat.agent.id in changing:

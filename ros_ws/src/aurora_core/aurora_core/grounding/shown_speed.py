@@ -15,6 +15,7 @@ from aurora_core.grounding.pace import PACED, own_speed_mps
 from aurora_core.grounding.sites import SeatedAgent, Site, open_way_m
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Tolerances
+from aurora_core.quantities.actions import SPEED_ACTIONS
 from aurora_core.quantities.free_road import caught_up_m
 from aurora_core.spec.scenario import AgentAction, GroundAgent, ScenarioSpec, TimeTrigger
 from aurora_core.spec.slower import slower_mps
@@ -22,22 +23,33 @@ from aurora_core.spec.slower import slower_mps
 # A stated speed shows well when it is held for so long (s), within so much time (s).
 _SHOWS_WELL_S = 8.0
 LOOKED_S = 40.0
+_LOOKED_TOLD_S = 15.0
 
 # A stated speed has shown when it was held for so long (s).
 _SHOWN_S = 2.0
 
 
-def room_for(speed_mps: float, site: Site, tolerances: Tolerances) -> float:
+def room_for(speed_mps: float, spec: ScenarioSpec, site: Site, tolerances: Tolerances) -> float:
     """Return whether a stated speed can show near a site, in [0, 1]: far from junctions.
+
+    Whom an event tells something else shows it before that, and comes in with it.
 
     Args:
         speed_mps: The speed.
+        spec: The request.
         site: Where its vehicles stand.
         tolerances: In force.
     """
+    told = any(
+        isinstance(e.action, AgentAction)
+        and e.action.do in SPEED_ACTIONS | {'yield'}
+        and (seat := site.seat(e.action.agent)) is not None
+        and own_speed_mps(seat.agent) is not None
+        for e in spec.events
+    )
     settle_m = speed_mps * speed_mps / (2.0 * tolerances.route_acceleration_mps2)
-    low_m = site.origin_arc_m + settle_m
-    high_m = low_m + LOOKED_S * speed_mps
+    low_m = site.origin_arc_m + (0.0 if told else settle_m)
+    high_m = low_m + (_LOOKED_TOLD_S if told else LOOKED_S) * speed_mps
     open_m = open_way_m(site.origin_path, low_m, high_m, tolerances.free_road_m)
     return min(1.0, open_m / (_SHOWS_WELL_S * speed_mps))
 

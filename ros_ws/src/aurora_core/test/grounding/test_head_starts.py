@@ -111,3 +111,15 @@ def test_a_vehicle_drives_from_one_end_of_the_town_to_the_other(
 ) -> None:
     van = agents(f'A van is at {start}. The van drives to {goal}.')['van1']
     assert len(van.edges) > 3
+
+
+@pytest.mark.parametrize(('speed_mps', 'least_m'), [(None, 55.0), (8.0, 95.0), (12.0, 175.0)])
+def test_who_stops_drives_far_enough_for_its_stated_speed_to_show(
+    agents: Agents, map_of: Callable[[str], MapModel], speed_mps: float | None, least_m: float
+) -> None:
+    said = '' if speed_mps is None else f' at {speed_mps:g} m/s'
+    car = agents(f'A car drives{said} and stops.')['car1']
+    network = map_of('downtown').network
+    path = network.route_path(car.edges, 'passenger', start_lane_id=car.lane_id)
+    begin_m = path.arc_of(car.lane_id, car.lane_position_m)
+    assert path.arc_of(car.stop_lane_id, car.stop_position_m) - begin_m >= least_m
