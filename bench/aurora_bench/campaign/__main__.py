@@ -70,6 +70,7 @@ def _parser() -> argparse.ArgumentParser:
         metavar='ADDRESS',
         help='workers of this Dask scheduler; local: one that is started for this campaign',
     )
+    run.add_argument('--so-far', action='store_true', help='run nothing more; write what is there')
     gallery = commands.add_parser(
         'gallery', help='figures of single runs: views from the UAV, maps, the first one whole'
     )

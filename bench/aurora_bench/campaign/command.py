@@ -38,7 +38,7 @@ def run_campaign(options: argparse.Namespace, make_work: MakeWork = _campaign_wo
     """Run a plan to its end and write its files.
 
     Args:
-        options: `file`, `out`, `jobs`, `dask`.
+        options: `file`, `out`, `jobs`, `dask`, `so_far`.
         make_work: How a task is done, of the plan and the folder of the runs.
 
     Returns:
@@ -81,7 +81,8 @@ def run_campaign(options: argparse.Namespace, make_work: MakeWork = _campaign_wo
     )
     digest = write_campaign(options.out, found, runs, machine)
     for key, why in sorted(lost.items()):
-        progress.note(f'quarantined {key}: {why}; the same command tries it again')
+        if not options.so_far:
+            progress.note(f'quarantined {key}: {why}; the same command tries it again')
     sys.stdout.write(f'{len(runs)} runs  quarantined {len(lost)}  table sha256 {digest}\n')
     return int(bool(lost))
 
@@ -127,6 +128,9 @@ def _all(
         if task.key in done:
             progress.step('from the journal')
     left = [t for t in tasks if t.key not in done]
+    if options.so_far:
+        lost = {t.key: 'not run yet' for t in left}
+        return tuple(done[t.key] for t in tasks if t.key in done), lost
     limit_s = plan.limit_s
     answers: Answers[CampaignRun]
     if options.dask is None:

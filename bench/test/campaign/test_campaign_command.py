@@ -58,7 +58,7 @@ def _importable(monkeypatch: pytest.MonkeyPatch) -> None:
 def run(file: Path, out: Path, **options: Any) -> int:
     """Run a campaign of cheap work."""
     make = importlib.import_module('campaign_work').cheap
-    given = {'jobs': 2, 'dask': None, **options}
+    given = {'jobs': 2, 'dask': None, 'so_far': False, **options}
     return run_campaign(SimpleNamespace(file=file, out=out, **given), make)  # type: ignore[arg-type]
 
 
@@ -80,7 +80,7 @@ def test_a_killed_runner_goes_on_to_the_same_table(tmp_path: Path) -> None:
         'n = []\n'
         'c.Journal.add = lambda *a: (n.append(1), time.sleep(600 if len(n) > 2 else 0), add(*a))\n'
         f'run_campaign(N(file=Path({str(file)!r}), out=Path({str(tmp_path / "cut")!r}), jobs=1,'
-        ' dask=None), cheap)\n'
+        ' dask=None, so_far=False), cheap)\n'
     )
     script = tmp_path / 'runner.py'
     script.write_text("if __name__ == '__main__':\n    exec(" + repr(code) + ')\n')
@@ -183,6 +183,20 @@ def test_more_seeds_go_on_with_what_is_there(
     assert capsys.readouterr().err.count('from the journal') == len(PROMPTS)
     assert run(more, tmp_path / 'whole') == 0
     assert table(tmp_path / 'out') == table(tmp_path / 'whole')
+
+
+def test_what_is_there_so_far_is_a_table_of_its_own(tmp_path: Path) -> None:
+    """Of two seeds one was run: its table holds it alone, and names the others."""
+    one = plan_file(tmp_path / 'in', more=f'{ONE}seeds: [1]\n')
+    assert run(one, tmp_path / 'out') == 0
+    both = plan_file(tmp_path / 'in', more=f'{ONE}seeds: [1, 2]\n')
+    assert run(both, tmp_path / 'out', so_far=True) == 1
+    found = json.loads((tmp_path / 'out' / 'runs.json').read_text())
+    assert [r['seed'] for r in found['runs']] == [1] * len(PROMPTS)
+    assert set(found['quarantined'].values()) == {'not run yet'}
+    assert len(found['quarantined']) == len(PROMPTS)
+    # It is no end: the same campaign goes on.
+    assert run(both, tmp_path / 'out') == 0
 
 
 def test_another_campaign_is_not_mixed_in(tmp_path: Path) -> None:

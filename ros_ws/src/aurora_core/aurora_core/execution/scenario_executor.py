@@ -35,6 +35,7 @@ from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
 from aurora_core.quantities.actions import ActionRules
 from aurora_core.quantities.instant_sight import InstantSight
 from aurora_core.quantities.world_geometry import WorldGeometry
+from aurora_core.spec.prohibitions import keeps_on
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.trace.commands import GroundCommand
 from aurora_core.trace.layout import UAV_COMMAND_WIDTH, GroundCommandKind, UavPhase
@@ -49,6 +50,9 @@ from aurora_core.trace.roster import Roster
 
 FloatArray = npt.NDArray[np.float64]
 
+
+# Who must not brake slows down no harder behind others: that is no braking (m/s^2).
+_GENTLY_MPS2 = 3.0
 
 # Who stops by itself stands for the rest of any run (s).
 _STANDS_S = 3600.0
@@ -196,8 +200,12 @@ class ScenarioExecutor:
         return LaneChanger(s.geometry.world, s.roster, s.action_rules.start_mps, s.driving)
 
     def _initial_commands(self) -> list[GroundCommand]:
+        gently = GroundCommandKind.SET_DECELERATION
+        forbidden = self._setup.spec.prohibitions
         commands = []
         for index, agent in enumerate(self._setup.agents):
+            if any(keeps_on(no, agent.id) for no in forbidden):
+                commands.append(GroundCommand(agent=index, kind=gently, value=_GENTLY_MPS2))
             if index in self._held:
                 commands.append(
                     GroundCommand(agent=index, kind=GroundCommandKind.SET_SPEED, value=0.0)

@@ -39,6 +39,7 @@ from aurora_core.ports.random_streams import stream
 from aurora_core.quantities.actions import action_rules
 from aurora_core.quantities.world_geometry import WorldGeometry
 from aurora_core.spec.parameter import Parameter
+from aurora_core.spec.prohibitions import Prohibition
 from aurora_core.spec.scenario import (
     Behavior,
     Event,
@@ -92,6 +93,7 @@ class Stage:
     links: tuple[tuple[str, str], ...] = ()
     events: tuple[Event, ...] = ()
     orders: tuple[Order, ...] = ()
+    prohibitions: tuple[Prohibition, ...] = ()
     buildings: tuple[Building, ...] = ()
     lanes: tuple[CentreLine, ...] = ()
     street_x_m: tuple[float, float] | None = None
@@ -292,6 +294,7 @@ class Stage:
             ),
             events=self.events,
             orders=self.orders,
+            prohibitions=self.prohibitions,
         )
 
     def _link(self, link: Link) -> MessageLink:

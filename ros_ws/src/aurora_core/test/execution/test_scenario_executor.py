@@ -9,10 +9,12 @@ from typing import Any
 
 import numpy as np
 import pytest
+from pydantic import TypeAdapter
 
 from aurora_core.knowledge.map_types import Building
 from aurora_core.outcomes.grounded import ReleaseOn
 from aurora_core.spec.parameter import Parameter
+from aurora_core.spec.prohibitions import Prohibition
 from aurora_core.spec.scenario import Behavior, Event, SendMessage, TimeTrigger
 from aurora_core.spec.vocabulary import BehaviorKind
 from aurora_core.trace.layout import GroundCommandKind, UavCommandColumn, UavMode, UavPhase
@@ -46,6 +48,21 @@ def test_held_agents_stand_and_free_ones_drive_from_the_start(stage: Callable[..
     assert scene.commands() == [(0, 'van1', SET, 0.0), (0, 'ego', SET, 7.0)]
     scene.step(5)
     assert len(scene.commands()) == 2  # said once
+
+
+@pytest.mark.parametrize(
+    ('kind', 'gently'), [('brake', True), ('stop', True), ('overtake', False)]
+)
+def test_who_must_not_brake_slows_down_gently_behind_others(
+    stage: Callable[..., Any], kind: str, gently: bool
+) -> None:
+    no = {'forbids': 'behavior', 'id': 'no1', 'agent': 'ego', 'kind': kind, 'target': None}
+    no |= {'target': 'van1'} if kind == 'overtake' else {}
+    scene = stage(prohibitions=(TypeAdapter(Prohibition).validate_python(no),))
+    scene.step(2)
+    softer = int(GroundCommandKind.SET_DECELERATION)
+    asked = [(agent, value) for _, agent, what, value in scene.commands() if what == softer]
+    assert asked == ([('ego', 3.0)] if gently else [])
 
 
 def test_release_on_capture_not_before(stage: Callable[..., Any]) -> None:
