@@ -94,7 +94,9 @@ class AgentPlacer:
         styles = ConvoyStyles(spec, site, self._types, network, self._settings, self._limits)
         waiting = {
             name: Release(on=ReleaseOn.PARTED, agent=front, beyond_m=beyond_m)
-            for name, front, beyond_m in head_starts(spec, site, self._types, self._tolerances)
+            for name, front, beyond_m in head_starts(
+                spec, site, self._types, network, self._tolerances
+            )
         }
         entries = entry_speeds_mps(spec, seats, self._types, network, speeds)
         placed = []

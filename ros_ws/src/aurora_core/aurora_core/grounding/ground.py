@@ -336,7 +336,7 @@ class Grounder:
                 road *= _ASTRAY
             if stated > 0.0:
                 road *= 0.5 + 0.5 * room_for(stated, spec, site, self._tolerances)
-                road *= max(_NEVER, shows_before(spec, site, self._tolerances))
+            road *= max(_NEVER, shows_before(site, self._map.network, self._tolerances))
             for seat in site.seated:
                 if seat.agent.id in changing:
                     pace_mps = own_speed_mps(seat.agent) or stated or wanted

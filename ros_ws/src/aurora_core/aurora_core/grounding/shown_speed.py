@@ -11,10 +11,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from aurora_core.grounding.pace import PACED, own_speed_mps
-from aurora_core.grounding.sites import SeatedAgent, Site, open_way_m
+from aurora_core.grounding.pace import PACED, in_emergency, own_speed_mps
+from aurora_core.grounding.sites import SeatedAgent, Site, limits_mps, open_way_m
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Tolerances
+from aurora_core.knowledge.road_network import RoadNetwork
 from aurora_core.quantities.actions import SPEED_ACTIONS
 from aurora_core.quantities.free_road import caught_up_m
 from aurora_core.spec.scenario import AgentAction, GroundAgent, ScenarioSpec, TimeTrigger
@@ -24,6 +25,10 @@ from aurora_core.spec.slower import slower_mps
 _SHOWS_WELL_S = 8.0
 LOOKED_S = 40.0
 _LOOKED_TOLD_S = 15.0
+
+# An emergency run shows on so much of its way (m), by so much more than it has to (m/s).
+_EMERGENCY_WAY_M = 150.0
+_OVER_MPS = 1.0
 
 # A stated speed has shown when it was held for so long (s).
 _SHOWN_S = 2.0
@@ -54,16 +59,16 @@ def room_for(speed_mps: float, spec: ScenarioSpec, site: Site, tolerances: Toler
     return min(1.0, open_m / (_SHOWS_WELL_S * speed_mps))
 
 
-def shows_before(spec: ScenarioSpec, site: Site, tolerances: Tolerances) -> float:
+def shows_before(site: Site, network: RoadNetwork, tolerances: Tolerances) -> float:
     """Return which share of the time that a speed needs to show each one has before, in [0, 1].
 
     Args:
-        spec: The request.
-        site: Where its vehicles stand.
+        site: Where the vehicles of a request stand.
+        network: Its roads.
         tolerances: In force.
     """
     return min(
-        (_share_before(chase, tolerances) for chase in _chases(spec, site, tolerances)),
+        (_share_before(chase, tolerances) for chase in _chases(site, network, tolerances)),
         default=1.0,
     )
 
@@ -82,6 +87,7 @@ def head_starts(
     spec: ScenarioSpec,
     site: Site,
     types: Mapping[str, AgentTypeRecord],
+    network: RoadNetwork,
     tolerances: Tolerances,
 ) -> tuple[tuple[str, str, float], ...]:
     """Return who waits until which slower one has got how far away (reference points, m).
@@ -90,10 +96,11 @@ def head_starts(
         spec: The request.
         site: Where its vehicles stand.
         types: Agent sizes and dynamics.
+        network: With the speed limits.
         tolerances: In force.
     """
     found = []
-    for chase in _chases(spec, site, tolerances):
+    for chase in _chases(site, network, tolerances):
         rear, front = chase.rear.agent, chase.front.agent
         if chase.slow_mps <= 0.0 or _are_tied(spec, rear, front):
             continue
@@ -148,16 +155,33 @@ class _Chase:
     closed_m: float
 
 
-def _chases(spec: ScenarioSpec, site: Site, tolerances: Tolerances) -> Iterator[_Chase]:
-    """Yield who comes up behind whom: vehicles on one way."""
+def _share_a_lane(rear: SeatedAgent, front: SeatedAgent) -> bool:
+    same = front.member.lane_shift == rear.member.lane_shift
+    return same and not front.member.parked and front.path.edge_ids == rear.path.edge_ids
+
+
+def _wanted_mps(seat: SeatedAgent, network: RoadNetwork, tolerances: Tolerances) -> float | None:
+    """Return the speed that somebody has to show, None where there is none.
+
+    An emergency run without one has to be faster than its street allows.
+    """
+    stated_mps = own_speed_mps(seat.agent)
+    if stated_mps is not None or not in_emergency(seat.agent):
+        return stated_mps
+    limits = limits_mps(network, seat.path, seat.arc_m, _EMERGENCY_WAY_M)
+    return max(limits, default=0.0) + tolerances.over_limit_mps + _OVER_MPS
+
+
+def _chases(site: Site, network: RoadNetwork, tolerances: Tolerances) -> Iterator[_Chase]:
+    """Yield who comes up behind whom: vehicles on one way, in one lane."""
     for rear in site.seated:
-        speed_mps = own_speed_mps(rear.agent)
+        speed_mps = _wanted_mps(rear, network, tolerances)
         if speed_mps is None:
             continue
         for front in site.seated:
             slow_mps = slower_mps(front.agent, speed_mps)
             gap_m = front.arc_m - rear.arc_m
-            if slow_mps is None or gap_m <= 0.0 or front.path.edge_ids != rear.path.edge_ids:
+            if slow_mps is None or gap_m <= 0.0 or not _share_a_lane(rear, front):
                 continue
             closed_m = caught_up_m(
                 speed_mps, slow_mps, tolerances.tailgate_time_gap_s, tolerances.brake_mps2

@@ -42,6 +42,14 @@ def test_who_would_catch_up_too_soon_waits_until_the_slower_one_has_drawn_away(
     assert found['bus1'].release is ReleaseOn.CAPTURED
 
 
+def test_an_emergency_run_waits_until_it_can_be_faster_than_its_street_allows(
+    agents: Agents,
+) -> None:
+    behind = 'An ambulance on an emergency run is 30 m behind my car on the main road. '
+    rear = agents(f'{behind}My car drives at 6 m/s. A drone tracks my car at 35 m.')['ambulance1']
+    assert (rear.release, rear.release_agent) == (ReleaseOn.PARTED, 'ego')
+
+
 @pytest.mark.parametrize(
     'prompt',
     [
