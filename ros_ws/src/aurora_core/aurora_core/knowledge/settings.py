@@ -85,7 +85,7 @@ class GroundingSettings(_Table):
     background_gap_m: NotNegative
     traffic_reach_share: Positive  # of `traffic_radius_m`; traffic does not leave it if it can
     # What came later has a default: recordings made before are judged by what held then.
-    longest_way_m: Positive = omitted(900.0)  # to a place that no street leads straight on to
+    longest_way_m: Positive = omitted(2500.0)  # to a place that no street leads straight on to
     passing_m: NotNegative = omitted(150.0)  # who lets others pass, and they, go the same way
     inside_bound_m: NotNegative = omitted(2.0)  # how far inside a bound a vehicle stands
     speeds: SpeedSettings = omitted(SpeedSettings())
