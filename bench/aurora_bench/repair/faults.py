@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Mapping
-from itertools import count
+from itertools import count, islice
 from typing import Any
 
 from aurora_bench.repair.kinds import KINDS, PLACE, Kind, Span
@@ -80,15 +80,11 @@ def faults(number: int, seed: int) -> tuple[Draws, ...]:
 
     Locked ones come in every third round: all that can be shown of them is that they stay.
     """
-    found: list[Draws] = []
-    for turn in count():
-        for kind in KINDS:
-            if len(found) >= number:
-                return tuple(found)
-            if kind.mends or turn % _LOCKED_EVERY == 0:
-                k = len(found)
-                found.append(Draws(key=f'{kind.name} {k}', kind=kind.name, number=k, seed=seed))
-    raise AssertionError('count() does not end')
+    turns = (kind for turn in count() for kind in KINDS if kind.mends or turn % _LOCKED_EVERY == 0)
+    return tuple(
+        Draws(key=f'{kind.name} {k}', kind=kind.name, number=k, seed=seed)
+        for k, kind in enumerate(islice(turns, number))
+    )
 
 
 def _drawn(kind: Kind, key: str, draw: random.Random) -> Fault:

@@ -95,6 +95,16 @@ def test_an_edit_gives_about_what_was_foreseen(violated: Recorded, tmp_path: Pat
     assert foreseen['c1.holds'] > 0.0
 
 
+def test_a_height_that_is_not_to_be_left_moves_with_the_altitude(violated: Recorded) -> None:
+    least, most = 'safety.altitude_min.uav1', 'safety.altitude_max.uav1'
+    foreseen = _replay(violated).foresee(_candidates(80.0, 4.0, 119.0)).margins
+    as_it_was, low, high = (
+        dict(zip(foreseen, row, strict=True)) for row in zip(*foreseen.values(), strict=True)
+    )
+    assert low[least] < 0.1 * as_it_was[least]
+    assert high[most] < as_it_was[most] < low[most]
+
+
 def test_what_is_foreseen_to_hold_is_chosen_and_what_is_not_is_told(violated: Recorded) -> None:
     foresight = _foresight(violated)
     [choice, *_] = foresight.choices()

@@ -11,6 +11,7 @@ from typing import Any
 import pytest
 
 from aurora_core.errors import SpecError
+from aurora_core.execution.faults import Fault
 from aurora_core.outcomes.agsg import Agsg, Stage
 from aurora_core.outcomes.feasibility import FeasibilityVerdict
 from aurora_core.outcomes.grounding import GroundingFailure, GroundingOutcome
@@ -116,7 +117,7 @@ class Clock:
         return 0.0
 
 
-def ran(stages: FakeStages, root: Path, repair: int = 5, **more: Any) -> RunReport:
+def ran(stages: FakeStages, root: Path, repair: int | None = 5, **more: Any) -> RunReport:
     return run(
         RunRequest(**{'prompt': PROMPT, 'repair': repair, **more}),
         stages,
@@ -271,6 +272,15 @@ def test_the_next_run_begins_with_what_the_history_teaches(tmp_path: Path) -> No
     [known] = second.learned
     assert all(factor > 1.0 for factor in known.values())
     assert known
+
+
+def test_a_violated_run_is_repaired_unasked_unless_faults_were_injected(tmp_path: Path) -> None:
+    usual = ran(FakeStages(-0.5, HELD), tmp_path / 'a', repair=None)
+    assert usual.status is Status.VERIFIED
+    fault = Fault(kind='target_removed', subject='ego', at_s=2.0)
+    stages = FakeStages(-0.5, HELD)
+    report = ran(stages, tmp_path / 'b', repair=None, faults=(fault,))
+    assert (report.status, report.repairs) == (Status.VIOLATED, ())
 
 
 class Nowhere(FakeStages):

@@ -73,11 +73,18 @@ class Margins:
         estimate = np.full(moved.candidates.number, recorded)
         if change is not None:
             estimate = estimate + np.clip(change, -_MOST, _MOST)
-        elif condition.quantity not in _UNMOVED and happens is None:
+        elif happens is None and not self._stays(condition, moved):
             return None
         if happens is not None:
             estimate = np.where(happens < 0.0, np.minimum(estimate, happens), estimate)
         return estimate
+
+    def _stays(self, condition: Condition, moved: Moved) -> bool:
+        """Tell whether no candidate touches what a condition is about."""
+        if condition.quantity is Q.PLACEMENT:
+            view = self._context.view
+            return not any(moved.moves(name) for name in condition.of if view.has(name))
+        return condition.quantity in _UNMOVED
 
     def _happens(self, condition: Condition, moved: Moved) -> FloatArray | None:
         """Return how far inside the trigger of its event a condition's bodies come, (C,)."""
@@ -158,6 +165,15 @@ class Margins:
         a, b = condition.of
         recorded = _recorded(self._context, moved, a, b, flat=flat)
         return self._series(condition, moved, moved.distance(a, b, flat=flat), recorded)
+
+    def level(self, condition: Condition, moved: Moved) -> FloatArray | None:
+        """Model of heights that are not to be left, whatever is flown at."""
+        bounded = condition.op in ('<', '<=', '>', '>=')
+        if not bounded or len(condition.of) != 1 or not self._context.view.has(condition.of[0]):
+            return None
+        [uav] = condition.of
+        recorded = self._context.view.reference(uav)[moved.ticks, 2][None]
+        return self._series(condition, moved, moved.position(uav)[2], recorded)
 
     def separated(self, condition: Condition, moved: Moved) -> FloatArray | None:
         """Model of the least distance of UAVs from each other."""
@@ -323,6 +339,7 @@ _Model = Callable[[Margins, Condition, Moved], FloatArray | None]
 _MODELS: Mapping[Q, _Model] = {
     Q.DISTANCE: Margins.apart,
     Q.HORIZONTAL_DISTANCE: Margins.apart,
+    Q.ALTITUDE: Margins.level,
     Q.SEPARATION: Margins.separated,
     Q.OBSTACLE_CLEARANCE: Margins.clear,
     Q.COLLISION_CLEARANCE: Margins.clear,
@@ -346,7 +363,6 @@ _UNMOVED = frozenset(
         Q.JUMP,
         Q.COUNT,
         Q.PHASE_DURATION,
-        Q.PLACEMENT,
     }
 )
 
