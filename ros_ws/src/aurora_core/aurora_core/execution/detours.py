@@ -85,7 +85,7 @@ class Detours:
         x_m, y_m = mission.offset_m
         goal = (target.x_m + x_m, target.y_m + y_m, mission.altitude_m)
         if self.is_straight((x, y, z), goal):
-            machine.way_there.by = ()
+            machine.way_there.straight()
         elif not machine.way_there.by or tick % round(_PLANS_EVERY_S / dt_s) == 0:
             machine.way_there.by = self.way((x, y, z), goal)
 

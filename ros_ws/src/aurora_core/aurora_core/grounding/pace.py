@@ -151,7 +151,7 @@ def convoy_pace_mps(spec: ScenarioSpec, limits: Limits, settings: GroundingSetti
 def _kept_up_with_mps(spec: ScenarioSpec, uav: str) -> float:
     """Return how fast a target is that a UAV with a stated bound on its speed keeps up with."""
     bound_mps = least_bound_mps(spec, uav)
-    return inf if bound_mps is None else max(bound_mps - _CAUGHT_UP_MPS, bound_mps / 2.0)
+    return inf if bound_mps is None else max(bound_mps - _CAUGHT_UP_MPS, bound_mps / 2.0, 0.0)
 
 
 def least_bound_mps(spec: ScenarioSpec, body: str) -> float | None:

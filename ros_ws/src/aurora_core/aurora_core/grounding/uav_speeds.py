@@ -13,6 +13,8 @@ from aurora_core.spec.vocabulary import MissionMode
 
 # What is set stays so far below a bound, for gusts and corners (m/s).
 _ROOM_MPS = 1.0
+# Nobody flies a route more slowly, whatever is asked (m/s).
+_LEAST_MPS = 0.2
 
 
 def within_speeds(
@@ -28,7 +30,7 @@ def within_speeds(
     """
     bound_mps = least_bound_mps(spec, plan.id)
     if bound_mps is not None:
-        most_mps = max(bound_mps - _ROOM_MPS, bound_mps / 2.0)
+        most_mps = max(bound_mps - _ROOM_MPS, bound_mps / 2.0, _LEAST_MPS)
         slower = tuple(
             m.model_copy(update={'speed_mps': min(m.speed_mps, most_mps)}) for m in plan.missions
         )

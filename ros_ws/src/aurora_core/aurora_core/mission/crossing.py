@@ -53,6 +53,10 @@ class Crossing:
             return (*self._from, self._over_m), (0.0, 0.0)
         return (x, y, self._over_m), velocity
 
+    def straight(self) -> None:
+        """Go on straight: whoever looks ahead sees that nothing is in between any more."""
+        self._over_m, self.by = None, ()
+
     def _next_point(self, reference: PursuitReference) -> tuple[float, float, float]:
         """Return the point of the given way that is next; the last one stays."""
         x, y, z = self.by[0]

@@ -6,11 +6,17 @@ from __future__ import annotations
 
 from itertools import pairwise
 
+import numpy as np
 import pytest
 
 from aurora_core.execution.detours import Detours
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.knowledge.map_types import Building, NoFlyZone
+from aurora_core.mission.machine import MissionMachine, TargetMotion
+from aurora_core.mission.plan import MissionPlan, UavPlan
+from aurora_core.mission.setpoint import FlightSettings
+from aurora_core.spec.vocabulary import MissionMode
+from aurora_core.trace.layout import UAV_WIDTH, UavColumn, UavCommandColumn
 
 CLEAR_M, TOP_M = 3.0, 120.0
 HERE, GOAL = (0.0, 0.0, 30.0), (300.0, 0.0, 30.0)
@@ -66,3 +72,32 @@ def test_before_a_goal_in_a_zone_it_waits_outside() -> None:
     assert way
     for leg in pairwise((GOAL, *way)):
         assert airspace.way_clearance_m(leg) >= CLEAR_M
+
+
+def test_who_is_past_what_stood_between_does_not_climb_over_it_any_more() -> None:
+    # The plan says over it, and what is looked at on the way leads round it.
+    airspace = _building(60.0)
+    detours = Detours(airspace, CLEAR_M, TOP_M)
+    mission = MissionPlan(
+        id='m1', mode=MissionMode.TRACK, target='car1', altitude_m=30.0, over_m=70.0
+    )
+    plan = UavPlan(
+        id='uav1', system_id=1, home_x_m=0.0, home_y_m=0.0, landing_spots=((0.0, 0.0),),
+        missions=(mission,), safe_altitude_m=120.0,
+    )  # fmt: skip
+    flight = FlightSettings(
+        speed_max_mps=16.5, acceleration_mps2=4.0, climb_mps=4.0, descent_mps=2.5,
+        corner_speed_mps=1.5, position_gain_hz=0.8,
+    )  # fmt: skip
+    machine, state, path = MissionMachine(plan, flight, 0.05), np.zeros(UAV_WIDTH), []
+    state[UavColumn.Z] = 30.0
+    machine.start()
+    car = TargetMotion(x_m=300.0, y_m=0.0, vx_mps=0.0, vy_mps=0.0, heading_x=1.0, heading_y=0.0)
+    for tick in range(1200):
+        detours.look_ahead(tick, 0.05, machine, state, car)
+        row = machine.step(tick, state, car)
+        state[UavColumn.X : UavColumn.VZ + 1] = row[UavCommandColumn.X : UavCommandColumn.VZ + 1]
+        path.append(tuple(state[UavColumn.X : UavColumn.Z + 1].tolist()))
+    assert machine.captured
+    assert airspace.points_clearance_m(np.array(path)) >= CLEAR_M
+    assert max(z for x, _, z in path if x > 170.0) < 31.0

@@ -51,3 +51,14 @@ def test_after_a_fast_target_a_uav_flies_as_fast_as_it_may(
     fast = ' The motorcycle drives at 18 m/s.'
     (uav,) = ground(read_prompt(TRACKS + fast, 'downtown'), 'downtown').uavs
     assert uav.speed_max_mps == limits.uav_speed_max_mps
+
+
+def test_a_bound_that_nobody_can_fly_below_turns_no_flight_round(
+    read_prompt: Read, ground: Ground, limits: Limits, settings: Settings
+) -> None:
+    none = read_prompt(TRACKS + ' The speed of the UAV stays below 0 m/s.', 'downtown')
+    assert none.conditions
+    (uav,) = ground(none, 'downtown').uavs
+    assert uav.speed_max_mps is not None
+    assert uav.speed_max_mps > 0.0
+    assert convoy_pace_mps(none, limits, settings.grounding) >= 0.0
