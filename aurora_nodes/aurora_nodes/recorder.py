@@ -99,6 +99,7 @@ class RecorderNode(AuroraNode):
         with self._lock:
             self._writer, self._recording = writer, recording
         self._intake.begin(recording)
+        self._watch.look()  # what was said until now counts as heard before
         self._began_s = time.monotonic()
         self.heartbeat.busy(request.run_number)
         response.ready = True

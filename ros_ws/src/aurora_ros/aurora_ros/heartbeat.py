@@ -174,7 +174,7 @@ class HeartbeatWatch:
             )
         self._taking = threading.Lock()
         steady = Clock(clock_type=ClockType.STEADY_TIME)
-        node.create_timer(_LOOK_S, self._take, callback_group=group, clock=steady)
+        node.create_timer(_LOOK_S, self.look, callback_group=group, clock=steady)
 
     def is_dead(self, name: str) -> bool:
         """Return whether a node that was heard before has ended, was stopped or has gone."""
@@ -182,7 +182,7 @@ class HeartbeatWatch:
 
     def cause_of_death(self, name: str) -> str:
         """Return what happened to a node that was heard before; empty while it lives."""
-        self._take()
+        self.look()
         heard = self._heard.get(name)
         if heard is None:
             return ''
@@ -200,36 +200,36 @@ class HeartbeatWatch:
 
     def was_heard(self, name: str) -> bool:
         """Return whether a node has ever given a sign of life."""
-        self._take()
+        self.look()
         return name in self._heard
 
     def heard_since(self, name: str, since_s: float) -> bool:
         """Return whether a node has given a sign of life after a steady time."""
-        self._take()
+        self.look()
         heard = self._heard.get(name)
         return heard is not None and heard.at_s > since_s
 
     def is_busy(self, name: str) -> bool:
         """Return whether a node said last that a run is going on."""
-        self._take()
+        self.look()
         heard = self._heard.get(name)
         return heard is not None and heard.busy
 
     def run_number(self, name: str) -> int:
         """Return the run that a node said last is going on, 0 when none is."""
-        self._take()
+        self.look()
         heard = self._heard.get(name)
         return heard.run_number if heard is not None and heard.busy else 0
 
     def process(self, name: str) -> tuple[int, int]:
         """Return process id and start time of a node, (0, 0) when they are not known."""
-        self._take()
+        self.look()
         heard = self._heard.get(name)
         return (heard.pid, heard.started) if heard is not None else (0, 0)
 
     def came_further_s(self, name: str) -> float:
         """Return the steady time at which a node said last that long work of it goes on."""
-        self._take()
+        self.look()
         heard = self._heard.get(name)
         return float('-inf') if heard is None else heard.further_s
 
@@ -241,8 +241,11 @@ class HeartbeatWatch:
         else:
             heard.at_s = self._clock()
 
-    def _take(self) -> None:
-        """Hear what has arrived; whoever comes meanwhile waits until it was heard."""
+    def look(self) -> None:
+        """Hear what has arrived; whoever comes meanwhile waits until it was heard.
+
+        Heard is when it was looked for: who compares that with a moment looks at that moment.
+        """
         with self._taking, suppress(InvalidHandle, rclpy_implementation.RCLError):
             # Nothing is heard any more while the node is being shut down.
             for message in drain(self._subscription):
