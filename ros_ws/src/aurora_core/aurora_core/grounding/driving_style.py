@@ -85,21 +85,15 @@ class ConvoyStyles:
         style = self._style(agent, on_mps, is_front=is_front)
         style |= self._passing_style(agent)
         style |= self._paced_style(seat, style['speed_factor'])
-        return style | self._kept_style(agent, style)
+        return style | self._gentle_style(agent, style)
 
-    def _kept_style(self, agent: GroundAgent, style: Mapping[str, float]) -> dict[str, float]:
-        """Return what keeps one with who follows it, and with the UAV that tracks it.
+    def _gentle_style(self, agent: GroundAgent, style: Mapping[str, float]) -> dict[str, float]:
+        """Return what lets who follows one keep up: a start no harder than it can do.
 
-        Speeds and starts that nobody states are no harder than those can do.
+        Of whom a speed is stated reaches that as fast as it can.
         """
         if own_speed_mps(agent) is not None or in_emergency(agent):
             return {}
-        kept = {}
-        if agent.id in self._tracked:
-            desired_mps = self._types[agent.type.value].desired_speed_mps or self._limit_mps
-            top_mps = min(desired_mps, self._limit_mps)
-            trackable = self._settings.grounding.speeds.trackable_mps / top_mps
-            kept['speed_factor'] = min(style['speed_factor'], trackable)
         following = [
             self._types[other.type.value].accel_mps2
             for other in self._spec.agents
@@ -108,8 +102,8 @@ class ConvoyStyles:
         ]
         own_mps2 = style.get('gentle_mps2', self._types[agent.type.value].accel_mps2)
         if following and min(following) < own_mps2:
-            kept['gentle_mps2'] = min(following)
-        return kept
+            return {'gentle_mps2': min(following)}
+        return {}
 
     def _pace_factor(self, site: Site, limits: Limits) -> float:
         """Slow a tracked, observed or tied convoy to its pace."""
