@@ -16,7 +16,7 @@ from aurora_ros import interfaces as on
 from aurora_ros.matching import twins, wait_until
 from aurora_ros.testing.domains import own_domain
 
-LIMIT_S = 10.0
+LIMIT_S = 60.0
 
 
 def publishing(name: str, namespace: str, context: Context) -> Node:

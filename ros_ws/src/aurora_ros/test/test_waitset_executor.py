@@ -26,7 +26,7 @@ from aurora_ros.polling import PolledGroup, drain
 from aurora_ros.testing.domains import own_domain
 from aurora_ros.waitset_executor import WaitSetExecutor, is_supported
 
-LIMIT_S = 10.0
+LIMIT_S = 60.0
 
 
 class Pair:

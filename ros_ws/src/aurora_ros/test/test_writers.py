@@ -37,7 +37,7 @@ from aurora_ros.writers import (
 
 pytestmark = pytest.mark.ros
 
-LIMIT_S = 10.0
+LIMIT_S = 60.0
 Make = Callable[..., Node]
 
 
