@@ -6,27 +6,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-import pytest
-
 from aurora_core.knowledge.map_model import MapModel
-from aurora_core.outcomes.grounded import GroundedAgent, GroundedScenario, ReleaseOn
+from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
 from aurora_core.spec.own_events import YIELDS_WITHIN_M
-from aurora_core.spec.scenario import ScenarioSpec
 
 Agents = Callable[[str], dict[str, GroundedAgent]]
-
-
-@pytest.fixture
-def agents(
-    read_prompt: Callable[..., ScenarioSpec], ground: Callable[..., GroundedScenario]
-) -> Agents:
-    """Ground a request on the downtown map, return its agents by name."""
-
-    def agents_of(prompt: str) -> dict[str, GroundedAgent]:
-        found = ground(read_prompt(prompt, 'downtown'), 'downtown')
-        return {agent.id: agent for agent in found.agents}
-
-    return agents_of
 
 
 def test_a_stated_speed_is_driven_before_something_else_is_asked(agents: Agents) -> None:

@@ -10,23 +10,9 @@ import pytest
 
 from aurora_core.knowledge.agent_types import load_agent_types
 from aurora_core.knowledge.map_model import MapModel
-from aurora_core.outcomes.grounded import GroundedAgent, GroundedScenario, ReleaseOn
-from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
 
 Agents = Callable[[str], dict[str, GroundedAgent]]
-
-
-@pytest.fixture
-def agents(
-    read_prompt: Callable[..., ScenarioSpec], ground: Callable[..., GroundedScenario]
-) -> Agents:
-    """Ground a request on the downtown map, return its agents by name."""
-
-    def agents_of(prompt: str) -> dict[str, GroundedAgent]:
-        found = ground(read_prompt(prompt, 'downtown'), 'downtown')
-        return {agent.id: agent for agent in found.agents}
-
-    return agents_of
 
 
 SLOW = 'A bus drives at 6 m/s, 35 m ahead of my car. '
