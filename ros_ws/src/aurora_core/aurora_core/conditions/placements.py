@@ -15,7 +15,14 @@ from aurora_core.spec.scenario import GroundAgent
 from aurora_core.spec.vocabulary import Place, Relation
 
 _OF_PLACES = frozenset(
-    {Relation.NEAR, Relation.AT, Relation.BEFORE, Relation.ON, Relation.PARKED_AT}
+    {
+        Relation.NEAR,
+        Relation.AT,
+        Relation.BESIDE,
+        Relation.BEFORE,
+        Relation.ON,
+        Relation.PARKED_AT,
+    }
 )
 _OF_AGENTS = frozenset(RELATION_WORDS) - {Relation.ON, Relation.PARKED_AT}
 

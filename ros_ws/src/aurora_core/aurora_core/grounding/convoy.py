@@ -56,7 +56,7 @@ _SAME_PLACE_M = 1e-6
 _ROADS = (None, Place.MAIN_ROAD, Place.ROADSIDE)
 
 # Where a vehicle can be put at a place with a point; no distance is stated but with `near`.
-_AT = (Relation.NEAR, Relation.AT, Relation.PARKED_AT)
+_AT = (Relation.NEAR, Relation.AT, Relation.BESIDE, Relation.PARKED_AT)
 
 _ON = (Relation.ON, Relation.AT, Relation.PARKED_AT)
 

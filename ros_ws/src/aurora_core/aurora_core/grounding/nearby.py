@@ -37,7 +37,7 @@ ALONG = {
 }
 # Who stands on a side of another one; of a person only in the same walk, at no stated distance.
 SIDES = (Relation.BESIDE, Relation.RIGHT, Relation.LEFT)
-_AT = (Relation.AT, Relation.NEAR, Relation.ON)
+_AT = (Relation.AT, Relation.BESIDE, Relation.NEAR, Relation.ON)
 
 
 def begins_near(spec: ScenarioSpec) -> Mapping[str, str]:

@@ -38,6 +38,9 @@ SPARE = 1.25
 # Who drives on the road.
 _DRIVEN = frozenset(AgentType) - {AgentType.PEDESTRIAN, AgentType.RSU}
 
+# A lane told so is one by that of somebody else.
+_LANES = (Relation.ADJACENT_LANE, Relation.SAME_LANE)
+
 _WITH_SIREN = (AgentType.AMBULANCE, AgentType.FIRETRUCK, AgentType.POLICE)
 
 
@@ -100,10 +103,10 @@ def passed(spec: ScenarioSpec) -> ScenarioSpec:
 
 
 def meeting(spec: ScenarioSpec) -> ScenarioSpec:
-    """Return the specification with somebody to meet for who is oncoming to nobody named.
+    """Return the specification with another one where a relation of two names nobody.
 
-    That is the ego, else whoever a UAV watches, else the first vehicle; where all are oncoming,
-    they are so to each other.
+    Who is oncoming, or in the next or the same lane, is so to the ego, else to whoever a UAV
+    watches, else to the first vehicle; where all are oncoming, they are so to each other.
 
     Args:
         spec: The request, whoever read it; returned as it is when nothing was added.
@@ -129,7 +132,8 @@ def meeting(spec: ScenarioSpec) -> ScenarioSpec:
 
 
 def _meets(placement: Placement) -> bool:
-    return placement.relation is Relation.ONCOMING
+    lane = placement.relation in _LANES and placement.of is None
+    return lane or placement.relation is Relation.ONCOMING
 
 
 def yielding(spec: ScenarioSpec) -> ScenarioSpec:

@@ -147,6 +147,7 @@ def test_who_waits_for_a_message_that_is_never_sent(scene: Scene) -> None:
         ('before', 'intersection', True),
         ('at', 'intersection', True),
         ('near', 'landmark:City Hall', True),
+        ('beside', 'landmark:City Hall', True),
         ('oncoming', 'ego', True),
     ],
 )

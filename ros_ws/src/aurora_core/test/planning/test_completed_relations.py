@@ -42,20 +42,23 @@ def test_who_yields_yields_to_somebody(prompt: str, whom: str | None) -> None:
 
 
 @pytest.mark.parametrize(
+    'relation', [Relation.ONCOMING, Relation.ADJACENT_LANE, Relation.SAME_LANE]
+)
+@pytest.mark.parametrize(
     ('prompt', 'whom'),
     [
         ('A van drives. A truck drives. The ego car drives.', 'ego'),
         ('A bus drives. A truck drives. A drone tracks the truck.', 'truck1'),
     ],
 )
-def test_who_is_oncoming_to_nobody_named_meets_somebody(prompt: str, whom: str) -> None:
+def test_a_relation_of_two_that_names_nobody_is_one_to_somebody(
+    prompt: str, whom: str, relation: Relation
+) -> None:
     read = parse_offline(prompt, CONTEXT).spec
     assert read is not None
     first, *others = read.agents
-    oncoming = first.model_copy(
-        update={'placements': (Placement(relation=Relation.ONCOMING, of=None),)}
-    )
-    done = meeting(read.model_copy(update={'agents': (oncoming, *others)}))
+    placed = first.model_copy(update={'placements': (Placement(relation=relation, of=None),)})
+    done = meeting(read.model_copy(update={'agents': (placed, *others)}))
     assert [p.of for p in done.agents[0].placements] == [whom]
     assert done.agents[1:] == tuple(others)
 

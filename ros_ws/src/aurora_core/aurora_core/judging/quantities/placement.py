@@ -275,7 +275,7 @@ def near_m(inputs: Inputs, relation: Relation, of: str) -> float:
     """Return how far apart is still near, or at, metres."""
     if relation is Relation.NEAR:
         return inputs.tolerances.near_m
-    on = relation in (Relation.ON, Relation.PARKED_AT, Relation.AT)
+    on = relation in (Relation.ON, Relation.PARKED_AT, Relation.AT, Relation.BESIDE)
     strip = on and of == Place.ROADSIDE
     return inputs.tolerances.roadside_m if strip else inputs.tolerances.arrival_m
 
