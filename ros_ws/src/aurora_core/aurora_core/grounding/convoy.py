@@ -34,6 +34,7 @@ from aurora_core.grounding.ties import (
     spread,
     without_implied,
 )
+from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import EXACT, Tolerance
 from aurora_core.spec.own_events import let_cross
 from aurora_core.spec.parameter import Provenance
@@ -110,13 +111,18 @@ class SceneSplit:
 
 
 def split_scene(
-    spec: ScenarioSpec, tolerance: Tolerance = EXACT, *, apart: bool = False
+    spec: ScenarioSpec,
+    tolerance: Tolerance = EXACT,
+    types: Mapping[str, AgentTypeRecord] | None = None,
+    *,
+    apart: bool = False,
 ) -> SceneSplit:
     """Sort the agents of a scene into convoy, free vehicles and persons.
 
     Args:
         spec: The request.
         tolerance: Of placement distances: so far inside a one-sided one everybody is put.
+        types: Agent sizes; without them nobody needs room.
         apart: Who is bound to a place and related to nobody in the convoy has a road of its own.
             Else the convoy's is tried for all: there they are near each other.
     """
@@ -142,6 +148,7 @@ def split_scene(
         oncoming=frozenset(a.id for a in oncoming),
         persons=frozenset(a.id for a in persons),
         parked=frozenset(a.id for a in vehicles if parks(spec, a)),
+        lengths_m={a.id: types[a.type.value].length_m for a in vehicles} if types else {},
     )
     passing = passing_pairs(spec)
     ties = [
@@ -387,7 +394,8 @@ def _placed(
         Tie(
             agent,
             other,
-            ALONG[p.relation][0] * distances.placed(agent, other, p),
+            ALONG[p.relation][0]
+            * (distances.placed if shift else distances.clear_m)(agent, other, p),
             shift,
             free=p.distance_m is None or p.distance_m.provenance is Provenance.DEFAULT,
         )

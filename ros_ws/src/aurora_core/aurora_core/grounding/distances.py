@@ -33,6 +33,11 @@ DEFAULT_GAP_M = 20.0
 # Gap in front of a group of vehicles that nothing relates to those before it.
 DETACHED_M = 40.0
 
+# Between two bumpers in one lane there is at least so much at t = 0 (m), and where a stated
+# distance leaves less it is aimed at inside this share of its tolerance.
+BUMPERS_M = 0.3
+_SAFE = 0.8
+
 # Share of a bound on the way that is left for corners and stops, but for two buses' room (m).
 _KEPT_ROOM = 0.25
 _ROOMY_FROM_M = 14.0
@@ -51,6 +56,7 @@ class Distances:
         oncoming: Ids of those in the other direction.
         persons: Ids.
         parked: Ids of those who stand at the kerb.
+        lengths_m: Of the vehicles; 0 of whom it does not know.
     """
 
     tolerance: Tolerance
@@ -61,6 +67,7 @@ class Distances:
     oncoming: frozenset[str]
     persons: frozenset[str]
     parked: frozenset[str]
+    lengths_m: Mapping[str, float]
 
     def lanes_between(self, agent: str, other: str, placement: Placement) -> int:
         """Return how many lanes an agent is to the left of another one by a placement."""
@@ -90,6 +97,25 @@ class Distances:
             return distance_m
         roomy_m = stated.inside(_KEPT_ROOM * stated.value)
         return max(roomy_m, min(distance_m, _ROOMY_FROM_M))
+
+    def clear_m(self, agent: str, other: str, placement: Placement) -> float:
+        """Return the distance that a placement asks for of two in one lane, metres.
+
+        Where it is shorter than the two are long, it is what they need, inside its tolerance.
+        """
+        distance_m, stated = self.placed(agent, other, placement), placement.distance_m
+        needed_m = self.needed_m(agent, other)
+        if stated is None or distance_m >= needed_m:
+            return distance_m
+        slack_m = self.tolerance.of(stated.value, approximate=stated.approximate)
+        return needed_m if needed_m <= distance_m + _SAFE * slack_m else distance_m
+
+    def needed_m(self, agent: str, other: str) -> float:
+        """Return how far apart two have to be to stand in one lane, from middle to middle (m)."""
+        if (agent in self.parked) != (other in self.parked):
+            return 0.0
+        half_m = (self.lengths_m.get(agent, 0.0) + self.lengths_m.get(other, 0.0)) / 2.0
+        return half_m + BUMPERS_M
 
     def between(self, agent: str, other: str | None, stated: Parameter | None) -> float:
         """Return a distance, metres; a free one leaves room for an encounter."""

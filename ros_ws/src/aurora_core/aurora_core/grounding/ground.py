@@ -149,9 +149,9 @@ class Grounder:
         """
         tried = [] if tried is None else tried
         tolerance = self._tolerances.placement_vehicle_m
-        found = self._ground(spec, split_scene(spec, tolerance), seed, plan, tried)
+        found = self._ground(spec, split_scene(spec, tolerance, self._types), seed, plan, tried)
         if isinstance(found, GroundingFailure):
-            apart = split_scene(spec, tolerance, apart=True)
+            apart = split_scene(spec, tolerance, self._types, apart=True)
             again = self._ground(spec, apart, seed, plan, tried) if apart.groups else found
             found = found if isinstance(again, GroundingFailure) else again
         return found
@@ -255,7 +255,7 @@ class Grounder:
             where = (self._map, members, self._types, grounding)
             return sites(*where, run_m, spacing_m, spawns=self._spawns)
 
-        return on_no_street(spec, split, self._goals, found)
+        return on_no_street(spec, split, self._goals, found, self._types)
 
     def _drive_speed(self, spec: ScenarioSpec, split: SceneSplit) -> float:
         stated = [

@@ -7,12 +7,15 @@ Looked into after everything has been tried, so it may take as long as the searc
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
+from itertools import combinations
 
 from aurora_core.grounding.convoy import ConvoyMember, SceneSplit
+from aurora_core.grounding.distances import BUMPERS_M
 from aurora_core.grounding.goals import GoalFinder
 from aurora_core.grounding.sites import Site
+from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.spec.reference import LANDMARK
 from aurora_core.spec.scenario import ScenarioSpec
 
@@ -57,7 +60,13 @@ def lacked(reason: str, split: SceneSplit) -> str:
     return _LACKS.get(reason, reason.replace('_', ' ')).format(who=who or 'somebody')
 
 
-def on_no_street(spec: ScenarioSpec, split: SceneSplit, goals: GoalFinder, sites: Sites) -> str:
+def on_no_street(
+    spec: ScenarioSpec,
+    split: SceneSplit,
+    goals: GoalFinder,
+    sites: Sites,
+    types: Mapping[str, AgentTypeRecord],
+) -> str:
     """Return in words why no street has room for the vehicles that belong together.
 
     Args:
@@ -65,8 +74,12 @@ def on_no_street(spec: ScenarioSpec, split: SceneSplit, goals: GoalFinder, sites
         split: Who was to be placed.
         goals: What places ask of a site.
         sites: Yields the sites of vehicles.
+        types: Agent sizes.
     """
     convoy = split.convoy
+    crowded = '; '.join(_crowded(convoy, types))
+    if crowded:
+        return crowded
 
     def fits(members: tuple[ConvoyMember, ...]) -> bool:
         return any(goals.fits(spec, site) for site in sites(members))
@@ -100,6 +113,23 @@ def on_no_street(spec: ScenarioSpec, split: SceneSplit, goals: GoalFinder, sites
         'street, and none has all the places that they are to be at; fewer places, or shorter '
         'distances, would fit'
     )
+
+
+def _crowded(
+    convoy: tuple[ConvoyMember, ...], types: Mapping[str, AgentTypeRecord]
+) -> Iterator[str]:
+    """Yield which two stand in each other: no street has room for them."""
+    for one, other in combinations(convoy, 2):
+        first, second = (types[m.agent.type.value] for m in (one, other))
+        apart_m = abs(one.offset_m - other.offset_m)
+        least_m = (first.length_m + second.length_m) / 2.0 + BUMPERS_M
+        same = one.lane_shift == other.lane_shift and one.parked == other.parked
+        if same and apart_m < least_m - BUMPERS_M:
+            yield (
+                f'{one.agent.id} ({first.name}, {first.length_m:g} m long) and {other.agent.id} '
+                f'({second.name}, {second.length_m:g} m) would stand in each other at '
+                f'{apart_m:.3g} m from middle to middle; {least_m:.1f} m would fit'
+            )
 
 
 def _from_the_first(members: list[ConvoyMember]) -> tuple[ConvoyMember, ...]:

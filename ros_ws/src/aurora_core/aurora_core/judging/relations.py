@@ -131,8 +131,9 @@ def _place_slack(context: Context, condition: Condition, asked: Related) -> Floa
     """Return by how much an agent is where a placement says, (T,) metres; negative outside.
 
     Near, at, beside: what is left of the distance to the place. On, parked at, and at a kind of
-    ground: depth in the crosswalk or the sidewalk, what is left of a lane of a street with several lanes (main road) or of the strip along the
-    carriageway (roadside); other places have a point, as with `at`. Before: see `before_place`.
+    ground: depth in the crosswalk or the sidewalk, what is left of a lane of a street with
+    several lanes (main road) or of the strip along the carriageway (roadside); other places have
+    a point, as with `at`. Before: see `before_place`.
     """
     view = context.view
     name, place = condition.of

@@ -353,7 +353,7 @@ def test_weather_gives_wind_and_sensing(read_prompt: Read, ground: Ground, limit
         (
             'A truck drives 2 m ahead of the ego car; a drone tracks the ego car.',
             'road',
-            'another distance would fit',
+            '6.8 m would fit',
         ),
     ],
 )

@@ -69,3 +69,24 @@ def test_who_is_beside_a_landmark_is_at_it(
     found = scenes.agents(prompt, {who: [{'relation': 'beside', 'of': CITY_HALL}]})
     street = MapPlaces(map_of('downtown')).point(CITY_HALL, (0.0, 0.0))
     assert dist(xy(found[who]), street) <= tolerances.arrival_m
+
+
+def test_two_that_are_longer_than_their_distance_get_room_inside_its_tolerance(
+    scenes: Scenes, tolerances: Tolerances
+) -> None:
+    prompt = 'A bus waits at the crosswalk. A car waits 8 m behind the bus. A drone hovers.'
+    found = scenes.agents(prompt, {})
+    bus, car = found['bus1'], found['car1']
+    apart_m = dist(xy(bus), xy(car))
+    assert apart_m >= (bus.length_m + car.length_m) / 2.0
+    assert apart_m <= 8.0 + tolerances.placement_vehicle_m.of(8.0)
+
+
+def test_of_two_that_would_stand_in_each_other_the_distance_that_fits_is_told(
+    scenes: Scenes,
+) -> None:
+    failure = scenes.failure('A bus waits. A car waits 7 m behind the bus. A drone hovers.', {})
+    assert failure.words == (
+        'bus1 (bus, 12 m long) and car1 (car, 4.6 m) would stand in each other at 7 m from '
+        'middle to middle; 8.6 m would fit'
+    )
