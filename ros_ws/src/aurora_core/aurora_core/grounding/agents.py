@@ -18,7 +18,7 @@ from aurora_core.grounding.free_room import FreeRoom
 from aurora_core.grounding.free_run import free_run_m, needed_run_m
 from aurora_core.grounding.goals import GoalFinder, stop_after_m, stops
 from aurora_core.grounding.kerb import parked_pose
-from aurora_core.grounding.lane_changers import ORDERED_CHANGES, changes_lane
+from aurora_core.grounding.lane_changers import ORDERED_CHANGES, changes_lane, needs_another_lane
 from aurora_core.grounding.pace import (
     in_emergency,
     stated_speed_mps,
@@ -43,15 +43,13 @@ from aurora_core.knowledge.net_types import Lane
 from aurora_core.knowledge.route_path import RoutePath, arc_at
 from aurora_core.knowledge.settings import Settings
 from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
+from aurora_core.spec.parameter import Bound
 from aurora_core.spec.parking import parks, parks_after, stands
 from aurora_core.spec.scenario import GroundAgent, ScenarioSpec
 from aurora_core.spec.vocabulary import Place
 
 # Routes tried for one on which no signal is in the way.
 _RUNS_TRIED = 60
-
-# Where a stated speed is looked for: on so much of the way (m).
-_SHOWN_WAY_M = 500.0
 
 
 class AgentPlacer:
@@ -64,6 +62,7 @@ class AgentPlacer:
         limits: Limits in force.
         tolerances: Tolerances in force.
         goals: Where vehicles stop by themselves.
+        run_s: How long they drive at most.
         spawns: Where vehicle types were measured to stand.
     """
 
@@ -75,9 +74,11 @@ class AgentPlacer:
         limits: Limits,
         tolerances: Tolerances,
         goals: GoalFinder,
+        run_s: float,
         spawns: SpawnTable | None = None,
     ) -> None:
         self._goals = goals
+        self._run_s = run_s
         self._spawns = spawns
         self._map = map_model
         self._types = types
@@ -187,7 +188,7 @@ class AgentPlacer:
             lanes = on_main_roads(lanes)
         if any(p.of == Place.ROADSIDE for p in agent.placements):
             lanes = [lane for lane in lanes if self._is_outermost(lane, record.vclass)]
-        if changes_lane(spec, agent):
+        if needs_another_lane(spec, agent):
             lanes = with_another_lane(lanes)
         if not lanes:
             return None
@@ -243,12 +244,18 @@ class AgentPlacer:
         right = lane.right_lane_id
         return right is None or vclass not in self._map.network.lane(right).allows
 
-    def _beyond_limits(self, path: RoutePath, arc_m: float, speed_mps: float | None) -> float:
-        """Return the factor with which a stated speed is driven on a way that never allows it."""
-        if speed_mps is None:
+    def _beyond_limits(
+        self, agent: GroundAgent, path: RoutePath, arc_m: float, speed_mps: float | None
+    ) -> float:
+        """Return the factor with which a stated speed is kept where the way does not allow it.
+
+        That is so where no street allows it, and where the way comes to a slower one later on.
+        """
+        bounds = {b.speed_mps.bound for b in agent.behaviors if b.speed_mps is not None}
+        if speed_mps is None or Bound.AT_MOST in bounds:
             return 0.0
-        limits = limits_mps(self._map.network, path, arc_m, _SHOWN_WAY_M)
-        return speed_mps / min(limits) if speed_mps > max(limits) + LIMIT_SLACK_MPS else 0.0
+        least_mps = min(limits_mps(self._map.network, path, arc_m, speed_mps * self._run_s))
+        return speed_mps / least_mps if speed_mps > least_mps + LIMIT_SLACK_MPS else 0.0
 
     def _grounded(
         self,
@@ -272,7 +279,7 @@ class AgentPlacer:
         first = lane.edge_id
         late = still or release.on is not ReleaseOn.START
         factor = max(style.get('speed_factor', 1.0), urged_factor(record, speed_mps))
-        factor = max(factor, self._beyond_limits(path, arc_m, speed_mps))
+        factor = max(factor, self._beyond_limits(agent, path, arc_m, speed_mps))
         edges = path.edge_ids[path.edge_ids.index(first) :]
         x, y, hx, hy = path.position_at(arc_m)
         if parked:

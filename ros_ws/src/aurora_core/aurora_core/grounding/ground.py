@@ -25,7 +25,7 @@ from aurora_core.grounding.groups import GroupPlacer
 from aurora_core.grounding.keep_out import kept_out
 from aurora_core.grounding.lane_changers import (
     changes_in_time,
-    changes_lane,
+    needs_another_lane,
     share_with_another_lane,
 )
 from aurora_core.grounding.laps import Laps
@@ -243,7 +243,8 @@ class Grounder:
             count = sum(reasons.values())
             words = lacked(most, split) if ranked else self._no_street(spec, split, run_m)
             return GroundingFailure(reason=most, tried=count, rejected_by=reasons, words=words)
-        made = self._scenario(spec, split, best, scored, run_m, seed, planner, persons)
+        times = run_s, run_m
+        made = self._scenario(spec, split, best, scored, times, seed, planner, persons)
         return made.model_copy(update={'keep_out': keep_out}) if keep_out else made
 
     def _no_street(self, spec: ScenarioSpec, split: SceneSplit, run_m: float) -> str:
@@ -289,7 +290,7 @@ class Grounder:
     ) -> list[tuple[float, Site]]:
         grounding = self._settings.grounding
         way_m = tied_way_m(spec, grounding)
-        changing = {m.agent.id for m in split.convoy if changes_lane(spec, m.agent)}
+        changing = {m.agent.id for m in split.convoy if needs_another_lane(spec, m.agent)}
         need_m = way_m if len(split.convoy) > 1 else LOOKED_S / 2.0 * stated
         members = [m.agent for m in split.convoy]
         goes_on = never_stops(spec, members)
@@ -447,14 +448,15 @@ class Grounder:
         split: SceneSplit,
         best: _Option,
         scored: int,
-        run_m: float,
+        times: tuple[float, float],
         seed: int,
         planner: FlightPlanner,
         persons: PersonPlacer,
     ) -> GroundedScenario:
+        run_s, run_m = times
         uavs = tuple(planner.with_landing_spots(u, best.site) for u in best.uavs)
         known, rules = (self._map, self._types), (self._limits, self._tolerances)
-        placer = AgentPlacer(*known, self._settings, *rules, self._goals, self._spawns)
+        placer = AgentPlacer(*known, self._settings, *rules, self._goals, run_s, self._spawns)
         agents = [*placer.convoy(spec, split, best.site), *persons.grounded(spec, best.site)]
         generator = stream(seed, 'grounding:background')
         agents, missing = placer.free(spec, split, best.site, agents, run_m, generator)

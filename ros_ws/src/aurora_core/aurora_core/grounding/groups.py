@@ -11,7 +11,7 @@ from functools import partial
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.convoy import SIDES, ConvoyMember
 from aurora_core.grounding.goals import GoalFinder
-from aurora_core.grounding.lane_changers import changes_lane
+from aurora_core.grounding.lane_changers import needs_another_lane
 from aurora_core.grounding.pace import fastest_stated_mps
 from aurora_core.grounding.sites import SeatedAgent, Site, sites
 from aurora_core.grounding.ways_round import Point2
@@ -68,7 +68,7 @@ class GroupPlacer:
                     least_limit_mps=fastest_stated_mps(
                         spec, (m.agent for m in group), settings.speeds
                     ),
-                    several_lanes=any(changes_lane(spec, m.agent) for m in group),
+                    several_lanes=any(needs_another_lane(spec, m.agent) for m in group),
                     goals=through,
                 )
             )

@@ -12,6 +12,7 @@ from aurora_core.knowledge.road_network import RoadNetwork
 from aurora_core.knowledge.route_path import RouteSegment
 from aurora_core.quantities.lane_changes import ROOM_S
 from aurora_core.spec.own_events import keeps_to_lanes, overtakings, own_events
+from aurora_core.spec.parking import parks
 from aurora_core.spec.scenario import AgentAction, AltitudeTrigger, GroundAgent, ScenarioSpec
 
 # Share of a lane's length that its ends are apart where it is straight.
@@ -26,15 +27,25 @@ ORDERED_CHANGES = 512
 
 
 def changes_lane(spec: ScenarioSpec, agent: GroundAgent) -> bool:
-    """Tell whether a vehicle is to change lane, by itself or by an event."""
-    ordered = any(
+    """Tell whether a vehicle may be told to change lane, by itself or by an event."""
+    passes = any(one == agent.id for one, _ in overtakings(spec))
+    return _is_ordered(spec, agent) or (passes and keeps_to_lanes(agent))
+
+
+def needs_another_lane(spec: ScenarioSpec, agent: GroundAgent) -> bool:
+    """Tell whether a vehicle has to change lane: who is parked is passed in one's own."""
+    parked = {other.id for other in spec.agents if parks(spec, other)}
+    passes = any(one == agent.id and other not in parked for one, other in overtakings(spec))
+    return _is_ordered(spec, agent) or (passes and keeps_to_lanes(agent))
+
+
+def _is_ordered(spec: ScenarioSpec, agent: GroundAgent) -> bool:
+    return keeps_to_lanes(agent) and any(
         isinstance(e.action, AgentAction)
         and e.action.do == 'change_lane'
         and e.action.agent == agent.id
         for e in (*spec.events, *own_events(spec))
     )
-    passes = any(one == agent.id for one, _ in overtakings(spec))
-    return (ordered or passes) and keeps_to_lanes(agent)
 
 
 def share_with_another_lane(

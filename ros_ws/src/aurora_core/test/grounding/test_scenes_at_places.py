@@ -90,3 +90,36 @@ def test_of_two_that_would_stand_in_each_other_the_distance_that_fits_is_told(
         'bus1 (bus, 12 m long) and car1 (car, 4.6 m) would stand in each other at 7 m from '
         'middle to middle; 8.6 m would fit'
     )
+
+
+@pytest.mark.parametrize(('parked', 'lanes'), [('is parked', 1), ('drives', 2)])
+def test_who_is_parked_is_passed_on_a_street_of_one_lane(
+    scenes: Scenes, map_of: Callable[[str], MapModel], parked: str, lanes: int
+) -> None:
+    prompt = f'A bus {parked}. A car overtakes the bus. A drone tracks the car.'
+    bus = scenes.agents(prompt, {})['bus1']
+    network = map_of('downtown').network
+    beside = network.edge(network.lane(bus.lane_id).edge_id).lane_ids
+    assert sum('passenger' in network.lane(name).allows for name in beside) >= lanes
+    if parked == 'is parked':
+        at_hall = {'bus1': [{'relation': 'parked_at', 'of': CITY_HALL}]}
+        assert scenes.agents(prompt, at_hall)['bus1'].parked
+
+
+def test_a_stated_speed_is_kept_where_the_way_comes_to_a_slower_street(
+    scenes: Scenes, map_of: Callable[[str], MapModel]
+) -> None:
+    at_hall = {'truck1': [{'relation': 'near', 'of': CITY_HALL}]}
+    prompt = 'A truck drives at {} m/s. A drone tracks the truck at 50 m for 90 seconds.'
+    truck = scenes.agents(prompt.format('13.5'), at_hall)['truck1']
+    network = map_of('downtown').network
+    limits = [
+        network.lane(lane).speed_limit_mps
+        for edge in truck.edges
+        for lane in network.edge(edge).lane_ids
+        if 'truck' in network.lane(lane).allows
+    ]
+    assert network.lane(truck.lane_id).speed_limit_mps > 13.5 > min(limits)
+    assert truck.speed_factor * min(limits) >= 13.5
+    at_most = scenes.agents(prompt.format('at most 13.5'), at_hall)['truck1']
+    assert at_most.speed_factor * min(limits) < 13.5
