@@ -11,14 +11,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from aurora_core.grounding.pace import PACED, own_speed_mps, stated_speed_mps
+from aurora_core.grounding.persons import crosses
 from aurora_core.grounding.sites import SeatedAgent
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.road_network import RoadNetwork
 from aurora_core.knowledge.settings import SpeedSettings
 from aurora_core.quantities.actions import SPEED_ACTIONS
 from aurora_core.spec.own_events import own_events
-from aurora_core.spec.scenario import AgentAction, GroundAgent, ScenarioSpec
-from aurora_core.spec.vocabulary import Relation
+from aurora_core.spec.scenario import AgentAction, GroundAgent, Placement, ScenarioSpec
+from aurora_core.spec.vocabulary import AgentType, BehaviorKind, Relation
 
 # Room left where who is ahead stands and one brakes as usual (m).
 _SPARE_M = 8.0
@@ -78,7 +79,18 @@ def _comes_in(spec: ScenarioSpec, agent: GroundAgent) -> bool:
         and e.action.do in _OTHER_SPEED
         for e in (*spec.events, *own_events(spec))
     )
-    return told or any(p.relation is Relation.BEFORE for p in agent.placements)
+    return told or stops_for(spec, agent) or any(map(_is_before, agent.placements))
+
+
+def stops_for(spec: ScenarioSpec, agent: GroundAgent) -> bool:
+    """Tell whether a vehicle is to stop where somebody crosses: the crosswalk is soon there."""
+    persons = (a for a in spec.agents if a.type is AgentType.PEDESTRIAN)
+    stops = any(b.kind is BehaviorKind.STOP and b.target is None for b in agent.behaviors)
+    return stops and any(crosses(spec, person) for person in persons)
+
+
+def _is_before(placement: Placement) -> bool:
+    return placement.relation is Relation.BEFORE
 
 
 def _is_within(

@@ -46,7 +46,7 @@ from aurora_core.grounding.planned_flight import PlannedFlight, Rejected, planne
 from aurora_core.grounding.premises import anchor_arc_m, comes_about, heard, starts_out_of_reach
 from aurora_core.grounding.radio import link_score
 from aurora_core.grounding.realised import realised_values
-from aurora_core.grounding.shown_speed import LOOKED_S, room_for, shows_before
+from aurora_core.grounding.shown_speed import LOOKED_S, all_show, room_for, shows_before
 from aurora_core.grounding.sites import Site, TriedSite, sites, tied_way_m
 from aurora_core.grounding.spots import SpotFinder
 from aurora_core.grounding.time_need import horizon_s
@@ -229,6 +229,7 @@ class Grounder:
                 continue
             scored += 1
             road *= 1.0 if comes_about(spec, peopled) else _NEVER
+            road *= all_show(spec, peopled, self._map.network, self._tolerances)
             option = self._option(spec, peopled, road, planner, leads)
             if isinstance(option, Rejected):
                 rejected[option.reason] += 1
@@ -336,7 +337,7 @@ class Grounder:
             if not starts_out_of_reach(spec, site, places, range_m):
                 road *= _ASTRAY
             if stated > 0.0:
-                road *= 0.5 + 0.5 * room_for(stated, spec, site, self._tolerances)
+                road *= room_for(stated, spec, site, self._tolerances)
             road *= max(_NEVER, shows_before(site, self._map.network, self._tolerances))
             for seat in site.seated:
                 if seat.agent.id in changing:

@@ -11,7 +11,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from aurora_core.grounding.pace import PACED, in_emergency, own_speed_mps
+from aurora_core.grounding.entries import stops_for
+from aurora_core.grounding.pace import PACED, in_emergency, own_speed_mps, stated_times_s
 from aurora_core.grounding.sites import SeatedAgent, Site, limits_mps, open_way_m
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Tolerances
@@ -30,14 +31,16 @@ _LOOKED_TOLD_S = 15.0
 _EMERGENCY_WAY_M = 150.0
 _OVER_MPS = 1.0
 
-# A stated speed has shown when it was held for so long (s).
+# A stated speed has shown when it was held for so long (s); what a site is worth where not.
 _SHOWN_S = 2.0
+_NOT_SHOWN = 0.1
 
 
 def room_for(speed_mps: float, spec: ScenarioSpec, site: Site, tolerances: Tolerances) -> float:
-    """Return whether a stated speed can show near a site, in [0, 1]: far from junctions.
+    """Return what a site is worth for a stated speed to show, in [0, 1]: far from junctions.
 
-    Whom an event tells something else shows it before that, and comes in with it.
+    Whom an event tells something else shows it before that, and comes in with it: where it cannot,
+    the site is worth little. Else half of its worth depends on it.
 
     Args:
         speed_mps: The speed.
@@ -45,18 +48,75 @@ def room_for(speed_mps: float, spec: ScenarioSpec, site: Site, tolerances: Toler
         site: Where its vehicles stand.
         tolerances: In force.
     """
-    told = any(
-        isinstance(e.action, AgentAction)
+    told = [
+        e
+        for e in spec.events
+        if isinstance(e.action, AgentAction)
         and e.action.do in SPEED_ACTIONS | {'yield'}
         and (seat := site.seat(e.action.agent)) is not None
         and own_speed_mps(seat.agent) is not None
-        for e in spec.events
-    )
+    ]
     settle_m = speed_mps * speed_mps / (2.0 * tolerances.route_acceleration_mps2)
     low_m = site.origin_arc_m + (0.0 if told else settle_m)
-    high_m = low_m + (_LOOKED_TOLD_S if told else LOOKED_S) * speed_mps
-    open_m = open_way_m(site.origin_path, low_m, high_m, tolerances.free_road_m)
-    return min(1.0, open_m / (_SHOWS_WELL_S * speed_mps))
+    times_s = stated_times_s(spec)
+    looked_s = min((times_s.get(e.id, _LOOKED_TOLD_S) for e in told), default=LOOKED_S)
+    open_m = open_way_m(
+        site.origin_path, low_m, low_m + looked_s * speed_mps, tolerances.free_road_m
+    )
+    if told and open_m < _SHOWN_S * speed_mps:
+        return _NOT_SHOWN
+    return 0.5 + 0.5 * min(1.0, open_m / (_SHOWS_WELL_S * speed_mps))
+
+
+def all_show(
+    spec: ScenarioSpec, site: Site, network: RoadNetwork, tolerances: Tolerances
+) -> float:
+    """Return what a site is worth for stated speeds, once all have their places, in [0, 1].
+
+    Args:
+        spec: The request.
+        site: Where vehicles and persons stand.
+        network: Its roads.
+        tolerances: In force.
+    """
+    return _before_stopping(spec, site, network, tolerances) * _on_other_ways(site, tolerances)
+
+
+def _before_stopping(
+    spec: ScenarioSpec, site: Site, network: RoadNetwork, tolerances: Tolerances
+) -> float:
+    """Return what a site is worth for those who stop where somebody crosses, in [0, 1].
+
+    A crosswalk is at a junction, so their way to it has to begin far enough from both.
+    """
+    kerbs = [
+        walker.path.line.at(network.lane(walker.path.lane_id).arc_length_m)[:2]
+        for walker in site.walkers
+        if walker.path.crossing_id is not None
+    ]
+    for seat in site.seated:
+        speed_mps = own_speed_mps(seat.agent)
+        if not speed_mps or not stops_for(spec, seat.agent):
+            continue
+        for kerb in kerbs:  # it comes in with its speed
+            high_m, _ = seat.path.line.project(*kerb)
+            open_m = open_way_m(seat.path, seat.arc_m, high_m, tolerances.free_road_m)
+            if high_m > seat.arc_m and open_m < _SHOWN_S * speed_mps:
+                return _NOT_SHOWN
+    return 1.0
+
+
+def _on_other_ways(site: Site, tolerances: Tolerances) -> float:
+    """Return what a site is worth for the stated speeds of those on other ways, in [0, 1]."""
+    worth = 1.0
+    for seat in site.others:
+        speed_mps = own_speed_mps(seat.agent)
+        if speed_mps:
+            low_m = seat.arc_m + speed_mps * speed_mps / (2.0 * tolerances.route_acceleration_mps2)
+            high_m = low_m + _LOOKED_TOLD_S * speed_mps
+            open_m = open_way_m(seat.path, low_m, high_m, tolerances.free_road_m)
+            worth = min(worth, max(_NOT_SHOWN, min(1.0, open_m / (_SHOWN_S * speed_mps))))
+    return worth
 
 
 def shows_before(site: Site, network: RoadNetwork, tolerances: Tolerances) -> float:
