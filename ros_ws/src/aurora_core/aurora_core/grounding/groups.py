@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
@@ -55,7 +56,9 @@ class GroupPlacer:
         self._spec = spec
 
         def found(
-            group: tuple[ConvoyMember, ...], through: tuple[frozenset[str], ...]
+            group: tuple[ConvoyMember, ...],
+            through: tuple[frozenset[str], ...],
+            least_mps: float,
         ) -> list[Site]:
             return _best_first(
                 sites(
@@ -65,21 +68,23 @@ class GroupPlacer:
                     settings,
                     run_m,
                     goals.spacing_m(spec, settings.anchor_spacing_m),
-                    least_limit_mps=fastest_stated_mps(
-                        spec, (m.agent for m in group), settings.speeds
-                    ),
+                    least_limit_mps=least_mps,
                     several_lanes=any(needs_another_lane(spec, m.agent) for m in group),
                     goals=through,
                 )
             )
 
-        self._candidates = [_Candidates(found(group, ()), spec, goals) for group in groups]
-        ways = [goals.edges_on_the_way(spec, [m.agent for m in group]) for group in groups]
-        # Where no street leads straight on to a place, others do by turns.
-        self._turning = [
-            _Candidates(found(group, way) if way else [], spec, goals, wide=True)
-            for group, way in zip(groups, ways, strict=True)
-        ]
+        def tiers(group: tuple[ConvoyMember, ...]) -> Iterator[_Candidates]:
+            stated_mps = fastest_stated_mps(spec, (m.agent for m in group), settings.speeds)
+            way = goals.edges_on_the_way(spec, [m.agent for m in group])
+            # Where no street that allows a stated speed leads there, one drives faster than that.
+            for least_mps in dict.fromkeys((stated_mps, 0.0)):
+                yield _Candidates(found(group, (), least_mps), spec, goals)
+                # Where no street leads straight on to a place, others do by turns.
+                if way:
+                    yield _Candidates(found(group, way, least_mps), spec, goals, wide=True)
+
+        self._tiers = [_Kept(tiers(group)) for group in groups]
 
     def seated(self, site: Site) -> Site | str:
         """Return a site with the further groups at their places, or what it lacks.
@@ -87,10 +92,12 @@ class GroupPlacer:
         Args:
             site: Where the convoy stands.
         """
-        for candidates, turning in zip(self._candidates, self._turning, strict=True):
-            found = next(self._fit(candidates, site, leading=True), None)
-            found = found or next(self._fit(turning, site, leading=True), None)
-            found = found or next(self._fit(candidates, site), None)
+        for tiers in self._tiers:
+            fitting = itertools.chain(
+                (one for tier in tiers for one in self._fit(tier, site, leading=True)),
+                (one for tier in tiers for one in self._fit(tier, site)),
+            )
+            found = next(fitting, None)
             if found is None:
                 return 'road'
             site = replace(site, others=(*site.others, *found))
@@ -108,6 +115,23 @@ class GroupPlacer:
                 and (not leading or self._goals.leads(self._spec, one, anchor, wide=wide))
             ):
                 yield one.seated
+
+
+class _Kept:
+    """What is worked out when it is first asked for, and then kept."""
+
+    def __init__(self, source: Iterator[_Candidates]) -> None:
+        self._source = source
+        self._known: list[_Candidates] = []
+
+    def __iter__(self) -> Iterator[_Candidates]:
+        for k in itertools.count():
+            if k == len(self._known):
+                more = next(self._source, None)
+                if more is None:
+                    return
+                self._known.append(more)
+            yield self._known[k]
 
 
 class _Candidates:

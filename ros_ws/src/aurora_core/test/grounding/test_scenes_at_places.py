@@ -123,3 +123,18 @@ def test_a_stated_speed_is_kept_where_the_way_comes_to_a_slower_street(
     assert truck.speed_factor * min(limits) >= 13.5
     at_most = scenes.agents(prompt.format('at most 13.5'), at_hall)['truck1']
     assert at_most.speed_factor * min(limits) < 13.5
+
+
+def test_who_begins_on_a_slow_street_with_a_fast_speed_is_at_its_place(
+    scenes: Scenes, map_of: Callable[[str], MapModel], tolerances: Tolerances
+) -> None:
+    station = 'landmark:Foundry Fire Station'
+    found = scenes.agents(
+        'A truck waits near Harbor Market. A fire truck drives at 16.7 m/s. A drone hovers over '
+        'Harbor Market.',
+        {'firetruck1': [{'relation': 'at', 'of': station}]},
+    )
+    fire = found['firetruck1']
+    assert map_of('downtown').network.lane(fire.lane_id).speed_limit_mps < 16.7
+    street = MapPlaces(map_of('downtown')).point(station, (0.0, 0.0))
+    assert dist(xy(fire), street) <= tolerances.arrival_m
