@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from aurora_core.grounding.awaited import bound_to_places
 from aurora_core.grounding.distances import ALONG, DETACHED_M, Distances
 from aurora_core.grounding.nearby import BY_PERSONS, begins_near
+from aurora_core.grounding.one_place import common_places, is_before_place, is_told
 from aurora_core.grounding.pace import (
     approaches,
     encounter_room_m,
@@ -22,7 +23,7 @@ from aurora_core.grounding.pace import (
     moves,
     own_speed_mps,
 )
-from aurora_core.grounding.places import POINTS, has_point
+from aurora_core.grounding.places import has_point
 from aurora_core.grounding.ties import (
     IN_LINE_M,
     BeforePlace,
@@ -52,6 +53,9 @@ from aurora_core.spec.vocabulary import AgentType, BehaviorKind, Place, Relation
 BEFORE = 'placement before a place'
 
 _SAME_PLACE_M = 1e-6
+
+# Two who stand before one place are so far apart as that says, to so much (m).
+_EXACT_M = 0.1
 
 # Where a vehicle is anyway, at the right kerb, and where it can be put.
 _ROADS = (None, Place.MAIN_ROAD, Place.ROADSIDE)
@@ -159,6 +163,7 @@ def split_scene(
     if apart:
         # "From the left" to a place is another street, not the lane beside.
         ties = [t for t in ties if not _comes_from_a_side(spec, by_id[t.agent], t)]
+    ties += [] if apart else common_places(vehicles, distances)
     ties = agreed(ties + _past_persons(spec, by_id, ties, speeds))
     ties = queued(without_implied(ties), {a.id: {b.kind for b in a.behaviors} for a in vehicles})
     ties = spread(ties, {a.id: a.type for a in vehicles}, _on_either_side(vehicles))
@@ -175,7 +180,7 @@ def split_scene(
     targets = {m.target for m in spec.missions}
     targets |= {a.id for a in vehicles if bound_to_places(spec, a)}
     targets |= {vehicle for vehicle, _ in let_cross(spec)}
-    targets |= {a.id for a in vehicles if any(map(_is_before_place, a.placements))}
+    targets |= {a.id for a in vehicles if any(map(is_before_place, a.placements))}
     targets |= {p.of for person in persons for p in person.placements}
     targets |= {a.id for a in vehicles for p in a.placements if p.of in distances.persons}
     if targets & set(by_id):
@@ -251,10 +256,6 @@ def _stand(ids: Iterable[str], by_id: Mapping[str, GroundAgent]) -> bool:
     return all(stands(by_id[i]) for i in ids)
 
 
-def _is_before_place(placement: Placement) -> bool:
-    return placement.relation is Relation.BEFORE and placement.of in POINTS
-
-
 def oncoming_to(agent: GroundAgent) -> Placement | None:
     """Return the placement that puts an agent into the other direction, None if there is none."""
     return next((p for p in agent.placements if p.relation is Relation.ONCOMING), None)
@@ -267,17 +268,38 @@ def _is_at_place(placement: Placement) -> bool:
 def _before_place(
     vehicles: list[GroundAgent], offsets: dict[str, tuple[float, int]], distances: Distances
 ) -> tuple[BeforePlace | None, list[str]]:
-    """Return the first member that is placed so, and everybody else who is to be.
+    """Return the first member that is placed so, and who else is to be and is not by that.
 
     One place on the route fixes the places of all members.
     """
-    asked = [(a.id, p) for a in vehicles for p in a.placements if _is_before_place(p)]
+    asked = [(a.id, p) for a in vehicles for p in a.placements if is_before_place(p)]
     for agent, placement in asked:
         if agent in offsets:
             distance_m = distances.placed(agent, None, placement)
             held = BeforePlace(agent=agent, place=Place(str(placement.of)), distance_m=distance_m)
-            return held, [i for i, p in asked if p is not placement]
+            return held, [
+                other
+                for other, p in asked
+                if p is not placement and not _is_so_before(other, p, held, offsets, distances)
+            ]
     return None, [i for i, _ in asked]
+
+
+def _is_so_before(
+    agent: str,
+    placement: Placement,
+    held: BeforePlace,
+    offsets: Mapping[str, tuple[float, int]],
+    distances: Distances,
+) -> bool:
+    """Tell whether somebody stands as far before a place as asked, where another one does."""
+    if agent not in offsets or placement.of != held.place:
+        return False
+    along_m = offsets[agent][0] - offsets[held.agent][0]
+    if not is_told(placement):
+        return along_m < held.distance_m
+    asked_m = held.distance_m - distances.placed(agent, None, placement)
+    return abs(along_m - asked_m) < _EXACT_M
 
 
 def can_be_placed(agent: str, placement: Placement, spec: ScenarioSpec) -> bool:
@@ -286,7 +308,7 @@ def can_be_placed(agent: str, placement: Placement, spec: ScenarioSpec) -> bool:
         return True
     if _is_at_place(placement):
         return True
-    if _is_before_place(placement):
+    if is_before_place(placement):
         return f'{agent}: {BEFORE}' not in split_scene(spec).unsupported
     persons = (AgentType.PEDESTRIAN, AgentType.RSU)
     vehicles = {a.id for a in spec.agents if a.type not in persons}
@@ -306,7 +328,7 @@ def _ties(
     for placement in agent.placements:
         if placement.of in by_id and placement.relation in ALONG:
             others.setdefault(str(placement.of), []).append(placement)
-        elif _is_before_place(placement) or _is_at_place(placement):
+        elif is_before_place(placement) or _is_at_place(placement):
             continue  # nobody else's place follows from it
         elif distances.places_other(placement):
             continue

@@ -97,7 +97,7 @@ def _is_within(
     seat: SeatedAgent, other: SeatedAgent, way_m: float, types: Mapping[str, AgentTypeRecord]
 ) -> bool:
     """Tell whether another vehicle stands ahead on the way, nearer than that (bumpers, m)."""
-    if other is seat:
+    if other is seat or other.member.parked:
         return False
     x, y, _, _ = other.path.position_at(other.arc_m)
     at_m, aside_m = seat.path.line.project(x, y, near_s=seat.arc_m + 50.0, window_m=50.0)

@@ -60,6 +60,9 @@ _NARROW_M = 2.5
 # Who is to get farther than a distance from a place starts within this share of it.
 _NEAR_SHARE = 0.8
 
+# Where one stands at t = 0 is exact to less than this (m).
+_AT_START_M = 0.5
+
 # Share of a tolerance inside which a place is aimed at.
 _SAFE = 0.8
 
@@ -133,6 +136,7 @@ class GoalFinder:
         self._types = types
         self._tolerances = tolerances
         self._arrival_m = tolerances.arrival_m - settings.inside_bound_m
+        self._start_m = tolerances.arrival_m - _AT_START_M
         # Where no street leads straight on to a place.
         self._wide_m = (_WAY_M[0], settings.longest_way_m)
 
@@ -293,7 +297,7 @@ class GoalFinder:
             of, relation = placement.of, placement.relation
             if of is None or not has_point(of) or relation is Relation.BEFORE:
                 continue
-            near_m = self._tolerances.near_m if relation is Relation.NEAR else arrival_m
+            near_m = self._tolerances.near_m if relation is Relation.NEAR else self._start_m
             distance, bearing = _told(placement.distance_m), _told(placement.bearing_deg)
             if distance is None and bearing is None:
                 yield _Bound(place=of, within_m=near_m, at_start=True)
@@ -307,7 +311,7 @@ class GoalFinder:
                 if stays or later or behavior.kind in _LEADS:
                     yield _Bound(
                         place=behavior.target,
-                        within_m=arrival_m,
+                        within_m=self._start_m if stays else arrival_m,
                         at_start=stays,
                         stops=later or behavior.kind is BehaviorKind.STOP,
                     )

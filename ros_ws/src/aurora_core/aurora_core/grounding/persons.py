@@ -294,11 +294,15 @@ class PersonPlacer:
     def _ahead(self, site: Site, point: tuple[float, float]) -> bool:
         """Tell whether a point lies on the way of the vehicles, ahead of all of them."""
         along_m, aside_m = site.origin_path.line.project(*point)
-        front = max(site.seated, key=lambda s: s.arc_m)
         low, high = _CROSSWALK_AHEAD_M
-        if all(stands(seat.agent) for seat in site.seated):
-            # Who waits lets the person cross right in front.
-            low = self._types[front.agent.type.value].length_m / 2.0 + _IN_FRONT_M
+        # Who waits lets the person cross right in front, who is parked is in nobody's way.
+        still = [s for s in site.seated if stands(s.agent) or s.member.parked]
+        front = max([s for s in site.seated if s not in still] or still, key=lambda s: s.arc_m)
+        for seat in still:
+            room_m = 0.0 if seat.member.parked else _IN_FRONT_M
+            if along_m < seat.arc_m + self._types[seat.agent.type.value].length_m / 2.0 + room_m:
+                return False
+        low = 0.0 if front in still else low
         return abs(aside_m) <= _ON_WAY_M and low <= along_m - front.arc_m <= high
 
     def _beside_vehicle(

@@ -270,6 +270,13 @@ def test_one_member_stands_before_the_intersection(parameter: Make) -> None:
     assert split.before == BeforePlace(place=Place.INTERSECTION, agent='bus', distance_m=50.0)
     second = _agent('van', (Relation.BEFORE, 'intersection', None))
     split = split_scene(_spec(truck, bus, second))
+    assert split.unsupported == ()
+    assert _places(split)['van'] == (30.0, 0)
+    third = _agent('car', (Relation.BEFORE, 'intersection', None))
+    split = split_scene(_spec(truck, bus, second, third))
+    assert (_places(split)['car'], split.unsupported) == ((15.0, 0), ())
+    other = _agent('van', (Relation.BEFORE, 'crosswalk', None))
+    split = split_scene(_spec(truck, bus, other))
     assert split.unsupported == ('van: placement before a place',)
     assert split_scene(_spec(second)).before == BeforePlace(
         place=Place.INTERSECTION, agent='van', distance_m=20.0

@@ -138,3 +138,45 @@ def test_who_begins_on_a_slow_street_with_a_fast_speed_is_at_its_place(
     assert map_of('downtown').network.lane(fire.lane_id).speed_limit_mps < 16.7
     street = MapPlaces(map_of('downtown')).point(station, (0.0, 0.0))
     assert dist(xy(fire), street) <= tolerances.arrival_m
+
+
+def metres(value: float) -> dict[str, Any]:
+    span = {'start': 0, 'end': 1}
+    known = {'value': value, 'unit': 'm', 'low': value, 'high': value}
+    return {**known, 'provenance': 'explicit', 'span': span}
+
+
+def test_two_before_one_crosswalk_stand_as_far_before_it_as_each_is_to(
+    scenes: Scenes, map_of: Callable[[str], MapModel]
+) -> None:
+    before = {'relation': 'before', 'of': 'crosswalk'}
+    found = scenes.agents(
+        'A pedestrian crosses at the crosswalk. A van is parked. The ego car drives 40 km/h. A '
+        'drone hovers over the crosswalk at 15 m.',
+        {
+            'van1': [{**before, 'distance_m': metres(6.0)}],
+            'ego': [{**before, 'distance_m': metres(30.0)}],
+        },
+    )
+    ego, van = found['ego'], found['van1']
+    crosswalks = MapPlaces(map_of('downtown')).crosswalks
+    middle = min(crosswalks, key=lambda point: dist(point, xy(van)))
+    along_m = {
+        agent.id: (middle[0] - agent.x_m) * agent.heading_x
+        + (middle[1] - agent.y_m) * agent.heading_y
+        for agent in (ego, van)
+    }
+    assert along_m == pytest.approx({'ego': 30.0, 'van1': 6.0}, abs=0.5)
+    # The parked one is in nobody's way: the ego comes in with its speed.
+    assert ego.speed_mps == pytest.approx(11.11, abs=0.01)
+
+
+def test_who_is_at_the_intersection_is_ahead_of_who_stands_before_it(scenes: Scenes) -> None:
+    before = {'relation': 'before', 'of': 'intersection', 'distance_m': metres(80.0)}
+    found = scenes.agents(
+        'A fire truck waits. The ego car drives. A drone hovers over the fire truck at 35 m.',
+        {'firetruck1': [{'relation': 'at', 'of': 'intersection'}], 'ego': [before]},
+    )
+    ego, fire = found['ego'], found['firetruck1']
+    assert (ego.heading_x, ego.heading_y) == pytest.approx((fire.heading_x, fire.heading_y))
+    assert 60.0 < dist(xy(ego), xy(fire)) < 75.0
