@@ -47,15 +47,15 @@ _WITH_SIREN = (AgentType.AMBULANCE, AgentType.FIRETRUCK, AgentType.POLICE)
 def complete(spec: ScenarioSpec, limits: Limits) -> ScenarioSpec:
     """Return a request with missions for all UAVs, triggers for orders, durations and altitudes.
 
-    Who yields gets somebody to yield to, who is oncoming somebody to meet, and who is overtaken is
-    ahead until then only.
+    Who yields gets somebody to yield to, who approaches or is oncoming somebody to meet, and who
+    is overtaken is ahead until then only.
 
     Args:
         spec: The request, whoever read it; it is not changed.
         limits: Limits in force.
     """
     spec = meeting(passed(blowing(spec, limits)))
-    spec = waiting(hovering(reporting(telling(yielding(spec)))))
+    spec = waiting(hovering(reporting(telling(yielding(approaching(spec))))))
     return layered(bent(lasting(spec), limits), limits)
 
 
@@ -134,6 +134,36 @@ def meeting(spec: ScenarioSpec) -> ScenarioSpec:
 def _meets(placement: Placement) -> bool:
     lane = placement.relation in _LANES and placement.of is None
     return lane or placement.relation is Relation.ONCOMING
+
+
+def approaching(spec: ScenarioSpec) -> ScenarioSpec:
+    """Return the specification with somebody to come nearer to for who approaches nobody named.
+
+    That is whom it is placed to, else the ego; where there is none it stays open.
+
+    Args:
+        spec: The request, whoever read it; returned as it is when nothing was added.
+    """
+    egos = [a.id for a in spec.agents if a.role is Role.EGO]
+    ids = {a.id for a in spec.agents}
+
+    def comes(agent: GroundAgent) -> GroundAgent:
+        others = [p.of for p in agent.placements if p.of in ids] + egos
+        whom = next((other for other in others if other != agent.id), None)
+        open_ones = [b.kind is BehaviorKind.APPROACH and b.target is None for b in agent.behaviors]
+        if whom is None or not any(open_ones):
+            return agent
+        found = {'target': whom, 'target_inferred': True}
+        behaviors = tuple(
+            b.model_copy(update=found) if is_open else b
+            for b, is_open in zip(agent.behaviors, open_ones, strict=True)
+        )
+        return agent.model_copy(update={'behaviors': behaviors})
+
+    agents = tuple(map(comes, spec.agents))
+    if agents == spec.agents:
+        return spec
+    return ScenarioSpec.model_validate({**dict(spec), 'agents': agents})
 
 
 def yielding(spec: ScenarioSpec) -> ScenarioSpec:

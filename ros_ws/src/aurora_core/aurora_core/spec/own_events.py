@@ -6,7 +6,16 @@ from __future__ import annotations
 
 from typing import get_args
 
-from aurora_core.spec.events import AgentAction, AgentDo, DistanceTrigger, Event, bodies_of
+from aurora_core.spec.events import (
+    AgentAction,
+    AgentDo,
+    DistanceTrigger,
+    Event,
+    EventDoneTrigger,
+    MessageTrigger,
+    SendMessage,
+    bodies_of_cause,
+)
 from aurora_core.spec.parameter import Parameter, Provenance, Unit
 from aurora_core.spec.scenario import Behavior, GroundAgent, ScenarioSpec
 from aurora_core.spec.vocabulary import AgentType, BehaviorKind
@@ -81,12 +90,47 @@ def overtakings(spec: ScenarioSpec) -> tuple[tuple[str, str], ...]:
 
 
 def let_pass(spec: ScenarioSpec, event: Event) -> str | None:
-    """Return the agent that an event makes another one yield to, None where it is not one."""
+    """Return the agent that an event makes another one yield to, None where it is not one.
+
+    Where the event names none it is the one that its cause is about: of a message, what was told.
+    """
     if not isinstance(event.action, AgentAction) or event.action.do != 'yield':
         return None
-    bodies = bodies_of(event) - {event.action.agent}
-    others = [agent.id for agent in spec.agents if agent.id in bodies]
-    return others[0] if len(others) == 1 else None
+    cause: Event | None = event
+    seen = {event.action.agent}
+    while cause is not None and cause.id not in seen:
+        seen.add(cause.id)
+        others = [a.id for a in spec.agents if a.id in _about(cause) - seen and _may_pass(a)]
+        if others:
+            return others[0] if len(others) == 1 else None
+        cause = _cause_of(spec, cause)
+    return None
+
+
+def _about(event: Event) -> frozenset[str]:
+    """Return the bodies that an event is about; who only hears of it is none of them."""
+    bodies = bodies_of_cause(event)
+    if isinstance(event.trigger, MessageTrigger):
+        bodies -= {event.trigger.by}
+    return bodies | ({event.action.agent} if isinstance(event.action, AgentAction) else set())
+
+
+def _may_pass(agent: GroundAgent) -> bool:
+    return agent.type is not AgentType.RSU
+
+
+def _cause_of(spec: ScenarioSpec, event: Event) -> Event | None:
+    """Return the event that another one waits for: by its name, or by its message."""
+    trigger = event.trigger
+    for other in spec.events:
+        action = other.action
+        if isinstance(trigger, EventDoneTrigger) and other.id == trigger.event:
+            return other
+        if isinstance(trigger, MessageTrigger) and isinstance(action, SendMessage):
+            told = action.receiver == trigger.by
+            if told and trigger.sender in (None, action.sender):
+                return other
+    return None
 
 
 def let_cross(spec: ScenarioSpec) -> tuple[tuple[str, str], ...]:

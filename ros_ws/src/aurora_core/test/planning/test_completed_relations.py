@@ -10,10 +10,11 @@ from aurora_core.knowledge.config_files import config_path
 from aurora_core.knowledge.limits import load_limits
 from aurora_core.parsing.parser import ParseContext, parse_offline
 from aurora_core.planning.bounds import bent
-from aurora_core.planning.complete import meeting, passed, yielding
+from aurora_core.planning.complete import approaching, meeting, passed, yielding
+from aurora_core.spec.own_events import let_pass
 from aurora_core.spec.parameter import Provenance
-from aurora_core.spec.scenario import Placement
-from aurora_core.spec.vocabulary import Relation
+from aurora_core.spec.scenario import Behavior, Placement
+from aurora_core.spec.vocabulary import BehaviorKind, Relation
 
 CONTEXT = ParseContext(landmark_names=())
 LIMITS = load_limits(config_path('limits.json'))
@@ -111,3 +112,31 @@ def test_who_stays_near_starts_near(words: str, low_m: float, high_m: float) -> 
     assert placed.distance_m is not None
     assert low_m <= placed.distance_m.value <= high_m
     assert placed.distance_m.provenance is Provenance.DEFAULT
+
+
+@pytest.mark.parametrize(
+    ('cause', 'whom'),
+    [
+        ('When an ambulance comes within 60 m of the ego car, the drone messages the ego.', True),
+        ('At 20 s the ambulance accelerates, and then the drone messages the ego.', True),
+        ('At 20 s the drone messages the ego. An ambulance drives.', False),
+    ],
+)
+def test_who_yields_on_a_message_yields_to_whom_it_is_about(cause: str, whom: bool) -> None:
+    said = f'A drone tracks the ego car. {cause} When it gets the message the ego yields.'
+    read = parse_offline(said, CONTEXT).spec
+    assert read is not None
+    (event,) = (e for e in read.events if getattr(e.action, 'do', '') == 'yield')
+    assert let_pass(read, event) == ('ambulance1' if whom else None)
+
+
+def test_who_approaches_nobody_named_comes_nearer_to_whom_it_is_placed_to() -> None:
+    read = parse_offline('A van drives. The ego car drives 60 m behind a bus.', CONTEXT).spec
+    assert read is not None
+    comes = (Behavior(kind=BehaviorKind.APPROACH),)
+    agents = tuple(a.model_copy(update={'behaviors': comes}) for a in read.agents)
+    done = {a.id: a for a in approaching(read.model_copy(update={'agents': agents})).agents}
+    targets = {
+        name: (a.behaviors[0].target, a.behaviors[0].target_inferred) for name, a in done.items()
+    }
+    assert targets == {'van1': ('ego', True), 'ego': ('bus1', True), 'bus1': ('ego', True)}

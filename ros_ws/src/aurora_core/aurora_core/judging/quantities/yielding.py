@@ -33,7 +33,7 @@ from aurora_core.outcomes.verdict import Reason
 from aurora_core.quantities import motion
 from aurora_core.quantities.ticks import first_tick
 from aurora_core.quantities.way_crossing import crossing_series
-from aurora_core.spec.events import bodies_of
+from aurora_core.spec.own_events import let_pass
 from aurora_core.spec.quantity import QuantityName
 from aurora_core.spec.scenario import AgentAction, Event
 
@@ -218,18 +218,14 @@ def after_event(
     inputs: Inputs, event: Event, action: AgentAction, source: Source
 ) -> Condition | Underivable:
     """Return that the other one of an event gets ahead of the one that yields."""
-    others = [
-        agent.id
-        for agent in inputs.spec.agents
-        if agent.id in bodies_of(event) and agent.id != action.agent
-    ]
-    if len(others) != 1:
+    other = let_pass(inputs.spec, event)
+    if other is None:
         return Underivable(element=event.id, what='whom it yields to', span=event.span)
     return condition(
         id=f'{event.id}.passed',
-        sentence=f'{others[0]} gets ahead of {action.agent} after {event.id} is triggered',
-        signal=f'passes_first({others[0]},{action.agent})',
-        of=(action.agent, others[0]),
+        sentence=f'{other} gets ahead of {action.agent} after {event.id} is triggered',
+        signal=f'passes_first({other},{action.agent})',
+        of=(action.agent, other),
         target=Target(op='>', threshold=0.0, unit='m'),
         arguments=PassedAfter(
             **inputs.of_event(event.id), offset_m=inputs.tolerances.route_offset_m
