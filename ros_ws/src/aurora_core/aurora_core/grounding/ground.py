@@ -187,7 +187,11 @@ class Grounder:
         run_s = horizon_s(spec, self._limits, self._settings.flight)
         run_m = run_s * self._drive_speed(spec, split) + 300.0
         persons = PersonPlacer(
-            self._map, self._types, self._settings.grounding.persons, self._walks
+            self._map,
+            self._types,
+            self._settings.grounding.persons,
+            self._tolerances,
+            self._walks,
         )
         oncoming = OncomingPlacer(
             self._map, self._types, self._settings.grounding.inside_bound_m, self._spawns

@@ -34,7 +34,9 @@ from aurora_core.grounding.sites import (
     line_from,
 )
 from aurora_core.grounding.stepping_out import FarKerb, steps_out
+from aurora_core.grounding.walk_ends import KERB_M, NEXT_M, arrival_m
 from aurora_core.knowledge.agent_types import AgentTypeRecord
+from aurora_core.knowledge.limits import Tolerances
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.map_records import WalkTable
 from aurora_core.knowledge.settings import PersonSettings
@@ -44,6 +46,7 @@ from aurora_core.spec.events import sets_off
 from aurora_core.spec.own_events import let_cross
 from aurora_core.spec.parameter import Parameter, Provenance
 from aurora_core.spec.parking import stands
+from aurora_core.spec.reference import is_landmark
 from aurora_core.spec.scenario import (
     AgentAction,
     GroundAgent,
@@ -51,12 +54,8 @@ from aurora_core.spec.scenario import (
 )
 from aurora_core.spec.vocabulary import BehaviorKind, Place, Relation
 
-# Who waits stands this far before the end of the sidewalk (m), the next one behind the first.
-_KERB_M = 0.6
 # Who stands on a side of a vehicle is where the sidewalk is, to so much of a stated distance (m).
 _OFF_M = 1.5
-
-_NEXT_M = 1.0
 
 # Who is to arrive at a crosswalk comes from so far away (m): not there yet at t = 0.
 _ARRIVES_FROM_M = 18.0
@@ -66,9 +65,6 @@ _STEP_M = 0.5
 
 # So far the way of a person is looked at for parked vehicles (m).
 _SHORT_WAY_M = 60.0
-
-# Who has crossed walks on this far (m), out of the way of the next one.
-_BEYOND_M = 6.0
 
 # Who stands behind a vehicle is so far from its bumper (m).
 _STANDS_BEHIND_M = 2.0
@@ -113,15 +109,6 @@ def crosses(spec: ScenarioSpec, agent: GroundAgent) -> bool:
     )
 
 
-def walk_end_m(goal_m: float, ahead: int, group: int) -> float:
-    """Return where somebody stops on a last sidewalk of a length (m), be it shorter than a step.
-
-    Of the `group` that stops there so many are `ahead`.
-    """
-    last_m = max(goal_m - _KERB_M, goal_m / 2.0)
-    return last_m - min(_NEXT_M, last_m / group) * ahead
-
-
 class PersonPlacer:
     """Places persons on one map.
 
@@ -129,6 +116,7 @@ class PersonPlacer:
         map_model: Map.
         types: Agent sizes.
         style: How they stand and walk.
+        tolerances: How near is near, and at.
         walks: Which sidewalks and crossings were walked; None where the map was not measured.
     """
 
@@ -137,8 +125,10 @@ class PersonPlacer:
         map_model: MapModel,
         types: Mapping[str, AgentTypeRecord],
         style: PersonSettings,
+        tolerances: Tolerances,
         walks: WalkTable | None = None,
     ) -> None:
+        self._tolerances = tolerances
         self._walks = walks
         self._map = map_model
         self._places = MapPlaces(map_model)
@@ -193,7 +183,8 @@ class PersonPlacer:
             free = path.begins_m is not None
             stays = free or not _goes(spec, agent)
             release = person_release(spec, agent)
-            arrival = self._arrival_m(spec, site, seat)
+            goal_m = self._map.network.lane(path.goal_lane_id).arc_length_m
+            arrival = arrival_m(site, seat, goal_m, crosses=crosses(spec, agent))
             if any(b.kind is BehaviorKind.STOP for b in agent.behaviors):
                 arrival = min(arrival, seat.arc_m + _STOP_AFTER_M)
             yield GroundedAgent(
@@ -225,24 +216,13 @@ class PersonPlacer:
                 deceleration_mps2=record.decel_mps2,
             )
 
-    def _arrival_m(self, spec: ScenarioSpec, site: Site, seat: SeatedPerson) -> float:
-        """Return where a walk ends on its last sidewalk (m): nobody walks into who arrived."""
-        goal_m = self._map.network.lane(seat.path.goal_lane_id).arc_length_m
-        group = [w for w in site.walkers if w.path.goal_lane_id == seat.path.goal_lane_id]
-        number = group.index(seat)
-        if crosses(spec, seat.agent):
-            # The first one stands at the kerb and goes farthest.
-            first_m = min(_BEYOND_M, goal_m / 2.0)
-            next_m = min(_NEXT_M, (goal_m - _KERB_M - first_m) / len(group))
-            return first_m + next_m * (len(group) - 1 - number)
-        ahead = sum(w.arc_m > seat.arc_m for w in group)
-        return walk_end_m(goal_m, ahead, len(group))
-
     def _spot(
         self, spec: ScenarioSpec, agent: GroundAgent, site: Site, run_s: float, number: int
     ) -> _Spot | str:
         """Return where a person stands and walks, or what is missing there."""
         placed = self._beside_vehicle(spec, agent, site, number)
+        if isinstance(placed, _Spot) and not self._is_at_landmarks(agent, placed):
+            return 'away_from_place'
         if isinstance(placed, _Spot) and crosses(spec, agent) and steps_out(spec, agent):
             way = self._kerbs.way(placed.path, placed.arc_m)
             return 'far_kerb' if way is None else _Spot(way, 0.0)
@@ -253,7 +233,7 @@ class PersonPlacer:
                 for p in agent.placements
             )
             ahead = any(p.relation in _BEFORE_IT for p in agent.placements)
-            back_m = _ARRIVES_FROM_M if any(True for _ in arrivals(spec, agent)) else _KERB_M
+            back_m = _ARRIVES_FROM_M if any(True for _ in arrivals(spec, agent)) else KERB_M
             return self._crossing(site, placed if stated or not ahead else None, number, back_m)
         if isinstance(placed, str):
             return placed
@@ -286,8 +266,8 @@ class PersonPlacer:
             return _Spot(path, placed.arc_m) if same and near else 'crosswalk'
         if site.seated and not self._ahead(site, path.line.at(first.arc_length_m)[:2]):
             return 'crosswalk'
-        begin_m = first.arc_length_m - back_m - _NEXT_M * number
-        if begin_m < 0.0 and back_m > _KERB_M:
+        begin_m = first.arc_length_m - back_m - NEXT_M * number
+        if begin_m < 0.0 and back_m > KERB_M:
             return 'crosswalk'
         return _Spot(path, max(0.0, begin_m))
 
@@ -335,6 +315,20 @@ class PersonPlacer:
                 return self._along(seat, within_m + room_m, number) or 'sidewalk'
         return None
 
+    def _is_at_landmarks(self, agent: GroundAgent, spot: _Spot) -> bool:
+        """Tell whether who is placed to a vehicle is at the landmarks where it is to be, too."""
+        x, y, _, _ = spot.path.position_at(spot.arc_m)
+        for placement in agent.placements:
+            if is_landmark(placement.of):
+                near = placement.relation is Relation.NEAR
+                most_m = self._tolerances.near_m if near else self._tolerances.arrival_m
+                if near and placement.distance_m is not None:
+                    most_m = placement.distance_m.inside(self._style.inside_bound_m)
+                to_x, to_y = self._places.point(str(placement.of), (x, y))
+                if norm2(x - to_x, y - to_y) > most_m:
+                    return False
+        return True
+
     def _abreast_of(self, seat: SeatedPerson, relation: Relation) -> _Spot:
         """Return the spot beside a person, in the same walk."""
         abreast_m = self._style.abreast_m
@@ -342,7 +336,7 @@ class PersonPlacer:
         width_m = self._map.network.lane(seat.path.lane_id).width_m
         lateral_m = seat.lateral_m + side_m
         free = relation not in (Relation.LEFT, Relation.RIGHT)
-        if free and abs(lateral_m) > 0.5 * width_m - _KERB_M:
+        if free and abs(lateral_m) > 0.5 * width_m - KERB_M:
             lateral_m = seat.lateral_m - side_m
         return _Spot(seat.path, seat.arc_m, lateral_m)
 
@@ -395,7 +389,7 @@ class PersonPlacer:
         left: bool = False,
     ) -> _Spot | None:
         """Return the sidewalk abreast of a point on somebody's way: right of it, or `left`."""
-        arc_m = seat.arc_m + away_m + _NEXT_M * number
+        arc_m = seat.arc_m + away_m + NEXT_M * number
         if not 0.0 <= arc_m <= seat.path.length_m:
             return None
         x, y, _, _ = seat.path.position_at(arc_m)
@@ -416,7 +410,7 @@ class PersonPlacer:
         if lane is None:
             return None
         arc_m, aside_m = lane.line.project(*point)
-        inside = _KERB_M <= arc_m <= lane.arc_length_m - _KERB_M
+        inside = KERB_M <= arc_m <= lane.arc_length_m - KERB_M
         return arc_m if inside and abs(aside_m) <= 2.0 * _ON_WAY_M else None
 
     def _at_place(
@@ -440,7 +434,7 @@ class PersonPlacer:
                 if path is None:
                     return None
                 lane = self._map.network.lane(path.lane_id)
-                back_m = _KERB_M + _NEXT_M * number
+                back_m = KERB_M + NEXT_M * number
                 walk = walk_along(self._map.network, path.edge_ids[:1])
                 return None if walk is None else _Spot(walk, max(0.0, lane.arc_length_m - back_m))
             if name is not None and has_point(name):
@@ -460,9 +454,9 @@ class PersonPlacer:
             path = walk_along(self._map.network, (lane.edge_id,))
             if path is None or path.lane_id != lane.id:
                 continue
-            count = int(max(0.0, lane.arc_length_m - 2.0 * _KERB_M) / _STEP_M) + 1
+            count = int(max(0.0, lane.arc_length_m - 2.0 * KERB_M) / _STEP_M) + 1
             for k in range(count):
-                arc_m = _KERB_M + k * _STEP_M
+                arc_m = KERB_M + k * _STEP_M
                 here = lane.line.at(arc_m)
                 off_m = abs(norm2(here[0] - point[0], here[1] - point[1]) - away_m)
                 if best is None or off_m < best[0] - 1e-6:
@@ -471,8 +465,8 @@ class PersonPlacer:
             return None
         spot = best[1]
         lane = self._map.network.lane(spot.path.lane_id)
-        most_m = lane.arc_length_m - _KERB_M
-        return _Spot(spot.path, min(most_m, spot.arc_m + _NEXT_M * number))
+        most_m = lane.arc_length_m - KERB_M
+        return _Spot(spot.path, min(most_m, spot.arc_m + NEXT_M * number))
 
     def _nearest(self, point: tuple[float, float], number: int) -> _Spot | None:
         """Return the place on a sidewalk that is nearest to a point."""
@@ -482,8 +476,8 @@ class PersonPlacer:
         if path is None or away_m > _BESIDE_PLACE_M:
             return None
         arc_m, _ = lane.line.project(*point)
-        low, high = _KERB_M, max(_KERB_M, lane.arc_length_m - _KERB_M)
-        return _Spot(path, min(high, max(low, arc_m + _NEXT_M * number)))
+        low, high = KERB_M, max(KERB_M, lane.arc_length_m - KERB_M)
+        return _Spot(path, min(high, max(low, arc_m + NEXT_M * number)))
 
     def _onward(self, spot: _Spot, way_m: float) -> _Spot | str:
         """Return a walk that goes on along the street for a way (m)."""

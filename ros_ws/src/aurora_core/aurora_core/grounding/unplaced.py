@@ -32,6 +32,8 @@ _LACKS = {
     'of the vehicles, on their street; without the place or the distance one would fit',
     'far_kerb': 'where {who} is to step out there is no sidewalk on the other side of the street; '
     'beside another vehicle, or at another place, there would be one',
+    'away_from_place': 'where {who} is to be beside a vehicle it is not at its landmark; another '
+    'distance between them, or one of the two alone, would fit',
     'sidewalk': 'where {who} is to stand or walk there is no sidewalk; beside another vehicle, or '
     'at another distance, there would be one',
     'clearance': 'the UAV would pass too near to buildings on its way; a greater altitude would '
@@ -55,7 +57,7 @@ def lacked(reason: str, split: SceneSplit) -> str:
         split: Who was to be placed.
     """
     about = {'oncoming': split.oncoming}
-    about |= dict.fromkeys(('crosswalk', 'far_kerb', 'sidewalk'), split.persons)
+    about |= dict.fromkeys(('crosswalk', 'far_kerb', 'sidewalk', 'away_from_place'), split.persons)
     who = _listed([agent.id for agent in about.get(reason, ())])
     return _LACKS.get(reason, reason.replace('_', ' ')).format(who=who or 'somebody')
 

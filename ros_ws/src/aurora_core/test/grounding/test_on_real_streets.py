@@ -8,7 +8,7 @@ from collections.abc import Callable
 
 import pytest
 
-from aurora_core.grounding.persons import walk_end_m
+from aurora_core.grounding.walk_ends import walk_end_m
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.walk_path import kerb_to_kerb
 from aurora_core.outcomes.grounded import GroundedScenario
@@ -59,10 +59,11 @@ def test_a_speed_that_no_street_allows_is_driven_beyond_the_limit(
     (car,) = ground(read_prompt(prompt, name), name).agents
     limits = [
         map_of(name).network.lane(map_of(name).network.edge(edge).lane_ids[-1]).speed_limit_mps
-        for edge in car.edges[:3]
+        for edge in car.edges
     ]
     if beyond:
-        assert car.speed_factor * min(limits) >= mps - 0.05
+        assert car.speed_factor * min(limits[:3]) >= mps - 0.05
     else:
-        assert max(limits) >= mps - 0.05
+        assert max(limits[:3]) >= mps - 0.05
+        # Where it comes to a slower street it keeps its speed.
         assert car.speed_factor < mps / min(limits) + 0.2

@@ -10,7 +10,9 @@ from math import dist
 import pytest
 import shapely
 
+from aurora_core.geometry.polyline import Polyline
 from aurora_core.grounding.places import MapPlaces
+from aurora_core.knowledge.limits import Tolerances
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.outcomes.grounded import GroundedAgent, GroundedScenario, ReleaseOn
 from aurora_core.spec.scenario import ScenarioSpec
@@ -142,3 +144,30 @@ def test_a_distance_to_the_side_of_a_vehicle_is_kept_where_the_sidewalk_allows_i
     assert away_m == pytest.approx(8.0, abs=1.5)
     left_m = van.heading_x * (person.y_m - van.y_m) - van.heading_y * (person.x_m - van.x_m)
     assert left_m < -van.width_m / 2.0
+
+
+def test_who_walks_and_crosses_goes_on_far_enough_to_have_walked(
+    grounded: Ground, tolerances: Tolerances
+) -> None:
+    found, the_map = grounded(
+        'A pedestrian walks on the sidewalk and crosses the street after 20 seconds. A drone '
+        'tracks the pedestrian at 40 m.'
+    )
+    (person,) = _persons(found)
+    assert person.arrival_position_m is not None
+    lanes = [the_map.network.lane(f'{edge}_0').arc_length_m for edge in person.edges]
+    before_m = Polyline(person.route_xy_m).length_m - lanes[-1]
+    assert before_m + person.arrival_position_m >= tolerances.drive_distance_m + 1.0
+
+
+def test_who_is_at_a_landmark_and_ahead_of_a_vehicle_is_both(grounded: Ground) -> None:
+    found, the_map = grounded(
+        'A pedestrian waits near City Hall 30 m ahead of the ego car. The ego car drives.'
+    )
+    (person,) = _persons(found)
+    ego = next(a for a in found.agents if a.id == 'ego')
+    hall = MapPlaces(the_map).point('landmark:City Hall', (0.0, 0.0))
+    assert dist((person.x_m, person.y_m), hall) <= 50.0
+    assert (person.x_m - ego.x_m) * ego.heading_x + (
+        person.y_m - ego.y_m
+    ) * ego.heading_y == pytest.approx(30.0, abs=1.0)

@@ -1,0 +1,53 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Where persons stop at the end of their walks: nobody walks into who has arrived."""
+
+from __future__ import annotations
+
+from aurora_core.grounding.sites import SeatedPerson, Site
+from aurora_core.spec.vocabulary import BehaviorKind
+
+# Who waits stands this far before the end of the sidewalk (m), the next one behind the first.
+KERB_M = 0.6
+NEXT_M = 1.0
+
+# Who has crossed walks on this far (m), out of the way of the next one; who is said to walk, too,
+# goes so far in all: farther than shows that it does.
+_BEYOND_M = 6.0
+_WALKS_M = 24.0
+
+
+def arrival_m(site: Site, seat: SeatedPerson, goal_m: float, *, crosses: bool) -> float:
+    """Return where a walk ends on its last sidewalk (m).
+
+    Args:
+        site: With all of its persons.
+        seat: Of the one who walks.
+        goal_m: Length of the last sidewalk.
+        crosses: It crosses a street before.
+    """
+    group = [w for w in site.walkers if w.path.goal_lane_id == seat.path.goal_lane_id]
+    if crosses:
+        # The first one stands at the kerb and goes farthest.
+        first_m = min(max(_BEYOND_M, _walks_on_m(seat, goal_m)), goal_m / 2.0)
+        next_m = min(NEXT_M, (goal_m - KERB_M - first_m) / len(group))
+        return first_m + next_m * (len(group) - 1 - group.index(seat))
+    ahead = sum(w.arc_m > seat.arc_m for w in group)
+    return walk_end_m(goal_m, ahead, len(group))
+
+
+def _walks_on_m(seat: SeatedPerson, goal_m: float) -> float:
+    """Return how far on the last sidewalk one goes who is said to walk, beside crossing (m)."""
+    if all(b.kind is not BehaviorKind.WALK for b in seat.agent.behaviors):
+        return 0.0
+    before_m = seat.path.length_m - goal_m - seat.arc_m
+    return _WALKS_M - before_m
+
+
+def walk_end_m(goal_m: float, ahead: int, group: int) -> float:
+    """Return where somebody stops on a last sidewalk of a length (m), be it shorter than a step.
+
+    Of the `group` that stops there so many are `ahead`.
+    """
+    last_m = max(goal_m - KERB_M, goal_m / 2.0)
+    return last_m - min(NEXT_M, last_m / group) * ahead
