@@ -30,11 +30,11 @@ from aurora_core.grounding.sites import (
     LIMIT_SLACK_MPS,
     Site,
     brisk_lanes,
-    limits_mps,
     line_from,
     on_main_roads,
     with_another_lane,
 )
+from aurora_core.grounding.way_limits import limits_mps
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_model import MapModel

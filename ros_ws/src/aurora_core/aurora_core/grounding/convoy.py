@@ -83,12 +83,14 @@ class ConvoyMember:
         offset_m: From the origin, positive ahead.
         lane_shift: Lanes to the left of the origin.
         parked: It stands at the kerb, right of its lane.
+        bike_lane: It rides in the bicycle lane at the right of the street.
     """
 
     agent: GroundAgent
     offset_m: float
     lane_shift: int
     parked: bool = False
+    bike_lane: bool = False
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -120,6 +122,7 @@ def split_scene(
     types: Mapping[str, AgentTypeRecord] | None = None,
     *,
     apart: bool = False,
+    bike_lanes: bool = False,
 ) -> SceneSplit:
     """Sort the agents of a scene into convoy, free vehicles and persons.
 
@@ -129,6 +132,7 @@ def split_scene(
         types: Agent sizes; without them nobody needs room.
         apart: Who is bound to a place and related to nobody in the convoy has a road of its own.
             Else the convoy's is tried for all: there they are near each other.
+        bike_lanes: Bicycles ride in lanes of their own, where no lane is for all.
     """
     driving = [a for a in spec.agents if a.type not in (AgentType.PEDESTRIAN, AgentType.RSU)]
     ids = {a.id for a in driving}
@@ -188,19 +192,24 @@ def split_scene(
         targets |= {e.action.receiver for e in spec.events if isinstance(e.action, SendMessage)}
     tied = {i for t in ties for i in (t.agent, t.other)}
     groups: list[tuple[ConvoyMember, ...]] = []
+
+    def member(name: str, offset_m: float, shift: int) -> ConvoyMember:
+        rides = bike_lanes and _rides_beside(by_id[name])
+        return ConvoyMember(
+            agent=by_id[name],
+            offset_m=offset_m,
+            lane_shift=0 if rides else shift,
+            parked=name in distances.parked,
+            bike_lane=rides,
+        )
+
     for agent in vehicles:
         alone = {m.agent.id for members in groups for m in members}
         if agent.id in offsets.keys() | alone or agent.id not in targets | tied:
             continue
         group = _solve(agent.id, ties)
         if apart and any(bound_to_places(spec, by_id[i]) for i in group):
-            members = (
-                ConvoyMember(
-                    agent=by_id[i], offset_m=o, lane_shift=s, parked=i in distances.parked
-                )
-                for i, (o, s) in group.items()
-            )
-            groups.append(tuple(members))
+            groups.append(tuple(member(i, o, s) for i, (o, s) in group.items()))
             continue
         shift_m = _behind_m(group, offsets)
         # Nobody drives who stands in somebody's way: who is only told something stays where it
@@ -219,12 +228,7 @@ def split_scene(
     ]
     before, others = _before_place(vehicles, offsets, distances)
     unsupported += [f'{i}: {BEFORE}' for i in others]
-    convoy = tuple(
-        ConvoyMember(
-            agent=by_id[i], offset_m=offset, lane_shift=shift, parked=i in distances.parked
-        )
-        for i, (offset, shift) in offsets.items()
-    )
+    convoy = tuple(member(i, offset, shift) for i, (offset, shift) in offsets.items())
     free = tuple(a for a in vehicles if a.id not in places)
     return SceneSplit(
         groups=tuple(groups),
@@ -234,6 +238,16 @@ def split_scene(
         oncoming=oncoming,
         unsupported=tuple(unsupported),
         before=before,
+    )
+
+
+def _rides_beside(agent: GroundAgent) -> bool:
+    """Tell whether a bicycle lane, right of the others, is where a vehicle may be."""
+    elsewhere = (Relation.SAME_LANE, Relation.LEFT)
+    return (
+        agent.type is AgentType.BICYCLE
+        and not any(p.relation in elsewhere for p in agent.placements)
+        and all(b.kind is not BehaviorKind.PARK for b in agent.behaviors)
     )
 
 

@@ -17,7 +17,7 @@ from aurora_core.grounding.allowed import allowed_sites
 from aurora_core.grounding.apart import homes_m, layer_m, over_one_point, spacing_m, tight_m
 from aurora_core.grounding.bends import bends_between
 from aurora_core.grounding.columns import Column, climbs_to_m, columns, nearest_points
-from aurora_core.grounding.convoy import ConvoyMember, SceneSplit, split_scene
+from aurora_core.grounding.convoy import ConvoyMember, SceneSplit
 from aurora_core.grounding.flights import FlightPlanner
 from aurora_core.grounding.free_run import never_stops
 from aurora_core.grounding.goals import GoalFinder
@@ -48,6 +48,7 @@ from aurora_core.grounding.radio import link_score
 from aurora_core.grounding.realised import realised_values
 from aurora_core.grounding.shown_speed import LOOKED_S, all_show, room_for, shows_before
 from aurora_core.grounding.sites import Site, TriedSite, sites, tied_way_m
+from aurora_core.grounding.splits import splits
 from aurora_core.grounding.spots import SpotFinder
 from aurora_core.grounding.time_need import horizon_s
 from aurora_core.grounding.traffic import TrafficPlacer
@@ -148,13 +149,14 @@ class Grounder:
             tried: Takes every site that was looked at, in order; for pictures.
         """
         tried = [] if tried is None else tried
-        tolerance = self._tolerances.placement_vehicle_m
-        found = self._ground(spec, split_scene(spec, tolerance, self._types), seed, plan, tried)
-        if isinstance(found, GroundingFailure):
-            apart = split_scene(spec, tolerance, self._types, apart=True)
-            again = self._ground(spec, apart, seed, plan, tried) if apart.groups else found
-            found = found if isinstance(again, GroundingFailure) else again
-        return found
+        failure: GroundingFailure | None = None
+        for split in splits(spec, self._tolerances.placement_vehicle_m, self._types):
+            found = self._ground(spec, split, seed, plan, tried)
+            if not isinstance(found, GroundingFailure):
+                return found
+            failure = failure or found
+        assert failure is not None  # a scene has a split
+        return failure
 
     def _ground(
         self,

@@ -13,7 +13,8 @@ from dataclasses import dataclass
 
 from aurora_core.grounding.entries import stops_for
 from aurora_core.grounding.pace import PACED, in_emergency, own_speed_mps, stated_times_s
-from aurora_core.grounding.sites import SeatedAgent, Site, limits_mps, open_way_m
+from aurora_core.grounding.sites import SeatedAgent, Site
+from aurora_core.grounding.way_limits import limits_mps, open_way_m
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Tolerances
 from aurora_core.knowledge.road_network import RoadNetwork
@@ -217,6 +218,7 @@ class _Chase:
 
 def _share_a_lane(rear: SeatedAgent, front: SeatedAgent) -> bool:
     same = front.member.lane_shift == rear.member.lane_shift
+    same = same and front.member.bike_lane == rear.member.bike_lane
     return same and not front.member.parked and front.path.edge_ids == rear.path.edge_ids
 
 

@@ -22,6 +22,7 @@ from aurora_core.grounding.kerb import parked_pose
 from aurora_core.grounding.places import MapPlaces, has_point, nearest_to
 from aurora_core.grounding.routes import route_finder
 from aurora_core.grounding.ties import BeforePlace
+from aurora_core.grounding.way_limits import kept_lane, limits_mps
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.map_records import SpawnTable, may_stand
@@ -39,6 +40,9 @@ _SIDES = {BehaviorKind.TURN_LEFT: 'l', BehaviorKind.TURN_RIGHT: 'r'}
 
 # Class of a site without vehicles (a mission over a place needs a road only as an anchor).
 ANY_CLASS = 'passenger'
+
+# Class of who may ride in a lane of its own.
+BICYCLES = 'bicycle'
 
 # The route of who stands before a place passes its middle at most this far off (m): inside
 # the tolerance of that placement.
@@ -154,32 +158,6 @@ class Site:
         return int(turning[0]) + int((turning[1:] & ~turning[:-1]).sum())
 
 
-def open_way_m(path: RoutePath, low_m: float, high_m: float, apart_m: float) -> float:
-    """Return how much of a stretch of a path is farther than `apart_m` from every junction.
-
-    Args:
-        path: The path.
-        low_m: Where the stretch begins, arc length.
-        high_m: Where it ends.
-        apart_m: Distance from the ends of streets, metres.
-    """
-    streets = (s for s in path.segments if not s.is_internal)
-    return sum(
-        max(0.0, min(high_m, s.end_m - apart_m) - max(low_m, s.start_m + apart_m)) for s in streets
-    )
-
-
-def limits_mps(
-    network: RoadNetwork, path: RoutePath, start_m: float, way_m: float
-) -> tuple[float, ...]:
-    """Return the speed limits of the streets on a stretch of a path, from an arc length on."""
-    return tuple(
-        network.lane(s.lane_id).speed_limit_mps
-        for s in path.segments
-        if s.end_m > start_m and s.start_m < start_m + way_m and not s.is_internal
-    )
-
-
 def tied_way_m(spec: ScenarioSpec, settings: GroundingSettings) -> float:
     """Return how far a convoy gets while it is tracked or has to stay together (metres)."""
     tracked: dict[str | None, float] = {}  # by who is tracked, one UAV after the other
@@ -234,7 +212,9 @@ def sites(
         known = MapPlaces(map_model)
         centres = known.crosswalks if before.place is Place.CROSSWALK else known.intersections
     network = map_model.network
-    classes = sorted({types[m.agent.type.value].vclass for m in convoy}) or [ANY_CLASS]
+    beside = any(m.bike_lane for m in convoy)
+    driving = [m for m in convoy if not m.bike_lane]
+    classes = sorted({types[m.agent.type.value].vclass for m in driving}) or [ANY_CLASS]
     lanes = [
         lane
         for lane in network.driving_lanes(classes[0])
@@ -244,6 +224,8 @@ def sites(
         lanes = on_main_roads(lanes)
     if several_lanes:
         lanes = with_another_lane(lanes)
+    if beside:
+        lanes = [lane for lane in lanes if _has_bike_lane(network, lane)]
     lanes, least_mps = brisk_lanes(lanes, least_limit_mps)
     vclass = min(classes, key=lambda c: (len(network.driving_lanes(c)), c))
     finder = route_finder(network, vclass, least_mps)
@@ -286,6 +268,12 @@ def sites(
             if site is not None and _stands(network, site, spawns):
                 yield site
             arc_m += spacing_m
+
+
+def _has_bike_lane(network: RoadNetwork, lane: Lane) -> bool:
+    """Tell whether the next lane to the right is one for bicycles alone."""
+    right = None if lane.right_lane_id is None else network.lane(lane.right_lane_id)
+    return right is not None and BICYCLES in right.allows and ANY_CLASS not in right.allows
 
 
 def _stands(network: RoadNetwork, site: Site, spawns: SpawnTable | None) -> bool:
@@ -376,7 +364,7 @@ def _site(
     seated = []
     for member in convoy:
         record = types[member.agent.type.value]
-        path = path_of(record.vclass, member.lane_shift)
+        path = path_of(record.vclass, -1 if member.bike_lane else member.lane_shift)
         arc_m = origin_arc_m + member.offset_m
         if aside and _lets_pass(member.agent):
             own = path_of(record.vclass, member.lane_shift, lets_pass=True)
@@ -389,6 +377,8 @@ def _site(
         half_m = record.length_m / 2.0
         if arc_m - half_m < 0.0 or arc_m + half_m > path.length_m:
             return None
+        if member.lane_shift != 0:
+            path = kept_lane(network, path, arc_m + half_m, record.vclass)
         places = [path.lane_position_at(a) for a in (arc_m - half_m, arc_m, arc_m + half_m)]
         if any(network.lane(place[0]).is_internal for place in places):
             return None  # nobody starts inside a junction
@@ -405,7 +395,8 @@ def _site(
         )
     if _overlap(network, seated, types):
         return None
-    origin = path_of(types[convoy[0].agent.type.value].vclass if convoy else ANY_CLASS, 0)
+    leads = convoy and not convoy[0].bike_lane
+    origin = path_of(types[convoy[0].agent.type.value].vclass if leads else ANY_CLASS, 0)
     if origin is None or origin_arc_m > origin.length_m:
         return None
     if any(m.lane_shift != 0 for m in convoy) and not _abreast(network, origin, seated):
@@ -444,7 +435,9 @@ def _abreast(network: RoadNetwork, origin: RoutePath, seated: Sequence[SeatedAge
         x, y, _, _ = seat.path.position_at(seat.arc_m)
         _, aside_m = origin.line.project(x, y, near_s=seat.arc_m, window_m=_ABREAST_M)
         width_m = network.lane(seat.lane_id).width_m
-        if abs(aside_m - seat.member.lane_shift * width_m) > width_m / 2.0:
+        if not seat.member.bike_lane and (
+            abs(aside_m - seat.member.lane_shift * width_m) > width_m / 2.0
+        ):
             return False
     return True
 

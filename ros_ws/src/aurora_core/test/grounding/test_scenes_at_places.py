@@ -180,3 +180,35 @@ def test_who_is_at_the_intersection_is_ahead_of_who_stands_before_it(scenes: Sce
     ego, fire = found['ego'], found['firetruck1']
     assert (ego.heading_x, ego.heading_y) == pytest.approx((fire.heading_x, fire.heading_y))
     assert 60.0 < dist(xy(ego), xy(fire)) < 75.0
+
+
+def test_a_bicycle_beside_a_vehicle_rides_in_its_own_lane_where_the_street_has_one(
+    scenes: Scenes, map_of: Callable[[str], MapModel]
+) -> None:
+    station = 'landmark:Union Station'
+    found = scenes.agents(
+        'A van waits near Union Station. A truck drives 30 m ahead of the van. A bicycle is '
+        'beside the truck. A drone hovers over Union Station at 100 m.',
+        {},
+    )
+    truck, bicycle = found['truck1'], found['bicycle1']
+    lane = map_of('downtown').network.lane(bicycle.lane_id)
+    assert lane.allows == {'bicycle'}
+    dx, dy = bicycle.x_m - truck.x_m, bicycle.y_m - truck.y_m
+    right_m = dx * truck.heading_y - dy * truck.heading_x
+    assert dx * truck.heading_x + dy * truck.heading_y == pytest.approx(0.0, abs=0.5)
+    assert (truck.width_m + bicycle.width_m) / 2.0 < right_m < 4.0
+    street = MapPlaces(map_of('downtown')).point(station, (0.0, 0.0))
+    assert dist(xy(found['van1']), street) <= 50.0
+
+
+def test_two_abreast_find_room_where_one_of_their_lanes_turns_off_later(
+    scenes: Scenes, map_of: Callable[[str], MapModel], tolerances: Tolerances
+) -> None:
+    market = {'ego': [{'relation': 'at', 'of': 'landmark:Harbor Market'}]}
+    prompt = 'The ego car drives. A van drives in the lane to the left of the ego car.'
+    found = scenes.agents(prompt, market)
+    ego, van = found['ego'], found['van1']
+    assert map_of('downtown').network.lane(ego.lane_id).left_lane_id == van.lane_id
+    street = MapPlaces(map_of('downtown')).point('landmark:Harbor Market', (0.0, 0.0))
+    assert dist(xy(ego), street) <= tolerances.arrival_m

@@ -1,0 +1,34 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""How a scene may be split over streets and lanes: what is tried next where one way has no place.
+
+First all are on one street, in lanes that are for all of them. Where no street has room for that,
+those at places of their own are on roads of their own, and bicycles ride in their own lanes.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+from aurora_core.grounding.convoy import SceneSplit, split_scene
+from aurora_core.knowledge.agent_types import AgentTypeRecord
+from aurora_core.knowledge.limits import Tolerance
+from aurora_core.spec.scenario import ScenarioSpec
+
+
+def splits(
+    spec: ScenarioSpec, tolerance: Tolerance, types: Mapping[str, AgentTypeRecord]
+) -> Iterator[SceneSplit]:
+    """Yield the splits of a scene in the order in which they are tried.
+
+    Args:
+        spec: The request.
+        tolerance: Of placement distances.
+        types: Agent sizes.
+    """
+    yield split_scene(spec, tolerance, types)
+    for apart, bike_lanes in ((True, False), (False, True), (True, True)):
+        split = split_scene(spec, tolerance, types, apart=apart, bike_lanes=bike_lanes)
+        rides = any(m.bike_lane for group in (split.convoy, *split.groups) for m in group)
+        if bool(split.groups) == apart and rides == bike_lanes:
+            yield split
