@@ -18,7 +18,7 @@ from aurora_core.grounding.free_room import FreeRoom
 from aurora_core.grounding.free_run import free_run_m, needed_run_m
 from aurora_core.grounding.goals import GoalFinder, stop_after_m, stops
 from aurora_core.grounding.kerb import parked_pose
-from aurora_core.grounding.lane_changers import ORDERED_CHANGES, changes_lane, needs_another_lane
+from aurora_core.grounding.lane_changers import ORDERED_CHANGES, changes_lane
 from aurora_core.grounding.pace import (
     in_emergency,
     stated_speed_mps,
@@ -47,6 +47,9 @@ from aurora_core.spec.parameter import Bound
 from aurora_core.spec.parking import parks, parks_after, stands
 from aurora_core.spec.scenario import GroundAgent, ScenarioSpec
 from aurora_core.spec.vocabulary import Place
+
+# Whether any street allows a stated speed is looked for on so much of the way (m).
+_SHOWN_WAY_M = 500.0
 
 # Routes tried for one on which no signal is in the way.
 _RUNS_TRIED = 60
@@ -188,7 +191,7 @@ class AgentPlacer:
             lanes = on_main_roads(lanes)
         if any(p.of == Place.ROADSIDE for p in agent.placements):
             lanes = [lane for lane in lanes if self._is_outermost(lane, record.vclass)]
-        if needs_another_lane(spec, agent):
+        if changes_lane(spec, agent):
             lanes = with_another_lane(lanes)
         if not lanes:
             return None
@@ -249,12 +252,18 @@ class AgentPlacer:
     ) -> float:
         """Return the factor with which a stated speed is kept where the way does not allow it.
 
-        That is so where no street allows it, and where the way comes to a slower one later on.
+        That is so where no street allows it, and where the way comes to a slower one later on that
+        is long enough to be judged on; in a roundabout everybody slows down.
         """
         bounds = {b.speed_mps.bound for b in agent.behaviors if b.speed_mps is not None}
         if speed_mps is None or Bound.AT_MOST in bounds:
             return 0.0
-        least_mps = min(limits_mps(self._map.network, path, arc_m, speed_mps * self._run_s))
+        where = self._map.network, path, arc_m
+        limits = limits_mps(*where, _SHOWN_WAY_M)
+        if speed_mps <= max(limits) + LIMIT_SLACK_MPS:
+            room_m = 2.0 * self._tolerances.free_road_m
+            limits = limits_mps(*where, speed_mps * self._run_s, longer_m=room_m)
+        least_mps = min(limits, default=speed_mps)
         return speed_mps / least_mps if speed_mps > least_mps + LIMIT_SLACK_MPS else 0.0
 
     def _grounded(

@@ -16,6 +16,7 @@ import shapely
 from aurora_core.geometry.frames import heading_to_sumo_angle
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.awaited import awaited_at, leaving
+from aurora_core.grounding.entries import stops_for
 from aurora_core.grounding.pace import own_speed_mps
 from aurora_core.grounding.places import MapPlaces, arrivals, has_point
 from aurora_core.grounding.sites import SeatedAgent, Site
@@ -47,6 +48,9 @@ _WAY_M = (40.0, 260.0)
 
 # Who stops where no place is named does so after this way (m), or before the way ends.
 _STOP_AFTER_M = 60.0
+
+# Who stops for somebody who crosses stands so far before the middle of the crosswalk (m, bumper).
+_BEFORE_CROSSWALK_M = 4.0
 
 # What a stated speed takes to be reached, to show and to be lost again (m/s^2, s, m/s^2).
 _GAINS_MPS2, _SHOWS_S, _LOSES_MPS2 = 1.5, 8.0, 2.0
@@ -269,7 +273,24 @@ class GoalFinder:
                 point = self._point(bound, (x, y))
                 near = self._arc_near(seat, point, bound)
                 return near or self._arc_near(seat, point, bound, wide=True)
-        return self._open_arc(seat, seat.arc_m + stop_after_m(seat.agent))
+        after_m = seat.arc_m + stop_after_m(seat.agent)
+        if stops_for(spec, seat.agent):
+            after_m = min([after_m, *self._crossed_m(site, seat)])
+        return self._open_arc(seat, after_m)
+
+    def _crossed_m(self, site: Site, seat: SeatedAgent) -> Iterator[float]:
+        """Yield where on its way a vehicle stops before those who cross it (m)."""
+        half_m = self._types[seat.agent.type.value].length_m / 2.0
+        for walker in site.walkers:
+            if walker.path.crossing_id is None:
+                continue
+            kerb_m = self._map.network.lane(walker.path.lane_id).arc_length_m
+            arc_m, _ = seat.path.line.project(*walker.path.line.at(kerb_m)[:2])
+            arc_m -= half_m + _BEFORE_CROSSWALK_M
+            while arc_m > seat.arc_m and not self._is_open(seat, arc_m):
+                arc_m -= _STEP_M
+            if arc_m > seat.arc_m:
+                yield arc_m
 
     def _met_arc_m(
         self, spec: ScenarioSpec, anchor: tuple[float, float], seat: SeatedAgent

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import product
 
 from aurora_core.grounding.agents import AgentPlacer
 from aurora_core.grounding.airspace import Airspace
@@ -25,7 +26,8 @@ from aurora_core.grounding.groups import GroupPlacer
 from aurora_core.grounding.keep_out import kept_out
 from aurora_core.grounding.lane_changers import (
     changes_in_time,
-    needs_another_lane,
+    changes_lane,
+    needs_lane,
     share_with_another_lane,
 )
 from aurora_core.grounding.laps import Laps
@@ -70,8 +72,6 @@ from aurora_core.spec.scenario import GroundAgent, ScenarioSpec
 
 # Clearance that earns the full air score (m above the planned clearance).
 _GOOD_CLEARANCE_M = 15.0
-
-
 # A score that no later site can beat by more than rounding.
 _PERFECT = 1.0 - 1e-9
 # What is left of a road's score where a bend spoils a stated distance.
@@ -218,17 +218,11 @@ class Grounder:
             enough = scored >= self._settings.grounding.anchors_scored
             if best is not None and (enough or best.score.joint >= _PERFECT):
                 break
-            met = oncoming.seated(split.oncoming, site, run_m)
-            if isinstance(met, str):
-                rejected[met] += 1
-                tried.append(TriedSite.of(site, why=met))
-                continue
-            met = groups.seated(met)
-            if isinstance(met, str):
-                rejected[met] += 1
-                tried.append(TriedSite.of(site, why=met))
-                continue
-            peopled = persons.seated(spec, split.persons, met, run_s)
+            peopled = oncoming.seated(split.oncoming, site, run_m)
+            if not isinstance(peopled, str):
+                peopled = groups.seated(peopled)
+            if not isinstance(peopled, str):
+                peopled = persons.seated(spec, split.persons, peopled, run_s)
             if isinstance(peopled, str):
                 rejected[peopled] += 1
                 tried.append(TriedSite.of(site, why=peopled))
@@ -277,14 +271,19 @@ class Grounder:
     ) -> list[tuple[float, Site]]:
         """Return the sites by the score of their roads, on streets that allow a stated speed.
 
-        Where none of these has room, a vehicle drives faster than its street allows.
+        Where none of these has room, a vehicle drives faster than its street allows, and passes
+        who is parked without a second lane.
         """
-        grounding = self._settings.grounding
-        stated = fastest_stated_mps(spec, (m.agent for m in split.convoy), grounding.speeds)
-        ranked = self._ranked_on(spec, split, run_m, stated, least_limit_mps=stated)
-        if not ranked and stated > 0.0:
-            ranked = self._ranked_on(spec, split, run_m, stated, least_limit_mps=0.0)
-        return ranked
+        members = [m.agent for m in split.convoy]
+        stated = fastest_stated_mps(spec, members, self._settings.grounding.speeds)
+        several = [any(does(spec, a) for a in members) for does in (changes_lane, needs_lane)]
+        for least_mps, lanes in dict.fromkeys(product((stated, 0.0), several)):
+            ranked = self._ranked_on(
+                spec, split, run_m, stated, least_limit_mps=least_mps, several_lanes=lanes
+            )
+            if ranked:
+                return ranked
+        return []
 
     def _ranked_on(
         self,
@@ -294,10 +293,11 @@ class Grounder:
         stated: float,
         *,
         least_limit_mps: float,
+        several_lanes: bool,
     ) -> list[tuple[float, Site]]:
         grounding = self._settings.grounding
         way_m = tied_way_m(spec, grounding)
-        changing = {m.agent.id for m in split.convoy if needs_another_lane(spec, m.agent)}
+        changing = {m.agent.id for m in split.convoy if changes_lane(spec, m.agent)}
         need_m = way_m if len(split.convoy) > 1 else LOOKED_S / 2.0 * stated
         members = [m.agent for m in split.convoy]
         goes_on = never_stops(spec, members)
@@ -320,7 +320,7 @@ class Grounder:
                 self._goals.spacing_m(spec, grounding.anchor_spacing_m),
                 split.before,
                 least_limit_mps=least_limit_mps,
-                several_lanes=bool(changing),
+                several_lanes=several_lanes,
                 spawns=self._spawns,
                 goals=goals,
             )
@@ -346,7 +346,7 @@ class Grounder:
                 road *= room_for(stated, spec, site, self._tolerances)
             road *= max(_NEVER, shows_before(site, self._map.network, self._tolerances))
             for seat in site.seated:
-                if seat.agent.id in changing:
+                if several_lanes and seat.agent.id in changing:
                     pace_mps = own_speed_mps(seat.agent) or stated or wanted
                     road *= share_with_another_lane(self._map.network, seat, way_m, pace_mps)
                     in_time = changes_in_time(spec, self._map.network, seat, pace_mps)

@@ -12,7 +12,7 @@ from functools import partial
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.convoy import SIDES, ConvoyMember
 from aurora_core.grounding.goals import GoalFinder
-from aurora_core.grounding.lane_changers import needs_another_lane
+from aurora_core.grounding.lane_changers import needs_lane
 from aurora_core.grounding.pace import fastest_stated_mps
 from aurora_core.grounding.sites import SeatedAgent, Site, sites
 from aurora_core.grounding.ways_round import Point2
@@ -69,7 +69,7 @@ class GroupPlacer:
                     run_m,
                     goals.spacing_m(spec, settings.anchor_spacing_m),
                     least_limit_mps=least_mps,
-                    several_lanes=any(needs_another_lane(spec, m.agent) for m in group),
+                    several_lanes=any(needs_lane(spec, m.agent) for m in group),
                     goals=through,
                 )
             )

@@ -32,7 +32,7 @@ def changes_lane(spec: ScenarioSpec, agent: GroundAgent) -> bool:
     return _is_ordered(spec, agent) or (passes and keeps_to_lanes(agent))
 
 
-def needs_another_lane(spec: ScenarioSpec, agent: GroundAgent) -> bool:
+def needs_lane(spec: ScenarioSpec, agent: GroundAgent) -> bool:
     """Tell whether a vehicle has to change lane: who is parked is passed in one's own."""
     parked = {other.id for other in spec.agents if parks(spec, other)}
     passes = any(one == agent.id and other not in parked for one, other in overtakings(spec))

@@ -27,13 +27,24 @@ def open_way_m(path: RoutePath, low_m: float, high_m: float, apart_m: float) -> 
 
 
 def limits_mps(
-    network: RoadNetwork, path: RoutePath, start_m: float, way_m: float
+    network: RoadNetwork, path: RoutePath, start_m: float, way_m: float, *, longer_m: float = 0.0
 ) -> tuple[float, ...]:
-    """Return the speed limits of the streets on a stretch of a path, from an arc length on."""
+    """Return the speed limits of the streets on a stretch of a path.
+
+    Args:
+        network: Road network.
+        path: The path.
+        start_m: Where the stretch begins, arc length.
+        way_m: Its length.
+        longer_m: Only of streets that are longer.
+    """
     return tuple(
         network.lane(s.lane_id).speed_limit_mps
         for s in path.segments
-        if s.end_m > start_m and s.start_m < start_m + way_m and not s.is_internal
+        if s.end_m > start_m
+        and s.start_m < start_m + way_m
+        and s.end_m - s.start_m > longer_m
+        and not s.is_internal
     )
 
 

@@ -92,18 +92,21 @@ def test_of_two_that_would_stand_in_each_other_the_distance_that_fits_is_told(
     )
 
 
-@pytest.mark.parametrize(('parked', 'lanes'), [('is parked', 1), ('drives', 2)])
-def test_who_is_parked_is_passed_on_a_street_of_one_lane(
-    scenes: Scenes, map_of: Callable[[str], MapModel], parked: str, lanes: int
+def test_who_is_parked_is_passed_in_one_lane_where_the_place_has_no_other(
+    scenes: Scenes, map_of: Callable[[str], MapModel]
 ) -> None:
-    prompt = f'A bus {parked}. A car overtakes the bus. A drone tracks the car.'
-    bus = scenes.agents(prompt, {})['bus1']
     network = map_of('downtown').network
-    beside = network.edge(network.lane(bus.lane_id).edge_id).lane_ids
-    assert sum('passenger' in network.lane(name).allows for name in beside) >= lanes
-    if parked == 'is parked':
-        at_hall = {'bus1': [{'relation': 'parked_at', 'of': CITY_HALL}]}
-        assert scenes.agents(prompt, at_hall)['bus1'].parked
+
+    def lanes_beside(placed: Placed) -> int:
+        bus = scenes.agents(
+            'A bus is parked. A car overtakes the bus. A drone tracks the car.', placed
+        )['bus1']
+        assert bus.parked
+        edge = network.edge(network.lane(bus.lane_id).edge_id)
+        return sum('passenger' in network.lane(name).allows for name in edge.lane_ids)
+
+    assert lanes_beside({'bus1': [{'relation': 'parked_at', 'of': CITY_HALL}]}) == 1
+    assert lanes_beside({}) > 1
 
 
 def test_a_stated_speed_is_kept_where_the_way_comes_to_a_slower_street(

@@ -64,3 +64,23 @@ def test_who_stops_at_a_stated_time_shows_its_speed_before(agents: Agents, open_
 def test_who_is_oncoming_has_a_way_on_which_its_speed_shows(agents: Agents, open_m: Open) -> None:
     found = agents('The ego car follows a bus. An oncoming motorcycle drives at 13 m/s.')
     assert open_m(found['motorcycle1'], 57.0, 250.0) >= 2.0 * 13.0
+
+
+def test_who_stops_for_somebody_who_crosses_stops_before_the_crosswalk(
+    agents: Agents, map_of: Callable[[str], MapModel]
+) -> None:
+    found = agents(
+        'The ego car drives at 8 m/s and stops. When the ego is within 25 m of a pedestrian, the '
+        'pedestrian crosses at the crosswalk. A drone hovers over the crosswalk at 40 m.'
+    )
+    ego, person = found['ego'], found['pedestrian1']
+    lane = map_of('downtown').network.lane(ego.stop_lane_id)
+    x, y, hx, hy = lane.line.at(ego.stop_position_m)
+    way = Polyline(person.route_xy_m)
+    ahead_m = [
+        (px - x) * hx + (py - y) * hy
+        for px, py in (way.at(float(k))[:2] for k in range(int(way.length_m)))
+        if abs((py - y) * hx - (px - x) * hy) < 1.5
+    ]
+    assert ahead_m
+    assert ego.length_m / 2.0 < min(ahead_m) < 20.0
