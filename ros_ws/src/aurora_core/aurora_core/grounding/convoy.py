@@ -105,6 +105,7 @@ class SceneSplit:
         unsupported: Placements that grounding cannot realise yet, in words.
         before: The member that is placed before such a place, None when nobody is.
         groups: Vehicles at places of their own, on roads of their own.
+        anywhere: Who crosses and names no crosswalk goes straight over the street.
     """
 
     convoy: tuple[ConvoyMember, ...]
@@ -114,6 +115,7 @@ class SceneSplit:
     oncoming: tuple[GroundAgent, ...] = ()
     before: BeforePlace | None = None
     groups: tuple[tuple[ConvoyMember, ...], ...] = ()
+    anywhere: bool = False
 
 
 def split_scene(

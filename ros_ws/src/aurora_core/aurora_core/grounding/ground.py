@@ -222,7 +222,7 @@ class Grounder:
             if not isinstance(peopled, str):
                 peopled = groups.seated(peopled)
             if not isinstance(peopled, str):
-                peopled = persons.seated(spec, split.persons, peopled, run_s)
+                peopled = persons.seated(spec, split, peopled, run_s)
             if isinstance(peopled, str):
                 rejected[peopled] += 1
                 tried.append(TriedSite.of(site, why=peopled))

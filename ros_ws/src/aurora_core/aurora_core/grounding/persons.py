@@ -9,11 +9,12 @@ one. Who crosses stands at its kerb, or where a placement says on the sidewalk t
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import inf
 
 from aurora_core.geometry.kernel import norm2
 from aurora_core.grounding.awaited import awaited_at
+from aurora_core.grounding.convoy import SceneSplit
 from aurora_core.grounding.distances import DEFAULT_GAP_M
 from aurora_core.grounding.kerb import parked_pose
 from aurora_core.grounding.nearby import ALONG, SIDES, by_vehicles, in_order
@@ -26,6 +27,7 @@ from aurora_core.grounding.parked import parked_boxes, walks_into
 from aurora_core.grounding.places import MapPlaces, arrivals, has_point
 from aurora_core.grounding.releases import person_release
 from aurora_core.grounding.routes import route_finder
+from aurora_core.grounding.sidewalk_spots import Spot, at_distance, nearest_spot
 from aurora_core.grounding.sites import (
     ANY_CLASS,
     SeatedAgent,
@@ -33,7 +35,7 @@ from aurora_core.grounding.sites import (
     Site,
     line_from,
 )
-from aurora_core.grounding.stepping_out import FarKerb, steps_out
+from aurora_core.grounding.stepping_out import FarKerb, names_crosswalk, steps_out
 from aurora_core.grounding.walk_ends import KERB_M, NEXT_M, arrival_m
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Tolerances
@@ -75,28 +77,19 @@ _STOP_AFTER_M = 15.0
 # Vehicles have at least this way to a crosswalk that a person uses, and at most that (m).
 _CROSSWALK_AHEAD_M = (20.0, 120.0)
 
+# Who is placed to nobody and crosses where no crosswalk is does so that far ahead of them (m).
+_STEPS_OUT_AHEAD_M = 60.0
+
 # In front of the bumper of a vehicle that waits there is so much room to the middle of one (m).
 _IN_FRONT_M = 3.5
 
 # The crosswalk lies on the way of the vehicles when it is no farther off it (m).
 _ON_WAY_M = 10.0
 
-# Of a place, the sidewalk is at most so far away (m).
-_BESIDE_PLACE_M = 50.0
-
 # Who crosses the street in front of a vehicle.
 _BEFORE_IT = (Relation.AHEAD, Relation.BEFORE)
 # Who is to cross walks no farther than this to the crosswalk (m): it has to be seen to.
 _TO_CROSSWALK_M = 20.0
-
-
-@dataclass(frozen=True, slots=True)
-class _Spot:
-    """A walk, and where it begins (m along it, and left of its middle)."""
-
-    path: WalkPath
-    arc_m: float
-    lateral_m: float = 0.0
 
 
 def crosses(spec: ScenarioSpec, agent: GroundAgent) -> bool:
@@ -138,18 +131,21 @@ class PersonPlacer:
         self._kerbs = FarKerb(map_model.network)
 
     def seated(
-        self, spec: ScenarioSpec, persons: tuple[GroundAgent, ...], site: Site, run_s: float
+        self, spec: ScenarioSpec, split: SceneSplit, site: Site, run_s: float
     ) -> Site | str:
         """Return a site with its persons, or what it lacks.
 
         Args:
             spec: The request.
-            persons: Who is to be placed.
+            split: Who is to be placed.
             site: Where the vehicles stand.
             run_s: How long they may walk.
         """
-        for number, agent in enumerate(in_order(persons)):
-            spot = self._spot(spec, agent, site, run_s, number)
+        for number, agent in enumerate(in_order(split.persons)):
+            if split.anywhere and crosses(spec, agent) and not names_crosswalk(agent):
+                spot = self._over_street(spec, agent, site, number)
+            else:
+                spot = self._spot(spec, agent, site, run_s, number)
             if isinstance(spot, str):
                 return spot
             walker = SeatedPerson(
@@ -218,14 +214,13 @@ class PersonPlacer:
 
     def _spot(
         self, spec: ScenarioSpec, agent: GroundAgent, site: Site, run_s: float, number: int
-    ) -> _Spot | str:
+    ) -> Spot | str:
         """Return where a person stands and walks, or what is missing there."""
         placed = self._beside_vehicle(spec, agent, site, number)
-        if isinstance(placed, _Spot) and not self._is_at_landmarks(agent, placed):
+        if isinstance(placed, Spot) and not self._is_at_landmarks(agent, placed):
             return 'away_from_place'
-        if isinstance(placed, _Spot) and crosses(spec, agent) and steps_out(spec, agent):
-            way = self._kerbs.way(placed.path, placed.arc_m)
-            return 'far_kerb' if way is None else _Spot(way, 0.0)
+        if isinstance(placed, Spot) and crosses(spec, agent) and steps_out(spec, agent):
+            return self._over_street(spec, agent, site, number)
         if crosses(spec, agent):
             # Without a stated distance the crosswalk says how far ahead of the vehicle that is.
             stated = any(
@@ -248,9 +243,24 @@ class PersonPlacer:
         way_m = (own_speed_mps(agent) or self._style.walking_mps) * run_s
         return self._onward(placed, way_m)
 
+    def _over_street(
+        self, spec: ScenarioSpec, agent: GroundAgent, site: Site, number: int
+    ) -> Spot | str:
+        """Return the way straight over the street from where a person is."""
+        placed = self._beside_vehicle(spec, agent, site, number)
+        if placed is None and site.seated and not any(has_point(p.of) for p in agent.placements):
+            front = max(site.seated, key=lambda s: s.arc_m)
+            placed = self._along(front, _STEPS_OUT_AHEAD_M, number)
+        elif placed is None:
+            placed = self._at_place(spec, agent, site, number)
+        if not isinstance(placed, Spot):
+            return placed or 'sidewalk'
+        way = self._kerbs.way(placed.path, placed.arc_m)
+        return 'far_kerb' if way is None else Spot(way, 0.0)
+
     def _crossing(
-        self, site: Site, placed: _Spot | str | None, number: int, back_m: float
-    ) -> _Spot | str:
+        self, site: Site, placed: Spot | str | None, number: int, back_m: float
+    ) -> Spot | str:
         """Return the walk over the crosswalk of a site, begun so far before it (m)."""
         x, y, _, _ = site.origin()
         crossing = self._places.crossing_near((x, y))
@@ -263,13 +273,13 @@ class PersonPlacer:
         if placed is not None:
             same = placed.path.lane_id == path.lane_id
             near = first.arc_length_m - placed.arc_m <= _TO_CROSSWALK_M
-            return _Spot(path, placed.arc_m) if same and near else 'crosswalk'
+            return Spot(path, placed.arc_m) if same and near else 'crosswalk'
         if site.seated and not self._ahead(site, path.line.at(first.arc_length_m)[:2]):
             return 'crosswalk'
         begin_m = first.arc_length_m - back_m - NEXT_M * number
         if begin_m < 0.0 and back_m > KERB_M:
             return 'crosswalk'
-        return _Spot(path, max(0.0, begin_m))
+        return Spot(path, max(0.0, begin_m))
 
     def _ahead(self, site: Site, point: tuple[float, float]) -> bool:
         """Tell whether a point lies on the way of the vehicles, ahead of all of them."""
@@ -287,7 +297,7 @@ class PersonPlacer:
 
     def _beside_vehicle(
         self, spec: ScenarioSpec, agent: GroundAgent, site: Site, number: int
-    ) -> _Spot | str | None:
+    ) -> Spot | str | None:
         """Return the spot that a placement to a vehicle gives, None where there is no such."""
         for placement in (*agent.placements, *by_vehicles(spec, agent)):
             seat = site.seat(placement.of or '')
@@ -315,7 +325,7 @@ class PersonPlacer:
                 return self._along(seat, within_m + room_m, number) or 'sidewalk'
         return None
 
-    def _is_at_landmarks(self, agent: GroundAgent, spot: _Spot) -> bool:
+    def _is_at_landmarks(self, agent: GroundAgent, spot: Spot) -> bool:
         """Tell whether who is placed to a vehicle is at the landmarks where it is to be, too."""
         x, y, _, _ = spot.path.position_at(spot.arc_m)
         for placement in agent.placements:
@@ -329,7 +339,7 @@ class PersonPlacer:
                     return False
         return True
 
-    def _abreast_of(self, seat: SeatedPerson, relation: Relation) -> _Spot:
+    def _abreast_of(self, seat: SeatedPerson, relation: Relation) -> Spot:
         """Return the spot beside a person, in the same walk."""
         abreast_m = self._style.abreast_m
         side_m = abreast_m if relation is not Relation.RIGHT else -abreast_m
@@ -338,7 +348,7 @@ class PersonPlacer:
         free = relation not in (Relation.LEFT, Relation.RIGHT)
         if free and abs(lateral_m) > 0.5 * width_m - KERB_M:
             lateral_m = seat.lateral_m - side_m
-        return _Spot(seat.path, seat.arc_m, lateral_m)
+        return Spot(seat.path, seat.arc_m, lateral_m)
 
     def _near_m(self, seat: SeatedAgent | SeatedPerson, free: Parameter | None) -> float:
         """Return how far from another agent somebody is of whom nobody says it (m).
@@ -360,7 +370,7 @@ class PersonPlacer:
         most_off_m: float,
         *,
         left: bool = False,
-    ) -> _Spot | None:
+    ) -> Spot | None:
         """Return the spot on the sidewalk that is so far from another one, ahead of it.
 
         None where that is farther off than `most_off_m`.
@@ -370,7 +380,7 @@ class PersonPlacer:
             record = self._types[seat.agent.type.value]
             pose = parked_pose(pose, self._map.network.lane(seat.lane_id), record)
         x, y, _, _ = pose
-        best: tuple[float, _Spot] | None = None
+        best: tuple[float, Spot] | None = None
         for step in range(round(stated_m / _STEP_M) + 1):
             spot = self._along(seat, stated_m - step * _STEP_M, 0, left=left)
             if spot is not None:
@@ -387,7 +397,7 @@ class PersonPlacer:
         number: int,
         *,
         left: bool = False,
-    ) -> _Spot | None:
+    ) -> Spot | None:
         """Return the sidewalk abreast of a point on somebody's way: right of it, or `left`."""
         arc_m = seat.arc_m + away_m + NEXT_M * number
         if not 0.0 <= arc_m <= seat.path.length_m:
@@ -402,7 +412,7 @@ class PersonPlacer:
             return None
         spot = self._abreast(edge, (x, y))
         path = walk_along(self._map.network, (edge,))
-        return None if spot is None or path is None else _Spot(path, spot)
+        return None if spot is None or path is None else Spot(path, spot)
 
     def _abreast(self, edge_id: str, point: tuple[float, float]) -> float | None:
         """Return where on the sidewalk of an edge (m) one is abreast of a point on its road."""
@@ -415,7 +425,7 @@ class PersonPlacer:
 
     def _at_place(
         self, spec: ScenarioSpec, agent: GroundAgent, site: Site, number: int
-    ) -> _Spot | None:
+    ) -> Spot | None:
         """Return the spot at the place that the request names, else beside the anchor."""
         x, y, _, _ = site.origin()
         names = [p.of for p in agent.placements] + [b.target for b in agent.behaviors]
@@ -427,7 +437,9 @@ class PersonPlacer:
         }
         for name in names:
             if name is not None and name in stated and has_point(name):
-                return self._at_distance(self._places.itself(name, (x, y)), stated[name], number)
+                return at_distance(
+                    self._map.network, self._places.itself(name, (x, y)), stated[name], number
+                )
             if name == Place.CROSSWALK:
                 crossing = self._places.crossing_near((x, y))
                 path = None if crossing is None else kerb_to_kerb(self._map.network, crossing)
@@ -436,54 +448,19 @@ class PersonPlacer:
                 lane = self._map.network.lane(path.lane_id)
                 back_m = KERB_M + NEXT_M * number
                 walk = walk_along(self._map.network, path.edge_ids[:1])
-                return None if walk is None else _Spot(walk, max(0.0, lane.arc_length_m - back_m))
+                return None if walk is None else Spot(walk, max(0.0, lane.arc_length_m - back_m))
             if name is not None and has_point(name):
-                return self._nearest(self._places.point(name, (x, y)), number)
+                return nearest_spot(self._map.network, self._places.point(name, (x, y)), number)
         if site.seated:
             front = max(site.seated, key=lambda s: s.arc_m)
             return self._along(front, DEFAULT_GAP_M, number)
-        return self._nearest((x, y), number)
+        return nearest_spot(self._map.network, (x, y), number)
 
-    def _at_distance(self, point: tuple[float, float], away_m: float, number: int) -> _Spot | None:
-        """Return the place on a sidewalk that is so far from a point, the next one beside it."""
-        best: tuple[float, _Spot] | None = None
-        for lane in self._map.network.sidewalks:
-            x0, y0 = lane.polyline[0]
-            if norm2(x0 - point[0], y0 - point[1]) > away_m + lane.arc_length_m + 1.0:
-                continue
-            path = walk_along(self._map.network, (lane.edge_id,))
-            if path is None or path.lane_id != lane.id:
-                continue
-            count = int(max(0.0, lane.arc_length_m - 2.0 * KERB_M) / _STEP_M) + 1
-            for k in range(count):
-                arc_m = KERB_M + k * _STEP_M
-                here = lane.line.at(arc_m)
-                off_m = abs(norm2(here[0] - point[0], here[1] - point[1]) - away_m)
-                if best is None or off_m < best[0] - 1e-6:
-                    best = off_m, _Spot(path, arc_m)
-        if best is None or best[0] > _STEP_M:
-            return None
-        spot = best[1]
-        lane = self._map.network.lane(spot.path.lane_id)
-        most_m = lane.arc_length_m - KERB_M
-        return _Spot(spot.path, min(most_m, spot.arc_m + NEXT_M * number))
-
-    def _nearest(self, point: tuple[float, float], number: int) -> _Spot | None:
-        """Return the place on a sidewalk that is nearest to a point."""
-        lane_id, _, away_m = self._map.network.nearest_lane(*point, 'pedestrian')
-        lane = self._map.network.lane(lane_id)
-        path = walk_along(self._map.network, (lane.edge_id,))
-        if path is None or away_m > _BESIDE_PLACE_M:
-            return None
-        arc_m, _ = lane.line.project(*point)
-        low, high = KERB_M, max(KERB_M, lane.arc_length_m - KERB_M)
-        return _Spot(path, min(high, max(low, arc_m + NEXT_M * number)))
-
-    def _onward(self, spot: _Spot, way_m: float) -> _Spot | str:
+    def _onward(self, spot: Spot, way_m: float) -> Spot | str:
         """Return a walk that goes on along the street for a way (m)."""
         edges = self._finder.straight_route(spot.path.edge_ids[0], spot.arc_m + way_m)
         path = walk_along(self._map.network, edges) if edges else None
-        return 'sidewalk' if path is None else _Spot(path, spot.arc_m, spot.lateral_m)
+        return 'sidewalk' if path is None else Spot(path, spot.arc_m, spot.lateral_m)
 
 
 def _goes(spec: ScenarioSpec, agent: GroundAgent) -> bool:

@@ -3,14 +3,18 @@
 """How a scene may be split over streets and lanes: what is tried next where one way has no place.
 
 First all are on one street, in lanes that are for all of them. Where no street has room for that,
-those at places of their own are on roads of their own, and bicycles ride in their own lanes.
+those at places of their own are on roads of their own, and bicycles ride in their own lanes. Last
+of all, who crosses does so where no crosswalk is.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 
 from aurora_core.grounding.convoy import SceneSplit, split_scene
+from aurora_core.grounding.persons import crosses
+from aurora_core.grounding.stepping_out import names_crosswalk
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Tolerance
 from aurora_core.spec.scenario import ScenarioSpec
@@ -26,9 +30,12 @@ def splits(
         tolerance: Of placement distances.
         types: Agent sizes.
     """
-    yield split_scene(spec, tolerance, types)
+    found = [split_scene(spec, tolerance, types)]
     for apart, bike_lanes in ((True, False), (False, True), (True, True)):
         split = split_scene(spec, tolerance, types, apart=apart, bike_lanes=bike_lanes)
         rides = any(m.bike_lane for group in (split.convoy, *split.groups) for m in group)
         if bool(split.groups) == apart and rides == bike_lanes:
-            yield split
+            found.append(split)
+    yield from found
+    if any(crosses(spec, a) and not names_crosswalk(a) for a in found[0].persons):
+        yield from (replace(split, anywhere=True) for split in found)

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Who steps out beside a parked vehicle crosses right there, wherever the vehicle stands.
 
-The way is straight over the street to the sidewalk on the other side.
+The way is straight over the street to the sidewalk on the other side. So it is for everybody who
+names no crosswalk, where none is in place.
 """
 
 from __future__ import annotations
@@ -25,9 +26,14 @@ _FROM_END_M = 3.0
 
 def steps_out(spec: ScenarioSpec, agent: GroundAgent) -> bool:
     """Tell whether somebody who crosses is placed by a parked vehicle, and at no crosswalk."""
-    named = {b.target for b in agent.behaviors} | {p.of for p in agent.placements}
     parked = {a.id for a in spec.agents if a.id != agent.id and parks(spec, a)}
-    return Place.CROSSWALK not in named and any(p.of in parked for p in agent.placements)
+    return not names_crosswalk(agent) and any(p.of in parked for p in agent.placements)
+
+
+def names_crosswalk(agent: GroundAgent) -> bool:
+    """Tell whether it is said of somebody that it is at, or goes over, the crosswalk."""
+    named = {b.target for b in agent.behaviors} | {p.of for p in agent.placements}
+    return Place.CROSSWALK in named
 
 
 class FarKerb:

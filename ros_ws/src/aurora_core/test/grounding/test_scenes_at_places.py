@@ -8,6 +8,7 @@ from collections.abc import Callable, Mapping, Sequence
 from math import dist
 from typing import Any
 
+import numpy as np
 import pytest
 
 from aurora_core.conditions.capabilities import unsupported
@@ -215,3 +216,22 @@ def test_two_abreast_find_room_where_one_of_their_lanes_turns_off_later(
     assert map_of('downtown').network.lane(ego.lane_id).left_lane_id == van.lane_id
     street = MapPlaces(map_of('downtown')).point('landmark:Harbor Market', (0.0, 0.0))
     assert dist(xy(ego), street) <= tolerances.arrival_m
+
+
+def test_who_crosses_where_no_crosswalk_is_goes_straight_over_the_street(scenes: Scenes) -> None:
+    prompt = (
+        'A bus waits at Union Station. A pedestrian crosses {} 10 m in front of the bus. A drone '
+        'hovers over Union Station at 60 m.'
+    )
+    found = scenes.agents(prompt.format('the street'), {})
+    bus, person = found['bus1'], found['pedestrian1']
+    way = np.array(person.way_xy_m)
+    dx, dy = (way - [bus.x_m, bus.y_m]).T
+    # From one side of the bus's way to the other, 10 m before it.
+    along_m = dx * bus.heading_x + dy * bus.heading_y
+    left_m = dy * bus.heading_x - dx * bus.heading_y
+    assert along_m == pytest.approx([10.0] * len(way), abs=1.0)
+    assert left_m[0] * left_m[-1] < 0.0
+    # Who is to use a crosswalk needs one.
+    failure = scenes.failure(prompt.format('at the crosswalk'), {})
+    assert 'no crosswalk' in failure.words
