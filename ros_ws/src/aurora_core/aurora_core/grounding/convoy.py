@@ -149,6 +149,7 @@ def split_scene(
     unsupported: list[str] = []
     by_id = {a.id: a for a in vehicles}
     speeds = {a.id: v for a in spec.agents if (v := own_speed_mps(a)) is not None}
+    parked = {a.id for a in vehicles if parks(spec, a)}
     distances = Distances(
         tolerance=tolerance,
         meetings=encounters(spec),
@@ -157,7 +158,8 @@ def split_scene(
         approaches=frozenset(map(frozenset, approaches(spec))),
         oncoming=frozenset(a.id for a in oncoming),
         persons=frozenset(a.id for a in persons),
-        parked=frozenset(a.id for a in vehicles if parks(spec, a)),
+        parked=frozenset(parked),
+        standing=frozenset(a.id for a in vehicles if a.id in parked or stands(a)),
         lengths_m={a.id: types[a.type.value].length_m for a in vehicles} if types else {},
     )
     passing = passing_pairs(spec)
@@ -366,12 +368,12 @@ def _ties(
             Tie(
                 agent.id,
                 meeting.other,
-                -distances.between(agent.id, meeting.other, None),
+                distances.before_meeting_m(agent.id, meeting.other),
                 0,
                 guess=True,
             )
             for meeting in distances.meetings
-            # Nothing says where the actor is: it comes from behind.
+            # Nothing says where the actor is.
             if meeting.actor == agent.id and meeting.other in by_id
         ][:1]
         or [
@@ -427,7 +429,10 @@ def _placed(
     # "In the same lane, 30 m behind it" says the lane once and the place once.
     exact = [p for p in along if p.relation is not Relation.SAME_LANE] or along[:1]
     if not exact:
-        return [Tie(agent, other, 0.0, shift)]
+        # Lanes are told, and not how far along them: those who are to meet start apart.
+        lanes = all(p.relation is Relation.ADJACENT_LANE for p in placements)
+        apart_m = distances.before_meeting_m(agent, other) if lanes else 0.0
+        return [Tie(agent, other, apart_m, shift)]
     return [
         Tie(
             agent,

@@ -56,6 +56,7 @@ class Distances:
         oncoming: Ids of those in the other direction.
         persons: Ids.
         parked: Ids of those who stand at the kerb.
+        standing: Ids of those who stand all along, wherever.
         lengths_m: Of the vehicles; 0 of whom it does not know.
     """
 
@@ -67,6 +68,7 @@ class Distances:
     oncoming: frozenset[str]
     persons: frozenset[str]
     parked: frozenset[str]
+    standing: frozenset[str]
     lengths_m: Mapping[str, float]
 
     def lanes_between(self, agent: str, other: str, placement: Placement) -> int:
@@ -116,6 +118,18 @@ class Distances:
             return 0.0
         half_m = (self.lengths_m.get(agent, 0.0) + self.lengths_m.get(other, 0.0)) / 2.0
         return half_m + BUMPERS_M
+
+    def before_meeting_m(self, agent: str, other: str) -> float:
+        """Return how far ahead of another one an agent starts that meets it, metres.
+
+        Whom the event names first comes from behind, unless it stands; 0 where they do not meet.
+        """
+        met = next((m for m in self.meetings if {m.actor, m.other} == {agent, other}), None)
+        if met is None:
+            return 0.0
+        waits = met.actor in self.standing and met.other not in self.standing
+        comes = met.other if waits else met.actor
+        return self.between(agent, other, None) * (-1.0 if agent == comes else 1.0)
 
     def between(self, agent: str, other: str | None, stated: Parameter | None) -> float:
         """Return a distance, metres; a free one leaves room for an encounter."""

@@ -11,6 +11,7 @@ from aurora_core.grounding.kept_gaps import kept_gaps
 from aurora_core.grounding.lane_changers import changes_lane
 from aurora_core.grounding.pace import (
     PACED,
+    Encounter,
     approaches,
     convoy_pace_mps,
     encounters,
@@ -26,6 +27,7 @@ from aurora_core.knowledge.limits import Limits
 from aurora_core.knowledge.road_network import RoadNetwork
 from aurora_core.knowledge.settings import Settings, SpeedSettings
 from aurora_core.spec.own_events import let_cross, overtakings
+from aurora_core.spec.parking import stands
 from aurora_core.spec.scenario import GroundAgent, ScenarioSpec
 from aurora_core.spec.vocabulary import BehaviorKind, MissionMode
 
@@ -128,14 +130,17 @@ class ConvoyStyles:
         chased = self._settings.grounding.chased_speed_factor
         factor, close = self._factor, False
         for meeting in self._meetings:
-            pair = [self._seats.get(meeting.actor), self._seats.get(meeting.other)]
-            if None in pair or agent.id not in (meeting.actor, meeting.other):
+            if agent.id not in (meeting.actor, meeting.other):
                 continue
-            front = max((s for s in pair if s is not None), key=lambda s: s.arc_m)
+            front = self._to_catch_up_with(meeting)
+            if front is None:
+                continue
             # A stated speed stays: who comes up behind has to be faster then.
             bound = own_speed_mps(front.member.agent) is not None
             if front.member.agent.id == agent.id:
                 factor *= 1.0 if bound else chased
+                if not bound:
+                    factor = min(factor, chased * self._top_share(meeting, agent.id))
             else:
                 factor /= chased if bound and own_speed_mps(agent) is None else 1.0
                 close = meeting.within_m <= self._settings.grounding.close_encounter_m
@@ -159,6 +164,20 @@ class ConvoyStyles:
                     gap.acceleration_mps2, style.get('gentle_mps2', gap.acceleration_mps2)
                 )
         return style
+
+    def _to_catch_up_with(self, meeting: Encounter) -> SeatedAgent | None:
+        """Return the front one of two that are to meet, None where nobody flees from the other."""
+        one, other = self._seats.get(meeting.actor), self._seats.get(meeting.other)
+        if one is None or other is None or one.path.edge_ids != other.path.edge_ids:
+            return None
+        front = max(one, other, key=lambda seat: seat.arc_m)
+        return None if front.member.parked or stands(front.agent) else front
+
+    def _top_share(self, meeting: Encounter, front: str) -> float:
+        """Return the share of the limit that whoever comes up behind drives of its own accord."""
+        behind = meeting.other if meeting.actor == front else meeting.actor
+        record = self._types[self._seats[behind].agent.type.value]
+        return min(1.0, (record.desired_speed_mps or self._limit_mps) / self._limit_mps)
 
     def _passing_style(self, agent: GroundAgent) -> dict[str, float]:
         """Return what lets those who overtake be faster than those who are overtaken.

@@ -13,7 +13,7 @@ from dataclasses import replace
 from math import inf
 
 from aurora_core.geometry.kernel import norm2
-from aurora_core.grounding.awaited import awaited_at
+from aurora_core.grounding.awaited import awaited_at, bound_to_places
 from aurora_core.grounding.convoy import SceneSplit
 from aurora_core.grounding.distances import DEFAULT_GAP_M
 from aurora_core.grounding.kerb import parked_pose
@@ -305,6 +305,8 @@ class PersonPlacer:
                 continue
             stated = placement.distance_m
             told = stated is not None and stated.provenance is Provenance.EXPLICIT
+            if not told and placement.relation in _BEFORE_IT and _does_at_a_place(agent):
+                continue  # which is ahead of the vehicles
             left = placement.relation is Relation.LEFT
             aside = placement.relation in SIDES and isinstance(seat, SeatedAgent)
             if told and stated is not None and (aside or placement.relation is Relation.NEAR):
@@ -313,16 +315,17 @@ class PersonPlacer:
                 return self._so_near(seat, aimed_m, off_m, left=left) or 'sidewalk'
             sign = ALONG[placement.relation]
             away_m = sign * (stated.value if told and stated else self._near_m(seat, stated))
+            if sign > 0.0 and not told and isinstance(seat, SeatedAgent):
+                away_m = max([away_m, *_met_m(spec, agent, seat)])
             if isinstance(seat, SeatedPerson) and sign == 0.0:
                 return self._abreast_of(seat, placement.relation)
             return self._along(seat, away_m, 0, left=left) or 'sidewalk'
-        if agent.placements or crosses(spec, agent):
+        elsewhere = any(p.relation is not Relation.ON for p in agent.placements)
+        if elsewhere or bound_to_places(spec, agent) or crosses(spec, agent):
             return None
-        for person, other, within_m in met_persons(spec):
-            seat = site.seat(other)
-            if person is agent and seat is not None:
-                room_m = encounter_room_m(own_speed_mps(seat.agent))
-                return self._along(seat, within_m + room_m, number) or 'sidewalk'
+        for seat in site.seated:
+            for away_m in _met_m(spec, agent, seat):
+                return self._along(seat, away_m, number) or 'sidewalk'
         return None
 
     def _is_at_landmarks(self, agent: GroundAgent, spot: Spot) -> bool:
@@ -468,3 +471,14 @@ def _goes(spec: ScenarioSpec, agent: GroundAgent) -> bool:
     if crosses(spec, agent) or sets_off(spec.events, agent.id) is not None:
         return True
     return bool(agent.behaviors) and not stands(agent)
+
+
+def _met_m(spec: ScenarioSpec, person: GroundAgent, seat: SeatedAgent) -> Iterator[float]:
+    """Yield how far ahead of a vehicle a person is that it is to come near, metres."""
+    for met, other, within_m in met_persons(spec):
+        if met.id == person.id and other == seat.agent.id:
+            yield within_m + encounter_room_m(own_speed_mps(seat.agent))
+
+
+def _does_at_a_place(person: GroundAgent) -> bool:
+    return any(has_point(b.target) for b in person.behaviors)

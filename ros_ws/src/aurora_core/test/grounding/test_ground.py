@@ -373,9 +373,8 @@ def test_what_has_no_place_fails_with_its_reason(
     ('prompt', 'told'),
     [
         (
-            'A truck is to the left of the ego car and waits at the intersection. The ego car '
-            'drives to Mercy Hospital.',
-            ('truck1', 'ego', 'would'),
+            'The ego car is at Union Station. A truck is 12 m behind the ego car at City Hall.',
+            ('ego at Union Station', 'truck1', 'would'),
         ),
         # Left alone, the van would start before the beginning of its street.
         (
