@@ -154,10 +154,10 @@ class PersonPlacer:
             way_m = _SHORT_WAY_M if _goes(spec, agent) else 0.0
             seats = (*site.seated, *site.others)
             parked = parked_boxes(spec, seats, self._map.network, self._types)
-            if not self._walked(spot.path) or walks_into(
-                parked, walker, way_m, self._style.body_m
-            ):
+            if not self._walked(spot.path):
                 return 'sidewalk'
+            if walks_into(parked, walker, way_m, self._style.body_m):
+                return 'blocked'
             site = replace(site, walkers=(*site.walkers, walker))
         return site
 

@@ -14,6 +14,7 @@ from itertools import combinations
 from aurora_core.grounding.convoy import ConvoyMember, SceneSplit
 from aurora_core.grounding.distances import BUMPERS_M
 from aurora_core.grounding.goals import GoalFinder
+from aurora_core.grounding.lane_changers import needs_lane
 from aurora_core.grounding.sites import Site
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.spec.reference import LANDMARK
@@ -34,6 +35,8 @@ _LACKS = {
     'beside another vehicle, or at another place, there would be one',
     'away_from_place': 'where {who} is to be beside a vehicle it is not at its landmark; another '
     'distance between them, or one of the two alone, would fit',
+    'blocked': 'where {who} is to stand or walk a parked vehicle takes the sidewalk; ahead of it '
+    'or behind it there would be room',
     'sidewalk': 'where {who} is to stand or walk there is no sidewalk; beside another vehicle, or '
     'at another distance, there would be one',
     'clearance': 'the UAV would pass too near to buildings on its way; a greater altitude would '
@@ -57,7 +60,9 @@ def lacked(reason: str, split: SceneSplit) -> str:
         split: Who was to be placed.
     """
     about = {'oncoming': split.oncoming}
-    about |= dict.fromkeys(('crosswalk', 'far_kerb', 'sidewalk', 'away_from_place'), split.persons)
+    about |= dict.fromkeys(
+        ('crosswalk', 'far_kerb', 'sidewalk', 'blocked', 'away_from_place'), split.persons
+    )
     who = _listed([agent.id for agent in about.get(reason, ())])
     return _LACKS.get(reason, reason.replace('_', ' ')).format(who=who or 'somebody')
 
@@ -82,10 +87,16 @@ def on_no_street(
     crowded = '; '.join(_crowded(convoy, types))
     if crowded:
         return crowded
+    passing = [m.agent.id for m in convoy if needs_lane(spec, m.agent)]
 
     def fits(members: tuple[ConvoyMember, ...]) -> bool:
         return any(goals.fits(spec, site) for site in sites(members))
 
+    if passing and fits(convoy):
+        return (
+            f'{_listed(passing)} would need a second lane to pass or to change to, and no street '
+            'with one is where they are to be; at another place there would be one'
+        )
     alone = {m.agent.id: (replace(m, offset_m=0.0, lane_shift=0),) for m in convoy}
     lost = [name for name, member in alone.items() if not fits(member)]
     if lost:

@@ -235,3 +235,28 @@ def test_who_crosses_where_no_crosswalk_is_goes_straight_over_the_street(scenes:
     # Who is to use a crosswalk needs one.
     failure = scenes.failure(prompt.format('at the crosswalk'), {})
     assert 'no crosswalk' in failure.words
+
+
+@pytest.mark.parametrize(
+    ('prompt', 'reason', 'told'),
+    [
+        (
+            'A motorcycle overtakes a bus. A drone hovers over Union Station at 60 m.',
+            'road',
+            'would need a second lane',
+        ),
+        (
+            'A van is parked near Ridge School. A pedestrian walks beside the van. A drone hovers '
+            'over the van at 40 m.',
+            'blocked',
+            'a parked vehicle takes the sidewalk',
+        ),
+    ],
+)
+def test_what_has_no_place_is_told_with_what_would_fit(
+    scenes: Scenes, prompt: str, reason: str, told: str
+) -> None:
+    near = [{'relation': 'near', 'of': 'landmark:Union Station'}]
+    failure = scenes.failure(prompt, {} if reason == 'blocked' else {'motorcycle1': near})
+    assert failure.reason == reason
+    assert told in failure.words
