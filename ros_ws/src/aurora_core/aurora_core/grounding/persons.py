@@ -405,17 +405,21 @@ class PersonPlacer:
         arc_m = seat.arc_m + away_m + NEXT_M * number
         if not 0.0 <= arc_m <= seat.path.length_m:
             return None
-        x, y, _, _ = seat.path.position_at(arc_m)
+        x, y, hx, hy = seat.path.position_at(arc_m)
         edges = seat.path.edge_ids
         if left:
             across = (self._map.network.opposite_edge(e) for e in edges if not e.startswith(':'))
             edges = tuple(e for e in across if e is not None)
-        edge = next((e for e in edges if self._abreast(e, (x, y)) is not None), None)
-        if edge is None:
-            return None
-        spot = self._abreast(edge, (x, y))
-        path = walk_along(self._map.network, (edge,))
-        return None if spot is None or path is None else Spot(path, spot)
+        for edge in edges:
+            spot_m = self._abreast(edge, (x, y))
+            path = None if spot_m is None else walk_along(self._map.network, (edge,))
+            if spot_m is None or path is None:
+                continue
+            to_x, to_y, _, _ = path.position_at(spot_m)
+            # A way that comes back has the other side of the street on it, too.
+            if not left or (to_y - y) * hx - (to_x - x) * hy > 0.0:
+                return Spot(path, spot_m)
+        return None
 
     def _abreast(self, edge_id: str, point: tuple[float, float]) -> float | None:
         """Return where on the sidewalk of an edge (m) one is abreast of a point on its road."""

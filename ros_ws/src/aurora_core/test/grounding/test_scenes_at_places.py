@@ -260,3 +260,15 @@ def test_what_has_no_place_is_told_with_what_would_fit(
     failure = scenes.failure(prompt, {} if reason == 'blocked' else {'motorcycle1': near})
     assert failure.reason == reason
     assert told in failure.words
+
+
+def test_who_is_left_of_a_parked_vehicle_is_on_its_left_or_nowhere(scenes: Scenes) -> None:
+    prompt = 'A van is parked 40 m ahead of the ego car. A pedestrian waits. A drone hovers.'
+    left = {'relation': 'left', 'of': 'van1'}
+    found = scenes.agents(prompt, {'pedestrian1': [left]})
+    van, person = found['van1'], found['pedestrian1']
+    dx, dy = person.x_m - van.x_m, person.y_m - van.y_m
+    assert dy * van.heading_x - dx * van.heading_y > van.width_m / 2.0
+    # In the middle of the street nobody waits.
+    failure = scenes.failure(prompt, {'pedestrian1': [{**left, 'distance_m': metres(5.0)}]})
+    assert failure.reason == 'sidewalk'
