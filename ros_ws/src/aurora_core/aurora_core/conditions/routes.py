@@ -20,6 +20,7 @@ from aurora_core.judging.quantities import (
     route_speed,
     waypoints_visited,
 )
+from aurora_core.knowledge.limits import pattern_off_m
 from aurora_core.outcomes.condition import Condition, MissionArguments, Point3
 from aurora_core.quantities.waypoints import extent, has_shape
 from aurora_core.spec.parameter import Parameter, Provenance
@@ -59,7 +60,8 @@ def route_conditions(
         yield pattern_centre.of_end(inputs, arguments, 'first', mission.start, source)
         yield pattern_centre.of_end(inputs, arguments, 'last', mission.target, source)
     elif mission.target is not None:
-        yield pattern_centre.implied(inputs, arguments, mission.target, source)
+        limit_m = pattern_off_m(mission, inputs.tolerances)
+        yield pattern_centre.implied(inputs, arguments, mission.target, source, limit_m)
     speed = mission.speed_mps
     if speed is not None and speed.provenance is Provenance.EXPLICIT:
         yield route_speed.implied(inputs, arguments, speed, source)

@@ -25,7 +25,7 @@ from aurora_core.grounding.planned_flight import (
     planned_height_m,
 )
 from aurora_core.grounding.sites import SeatedAgent, SeatedPerson
-from aurora_core.knowledge.limits import Limits, Tolerances
+from aurora_core.knowledge.limits import Limits, Tolerances, pattern_off_m
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.settings import GroundingSettings
 from aurora_core.mission.plan import MissionPlan
@@ -134,7 +134,7 @@ class RoutePlanner:
         key = (mission.id, centre)
         if key not in self._found_moved:
             x, y, hx, hy = centre
-            most_m = self._tolerances.pattern_centre_m - _INSIDE_M
+            most_m = pattern_off_m(mission, self._tolerances) - _INSIDE_M
             found: tuple[PlannedFlight | Rejected, Pose] = rejected, centre
             for share, k in itertools.product(_MOVED, range(_BEGINNINGS)):
                 angle, away_m = 2.0 * pi * k / _BEGINNINGS, share * most_m
@@ -161,7 +161,9 @@ class RoutePlanner:
         turned.sort(key=lambda share: (abs(share - 0.5), share))
         if mission.target is not None:
             yield from ((centre, share) for share in turned)
-        most_m = inf if mission.target is None else self._tolerances.pattern_centre_m - _INSIDE_M
+        most_m = inf
+        if mission.target is not None:
+            most_m = pattern_off_m(mission, self._tolerances) - _INSIDE_M
         for k in range(1, _BESIDE + 1):
             for aside_m in (k * others.apart_m / 2.0, -k * others.apart_m / 2.0):
                 if abs(aside_m) <= most_m:

@@ -14,9 +14,9 @@ from aurora_core.document import omitted
 from aurora_core.errors import ConfigError
 from aurora_core.files import CONFIG_BYTES, read_json
 from aurora_core.spec.quantity import QuantityName
-from aurora_core.spec.scenario import ScenarioSpec
+from aurora_core.spec.scenario import ScenarioSpec, UavMission
 from aurora_core.spec.scene import World
-from aurora_core.spec.vocabulary import TimeOfDay, Weather
+from aurora_core.spec.vocabulary import Pattern, TimeOfDay, Weather
 
 # A limit or tolerance of zero would forbid everything; a share lies in (0, 1].
 Positive = Annotated[float, Field(gt=0.0)]
@@ -213,6 +213,18 @@ def hover_capture_m(spec: ScenarioSpec, uav: str, limits: Limits, tolerances: To
         if c.quantity == QuantityName.HOVER_DRIFT and uav in c.of and c.op in ('<', '<=')
     )
     return min((hover_drift_limit_m(spec.world, limits, tolerances), *stated))
+
+
+def pattern_off_m(mission: UavMission, tolerances: Tolerances) -> float:
+    """Return how far from its target the middle of a pattern may be, metres.
+
+    Who goes round something keeps its radius from that, not from a point beside it.
+    """
+    radius = mission.radius_m
+    if mission.pattern is not Pattern.ORBIT or radius is None:
+        return tolerances.pattern_centre_m
+    off_m = tolerances.standoff_m.of(radius.value, approximate=radius.approximate)
+    return min(tolerances.pattern_centre_m, off_m)
 
 
 def load_limits(path: Path) -> Limits:

@@ -15,9 +15,10 @@ from aurora_core.geometry.polyline import Polyline
 from aurora_core.grounding.airspace import Airspace
 from aurora_core.grounding.come_upon import lap_points
 from aurora_core.grounding.places import MapPlaces, place_positions
-from aurora_core.knowledge.limits import Limits, Tolerances
+from aurora_core.knowledge.limits import Limits, Tolerances, pattern_off_m
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.outcomes.grounded import GroundedScenario, ReleaseOn
+from aurora_core.outcomes.grounding import GroundingFailure
 from aurora_core.spec.scenario import ScenarioSpec
 
 Read = Callable[..., ScenarioSpec]
@@ -47,18 +48,36 @@ def test_a_low_hover_inside_a_stadium_is_come_to_from_above(
     assert air.way_clearance_m((*way, (x, y, over_m), (x, y, z))) >= limits.clearance_min_m
 
 
-def test_an_orbit_that_grazes_a_roof_goes_round_a_centre_beside_the_landmark(
-    read_prompt: Read, ground: Ground, air: Airspace, map_of: Maps, tolerances: Tolerances
+def test_an_orbit_keeps_its_radius_from_the_landmark_or_has_no_place(
+    read_prompt: Read, ground: Ground, map_of: Maps, tolerances: Tolerances
 ) -> None:
-    prompt = 'A drone orbits City Hall with a radius of 40 m at 70 m altitude.'
-    (uav,) = ground(read_prompt(prompt, 'downtown'), 'downtown').uavs
-    (mission,) = uav.missions
+    prompt = 'A drone orbits City Hall with a radius of 40 m at {} m altitude.'
+    low, high = (read_prompt(prompt.format(z), 'downtown') for z in (70, 80))
+    (uav,) = ground(high, 'downtown').uavs
     hall = MapPlaces(map_of('downtown')).itself('landmark:City Hall', (0.0, 0.0))
-    ring = mission.waypoints[:-1]
-    centre = (sum(p[0] for p in ring) / len(ring), sum(p[1] for p in ring) / len(ring))
-    assert 0.0 < dist(centre, hall) <= tolerances.pattern_centre_m
-    assert [dist(p[:2], centre) for p in ring] == pytest.approx([40.0] * len(ring))
-    assert air.way_clearance_m(mission.waypoints) >= 5.0
+    away_m = [dist(p[:2], hall) for p in uav.missions[0].waypoints]
+    off_m = pattern_off_m(high.missions[0], tolerances)
+    assert off_m == tolerances.standoff_m.of(40.0) == 5.0
+    assert max(abs(d - 40.0) for d in away_m) <= off_m
+    # Beside the landmark it would be free of the roofs, and 31 to 49 m away.
+    found = ground(low, 'downtown')
+    assert isinstance(found, GroundingFailure)
+    assert found.reason == 'clearance'
+
+
+@pytest.mark.parametrize(
+    ('route', 'off_m'),
+    [
+        ('orbits City Hall with a radius of 80 m', 8.0),
+        ('orbits City Hall with a radius of 200 m', 10.0),
+        ('flies a 100 m by 60 m rectangle around City Hall', 10.0),
+    ],
+)
+def test_how_far_the_middle_of_a_pattern_may_be_from_its_target(
+    read_prompt: Read, tolerances: Tolerances, route: str, off_m: float
+) -> None:
+    (mission,) = read_prompt(f'A drone {route} at 90 m altitude.', 'downtown').missions
+    assert pattern_off_m(mission, tolerances) == pytest.approx(off_m)
 
 
 @pytest.mark.parametrize(

@@ -77,9 +77,10 @@ class PatternCentre(OfMission):
         return 0.0 if hovers and building.is_below(x, y) else before_m
 
 
-def implied(inputs: Inputs, mission: MissionArguments, target: str, source: Source) -> Condition:
-    """Return that a pattern lies around its target."""
-    limit = inputs.tolerances.pattern_centre_m
+def implied(
+    inputs: Inputs, mission: MissionArguments, target: str, source: Source, limit: float
+) -> Condition:
+    """Return that a pattern lies around its target, to `limit` (m)."""
     return condition(
         id=f'{mission.mission}.centre',
         sentence=(
