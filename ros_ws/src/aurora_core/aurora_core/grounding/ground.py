@@ -18,7 +18,7 @@ from aurora_core.grounding.allowed import allowed_sites
 from aurora_core.grounding.apart import homes_m, layer_m, over_one_point, spacing_m, tight_m
 from aurora_core.grounding.bends import bends_between
 from aurora_core.grounding.columns import Column, climbs_to_m, columns, nearest_points
-from aurora_core.grounding.convoy import ConvoyMember, SceneSplit
+from aurora_core.grounding.convoy import SceneSplit
 from aurora_core.grounding.flights import FlightPlanner
 from aurora_core.grounding.free_run import never_stops
 from aurora_core.grounding.goals import GoalFinder
@@ -242,22 +242,14 @@ class Grounder:
             reasons = dict(sorted(rejected.items()))
             most = max(reasons, key=lambda r: (reasons[r], r)) if reasons else 'road'
             count = sum(reasons.values())
-            words = lacked(most, split) if ranked else self._no_street(spec, split, run_m)
+            words = lacked(most, split)
+            if not ranked:
+                known = self._map, self._types, self._settings.grounding, self._spawns
+                words = on_no_street(spec, split, self._goals, *known, run_m)
             return GroundingFailure(reason=most, tried=count, rejected_by=reasons, words=words)
         times = run_s, run_m
         made = self._scenario(spec, split, best, scored, times, seed, planner, persons)
         return made.model_copy(update={'keep_out': keep_out}) if keep_out else made
-
-    def _no_street(self, spec: ScenarioSpec, split: SceneSplit, run_m: float) -> str:
-        """Return in words why no street has room for the convoy."""
-        grounding = self._settings.grounding
-
-        def found(members: tuple[ConvoyMember, ...]) -> Iterator[Site]:
-            spacing_m = self._goals.spacing_m(spec, grounding.anchor_spacing_m)
-            where = (self._map, members, self._types, grounding)
-            return sites(*where, run_m, spacing_m, spawns=self._spawns)
-
-        return on_no_street(spec, split, self._goals, found, self._types)
 
     def _drive_speed(self, spec: ScenarioSpec, split: SceneSplit) -> float:
         stated = [

@@ -7,7 +7,7 @@ Looked into after everything has been tried, so it may take as long as the searc
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from itertools import combinations
 
@@ -15,13 +15,13 @@ from aurora_core.grounding.convoy import ConvoyMember, SceneSplit
 from aurora_core.grounding.distances import BUMPERS_M
 from aurora_core.grounding.goals import GoalFinder
 from aurora_core.grounding.lane_changers import needs_lane
-from aurora_core.grounding.sites import Site
+from aurora_core.grounding.sites import sites
 from aurora_core.knowledge.agent_types import AgentTypeRecord
+from aurora_core.knowledge.map_model import MapModel
+from aurora_core.knowledge.map_records import SpawnTable
+from aurora_core.knowledge.settings import GroundingSettings
 from aurora_core.spec.reference import LANDMARK
 from aurora_core.spec.scenario import ScenarioSpec
-
-# Yields the sites of vehicles that hold these places towards each other.
-Sites = Callable[[tuple[ConvoyMember, ...]], Iterator[Site]]
 
 # What a site lacked, in words; `{who}` are those whom it is about.
 _LACKS = {
@@ -71,8 +71,11 @@ def on_no_street(
     spec: ScenarioSpec,
     split: SceneSplit,
     goals: GoalFinder,
-    sites: Sites,
+    map_model: MapModel,
     types: Mapping[str, AgentTypeRecord],
+    settings: GroundingSettings,
+    spawns: SpawnTable | None,
+    run_m: float,
 ) -> str:
     """Return in words why no street has room for the vehicles that belong together.
 
@@ -80,17 +83,23 @@ def on_no_street(
         spec: The request.
         split: Who was to be placed.
         goals: What places ask of a site.
-        sites: Yields the sites of vehicles.
+        map_model: Map.
         types: Agent sizes.
+        settings: Of the search.
+        spawns: Where vehicle types were measured to stand.
+        run_m: Length of the routes.
     """
     convoy = split.convoy
     crowded = '; '.join(_crowded(convoy, types))
     if crowded:
         return crowded
     passing = [m.agent.id for m in convoy if needs_lane(spec, m.agent)]
+    spacing_m = goals.spacing_m(spec, settings.anchor_spacing_m)
 
     def fits(members: tuple[ConvoyMember, ...]) -> bool:
-        return any(goals.fits(spec, site) for site in sites(members))
+        where = map_model, members, types, settings
+        found = sites(*where, run_m, spacing_m, spawns=spawns)
+        return any(goals.fits(spec, site) for site in found)
 
     if passing and fits(convoy):
         return (
