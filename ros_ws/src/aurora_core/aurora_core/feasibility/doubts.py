@@ -152,7 +152,10 @@ def _short_legs(
         sides = size if mission.pattern is Pattern.RECTANGLE else size[:1]
         if not all(is_stated(side) for side in sides):
             continue
-        needed_m = speed.value * speed.value / tolerances.route_acceleration_mps2
+        exact = speed.bound is Bound.EXACTLY
+        slack = tolerances.route_speed_mps.of(speed.value, approximate=speed.approximate)
+        slowest_mps = max(0.0, speed.value - slack) if exact else speed.value
+        needed_m = slowest_mps * slowest_mps / tolerances.route_acceleration_mps2
         if uav is not None:
             needed_m = max(needed_m, uav.start_m(speed.value) + uav.stop_m(speed.value))
         longest_m = max(most(side, 0.0, 1e9) for side in sides)

@@ -189,7 +189,10 @@ ROWS = (
     # The chords of a circle are short, but nobody brakes between them.
     Row(id='m1.speed', make=lambda: _circling(8.0), margin=1.0 - 0.8, what='orbit'),
     Row(id='m1.speed', make=lambda: _circling(10.0), margin=0.0 - 0.8, what='orbit'),
-    # 16 m/s need 85 m to be reached and 85 m to brake: no leg has that.
+    # The slowest that is still 13 m/s needs 46 m to be reached and 46 m to brake: a leg has 100 m.
+    Row(id='m1.speed', make=lambda: _speed(13.0, speed=12.5), margin=1.0 - 0.8, what='short'),
+    Row(id='m1.speed', make=lambda: _speed(13.0, speed=11.5), margin=0.0 - 0.8, what='short'),
+    # 16 m/s need 69 m to be reached and 69 m to brake: no leg has that.
     Row(id='m1.speed', make=lambda: _speed(16.0), reason=EMPTY),
     # A way between two places: both ends, and its speed; to one place, the way there.
     Row(id='m1.start', make=_way, margin=10.0 - 4.0),

@@ -221,7 +221,7 @@ def test_explicit_route_speed(tb: ModuleType) -> None:
     assert _results(tb, tb.survey_case(speed_mps=least))['m1.speed'].margin == pytest.approx(0.2)
     fast = tb.number(16.0, mps, explicit=True)
     none = _results(tb, tb.survey_case(speed_mps=fast))['m1.speed']
-    assert none.reason is Reason.EMPTY_PHASE  # 85 m to reach 16 m/s and 85 m to brake
+    assert none.reason is Reason.EMPTY_PHASE  # 69 m to reach 14.4 m/s, and to brake
 
 
 def test_counted_waypoints(tb: ModuleType) -> None:

@@ -34,7 +34,7 @@ class RouteSpeed(OfMission):
 
     Attributes:
         speed: Stated, m/s.
-        settle_m: Way that it needs to reach its speed, and to brake.
+        settle_m: Way that it needs to reach the slowest speed that counts, and to brake from it.
     """
 
     name = QuantityName.ROUTE_SPEED
@@ -69,6 +69,8 @@ def implied(
     """Return that a UAV flies as fast as the prompt says."""
     share = inputs.tolerances.route_speed_share
     slack = inputs.tolerances.route_speed_mps.of(speed.value, approximate=speed.approximate)
+    asked = PerSample.of(speed, slack)
+    slowest_mps = max(0.0, speed.value - asked.tolerance)
     return share_condition(
         id=f'{mission.mission}.speed',
         sentence=(
@@ -80,9 +82,9 @@ def implied(
         arguments=RouteSpeed(
             **inputs.common,
             mission=mission,
-            speed=PerSample.of(speed, slack),
+            speed=asked,
             settle_m=(
-                speed.value * speed.value / (2.0 * inputs.tolerances.route_acceleration_mps2)
+                slowest_mps * slowest_mps / (2.0 * inputs.tolerances.route_acceleration_mps2)
             ),
         ),
         source=stated_by(source, speed),
