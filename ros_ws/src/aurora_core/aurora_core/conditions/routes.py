@@ -22,8 +22,8 @@ from aurora_core.judging.quantities import (
 )
 from aurora_core.knowledge.limits import pattern_off_m
 from aurora_core.outcomes.condition import Condition, MissionArguments, Point3
-from aurora_core.quantities.waypoints import extent, has_shape
-from aurora_core.spec.parameter import Parameter, Provenance
+from aurora_core.quantities.waypoints import extent, has_shape, orbit_radius_m
+from aurora_core.spec.parameter import Bound, Parameter, Provenance
 from aurora_core.spec.scenario import UavMission
 from aurora_core.spec.vocabulary import Pattern
 
@@ -108,7 +108,17 @@ def _check_shape(mission: UavMission, arguments: MissionArguments) -> None:
 
 
 def _check_size(mission: UavMission, arguments: MissionArguments) -> None:
-    """Refuse a route whose legs are not of the stated size: explicit sizes are never changed."""
+    """Refuse a route that is not of the stated size: explicit sizes are never changed."""
+    radius = mission.radius_m
+    if mission.pattern is Pattern.ORBIT and radius is not None:
+        planned_m, exact = orbit_radius_m(arguments.waypoints), radius.bound is Bound.EXACTLY
+        stated = exact and radius.provenance is Provenance.EXPLICIT
+        if stated and abs(planned_m - radius.value) > SIZE_GUARD_M:
+            raise VerificationError(
+                f'mission {mission.id} asks for a radius of {radius.value} m, the plan has an '
+                f'orbit of {number(planned_m)} m',
+                hint='grounding must not resize an explicit pattern',
+            )
     if mission.size_m is None or mission.pattern not in (Pattern.RECTANGLE, Pattern.LINE):
         return
     legs = [norm2(b[0] - a[0], b[1] - a[1]) for a, b in pairwise(arguments.waypoints)]

@@ -25,7 +25,12 @@ from aurora_core.spec.vocabulary import MissionMode, Pattern
 
 def nominal(limits: Limits, tolerances: Tolerances) -> tuple[Limits, Tolerances]:
     """Return limits and tolerances with which a flight is to be met just as it is stated."""
-    exact = {'altitude_m': EXACT, 'standoff_m': EXACT, 'duration_s': EXACT}
+    exact = {
+        'altitude_m': EXACT,
+        'standoff_m': EXACT,
+        'duration_s': EXACT,
+        'pattern_centre_m': 0.0,
+    }
     close = limits.model_copy(update={'tracking_horizontal_m': 0.0})
     return close, tolerances.model_copy(update=exact)
 

@@ -6,12 +6,11 @@ from __future__ import annotations
 
 from math import ceil, cos, pi, sin
 
+from aurora_core.quantities.waypoints import ORBIT_STEP_DEG
 from aurora_core.spec.vocabulary import Pattern
 
 Point2 = tuple[float, float]
 
-# Legs of an orbit are chords; this many degrees keep the chord within 0.4 % of the radius.
-_ORBIT_STEP_DEG = 10.0
 # Distance between the lines of a lawnmower pattern.
 _LAWNMOWER_SPACING_M = 20.0
 # More points than a battery lasts for, one second apart: no site is searched for such a pattern.
@@ -58,7 +57,7 @@ def pattern_points(
             points += [(-a, y), (a, y)] if k % 2 == 0 else [(a, y), (-a, y)]
         return tuple(points)
     if pattern is Pattern.ORBIT:
-        return _ring(radius_m, round(360.0 / _ORBIT_STEP_DEG), closed=True)
+        return _ring(radius_m, round(360.0 / ORBIT_STEP_DEG), closed=True)
     return _ring(radius_m, waypoint_count, closed=False) if waypoint_count > 1 else ((0.0, 0.0),)
 
 

@@ -12,6 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from aurora_core.geometry.kernel import norm2
+from aurora_core.quantities.angle import compass_bearing_deg, turned_deg
 from aurora_core.quantities.kernels import distance_2d
 from aurora_core.quantities.ticks import first_tick
 from aurora_core.quantities.view import Body, RunView
@@ -180,8 +181,10 @@ def _across(leg: tuple[Point3, Point3]) -> tuple[float, float]:
 
 # Points of a plan are rounded when they are written down, no more.
 _SHAPE_M = 1e-3
-# An orbit has more points than any other ring.
-_ORBIT_POINTS = 12
+_SHAPE_DEG = 0.1
+# The points of an orbit are no farther apart on its circle: its chords keep within 0.4 % of the
+# radius.
+ORBIT_STEP_DEG = 10.0
 
 
 def has_shape(pattern: Pattern, points: Sequence[Point3]) -> bool:
@@ -201,7 +204,7 @@ def has_shape(pattern: Pattern, points: Sequence[Point3]) -> bool:
     if pattern is Pattern.RECTANGLE:
         return closed and len(points) == 5 and _turns_square(points)
     if pattern is Pattern.ORBIT:
-        return closed and len(points) > _ORBIT_POINTS and _is_ring(points)
+        return closed and _is_ring(points)
     if pattern is Pattern.LAWNMOWER:
         return not closed and len(points) >= 4 and len(points) % 2 == 0 and _turns_square(points)
     return not closed
@@ -235,10 +238,26 @@ def _way(a: tuple[float, float], b: tuple[float, float]) -> float:
 
 
 def _is_ring(points: Sequence[Point3]) -> bool:
+    """Tell whether points lie on a circle and go round it once, in steps of an orbit."""
+    east, north = _from_middle(points)
+    away = distance_2d(east, north)
+    if np.max(away) - np.min(away) > _SHAPE_M * max(float(np.max(away)), 1.0):
+        return False
+    turned = turned_deg(compass_bearing_deg(east, north))
+    is_fine = bool(np.all(np.abs(np.diff(turned)) <= ORBIT_STEP_DEG + _SHAPE_DEG))
+    return is_fine and abs(abs(float(turned[-1])) - 360.0) <= _SHAPE_DEG
+
+
+def orbit_radius_m(points: Sequence[Point3]) -> float:
+    """Return how far the points of a planned orbit are from their middle, metres."""
+    return float(distance_2d(*_from_middle(_first_lap(points)))[0])
+
+
+def _from_middle(points: Sequence[Point3]) -> tuple[FloatArray, FloatArray]:
+    """Return the points of a closed ring as seen from the mean of all of them (x, y in m)."""
     x = sum(point[0] for point in points[:-1]) / (len(points) - 1)
     y = sum(point[1] for point in points[:-1]) / (len(points) - 1)
-    away = [float(distance_2d(point[0] - x, point[1] - y)) for point in points]
-    return max(away) - min(away) <= _SHAPE_M * max(max(away), 1.0)
+    return np.array([p[0] - x for p in points]), np.array([p[1] - y for p in points])
 
 
 def extent(points: npt.ArrayLike, axis: tuple[float, float]) -> float:

@@ -6,18 +6,19 @@ A hover: seen from the landmark, the bearings that it may have are parted where 
 corner or a wall is met at a right angle. Between two such bearings every wall comes nearer or goes
 farther all the way, so its distances at both ends bound it.
 
-An orbit: squares hold every place of its centre. Of each the ring that may be flown is looked at.
+An orbit: squares hold every place of its centre. Of each the ring that may be flown is looked at,
+or how much of the circle that the points of the orbit lie on is too deep inside for any of them.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from itertools import pairwise
 from typing import Any
 
 from shapely.geometry import LineString, Point, Polygon, shape
-from shapely.ops import unary_union
+from shapely.ops import linemerge, unary_union
 
 from aurora_core.outcomes.feasibility import Certificate
 from aurora_core.recheck.finding import Step
@@ -38,6 +39,10 @@ _WIDER_DEG = 0.5
 _LEAST_M = 0.7
 _SIDE_M = 1.0
 _CORNERS = 72
+# The points of an orbit are no farther apart on its circle.
+_STEP_DEG = 10.0
+# Arcs are made of so many chords; that of one chord and more counts for nothing.
+_CHORDS = 1440
 
 
 def _near(request: Request, centre: Place, far: float) -> list[dict[str, Any]]:
@@ -200,18 +205,30 @@ def _taken(walls: list[_Wall], first: float, last: float, near: float, far: floa
 
 
 def cut_round(proof: Certificate, request: Request) -> list[Step]:
-    """Wherever the centre of an orbit may be, buildings that it cannot rise above cut it."""
+    """Wherever the centre of an orbit may be, buildings cut it, or take a point of it away."""
     found = _flight(proof, request)
     if found is None or found[0].get('pattern') != 'orbit' or found[0].get('start') is not None:
         return [(False, f'{proof.path} is of an orbit of a landmark')]
     mission, centre, high, steps = found
-    radius, time, turns = (mission.get(n) for n in ('radius_m', 'duration_s', 'turns'))
-    if not (stated(radius) and stated(time)):
-        return [(False, 'the radius and the duration of the orbit are stated')]
+    if not stated(mission.get('radius_m')):
+        return [(False, 'the radius of the orbit is stated')]
     limit = request.limit('clearance_min_m')
+    middles = [centre, *_own_middles(request, mission['target'], centre)]
+    step = _no_way(request, mission, high, middles)
+    if not step[0]:
+        other = _no_points(request, mission, high, middles)
+        step = other if other[0] else step
+    return [*steps, (proof.limit == limit, f'{proof.limit_name} is {limit:g}'), step]
+
+
+def _no_way(request: Request, mission: dict[str, Any], high: float, middles: list[Place]) -> Step:
+    """Buildings that it cannot rise above in its time leave no way round."""
+    radius, time, turns = (mission.get(n) for n in ('radius_m', 'duration_s', 'turns'))
+    if not stated(time):
+        return False, 'the duration of the orbit is stated'
     near, far = left_open(radius, request.slack('standoff_m', radius))
     if not math.isfinite(far):
-        return [(False, 'the radius of the orbit has an upper bound')]
+        return False, 'the radius of the orbit has an upper bound'
     longest = request.limit('uav_endurance_s')
     longest = left_open(time, request.slack('duration_s', time), 0.0, longest)[1]
     margin = float(request.tolerances['limit_margin'])
@@ -221,19 +238,61 @@ def cut_round(proof: Certificate, request: Request) -> list[Step]:
     often = 1.0 if turns is None else left_open(turns, 0.0)[0]
     swept = min(360.0, 360.0 * often) - float(request.tolerances['orbit_deg'])
     shift = float(request.tolerances['pattern_centre_m'])
-    tall = [f for f in _near(request, centre, far + 2.0 * shift + limit) if _top(f) >= least_top]
+    reach = far + 2.0 * shift + request.limit('clearance_min_m')
+    tall = [f for f in _near(request, middles[0], reach) if _top(f) >= least_top]
     solid = unary_union([shape(f['geometry']).buffer(_gap(request), 4) for f in tall])
-    middles = [centre, *_own_middles(request, mission['target'], centre)]
-    return [
-        *steps,
-        (proof.limit == limit, f'{proof.limit_name} is {limit:g}'),
-        (
-            swept > 0.0
-            and all(_cut_about(m, m, shift, (near, far, swept, shift), solid) for m in middles),
-            f'buildings of {least_top:.1f} m and more leave no way {swept:g} degrees round, '
-            f'{near:.1f} m to {far:.1f} m from any centre',
-        ),
-    ]
+
+    def cut(at: Place, corner: float) -> bool:
+        if near - corner <= corner:
+            return False
+        seen = swept - 2.0 * math.degrees(math.asin(corner / (near - corner)))
+        return all(turn < seen for turn in _turns(at, near - corner, far + corner, solid))
+
+    return (
+        swept > 0.0 and all(_cut_about(m, m, shift, shift, cut) for m in middles),
+        f'buildings of {least_top:.1f} m and more leave no way {swept:g} degrees round, '
+        f'{near:.1f} m to {far:.1f} m from any centre',
+    )
+
+
+def _no_points(
+    request: Request, mission: dict[str, Any], high: float, middles: list[Place]
+) -> Step:
+    """Whichever points of its circle it has, one is where nobody can pass it at its altitude."""
+    number, turns = mission['radius_m'], mission.get('turns')
+    radius = float(number['value'])
+    if number.get('bound', 'exactly') != 'exactly':
+        return False, 'the radius of the orbit is stated as it is'
+    if turns is not None and left_open(turns, 0.0)[0] < 1.0:
+        return False, 'it goes the whole way round'
+    gap, miss = _gap(request), float(request.tolerances['waypoint_horizontal_m'])
+    shift = float(request.tolerances['pattern_centre_m'])
+    reach = radius + miss + 2.0 * shift + gap
+    walled = []
+    for feature in _near(request, middles[0], reach):
+        above = max(0.0, high - _top(feature))
+        if above <= gap:
+            walled.append(shape(feature['geometry']).buffer(math.sqrt(gap**2 - above**2), 4))
+    solid = unary_union(walled)
+    chord = math.tau * radius / _CHORDS
+
+    def cut(at: Place, corner: float) -> bool:
+        deep = solid.buffer(-1.001 * (miss + corner), 32)
+        corners = [
+            (at[0] + radius * math.cos(k * math.tau / _CHORDS),
+             at[1] + radius * math.sin(k * math.tau / _CHORDS))
+            for k in range(_CHORDS + 1)
+        ]  # fmt: skip
+        arcs = LineString(corners).intersection(deep)
+        joined = linemerge(arcs) if arcs.geom_type == 'MultiLineString' else arcs
+        longest = max((a.length for a in getattr(joined, 'geoms', [joined])), default=0.0)
+        return bool(longest - 2.0 * chord > radius * math.radians(_STEP_DEG))
+
+    return (
+        all(_cut_about(m, m, shift, shift, cut) for m in middles),
+        f'buildings take more than {_STEP_DEG:g} degrees of the circle of {radius:g} m about any '
+        f'centre, {high:.1f} m high',
+    )
 
 
 def _own_middles(request: Request, target: str, centre: Place) -> list[Place]:
@@ -248,30 +307,25 @@ def _own_middles(request: Request, target: str, centre: Place) -> list[Place]:
 
 
 def _cut_about(
-    middle: Place, at: Place, half: float, asked: tuple[float, float, float, float], solid: Any
+    middle: Place, at: Place, half: float, off: float, cut: Callable[[Place, float], bool]
 ) -> bool:
-    """Whether the ring about every centre in a square is cut.
+    """Whether an orbit is cut about every centre in a square.
 
     Args:
         middle: Of the disc that holds all centres.
         at: Of the square.
         half: Half a side of it.
-        asked: Least and greatest distance, degrees to go round, radius of the disc.
-        solid: Where nobody may fly.
+        off: Radius of the disc.
+        cut: Whether it is about every centre so near to a place.
     """
-    near, far, swept, off = asked
     corner = math.hypot(half, half)
-    if math.dist(middle, at) - corner > off:
+    if math.dist(middle, at) - corner > off or cut(at, corner):
         return True
-    if near - corner > corner:
-        seen = swept - 2.0 * math.degrees(math.asin(corner / (near - corner)))
-        if all(turn < seen for turn in _turns(at, near - corner, far + corner, solid)):
-            return True
     if half <= _LEAST_M:
         return False
     quarter = half / 2.0
     return all(
-        _cut_about(middle, (at[0] + i, at[1] + j), quarter, asked, solid)
+        _cut_about(middle, (at[0] + i, at[1] + j), quarter, off, cut)
         for i in (-quarter, quarter)
         for j in (-quarter, quarter)
     )

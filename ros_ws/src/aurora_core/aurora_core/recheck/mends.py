@@ -37,6 +37,7 @@ def exact(request: Request) -> Request:
     """Let stated heights, distances and durations be met as stated ("about" still widens them)."""
     for name in ('altitude_m', 'standoff_m', 'duration_s'):
         request.tolerances[name] = {'absolute': 0.0, 'relative': 0.0}
+    request.tolerances['pattern_centre_m'] = 0.0
     request.limits['tracking_horizontal_m'] = 0.0
     return request
 

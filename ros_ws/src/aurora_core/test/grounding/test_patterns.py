@@ -105,3 +105,17 @@ def test_a_planned_pattern_has_its_shape_and_no_other(pattern: Pattern) -> None:
     shapes = {other for other in Pattern if has_shape(other, points)}
     # Points that are not closed may also be waypoints that somebody names.
     assert {pattern} <= shapes <= {pattern, Pattern.WAYPOINTS}
+
+
+def test_a_ring_that_leaves_a_part_of_the_circle_out_is_no_orbit() -> None:
+    """Every tower could be gone round so, and that all points were passed would say nothing."""
+    ring = pattern_points(
+        Pattern.ORBIT, length_m=1.0, width_m=1.0, radius_m=40.0, waypoint_count=4
+    )
+    assert ring is not None
+    points = tuple((x, y, 30.0) for x, y in ring)
+    assert has_shape(Pattern.ORBIT, points)
+    assert not has_shape(Pattern.ORBIT, (*points[::2], points[0])[:-1])
+    assert not has_shape(Pattern.ORBIT, (*points[:9], *points[10:]))
+    half = points[:19]
+    assert not has_shape(Pattern.ORBIT, (*half, *half[-2::-1]))

@@ -14,8 +14,9 @@ from dataclasses import replace
 import pytest
 from kind_rows import Row, gone, grounded
 from trace_builder import DT_S, Run, flight, number, world
-from trace_cases import Case, facts_of, mission, spec, survey_case
+from trace_cases import Case, facts_of, judge, mission, spec, survey_case
 
+from aurora_core.errors import VerificationError
 from aurora_core.knowledge.world import NamedPlace
 from aurora_core.outcomes.schedule import MissionFacts
 from aurora_core.outcomes.verdict import Reason
@@ -27,7 +28,7 @@ RADIUS_M = 40.0
 
 
 def _corner(k: int) -> tuple[float, float, float]:
-    angle = 2.0 * math.pi * (k % 24) / 24
+    angle = 2.0 * math.pi * (k % 36) / 36
     return RADIUS_M * math.cos(angle), RADIUS_M * math.sin(angle), 30.0
 
 
@@ -59,7 +60,7 @@ def _orbit(flown_m: float, turns: float = 8.0 * 35.0 / RADIUS_M / (2.0 * math.pi
             uav='uav1',
             mode=MissionMode.NAVIGATE,
             altitude_m=30.0,
-            waypoints=tuple(_corner(k) for k in range(25)),
+            waypoints=tuple(_corner(k) for k in range(37)),
         ),
         horizon_s=70.0,
     )
@@ -257,3 +258,12 @@ ROWS = (
 @pytest.mark.parametrize('row', ROWS, ids=lambda row: row.name)
 def test_route_kinds(row: Row) -> None:
     row.check()
+
+
+def test_an_explicit_radius_is_never_resized() -> None:
+    case = _orbit(RADIUS_M)
+    (plan,) = case.spec.missions
+    asked = {'radius_m': number(RADIUS_M + 4.0, explicit=True)}
+    case.spec = case.spec.model_copy(update={'missions': (plan.model_copy(update=asked),)})
+    with pytest.raises(VerificationError, match=r'asks for a radius of 44.0 m'):
+        judge(case)

@@ -75,7 +75,7 @@ def test_what_has_no_extent_is_refused_with_a_proof(prompt: str, reason: str) ->
 
 @pytest.mark.parametrize('speed_mps', [15.5, -1.0])
 def test_a_wind_beyond_its_limit_is_refused_with_a_proof(speed_mps: float) -> None:
-    spec = read(f'{ORBIT} 40 m at 40 m.')
+    spec = read(f'{ORBIT} 40 m at 80 m.')
     asked = spec.missions[0].altitude_m.model_copy(
         update={'value': speed_mps, 'unit': Unit.METRE_PER_SECOND}
     )
