@@ -61,7 +61,10 @@ class SightModel:
         """
         if (x_m, y_m) not in self._at:
             here = np.array([[x_m, y_m]])
-            left = [p for p in self.prisms if not _holds(p, here)]
+            bounds = self._table.footprints.bounds
+            low, high = bounds[:, :2] - _SLACK_M, bounds[:, 2:] + _SLACK_M
+            near = set(np.flatnonzero(((low <= here) & (here <= high)).all(axis=1)).tolist())
+            left = [p for k, p in enumerate(self.prisms) if k not in near or not _holds(p, here)]
             same = len(left) == len(self.prisms)
             self._at[x_m, y_m] = self if same else SightModel(left)
         return self._at[x_m, y_m]
@@ -131,9 +134,6 @@ class SightModel:
 
 def _holds(prism: Prism, xy: FloatArray) -> bool:
     """Tell whether a point (1, 2) is inside the outer ring of a prism."""
-    low, high = prism.ring_xy.min(axis=0), prism.ring_xy.max(axis=0)
-    if (xy < low).any() or (xy > high).any():
-        return False
     return bool(PolygonSet((Polygon(prism.ring_xy),)).contains(xy)[0])
 
 

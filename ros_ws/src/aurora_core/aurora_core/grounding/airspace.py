@@ -25,6 +25,8 @@ FloatArray = npt.NDArray[np.float64]
 
 # Nothing flies as high (m).
 _UNLIMITED_M = 1e4
+# What is so near to a clearance is left to the exact check (m).
+_ROUNDING_M = 1e-6
 
 
 def building_prisms(buildings: Sequence[Building]) -> tuple[Prism, ...]:
@@ -78,6 +80,7 @@ class Airspace:
         self.highest_m = max((b.height_m for b in buildings), default=0.0)
         self._lattice = lattice
         self._segment = lru_cache(maxsize=4096)(self._segment_clearance)
+        self._walls = lru_cache(maxsize=64)(self._walls_at)
 
     def keeping_out(self, rings: Sequence[Ring]) -> Airspace:
         """Return the airspace without the air over outlines (x, y in m), from the ground up."""
@@ -106,6 +109,27 @@ class Airspace:
             if prism.base_m - clearance_m < height_m < prism.top_m + clearance_m
         ]
         return way_round(start, end, solids, clearance_m)
+
+    def bars_level(self, way: Sequence[Point2], height_m: float, clearance_m: float) -> bool:
+        """Tell, at little cost, whether a way at one height surely keeps less than a clearance.
+
+        What ends below the way, or begins above it, is not asked: that is for the exact check.
+        """
+        near_m = clearance_m - _ROUNDING_M
+        if near_m <= 0.0 or len(way) < 2:
+            return False
+        line = shapely.LineString(way)
+        return len(self._walls(height_m).query(line, 'dwithin', near_m)) > 0
+
+    def _walls_at(self, height_m: float) -> shapely.STRtree:
+        """Return what stands at a height, as outlines: in the plane it is as far away."""
+        return shapely.STRtree(
+            [
+                shapely.Polygon(prism.ring_xy, prism.holes_xy)
+                for prism in self._prisms
+                if prism.base_m <= height_m <= prism.top_m
+            ]
+        )
 
     def points_clearance_m(self, points: FloatArray) -> float:
         """Return the least clearance of points (T, 3), metres."""

@@ -273,6 +273,8 @@ class RoutePlanner:
             for along in shifts if mission.over_streets else (0.0,):
                 middle = (centre[0] + along * hx, centre[1] + along * hy)
                 placed = place_pattern(points, middle, heading)
+                if self._air.bars_level(placed, height_m, self._settings.clearance_m):
+                    continue
                 way = tuple((x, y, height_m) for x, y in placed)
                 clearance = self._air.way_clearance_m(way)
                 if clearance < self._settings.clearance_m:
