@@ -34,10 +34,12 @@ from aurora_core.grounding.planned_flight import (
     altitude_slack_m,
     ascent_tolerance_m,
     first_point,
+    inside_bound,
     landing_areas,
     planned_height_m,
 )
 from aurora_core.grounding.premises import middle_of_route
+from aurora_core.grounding.pulling_away import PullingAway, phase_s, pulling_away
 from aurora_core.grounding.routes_flown import RoutePlanner
 from aurora_core.grounding.sites import SeatedAgent, SeatedPerson, Site, samples_along
 from aurora_core.grounding.spots import SpotFinder
@@ -48,7 +50,7 @@ from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.settings import GroundingSettings
 from aurora_core.mission.plan import MissionPlan, UavPlan
-from aurora_core.spec.parameter import Bound, Provenance
+from aurora_core.spec.parameter import Provenance
 from aurora_core.spec.reference import is_landmark
 from aurora_core.spec.scenario import ScenarioSpec, UavMission
 from aurora_core.spec.vocabulary import MissionMode
@@ -147,7 +149,7 @@ class FlightPlanner:
             speed_mps: Speed that the target will drive.
             others: Where other UAVs are.
         """
-        mission = self._inside(mission)
+        mission = inside_bound(mission, self._limits, self._tolerances)
         if mission.mode is MissionMode.TRACK:
             return self._track(spec, mission, site, speed_mps)
         found = self._at_place(spec, mission, site, speed_mps, others)
@@ -201,16 +203,6 @@ class FlightPlanner:
                 return Rejected(reason='sight')
             found = replace(found, seen=min(found.seen, seen))
         return found
-
-    def _inside(self, mission: UavMission) -> UavMission:
-        """Return a mission whose standoff to plan with is inside the bound that is stated."""
-        stated = mission.standoff_m
-        if stated is None or stated.bound is Bound.EXACTLY:
-            return mission
-        slack_m = self._tolerances.standoff_m.of(stated.value, approximate=stated.approximate)
-        value = min(max(stated.inside(slack_m), 0.0), self._limits.uav_standoff_max_m)
-        aimed = stated.model_copy(update={'value': value})
-        return mission.model_copy(update={'standoff_m': aimed})
 
     def plan_uav(
         self,
@@ -312,12 +304,18 @@ class FlightPlanner:
                 if found is not None and found.seen >= self._tolerances.visible_fraction + _SPARE:
                     return found
             return Rejected(reason='sight')
-        best = self._watching(mission, samples, targets, share)
+        known = (self._limits, self._tolerances)
+        fast = pulling_away(spec, mission, samples[0], *known, self._settings)
+        fast = fast if share[1] == 1 else None
+        best = self._watching(mission, samples, targets, share, fast=fast)
         if best is None:
             return Rejected(reason='clearance')
         if best.seen < self._tolerances.visible_fraction:
             return Rejected(reason='sight')
-        return best
+        if fast is None:
+            return best
+        lasts_s = phase_s(spec, mission, fast.kept_s(best.plan.offset_m), self._tolerances)
+        return replace(best, plan=best.plan.model_copy(update={'duration_s': lasts_s}))
 
     def _watching(
         self,
@@ -327,10 +325,16 @@ class FlightPlanner:
         share: tuple[int, int],
         *,
         gets_lost: bool = False,
+        fast: PullingAway | None = None,
     ) -> PlannedFlight | None:
-        """Return the flight that sees most of its target: for `gets_lost` not all along."""
+        """Return the flight that sees most of its target: for `gets_lost` not all along.
+
+        Of a target that is too `fast` the one that stays near for longest.
+        """
         best: PlannedFlight | None = None
-        for offset in offsets(mission, samples[0], self._spread, share):
+        kept_s = 0.0
+        ahead = () if fast is None else fast.offsets()
+        for offset in (*ahead, *offsets(mission, samples[0], self._spread, share)):
             beside = samples[:, :2] + np.array(offset)
             if mission.side is not None:
                 beside = turned_along(offset, samples)
@@ -343,11 +347,10 @@ class FlightPlanner:
             if gets_lost and not is_lost(mask[: round(_EARLY * len(mask))]):
                 continue
             seen = float(np.count_nonzero(mask)) / len(mask)
-            if best is None or (round(seen, 3), clearance) > (
-                round(best.seen, 3),
-                best.clearance_m,
-            ):
-                plan = self._hold_plan(mission, offset_m=offset)
+            stays_s = 0.0 if fast is None else fast.kept_s(offset)
+            order = (round(stays_s, 1), round(seen, 3), clearance)
+            if best is None or order > (round(kept_s, 1), round(best.seen, 3), best.clearance_m):
+                plan, kept_s = self._hold_plan(mission, offset_m=offset), stays_s
                 best = PlannedFlight(plan=plan, clearance_m=clearance, seen=seen, over_street=0.0)
         return best
 

@@ -49,6 +49,17 @@ def planned_height_m(mission: UavMission, limits: Limits, tolerances: Tolerances
     return min(high, max(low, altitude.value + chosen)) if chosen else altitude.value
 
 
+def inside_bound(mission: UavMission, limits: Limits, tolerances: Tolerances) -> UavMission:
+    """Return a mission whose standoff to plan with is inside the bound that is stated."""
+    stated = mission.standoff_m
+    if stated is None or stated.bound is Bound.EXACTLY:
+        return mission
+    slack_m = tolerances.standoff_m.of(stated.value, approximate=stated.approximate)
+    value = min(max(stated.inside(slack_m), 0.0), limits.uav_standoff_max_m)
+    aimed = stated.model_copy(update={'value': value})
+    return mission.model_copy(update={'standoff_m': aimed})
+
+
 def altitude_slack_m(mission: UavMission, tolerances: Tolerances) -> float:
     """Return how far from its altitude a UAV may be on a mission."""
     altitude = mission.altitude_m

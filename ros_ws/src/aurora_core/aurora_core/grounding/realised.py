@@ -14,7 +14,7 @@ from aurora_core.spec.scenario import ScenarioSpec
 def realised_values(
     spec: ScenarioSpec, agents: tuple[GroundedAgent, ...], uavs: tuple[UavPlan, ...]
 ) -> tuple[RealisedValue, ...]:
-    """Return the realised value of every placement distance, altitude and standoff."""
+    """Return the realised value of placement distances, altitudes, standoffs, moved durations."""
     by_id = {a.id: a for a in agents}
     rows: list[RealisedValue] = []
 
@@ -44,4 +44,7 @@ def realised_values(
         add(f'missions/{mission.id}/altitude_m', mission.altitude_m, plan.altitude_m)
         if mission.standoff_m is not None:
             add(f'missions/{mission.id}/standoff_m', mission.standoff_m, plan.standoff_m)
+        lasts, plan_s = mission.duration_s, plan.duration_s
+        if lasts is not None and plan_s is not None and plan_s != lasts.value:
+            add(f'missions/{mission.id}/duration_s', lasts, plan_s)
     return tuple(rows)
