@@ -223,7 +223,7 @@ def cut_round(proof: Certificate, request: Request) -> list[Step]:
 
 def _no_way(request: Request, mission: dict[str, Any], high: float, middles: list[Place]) -> Step:
     """Buildings that it cannot rise above in its time leave no way round."""
-    radius, time, turns = (mission.get(n) for n in ('radius_m', 'duration_s', 'turns'))
+    radius, time, turns = mission['radius_m'], mission.get('duration_s'), mission.get('turns')
     if not stated(time):
         return False, 'the duration of the orbit is stated'
     near, far = left_open(radius, request.slack('standoff_m', radius))
