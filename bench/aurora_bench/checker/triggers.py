@@ -181,6 +181,8 @@ def _arrives(case: Case, trigger: Mapping[str, Any]) -> Fired:
             else:
                 on_road = not scene.bodies[who].is_uav
                 away = scene.places.outline_distance(goal, scene.xy(who), on_road=on_road)
+                if goal.casefold() == 'sidewalk':
+                    away = _since_left(away)
             least = float(np.fmin(least, np.fmin.reduce(away)))
             with np.errstate(invalid='ignore'):
                 near = away <= ARRIVED_FROM_M
@@ -191,6 +193,16 @@ def _arrives(case: Case, trigger: Mapping[str, Any]) -> Fired:
                 stop = a + nearest + (int(moved[0]) if len(moved) else 0)
                 found.append(Instant(float(scene.times[a]), float(scene.times[stop])))
     return Fired(_sorted(found), why=f'nearest {least:.1f} m')
+
+
+def _since_left(away: FloatArray) -> FloatArray:
+    """Return distances from sidewalks without those before somebody on one has left it.
+
+    Who stands on a sidewalk arrives at one when he gets onto it again.
+    """
+    off = np.flatnonzero(away > 0.0)
+    left = int(off[0]) if len(off) else len(away)
+    return np.where(np.arange(len(away)) < left, np.inf, away)
 
 
 def _received(case: Case, trigger: Mapping[str, Any]) -> Fired:

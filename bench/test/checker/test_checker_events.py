@@ -327,6 +327,22 @@ def test_every_trigger_fires_at_its_time(stage: Any, trigger: dict[str, Any]) ->
         assert again.says(asked) == outcome, (trigger['on'], again.answer(asked).why)
 
 
+@pytest.mark.parametrize(
+    ('starts_s', 'outcome'), [(24.4, 'holds'), (14.0, 'does_not'), (0.5, 'does_not')]
+)
+def test_who_crosses_a_street_arrives_on_its_other_sidewalk(
+    stage: Any, starts_s: float, outcome: str
+) -> None:
+    """He stands on one from t = 0, leaves it at 21 s, is on the other at 24 s, stops at 25 s."""
+    t = stage.t
+    y = np.interp(t, [20.0, 21.0, 24.0, 25.0], [4.5, 3.3, -6.6, -8.0])
+    stage.ground('ped1', 'pedestrian', np.full_like(t, 50.0), y)
+    stage.ground('bus1', 'bus', np.full_like(t, -62.0) - 2.0 * np.maximum(t - starts_s, 0.0), 38.0)
+    trigger = {'on': 'arrives', 'who': 'ped1', 'place': 'sidewalk'}
+    asked = _event(trigger, {'do': 'start', 'agent': 'bus1'})
+    assert stage.says(asked) == outcome, stage.answer(asked).why
+
+
 def test_occluded_and_slower_than(stage: Any) -> None:
     stage.ground('bus1', 'bus', 50.0, 0.0)
     stage.uav('drone', lambda t: (50, np.where(t < 30, -60, 100), 30))

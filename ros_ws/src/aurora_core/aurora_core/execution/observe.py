@@ -96,11 +96,14 @@ class Observation:
 
     def on_carriageway(self, agent_id: str) -> bool:
         """Return whether an agent's reference point is on a street for vehicles."""
+        return self.is_on(SurfaceKind.DRIVING, agent_id)
+
+    def is_on(self, kind: SurfaceKind, agent_id: str) -> bool:
+        """Return whether an agent's reference point is on ground of a kind."""
         point = self.position(agent_id)
         if point is None:
             return False
-        driving = self._geometry.surfaces(SurfaceKind.DRIVING)
-        return bool(driving.contains(np.array([point[:2]]))[0])
+        return bool(self._geometry.surfaces(kind).contains(np.array([point[:2]]))[0])
 
     def motion(self, body_id: str) -> TargetMotion | None:
         """Return position, velocity and heading of a ground agent, None when it is gone."""

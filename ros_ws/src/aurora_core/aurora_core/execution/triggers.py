@@ -8,9 +8,10 @@ from dataclasses import dataclass, field
 from math import inf
 
 from aurora_core.execution.observe import Observation
+from aurora_core.knowledge.world import SurfaceKind
 from aurora_core.quantities.actions import CLIMBED_M
 from aurora_core.quantities.motion import battery
-from aurora_core.quantities.triggers import NEEDS_CHANGE
+from aurora_core.quantities.triggers import arrives_on_sidewalk, needs_change
 from aurora_core.spec.scenario import (
     AltitudeTrigger,
     ArrivalTrigger,
@@ -82,7 +83,7 @@ def holds(
     if not now and looks:
         progress.was_false.add(event.id)
     # Getting far, getting slow and losing sight are changes: what held from the start is none.
-    return now and (trigger.on not in NEEDS_CHANGE or event.id in progress.was_false)
+    return now and (not needs_change(trigger) or event.id in progress.was_false)
 
 
 def _state_holds(
@@ -108,6 +109,8 @@ def _state_holds(
             return speed <= trigger.value_mps.value
         return speed >= trigger.value_mps.value
     if isinstance(trigger, ArrivalTrigger):
+        if arrives_on_sidewalk(trigger):
+            return observation.is_on(SurfaceKind.SIDEWALK, trigger.who)
         distance = observation.distance_m(trigger.who, trigger.place, on_road=True)
         return distance is not None and distance <= progress.arrival_m
     if not _looks(trigger, observation, progress):

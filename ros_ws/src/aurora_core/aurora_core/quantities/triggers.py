@@ -55,7 +55,7 @@ from aurora_core.spec.scenario import (
     UavAction,
     VisibilityTrigger,
 )
-from aurora_core.spec.vocabulary import MissionMode
+from aurora_core.spec.vocabulary import MissionMode, Place
 from aurora_core.trace.layout import UavCommandColumn, UavPhase
 
 StateTrigger = (
@@ -73,8 +73,18 @@ BoolArray = npt.NDArray[np.bool_]
 # A UAV that climbs this fast ascends (m/s).
 CLIMBS_MPS = 0.5
 
-# Triggers that ask for a change: the predicate must have been false at an earlier tick.
-NEEDS_CHANGE = frozenset({'distance_above', 'speed_below', 'occluded'})
+# Triggers that ask for a change.
+_CHANGES = frozenset({'distance_above', 'speed_below', 'occluded'})
+
+
+def needs_change(trigger: StateTrigger) -> bool:
+    """Tell whether the predicate of a trigger must have been false at an earlier tick."""
+    return trigger.on in _CHANGES or arrives_on_sidewalk(trigger)
+
+
+def arrives_on_sidewalk(trigger: StateTrigger) -> bool:
+    """Tell whether a trigger waits for somebody to step onto a sidewalk: any, it has no point."""
+    return isinstance(trigger, ArrivalTrigger) and trigger.place == Place.SIDEWALK
 
 
 def _is_near_the_sender(event: Event) -> bool:
@@ -382,7 +392,7 @@ class EventTimes:
                 start = self._counts_from(event)
                 if start is None:
                     return None
-                if trigger.on in NEEDS_CHANGE:
+                if needs_change(trigger):
                     before = first_tick(self._before_change(trigger, mask), start)
                     if before is None:
                         return None
@@ -457,6 +467,11 @@ def trigger_series(
         case BatteryTrigger():
             left = motion.battery_series(view, view.body(trigger.uav), rules.touchdown_m)
             return left < trigger.value.value
+        case ArrivalTrigger() if arrives_on_sidewalk(trigger):
+            sidewalks = view.geometry.surfaces(SurfaceKind.SIDEWALK)
+            return sidewalks.contains(view.reference(trigger.who)[:, :2]) & view.present(
+                trigger.who
+            )
         case ArrivalTrigger():
             if view.geometry.place_point(trigger.place) is None:
                 return None

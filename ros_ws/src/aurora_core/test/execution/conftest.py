@@ -80,6 +80,7 @@ class Stage:
         hold_s: Length of the track missions.
         hold_said: The request states that length.
         street_x_m: A carriageway from south to north lies between these.
+        sidewalks_x_m: So do sidewalks.
     """
 
     make: Callable[..., Parameter]
@@ -97,6 +98,7 @@ class Stage:
     buildings: tuple[Building, ...] = ()
     lanes: tuple[CentreLine, ...] = ()
     street_x_m: tuple[float, float] | None = None
+    sidewalks_x_m: tuple[tuple[float, float], ...] = ()
     landing_spots: tuple[tuple[float, float], ...] = ((0.0, 0.0),)
     faults: tuple[Fault, ...] = ()
     loss: float = 0.0
@@ -201,11 +203,17 @@ class Stage:
         )
 
     def _surfaces(self) -> tuple[Surface, ...]:
-        if self.street_x_m is None:
-            return ()
-        a, b = self.street_x_m
-        ring = np.array([(a, -50.0), (b, -50.0), (b, 50.0), (a, 50.0)])
-        return (Surface(surface_id='street', kind=SurfaceKind.DRIVING, ring=ring),)
+        streets = () if self.street_x_m is None else (self.street_x_m,)
+        kinds = ((SurfaceKind.DRIVING, streets), (SurfaceKind.SIDEWALK, self.sidewalks_x_m))
+        return tuple(
+            Surface(
+                surface_id=f'{kind.name}{k}',
+                kind=kind,
+                ring=np.array([(a, -50.0), (b, -50.0), (b, 50.0), (a, 50.0)]),
+            )
+            for kind, strips in kinds
+            for k, (a, b) in enumerate(strips)
+        )
 
     def _grounded(self, agent: str) -> GroundedAgent:
         release, uav = self.releases.get(agent, (ReleaseOn.START, ''))

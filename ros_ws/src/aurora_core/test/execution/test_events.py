@@ -191,6 +191,15 @@ def test_arrival(stage: Build) -> None:
     assert _triggered(scene) == [(1, 'e1')]
 
 
+def test_arrival_on_a_sidewalk_is_the_one_that_is_stepped_onto(stage: Build) -> None:
+    """Who crosses a street stands on the sidewalk at first: that is no arrival."""
+    event = _event(ArrivalTrigger(on='arrives', who='ego', place='sidewalk'))
+    scene = stage(events=(event,), sidewalks_x_m=((-10.0, 0.0), (8.0, 12.0)))
+    for x in (-2.0, -1.0, 1.0, 7.0, 8.5, 9.0):
+        scene.put('ego', x).step()
+    assert _triggered(scene) == [(4, 'e1')]
+
+
 def test_visible_counts_from_the_end_of_the_ascent(stage: Build) -> None:
     trigger = VisibilityTrigger(on='visible', observer='uav1', target='van1')
     scene = stage(events=(_event(trigger),))

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from aurora_core.knowledge.world import Surface, SurfaceKind
 from aurora_core.quantities.actions import action_rules
 from aurora_core.quantities.kernels import TrackRule
 from aurora_core.quantities.phases import (
@@ -152,7 +153,12 @@ def test_waypoints_out_of_order_do_not_count(tb: ModuleType) -> None:
     assert found[1].tick is None
 
 
-def _times(tb: ModuleType, *events: Event, place: bool = False) -> EventTimes:
+def _times(
+    tb: ModuleType,
+    *events: Event,
+    place: bool = False,
+    sidewalks: tuple[tuple[float, float], ...] = (),
+) -> EventTimes:
     ticks = 400
     speed = np.concatenate((np.zeros(100), np.full(200, 10.0), np.zeros(100)))
     ego = tb.driver('ego', 'car', 0.0, np.zeros(ticks))
@@ -165,6 +171,15 @@ def _times(tb: ModuleType, *events: Event, place: bool = False) -> EventTimes:
 
         spot = NamedPlace(name='intersection', x_m=0.0, y_m=0.0)
         world = tb.replace(world, places=(spot,))
+    walks = tuple(
+        Surface(
+            surface_id=f'walk{k}',
+            kind=SurfaceKind.SIDEWALK,
+            ring=np.array(tb.box_ring(west, -5.0, east, 5.0)),
+        )
+        for k, (west, east) in enumerate(sidewalks)
+    )
+    world = tb.replace(world, surfaces=(*world.surfaces, *walks))
     run = tb.Run(ticks=ticks, agents=[ego, van], flights=[one])
     view = RunView(run.trace(), world)
     request = tb.spec(
@@ -219,6 +234,15 @@ def test_trigger_ticks(tb: ModuleType) -> None:
     arrives = ArrivalTrigger(on='arrives', who='van1', place='intersection')
     assert tick(arrives, place=True) == 189
     assert tick(arrives) is None
+
+
+def test_one_arrives_on_a_sidewalk_by_stepping_onto_it(tb: ModuleType) -> None:
+    """The van stands on one at first, leaves it 10 m farther on and comes to another at x = 0."""
+    event = _event(ArrivalTrigger(on='arrives', who='van1', place='sidewalk'))
+    other = ((-80.0, -50.0), (0.0, 30.0))
+    assert _times(tb, event, sidewalks=other).trigger_tick('e1') == pytest.approx(219, abs=1)
+    assert _times(tb, event, sidewalks=other[:1]).trigger_tick('e1') is None
+    assert _times(tb, event).trigger_tick('e1') is None
 
 
 def test_events_after_events_and_actions_of_agents(tb: ModuleType) -> None:
