@@ -86,6 +86,7 @@ class FlightPlanner:
         apart_m: Distance of UAVs at one height.
         homes_m: Least distance of their starts, where the usual one does not do.
         laps: Plans how often a route is flown.
+        leads_m: So far the first target of a UAV has gone when it is up, by UAV.
     """
 
     def __init__(
@@ -103,9 +104,11 @@ class FlightPlanner:
         apart_m: float,
         homes_m: float,
         laps: Laps,
+        leads_m: Mapping[str, float],
     ) -> None:
         self._air = airspace
         self._spots = spots
+        self._leads_m = leads_m
         self._types = types
         self._limits = limits
         self._tolerances = tolerances
@@ -213,7 +216,6 @@ class FlightPlanner:
         taken: list[tuple[float, float]],
         *,
         lands: bool = True,
-        lead_m: float = 0.0,
     ) -> UavPlan | Rejected:
         """Choose the start of a UAV whose missions are planned; it could land there again.
 
@@ -224,7 +226,6 @@ class FlightPlanner:
             site: Where.
             taken: Starts of others (x, y in m).
             lands: After its missions.
-            lead_m: So far its first target has gone when it takes off.
         """
         ways = crossed(
             flights,
@@ -236,7 +237,7 @@ class FlightPlanner:
         )
         if ways is None:
             return Rejected(reason='way_between_missions')
-        first = first_point(flights[0].plan, site, lead_m)
+        first = first_point(flights[0].plan, site, self._leads_m.get(uav_id, 0.0))
         seat = site.seat(flights[0].plan.target or '') if flights[0].plan.offset_turns else None
         home = self._starts.free(
             first,
@@ -306,6 +307,8 @@ class FlightPlanner:
             return Rejected(reason='sight')
         known = (self._limits, self._tolerances)
         fast = pulling_away(spec, mission, samples[0], *known, self._settings)
+        if fast is not None and self._leads_m.get(mission.uav, 0.0) == 0.0:
+            fast = fast.from_rest(record.accel_mps2)
         fast = fast if share[1] == 1 else None
         best = self._watching(mission, samples, targets, share, fast=fast)
         if best is None:

@@ -185,6 +185,7 @@ class Grounder:
             apart_m=spacing_m(spec, self._limits),
             homes_m=homes_m(spec, self._limits),
             laps=Laps(self._settings),
+            leads_m=leads_m(spec, split, self._types, self._limits, self._settings),
         )
         run_s = horizon_s(spec, self._limits, self._settings.flight)
         run_m = run_s * self._drive_speed(spec, split) + 300.0
@@ -210,7 +211,6 @@ class Grounder:
             split.groups if ranked else (),
             run_m,
         )
-        leads = leads_m(spec, split, self._types, self._limits, self._settings)
         rejected: Counter[str] = Counter()
         best: _Option | None = None
         scored = 0
@@ -230,7 +230,7 @@ class Grounder:
             scored += 1
             road *= 1.0 if comes_about(spec, peopled) else _NEVER
             road *= all_show(spec, peopled, self._map.network, self._tolerances)
-            option = self._option(spec, peopled, road, planner, leads)
+            option = self._option(spec, peopled, road, planner)
             if isinstance(option, Rejected):
                 rejected[option.reason] += 1
                 tried.append(TriedSite.of(site, why=option.reason))
@@ -372,7 +372,6 @@ class Grounder:
         site: Site,
         road: float,
         planner: FlightPlanner,
-        leads: Mapping[str, float],
     ) -> _Option | Rejected:
         flown_by: dict[str, list[PlannedFlight]] = {}
         uavs: list[UavPlan] = []
@@ -410,7 +409,6 @@ class Grounder:
                 site,
                 taken,
                 lands=not last.ends_in_flight,
-                lead_m=leads.get(uav.id, 0.0),
             )
             if isinstance(plan, Rejected):
                 return plan

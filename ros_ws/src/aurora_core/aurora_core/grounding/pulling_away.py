@@ -9,7 +9,7 @@ the two speeds, and is inside the ring in which the target counts as tracked for
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf, sqrt
 
 from aurora_core.geometry.arrays import FloatArray
@@ -36,6 +36,8 @@ class PullingAway:
         near_m: Least distance at which it is tracked.
         far_m: Greatest one.
         standoff_m: At which the UAV begins, None where nobody states one.
+        top_mps: How fast the UAV flies.
+        later_s: So long it keeps up, while the target gets as fast as that.
     """
 
     gains_mps: float
@@ -43,6 +45,14 @@ class PullingAway:
     near_m: float
     far_m: float
     standoff_m: float | None
+    top_mps: float
+    later_s: float = 0.0
+
+    def from_rest(self, accel_mps2: float) -> PullingAway:
+        """Return the same of a target that sets off when the UAV is there."""
+        gains_s = self.gains_mps / accel_mps2
+        # While it gets faster still, it gets away half as fast.
+        return replace(self, later_s=self.top_mps / accel_mps2 + gains_s / 2.0)
 
     def offsets(self) -> Iterator[tuple[float, float]]:
         """Yield vectors from the target to the UAV from which it stays near for long (ENU, m)."""
@@ -65,7 +75,7 @@ class PullingAway:
         if aside_m < self.near_m and ahead_m > 0.0:
             # It comes too near before it is passed.
             out_m = -sqrt(self.near_m * self.near_m - aside_m * aside_m)
-        return (ahead_m + out_m) / self.gains_mps
+        return self.later_s + (ahead_m + out_m) / self.gains_mps
 
 
 def pulling_away(
@@ -105,6 +115,7 @@ def pulling_away(
         near_m=0.0 if standoff.bound is Bound.AT_MOST else low_m,
         far_m=high_m,
         standoff_m=stated,
+        top_mps=limits.uav_speed_max_mps,
     )
 
 
