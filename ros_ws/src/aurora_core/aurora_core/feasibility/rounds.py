@@ -182,7 +182,9 @@ class _Circle:
         # Just above a roof one has to be less far away to the side.
         rises = (max(0.0, self.high_m - b.height_m) for b in around)
         gaps = (math.sqrt(max(0.0, self.gap_m * self.gap_m - r * r)) for r in rises)
-        return shapely.union_all([_walled(b, gap) for b, gap in zip(around, gaps, strict=True)])
+        solid = shapely.union_all([_walled(b, gap) for b, gap in zip(around, gaps, strict=True)])
+        shapely.prepare(solid)
+        return solid
 
     def is_cut(self, at: _Place, off_m: float, solid: shapely.Geometry) -> bool:
         """Tell whether more than a step of it has no point that can be passed.
@@ -190,13 +192,12 @@ class _Circle:
         About a point, and about every one so near to it.
         """
         angles = np.radians(np.arange(0.0, _TURN_DEG, _TURN_DEG / _SAMPLES))
-        points = shapely.points(
-            at[0] + self.radius_m * np.cos(angles), at[1] + self.radius_m * np.sin(angles)
-        )
+        x, y = at[0] + self.radius_m * np.cos(angles), at[1] + self.radius_m * np.sin(angles)
         # Between two samples it is as deep but for half the arc.
         deep_m = self.pass_m + off_m + self.radius_m * math.pi / _SAMPLES
-        inside = shapely.contains(solid, points)
-        inside[inside] = shapely.distance(solid.boundary, points[inside]) > deep_m
+        inside = shapely.contains_xy(solid, x, y)
+        points = shapely.points(x[inside], y[inside])
+        inside[inside] = shapely.distance(solid.boundary, points) > deep_m
         # Between two that are not, all round: the circle is looked at twice over.
         free = np.flatnonzero(~np.tile(inside, 2))
         longest = _SAMPLES if len(free) == 0 else int(np.max(np.diff(free))) - 1
