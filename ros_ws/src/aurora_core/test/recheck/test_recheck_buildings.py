@@ -233,9 +233,9 @@ def passes_all(radius_m: float, high_m: float) -> bool:
     """Whether some orbit passes all of its 36 points within 3 m, about some centre of a grid."""
     walls = solids('downtown')[1]
     mark = next(m for m in known('downtown').landmarks if m.name == 'City Hall')
-    beside = [(q * math.cos(k), q * math.sin(k)) for q in (0.0, 1.5, 2.99) for k in range(7)]
-    for off_m in (0.0, 4.0, 7.0, 9.9):
-        for shift in np.arange(0.0, 360.0, 30.0):
+    beside = [(q * math.cos(k), q * math.sin(k)) for q in (1.5, 2.99) for k in range(6)]
+    for off_m in (0.0, 6.0, 9.9):
+        for shift in np.arange(0.0, 360.0, 45.0):
             x = mark.x_m + off_m * math.sin(math.radians(shift))
             y = mark.y_m + off_m * math.cos(math.radians(shift))
             a = np.radians(np.arange(0.0, 360.0, 2.0))
@@ -297,21 +297,21 @@ def test_what_an_orbit_leaves_open_is_not_refused(
 
 
 def test_an_orbit_of_any_length_is_refused_where_towers_take_its_points() -> None:
-    lasting = (None, number(40.0, 's', 'at_least'), number(40.0, 's', stated=False))
     towers = orbit(number(45.0, 'm'), number(40.0, 'm'), None)
     forged = proofs(towers, Rule.ROUND)[0]
     assert 'through points 45 m from its centre' in forged.sentence
     refused = 0
     for radius_m, altitude_m in POINTS:
         high_m = altitude_m + max(2.0, 0.03 * altitude_m)
-        for duration in lasting:
-            spec = orbit(number(radius_m, 'm'), number(altitude_m, 'm'), duration)
-            found = proofs(spec, Rule.ROUND)
-            refused += bool(found)
-            if passes_all(radius_m, high_m):
-                assert not found, (radius_m, altitude_m)
-                assert not accepted(forged, spec), (radius_m, altitude_m)
-    assert 6 <= refused < 3 * len(POINTS)
+        spec = orbit(number(radius_m, 'm'), number(altitude_m, 'm'), None)
+        found = proofs(spec, Rule.ROUND)
+        refused += bool(found)
+        if passes_all(radius_m, high_m):
+            assert not found, (radius_m, altitude_m)
+            assert not accepted(forged, spec), (radius_m, altitude_m)
+    assert 2 <= refused < len(POINTS)
+    for duration in (number(40.0, 's', 'at_least'), number(40.0, 's', stated=False)):
+        assert proofs(orbit(number(45.0, 'm'), number(40.0, 'm'), duration), Rule.ROUND)
 
 
 def test_the_altitude_told_instead_clears_the_towers_that_are_in_the_way() -> None:
