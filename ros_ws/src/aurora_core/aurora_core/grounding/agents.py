@@ -229,6 +229,9 @@ class AgentPlacer:
         if best is None:
             return None
         _, path, arc_m = best
+        stop_m = None
+        if stops(agent):
+            stop_m = self._goals.open_arc_m(agent, path, arc_m + stop_after_m(agent))
         return self._grounded(
             agent,
             path,
@@ -238,7 +241,7 @@ class AgentPlacer:
             speed_mps=speed_mps,
             style=free_style(agent, self._settings.grounding.speeds),
             lane_changes=self._lane_changes(spec, agent, tied=False),
-            stop_m=arc_m + stop_after_m(agent) if stops(agent) else None,
+            stop_m=stop_m,
             parked=parked,
         )
 

@@ -23,6 +23,7 @@ from aurora_core.grounding.sites import SeatedAgent, Site
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.limits import Tolerances
 from aurora_core.knowledge.map_model import MapModel
+from aurora_core.knowledge.route_path import RoutePath
 from aurora_core.knowledge.settings import GroundingSettings
 from aurora_core.spec.parameter import Bound, Parameter, Provenance
 from aurora_core.spec.parking import parks_after
@@ -276,7 +277,7 @@ class GoalFinder:
         after_m = seat.arc_m + stop_after_m(seat.agent)
         if stops_for(spec, seat.agent):
             after_m = min([after_m, *self._crossed_m(site, seat)])
-        return self._open_arc(seat, after_m)
+        return self.open_arc_m(seat.agent, seat.path, after_m)
 
     def _crossed_m(self, site: Site, seat: SeatedAgent) -> Iterator[float]:
         """Yield where on its way a vehicle stops before those who cross it (m)."""
@@ -287,7 +288,7 @@ class GoalFinder:
             kerb_m = self._map.network.lane(walker.path.lane_id).arc_length_m
             arc_m, _ = seat.path.line.project(*walker.path.line.at(kerb_m)[:2])
             arc_m -= half_m + _BEFORE_CROSSWALK_M
-            while arc_m > seat.arc_m and not self._is_open(seat, arc_m):
+            while arc_m > seat.arc_m and not self._is_open(seat.agent, seat.path, arc_m):
                 arc_m -= _STEP_M
             if arc_m > seat.arc_m:
                 yield arc_m
@@ -309,7 +310,9 @@ class GoalFinder:
                     place=awaited.place, within_m=awaited.within_m, at_start=False, stated=True
                 )
                 arc_m = self._arc_near(seat, point, bound, wide=True)
-                return None if arc_m is None else self._open_arc(seat, arc_m)
+                if arc_m is None:
+                    return None
+                return self.open_arc_m(seat.agent, seat.path, arc_m)
         return None
 
     def _bounds(self, spec: ScenarioSpec, agent: GroundAgent) -> Iterator[_Bound]:
@@ -411,20 +414,22 @@ class GoalFinder:
             away_m = norm2(x - point[0], y - point[1])
             if away_m > reach_m:
                 return None
-            if not bound.stops or (away_m > half_m + _STEP_M and self._is_open(seat, arc_m)):
+            if not bound.stops:
+                return arc_m
+            if away_m > half_m + _STEP_M and self._is_open(seat.agent, seat.path, arc_m):
                 return arc_m
             arc_m -= _STEP_M
         return None
 
-    def _open_arc(self, seat: SeatedAgent, arc_m: float) -> float:
+    def open_arc_m(self, agent: GroundAgent, path: RoutePath, arc_m: float) -> float:
         """Return the first place from `arc_m` on (m) that is not inside a junction."""
-        while arc_m < seat.path.length_m and not self._is_open(seat, arc_m):
+        while arc_m < path.length_m and not self._is_open(agent, path, arc_m):
             arc_m += _STEP_M
         return arc_m
 
-    def _is_open(self, seat: SeatedAgent, arc_m: float) -> bool:
+    def _is_open(self, agent: GroundAgent, path: RoutePath, arc_m: float) -> bool:
         """Tell whether a vehicle that stands there with its centre is on one street alone."""
-        room_m = self._types[seat.agent.type.value].length_m / 2.0 + _STEP_M
-        ends = (max(0.0, arc_m - room_m), min(seat.path.length_m, arc_m + room_m))
-        lanes = {seat.path.lane_position_at(end)[0] for end in ends}
+        room_m = self._types[agent.type.value].length_m / 2.0 + _STEP_M
+        ends = (max(0.0, arc_m - room_m), min(path.length_m, arc_m + room_m))
+        lanes = {path.lane_position_at(end)[0] for end in ends}
         return len(lanes) == 1 and not self._map.network.lane(next(iter(lanes))).is_internal

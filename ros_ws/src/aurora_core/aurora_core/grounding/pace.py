@@ -12,6 +12,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from math import inf
 
+from aurora_core.grounding.awaited import awaited_at
 from aurora_core.knowledge.limits import Limits
 from aurora_core.knowledge.settings import GroundingSettings, SpeedSettings
 from aurora_core.quantities.actions import FROM_MOTION
@@ -56,16 +57,27 @@ class Encounter:
 
 
 def encounters(spec: ScenarioSpec) -> tuple[Encounter, ...]:
-    """Return the pairs of vehicles that an event waits for to come close."""
+    """Return the pairs of vehicles that an event waits for to come close.
+
+    Who is to come near a UAV that tracks somebody comes near that one.
+    """
     vehicles = {a.id for a in spec.agents if a.type is not AgentType.PEDESTRIAN}
+    triggers = (e.trigger for e in (*spec.events, *own_events(spec)))
+    found = [
+        Encounter(actor=_body(spec, t.a), other=_body(spec, t.b), within_m=t.value_m.value)
+        for t in triggers
+        if isinstance(t, DistanceTrigger) and t.on == 'distance_below'
+    ]
     return tuple(
-        Encounter(actor=t.a, other=t.b, within_m=t.value_m.value)
-        for t in (e.trigger for e in (*spec.events, *own_events(spec)))
-        if isinstance(t, DistanceTrigger)
-        and t.on == 'distance_below'
-        and t.a in vehicles
-        and t.b in vehicles
+        one for one in found if one.actor != one.other and {one.actor, one.other} <= vehicles
     )
+
+
+def _body(spec: ScenarioSpec, name: str) -> str:
+    """Return whom a UAV tracks that begins so, else the body itself."""
+    first = next((m for m in spec.missions if m.uav == name), None)
+    tracks = first is not None and first.mode is MissionMode.TRACK
+    return first.target if tracks and first is not None and first.target else name
 
 
 def encounter_room_m(speed_mps: float | None) -> float:
@@ -86,8 +98,8 @@ def met_persons(spec: ScenarioSpec) -> tuple[tuple[GroundAgent, str, float], ...
     for trigger in (e.trigger for e in spec.events):
         if isinstance(trigger, DistanceTrigger) and trigger.on == 'distance_below':
             for own, other in ((trigger.a, trigger.b), (trigger.b, trigger.a)):
-                if own in persons:
-                    found.append((persons[own], other, trigger.value_m.value))
+                if own in persons and _body(spec, other) != own:
+                    found.append((persons[own], _body(spec, other), trigger.value_m.value))
     # Two of them are to come as near as the farthest trigger says.
     return tuple(sorted(found, key=lambda one: -one[2]))
 
@@ -125,7 +137,8 @@ def moves(spec: ScenarioSpec, agent: GroundAgent) -> bool:
     )
     acted = any(getattr(e.action, 'agent', None) == agent.id for e in spec.events)
     met = any(agent.id in (m.actor, m.other) for m in encounters(spec))
-    return bool(agent.behaviors) or tied or acted or met
+    awaited = any(one.agent == agent.id for one in awaited_at(spec))
+    return bool(agent.behaviors) or tied or acted or met or awaited
 
 
 def convoy_pace_mps(spec: ScenarioSpec, limits: Limits, settings: GroundingSettings) -> float:

@@ -16,8 +16,8 @@ from aurora_core.knowledge.map_types import Building
 from aurora_core.knowledge.net_types import Crossing
 from aurora_core.outcomes.grounded import GroundedScenario
 from aurora_core.spec.reference import LANDMARK, is_landmark, is_place
-from aurora_core.spec.scenario import ArrivalTrigger, GroundAgent, ScenarioSpec
-from aurora_core.spec.vocabulary import Place
+from aurora_core.spec.scenario import ArrivalTrigger, DistanceTrigger, GroundAgent, ScenarioSpec
+from aurora_core.spec.vocabulary import AgentType, Place
 
 Point2 = tuple[float, float]
 
@@ -28,6 +28,9 @@ _CLEAR_M = 12.0
 # The point is looked for along the way of the first vehicle, in such steps and so far (m).
 ROAD_STEP_M = 5.0
 ROAD_WAY_M = 200.0
+
+# Who does not drive.
+_ON_FOOT = (AgentType.PEDESTRIAN, AgentType.RSU)
 
 # Places that are the road itself, wherever the scenario is.
 ROADS = frozenset({Place.MAIN_ROAD, Place.ROADSIDE})
@@ -72,10 +75,20 @@ def has_point(place: str | None) -> bool:
 
 
 def arrivals(spec: ScenarioSpec, agent: GroundAgent) -> Iterator[ArrivalTrigger]:
-    """Yield the triggers that wait for an agent to arrive somewhere."""
-    for event in spec.events:
-        if isinstance(event.trigger, ArrivalTrigger) and event.trigger.who == agent.id:
-            yield event.trigger
+    """Yield the triggers that wait for an agent to arrive somewhere.
+
+    A vehicle that is to come near a roadside unit at a landmark arrives at that.
+    """
+    units = {a.id: a for a in spec.agents if a.type is AgentType.RSU}
+    for trigger in (event.trigger for event in spec.events):
+        if isinstance(trigger, ArrivalTrigger) and trigger.who == agent.id:
+            yield trigger
+        elif isinstance(trigger, DistanceTrigger) and trigger.on == 'distance_below':
+            pair = (trigger.a, trigger.b)
+            placements = [p for name in pair if name in units for p in units[name].placements]
+            places = [p.of for p in placements if is_landmark(p.of)]
+            if agent.id in pair and agent.type not in _ON_FOOT and places:
+                yield ArrivalTrigger(on='arrives', who=agent.id, place=str(places[0]))
 
 
 def road_point(way: Sequence[Point2], bodies: Sequence[Point2]) -> Point2:

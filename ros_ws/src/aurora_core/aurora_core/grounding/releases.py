@@ -214,6 +214,14 @@ def convoy_release(spec: ScenarioSpec, split: SceneSplit) -> Release:
         caused = bodies_of_cause(event)
         if caused & set(members):
             return _reporter_ready(spec, event.action.sender)
+    for event in spec.events:
+        trigger = event.trigger
+        if isinstance(trigger, DistanceTrigger) and trigger.on == 'distance_below':
+            # Who is to come near a UAV does not leave before that is up.
+            pair = {trigger.a, trigger.b}
+            for uav in sorted(pair & flying):
+                if pair & set(members):
+                    return _reporter_ready(spec, uav)
     for mission in spec.missions:
         if met & set(members):
             return Release(on=ReleaseOn.ASCENDED, uav=mission.uav)

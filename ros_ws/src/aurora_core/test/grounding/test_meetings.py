@@ -8,9 +8,10 @@ from collections.abc import Callable
 
 import pytest
 
+from aurora_core.geometry.polyline import Polyline
 from aurora_core.knowledge.agent_types import load_agent_types
 from aurora_core.knowledge.map_model import MapModel
-from aurora_core.outcomes.grounded import GroundedAgent
+from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
 
 Agents = Callable[[str], dict[str, GroundedAgent]]
 NETWORK_LIMIT_MPS = 19.44
@@ -69,3 +70,24 @@ def test_nobody_hurries_to_who_does_not_get_away(
     ego = agents(scene + ALERT.format(who='van').replace('30', '15'))['ego']
     limit_mps = map_of('downtown').network.lane(ego.lane_id).speed_limit_mps
     assert ego.speed_factor * limit_mps < 15.0  # a UAV keeps up with it
+
+
+def test_who_is_to_come_near_a_place_sets_off_while_a_uav_hovers_over_it(agents: Agents) -> None:
+    hover = 'A drone hovers over a bus at 40 m. My car drives. '
+    alert = 'the drone alerts my car.'
+    found = agents(f'{hover}When the bus comes within 60 m of the intersection, {alert}')
+    assert found['bus1'].release is ReleaseOn.CAPTURED
+
+
+def test_who_comes_near_a_uav_starts_that_far_from_whom_it_tracks(agents: Agents) -> None:
+    alert = 'When a van comes within 60 m of the drone, the drone alerts my car.'
+    found = agents(f'My car drives. A drone tracks my car at 30 m. {alert}')
+    assert abs(ahead_m(found['ego'], found['van1'])) > 60.0
+
+
+def test_a_vehicle_comes_past_the_roadside_unit_that_it_is_to_come_near(agents: Agents) -> None:
+    unit = 'A roadside unit is at City Hall. My car drives. A drone tracks my car. '
+    found = agents(f'{unit}When my car comes within 50 m of the roadside unit, my car brakes.')
+    ego, rsu = found['ego'], found['rsu1']
+    way = Polyline(ego.route_xy_m)
+    assert abs(way.project(rsu.x_m, rsu.y_m)[1]) < 30.0
