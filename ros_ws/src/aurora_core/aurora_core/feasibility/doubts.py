@@ -9,6 +9,7 @@ from math import hypot, isfinite
 
 from aurora_core.feasibility.bounds import exclusive
 from aurora_core.feasibility.geometry import check_geometry
+from aurora_core.feasibility.rounds import check_rounds
 from aurora_core.feasibility.scene import check_scene
 from aurora_core.feasibility.sight import check_sight
 from aurora_core.feasibility.times import check_times
@@ -61,6 +62,7 @@ def doubts(
         *check_sight(spec, map_model, close, exact),
         *check_geometry(spec, close, exact),
         *check_times(spec, limits, exact, map_model),
+        *check_rounds(spec, map_model.buildings, map_model.landmarks, close, exact),
     )
     near = (c.sentence for c in strained if c.sentence not in known)
     yield from (f'{sentence} Only inside the tolerances it can be.' for sentence in near)

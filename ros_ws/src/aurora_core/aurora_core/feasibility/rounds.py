@@ -249,6 +249,7 @@ def _proof(
 ) -> Certificate:
     base, gap = f'missions/{mission.id}', limits.clearance_min_m
     names = ', '.join(f'{b.name or b.id} ({b.height_m:g} m)' for b in cutting)
+    leave = 'leaves' if len(cutting) == 1 else 'leave'
     return beyond(
         Rule.ROUND,
         'clearance',
@@ -256,7 +257,7 @@ def _proof(
         f'{base}/altitude_m',
         ('clearance_min_m', gap),
         f'{mission.uav} would go round {mark.name} {way.told()} and {way.high_m:g} m high at '
-        f'most; {names} leave no way round from which {gap:g} m are kept.',
+        f'most; {names} {leave} no way round from which {gap:g} m are kept.',
         (
             *says(f'{base}/target', mission.target),
             *says(f'{base}/altitude_m', mission.altitude_m),

@@ -22,7 +22,7 @@ from aurora_core.knowledge.agent_types import load_agent_types
 from aurora_core.knowledge.config_files import config_path
 from aurora_core.knowledge.limits import load_limits, load_tolerances
 from aurora_core.knowledge.map_model import MapModel, load_map
-from aurora_core.outcomes.feasibility import Certificate, Rule
+from aurora_core.outcomes.feasibility import Certificate, Feasibility, Rule
 from aurora_core.recheck import recheck
 from aurora_core.spec.scenario import ScenarioSpec
 
@@ -318,6 +318,15 @@ def test_the_altitude_told_instead_clears_the_towers_that_are_in_the_way() -> No
     """At the very centre: two towers of 66.5 m and less are on the circle, and 3 m are kept."""
     proof = proofs(orbit(number(45.0, 'm'), number(40.0, 'm'), None), Rule.ROUND)[0]
     assert [m.nearest for m in proof.mends] == [69.5]
+
+
+def test_an_orbit_that_only_its_tolerances_free_is_doubted_and_names_the_tower() -> None:
+    """Some centre may leave a way round the tower; the stated circle goes through it."""
+    spec = orbit(number(40.0, 'm'), number(60.0, 'm'), None)
+    verdict = check_request(spec, known('downtown'), LIMITS, TOLERANCES, TYPES)
+    assert verdict.result is Feasibility.UNKNOWN
+    assert [n for n in verdict.notes if 'b411 (64.1 m) leaves no way round' in n]
+    assert all(n.endswith('Only inside the tolerances it can be.') for n in verdict.notes)
 
 
 @pytest.mark.parametrize(
