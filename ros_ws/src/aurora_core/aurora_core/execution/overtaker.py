@@ -15,7 +15,11 @@ from aurora_core.knowledge.settings import DrivingStyle
 from aurora_core.spec.own_events import overtakings
 from aurora_core.spec.scenario import ScenarioSpec
 from aurora_core.trace.commands import GroundCommand
+from aurora_core.trace.layout import GroundColumn
 from aurora_core.trace.roster import Roster
+
+# Who is in the lane to the right is so far to the right (m): half a lane and more, not two.
+_BESIDE_M = (1.5, 5.0)
 
 
 @dataclass(slots=True)
@@ -75,7 +79,27 @@ class Overtaker:
         if any(seen.ahead_m(other, own) < self._style.overtake_in_m for other in one.others):
             return []
         goal = self._lanes.goal(one.row, seen, back=True)
-        if goal is None:
+        if goal is None or not self._has_room(one.row, seen):
             return []
         one.done = True
         return self._lanes.commands(one.row, goal)
+
+    def _has_room(self, row: int, seen: Observation) -> bool:
+        """Tell whether nobody drives so near in the lane to the right that it would have to brake.
+
+        Who drives close ahead of those that were overtaken is passed, too.
+        """
+        own, room_m = self._roster.agents[row], self._style.overtake_in_m
+        x, y, hx, hy = seen.ground(row)[: GroundColumn.HEADING_Y + 1].tolist()
+        for index, other in enumerate(self._roster.agents):
+            motion = seen.motion(other.body_id)
+            if index == row or other.is_person or motion is None:
+                continue
+            right_m = (motion.x_m - x) * hy - (motion.y_m - y) * hx
+            same_way = motion.heading_x * hx + motion.heading_y * hy > 0.0
+            gap_m = seen.ahead_m(row, other.body_id)
+            behind_m = -gap_m - own.length_m - other.length_m
+            near = gap_m < room_m and behind_m < room_m
+            if same_way and near and _BESIDE_M[0] < right_m < _BESIDE_M[1]:
+                return False
+        return True

@@ -56,6 +56,17 @@ def test_it_pulls_out_passes_and_pulls_in_again(stage: Build) -> None:
     assert len(_orders(scene)) == 2, 'once'
 
 
+def test_who_drives_close_ahead_of_the_other_one_is_passed_too(stage: Build) -> None:
+    scene = _scene(stage, agents=('van1', 'ego', 'bus1'))
+    scene.put('bus1', 235.0, speed=6.0)
+    scene.put('van1', 200.0, speed=6.0).put('ego', 170.0, speed=13.0).step(3)
+    assert _orders(scene) == [('ego', 1.0)]
+    scene.put('bus1', 235.0, speed=6.0).put('ego', 225.0, 3.3, 13.0).step(3)
+    assert _orders(scene) == [('ego', 1.0)], 'no room between the two'
+    scene.put('ego', 265.0, 3.3, 13.0).step(3)
+    assert _orders(scene) == [('ego', 1.0), ('ego', 0.0)]
+
+
 def test_it_waits_for_a_free_lane(stage: Build) -> None:
     scene = _scene(stage, lanes=1)
     scene.put('van1', 200.0, speed=6.0).put('ego', 180.0, speed=6.0).step(5)
