@@ -57,6 +57,10 @@ class Watcher:
             if seat is not None:
                 points = self._way(seat, mission, speed_mps)
                 yield points, isinstance(seat, SeatedPerson)
+                if isinstance(seat, SeatedPerson) and seat.path.begins_m is not None:
+                    # Who has gone straight over the street stands on its other side.
+                    x, y = seat.path.polyline[-1]
+                    yield np.array([[x, y, points[0, 2]]]), True
 
     def _way(
         self, seat: SeatedAgent | SeatedPerson, mission: UavMission, speed_mps: float

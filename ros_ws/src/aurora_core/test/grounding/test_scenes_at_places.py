@@ -12,8 +12,9 @@ import numpy as np
 import pytest
 
 from aurora_core.conditions.capabilities import unsupported
+from aurora_core.grounding.airspace import Airspace
 from aurora_core.grounding.places import MapPlaces
-from aurora_core.knowledge.limits import Tolerances
+from aurora_core.knowledge.limits import Limits, Tolerances
 from aurora_core.knowledge.map_model import MapModel
 from aurora_core.outcomes.grounded import GroundedAgent, GroundedScenario
 from aurora_core.outcomes.grounding import GroundingFailure
@@ -43,11 +44,14 @@ class Scenes:
         assert isinstance(found, GroundingFailure), found
         return found
 
-    def agents(self, prompt: str, placed: Placed) -> dict[str, GroundedAgent]:
-        spec = self.spec(prompt, placed)
+    def grounded(self, spec: ScenarioSpec) -> GroundedScenario:
         found = self._ground(spec, 'downtown')
         assert isinstance(found, GroundedScenario), found
         assert unsupported(spec, found) == ()
+        return found
+
+    def agents(self, prompt: str, placed: Placed) -> dict[str, GroundedAgent]:
+        found = self.grounded(self.spec(prompt, placed))
         return {agent.id: agent for agent in found.agents}
 
 
@@ -272,3 +276,23 @@ def test_who_is_left_of_a_parked_vehicle_is_on_its_left_or_nowhere(scenes: Scene
     # In the middle of the street nobody waits.
     failure = scenes.failure(prompt, {'pedestrian1': [{**left, 'distance_m': metres(5.0)}]})
     assert failure.reason == 'sidewalk'
+
+
+def test_who_crosses_where_no_crosswalk_is_stays_in_sight_of_who_tells_of_it(
+    scenes: Scenes, map_of: Callable[[str], MapModel], limits: Limits
+) -> None:
+    spec = scenes.spec(
+        'It is raining at dusk. An ambulance drives at 40 km/h. At 15 s a pedestrian crosses. A '
+        'drone hovers over City Hall at 60 m. When it sees the pedestrian the drone messages the '
+        'ambulance. When it gets the message the ambulance brakes.',
+        {},
+    )
+    found = scenes.grounded(spec)
+    (person,) = (a for a in found.agents if a.is_person)
+    assert len(person.way_xy_m) > 1
+    hover = found.uavs[0].missions[0].hover_point
+    model = map_of('downtown')
+    air = Airspace(model.buildings, model.zones)
+    ends = np.array([(*point, person.height_m / 2.0) for point in person.way_xy_m])
+    range_m = limits.sensing_range('rain', 'dusk')
+    assert air.seen(np.array([hover] * len(ends)), ends, range_m).all()
