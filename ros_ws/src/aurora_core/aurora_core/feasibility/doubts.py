@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
-from math import hypot, isfinite
+from math import ceil, hypot, isfinite
 
 from aurora_core.feasibility.bounds import exclusive
 from aurora_core.feasibility.geometry import check_geometry
@@ -19,9 +19,12 @@ from aurora_core.knowledge.map_model import MapModel
 from aurora_core.knowledge.uav_record import UavRecord
 from aurora_core.spec.parameter import Bound
 from aurora_core.spec.reference import LANDMARK
-from aurora_core.spec.scenario import ScenarioSpec, SendMessage
+from aurora_core.spec.scenario import DistanceTrigger, ScenarioSpec, SendMessage
 from aurora_core.spec.stated import is_stated, least, most
-from aurora_core.spec.vocabulary import MissionMode, Pattern
+from aurora_core.spec.vocabulary import AgentType, MissionMode, Pattern
+
+# Streets that these may not use nobody drives on.
+_ANY_CAR = 'passenger'
 
 
 def nominal(limits: Limits, tolerances: Tolerances) -> tuple[Limits, Tolerances]:
@@ -68,11 +71,33 @@ def doubts(
     yield from (f'{sentence} Only inside the tolerances it can be.' for sentence in near)
     for closed in check_scene(spec, own=True):
         yield f'{closed.sentence} Some of them may be the same.'
+    yield from _off_the_streets(spec, map_model)
     yield from _far_hovers(spec, map_model, limits, tolerances)
     yield from _fast_targets(spec, limits, uav)
     yield from _short_legs(spec, tolerances, uav)
     if uav is not None:
         yield from _strong_wind(spec, limits, tolerances, uav)
+
+
+def _off_the_streets(spec: ScenarioSpec, map_model: MapModel) -> Iterator[str]:
+    """Events that wait for a vehicle nearer to a landmark than any street leads."""
+    marks = {f'{LANDMARK}{mark.name}': mark for mark in map_model.landmarks}
+    vehicles = {a.id for a in spec.agents if a.type not in (AgentType.PEDESTRIAN, AgentType.RSU)}
+    for trigger in (event.trigger for event in spec.events):
+        if not isinstance(trigger, DistanceTrigger) or trigger.on != 'distance_below':
+            continue
+        for body, place in ((trigger.a, trigger.b), (trigger.b, trigger.a)):
+            if body not in vehicles or place not in marks:
+                continue
+            mark = marks[place]
+            lane_id, _, away_m = map_model.network.nearest_lane(mark.x_m, mark.y_m, _ANY_CAR)
+            away_m -= map_model.network.lane(lane_id).width_m / 2.0
+            asked_m = trigger.value_m.value
+            if asked_m < away_m:
+                yield (
+                    f'{body} drives on streets, and none is nearer to {mark.name} than '
+                    f'{ceil(away_m)} m: it may never come within {asked_m:g} m of it.'
+                )
 
 
 def _far_hovers(

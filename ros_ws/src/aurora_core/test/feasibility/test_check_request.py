@@ -157,6 +157,14 @@ def test_hovers_out_of_reach_of_each_other_are_doubted() -> None:
     assert not any('their link' in note for note in near.notes)
 
 
+def test_a_vehicle_that_is_to_come_nearer_than_any_street_is_doubted() -> None:
+    prompt = 'My car drives. When my car comes within {} m of City Hall, my car brakes.'
+    near, far = (_judged(prompt.format(metres)) for metres in (20, 80))
+    assert (near.result, near.certificates) == (Feasibility.UNKNOWN, ())
+    assert any('none is nearer to City Hall than 57 m' in note for note in near.notes)
+    assert not any('City Hall' in note for note in far.notes)
+
+
 def test_a_number_in_words_that_were_not_read_proves_nothing() -> None:
     """A certificate that rests on one all the same is refuted."""
     prompt = 'A drone hovers over City Hall at 50 m. Another drone hovers 2 m above it.'
