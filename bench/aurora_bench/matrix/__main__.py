@@ -19,7 +19,7 @@ from pydantic import ValidationError
 
 from aurora_bench.interrupt import stop_on_sigterm
 from aurora_bench.machine import machine_facts
-from aurora_bench.matrix import air, ground
+from aurora_bench.matrix import air, ground, meetings
 from aurora_bench.matrix.cells import Cell
 from aurora_bench.progress import Progress
 from aurora_bench.results import Goal, Table, goal_table, markdown_table, write_results
@@ -45,6 +45,7 @@ def cells_of(map_name: str) -> tuple[Cell, ...]:
         *ground.triggers(landmark),
         *ground.actions(landmark),
         *ground.relations(landmark),
+        *meetings.meetings(landmark),
         *air.missions(landmark),
         *air.patterns(landmark),
         *air.sides(),

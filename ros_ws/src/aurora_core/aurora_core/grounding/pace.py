@@ -43,6 +43,9 @@ _DRIVES_S = 3.0
 # Below a bound on the speed of a UAV its target is so much slower, to be caught up with (m/s).
 _CAUGHT_UP_MPS = 3.0
 
+_TRACKS = frozenset({MissionMode.TRACK})
+_WATCHES = _TRACKS | {MissionMode.HOVER}
+
 # Who does this drives as fast as the one that it does it to.
 PACED = frozenset({BehaviorKind.FOLLOW, BehaviorKind.TAILGATE})
 
@@ -59,7 +62,7 @@ class Encounter:
 def encounters(spec: ScenarioSpec) -> tuple[Encounter, ...]:
     """Return the pairs of vehicles that an event waits for to come close.
 
-    Who is to come near a UAV that tracks somebody comes near that one.
+    Who is to come near a UAV that watches somebody comes near that one.
     """
     vehicles = {a.id for a in spec.agents if a.type is not AgentType.PEDESTRIAN}
     triggers = (e.trigger for e in (*spec.events, *own_events(spec)))
@@ -73,11 +76,10 @@ def encounters(spec: ScenarioSpec) -> tuple[Encounter, ...]:
     )
 
 
-def _body(spec: ScenarioSpec, name: str) -> str:
-    """Return whom a UAV tracks that begins so, else the body itself."""
+def _body(spec: ScenarioSpec, name: str, modes: frozenset[MissionMode] = _WATCHES) -> str:
+    """Return whom a UAV watches that begins so, else the body itself."""
     first = next((m for m in spec.missions if m.uav == name), None)
-    tracks = first is not None and first.mode is MissionMode.TRACK
-    return first.target if tracks and first is not None and first.target else name
+    return first.target or name if first is not None and first.mode in modes else name
 
 
 def encounter_room_m(speed_mps: float | None) -> float:
@@ -98,8 +100,10 @@ def met_persons(spec: ScenarioSpec) -> tuple[tuple[GroundAgent, str, float], ...
     for trigger in (e.trigger for e in spec.events):
         if isinstance(trigger, DistanceTrigger) and trigger.on == 'distance_below':
             for own, other in ((trigger.a, trigger.b), (trigger.b, trigger.a)):
-                if own in persons and _body(spec, other) != own:
-                    found.append((persons[own], _body(spec, other), trigger.value_m.value))
+                # A UAV that hovers over somebody stays there while that one drives on.
+                whom = _body(spec, other, _TRACKS)
+                if own in persons and whom != own:
+                    found.append((persons[own], whom, trigger.value_m.value))
     # Two of them are to come as near as the farthest trigger says.
     return tuple(sorted(found, key=lambda one: -one[2]))
 
@@ -137,6 +141,7 @@ def moves(spec: ScenarioSpec, agent: GroundAgent) -> bool:
     )
     acted = any(getattr(e.action, 'agent', None) == agent.id for e in spec.events)
     met = any(agent.id in (m.actor, m.other) for m in encounters(spec))
+    met = met or any(agent.id == other for _, other, _ in met_persons(spec))
     awaited = any(one.agent == agent.id for one in awaited_at(spec))
     return bool(agent.behaviors) or tied or acted or met or awaited
 

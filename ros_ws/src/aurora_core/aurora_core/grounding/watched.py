@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from aurora_core.grounding.pace import moves
+from aurora_core.grounding.pace import encounters, moves
 from aurora_core.grounding.sites import SeatedAgent, SeatedPerson, Site, samples_along
 from aurora_core.knowledge.agent_types import AgentTypeRecord
 from aurora_core.knowledge.settings import GroundingSettings
@@ -22,6 +22,8 @@ from aurora_core.spec.vocabulary import BehaviorKind
 FloatArray = npt.NDArray[np.float64]
 
 _SIGHT_HEIGHT_PLACE_M = 1.0
+# Two who are to meet do so that near to where they start (m).
+_MEET_WITHIN_M = 120.0
 _OF_SIGHT = (QuantityName.VISIBLE_FRACTION, QuantityName.VISIBLE_TIME)
 
 
@@ -52,10 +54,15 @@ class Watcher:
 
     def others(self, mission: UavMission, speed_mps: float) -> Iterator[tuple[FloatArray, bool]]:
         """Yield the points (K, 3) of everybody else who is to be seen, and whether it stays."""
+        meeting = {name for m in encounters(self.spec) for name in (m.actor, m.other)}
+        meeting -= asked_to_see(self.spec, mission.uav)
         for name in sorted(_to_see(self.spec, mission)):
             seat = self.site.seat(name)
             if seat is not None:
                 points = self._way(seat, mission, speed_mps)
+                if name in meeting:
+                    near = np.hypot(*(points[:, :2] - points[0, :2]).T) <= _MEET_WITHIN_M
+                    points = points[near]
                 yield points, isinstance(seat, SeatedPerson)
                 if isinstance(seat, SeatedPerson) and seat.path.begins_m is not None:
                     # Who has gone straight over the street stands on its other side.

@@ -91,3 +91,17 @@ def test_a_vehicle_comes_past_the_roadside_unit_that_it_is_to_come_near(agents: 
     ego, rsu = found['ego'], found['rsu1']
     way = Polyline(ego.route_xy_m)
     assert abs(way.project(rsu.x_m, rsu.y_m)[1]) < 30.0
+
+
+def test_who_is_to_meet_a_person_does_not_wait_until_the_uav_has_landed(agents: Agents) -> None:
+    scene = 'A drone hovers over the intersection at 30 m. A pedestrian walks on the sidewalk. '
+    found = agents(
+        f'{scene}When the pedestrian is within 30 m of my car, the drone alerts my car.'
+    )
+    assert found['ego'].release is ReleaseOn.CAPTURED
+
+
+def test_who_comes_near_a_uav_starts_that_far_from_whom_it_hovers_over(agents: Agents) -> None:
+    alert = 'When a van comes within 70 m of the drone, the drone alerts my car.'
+    found = agents(f'A drone hovers over my car at 30 m. {alert}')
+    assert abs(ahead_m(found['ego'], found['van1'])) > 70.0
