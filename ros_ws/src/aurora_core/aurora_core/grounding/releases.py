@@ -219,9 +219,9 @@ def convoy_release(spec: ScenarioSpec, split: SceneSplit) -> Release:
         if isinstance(trigger, DistanceTrigger) and trigger.on == 'distance_below':
             # Who is to come near a UAV does not leave before that is up.
             pair = {trigger.a, trigger.b}
-            for uav in sorted(pair & flying):
+            for name in sorted(pair & flying):
                 if pair & set(members):
-                    return _reporter_ready(spec, uav)
+                    return _reporter_ready(spec, name)
     for mission in spec.missions:
         if met & set(members):
             return Release(on=ReleaseOn.ASCENDED, uav=mission.uav)
