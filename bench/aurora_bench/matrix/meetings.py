@@ -13,8 +13,9 @@ from aurora_bench.matrix.cells import Cell, agent, does, empty, flies, stands, u
 from aurora_bench.prompts.documents import Doc
 from aurora_core.spec.vocabulary import BehaviorKind, Place, Relation
 
-_NEAR_M = (15.0, 30.0, 60.0)
-_FLOWN_M = (40.0, 60.0, 100.0)
+# How near, m: in words, since a number in a prompt would be what it states.
+_NEAR_M = {15.0: 'close', 30.0: 'near', 60.0: 'about'}
+_FLOWN_M = {40.0: 'close', 60.0: 'near', 100.0: 'about'}
 _EGO = agent('ego', 'car', 'ego')
 _TELLS: Doc = {'do': 'send_message', 'sender': 'uav1', 'receiver': 'ego'}
 _BRAKES: Doc = {'do': 'brake', 'agent': 'ego'}
@@ -53,7 +54,7 @@ def _vehicles() -> Iterator[Cell]:
             row = f'{kind} {relation} {of or ""}'.strip()
             for near_m in _NEAR_M:
                 if metres is not None and near_m >= metres:
-                    yield from empty('Comes near', row, (_word(near_m),), 'it is from the start')
+                    yield from empty('Comes near', row, (_NEAR_M[near_m],), 'it is from the start')
                     continue
                 told = {} if metres is None else {'distance_m': metres}
                 there = [stands('other', relation, of, **told)] if relation else []
@@ -74,7 +75,7 @@ def _units(landmark: str) -> Iterator[Cell]:
     for of in (Place.INTERSECTION, Place.ROADSIDE, Place.CROSSWALK, landmark):
         unit = [agent('other', 'rsu'), stands('other', Relation.AT, of)]
         name = 'landmark' if of == landmark else of
-        for near_m in _NEAR_M[1:]:
+        for near_m in list(_NEAR_M)[1:]:
             yield _met(f'unit at {name}', near_m, unit, {**_TELLS, 'sender': 'other'})
 
 
@@ -91,7 +92,7 @@ def _flown() -> Iterator[Cell]:
                 other = [_EGO, agent('other', kind), uav(), mission]
                 near: Doc = {'on': 'distance_below', 'a': 'other', 'b': 'uav1', 'value_m': near_m}
                 yield Cell(
-                    table='Comes near a UAV', row=f'{kind}, {name}', column=_word(near_m),
+                    table='Comes near a UAV', row=f'{kind}, {name}', column=_FLOWN_M[near_m],
                     parts=[*other, when(near, _TELLS)],
                 )  # fmt: skip
 
@@ -100,10 +101,6 @@ def _met(row: str, near_m: float, other: list[Doc], action: Doc) -> Cell:
     near: Doc = {'on': 'distance_below', 'a': 'other', 'b': 'ego', 'value_m': near_m}
     tracked = [uav(), flies('track', 'ego', altitude_m=40.0)]
     return Cell(
-        table='Comes near', row=row, column=_word(near_m),
+        table='Comes near', row=row, column=_NEAR_M[near_m],
         parts=[_EGO, *other, *tracked, when(near, action)],
     )  # fmt: skip
-
-
-def _word(near_m: float) -> str:
-    return f'within {near_m:g} m'
