@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from aurora_core.grounding.awaited import bound_to_places
 from aurora_core.grounding.distances import ALONG, DETACHED_M, Distances
 from aurora_core.grounding.nearby import BY_PERSONS, begins_near
-from aurora_core.grounding.one_place import common_places, is_before_place, is_told
+from aurora_core.grounding.one_place import common_places, is_before_place
 from aurora_core.grounding.pace import (
     approaches,
     encounter_room_m,
@@ -47,6 +47,7 @@ from aurora_core.spec.scenario import (
     ScenarioSpec,
     SendMessage,
 )
+from aurora_core.spec.stated import is_stated
 from aurora_core.spec.vocabulary import AgentType, BehaviorKind, Place, Relation, Role
 
 # What is said of a second one who is to stand before such a place.
@@ -314,7 +315,7 @@ def _is_so_before(
     if agent not in offsets or placement.of != held.place:
         return False
     along_m = offsets[agent][0] - offsets[held.agent][0]
-    if not is_told(placement):
+    if not is_stated(placement.distance_m):
         return along_m < held.distance_m
     asked_m = held.distance_m - distances.placed(agent, None, placement)
     return abs(along_m - asked_m) < _EXACT_M

@@ -138,9 +138,8 @@ class ConvoyStyles:
             # A stated speed stays: who comes up behind has to be faster then.
             bound = own_speed_mps(front.member.agent) is not None
             if front.member.agent.id == agent.id:
-                factor *= 1.0 if bound else chased
                 if not bound:
-                    factor = min(factor, chased * self._top_share(meeting, agent.id))
+                    factor = chased * min(factor, self._top_share(meeting, agent.id))
             else:
                 factor /= chased if bound and own_speed_mps(agent) is None else 1.0
                 close = meeting.within_m <= self._settings.grounding.close_encounter_m

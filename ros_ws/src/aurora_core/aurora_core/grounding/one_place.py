@@ -9,8 +9,8 @@ from collections.abc import Iterator, Sequence
 from aurora_core.grounding.distances import Distances
 from aurora_core.grounding.places import POINTS
 from aurora_core.grounding.ties import IN_LINE_M, Tie
-from aurora_core.spec.parameter import Provenance
 from aurora_core.spec.scenario import GroundAgent, Placement
+from aurora_core.spec.stated import is_stated
 from aurora_core.spec.vocabulary import Place, Relation
 
 # Who is at such a place stands with its front bumper so far before its middle (m): at the line of
@@ -24,12 +24,6 @@ _AT = (Relation.AT, Relation.PARKED_AT)
 def is_before_place(placement: Placement) -> bool:
     """Tell whether a placement says how far before an intersection or a crosswalk one stands."""
     return placement.relation is Relation.BEFORE and placement.of in POINTS
-
-
-def is_told(placement: Placement) -> bool:
-    """Tell whether a placement states its distance."""
-    distance = placement.distance_m
-    return distance is not None and distance.provenance is Provenance.EXPLICIT
 
 
 def common_places(vehicles: Sequence[GroundAgent], distances: Distances) -> Iterator[Tie]:
@@ -48,11 +42,14 @@ def common_places(vehicles: Sequence[GroundAgent], distances: Distances) -> Iter
         base = next((one for one in told if is_before_place(one[1])), None)
         if base is None:
             continue
-        taken_m = [base[2], *(way_m for _, p, way_m in told if p is not base[1] and is_told(p))]
+        taken_m = [
+            base[2],
+            *(way_m for _, p, way_m in told if p is not base[1] and is_stated(p.distance_m)),
+        ]
         for name, placement, to_place_m in told:
             if placement is base[1]:
                 continue
-            if not is_told(placement) and is_before_place(placement):
+            if not is_stated(placement.distance_m) and is_before_place(placement):
                 while any(abs(to_place_m - m) < IN_LINE_M for m in taken_m):
                     to_place_m += IN_LINE_M
                 taken_m.append(to_place_m)

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from math import inf, sqrt
+from math import sqrt
 
 from aurora_core.geometry.arrays import FloatArray
 from aurora_core.geometry.kernel import norm2
@@ -133,6 +133,4 @@ def phase_s(
     if not free or any(mission.uav in c.of for c in spec.conditions):
         return duration.value
     longest_s = kept_s / (tolerances.tracked_fraction + _SPARE_SHARE)
-    return (
-        duration.value if longest_s == inf else min(duration.value, max(duration.low, longest_s))
-    )
+    return min(duration.value, max(duration.low, longest_s))
