@@ -46,7 +46,7 @@ from aurora_core.knowledge.walk_path import WalkPath, kerb_to_kerb, sidewalk_of,
 from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
 from aurora_core.spec.events import sets_off
 from aurora_core.spec.own_events import let_cross
-from aurora_core.spec.parameter import Parameter, Provenance
+from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.parking import stands
 from aurora_core.spec.reference import is_landmark
 from aurora_core.spec.scenario import (
@@ -54,6 +54,7 @@ from aurora_core.spec.scenario import (
     GroundAgent,
     ScenarioSpec,
 )
+from aurora_core.spec.stated import is_stated
 from aurora_core.spec.vocabulary import BehaviorKind, Place, Relation
 
 # Who stands on a side of a vehicle is where the sidewalk is, to so much of a stated distance (m).
@@ -223,10 +224,7 @@ class PersonPlacer:
             return self._over_street(spec, agent, site, number)
         if crosses(spec, agent):
             # Without a stated distance the crosswalk says how far ahead of the vehicle that is.
-            stated = any(
-                p.distance_m is not None and p.distance_m.provenance is Provenance.EXPLICIT
-                for p in agent.placements
-            )
+            stated = any(is_stated(p.distance_m) for p in agent.placements)
             ahead = any(p.relation in _BEFORE_IT for p in agent.placements)
             back_m = _ARRIVES_FROM_M if any(True for _ in arrivals(spec, agent)) else KERB_M
             return self._crossing(site, placed if stated or not ahead else None, number, back_m)
@@ -304,7 +302,7 @@ class PersonPlacer:
             if seat is None or placement.relation not in ALONG:
                 continue
             stated = placement.distance_m
-            told = stated is not None and stated.provenance is Provenance.EXPLICIT
+            told = is_stated(stated)
             if not told and placement.relation in _BEFORE_IT and _does_at_a_place(agent):
                 continue  # which is ahead of the vehicles
             left = placement.relation is Relation.LEFT
@@ -440,7 +438,7 @@ class PersonPlacer:
         stated = {
             p.of: max(0.0, p.distance_m.inside(self._style.inside_bound_m))
             for p in agent.placements
-            if p.distance_m is not None and p.distance_m.provenance is Provenance.EXPLICIT
+            if p.distance_m is not None and is_stated(p.distance_m)
         }
         for name in names:
             if name is not None and name in stated and has_point(name):
