@@ -101,11 +101,7 @@ def _own_segments(case: Case, uav: str, bodies: list[str]) -> list[tuple[int, in
     With a body that one of the UAV's missions observes, these missions; else all.
     """
     rows = []
-    own = [
-        r
-        for r in case.annotation.flat()
-        if r['kind'] == 'mission' and uav in case.bodies(r.get('uav'))
-    ]
+    own = _own_missions(case, uav)
     about = [r for r in own if set(case.bodies(r.get('target'))) & set(bodies)] or own
     taken = set()
     for requirement in about:
@@ -253,23 +249,20 @@ def _tracked(case: Case, requirement: Requirement) -> Judged:
 
 
 def _missions(case: Case, uav: str, target: str) -> list[Mapping[str, Any]]:
-    found: list[Mapping[str, Any]] = [
-        r
-        for r in case.annotation.flat()
-        if r['kind'] == 'mission'
-        and uav in case.bodies(r.get('uav'))
-        and target in case.things(r.get('target'))
-    ]
-    for event in case.annotation.flat():
-        action = event.get('action') or {}
-        if (
-            event['kind'] == 'event'
-            and action.get('do') == 'change_mission'
-            and uav in case.bodies(action.get('uav'))
-            and target in case.things(action.get('target'))
-        ):
-            found.append({**action, 'kind': 'mission', 'id': event.get('id')})
+    found = [r for r in _own_missions(case, uav) if target in case.things(r.get('target'))]
     return found or [{'kind': 'mission', 'mode': 'track', 'target': target, 'uav': uav}]
+
+
+def _own_missions(case: Case, uav: str) -> list[Mapping[str, Any]]:
+    """Return the annotated missions of a UAV, and those that events change it to."""
+    found: list[Mapping[str, Any]] = []
+    for requirement in case.annotation.flat():
+        action = requirement.get('action') or {}
+        if requirement['kind'] == 'mission' and uav in case.bodies(requirement.get('uav')):
+            found.append(requirement)
+        elif action.get('do') == 'change_mission' and uav in case.bodies(action.get('uav')):
+            found.append({**action, 'kind': 'mission', 'id': requirement.get('id')})
+    return found
 
 
 def _visible(case: Case, requirement: Requirement) -> Judged:

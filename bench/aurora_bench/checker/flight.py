@@ -34,6 +34,7 @@ class Flight:
     Attributes:
         targets: Bodies or places that the target can mean; empty: none stated.
         until: Tick at which an event changes the flight (its end otherwise).
+        climbs: An event changes its altitude.
     """
 
     scene: Scene
@@ -42,11 +43,17 @@ class Flight:
     targets: Sequence[str]
     variation: Mapping[str, Any]
     until: int
+    climbs: bool = False
 
     @property
     def ticks(self) -> slice:
         """Return the ticks of the mission up to its change."""
         return slice(self.segment.start, max(self.until, self.segment.start + 1))
+
+
+def is_free(flight: Flight, requirement: Mapping[str, Any]) -> bool:
+    """Tell whether any height may be that of a mission: none is annotated, and it climbs."""
+    return flight.climbs and requirement.get('altitude_m') is None
 
 
 def level_of(flight: Flight, requirement: Mapping[str, Any]) -> tuple[float, Wanted | None]:
@@ -60,14 +67,18 @@ def level_of(flight: Flight, requirement: Mapping[str, Any]) -> tuple[float, Wan
     return asked.value, asked
 
 
+def asked_altitude(requirement: Mapping[str, Any], variation: Mapping[str, Any]) -> Wanted | None:
+    """Return the annotated altitude, which may be one between two."""
+    band = requirement.get('altitude_m')
+    if isinstance(band, list | tuple) and len(band) == 2:
+        return Wanted(float(band[0]), float(band[0]), float(band[1]), 2.0)
+    return wanted(requirement, 'altitude_m', variation, limits.ALTITUDE)
+
+
 def altitude(flight: Flight, requirement: Mapping[str, Any], start: int) -> Judged:
     """Return whether the annotated altitude was kept from a tick on, for 95 % of the time."""
     height = flight.scene.altitude(flight.uav)[start : flight.ticks.stop]
-    band = requirement.get('altitude_m')
-    if isinstance(band, list | tuple) and len(band) == 2:
-        asked: Wanted | None = Wanted(float(band[0]), float(band[0]), float(band[1]), 2.0)
-    else:
-        asked = wanted(requirement, 'altitude_m', flight.variation, limits.ALTITUDE)
+    asked = asked_altitude(requirement, flight.variation)
     if asked is None:
         return holds('')
     if not len(height):

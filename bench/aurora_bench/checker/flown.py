@@ -5,13 +5,16 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Iterator
 from dataclasses import dataclass
+
+import numpy as np
 
 from aurora_bench.checker import missions
 from aurora_bench.checker.answers import Judged, Outcome, all_of, cannot_tell, does_not
 from aurora_bench.checker.case import Case, Requirement
 from aurora_bench.checker.events import happened
-from aurora_bench.checker.flight import Flight
+from aurora_bench.checker.flight import Flight, asked_altitude
 from aurora_bench.checker.phases import Segment, segments
 
 MOST_MISSIONS = 6
@@ -41,13 +44,15 @@ def flown(case: Case, requirement: Requirement, uav: str) -> Flown:
     """Return the flown mission of one UAV that an annotated one stands for.
 
     Top-level missions of one UAV stand for different flown ones, as well as possible in their
-    order; a mission inside of any_of takes the best.
+    order; a mission inside of any_of, or of an event, takes the best of the others.
     """
     table = _table(case, uav)
     key = id(requirement)
     if key in table:
         return table[key]
+    taken = {one.segment.number for one in table.values() if one.segment is not None}
     options = segments(case.scene, uav)
+    options = tuple(s for s in options if s.number not in taken) or options
     answers = [(_judge(case, requirement, uav, s), s) for s in options]
     if not answers:
         return Flown(does_not(f'{uav} flies no mission'), None)
@@ -111,18 +116,23 @@ def _judge(case: Case, requirement: Requirement, uav: str, segment: Segment) -> 
 
 def flight(case: Case, requirement: Requirement, uav: str, segment: Segment) -> Flight:
     """Return a flown mission as it is judged: up to where an annotated climb changes it."""
+    climbs = list(_climbs(case, requirement, uav, segment))
     return Flight(
         scene=case.scene,
         uav=uav,
         segment=segment,
         targets=case.things(requirement.get('target')),
         variation=case.variation,
-        until=_until(case, uav, segment),
+        until=min((segment.end, *climbs)),
+        climbs=bool(climbs),
     )
 
 
-def _until(case: Case, uav: str, segment: Segment) -> int:
-    end = segment.end
+def _climbs(case: Case, requirement: Requirement, uav: str, segment: Segment) -> Iterator[int]:
+    """Yield when annotated climbs begin while a mission is flown.
+
+    What triggers one before that does so once the UAV has come to the altitude of the mission.
+    """
     for event in case.annotation.flat():
         action = event.get('action') or {}
         if event['kind'] != 'event' or action.get('do') != 'ascend':
@@ -130,9 +140,23 @@ def _until(case: Case, uav: str, segment: Segment) -> int:
         if uav not in case.bodies(action.get('uav')):
             continue
         start = happened(case, event).start_s
-        if start is not None and segment.start < case.scene.tick(start) < end:
-            end = case.scene.tick(start)
-    return end
+        if start is None or case.scene.tick(start) >= segment.end:
+            continue
+        if case.scene.tick(start) > segment.start:
+            yield case.scene.tick(start)
+        elif (arrived := _arrival(case, requirement, uav, segment)) is not None:
+            yield arrived + 1
+
+
+def _arrival(case: Case, requirement: Requirement, uav: str, segment: Segment) -> int | None:
+    """Return when a UAV is at the annotated altitude of a mission, from its start on."""
+    asked = asked_altitude(requirement, case.variation)
+    if asked is None:
+        return segment.start
+    height = case.scene.altitude(uav)[segment.start : segment.end]
+    low, high = asked.low - asked.slack, asked.high + asked.slack
+    there = np.flatnonzero((height >= low) & (height <= high))
+    return segment.start + int(there[0]) if len(there) else None
 
 
 def spans(case: Case) -> dict[str, tuple[float, float]]:

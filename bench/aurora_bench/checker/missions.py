@@ -20,7 +20,14 @@ from aurora_bench.checker.answers import (
     graded,
     holds,
 )
-from aurora_bench.checker.flight import Flight, altitude, avoided, leg_speed, level_of
+from aurora_bench.checker.flight import (
+    Flight,
+    altitude,
+    avoided,
+    is_free,
+    leg_speed,
+    level_of,
+)
 from aurora_bench.checker.flights import corners
 from aurora_bench.checker.numbers import wanted
 from aurora_bench.checker.places import GENERAL
@@ -130,7 +137,7 @@ def _hover_capture(
         band = max(band, asked.high - level, level - asked.low)
     away = np.linalg.norm(scene.xy(flight.uav)[flight.ticks] - _hover_point(flight), axis=1)
     drift = limits.HOVER_DRIFT_WIND_M if scene.windy else limits.HOVER_DRIFT_CALM_M
-    at_level = np.abs(height - level) <= band
+    at_level = (np.abs(height - level) <= band) | is_free(flight, requirement)
     early = np.flatnonzero(at_level & (away <= drift + HOVER_POINT_DOUBT_M))
     late = np.flatnonzero(at_level & (away <= drift - HOVER_POINT_DOUBT_M))
     first = flight.segment.start
@@ -256,7 +263,7 @@ def tracked(
     if height is not None and height.slack > 0.0:
         at_level = (altitude >= height.low - band) & (altitude <= height.high + band)
     else:
-        at_level = np.abs(altitude - level) <= band
+        at_level = (np.abs(altitude - level) <= band) | is_free(flight, requirement)
     with np.errstate(invalid='ignore'):
         return (away >= low) & (away <= high) & at_level, away, word
 

@@ -21,7 +21,14 @@ from aurora_bench.checker.answers import (
     graded,
     holds,
 )
-from aurora_bench.checker.flight import Flight, altitude, avoided, leg_speed, level_of
+from aurora_bench.checker.flight import (
+    Flight,
+    altitude,
+    avoided,
+    is_free,
+    leg_speed,
+    level_of,
+)
 from aurora_bench.checker.recording import FloatArray
 
 
@@ -33,12 +40,13 @@ def navigate(flight: Flight, requirement: Mapping[str, Any]) -> Judged:
     band = limits.tolerance(limits.ALTITUDE, level)
     if asked is not None and asked.slack > 0.0:
         band = max(band, asked.high - level, level - asked.low)
-    reached = np.flatnonzero(np.abs(height - level) <= band)
+    reached = np.flatnonzero((np.abs(height - level) <= band) | is_free(flight, requirement))
     if not len(reached):
         return does_not(f'never at the altitude of {level:.1f} m')
     start = flight.segment.start + int(reached[0])
     step = max(1, round(0.2 / scene.dt_s))
-    xy = scene.xy(flight.uav)[flight.segment.start : flight.ticks.stop : step]
+    # A climb on the way changes the height of a route, not its course.
+    xy = scene.xy(flight.uav)[flight.segment.start : flight.segment.end : step]
     parts = [
         altitude(flight, requirement, start),
         _pattern(flight, requirement, xy),
@@ -106,11 +114,12 @@ def _orbit_of_body(
     """Return whether a body is circled, where it stood at t = 0 or where it is."""
     scene = flight.scene
     step = max(1, round(0.2 / scene.dt_s))
-    uav = scene.xy(flight.uav)[flight.ticks][::step]
+    whole = slice(flight.segment.start, flight.segment.end, step)
+    uav = scene.xy(flight.uav)[whole]
     size = None if radius is None else float(radius)
     readings = []
     for body in bodies:
-        moving = scene.xy(body)[flight.ticks][::step]
+        moving = scene.xy(body)[whole]
         readings.append(flights.orbit(uav, [scene.xy(body)[0]], size, turns)[0])
         readings.append(flights.orbit(uav - moving, [np.zeros(2)], size, turns)[0])
     return any_of(readings)

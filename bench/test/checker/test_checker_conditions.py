@@ -215,3 +215,15 @@ def test_an_unknown_quantity_cannot_be_told(stage: Any) -> None:
     stage.ground('car1', 'car', 0.0, 0.0)
     assert stage.says(_of('mood', 'car1', op='==', value=1)) == 'cannot_tell'
     assert stage.says(_of('speed', 'car1', op='!=', value=1)) == 'cannot_tell'
+
+
+def test_what_a_changed_mission_watches_counts_in_it(stage: Any) -> None:
+    """The first one, from 10 s to 20 s, sees the car, too: 10 s of the 40 s."""
+    stage.drive('car1', 'car', 0.0, x=210.0)
+    stage.uav('drone', lambda t: (210, np.interp(t, [20, 24], [30, -1.65]), 40), ends=(20.0, 50.0))
+    hover = {'kind': 'mission', 'uav': 'drone', 'mode': 'hover', 'target': 'City Hall'}
+    then = {'do': 'change_mission', 'uav': 'drone', 'mode': 'track', 'target': 'car1'}
+    event = {'kind': 'event', 'trigger': {'on': 'time', 'at_s': 20}, 'action': then}
+    seen = {'kind': 'condition', 'quantity': 'visible_time', 'of': ['drone', 'car1'], 'op': '>='}
+    assert stage.says({**seen, 'value': 25}, hover, event) == 'holds'
+    assert stage.says({**seen, 'value': 45}, hover, event) == 'does_not'

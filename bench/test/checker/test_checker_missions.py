@@ -406,16 +406,54 @@ def test_two_missions_are_two_flights_in_their_order(stage: Any) -> None:
     assert stage.outcomes(low, twice, high) == ['holds', 'does_not', 'holds']
 
 
-def test_a_mission_is_judged_until_an_annotated_climb(stage: Any) -> None:
-    stage.uav('drone', lambda t: (210, 30, np.interp(t, [30, 35], [50, 70])))
-    climb = {
+def _climb(at_s: float) -> dict[str, Any]:
+    action = {'do': 'ascend', 'uav': 'drone', 'altitude_m': 70}
+    return {
         'kind': 'event',
         'ref': 'e1',
-        'trigger': {'on': 'time', 'at_s': 30},
-        'action': {'do': 'ascend', 'uav': 'drone', 'altitude_m': 70},
+        'trigger': {'on': 'time', 'at_s': at_s},
+        'action': action,
     }
+
+
+def test_a_mission_is_judged_until_an_annotated_climb(stage: Any) -> None:
+    stage.uav('drone', lambda t: (210, 30, np.interp(t, [30, 35], [50, 70])))
     assert stage.says(HOVER) == 'does_not'
-    assert stage.says(HOVER, climb) == 'holds'
+    assert stage.says(HOVER, _climb(30)) == 'holds'
+
+
+def test_a_climb_does_not_end_a_hover_of_any_height(stage: Any) -> None:
+    stage.uav('drone', lambda t: (210, 30, np.interp(t, [20, 35], [30, 70])))
+    free = {k: v for k, v in HOVER.items() if k != 'altitude_m'}
+    assert stage.says(free, _climb(30)) == 'holds'
+    assert stage.says({**free, 'duration_s': 50}, _climb(30)) == 'does_not'
+
+
+def test_a_climb_leaves_a_route_its_course(stage: Any) -> None:
+    corners = [(0.0, 0.0), (80.0, 0.0), (80.0, 40.0), (0.0, 40.0), (0.0, 0.0)]
+    course = _route(corners, 50.0, 8.0, 12.0)
+
+    def climbing(at_s: float) -> Motion:
+        return lambda t: (*course(t)[:2], np.interp(t, [at_s, at_s + 7], [50, 70]))
+
+    stage.uav('drone', climbing(20))
+    stage.uav('early', climbing(10.5))
+    asked = {
+        'kind': 'mission',
+        'uav': 'drone',
+        'mode': 'navigate',
+        'pattern': 'rectangle',
+        'size_m': [80, 40],
+        'altitude_m': 50,
+    }
+    assert stage.says(asked, _climb(20)) == 'holds'
+    assert stage.says(asked, _climb(40)) == 'does_not'  # not as high as asked until then
+    assert stage.says({**asked, 'size_m': [80, 60]}, _climb(20)) == 'does_not'
+    # What lets the other one climb is there before its mission: it had come to its altitude.
+    asked, climb = {**asked, 'uav': 'early'}, _climb(9.9)
+    climb['action']['uav'] = 'early'
+    assert stage.says(asked, climb) == 'holds'
+    assert stage.says({**asked, 'altitude_m': 40}, climb) == 'does_not'
 
 
 @pytest.mark.parametrize(('aside', 'outcome'), [(5.0, 'holds'), (15.0, 'does_not')])

@@ -195,9 +195,11 @@ class Context:
             return point
         heights = point[:, 2].copy()
         for tick, _, climb in begun:
-            heights[tick:] = point[tick:, 2] - climb.altitude_m + mission.altitude_m
-            settled = tick + whole_ticks(climb.within_s, self.view.dt_s) if grace else tick
-            heights[tick:settled] = mission.altitude_m
+            # At its first tick it is as high as before: that may be what it has waited for.
+            later = tick + 1
+            heights[later:] = point[later:, 2] - climb.altitude_m + mission.altitude_m
+            settled = tick + whole_ticks(climb.within_s, self.view.dt_s) if grace else later
+            heights[later:settled] = mission.altitude_m
         return np.column_stack((point[:, :2], heights))
 
     def _climb_tick(self, climb: ClimbArguments, mission: MissionArguments) -> int | None:

@@ -197,11 +197,13 @@ class EventTimes:
     def done_tick(self, event_id: str) -> int | None:
         """Return the tick from which on other events may follow this one: its completion."""
         event, trigger = self.event(event_id), self.trigger_tick(event_id)
-        if event is not None and event.action is None:
+        if event is None or (event.trigger is not None and trigger is None):
+            return None  # nobody has been told yet what some may do already
+        if event.action is None:
             return self.due_tick(event_id)
-        if event is not None and isinstance(event.action, AgentAction):
+        if isinstance(event.action, AgentAction):
             return self.completion_tick(event_id)
-        if event is not None and isinstance(event.action, UavAction):
+        if isinstance(event.action, UavAction):
             return self._flown_tick(event.action, self.action_tick(event_id, trigger or 0))
         return self.action_tick(event_id, trigger or 0)
 

@@ -271,7 +271,18 @@ def test_events_after_events_and_actions_of_agents(tb: ModuleType) -> None:
 def test_events_that_wait_for_each_other_never_happen(tb: ModuleType) -> None:
     a = _event(EventDoneTrigger(on='event_done', event='e2'), action={'do': 'land', 'uav': 'uav1'})
     b = a.model_validate(dict(a) | {'id': 'e2', 'trigger': {'on': 'event_done', 'event': 'e1'}})
-    assert _times(tb, a, b).trigger_tick('e1') is not None  # the landing itself is seen
+    # That the UAV is seen to land at its end is no landing that the other one brings about.
+    assert _times(tb, a, b).trigger_tick('e1') is None
+
+
+def test_what_nobody_was_told_is_not_done(tb: ModuleType) -> None:
+    """The van stands at first: that is no stop which something else could wait for."""
+    far = DistanceTrigger(on='distance_above', a='van1', b='ego', value_m=tb.number(300.0))
+    stop = {'do': 'stop', 'agent': 'van1'}
+    after = Event(id='e2', trigger=EventDoneTrigger(on='event_done', event='e1'))
+    told = _event(TimeTrigger(on='time', at_s=tb.number(0.0, Unit.SECOND)), action=stop)
+    assert _times(tb, told, after).trigger_tick('e2') is not None
+    assert _times(tb, _event(far, action=stop), after).trigger_tick('e2') is None
 
 
 def test_what_changes_a_flight_counts_from_its_capture(tb: ModuleType) -> None:
