@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from aurora_bench.checker import limits
@@ -75,30 +77,50 @@ def tailgate(scene: Scene, body: str, leader: str) -> Judged:
     return graded(longest >= limits.TAILGATE_S - STEP_S, total >= limits.TAILGATE_S - STEP_S, why)
 
 
-def overtake(scene: Scene, body: str, other: str) -> Judged:
-    """Return whether a body comes from behind another to ahead of it."""
-    if not scene.is_body(other):
-        return does_not(f'{other} is no body')
+@dataclass(frozen=True, slots=True)
+class Overtaking:
+    """One body comes from behind another to ahead of it.
+
+    Attributes:
+        clean: Side by side in between, or in the very next sample: no detour by another street.
+    """
+
+    start_s: float
+    end_s: float
+    clean: bool
+
+
+def overtaking(scene: Scene, body: str, other: str) -> Overtaking | None:
+    """Return when a body first comes from behind another to ahead of it, None if it never does."""
     ticks, gap, _ = gaps(scene, body, other)
     half = (scene.bodies[other].length_m + scene.bodies[body].length_m) / 2.0
     with np.errstate(invalid='ignore'):
         behind, ahead = gap > 0.0, gap + half < -half
         level = np.isfinite(gap) & ~behind & ~ahead
     first = np.flatnonzero(behind)
-    if not len(first):
-        return does_not(f'{body} is never behind {other}')
-    past = np.flatnonzero(ahead[first[0] :])
+    past = np.flatnonzero(ahead[first[0] :]) if len(first) else first
     if not len(past):
-        known = gap[np.isfinite(gap)]
-        least = float(known.min()) if len(known) else np.nan
-        return does_not(f'{body} stays behind {other}, nearest {least:.1f} m')
-    done = first[0] + int(past[0])
+        return None
+    done = int(first[0]) + int(past[0])
     start = int(first[first < done][-1])
-    passing = level[start + 1 : done]
-    why = f'{body} is behind {other} at {scene.times[ticks[start]]:.1f} s and ahead of it at '
-    why += f'{scene.times[ticks[done]]:.1f} s'
-    # Side by side in between, or in the very next sample: no detour by another street.
-    return graded(bool(passing.all()) and done - start <= 30.0 / STEP_S, True, why)
+    clean = bool(level[start + 1 : done].all()) and done - start <= 30.0 / STEP_S
+    times = scene.times[ticks]
+    return Overtaking(float(times[start]), float(times[done]), clean)
+
+
+def overtake(scene: Scene, body: str, other: str) -> Judged:
+    """Return whether a body comes from behind another to ahead of it."""
+    if not scene.is_body(other):
+        return does_not(f'{other} is no body')
+    done = overtaking(scene, body, other)
+    if done is not None:
+        why = f'{body} is behind {other} at {done.start_s:.1f} s and ahead of it at '
+        return graded(done.clean, True, f'{why}{done.end_s:.1f} s')
+    _, gap, _ = gaps(scene, body, other)
+    known = gap[np.isfinite(gap)]
+    if not (known > 0.0).any():
+        return does_not(f'{body} is never behind {other}')
+    return does_not(f'{body} stays behind {other}, nearest {float(known.min()):.1f} m')
 
 
 def approach(scene: Scene, body: str, target: str) -> Judged:

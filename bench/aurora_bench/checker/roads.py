@@ -11,6 +11,7 @@ import shapely
 
 from aurora_bench.checker import limits
 from aurora_bench.checker.case import Case
+from aurora_bench.checker.pairs import overtaking
 from aurora_bench.checker.paths import lane_of, offset
 from aurora_bench.checker.scene import runs_of
 
@@ -79,9 +80,13 @@ def crossings_of(case: Case, person: str) -> list[tuple[int, int, float]]:
 def passed_first(case: Case, first: str, second: str) -> tuple[bool, float] | None:
     """Return whether one body passed where the ways cross before another; and when.
 
-    None when their ways do not cross.
+    Who overtakes the other has passed it. None when their ways do not cross.
     """
     scene = case.scene
+    if not (scene.bodies[first].is_person or scene.bodies[second].is_person):
+        passing = overtaking(scene, first, second)
+        if passing is not None and passing.clean:
+            return True, passing.end_s
     step = max(1, round(0.2 / scene.dt_s))
     a, b = scene.xy(first)[::step], scene.xy(second)[::step]
     way_a, way_b = _line(a), _line(b)

@@ -200,6 +200,18 @@ def test_yield_lets_the_other_pass_first(make_stage: Any) -> None:
         assert stage.says(asked) == outcome
 
 
+def test_who_is_overtaken_has_let_the_other_pass(make_stage: Any) -> None:
+    """Later the ambulance comes back over the other's lane, where the other has been before."""
+    stage = make_stage()
+    slow = _profile((0, 8), (4.5, 8), (6, 4), (20, 4), (22, 8), (60, 8))
+    stage.drive('car1', 'car', slow, x=60.0)
+    x = np.interp(stage.t, [0.0, 20.0, 60.0], [0.0, 300.0, 0.0])
+    y = np.interp(stage.t, [20.0, 22.0, 30.0, 40.0], [1.65, 12.0, 12.0, -8.0])
+    stage.ground('ambulance1', 'ambulance', x, y)
+    near = {'on': 'distance_below', 'a': 'car1', 'b': 'ambulance1', 'value_m': 30}
+    assert stage.says(_event(near, _does('yield'))) == 'holds'
+
+
 def _talk(stage: Any, sent: float, **more: Any) -> None:
     stage.uav('drone', lambda t: (0, 0, 40))
     stage.ground('car1', 'car', 50.0, 0.0)
