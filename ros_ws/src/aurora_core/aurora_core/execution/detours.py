@@ -1,9 +1,10 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""The way of a UAV to what moves: over what stands between, or round it where that is too high.
+"""Ways of UAVs that nobody could plan: over what stands between, or round what is too high.
 
-Where a target will be when an event sets a UAV on it is not known before: the way there is looked
-at as it is flown.
+Where a target will be when an event sets a UAV on it is not known before, nor where the UAV itself
+will be when an event, or the end of a tracking, sends it elsewhere: the way there is looked at as
+it is flown.
 """
 
 from __future__ import annotations
@@ -45,7 +46,7 @@ _NEIGHBOURS = tuple((i, j) for i in (-1, 0, 1) for j in (-1, 0, 1) if (i, j) != 
 
 
 class Detours:
-    """Plans the ways of UAVs to moving targets.
+    """Plans the ways of UAVs to moving targets, and from wherever they are to their next mission.
 
     Args:
         airspace: What stands in the way.
@@ -66,7 +67,7 @@ class Detours:
         state: FloatArray,
         target: TargetMotion | None,
     ) -> None:
-        """Let a UAV on its way to what it is to track fly over, or round, what is between.
+        """Let a UAV on a way that was not planned fly over, or round, what is between.
 
         Args:
             tick: Of the state.
@@ -75,15 +76,12 @@ class Detours:
             state: (UAV_WIDTH,) row of the UAV.
             target: Motion of the body that it follows.
         """
-        mission = machine.mission
-        tracks = mission is not None and mission.mode is MissionMode.TRACK
-        if mission is None or target is None or not tracks or machine.captured:
+        if machine.captured or tick % round(_LOOKS_EVERY_S / dt_s):
             return
-        if tick % round(_LOOKS_EVERY_S / dt_s):
+        goal = _goal(machine, target)
+        if goal is None:
             return
         x, y, z = state[UavColumn.X : UavColumn.Z + 1].tolist()
-        x_m, y_m = mission.offset_m
-        goal = (target.x_m + x_m, target.y_m + y_m, mission.altitude_m)
         if self.is_straight((x, y, z), goal):
             machine.way_there.straight()
         elif not machine.way_there.by or tick % round(_PLANS_EVERY_S / dt_s) == 0:
@@ -148,6 +146,21 @@ class Detours:
             found.append(here)
             points = points[far + 1 :]
         return tuple(found)
+
+
+def _goal(machine: MissionMachine, target: TargetMotion | None) -> Point3 | None:
+    """Return where a way leads that nobody planned, None where one did."""
+    mission = machine.mission
+    if mission is None:
+        return None
+    if mission.mode is MissionMode.TRACK:
+        x_m, y_m = mission.offset_m
+        return target and (target.x_m + x_m, target.y_m + y_m, mission.altitude_m)
+    index = machine.plan.missions.index(mission)
+    followed = index > 0 and machine.plan.missions[index - 1].mode is MissionMode.TRACK
+    if index == 0 or not (mission.waits or followed):
+        return None
+    return mission.waypoints[0] if mission.waypoints else mission.hover_point
 
 
 def _length_m(here: Point3, way: tuple[Point3, ...]) -> float:

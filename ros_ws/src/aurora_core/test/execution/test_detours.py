@@ -74,16 +74,14 @@ def test_before_a_goal_in_a_zone_it_waits_outside() -> None:
         assert airspace.way_clearance_m(leg) >= CLEAR_M
 
 
-def test_who_is_past_what_stood_between_does_not_climb_over_it_any_more() -> None:
-    # The plan says over it, and what is looked at on the way leads round it.
-    airspace = _building(60.0)
+def _flown(
+    airspace: Airspace, *missions: MissionPlan, car: TargetMotion | None = None, then: str = ''
+) -> tuple[MissionMachine, list[tuple[float, ...]]]:
+    """Fly missions with perfect control for a minute; an event may begin another one after 5 s."""
     detours = Detours(airspace, CLEAR_M, TOP_M)
-    mission = MissionPlan(
-        id='m1', mode=MissionMode.TRACK, target='car1', altitude_m=30.0, over_m=70.0
-    )
     plan = UavPlan(
         id='uav1', system_id=1, home_x_m=0.0, home_y_m=0.0, landing_spots=((0.0, 0.0),),
-        missions=(mission,), safe_altitude_m=120.0,
+        missions=missions, safe_altitude_m=120.0,
     )  # fmt: skip
     flight = FlightSettings(
         speed_max_mps=16.5, acceleration_mps2=4.0, climb_mps=4.0, descent_mps=2.5,
@@ -92,12 +90,43 @@ def test_who_is_past_what_stood_between_does_not_climb_over_it_any_more() -> Non
     machine, state, path = MissionMachine(plan, flight, 0.05), np.zeros(UAV_WIDTH), []
     state[UavColumn.Z] = 30.0
     machine.start()
-    car = TargetMotion(x_m=300.0, y_m=0.0, vx_mps=0.0, vy_mps=0.0, heading_x=1.0, heading_y=0.0)
     for tick in range(1200):
+        if then and tick == 100:
+            machine.change_to(then)
         detours.look_ahead(tick, 0.05, machine, state, car)
         row = machine.step(tick, state, car)
         state[UavColumn.X : UavColumn.VZ + 1] = row[UavCommandColumn.X : UavCommandColumn.VZ + 1]
         path.append(tuple(state[UavColumn.X : UavColumn.Z + 1].tolist()))
+        if machine.missions_done:
+            break
+    return machine, path
+
+
+CAR = TargetMotion(x_m=300.0, y_m=0.0, vx_mps=0.0, vy_mps=0.0, heading_x=1.0, heading_y=0.0)
+
+
+def test_who_is_past_what_stood_between_does_not_climb_over_it_any_more() -> None:
+    # The plan says over it, and what is looked at on the way leads round it.
+    airspace = _building(60.0)
+    mission = MissionPlan(
+        id='m1', mode=MissionMode.TRACK, target='car1', altitude_m=30.0, over_m=70.0
+    )
+    machine, path = _flown(airspace, mission, car=CAR)
     assert machine.captured
     assert airspace.points_clearance_m(np.array(path)) >= CLEAR_M
     assert max(z for x, _, z in path if x > 170.0) < 31.0
+
+
+@pytest.mark.parametrize('route', [(), ((300.0, 0.0, 30.0), (340.0, 0.0, 30.0))])
+def test_who_is_sent_elsewhere_in_the_middle_of_a_tracking_keeps_clear(
+    route: tuple[tuple[float, float, float], ...],
+) -> None:
+    near = TargetMotion(x_m=10.0, y_m=0.0, vx_mps=0.0, vy_mps=0.0, heading_x=1.0, heading_y=0.0)
+    tracking = MissionPlan(id='m1', mode=MissionMode.TRACK, target='car1', altitude_m=30.0)
+    where = {'hover_point': GOAL, 'duration_s': 5.0} if not route else {'waypoints': route}
+    mode = MissionMode.NAVIGATE if route else MissionMode.HOVER
+    later = MissionPlan(id='m2', mode=mode, altitude_m=30.0, waits=True, **where)
+    airspace = _building(119.0)
+    machine, path = _flown(airspace, tracking, later, car=near, then='m2')
+    assert 'm2' in machine.captured_missions
+    assert airspace.points_clearance_m(np.array(path)) >= CLEAR_M
