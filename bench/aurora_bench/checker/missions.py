@@ -114,7 +114,8 @@ def _seen(flight: Flight, start: int) -> Judged:
 
 def _stays(flight: Flight) -> tuple[slice, BoolArray]:
     """Return the second half of a flight (the first may be a way), and where it stands still."""
-    ticks = slice((flight.ticks.start + flight.ticks.stop) // 2, flight.ticks.stop)
+    # A climb leaves it where it is.
+    ticks = slice((flight.segment.start + flight.segment.end) // 2, flight.segment.end)
     return ticks, flight.scene.speed(flight.uav)[ticks] < limits.STARTED_MPS
 
 
@@ -141,10 +142,13 @@ def _hover_capture(
     early = np.flatnonzero(at_level & (away <= drift + HOVER_POINT_DOUBT_M))
     late = np.flatnonzero(at_level & (away <= drift - HOVER_POINT_DOUBT_M))
     first = flight.segment.start
-    return (
-        first + int(early[0]) if len(early) else None,
-        first + int(late[0]) if len(late) else (first + int(early[0]) if len(early) else None),
-    )
+    if not len(early):
+        return None, None
+    earliest = first + int(early[0])
+    if len(late):
+        return earliest, first + int(late[0])
+    # A climb may have waited for just that.
+    return earliest, max(earliest, flight.until) if flight.climbs else earliest
 
 
 def _hover(flight: Flight, requirement: Mapping[str, Any]) -> Judged:
@@ -159,9 +163,10 @@ def _hover(flight: Flight, requirement: Mapping[str, Any]) -> Judged:
         # from.
         last = flight.segment.end - round(asked.low / scene.dt_s)
         late = max(early, min(late, last))
+    start = min(late, flight.ticks.stop - 1)  # a climb may begin with the capture
     point = _hover_point(flight)
     limit = limits.HOVER_DRIFT_WIND_M if scene.windy else limits.HOVER_DRIFT_CALM_M
-    away = np.linalg.norm(scene.xy(flight.uav)[late : flight.ticks.stop] - point, axis=1)
+    away = np.linalg.norm(scene.xy(flight.uav)[start : flight.ticks.stop] - point, axis=1)
     drift = float(away.max()) if len(away) else 0.0
     # Whoever is called away on its last metres has never shown its point: the median is none.
     shown = bool(_stays(flight)[1].any())
@@ -171,14 +176,14 @@ def _hover(flight: Flight, requirement: Mapping[str, Any]) -> Judged:
             not shown or drift <= limit + HOVER_DOUBT_M,
             f'drift {drift:.2f} m',
         ),
-        altitude(flight, requirement, late),
+        altitude(flight, requirement, start),
         _duration(flight, requirement, early, late),
     ]
     if flight.targets:
         parts += [
-            _over(flight, requirement, point, late),
+            _over(flight, requirement, point, start),
             _at_bearing(flight, requirement, point),
-            _seen(flight, late),
+            _seen(flight, start),
         ]
     return all_of([*parts, *avoided(flight, requirement)])
 

@@ -189,7 +189,7 @@ def ascend(case: Case, action: Mapping[str, Any], uav: str, window: Window) -> A
     level = float(goal)
     slack = limits.tolerance(limits.ALTITUDE, level)
     near = np.abs(z - level) <= slack
-    if not window.free and near[scene.tick(window.late_s)]:
+    if not window.free and near[scene.tick(window.early_s) : scene.tick(window.late_s) + 1].all():
         return Acted(holds(f'{uav} is at {level:g} m'), window.late_s, window.late_s)
     if not len(climbing):
         if not window.free and window.last_s > scene.end_s:
@@ -241,8 +241,15 @@ def first_captured(case: Case, uav: str) -> tuple[int, int] | None:
         until=found[0].end,
     )
     early = missions.captured_tick(whole, own[0])
-    if early is None or own[0].get('mode') != 'hover':
-        return None if early is None else (early, early)
+    if early is None:
+        return None
+    if own[0].get('mode') == 'navigate':  # the first point of a route shows by the turn there
+        return found[0].start, early
+    if own[0].get('mode') != 'hover':
+        # Unstated, it may be above its target that it has to be.
+        above = missions.captured_tick(whole, {**own[0], missions.ABOVE: True})
+        bare = own[0].get('standoff_m') is None and own[0].get('side') is None
+        return early, max(early, above) if bare and above is not None else early
     still = np.flatnonzero(case.scene.speed(uav)[early : found[0].end] < limits.STOPPED_MPS)
     return early, early + int(still[0]) if len(still) else found[0].end
 
