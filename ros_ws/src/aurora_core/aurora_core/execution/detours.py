@@ -154,8 +154,10 @@ def _goal(machine: MissionMachine, target: TargetMotion | None) -> Point3 | None
     if mission is None:
         return None
     if mission.mode is MissionMode.TRACK:
+        if target is None:
+            return None
         x_m, y_m = mission.offset_m
-        return target and (target.x_m + x_m, target.y_m + y_m, mission.altitude_m)
+        return target.x_m + x_m, target.y_m + y_m, mission.altitude_m
     index = machine.plan.missions.index(mission)
     followed = index > 0 and machine.plan.missions[index - 1].mode is MissionMode.TRACK
     if index == 0 or not (mission.waits or followed):

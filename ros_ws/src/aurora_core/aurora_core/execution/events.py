@@ -111,6 +111,9 @@ class EventRunner:
         drive: Gives the command that lets the agent of a row drive on.
         stopping: Rows of the agents that stop by themselves, at their place.
         ways: Who has to drive before anybody stops.
+
+    Attributes:
+        sped_up: Rows of agents that drive as fast as an event has told them.
     """
 
     def __init__(
@@ -136,6 +139,7 @@ class EventRunner:
         self._drive = drive
         self._spec = spec
         self._moved: set[int] = set()
+        self.sped_up: set[int] = set()
         self._yielding = Yielding(spec, roster)
         self._links = links
         # What waits for a body that could not be placed never happens: the run ends without it,
@@ -416,6 +420,8 @@ class EventRunner:
         if goal_mps is None:
             return []
         commands = [GroundCommand(agent=row, kind=GroundCommandKind.SET_SPEED, value=goal_mps)]
+        if action.do == 'accelerate':
+            self.sped_up.add(row)
         if action.do == 'brake':
             harder = GroundCommandKind.SET_DECELERATION
             commands.insert(0, GroundCommand(agent=row, kind=harder, value=BRAKING_MPS2))

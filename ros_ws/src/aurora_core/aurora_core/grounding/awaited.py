@@ -14,15 +14,18 @@ from math import hypot, sqrt
 
 from aurora_core.grounding.places import ROADS, arrivals, has_point
 from aurora_core.spec.events import (
+    ArrivalTrigger,
     DistanceTrigger,
     Event,
+    SendMessage,
     UavAction,
     VisibilityTrigger,
     bodies_of_cause,
 )
 from aurora_core.spec.flight_order import left_by
 from aurora_core.spec.scenario import GroundAgent, ScenarioSpec, UavMission
-from aurora_core.spec.vocabulary import AgentType, MissionMode, Pattern
+from aurora_core.spec.scene import Placement
+from aurora_core.spec.vocabulary import AgentType, MissionMode, Pattern, Relation
 
 # Out of reach of a route one starts so much farther off (m).
 _BEYOND_M = 15.0
@@ -110,6 +113,27 @@ def kept_away_m(spec: ScenarioSpec, patrol: UavMission, range_m: float) -> float
     sizes = [size.value / 2.0 for size in patrol.size_m or ()]
     sizes += [] if patrol.radius_m is None else [patrol.radius_m.value]
     return reach_m + hypot(*sizes) + _BEYOND_M
+
+
+def near_its_sender(spec: ScenarioSpec, unit: GroundAgent) -> GroundAgent:
+    """Return a roadside unit with a place where it can be told what it is to be told.
+
+    Nobody says where it is, but somebody's arrival is reported to it, or a UAV reports that stays
+    at a place: so near to that it is in reach of the radio.
+    """
+    if unit.type is not AgentType.RSU or unit.placements or unit.behaviors:
+        return unit
+    for event in spec.events:
+        if not isinstance(event.action, SendMessage) or event.action.receiver != unit.id:
+            continue
+        stays = _waiting_there(spec, event, event.action.sender)
+        place = None if stays is None else stays.target
+        if isinstance(event.trigger, ArrivalTrigger):
+            place = event.trigger.place
+        if has_point(place):
+            near = Placement(relation=Relation.NEAR, of=place)
+            return unit.model_copy(update={'placements': (near,)})
+    return unit
 
 
 def bound_to_places(spec: ScenarioSpec, agent: GroundAgent) -> bool:

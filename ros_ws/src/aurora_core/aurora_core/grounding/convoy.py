@@ -11,9 +11,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from aurora_core.grounding.awaited import bound_to_places
+from aurora_core.grounding.awaited import bound_to_places, near_its_sender
 from aurora_core.grounding.distances import ALONG, DETACHED_M, Distances
-from aurora_core.grounding.nearby import BY_PERSONS, begins_near
+from aurora_core.grounding.nearby import BY_PERSONS, ON_SIDEWALKS, begins_near
 from aurora_core.grounding.one_place import common_places, is_before_place
 from aurora_core.grounding.pace import (
     approaches,
@@ -137,7 +137,7 @@ def split_scene(
             Else the convoy's is tried for all: there they are near each other.
         bike_lanes: Bicycles ride in lanes of their own, where no lane is for all.
     """
-    driving = [a for a in spec.agents if a.type not in (AgentType.PEDESTRIAN, AgentType.RSU)]
+    driving = [a for a in spec.agents if a.type not in ON_SIDEWALKS]
     ids = {a.id for a in driving}
     meets = {a.id: p.of for a in driving if (p := oncoming_to(a)) is not None and p.of in ids}
     # Where all are so to each other the first one is met, or who is watched.
@@ -146,7 +146,7 @@ def split_scene(
     oncoming = tuple(a for a in driving if a.id in meets and a.id not in met)
     vehicles = [a for a in driving if a not in oncoming]
     # A roadside unit stands on the sidewalk as a person does who waits.
-    persons = tuple(a for a in spec.agents if a.type in (AgentType.PEDESTRIAN, AgentType.RSU))
+    persons = tuple(near_its_sender(spec, a) for a in spec.agents if a.type in ON_SIDEWALKS)
     unsupported: list[str] = []
     by_id = {a.id: a for a in vehicles}
     speeds = {a.id: v for a in spec.agents if (v := own_speed_mps(a)) is not None}
@@ -329,8 +329,7 @@ def can_be_placed(agent: str, placement: Placement, spec: ScenarioSpec) -> bool:
         return True
     if is_before_place(placement):
         return f'{agent}: {BEFORE}' not in split_scene(spec).unsupported
-    persons = (AgentType.PEDESTRIAN, AgentType.RSU)
-    vehicles = {a.id for a in spec.agents if a.type not in persons}
+    vehicles = {a.id for a in spec.agents if a.type not in ON_SIDEWALKS}
     known = placement.relation in ALONG or placement.relation is Relation.ONCOMING
     if placement.of in {a.id for a in spec.agents} - vehicles:
         return placement.relation in BY_PERSONS

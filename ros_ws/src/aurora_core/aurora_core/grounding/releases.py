@@ -12,6 +12,7 @@ from aurora_core.grounding.convoy import SceneSplit
 from aurora_core.grounding.pace import encounters, moves, stated_times_s
 from aurora_core.grounding.watched import asked_to_see
 from aurora_core.outcomes.grounded import ReleaseOn
+from aurora_core.quantities.actions import FROM_MOTION
 from aurora_core.spec.events import bodies_of_cause, sets_off
 from aurora_core.spec.flight_order import begun_by, left_by
 from aurora_core.spec.own_events import YIELDS_WITHIN_M, let_cross
@@ -25,10 +26,12 @@ from aurora_core.spec.scenario import (
     GroundAgent,
     Link,
     MessageTrigger,
+    MissionDoneTrigger,
     ScenarioSpec,
     SendMessage,
     UavAction,
     UavMission,
+    VisibilityTrigger,
 )
 from aurora_core.spec.vocabulary import MissionMode
 
@@ -63,8 +66,52 @@ def own_release(spec: ScenarioSpec, agent: GroundAgent, release: Release) -> Rel
     watched = release.on is ReleaseOn.OBSERVED and bool(release.mission)
     if watched and agent.behaviors and not stands(agent):
         return _ready_to_be_passed(spec, agent, release)
+    if release.on is ReleaseOn.CAPTURED and _slows_at_sight(spec, agent, release):
+        return Release()  # it is to be on the move by then
+    if release == Release() and (route := _reported_route(spec, agent)) is not None:
+        # Nor does it leave before: at the end of the route it is to be in reach.
+        return Release(on=ReleaseOn.CAPTURED, uav=route.uav, mission=route.id)
     teller = _told_by(spec, agent)
     return release if teller is None else Release(on=ReleaseOn.OBSERVED, uav=teller)
+
+
+def _reported_route(spec: ScenarioSpec, agent: GroundAgent) -> UavMission | None:
+    """Return the route at whose end its UAV tells somebody so, None where none does."""
+    routes = [m for m in spec.missions if m.mode is MissionMode.NAVIGATE]
+    for event in spec.events:
+        action, trigger = event.action, event.trigger
+        if not isinstance(action, SendMessage) or action.receiver != agent.id:
+            continue
+        if isinstance(trigger, MissionDoneTrigger) and trigger.uav == action.sender:
+            return next((m for m in routes if m.uav == action.sender), None)
+    return None
+
+
+def _slows_at_sight(spec: ScenarioSpec, agent: GroundAgent, release: Release) -> bool:
+    """Tell whether one slows down as soon as a UAV sees another one that it watches."""
+    watched = next((m.target for m in spec.missions if m.id == release.mission), None)
+    events = {e.id: e for e in spec.events}
+    for event in spec.events:
+        action = event.action
+        if not isinstance(action, AgentAction) or action.agent != agent.id:
+            continue
+        first: Event | None = event if action.do in FROM_MOTION and agent.id != watched else None
+        seen: set[str] = set()
+        while first is not None and first.id not in seen:
+            seen.add(first.id)
+            if _is_sighting(first, release.uav, watched):
+                return True
+            first = events.get(_cause_of(spec, first) or '')
+    return False
+
+
+def _is_sighting(event: Event, uav: str, watched: str | None) -> bool:
+    trigger = event.trigger
+    return (
+        isinstance(trigger, VisibilityTrigger)
+        and trigger.on == 'visible'
+        and (trigger.observer, trigger.target) == (uav, watched)
+    )
 
 
 def person_release(spec: ScenarioSpec, agent: GroundAgent) -> Release:
@@ -279,9 +326,10 @@ def _comes_upon(spec: ScenarioSpec, mission: UavMission) -> bool:
 
 
 def _breaks_off(spec: ScenarioSpec, patrol: UavMission, mission: UavMission) -> bool:
-    """Tell whether a UAV leaves its route for a body that it sees or comes near."""
+    """Tell whether a UAV leaves its route for a body that it sees, or that comes somewhere."""
     event = begun_by(spec, mission)
-    if patrol.mode is not MissionMode.NAVIGATE or not is_kept_away(spec, patrol):
+    arrives = event is not None and isinstance(event.trigger, ArrivalTrigger)
+    if patrol.mode is not MissionMode.NAVIGATE or not (arrives or is_kept_away(spec, patrol)):
         return False
     return event is not None and mission.target in bodies_of_cause(event)
 

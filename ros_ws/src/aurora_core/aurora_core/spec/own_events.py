@@ -61,13 +61,19 @@ def _is_pushed(spec: ScenarioSpec, agent: GroundAgent, behavior: Behavior) -> bo
 def own_events(spec: ScenarioSpec) -> tuple[Event, ...]:
     """Return the events that behaviours stand for, with ids that no listed event has.
 
-    Nobody says when they happen, but one yields once the other one is near.
+    Nobody says when they happen, but one yields once the other one is near. What a listed event
+    lets the same agent do is that behaviour.
     """
+    listed = {
+        (event.action.agent, event.action.do)
+        for event in spec.events
+        if isinstance(event.action, AgentAction)
+    }
     taken = {event.id for event in spec.events}
     found: list[Event] = []
     for agent in spec.agents:
         for behavior in agent.behaviors:
-            if not is_once(spec, agent, behavior):
+            if not is_once(spec, agent, behavior) or (agent.id, behavior.kind.value) in listed:
                 continue
             number = len(found) + 1
             while f'own{number}' in taken:

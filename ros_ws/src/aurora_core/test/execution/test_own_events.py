@@ -51,6 +51,19 @@ def test_who_slows_down_to_a_speed_is_faster_before(
     assert _told(scene) == [(tick, SPEED, goal)]
 
 
+def test_what_an_event_lets_one_do_is_not_done_before(stage: Build, parameter: Make) -> None:
+    """ "The truck changes lane. At 0.2 s it changes lane": once, and then."""
+    changes = AgentAction(do='slow', agent='ego')
+    at = Event(id='e1', trigger=TimeTrigger(on='time', at_s=parameter(0.2, 's')), action=changes)
+    scene = _scene(stage, Behavior(kind=BehaviorKind.SLOW), events=(at,))
+    for _ in range(6):
+        scene.put('ego', 0.0, speed=8.0).step()
+    [(tick, kind, goal)] = _told(scene)
+    assert (tick, kind) == (4, SPEED)
+    assert goal == pytest.approx(0.45 * 8.0)
+    assert {event for _, event, _ in scene.notes(ScenarioEventKind.ACTION)} == {'e1'}
+
+
 def test_the_run_waits_until_a_behaviour_was_shown(stage: Build) -> None:
     scene = _scene(stage, Behavior(kind=BehaviorKind.SLOW))
     scene.put('ego', 0.0, speed=8.0).step(2)

@@ -15,7 +15,7 @@ from aurora_core.knowledge.map_types import Building
 from aurora_core.outcomes.grounded import ReleaseOn
 from aurora_core.spec.parameter import Parameter
 from aurora_core.spec.prohibitions import Prohibition
-from aurora_core.spec.scenario import Behavior, Event, SendMessage, TimeTrigger
+from aurora_core.spec.scenario import AgentAction, Behavior, Event, SendMessage, TimeTrigger
 from aurora_core.spec.vocabulary import BehaviorKind
 from aurora_core.trace.layout import GroundCommandKind, UavCommandColumn, UavMode, UavPhase
 from aurora_core.trace.records import LinkEventKind, LossReason, ScenarioEventKind
@@ -75,6 +75,19 @@ def test_release_on_capture_not_before(stage: Callable[..., Any]) -> None:
     assert scene.commands()[-1] == (3, 'van1', RELEASE, 0.0)
     scene.step(5)
     assert len(scene.notes(ScenarioEventKind.RELEASED)) == 1
+
+
+def test_who_is_told_how_fast_to_drive_is_not_held_nor_slowed_by_its_release(
+    stage: Callable[..., Any], parameter: Callable[..., Any]
+) -> None:
+    faster = AgentAction(do='accelerate', agent='van1', value_mps=parameter(10.0, 'm/s'))
+    told = Event(id='e1', trigger=TimeTrigger(on='time', at_s=parameter(0.1, 's')), action=faster)
+    scene = stage(releases={'van1': (ReleaseOn.CAPTURED, 'uav1')}, events=(told,))
+    scene.put('van1', 100.0).fly('uav1', 0.0, 0.0, 30.0).step(4)
+    scene.fly('uav1', 91.0, 0.0, 30.0).step(5)
+    speeds = [(tick, kind, v) for tick, who, kind, v in scene.commands() if who == 'van1']
+    assert speeds == [(0, SET, 0.0), (2, SET, 10.0)]
+    assert scene.notes(ScenarioEventKind.RELEASED) == []
 
 
 @pytest.mark.parametrize(

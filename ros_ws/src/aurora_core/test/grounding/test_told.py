@@ -1,0 +1,72 @@
+# SPDX-FileCopyrightText: 2026 The AURORA authors
+# SPDX-License-Identifier: Apache-2.0
+"""Who is told something is in reach when that is sent, and can do then what it is to do."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from math import dist
+
+import pytest
+
+from aurora_core.grounding.places import MapPlaces
+from aurora_core.knowledge.map_model import MapModel
+from aurora_core.outcomes.grounded import GroundedAgent, ReleaseOn
+
+Agents = Callable[[str], dict[str, GroundedAgent]]
+Maps = Callable[[str], MapModel]
+
+TRACKING = 'My car drives. A drone tracks a motorcycle. When it sees the motorcycle, it alerts my '
+
+
+@pytest.mark.parametrize(
+    'prompt',
+    [
+        'A bus drives. A drone hovers over Mercy Hospital at 50 m. When it sees the bus, the '
+        'drone sends a message to a roadside unit.',
+        'A drone tracks a car. When the car arrives at Mercy Hospital, the drone sends a message '
+        'to a roadside unit.',
+    ],
+)
+def test_a_roadside_unit_is_where_it_hears_what_it_is_told(
+    prompt: str, agents: Agents, map_of: Maps
+) -> None:
+    unit = agents(prompt)['rsu1']
+    hospital = MapPlaces(map_of('downtown')).itself('landmark:Mercy Hospital', (0.0, 0.0))
+    assert dist((unit.x_m, unit.y_m), hospital) < 100.0
+
+
+def test_a_roadside_unit_stays_where_it_is_said_to_be(agents: Agents, map_of: Maps) -> None:
+    unit = agents(
+        'A roadside unit is at City Hall. A drone hovers over Mercy Hospital at 50 m. At 20 s the '
+        'drone sends a message to the roadside unit.'
+    )['rsu1']
+    hall = MapPlaces(map_of('downtown')).itself('landmark:City Hall', (0.0, 0.0))
+    assert dist((unit.x_m, unit.y_m), hall) < 100.0
+
+
+def test_who_slows_down_at_the_first_sight_is_on_the_move_by_then(agents: Agents) -> None:
+    found = agents(f'{TRACKING}car. When my car gets the message, it slows down.')
+    assert found['ego'].release is ReleaseOn.START
+    assert found['motorcycle1'].release is ReleaseOn.CAPTURED
+
+
+def test_who_speeds_up_then_waits_with_the_others(agents: Agents) -> None:
+    found = agents(f'{TRACKING}car. When my car gets the message, it accelerates.')
+    assert found['ego'].release is ReleaseOn.CAPTURED
+
+
+def test_who_hears_of_the_end_of_a_route_does_not_leave_before_it(agents: Agents) -> None:
+    found = agents(
+        'My car drives. A drone flies a line of 100 m at 60 m. When the drone has finished, it '
+        'sends my car a message. When my car gets the message, it brakes.'
+    )
+    assert (found['ego'].release, found['ego'].release_uav) == (ReleaseOn.CAPTURED, 'uav1')
+
+
+def test_who_ends_a_route_by_its_arrival_waits_until_that_has_shown(agents: Agents) -> None:
+    found = agents(
+        'A car drives. A drone patrols a 100 m by 60 m rectangle at 40 m. When the car arrives at '
+        'the crosswalk, the drone tracks the car.'
+    )
+    assert found['car1'].release is ReleaseOn.LAPPED
