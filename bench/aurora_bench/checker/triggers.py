@@ -17,9 +17,8 @@ from aurora_bench.checker.recording import BoolArray, FloatArray, LinkKind
 from aurora_bench.checker.scene import runs_of
 from aurora_bench.checker.sight import STEP_S, visible
 
-# "Arrives": the contract states no distance; from the first of these to the second.
+# "Arrives": the contract states no distance; from this one to where the body is nearest.
 ARRIVED_FROM_M = 40.0
-ARRIVED_AT_M = 5.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -187,8 +186,8 @@ def _arrives(case: Case, trigger: Mapping[str, Any]) -> Fired:
             with np.errstate(invalid='ignore'):
                 near = away <= ARRIVED_FROM_M
             for a, b in runs_of(near):
-                at = np.flatnonzero(away[a:b] <= ARRIVED_AT_M)
-                nearest = int(at[0]) if len(at) else int(np.nanargmin(away[a:b]))
+                # At the latest it has arrived where it is nearest.
+                nearest = int(np.nanargmin(away[a:b]))
                 moved = np.flatnonzero(scene.speed(who)[a + nearest : b] < limits.STOPPED_MPS)
                 stop = a + nearest + (int(moved[0]) if len(moved) else 0)
                 found.append(Instant(float(scene.times[a]), float(scene.times[stop])))

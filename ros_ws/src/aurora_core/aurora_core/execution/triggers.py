@@ -9,7 +9,7 @@ from math import inf
 
 from aurora_core.execution.observe import Observation
 from aurora_core.knowledge.world import SurfaceKind
-from aurora_core.quantities.actions import CLIMBED_M
+from aurora_core.quantities.actions import APART_M, CLIMBED_M
 from aurora_core.quantities.motion import battery
 from aurora_core.quantities.triggers import arrives_on_sidewalk, needs_change
 from aurora_core.spec.scenario import (
@@ -97,7 +97,7 @@ def _state_holds(
             return False
         if trigger.on == 'distance_below':
             return distance <= trigger.value_m.value
-        return distance >= trigger.value_m.value
+        return distance >= trigger.value_m.value + APART_M
     if isinstance(trigger, AltitudeTrigger):
         point = observation.position(trigger.uav)
         return point is not None and point[2] >= trigger.value_m.value - CLIMBED_M

@@ -45,6 +45,9 @@ CROSSED_M = 2.0
 # to hold it may never quite exceed.
 CLIMBED_M = 1.0
 
+# Two are farther apart than a distance by at least this much (m): who keeps it to rounding is not.
+APART_M = 0.01
+
 
 class ActionRules(Document):
     """What actions are measured with; the tolerances in force, as they travel in conditions.

@@ -19,6 +19,7 @@ from aurora_core.geometry.kernel import norm2_array
 from aurora_core.knowledge.world import SurfaceKind
 from aurora_core.quantities import motion
 from aurora_core.quantities.actions import (
+    APART_M,
     CLIMBED_M,
     CROSSED_M,
     ActionRules,
@@ -435,7 +436,8 @@ def trigger_series(
         case DistanceTrigger():
             apart = motion.distance(view, trigger.a, trigger.b)
             near = trigger.on == 'distance_below'
-            mask = apart <= trigger.value_m.value if near else apart >= trigger.value_m.value
+            limit_m = trigger.value_m.value
+            mask = apart <= limit_m if near else apart >= limit_m + APART_M
             return mask & view.present(trigger.a) & view.present(trigger.b)
         case TimeTrigger():
             first = whole_ticks(trigger.at_s.value, view.dt_s)
