@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 from aurora_core.grounding.awaited import bound_to_places, near_its_sender
 from aurora_core.grounding.distances import ALONG, DETACHED_M, Distances
-from aurora_core.grounding.nearby import BY_PERSONS, ON_SIDEWALKS, begins_near
+from aurora_core.grounding.nearby import BY_PERSONS, ON_SIDEWALKS, begins_near, reported
 from aurora_core.grounding.one_place import common_places, is_before_place
 from aurora_core.grounding.pace import (
     approaches,
@@ -192,6 +192,7 @@ def split_scene(
     targets |= {a.id for a in vehicles if any(map(is_before_place, a.placements))}
     targets |= {p.of for person in persons for p in person.placements}
     targets |= {a.id for a in vehicles for p in a.placements if p.of in distances.persons}
+    targets |= reported(spec)
     if targets & set(by_id):
         # A message has a range: who is to receive one is near those who are watched.
         targets |= {e.action.receiver for e in spec.events if isinstance(e.action, SendMessage)}

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 
 from aurora_core.grounding.awaited import bound_to_places
 from aurora_core.grounding.pace import partings
-from aurora_core.spec.events import VisibilityTrigger
+from aurora_core.spec.events import VisibilityTrigger, bodies_of_cause
 from aurora_core.spec.reference import is_landmark
 from aurora_core.spec.scenario import GroundAgent, Link, Placement, ScenarioSpec, SendMessage
 from aurora_core.spec.vocabulary import AgentType, MissionMode, Place, Relation, Role
@@ -74,6 +74,18 @@ def _seen_on_the_way(spec: ScenarioSpec) -> Iterator[tuple[str, str]]:
             first = next((m for m in spec.missions if m.uav == trigger.observer), None)
             if first is not None and first.mode is MissionMode.TRACK and first.target is not None:
                 yield trigger.target, first.target
+
+
+def reported(spec: ScenarioSpec) -> frozenset[str]:
+    """Return the bodies that UAVs report, which they have to see then."""
+    uavs = {uav.id for uav in spec.uavs}
+    return frozenset().union(
+        *(
+            bodies_of_cause(event)
+            for event in spec.events
+            if isinstance(event.action, SendMessage) and event.action.sender in uavs
+        )
+    )
 
 
 def can_stand(agent: GroundAgent, placement: Placement, spec: ScenarioSpec) -> bool:

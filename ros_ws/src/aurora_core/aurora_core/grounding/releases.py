@@ -14,7 +14,7 @@ from aurora_core.grounding.watched import asked_to_see
 from aurora_core.outcomes.grounded import ReleaseOn
 from aurora_core.quantities.actions import FROM_MOTION
 from aurora_core.spec.events import bodies_of_cause, sets_off
-from aurora_core.spec.flight_order import begun_by, left_by
+from aurora_core.spec.flight_order import begun_by, counts_from_capture, left_by
 from aurora_core.spec.own_events import YIELDS_WITHIN_M, let_cross
 from aurora_core.spec.parking import stands
 from aurora_core.spec.scenario import (
@@ -253,14 +253,16 @@ def convoy_release(spec: ScenarioSpec, split: SceneSplit) -> Release:
         if asked_to_see(spec, uav.id) & set(members):
             return _reporter_ready(spec, uav.id)
     met = {name for m in encounters(spec) for name in (m.actor, m.other)} | arriving
-    # Who is reported by a UAV waits until that is up and can see it.
+    # Who is reported by a UAV, or changes its flight, waits until that is up and can see it.
     flying = {uav.id for uav in spec.uavs}
     for event in spec.events:
-        if not isinstance(event.action, SendMessage) or event.action.sender not in flying:
-            continue
-        caused = bodies_of_cause(event)
-        if caused & set(members):
-            return _reporter_ready(spec, event.action.sender)
+        action, waits = event.action, ''
+        if isinstance(action, SendMessage) and action.sender in flying:
+            waits = action.sender
+        elif isinstance(action, UavAction) and counts_from_capture(spec, event):
+            waits = action.uav
+        if waits and bodies_of_cause(event) & set(members):
+            return _reporter_ready(spec, waits)
     for event in spec.events:
         trigger = event.trigger
         if isinstance(trigger, DistanceTrigger) and trigger.on == 'distance_below':

@@ -70,3 +70,21 @@ def test_who_ends_a_route_by_its_arrival_waits_until_that_has_shown(agents: Agen
         'the crosswalk, the drone tracks the car.'
     )
     assert found['car1'].release is ReleaseOn.LAPPED
+
+
+def test_a_uav_is_there_before_what_changes_its_flight(agents: Agents) -> None:
+    found = agents(
+        'A pedestrian walks on the sidewalk. A drone tracks the pedestrian. When my car comes '
+        'within 20 m of the pedestrian, the drone lands.'
+    )
+    assert (found['ego'].release, found['ego'].release_uav) == (ReleaseOn.CAPTURED, 'uav1')
+
+
+def test_whom_a_uav_reports_is_on_its_street(agents: Agents) -> None:
+    found = agents(
+        'My car drives. A drone hovers over the intersection at 40 m. When a van exceeds 7 m/s, '
+        'the drone alerts my car.'
+    )
+    van, ego = found['van1'], found['ego']
+    assert dist((van.x_m, van.y_m), (ego.x_m, ego.y_m)) < 100.0
+    assert van.release is ReleaseOn.CAPTURED
