@@ -22,6 +22,12 @@ from aurora_core.trace.tick_encoding import TickEncoder
 
 # One run per bag: the stamp that tells runs of a graph apart is constant here.
 _RUN_NUMBER = 1
+# Topics of every tick, and what goes over them.
+_GROUND_STATE, _UAV_STATE = messages.GROUND_STATE, messages.UAV_STATE
+_GROUND_COMMAND, _UAV_COMMAND = messages.GROUND_COMMAND, messages.UAV_COMMAND
+_GROUND_STATE_TYPE, _UAV_STATE_TYPE, _GROUND_COMMAND_TYPE, _UAV_COMMAND_TYPE = (
+    messages.TOPICS[topic] for topic in (_GROUND_STATE, _UAV_STATE, _GROUND_COMMAND, _UAV_COMMAND)
+)
 
 
 class LocalRecorder:
@@ -83,10 +89,11 @@ class LocalRecorder:
         self, tick: int, ground: FloatArray, uav: FloatArray, output: StepOutput
     ) -> Iterator[Message]:
         """Yield the messages of a tick in the order in which the graph sends them."""
-        has_uavs = len(uav) > 0
-        yield self._rows(messages.GROUND_STATE, tick, ground)
+        encode, has_uavs = self._encode, len(uav) > 0
+        at_ns = time_ns(tick, self._dt)
+        yield _GROUND_STATE, _GROUND_STATE_TYPE, encode.rows(_GROUND_STATE, tick, ground), at_ns
         if has_uavs:
-            yield self._rows(messages.UAV_STATE, tick, uav)
+            yield _UAV_STATE, _UAV_STATE_TYPE, encode.rows(_UAV_STATE, tick, uav), at_ns
         for link in output.links:
             yield self._message(messages.COMM, tick, self._build.link(link))
         for sight in output.sights:
@@ -94,16 +101,13 @@ class LocalRecorder:
         for event in output.events:
             yield self._message(messages.EVENTS, tick, self._build.event(event))
         after = tick + 1
-        cdr = self._encode.ground_commands(after, output.ground_commands)
-        yield self._encoded(messages.GROUND_COMMAND, after, cdr)
+        at_ns = time_ns(after, self._dt)
+        cdr = encode.ground_commands(after, output.ground_commands)
+        yield _GROUND_COMMAND, _GROUND_COMMAND_TYPE, cdr, at_ns
         if has_uavs:
-            yield self._rows(messages.UAV_COMMAND, after, output.uav_commands)
-
-    def _rows(self, topic: str, tick: int, rows: FloatArray) -> Message:
-        return self._encoded(topic, tick, self._encode.rows(topic, tick, rows))
+            cdr = encode.rows(_UAV_COMMAND, after, output.uav_commands)
+            yield _UAV_COMMAND, _UAV_COMMAND_TYPE, cdr, at_ns
 
     def _message(self, topic: str, tick: int, value: object) -> Message:
-        return self._encoded(topic, tick, self._definitions.encode(messages.TOPICS[topic], value))
-
-    def _encoded(self, topic: str, tick: int, cdr: bytes) -> Message:
+        cdr = self._definitions.encode(messages.TOPICS[topic], value)
         return topic, messages.TOPICS[topic], cdr, time_ns(tick, self._dt)

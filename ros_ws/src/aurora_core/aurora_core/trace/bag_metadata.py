@@ -11,6 +11,7 @@ import hashlib
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -146,6 +147,12 @@ def qos(topic: str) -> dict[str, object]:
         'liveliness_lease_duration': forever,
         'avoid_ros_namespace_conventions': False,
     }
+
+
+@cache
+def offered(topic: str) -> str:
+    """Return the YAML in which a recording says how a topic was offered."""
+    return str(yaml.dump([qos(topic)], Dumper=_DUMPER))
 
 
 def _check_depth(text: bytes) -> None:

@@ -19,7 +19,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
 
-import yaml
 from mcap.records import Schema
 from rosbags.serde import SerdeError
 
@@ -28,7 +27,7 @@ from aurora_core.trace.bag_metadata import (
     BagMetadata,
     RecordedTopic,
     file_sha256,
-    qos,
+    offered,
     write_metadata,
 )
 from aurora_core.trace.checkpoints import CHECKPOINT, ContentDigest
@@ -161,7 +160,7 @@ class BagWriter:
             if self._closed:
                 self._refuse_closed(f'takes no message on {topic}')
             channel = channels.get(topic) or self._define(topic, type_name)
-            pending.append(Entry(channel.number, channel.count, time_ns, cdr))
+            pending.append((channel.number, channel.count, time_ns, cdr))
             channel.count += 1
             size += len(cdr)
             if first_ns is None or time_ns < first_ns:
@@ -231,7 +230,8 @@ class BagWriter:
             self._synced_ns = self._last_ns
 
     def _write_pending(self) -> None:
-        self._content.add((self._names[m.channel], m.time_ns, m.data) for m in self._pending)
+        names = self._names
+        self._content.add([(names[channel], at, cdr) for channel, _, at, cdr in self._pending])
         self._file.add_chunk(self._pending)
         self._pending.clear()
         self._pending_bytes = 0
@@ -294,7 +294,7 @@ class BagWriter:
             topic,
             encoding,
             self._schemas[schema.name],
-            {'offered_qos_profiles': yaml.safe_dump([qos(topic)])},
+            {'offered_qos_profiles': offered(topic)},
         )
         self._names[number] = topic.encode('utf-8')
         channel = _Channel(number, schema.name)

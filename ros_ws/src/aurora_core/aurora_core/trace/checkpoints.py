@@ -57,12 +57,13 @@ class ContentDigest:
 
     def add(self, messages: Iterable[tuple[bytes, int, bytes | memoryview]]) -> None:
         """Take in messages: topic name in UTF-8, simulated time, encoding."""
-        parts: list[bytes | memoryview] = []
+        pack, parts, latest_ns = _HEAD.pack, list[bytes | memoryview](), self.time_ns
         for topic, time_ns, cdr in messages:
-            parts += (_HEAD.pack(len(topic), time_ns, len(cdr)), topic, cdr)
-            self.messages += 1
-            if time_ns > self.time_ns:
-                self.time_ns = time_ns
+            parts += (pack(len(topic), time_ns, len(cdr)), topic, cdr)
+            if time_ns > latest_ns:
+                latest_ns = time_ns
+        self.messages += len(parts) // 3
+        self.time_ns = latest_ns
         self._digest.update(b''.join(parts))
 
     def checkpoint(self, *, final: bool = False) -> Checkpoint:

@@ -10,15 +10,15 @@ from __future__ import annotations
 
 import struct
 import zlib
+from collections import defaultdict
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import BinaryIO, NamedTuple
+from typing import BinaryIO
 
 import zstandard
 from mcap.data_stream import RecordBuilder
 from mcap.opcode import Opcode
 from mcap.records import (
     Channel,
-    Chunk,
     ChunkIndex,
     DataEnd,
     Footer,
@@ -34,26 +34,17 @@ from mcap.records import (
 _MAGIC = b'\x89MCAP0\r\n'
 _COMPRESSION = 'zstd'
 _LEVEL = 1  # 4 % more bytes than the usual 3, in two thirds of the time
+# Opcode, length of what follows, first and last time, bytes and checksum before compression, name
+# of the compression, bytes of what it gave.
+_CHUNK_HEAD = struct.Struct('<BQQQQII4sQ')
+_CHUNK_FIELDS = _CHUNK_HEAD.size - 9  # what the length counts beside the data
 # Opcode, length of what follows, channel, sequence, log time, publish time.
 _MESSAGE_HEAD = struct.Struct('<BQHIQQ')
 _MESSAGE_FIELDS = _MESSAGE_HEAD.size - 9  # what the length counts beside the data
 _INDEX_HEAD = struct.Struct('<BQHI')
-
-
-class Entry(NamedTuple):
-    """A message of a chunk.
-
-    Attributes:
-        channel: Number that `add_channel` returned.
-        sequence: Of its channel.
-        time_ns: Log time and publish time.
-        data: Encoding.
-    """
-
-    channel: int
-    sequence: int
-    time_ns: int
-    data: bytes
+# A message of a chunk: channel (number that `add_channel` returned), sequence of that channel, log
+# time and publish time (ns), encoding.
+Entry = tuple[int, int, int, bytes]
 
 
 class McapFile:
@@ -109,33 +100,28 @@ class McapFile:
         if not messages:
             return
         content, offsets = self._content(messages)
-        times_ns = [message.time_ns for message in messages]
+        times_ns = [message[2] for message in messages]
         first_ns, last_ns = min(times_ns), max(times_ns)
         compressed = self._compressor.compress(content)
-        chunk = _bytes(
-            Chunk(
-                compression=_COMPRESSION,
-                data=compressed,
-                message_start_time=first_ns,
-                message_end_time=last_ns,
-                uncompressed_crc=zlib.crc32(content),
-                uncompressed_size=len(content),
-            )
-        )
+        head = _CHUNK_HEAD.pack(
+            Opcode.CHUNK, _CHUNK_FIELDS + len(compressed), first_ns, last_ns, len(content),
+            zlib.crc32(content), len(_COMPRESSION), _COMPRESSION.encode(), len(compressed),
+        )  # fmt: skip
+        chunk_length = len(head) + len(compressed)
         start = self._stream.tell()
         index_offsets: dict[int, int] = {}
         indexes = bytearray()
         for channel, pairs in offsets.items():
-            index_offsets[channel] = start + len(chunk) + len(indexes)
+            index_offsets[channel] = start + chunk_length + len(indexes)
             indexes += _message_index(channel, pairs)
             self._counts[channel] += len(pairs) // 2
-        self._stream.write(chunk + indexes)
+        self._stream.write(b''.join((head, compressed, indexes)))
         self._chunks.append(
             ChunkIndex(
                 message_start_time=first_ns,
                 message_end_time=last_ns,
                 chunk_start_offset=start,
-                chunk_length=len(chunk),
+                chunk_length=chunk_length,
                 message_index_offsets=index_offsets,
                 message_index_length=len(indexes),
                 compression=_COMPRESSION,
@@ -185,14 +171,12 @@ class McapFile:
         parts = [bytes(self._head)]
         self._head.clear()
         place = len(parts[0])
-        offsets: dict[int, list[int]] = {}
+        offsets: dict[int, list[int]] = defaultdict(list)
+        pack, message = _MESSAGE_HEAD.pack, int(Opcode.MESSAGE)
         for channel, sequence, time_ns, data in messages:
-            offsets.setdefault(channel, []).extend((time_ns, place))
+            offsets[channel] += (time_ns, place)
             length = _MESSAGE_FIELDS + len(data)
-            parts.append(
-                _MESSAGE_HEAD.pack(Opcode.MESSAGE, length, channel, sequence, time_ns, time_ns)
-            )
-            parts.append(data)
+            parts += (pack(message, length, channel, sequence, time_ns, time_ns), data)
             place += 9 + length
         return b''.join(parts), offsets
 

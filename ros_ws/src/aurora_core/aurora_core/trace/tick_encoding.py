@@ -27,8 +27,9 @@ _FRAME = b'map\0'
 _LITTLE_ENDIAN = b'\x00\x01\x00\x00'
 # Encapsulation, stamp, length and text of the frame id, run number, tick.
 _HEAD = struct.Struct('<4siII4sQQ')
-# The same, then the number of float64 values, which begin on a multiple of 8.
-_ROWS_HEAD = struct.Struct('<4siII4sQQI4x')
+# Number of float64 values, which begin on a multiple of 8.
+_COUNT = struct.Struct('<I4x')
+_ROWS_HEAD = struct.Struct(_HEAD.format + 'I4x')
 _PROOF_TICK = 1234567
 _COMMAND_FIELDS = ('agent', 'kind', 'value', 'value2', 'text')
 _ROW_TOPICS = (messages.GROUND_STATE, messages.UAV_STATE, messages.UAV_COMMAND)
@@ -51,6 +52,8 @@ class TickEncoder:
         self._run = run_number
         self._dt = dt_s
         self._build = MessageBuilder(definitions, run_number, dt_s)
+        # All messages of a tick begin alike.
+        self._tick, self._head = -1, b''
         self._no_commands = self._ground_commands(0, ())[_HEAD.size :]
         self._prove()
 
@@ -58,22 +61,23 @@ class TickEncoder:
         """Return the CDR of a GroundState, UavState or UavCommand."""
         if rows.size == 0:  # nothing follows the count then, not even padding
             return self._rows(topic, tick, rows)
-        data = rows.tobytes()
-        seconds, nanoseconds = divmod(time_ns(tick, self._dt), 1_000_000_000)
-        head = _ROWS_HEAD.pack(
-            _LITTLE_ENDIAN, seconds, nanoseconds, len(_FRAME), _FRAME, self._run, tick, rows.size
-        )
-        return head + data
+        head = self._head if tick == self._tick else self._head_of(tick)
+        return head + _COUNT.pack(rows.size) + rows.tobytes()
 
     def ground_commands(self, tick: int, commands: tuple[GroundCommand, ...]) -> bytes:
         """Return the CDR of a GroundCommand."""
         if commands:
             return self._ground_commands(tick, commands)
+        head = self._head if tick == self._tick else self._head_of(tick)
+        return head + self._no_commands
+
+    def _head_of(self, tick: int) -> bytes:
         seconds, nanoseconds = divmod(time_ns(tick, self._dt), 1_000_000_000)
-        head = _HEAD.pack(
+        self._tick = tick
+        self._head = _HEAD.pack(
             _LITTLE_ENDIAN, seconds, nanoseconds, len(_FRAME), _FRAME, self._run, tick
         )
-        return head + self._no_commands
+        return self._head
 
     def _rows(self, topic: str, tick: int, rows: FloatArray) -> bytes:
         return self._definitions.encode(TOPICS[topic], self._build.state(topic, tick, rows))

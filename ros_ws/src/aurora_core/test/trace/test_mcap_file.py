@@ -42,7 +42,7 @@ def numbered(chunks: list[list[tuple[int, int, bytes]]]) -> list[list[Entry]]:
 
     def entry(channel: int, time_ns: int, data: bytes) -> Entry:
         numbers[channel] += 1
-        return Entry(channel, numbers[channel], time_ns, data)
+        return channel, numbers[channel], time_ns, data
 
     return [[entry(*message) for message in chunk] for chunk in chunks]
 
@@ -66,14 +66,14 @@ def test_messages_come_back_by_index_and_from_front_to_back(
             (channel.id, message.sequence, message.log_time, message.data)
             for _, channel, message in reader.iter_messages(topics=[topic])
         ]
-        assert sorted(found) == sorted(entry for entry in wanted if entry.channel == number)
+        assert sorted(found) == sorted(entry for entry in wanted if entry[0] == number)
 
 
 def test_the_summary_says_what_is_there() -> None:
     chunks = [
-        [Entry(1, 0, 50, b'first'), Entry(2, 0, 10, b'')],
+        [(1, 0, 50, b'first'), (2, 0, 10, b'')],
         [],
-        [Entry(1, 1, 70, b'x' * 100_000)],
+        [(1, 1, 70, b'x' * 100_000)],
     ]
     file = written(chunks, notes=2)
     summary = make_reader(BytesIO(file)).get_summary()
@@ -98,11 +98,11 @@ def test_the_summary_says_what_is_there() -> None:
 
 
 def test_checksum_of_the_summary_is_that_of_the_footer() -> None:
-    records = list(StreamReader(BytesIO(written([[Entry(1, 0, 1, b'a')]]))).records)
+    records = list(StreamReader(BytesIO(written([[(1, 0, 1, b'a')]]))).records)
     footer = records[-1]
     assert isinstance(footer, Footer)
     assert footer.summary_crc
     assert any(isinstance(record, ChunkIndex) for record in records)
-    file = written([[Entry(1, 0, 1, b'a')]])
+    file = written([[(1, 0, 1, b'a')]])
     checked = file[footer.summary_start : -8 - 4]  # up to the checksum in the footer
     assert zlib.crc32(checked) == footer.summary_crc

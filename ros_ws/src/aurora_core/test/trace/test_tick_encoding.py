@@ -37,6 +37,21 @@ def test_rows(topic: str, tick: int, shape: tuple[int, int]) -> None:
     assert TickEncoder(definitions, 9, DT_S).rows(topic, tick, turned) == expected
 
 
+def test_every_message_of_one_encoder_has_the_stamp_of_its_tick() -> None:
+    definitions = message_definitions()
+    encoder, build = TickEncoder(definitions, 9, DT_S), MessageBuilder(definitions, 9, DT_S)
+    rows = np.ones((2, 7))
+    for tick in (0, 0, 1, 20, 1, 123457):
+        state = definitions.encode(
+            TOPICS[messages.GROUND_STATE], build.state(messages.GROUND_STATE, tick, rows)
+        )
+        command = definitions.encode(
+            TOPICS[messages.GROUND_COMMAND], build.ground_commands(tick + 1, ())
+        )
+        assert encoder.rows(messages.GROUND_STATE, tick, rows) == state
+        assert encoder.ground_commands(tick + 1, ()) == command
+
+
 @pytest.mark.parametrize('shape', [(0, 7), (1, 7), (3, 16)])
 @pytest.mark.parametrize(
     'topic', [messages.GROUND_STATE, messages.UAV_STATE, messages.UAV_COMMAND]
