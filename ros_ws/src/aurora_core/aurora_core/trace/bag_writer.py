@@ -4,7 +4,7 @@
 
 Everything goes to the kernel twice per simulated second, each time with a checkpoint of the digest
 so far: the death of this process loses nothing of that. The disk is brought up to date once per
-simulated second, beside the work, for the death of the machine.
+simulated second, unless that is too often, beside the work, for the death of the machine.
 
 `metadata.yaml` is written beside it when the bag is closed, so that `ros2 bag` and `rosbags` read
 it; a bag without one was never closed.

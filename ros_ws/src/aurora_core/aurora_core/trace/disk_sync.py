@@ -12,9 +12,13 @@ import os
 import threading
 from types import TracebackType
 
+# A call keeps a processor busy for 0.2 ms, and a fast run would ask for one every few: so long the
+# next one waits.
+PAUSE_S = 0.05
+
 
 class DiskSync:
-    """Calls `os.fsync` in a thread of its own; requests that come meanwhile become one.
+    """Calls `os.fsync` in a thread of its own; requests that come too soon become one.
 
     Args:
         descriptor: Open file; stays the caller's, who closes it after `close`.
@@ -22,7 +26,8 @@ class DiskSync:
 
     def __init__(self, descriptor: int) -> None:
         self._descriptor = descriptor
-        self._wake = threading.Condition()
+        lock = threading.Lock()
+        self._wake, self._end = threading.Condition(lock), threading.Condition(lock)
         self._wanted = False
         self._ending = False
         self._error: OSError | None = None
@@ -50,14 +55,16 @@ class DiskSync:
         with self._wake:
             if self._error is not None:
                 raise self._error
-            self._wanted = True
-            self._wake.notify()
+            if not self._wanted:
+                self._wanted = True
+                self._wake.notify()
 
     def close(self) -> None:
         """End the thread after its present call; what it has not begun is the caller's."""
         with self._wake:
             self._ending = True
             self._wake.notify()
+            self._end.notify()
         self._thread.join()
 
     def _work(self) -> None:
@@ -73,3 +80,5 @@ class DiskSync:
                 with self._wake:
                     self._error = err
                 return
+            with self._end:
+                self._end.wait_for(lambda: self._ending, PAUSE_S)

@@ -33,7 +33,16 @@ from mcap.records import (
 
 _MAGIC = b'\x89MCAP0\r\n'
 _COMPRESSION = 'zstd'
-_LEVEL = 1  # 4 % more bytes than the usual 3, in two thirds of the time
+# As few bytes as level 1 in two thirds of its time: the rows of a tick repeat what is eight bytes
+# long, and a table of 4 KiB stays beside what the simulators keep in the caches.
+_PARAMETERS = zstandard.ZstdCompressionParameters(
+    window_log=17,
+    hash_log=10,
+    chain_log=10,
+    min_match=7,
+    strategy=zstandard.STRATEGY_FAST,
+    write_content_size=1,
+)
 # Opcode, length of what follows, first and last time, bytes and checksum before compression, name
 # of the compression, bytes of what it gave.
 _CHUNK_HEAD = struct.Struct('<BQQQQII4sQ')
@@ -60,7 +69,7 @@ class McapFile:
 
     def __init__(self, stream: BinaryIO, *, library: str) -> None:
         self._stream = stream
-        self._compressor = zstandard.ZstdCompressor(level=_LEVEL)
+        self._compressor = zstandard.ZstdCompressor(compression_params=_PARAMETERS)
         self._schemas: list[Schema] = []
         self._channels: list[Channel] = []
         self._chunks: list[ChunkIndex] = []

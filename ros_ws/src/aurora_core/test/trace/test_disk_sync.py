@@ -6,10 +6,11 @@ from __future__ import annotations
 
 import os
 import threading
+import time
 
 import pytest
 
-from aurora_core.trace.disk_sync import DiskSync
+from aurora_core.trace.disk_sync import PAUSE_S, DiskSync
 
 WAIT_S = 20.0
 
@@ -35,6 +36,25 @@ def test_requests_that_come_during_a_call_become_one(monkeypatch: pytest.MonkeyP
         proceed.set()
         assert second.wait(WAIT_S)
     assert calls == [7, 7]
+
+
+def test_a_fast_run_does_not_ask_the_disk_at_every_turn(monkeypatch: pytest.MonkeyPatch) -> None:
+    times_s: list[float] = []
+    second = threading.Event()
+
+    def disk(_descriptor: int) -> None:
+        times_s.append(time.monotonic())
+        if len(times_s) == 2:
+            second.set()
+
+    monkeypatch.setattr(os, 'fsync', disk)
+    with DiskSync(7) as sync:
+        while not second.is_set():
+            sync.request()
+            time.sleep(0.001)
+        begun_s = time.monotonic()
+    assert times_s[1] - times_s[0] >= PAUSE_S
+    assert time.monotonic() - begun_s < WAIT_S  # closing waits for no pause
 
 
 def test_an_error_is_told_at_the_next_request(monkeypatch: pytest.MonkeyPatch) -> None:
