@@ -215,7 +215,7 @@ class _SeeingEverything:
 
     def step(self, tick: int, ground: FloatArray, uav: FloatArray) -> StepOutput:
         output = self._executor.step(tick, ground, uav)
-        return replace(output, sights=tuple(replace(s, visible=True) for s in output.sights))
+        return output._replace(sights=tuple(replace(s, visible=True) for s in output.sights))
 
 
 def with_runner(kind: type[EventRunner]) -> Sabotage:

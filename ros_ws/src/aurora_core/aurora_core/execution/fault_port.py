@@ -9,7 +9,6 @@ as a scenario event, with all that is needed to inject it again.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from math import inf
 
 import numpy as np
@@ -120,7 +119,7 @@ class FaultPort:
                     subject=fault.subject,
                     detail=fault.told(),
                 )
-                output = replace(output, events=(*output.events, record))
+                output = output._replace(events=(*output.events, record))
             output = self._apply(fault, output, uav, first=first)
         return output
 
@@ -137,7 +136,7 @@ class FaultPort:
             kept = [c for c in output.ground_commands if c.agent != row]
             if first:
                 kept.append(GroundCommand(agent=row, kind=GroundCommandKind.REMOVE))
-            return replace(output, ground_commands=tuple(kept))
+            return output._replace(ground_commands=tuple(kept))
         if fault.kind == 'route_blocked':
             return self._cap_agent(row, 0.0, output, first=first)
         if fault.kind == 'keep_away':
@@ -160,7 +159,7 @@ class FaultPort:
                 commands.append(command)
         if first:
             commands.append(capped)
-        return replace(output, ground_commands=tuple(commands))
+        return output._replace(ground_commands=tuple(commands))
 
     def _hold_uav(self, index: int, output: StepOutput, uav: FloatArray) -> StepOutput:
         rows = output.uav_commands.copy()
@@ -170,4 +169,4 @@ class FaultPort:
             self._frozen[index] = uav[index, UavColumn.X : UavColumn.Z + 1].copy()
         rows[index, UavCommandColumn.X : UavCommandColumn.Z + 1] = self._frozen[index]
         rows[index, UavCommandColumn.VX : UavCommandColumn.VZ + 1] = 0.0
-        return replace(output, uav_commands=rows)
+        return output._replace(uav_commands=rows)

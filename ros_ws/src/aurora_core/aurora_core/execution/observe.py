@@ -18,6 +18,10 @@ from aurora_core.trace.roster import Roster
 FloatArray = npt.NDArray[np.float64]
 Point3 = tuple[float, float, float]
 
+# Plain numbers: members of an enum cost more to look up than what is done with them.
+_Z, _LANDED = int(UavColumn.Z), int(UavColumn.LANDED)
+_MOTION = slice(0, int(GroundColumn.SPEED) + 1)
+
 
 class Observation:
     """States of one tick, by body id or place.
@@ -110,10 +114,8 @@ class Observation:
         row = self._roster.agent_index(body_id)
         if row is None or not instant.present(self._ground[row]):
             return None
-        x, y, hx, hy, speed = self._ground[row, : GroundColumn.SPEED + 1].tolist()
-        return TargetMotion(
-            x_m=x, y_m=y, vx_mps=hx * speed, vy_mps=hy * speed, heading_x=hx, heading_y=hy
-        )
+        x, y, hx, hy, speed = self._ground[row, _MOTION].tolist()
+        return TargetMotion(x, y, hx * speed, hy * speed, hx, hy)
 
     def line_of_sight(self, a: str, b: str) -> bool:
         """Whether no building and no third vehicle stands between two bodies."""
@@ -129,7 +131,7 @@ class Observation:
         if index is None:
             return False
         row = self._uav[index]
-        return bool(row[UavColumn.LANDED] < 0.5 or row[UavColumn.Z] > touchdown_m)
+        return bool(row.item(_LANDED) < 0.5 or row.item(_Z) > touchdown_m)
 
     def flies(self, name: str) -> bool:
         """Tell whether a body is a UAV."""

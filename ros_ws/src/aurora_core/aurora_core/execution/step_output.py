@@ -4,8 +4,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -16,8 +15,7 @@ from aurora_core.trace.records import EventRecord, LinkRecord, SightRecord
 FloatArray = npt.NDArray[np.float64]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class StepOutput:
+class StepOutput(NamedTuple):
     """Output of `ScenarioExecutor.step(k, ...)`.
 
     Attributes:

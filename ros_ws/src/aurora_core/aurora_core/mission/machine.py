@@ -9,8 +9,8 @@ never for a fixed delay. Source: paper, "Temporal planning".
 from __future__ import annotations
 
 from copy import copy
-from dataclasses import dataclass
 from math import ceil
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -45,8 +45,7 @@ _NEAR_LOWEST_M = 0.3
 HOLD_S = 5.0
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class TargetMotion:
+class TargetMotion(NamedTuple):
     """What a mission needs to know of its target: position, velocity, heading (unit), ENU."""
 
     x_m: float
@@ -66,13 +65,14 @@ class MissionMachine:
         dt_s: Time step.
 
     Attributes:
+        plan: What it flies.
         stays_up: Something has to happen before it may land: its last mission goes on until then.
         done: It has landed, or held its place long enough where it is not to land.
         way_there: To its mission.
     """
 
     def __init__(self, plan: UavPlan, settings: FlightSettings, dt_s: float) -> None:
-        self._plan = plan
+        self.plan = plan
         self._settings = settings
         self._dt = dt_s
         self.phase = _IDLE
@@ -101,16 +101,11 @@ class MissionMachine:
         self.way_there = Crossing(None)
 
     @property
-    def plan(self) -> UavPlan:
-        """The plan this machine flies."""
-        return self._plan
-
-    @property
     def mission(self) -> MissionPlan | None:
         """The mission that is flown now, None before and after."""
         index = self.phase - _MISSION
-        if self.phase < _LANDING and 0 <= index < len(self._plan.missions):
-            return self._plan.missions[index]
+        if self.phase < _LANDING and 0 <= index < len(self.plan.missions):
+            return self.plan.missions[index]
         return None
 
     @property
@@ -122,14 +117,14 @@ class MissionMachine:
         """
         mission = self._flown if self.needs_landing_spot() else self.mission
         if self.phase == _ASCENT:  # the first sample at its altitude may be the capture as well
-            mission = self._plan.missions[self._index]
+            mission = self.plan.missions[self._index]
         tracks = mission is not None and mission.mode is MissionMode.TRACK
         return mission.target if mission is not None and tracks else None
 
     @property
     def missions_done(self) -> bool:
         """Whether the last mission has ended (landing, or holding for good, may go on)."""
-        last = self._index == len(self._plan.missions) - 1
+        last = self._index == len(self.plan.missions) - 1
         return self.phase == _LANDING or (self.phase == _HOLDING and last)
 
     @property
@@ -167,7 +162,7 @@ class MissionMachine:
 
     def has_begun(self, mission_id: str) -> bool:
         """Tell whether a mission is flown or over."""
-        index = [mission.id for mission in self._plan.missions].index(mission_id)
+        index = [mission.id for mission in self.plan.missions].index(mission_id)
         return self.phase >= _MISSION and index <= self._index
 
     @property
@@ -177,7 +172,7 @@ class MissionMachine:
 
     def start(self) -> None:
         """Leave the ground with the next command, unless its first mission waits for an event."""
-        missions = self._plan.missions
+        missions = self.plan.missions
         self.phase = _ASCENT if missions and not missions[0].waits else _IDLE
 
     @property
@@ -200,7 +195,7 @@ class MissionMachine:
 
     def change_to(self, mission_id: str) -> None:
         """Begin a mission with the next step, or after the ascent; one that is over stays over."""
-        index = [mission.id for mission in self._plan.missions].index(mission_id)
+        index = [mission.id for mission in self.plan.missions].index(mission_id)
         if self.phase in (_IDLE, _ASCENT):
             self.phase, self._index = _ASCENT, index
         elif self.phase < _LANDING and index > self._index:
@@ -273,11 +268,11 @@ class MissionMachine:
         return self._command(row)
 
     def _first_altitude_m(self) -> float:
-        return float(self._plan.missions[0].altitude_m)
+        return float(self.plan.missions[0].altitude_m)
 
     def _check_ascended(self, tick: int, state: list[float]) -> None:
         z = state[_Z]
-        if abs(z - self._first_altitude_m()) <= self._plan.missions[0].ascent_tolerance_m:
+        if abs(z - self._first_altitude_m()) <= self.plan.missions[0].ascent_tolerance_m:
             self.ascended_tick = tick
             self._start_reference(state)
             self._begin(_MISSION + self._index)
@@ -300,15 +295,15 @@ class MissionMachine:
             if self.phase != _ASCENT:  # a climb that is asked for during the ascent still counts
                 self._level_m = None
             self._index, self._laps = phase - _MISSION, 0
-            self.way_there = Crossing(self._plan.missions[self._index].over_m)
+            self.way_there = Crossing(self.plan.missions[self._index].over_m)
         self.phase = phase
         self._route = None
 
     def _next_phase(self) -> int:
         index = self._index + 1
-        if index < len(self._plan.missions):
-            return _HOLDING if self._plan.missions[index].waits else _MISSION + index
-        return _LANDING if self._plan.lands else _HOLDING
+        if index < len(self.plan.missions):
+            return _HOLDING if self.plan.missions[index].waits else _MISSION + index
+        return _LANDING if self.plan.lands else _HOLDING
 
     def _rest_point(self) -> tuple[float, float, float]:
         """Return where the reference comes to rest, braking gently from its present velocity."""
@@ -486,11 +481,11 @@ class MissionMachine:
 
     def _command(self, state: list[float]) -> FloatArray:
         """Return the command row; the order is that of `UavCommandColumn`."""
-        yaw, phase = self._plan.home_yaw_enu_rad, float(self.phase)
+        yaw, phase = self.plan.home_yaw_enu_rad, float(self.phase)
         if self.phase == _IDLE or self.landed:
             here = state[_X : _Z + 1]
             return np.array([float(UavMode.IDLE), *here, 0.0, 0.0, 0.0, yaw, 0.0, phase])
-        plan = self._plan
+        plan = self.plan
         if self.phase == _ASCENT:
             z = self._first_altitude_m()
             home = (plan.home_x_m, plan.home_y_m)

@@ -25,6 +25,12 @@ from aurora_core.trace.roster import Roster
 FloatArray = npt.NDArray[np.float64]
 Point3 = tuple[float, float, float]
 
+# Plain numbers: members of an enum cost more to look up than what is done with them.
+_X, _Y, _SPEED = int(GroundColumn.X), int(GroundColumn.Y), int(GroundColumn.SPEED)
+_PRESENT = int(GroundColumn.PRESENT)
+_PLACE = slice(int(UavColumn.X), int(UavColumn.Z) + 1)
+_VELOCITY = slice(int(UavColumn.VX), int(UavColumn.VZ) + 1)
+
 
 def ground_point(row: FloatArray) -> Point3:
     """Return the reference point of a ground agent, ENU metres.
@@ -32,7 +38,7 @@ def ground_point(row: FloatArray) -> Point3:
     Args:
         row: (GROUND_WIDTH,) state.
     """
-    return float(row[GroundColumn.X]), float(row[GroundColumn.Y]), 0.0
+    return row.item(_X), row.item(_Y), 0.0
 
 
 def uav_point(row: FloatArray) -> Point3:
@@ -41,7 +47,8 @@ def uav_point(row: FloatArray) -> Point3:
     Args:
         row: (UAV_WIDTH,) state.
     """
-    return float(row[UavColumn.X]), float(row[UavColumn.Y]), float(row[UavColumn.Z])
+    x, y, z = row[_PLACE].tolist()
+    return x, y, z
 
 
 def body_point(roster: Roster, ground: FloatArray, uav: FloatArray, name: str) -> Point3 | None:
@@ -62,7 +69,7 @@ def body_point(roster: Roster, ground: FloatArray, uav: FloatArray, name: str) -
 
 def present(row: FloatArray) -> bool:
     """Tell whether a ground agent exists."""
-    return bool(row[GroundColumn.PRESENT] > 0.5)
+    return bool(row.item(_PRESENT) > 0.5)
 
 
 def distance_m(a: Point3, b: Point3) -> float:
@@ -72,14 +79,13 @@ def distance_m(a: Point3, b: Point3) -> float:
 
 def ground_speed_mps(row: FloatArray) -> float:
     """Return the speed of a ground agent along its heading."""
-    return float(row[GroundColumn.SPEED])
+    return float(row.item(_SPEED))
 
 
 def uav_speed_mps(row: FloatArray) -> float:
     """Return the speed of a UAV in space."""
-    return distance_3d(
-        float(row[UavColumn.VX]), float(row[UavColumn.VY]), float(row[UavColumn.VZ])
-    )
+    velocity: list[float] = row[_VELOCITY].tolist()
+    return distance_3d(*velocity)
 
 
 def altitude_m(row: FloatArray) -> float:
