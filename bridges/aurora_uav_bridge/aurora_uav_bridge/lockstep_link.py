@@ -140,8 +140,8 @@ class LockstepLink:
 
         def packer() -> bytes:
             confirmation = next(confirmations, 255)
-            return self._sequence.fast(
-                COMMAND_LONG, *filled, command, system_id, AUTOPILOT_COMPONENT, confirmation
+            return COMMAND_LONG.frame(
+                self._sequence, *filled, command, system_id, AUTOPILOT_COMPONENT, confirmation
             )
 
         self._ask(packer, system_id, command, what, limit_s)
@@ -174,9 +174,9 @@ class LockstepLink:
             nonlocal confirmation
             out = b''
             for fields in set_points:
-                out += sequence.fast(SET_POINT, *fields)
-            out += sequence.fast(
-                COMMAND_LONG, float(tick), 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
+                out += SET_POINT.frame(sequence, *fields)
+            out += COMMAND_LONG.frame(
+                sequence, float(tick), 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
                 CMD_STEP, self.first, AUTOPILOT_COMPONENT, confirmation,
             )  # fmt: skip
             confirmation = min(confirmation + 1, 255)

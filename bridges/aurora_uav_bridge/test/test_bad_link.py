@@ -18,8 +18,8 @@ def link(seed: int = 1, **faults: float) -> BadLink:
 
 
 def frame() -> bytes:
-    return Sequence(245, 191).fast(
-        COMMAND_LONG, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 31010, 1, 1, 0
+    return COMMAND_LONG.frame(
+        Sequence(245, 191), 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 31010, 1, 1, 0
     )  # fmt: skip
 
 

@@ -11,9 +11,7 @@ from enum import Enum, IntEnum
 from math import sqrt
 from typing import NamedTuple
 
-from aurora_core.geometry.frames import quaternion_to_yaw_enu
-from aurora_uav_sim.arithmetic import sin_cos
-from aurora_uav_sim.compiled import Controller, Multirotor, SetPoint
+from aurora_uav_sim.compiled import Controller, Multirotor, SetPoint, fly
 from aurora_uav_sim.control import MOTORS_OFF, Motors
 from aurora_uav_sim.parameters import installed_model
 from aurora_uav_sim.settings import AutopilotSettings, restore_defaults
@@ -29,6 +27,8 @@ _FLARE_SLOPE_HZ = 0.6
 _FLARE_END_M = 1.0
 # Ground contact for so long counts as landed.
 _LANDED_S = 0.5
+# Set-points that end later than this are alive for certain, whatever is rounded on the way.
+_MARGIN_S = 1e-6
 # Set-points further apart than this tell nothing about an acceleration.
 _SMOOTH_S = 0.25
 # A set-point less than this above the ground does not start a take-off from offboard mode.
@@ -270,31 +270,6 @@ class Autopilot:
         limit = self._limits.horizontal_speed_limit_mps
         self._set_point.speed_limit = min(speed_mps, limit)
 
-    def body_velocity(
-        self, forward_mps: float, right_mps: float, yaw_rate_radps: float
-    ) -> tuple[tuple[float, float], tuple[float, float] | None]:
-        """Turn a velocity seen from the vehicle into the map's.
-
-        Args:
-            forward_mps: Horizontal speed ahead.
-            right_mps: And to the right.
-            yaw_rate_radps: Clockwise seen from above.
-
-        Returns:
-            Velocity, ENU, m/s; sine and cosine of the heading to ask for, None to keep it: it
-            runs ahead of the vehicle's by what makes the controller turn at that rate.
-        """
-        body = self.body
-        sine, cosine = sin_cos(quaternion_to_yaw_enu(body.qw, body.qx, body.qy, body.qz))
-        vxy = (
-            forward_mps * cosine + right_mps * sine,
-            forward_mps * sine - right_mps * cosine,
-        )
-        if yaw_rate_radps == 0.0:
-            return vxy, None
-        ahead_s, ahead_c = sin_cos(-yaw_rate_radps / self._limits.yaw_gain_hz)
-        return vxy, (sine * ahead_c + cosine * ahead_s, cosine * ahead_c - sine * ahead_s)
-
     def steer(
         self,
         vxy: tuple[float, float],
@@ -342,6 +317,33 @@ class Autopilot:
         return self._target is not None and silent_s <= self.settings.offboard_loss_s
 
     # Time -------------------------------------------------------------------------------------
+
+    def run(self, steps: int, h: float) -> None:
+        """Advance the vehicle by `steps` physics steps of `h` seconds."""
+        while steps > 0:
+            if self._cruises(steps * h):
+                wind, body = self.wind, self.body
+                flown = fly(
+                    self._controller, body, self._set_point, (wind.x, wind.y, wind.z), h, steps
+                )
+                for _ in range(flown):
+                    self.time_s += h
+                if body.on_ground:
+                    self._on_ground(h)
+                steps -= flown
+            else:
+                self.step(h)
+                steps -= 1
+
+    def _cruises(self, time_s: float) -> bool:
+        """Tell whether nothing but physics happens for so long, unless it comes to the ground."""
+        if not self.armed or self.landed or self._contact_s > 0.0 or not self.wind.is_steady:
+            return False
+        mode = self.mode
+        if mode is _OFFBOARD:
+            silent_s = self.time_s + time_s - self._target_time_s
+            return silent_s < self.settings.offboard_loss_s - _MARGIN_S
+        return mode is not _TAKEOFF and mode is not _LAND
 
     def step(self, h: float) -> None:
         """Advance the vehicle by one physics step of `h` seconds."""

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: 2026 The AURORA authors
 # SPDX-License-Identifier: Apache-2.0
-"""The physics step compiled, where `make setup` could, and in plain Python everywhere else.
+"""The physics steps compiled, where `make setup` could, and in plain Python everywhere else.
 
 `native/flight.c` does what `multirotor.py` and `control.py` do, bit for bit and twenty times as
 fast.
@@ -66,5 +66,11 @@ def _classes() -> tuple[
     )
 
 
+def _flown() -> Callable[..., int]:
+    native = twin('aurora_uav_flight')
+    return control.fly if native is None else native.fly
+
+
 Multirotor, Controller, SetPoint = _classes()
+fly = _flown()
 IS_COMPILED = Multirotor is not multirotor.Multirotor

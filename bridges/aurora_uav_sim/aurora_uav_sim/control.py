@@ -248,3 +248,31 @@ class Controller:
                 min(max(f3, low), high),
             )
         return f0, f1, f2, f3
+
+
+def fly(
+    controller: Controller,
+    body: Multirotor,
+    set_point: SetPoint,
+    wind: tuple[float, float, float],
+    h: float,
+    steps: int,
+) -> int:
+    """Fly physics steps in steady wind; the one that ends on the ground is the last.
+
+    Args:
+        controller: Of the body.
+        body: What flies.
+        set_point: What is followed meanwhile.
+        wind: ENU, m/s.
+        h: Step in s.
+        steps: How many at most, one or more.
+
+    Returns:
+        How many were flown.
+    """
+    for flown in range(1, steps + 1):
+        body.step(h, controller.update(h, set_point), *wind)
+        if body.on_ground:
+            return flown
+    return steps

@@ -113,8 +113,8 @@ class Session:
             )
             w, x, y, z = attitude_enu_to_ned(b.qw, b.qx, b.qy, b.qz)
             out += (
-                sequence.fast(LOCAL_POSITION, tick, b.y, b.x, -b.z, b.vy, b.vx, -b.vz)
-                + sequence.fast(ATTITUDE, tick, w, x, y, z, b.p, -b.q, -b.r, 0.0, 0.0, 0.0, 0.0)
-                + sequence.fast(NAMED_INT, tick, status, STATUS_NAME)
+                LOCAL_POSITION.frame(sequence, tick, b.y, b.x, -b.z, b.vy, b.vx, -b.vz)
+                + ATTITUDE.frame(sequence, tick, w, x, y, z, b.p, -b.q, -b.r, 0.0, 0.0, 0.0, 0.0)
+                + NAMED_INT.frame(sequence, tick, status, STATUS_NAME)
             )
         return out

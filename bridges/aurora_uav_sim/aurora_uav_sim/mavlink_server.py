@@ -179,8 +179,8 @@ class SimServer:
             out.append(session.states(link.sequences))
         first = next(iter(session.fleet))
         out.append(
-            link.sequence(first).fast(
-                COMMAND_ACK, CMD_STEP, result, 0, tick if tick is not None else -1,
+            COMMAND_ACK.frame(
+                link.sequence(first), CMD_STEP, result, 0, tick if tick is not None else -1,
                 frame.system_id, frame.component_id,
             )
         )  # fmt: skip
@@ -258,8 +258,8 @@ class SimServer:
         for vehicle, answer in answers:
             sequence = link.sequence(vehicle.system_id)
             out.append(
-                sequence.fast(
-                    COMMAND_ACK, request.command, answer.result, 0, number, *request.sender
+                COMMAND_ACK.frame(
+                    sequence, request.command, answer.result, 0, number, *request.sender
                 )
             )
             if answer.reason:

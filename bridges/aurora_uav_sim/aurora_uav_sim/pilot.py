@@ -320,7 +320,7 @@ class Pilot:
         )
         settings = autopilot.settings
         speed = settings.manual_mps
-        vxy, heading = autopilot.body_velocity(
+        vxy, heading = self.vehicle.body_velocity(
             speed * forward, speed * right, radians(turn * settings.manual_yaw_dps)
         )
         climb = settings.auto_climb_mps if up > 0.0 else settings.auto_descent_mps

@@ -149,5 +149,5 @@ def _read_body(m: Any, vehicle: Vehicle) -> Target | None:
         return None
     if not -MAX_YAW_RAD <= m.yaw_rate <= MAX_YAW_RAD:
         return None
-    vxy, heading = vehicle.autopilot.body_velocity(m.vx, m.vy, m.yaw_rate)
+    vxy, heading = vehicle.body_velocity(m.vx, m.vy, m.yaw_rate)
     return Target(None, None, vxy, -m.vz, heading)

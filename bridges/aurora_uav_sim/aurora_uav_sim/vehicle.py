@@ -4,9 +4,14 @@
 
 from __future__ import annotations
 
-from aurora_core.geometry.frames import enu_to_geodetic, geodetic_to_enu
+from aurora_core.geometry.frames import (
+    enu_to_geodetic,
+    geodetic_to_enu,
+    quaternion_to_yaw_enu,
+)
 from aurora_uav_sim.arithmetic import sin_cos
 from aurora_uav_sim.autopilot import ACCEPTED, Answer, Autopilot, Result
+from aurora_uav_sim.parameters import installed_model
 from aurora_uav_sim.pilot import Pilot
 
 # Where a stand-alone simulator starts. Source: PX4 SITL's default home (Zurich Irchel Park).
@@ -91,8 +96,31 @@ class Vehicle:
         """Return (latitude, longitude) in degrees of a local point."""
         return enu_to_geodetic(x_m, y_m, self.latitude_deg, self.longitude_deg)
 
+    def body_velocity(
+        self, forward_mps: float, right_mps: float, yaw_rate_radps: float
+    ) -> tuple[tuple[float, float], tuple[float, float] | None]:
+        """Turn a velocity seen from the vehicle into the map's.
+
+        Args:
+            forward_mps: Horizontal speed ahead.
+            right_mps: And to the right.
+            yaw_rate_radps: Clockwise seen from above.
+
+        Returns:
+            Velocity, ENU, m/s; sine and cosine of the heading to ask for, None to keep it: it
+            runs ahead of the vehicle's by what makes the controller turn at that rate.
+        """
+        body = self.autopilot.body
+        sine, cosine = sin_cos(quaternion_to_yaw_enu(body.qw, body.qx, body.qy, body.qz))
+        vxy = (
+            forward_mps * cosine + right_mps * sine,
+            forward_mps * sine - right_mps * cosine,
+        )
+        if yaw_rate_radps == 0.0:
+            return vxy, None
+        ahead_s, ahead_c = sin_cos(-yaw_rate_radps / installed_model().control.yaw_gain_hz)
+        return vxy, (sine * ahead_c + cosine * ahead_s, cosine * ahead_c - sine * ahead_s)
+
     def run(self, steps: int, h: float) -> None:
         """Advance by `steps` physics steps of `h` seconds."""
-        step = self.autopilot.step
-        for _ in range(steps):
-            step(h)
+        self.autopilot.run(steps, h)

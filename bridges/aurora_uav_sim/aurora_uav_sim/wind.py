@@ -71,6 +71,11 @@ class Wind:
         self._noise = []
         self.set(self._mean_x, self._mean_y, self._mean_z, self._gust)
 
+    @property
+    def is_steady(self) -> bool:
+        """Whether there are no gusts."""
+        return self._gust == 0.0 or self._rng is None
+
     def step(self, h: float) -> None:
         """Advance the gusts by `h` seconds; free when there are none."""
         gust = self._gust

@@ -4,8 +4,9 @@
 
 pymavlink needs 4 us to pack and 8 us to parse a message. A tick carries at least six, so these
 few are packed with `struct` here, byte for byte as pymavlink does it (a test compares them);
-everything else goes through pymavlink (`decode`). `plain_split` and `plain_pack` say what a frame
-is; where set-up could compile their twins (`native/wire.c`), these do the same five times as fast.
+everything else goes through pymavlink (`decode`). `plain_split`, `plain_pack` and `PlainLayout`
+say what a frame is; where set-up could compile their twins (`native/wire.c`), these do the same
+five times as fast.
 
 A datagram is a whole: a frame that does not end inside it is lost, and never waits for the next
 datagram as a stream parser would let it.
@@ -18,7 +19,7 @@ from __future__ import annotations
 import struct
 from collections.abc import Callable, Iterator
 from functools import partial
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
 from pymavlink.dialects.v20 import common as mavlink
 
@@ -172,8 +173,12 @@ if _twin is not None:
     pack = partial(_twin.pack, _CRC_EXTRA)
 
 
-class Layout:
-    """A message of the tick path: its id and its packed fields in wire order."""
+class PlainLayout:
+    """A message of the tick path: its id and its packed fields in wire order.
+
+    Args:
+        kind: pymavlink's class of the message.
+    """
 
     __slots__ = ('message_id', 'size', 'structure')
 
@@ -181,6 +186,15 @@ class Layout:
         self.message_id = int(kind.id)
         self.structure: struct.Struct = kind.unpacker
         self.size: int = self.structure.size
+
+    def frame(self, sequence: Sequence, *fields: Any) -> bytes:
+        """Pack the next message of a sender from its fields in wire order."""
+        number = sequence.seq
+        sequence.seq = (number + 1) & 0xFF
+        payload = self.structure.pack(*fields)
+        return plain_pack(
+            number, sequence.srcSystem, sequence.srcComponent, self.message_id, payload
+        )
 
     def unpack(self, payload: bytes) -> tuple[Any, ...]:
         """Return the fields; cut-off zeros are put back, unknown extensions are cut off."""
@@ -190,16 +204,24 @@ class Layout:
         return self.structure.unpack(payload)
 
 
-LOCAL_POSITION = Layout(mavlink.MAVLink_local_position_ned_message)
-ATTITUDE = Layout(mavlink.MAVLink_attitude_quaternion_message)
-NAMED_INT = Layout(mavlink.MAVLink_named_value_int_message)
-COMMAND_ACK = Layout(mavlink.MAVLink_command_ack_message)
-COMMAND_LONG = Layout(mavlink.MAVLink_command_long_message)
-SET_POINT = Layout(mavlink.MAVLink_set_position_target_local_ned_message)
+def layout_of(kind: Any) -> PlainLayout:
+    """Return the layout of a message, compiled where there is a twin."""
+    if _twin is None:
+        return PlainLayout(kind)
+    number, extra = int(kind.id), kind.crc_extra
+    return cast('PlainLayout', _twin.Layout(number, extra, kind.unpacker.format))
+
+
+LOCAL_POSITION = layout_of(mavlink.MAVLink_local_position_ned_message)
+ATTITUDE = layout_of(mavlink.MAVLink_attitude_quaternion_message)
+NAMED_INT = layout_of(mavlink.MAVLink_named_value_int_message)
+COMMAND_ACK = layout_of(mavlink.MAVLink_command_ack_message)
+COMMAND_LONG = layout_of(mavlink.MAVLink_command_long_message)
+SET_POINT = layout_of(mavlink.MAVLink_set_position_target_local_ned_message)
 
 
 class Sequence:
-    """A sender's frame counter and packer.
+    """A sender's frame counter.
 
     Attributes:
         seq: Number of the next frame (pymavlink's name: its messages are packed with it too).
@@ -215,13 +237,6 @@ class Sequence:
         self.srcSystem = system_id
         self.srcComponent = component_id
         self.signing = mavlink.MAVLinkSigning()
-
-    def fast(self, layout: Layout, *fields: Any) -> bytes:
-        """Pack a message of the tick path from its fields in wire order."""
-        sequence = self.seq
-        self.seq = (sequence + 1) & 0xFF
-        payload = layout.structure.pack(*fields)
-        return pack(sequence, self.srcSystem, self.srcComponent, layout.message_id, payload)
 
     def encode(self, message: Any) -> bytes:
         """Pack a pymavlink message."""

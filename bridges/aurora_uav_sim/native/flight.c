@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: 2026 The AURORA authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// One physics step of multirotor.py and control.py, compiled. The Python files are the truth: what
+// The physics steps of multirotor.py and control.py, compiled. The Python files are the truth: what
 // is computed here has the same operations in the same order, so that every bit is the same (to be
 // compiled without contraction of a * b + c). tools/aurora_setup compiles it and passes the names of
 // the Python files as EQUAL_TO and their digest as SOURCES; native_code.py takes it only beside
@@ -357,6 +357,41 @@ static void cascade_dealloc(Cascade *self)
     Py_TYPE(self)->tp_free((PyObject *)self);
 }
 
+// fly ------------------------------------------------------------------------------------------
+
+static PyTypeObject CascadeType;
+
+static PyObject *flight_fly(PyObject *module, PyObject *const *arguments, Py_ssize_t count)
+{
+    double wind[3], h, motors[4];
+    if (count != 6 || !PyObject_TypeCheck(arguments[0], &CascadeType) ||
+        !PyObject_TypeCheck(arguments[1], &BodyType) ||
+        !PyObject_TypeCheck(arguments[2], &PointType) || !PyTuple_Check(arguments[3]) ||
+        PyTuple_GET_SIZE(arguments[3]) != 3 ||
+        ((Cascade *)arguments[0])->body != arguments[1]) {
+        PyErr_SetString(PyExc_TypeError,
+                        "expected a compiled controller, its body, set-point, wind, h and steps");
+        return NULL;
+    }
+    for (int i = 0; i < 3; i++)
+        if (!number(PyTuple_GET_ITEM(arguments[3], i), &wind[i]))
+            return NULL;
+    if (!number(arguments[4], &h))
+        return NULL;
+    long steps = PyLong_AsLong(arguments[5]), flown = 0;
+    if (steps == -1 && PyErr_Occurred())
+        return NULL;
+    Body *body = (Body *)arguments[1];
+    while (flown < steps) {
+        update((Cascade *)arguments[0], body, h, (Point *)arguments[2], motors);
+        step(body, h, motors, wind[0], wind[1], wind[2]);
+        flown++;
+        if (body->on_ground)
+            break;
+    }
+    return PyLong_FromLong(flown);
+}
+
 // Types ----------------------------------------------------------------------------------------
 
 #define NUMBER(type, name) {#name, T_DOUBLE, offsetof(type, name), 0, NULL}
@@ -422,9 +457,13 @@ static PyTypeObject BodyType = TYPE(Body, "Body", body_members, body_methods);
 static PyTypeObject PointType = TYPE(Point, "Point", point_members, NULL);
 static PyTypeObject CascadeType = TYPE(Cascade, "Cascade", cascade_members, cascade_methods);
 
+static PyMethodDef methods[] = {
+    {"fly", (PyCFunction)(void (*)(void))flight_fly, METH_FASTCALL, NULL}, {NULL},
+};
+
 static struct PyModuleDef module = {
     PyModuleDef_HEAD_INIT, "aurora_uav_flight", "multirotor.py and control.py, compiled.", -1,
-    NULL, NULL, NULL, NULL, NULL,
+    methods, NULL, NULL, NULL, NULL,
 };
 
 PyMODINIT_FUNC PyInit_aurora_uav_flight(void)

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: 2026 The AURORA authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// `pack` and `split` of wire.py, compiled: the same bytes and the same frames. wire.py is the truth
+// `pack`, `split` and the layouts of wire.py, compiled: the same bytes and the same frames. wire.py is the truth
 // and uses this only beside the very file that it was made from (see native_code.py).
 
 #define PY_SSIZE_T_CLEAN
 #include <Python.h>
+#include <structmember.h>
 
 enum { MARKER_V1 = 0xFE, MARKER_V2 = 0xFD, HEAD_V1 = 6, HEAD_V2 = 10, CHECK = 2 };
 enum { SIGNED = 1, SIGNATURE = 13, LONGEST_PAYLOAD = 255, FIELDS = 6 };
@@ -39,6 +40,29 @@ static int extra_of(PyObject *extras, long message_id)
     return (uint8_t)PyBytes_AS_STRING(extra)[0];
 }
 
+// A frame: `numbers` are sequence, system, component and message, all in range.
+static PyObject *framed(const long *numbers, uint8_t extra, const uint8_t *payload,
+                        Py_ssize_t length)
+{
+    while (length > 0 && payload[length - 1] == 0)
+        length--;
+    if (length > LONGEST_PAYLOAD) {
+        PyErr_SetString(PyExc_ValueError, "the payload is longer than a frame can be");
+        return NULL;
+    }
+    uint8_t frame[HEAD_V2 + LONGEST_PAYLOAD + CHECK] = {
+        MARKER_V2, (uint8_t)(length ? length : 1), 0, 0, (uint8_t)numbers[0], (uint8_t)numbers[1],
+        (uint8_t)numbers[2], (uint8_t)numbers[3], (uint8_t)(numbers[3] >> 8),
+        (uint8_t)(numbers[3] >> 16),
+    };
+    memcpy(frame + HEAD_V2, payload, (size_t)length);
+    Py_ssize_t end = HEAD_V2 + (length ? length : 1);
+    uint16_t crc = crc16(crc16(0xFFFF, frame + 1, end - 1), &extra, 1);
+    frame[end] = (uint8_t)crc;
+    frame[end + 1] = (uint8_t)(crc >> 8);
+    return PyBytes_FromStringAndSize((const char *)frame, end + CHECK);
+}
+
 static PyObject *wire_pack(PyObject *module, PyObject *const *arguments, Py_ssize_t count)
 {
     // extras, sequence, system_id, component_id, message_id, payload
@@ -63,26 +87,8 @@ static PyObject *wire_pack(PyObject *module, PyObject *const *arguments, Py_ssiz
         PyErr_SetObject(PyExc_KeyError, arguments[4]);
         return NULL;
     }
-    const uint8_t *payload = (const uint8_t *)PyBytes_AS_STRING(arguments[5]);
-    Py_ssize_t length = PyBytes_GET_SIZE(arguments[5]);
-    while (length > 0 && payload[length - 1] == 0)
-        length--;
-    if (length > LONGEST_PAYLOAD) {
-        PyErr_SetString(PyExc_ValueError, "the payload is longer than a frame can be");
-        return NULL;
-    }
-    uint8_t frame[HEAD_V2 + LONGEST_PAYLOAD + CHECK] = {
-        MARKER_V2, (uint8_t)(length ? length : 1), 0, 0, (uint8_t)numbers[0], (uint8_t)numbers[1],
-        (uint8_t)numbers[2], (uint8_t)numbers[3], (uint8_t)(numbers[3] >> 8),
-        (uint8_t)(numbers[3] >> 16),
-    };
-    memcpy(frame + HEAD_V2, payload, (size_t)length);
-    Py_ssize_t end = HEAD_V2 + (length ? length : 1);
-    uint8_t last = (uint8_t)extra;
-    uint16_t crc = crc16(crc16(0xFFFF, frame + 1, end - 1), &last, 1);
-    frame[end] = (uint8_t)crc;
-    frame[end + 1] = (uint8_t)(crc >> 8);
-    return PyBytes_FromStringAndSize((const char *)frame, end + CHECK);
+    return framed(numbers, (uint8_t)extra, (const uint8_t *)PyBytes_AS_STRING(arguments[5]),
+                  PyBytes_GET_SIZE(arguments[5]));
 }
 
 // A `Frame`, which is a tuple with names.
@@ -163,6 +169,175 @@ static PyObject *wire_split(PyObject *module, PyObject *const *arguments, Py_ssi
     return each;
 }
 
+// Layout ---------------------------------------------------------------------------------------
+
+enum { MOST_FIELDS = 32 };
+
+typedef struct {
+    PyObject_HEAD
+    long message_id;
+    Py_ssize_t size, fields;
+    uint8_t extra;
+    char code[MOST_FIELDS];     // as `struct` names them: f, or an integer, or s
+    Py_ssize_t at[MOST_FIELDS]; // where the field lies in the payload
+    Py_ssize_t width[MOST_FIELDS];
+} Layout;
+
+static PyObject *struct_error, *name_seq, *name_system, *name_component;
+
+static int layout_init(Layout *self, PyObject *arguments, PyObject *keywords)
+{
+    const char *format;
+    if (keywords != NULL || !PyArg_ParseTuple(arguments, "lbs", &self->message_id, &self->extra,
+                                              &format))
+        return -1;
+    self->size = self->fields = 0;
+    if (*format++ != '<')
+        goto unknown;
+    while (*format) {
+        Py_ssize_t count = 0;
+        for (; *format >= '0' && *format <= '9'; format++)
+            count = 10 * count + *format - '0';
+        const char *known = strchr("BHIifs", *format);
+        if (*format == 0 || known == NULL)
+            goto unknown;
+        Py_ssize_t width = *known == 'B' ? 1 : *known == 'H' ? 2 : 4, times = count ? count : 1;
+        if (*known == 's')
+            width = times, times = 1;
+        for (; times > 0; times--) {
+            if (self->fields == MOST_FIELDS || self->size + width > LONGEST_PAYLOAD)
+                goto unknown;
+            self->code[self->fields] = *known;
+            self->at[self->fields] = self->size;
+            self->width[self->fields++] = width;
+            self->size += width;
+        }
+        format++;
+    }
+    return 0;
+unknown:
+    PyErr_SetString(PyExc_ValueError, "a layout of a kind that is not known here");
+    return -1;
+}
+
+// Pack a field, -1 with `struct`'s exceptions set where it does not fit.
+static int put(uint8_t *to, char code, Py_ssize_t width, PyObject *value)
+{
+    if (code == 's') {
+        if (!PyBytes_Check(value)) {
+            PyErr_SetString(struct_error, "argument for 's' must be a bytes object");
+            return -1;
+        }
+        Py_ssize_t length = PyBytes_GET_SIZE(value);
+        memcpy(to, PyBytes_AS_STRING(value), (size_t)(length < width ? length : width));
+        return 0;
+    }
+    if (code == 'f') {
+        double number = PyFloat_AsDouble(value);
+        if (number == -1.0 && PyErr_Occurred()) {
+            PyErr_SetString(struct_error, "required argument is not a float");
+            return -1;
+        }
+        return PyFloat_Pack4(number, (char *)to, 1);
+    }
+    long long low = code == 'i' ? -2147483648LL : 0;
+    long long high = code == 'i' ? 2147483647LL : (1LL << 8 * width) - 1;
+    long long number = PyLong_AsLongLong(value);
+    if ((number == -1 && PyErr_Occurred()) || number < low || number > high) {
+        PyErr_SetString(struct_error, "required argument is no integer in range");
+        return -1;
+    }
+    for (Py_ssize_t i = 0; i < width; i++)
+        to[i] = (uint8_t)(number >> 8 * i);
+    return 0;
+}
+
+static PyObject *layout_frame(Layout *self, PyObject *const *arguments, Py_ssize_t count)
+{
+    // sequence, fields in wire order
+    if (count != self->fields + 1) {
+        PyErr_SetString(struct_error, "expected a sequence and every field");
+        return NULL;
+    }
+    PyObject *const names[3] = {name_seq, name_system, name_component};
+    long numbers[4];
+    numbers[3] = self->message_id;
+    for (int i = 0; i < 3; i++) {
+        PyObject *value = PyObject_GetAttr(arguments[0], names[i]);
+        if (value == NULL)
+            return NULL;
+        numbers[i] = PyLong_AsLong(value);
+        Py_DECREF(value);
+        if (numbers[i] == -1 && PyErr_Occurred())
+            return NULL;
+        if (numbers[i] < 0 || numbers[i] > 0xFF) {
+            PyErr_SetString(PyExc_ValueError, "a number does not fit into the head of a frame");
+            return NULL;
+        }
+    }
+    PyObject *next = PyLong_FromLong((numbers[0] + 1) & 0xFF);
+    if (next == NULL || PyObject_SetAttr(arguments[0], name_seq, next) < 0) {
+        Py_XDECREF(next);
+        return NULL;
+    }
+    Py_DECREF(next);
+    uint8_t payload[LONGEST_PAYLOAD] = {0};
+    for (Py_ssize_t i = 0; i < self->fields; i++)
+        if (put(payload + self->at[i], self->code[i], self->width[i], arguments[i + 1]) < 0)
+            return NULL;
+    return framed(numbers, self->extra, payload, self->size);
+}
+
+static PyObject *field(const uint8_t *from, char code, Py_ssize_t width)
+{
+    if (code == 's')
+        return PyBytes_FromStringAndSize((const char *)from, width);
+    if (code == 'f') {
+        double number = PyFloat_Unpack4((const char *)from, 1);
+        return number == -1.0 && PyErr_Occurred() ? NULL : PyFloat_FromDouble(number);
+    }
+    uint32_t number = 0;
+    for (Py_ssize_t i = 0; i < width; i++)
+        number |= (uint32_t)from[i] << 8 * i;
+    return code == 'i' ? PyLong_FromLong((int32_t)number) : PyLong_FromUnsignedLong(number);
+}
+
+static PyObject *layout_unpack(Layout *self, PyObject *payload)
+{
+    if (!PyBytes_Check(payload)) {
+        PyErr_SetString(PyExc_TypeError, "expected bytes");
+        return NULL;
+    }
+    uint8_t whole[LONGEST_PAYLOAD] = {0};
+    Py_ssize_t length = PyBytes_GET_SIZE(payload);
+    memcpy(whole, PyBytes_AS_STRING(payload), (size_t)(length < self->size ? length : self->size));
+    PyObject *found = PyTuple_New(self->fields);
+    for (Py_ssize_t i = 0; found != NULL && i < self->fields; i++) {
+        PyObject *value = field(whole + self->at[i], self->code[i], self->width[i]);
+        if (value == NULL)
+            Py_CLEAR(found);
+        else
+            PyTuple_SET_ITEM(found, i, value);
+    }
+    return found;
+}
+
+static PyMemberDef layout_members[] = {
+    {"message_id", T_LONG, offsetof(Layout, message_id), READONLY, NULL},
+    {"size", T_PYSSIZET, offsetof(Layout, size), READONLY, NULL}, {NULL},
+};
+
+static PyMethodDef layout_methods[] = {
+    {"frame", (PyCFunction)(void (*)(void))layout_frame, METH_FASTCALL, NULL},
+    {"unpack", (PyCFunction)layout_unpack, METH_O, NULL}, {NULL},
+};
+
+static PyTypeObject LayoutType = {
+    PyVarObject_HEAD_INIT(NULL, 0).tp_name = "aurora_uav_wire.Layout",
+    .tp_basicsize = sizeof(Layout), .tp_flags = Py_TPFLAGS_DEFAULT, .tp_new = PyType_GenericNew,
+    .tp_init = (initproc)layout_init, .tp_members = layout_members, .tp_methods = layout_methods,
+};
+
 static PyMethodDef methods[] = {
     {"pack", (PyCFunction)(void (*)(void))wire_pack, METH_FASTCALL, NULL},
     {"split", (PyCFunction)(void (*)(void))wire_split, METH_FASTCALL, NULL},
@@ -170,15 +345,25 @@ static PyMethodDef methods[] = {
 };
 
 static struct PyModuleDef module = {
-    PyModuleDef_HEAD_INIT, "aurora_uav_wire", "pack and split of wire.py, compiled.", -1, methods,
-    NULL, NULL, NULL, NULL,
+    PyModuleDef_HEAD_INIT, "aurora_uav_wire", "pack, split and the layouts of wire.py, compiled.", -1,
+    methods, NULL, NULL, NULL, NULL,
 };
 
 PyMODINIT_FUNC PyInit_aurora_uav_wire(void)
 {
+    PyObject *of = PyImport_ImportModule("struct");
+    struct_error = of == NULL ? NULL : PyObject_GetAttrString(of, "error");
+    Py_XDECREF(of);
+    name_seq = PyUnicode_InternFromString("seq");
+    name_system = PyUnicode_InternFromString("srcSystem");
+    name_component = PyUnicode_InternFromString("srcComponent");
+    if (struct_error == NULL || name_seq == NULL || name_system == NULL || name_component == NULL ||
+        PyType_Ready(&LayoutType) < 0)
+        return NULL;
     PyObject *made = PyModule_Create(&module);
     if (made == NULL || PyModule_AddStringConstant(made, "EQUAL_TO", EQUAL_TO) < 0 ||
-        PyModule_AddStringConstant(made, "SOURCES", SOURCES) < 0) {
+        PyModule_AddStringConstant(made, "SOURCES", SOURCES) < 0 ||
+        PyModule_AddObjectRef(made, "Layout", (PyObject *)&LayoutType) < 0) {
         Py_XDECREF(made);
         return NULL;
     }

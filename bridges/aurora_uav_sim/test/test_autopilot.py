@@ -7,8 +7,13 @@ from __future__ import annotations
 import pytest
 
 from aurora_uav_sim.autopilot import Autopilot, FlightMode, Result, Target
+from aurora_uav_sim.wind import wind_stream
 
 H = 0.01
+STATE = (
+    *('x', 'y', 'z', 'vx', 'vy', 'vz', 'qw', 'qx', 'qy', 'qz', 'p', 'q', 'r'),
+    *('f0', 'f1', 'f2', 'f3', 'on_ground'),
+)
 
 
 def run(autopilot: Autopilot, duration_s: float) -> None:
@@ -292,3 +297,45 @@ def test_custom_modes_are_px4() -> None:
     assert FlightMode.HOLD.custom_mode == 4 << 16 | 3 << 24
     assert FlightMode.TAKEOFF.custom_mode == 4 << 16 | 2 << 24
     assert FlightMode.LAND.custom_mode == 4 << 16 | 6 << 24
+
+
+def told(autopilot: Autopilot, tick: int) -> None:
+    """Fly up, after set-points, into the ground, up again, without set-points, and land."""
+    if tick == 1:
+        autopilot.arm()
+        autopilot.takeoff(8.0)
+    if 200 <= tick < 500:
+        down = 280 <= tick < 360
+        autopilot.set_target(target(0.02 * tick, 3.0, -1.0 if down else 9.0))
+    if tick == 201:
+        autopilot.offboard()
+    if tick == 700:
+        autopilot.land()
+
+
+@pytest.mark.parametrize('gust_mps', [0.0, 3.0])
+def test_several_steps_at_once_are_as_many_single_ones(gust_mps: float) -> None:
+    both = Autopilot(), Autopilot()
+    for autopilot in both:
+        autopilot.wind.set(2.0, -1.0, 0.0, gust_mps)
+        autopilot.wind.seed(wind_stream(7, 1))
+    seen = set()
+    for tick in range(1100):
+        for autopilot in both:
+            told(autopilot, tick)
+        both[0].run(5, H)
+        for _ in range(5):
+            both[1].step(H)
+        states = [
+            repr([getattr(a.body, n) for n in STATE] + [a.mode, a.armed, a.landed, a.time_s])
+            for a in both
+        ]
+        assert states[0] == states[1]
+        seen.add((both[0].mode, both[0].armed, both[0].landed))
+        assert both[0].offboard_lost == both[1].offboard_lost
+    assert both[0].offboard_lost
+    assert {mode for mode, armed, landed in seen if armed and not landed} == {
+        FlightMode.TAKEOFF, FlightMode.HOLD, FlightMode.OFFBOARD, FlightMode.LAND
+    }  # fmt: skip
+    assert (FlightMode.OFFBOARD, True, True) in seen  # it stood on the ground in between
+    assert not both[0].armed  # and has landed

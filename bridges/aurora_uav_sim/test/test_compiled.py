@@ -107,6 +107,30 @@ def test_every_step_from_any_state_has_the_same_bits(seed: int) -> None:
 
 
 @needs_compiled
+@pytest.mark.parametrize('seed', range(4))
+def test_a_flight_of_several_steps_has_the_same_bits_and_ends_on_the_ground(seed: int) -> None:
+    chance = random.Random(seed)
+    pair = Pair(MODEL.body, MODEL.control)
+    ended = set()
+    for _ in range(600):
+        throw(pair, chance)
+        h, steps = chance.choice((0.01, 0.004, 0.0077)), chance.randrange(1, 40)
+        wind = (chance.gauss(0.0, 5.0), chance.gauss(0.0, 5.0), 0.0)
+        flown = [
+            fly(controller, body, point, wind, h, steps)
+            for fly, controller, body, point in zip(
+                (control.fly, compiled.fly), pair.controllers, pair.bodies, pair.points,
+                strict=True,
+            )
+        ]  # fmt: skip
+        assert flown[0] == flown[1]
+        pair.check()
+        assert pair.bodies[0].on_ground or flown[0] == steps
+        ended.add(flown[0] < steps)
+    assert ended == {False, True}
+
+
+@needs_compiled
 def test_reset_is_the_same() -> None:
     pair = Pair(MODEL.body, MODEL.control)
     throw(pair, random.Random(1))
@@ -129,6 +153,9 @@ def test_what_is_not_its_own_is_refused() -> None:
     short: Any = (1.0, 2.0)
     with pytest.raises(TypeError, match='four motors'):
         body.step(0.01, short, 0.0, 0.0, 0.0)
+    for other in (plain, compiled.SetPoint(limits)):  # not a set-point of its own, not its body
+        with pytest.raises(TypeError, match='its body'):
+            compiled.fly(compiled.Controller(body, limits), wrong, other, (0.0, 0.0, 0.0), 0.01, 1)
 
 
 def test_the_plain_step_is_used_when_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:

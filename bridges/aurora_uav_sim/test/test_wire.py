@@ -33,7 +33,7 @@ def test_position_is_packed_as_pymavlink_does(
 ) -> None:
     sender = Sequence(7, 1)
     sender.seq = sequence
-    fast = sender.fast(wire.LOCAL_POSITION, time_ms, *values)
+    fast = wire.LOCAL_POSITION.frame(sender, time_ms, *values)
     sender.seq = sequence
     message = mavlink.MAVLink_local_position_ned_message(time_ms, *values)
     assert fast == sender.encode(message)
@@ -43,7 +43,7 @@ def test_position_is_packed_as_pymavlink_does(
 @given(u32, st.lists(f32, min_size=7, max_size=7))
 def test_attitude_is_packed_as_pymavlink_does(time_ms: int, values: list[float]) -> None:
     message = mavlink.MAVLink_attitude_quaternion_message(time_ms, *values)
-    fast = Sequence(1, 1).fast(wire.ATTITUDE, time_ms, *values, 0.0, 0.0, 0.0, 0.0)
+    fast = wire.ATTITUDE.frame(Sequence(1, 1), time_ms, *values, 0.0, 0.0, 0.0, 0.0)
     assert fast == frame_of(message)
 
 
@@ -54,8 +54,8 @@ def test_command_is_packed_as_pymavlink_does(
     message = mavlink.MAVLink_command_long_message(
         system, component, command, confirmation, *values
     )
-    fast = Sequence(1, 1).fast(
-        wire.COMMAND_LONG, *values, command, system, component, confirmation
+    fast = wire.COMMAND_LONG.frame(
+        Sequence(1, 1), *values, command, system, component, confirmation
     )
     assert fast == frame_of(message)
 
@@ -63,12 +63,12 @@ def test_command_is_packed_as_pymavlink_does(
 def test_the_other_fast_messages_are_packed_as_pymavlink_does() -> None:
     sender = Sequence(1, 1)
     ack = mavlink.MAVLink_command_ack_message(400, 1, 0, -5, 245, 191)
-    assert sender.fast(wire.COMMAND_ACK, 400, 1, 0, -5, 245, 191) == frame_of(ack)
+    assert wire.COMMAND_ACK.frame(sender, 400, 1, 0, -5, 245, 191) == frame_of(ack)
     named = mavlink.MAVLink_named_value_int_message(5, b'AURSTATUS', 77)
-    assert sender.fast(wire.NAMED_INT, 5, 77, b'AURSTATUS') == frame_of(named, 1)
+    assert wire.NAMED_INT.frame(sender, 5, 77, b'AURSTATUS') == frame_of(named, 1)
     fields = [float(i) for i in range(11)]
     point = mavlink.MAVLink_set_position_target_local_ned_message(9, 1, 1, 1, 0x9C0, *fields)
-    fast = sender.fast(wire.SET_POINT, 9, *fields, 0x9C0, 1, 1, 1)
+    fast = wire.SET_POINT.frame(sender, 9, *fields, 0x9C0, 1, 1, 1)
     assert fast == frame_of(point, 2)
     assert wire.SET_POINT.unpack(next(split(fast)).payload)[1:12] == tuple(fields)
 
@@ -197,3 +197,56 @@ def test_compiled_frames_are_the_plain_ones() -> None:
             wire.plain_pack(*wrong)
         with pytest.raises((ValueError, KeyError)):
             wire.pack(*wrong)
+
+
+KINDS = (
+    mavlink.MAVLink_local_position_ned_message,
+    mavlink.MAVLink_attitude_quaternion_message,
+    mavlink.MAVLink_named_value_int_message,
+    mavlink.MAVLink_command_ack_message,
+    mavlink.MAVLink_command_long_message,
+    mavlink.MAVLink_set_position_target_local_ned_message,
+)
+
+
+@pytest.mark.skipif(not wire.IS_COMPILED, reason='the frames are not compiled here')
+@pytest.mark.parametrize('kind', KINDS)
+def test_a_compiled_layout_packs_and_unpacks_the_same_bits(kind: Any) -> None:
+    chance = random.Random(3)
+    plain, fast = wire.PlainLayout(kind), wire.layout_of(kind)
+    assert type(fast) is not type(plain)
+    assert (fast.message_id, fast.size) == (plain.message_id, plain.size)
+    senders = Sequence(9, 1), Sequence(9, 1)
+    for _ in range(500):
+        payload = bytes(chance.choice((0, chance.randrange(256))) for _ in range(plain.size))
+        for piece in (payload, payload[: chance.randrange(plain.size)], payload + b'more'):
+            # repr: some of the numbers are NaN.
+            assert repr(fast.unpack(piece)) == repr(plain.unpack(piece))
+        fields = plain.unpack(payload)
+        frames = [
+            layout.frame(sender, *fields)
+            for layout, sender in zip((plain, fast), senders, strict=True)
+        ]
+        assert frames[0] == frames[1]
+    assert senders[0].seq == senders[1].seq == 500 % 256
+
+
+@pytest.mark.parametrize('make', [wire.PlainLayout, wire.layout_of])
+def test_a_field_that_does_not_fit_is_refused(make: Any) -> None:
+    sender = Sequence(1, 1)
+    status = make(mavlink.MAVLink_named_value_int_message)
+    for wrong in (
+        (-1, 0, b''),
+        (2**32, 0, b''),
+        (0, 2**31, b''),
+        (0, 1.5, b''),
+        (0, 0, 'x'),
+        (0,),
+    ):
+        with pytest.raises(struct.error):
+            status.frame(sender, *wrong)
+    place = make(mavlink.MAVLink_local_position_ned_message)
+    with pytest.raises(struct.error):
+        place.frame(sender, 1, 'x', 0.0, 0.0, 0.0, 0.0, 0.0)
+    with pytest.raises(OverflowError):
+        place.frame(sender, 1, 1e39, 0.0, 0.0, 0.0, 0.0, 0.0)
